@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace chladni::cli {
+
+/// Exit codes of the programs.
+inline constexpr int exit_ok = 0;
+inline constexpr int exit_failed = 1;
+inline constexpr int exit_usage = 2;
+
+/// What all subcommands that work on a scene take.
+struct SceneArguments {
+  std::string scene;         ///< the scene file
+  std::string output = ".";  ///< folder for the files
+  std::string json;          ///< file for the summary; empty for none
+};
+
+/// Declares SCENE, --output and --json; the values arrive in `arguments` when `app` is parsed.
+void declare_scene_arguments(CLI::App& app, SceneArguments& arguments);
+
+/// Parses the words that follow the name of the program, and prints help, version or complaint.
+/// @return the exit code, when there is nothing left to do.
+std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words);
+
+}  // namespace chladni::cli

@@ -1,0 +1,63 @@
+#include "cli/attachments.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace chladni::cli {
+namespace {
+
+std::vector<int> nodes_of(const mesh::Mesh& mesh, const plate::DofMap& dofs,
+                          const std::string& name)
+{
+  if (const auto reference = dofs.reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = dofs.reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("interface node set \"{}\" is neither a group or ring of the mesh nor a "
+                  "coupling; there are: {}",
+                  name, fmt::join(names, ", ")));
+}
+
+void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const std::string& name,
+                       int node)
+{
+  if (!dofs.is_dependent(node)) return;
+  const std::string& coupling = dofs.reference_names[dofs.reference[node] - dofs.n_mesh_nodes];
+  throw Error(
+      fmt::format("interface node set \"{}\": node {} follows the coupling \"{}\"; put "
+                  "\"{}\" into interface.nodes instead",
+                  name, mesh.node_numbers[node], coupling, coupling));
+}
+
+}  // namespace
+
+std::int64_t node_number(const mesh::Mesh& mesh, const plate::DofMap& dofs, int node)
+{
+  if (node < dofs.n_mesh_nodes) return mesh.node_numbers[node];
+  return mesh.node_numbers.back() + 1 + node - dofs.n_mesh_nodes;
+}
+
+Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
+                             const std::vector<std::string>& names)
+{
+  Attachments attachments;
+  for (const std::string& name : names) {
+    mbs_export::AttachmentSet set{.name = name, .nodes = {}};
+    for (const int node : nodes_of(mesh, dofs, name)) {
+      check_independent(mesh, dofs, name, node);
+      const auto it = std::ranges::find(attachments.nodes, node);
+      set.nodes.push_back(static_cast<int>(it - attachments.nodes.begin()));
+      if (it == attachments.nodes.end()) attachments.nodes.push_back(node);
+    }
+    attachments.sets.push_back(std::move(set));
+  }
+  return attachments;
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <iterator>
+#include <thread>
+
+#include "cli/arguments.hpp"
+#include "cli/chladni_commands.hpp"
+#include "cli/petsc_session.hpp"
+#include "cli/version.hpp"
+
+namespace {
+
+namespace cli = chladni::cli;
+
+struct Subcommand {
+  const char* name;
+  const char* what;
+  const char* examples;
+  void (*perform)(const cli::ChladniArguments&);
+};
+
+constexpr Subcommand on_scenes[] = {
+    {"mesh", "meshes the scene and says what the mesh is like",
+     "Example:\n  chladni mesh scene.toml", cli::mesh_command},
+    {"reduce", "meshes, assembles and reduces: NAME.reduced.h5",
+     "Examples:\n  chladni reduce scene.toml --output out\n"
+     "  mpirun -n 2 chladni reduce scene.toml -- -log_view",
+     cli::reduce_command},
+    {"body", "makes the modal body of NAME.reduced.h5: NAME.body.h5",
+     "Example (after a change of [body] in the scene):\n  chladni body scene.toml --output out",
+     cli::body_command},
+    {"run", "mesh, reduce and body in one go",
+     "Examples:\n  chladni run scene.toml --output out --json out/chladni.json\n"
+     "  mpirun -n 2 chladni run scene.toml",
+     cli::run_command},
+};
+
+void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
+{
+  for (const Subcommand& subcommand : on_scenes) {
+    CLI::App* declared = app.add_subcommand(subcommand.name, subcommand.what);
+    cli::declare_scene_arguments(*declared, arguments.scene);
+    declared->footer(subcommand.examples);
+  }
+  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
+  info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5 or *.squeal.h5")
+      ->required();
+  info->footer("Example:\n  chladni info out/disc.body.h5");
+  app.require_subcommand(1);
+}
+
+void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
+{
+  for (const Subcommand& subcommand : on_scenes) {
+    if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
+  }
+  cli::info_command(arguments);
+}
+
+/// Prints the failure once, and ends the other ranks with this one.
+int report_failure(const std::exception& error)
+{
+  // A failure is the same on all ranks as a rule; time for the first one to say it.
+  if (cli::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+  fmt::print(stderr, "{}\n", error.what());
+  std::fflush(nullptr);
+  if (cli::n_ranks() > 1) cli::abort_all_ranks(cli::exit_failed);
+  return cli::exit_failed;
+}
+
+int perform_with_petsc(const CLI::App& app, const cli::ChladniArguments& arguments)
+{
+  const cli::PetscSession session(arguments.petsc_options);
+  try {
+    perform(app, arguments);
+    return cli::exit_ok;
+  } catch (const std::exception& error) {
+    return report_failure(error);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  char** const end = argv + argc;
+  char** const dashes = std::find(argv + 1, end, std::string_view("--"));
+  cli::ChladniArguments arguments;
+  if (dashes != end) arguments.petsc_options.assign(dashes + 1, end);
+
+  CLI::App app("From a mesh of shells to a modal body.", "chladni");
+  app.set_version_flag("--version", fmt::format("chladni {}", cli::version));
+  declare_subcommands(app, arguments);
+  app.footer(
+      "PETSc options follow after --.\n"
+      "Examples:\n"
+      "  chladni run scene.toml --output out\n"
+      "  mpirun -n 2 chladni reduce scene.toml -- -log_view\n"
+      "  chladni info out/disc.body.h5");
+  if (const auto code = cli::parse_arguments(app, {argv + 1, dashes})) return *code;
+  try {
+    return perform_with_petsc(app, arguments);
+  } catch (const std::exception& error) {  // PETSc did not start
+    fmt::print(stderr, "{}\n", error.what());
+    return cli::exit_failed;
+  }
+}

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/json.hpp"
+#include "cli/output.hpp"
+#include "cli/timing.hpp"
+
+/// What a program cost, for its summaries.
+namespace chladni::cli {
+
+/// Time and memory of a whole program.
+struct Cost {
+  std::vector<PhaseTime> phases;
+  double cpu_s;     ///< of all ranks, from the start of the process
+  double peak_MiB;  ///< of the rank that needed most
+};
+
+/// The phases so far with the CPU time and the peak memory of this process.
+Cost cost_so_far(std::vector<PhaseTime> phases);
+
+/// The sum over the phases, s.
+double wall_s(const Cost& cost);
+
+TextTable cost_table(const Cost& cost);
+
+/// Members `phases` (name -> wall_s), `phases_cpu_s`, `wall_s`, `cpu_s`, `peak_MiB`.
+std::vector<Json::Member> cost_json(const Cost& cost);
+
+}  // namespace chladni::cli

@@ -1,0 +1,167 @@
+#include "cli/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "common/error.hpp"
+#include "mbs_export/body_file.hpp"
+#include "mbs_export/hdf5.hpp"
+#include "mbs_export/reduced_file.hpp"
+#include "squeal/result_file.hpp"
+
+namespace chladni::cli {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TextTable quantities()
+{
+  return {.header = {"quantity", "value", "unit"}, .rows = {}};
+}
+
+void add_count(TextTable& table, const std::string& name, Eigen::Index n)
+{
+  table.rows.push_back({name, fmt::format("{}", n), ""});
+}
+
+void add(TextTable& table, const std::string& name, double x, const std::string& unit)
+{
+  table.rows.push_back({name, fmt::format("{:.6g}", x), unit});
+}
+
+void add_sets(TextTable& table, const std::vector<mbs_export::AttachmentSet>& sets)
+{
+  for (const mbs_export::AttachmentSet& set : sets) {
+    add_count(table, fmt::format("nodes of {}", set.name),
+              static_cast<Eigen::Index>(set.nodes.size()));
+  }
+}
+
+void add_picture(TextTable& table, const mbs_export::Picture& picture)
+{
+  add_count(table, "nodes for pictures", picture.positions.rows());
+}
+
+std::string name_of(mbs_export::ModeKind kind)
+{
+  switch (kind) {
+    case mbs_export::ModeKind::rigid:
+      return "rigid";
+    case mbs_export::ModeKind::constrained:
+      return "constrained";
+    case mbs_export::ModeKind::interface:
+      return "interface";
+  }
+  return "";
+}
+
+void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
+{
+  if (results.critical_speed) {
+    add(table, "critical speed", results.critical_speed->speed, "rad/s");
+    add(table, "critical speed / pi", results.critical_speed->speed / pi, "rad/s");
+    add(table, "critical frequency", results.critical_speed->frequency_Hz, "Hz");
+  } else if (results.searched_critical_speed) {
+    table.rows.push_back({"critical speed", "none in the range", ""});
+  }
+}
+
+void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
+{
+  add(table, "limit cycle: speed", cycle.speed, "rad/s");
+  add(table, "limit cycle: frequency", cycle.frequency_Hz, "Hz");
+  add(table, "limit cycle: pad velocity", cycle.pad_velocity, "m/s");
+  add(table, "limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, "limit cycle: least normal force", cycle.N_min, "N");
+  add(table, "limit cycle: largest normal force", cycle.N_max, "N");
+  if (!cycle.settled) {
+    add(table, "limit cycle: not settled, drift", 100.0 * cycle.drift, "%");
+  }
+}
+
+template <class Object>
+std::string titled(const Object& object)
+{
+  return object.title + "\n\n" + format_table(describe(object));
+}
+
+}  // namespace
+
+TextTable describe(const mbs_export::ReducedSystem& reduced)
+{
+  TextTable table = quantities();
+  add_count(table, "attachment nodes", static_cast<Eigen::Index>(reduced.attachment_nodes.size()));
+  add_sets(table, reduced.sets);
+  add_count(table, "masters", reduced.n_masters());
+  const Eigen::VectorXd f_Hz = reduced.fixed_interface_frequencies / (2.0 * pi);
+  add_count(table, "fixed-interface modes", f_Hz.size());
+  if (f_Hz.size() > 0) {
+    add(table, "lowest of them", f_Hz.minCoeff(), "Hz");
+    add(table, "highest of them", f_Hz.maxCoeff(), "Hz");
+  }
+  add_picture(table, reduced.picture);
+  return table;
+}
+
+TextTable describe(const mbs_export::ModalBody& body)
+{
+  TextTable table = quantities();
+  add_count(table, "modes", body.n_modes());
+  add_count(table, "rigid-body motions of the free body", body.n_rigid);
+  add_count(table, "rigid-body motions left by the supports", body.n_free_rigid);
+  add(table, "condition of the mode shift", body.condition_Q_dd, "");
+  add_count(table, "attachment nodes", static_cast<Eigen::Index>(body.attachment_nodes.size()));
+  add_sets(table, body.sets);
+  add_count(table, "contact rings", static_cast<Eigen::Index>(body.rings.size()));
+  add(table, "mass", body.mass, "kg");
+  add(table, "moment of inertia about z", body.inertia(2, 2), "kg m^2");
+  add_picture(table, body.picture);
+  return table;
+}
+
+TextTable describe(const squeal::SquealResults& results)
+{
+  TextTable table = quantities();
+  if (results.eigenvalues) {
+    add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
+  }
+  add_critical_speed(table, results);
+  for (const squeal::Growth& growth : results.growth) {
+    add(table, fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi), growth.rate, "1/s");
+  }
+  if (results.transient && results.transient->growth_rate) {
+    add(table, "growth in the transient", *results.transient->growth_rate, "1/s");
+  }
+  if (results.transient && !results.transient->finished) {
+    table.rows.push_back({"transient", "diverged", ""});
+  }
+  if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
+  return table;
+}
+
+TextTable list_modes(const mbs_export::ModalBody& body)
+{
+  TextTable table{.header = {"mode", "frequency, Hz", "kind"}, .rows = {}};
+  for (Eigen::Index i = 0; i < body.n_modes(); ++i) {
+    table.rows.push_back({fmt::format("{}", i + 1),
+                          fmt::format("{:.4f}", body.omega[i] / (2.0 * pi)),
+                          name_of(body.kinds[static_cast<std::size_t>(i)])});
+  }
+  return table;
+}
+
+std::string describe_file(const std::filesystem::path& file)
+{
+  const std::string format = mbs_export::hdf5::Reader(file.string()).text_attribute("/", "format");
+  if (format == "chladni-reduced") return titled(mbs_export::read_reduced(file));
+  if (format == "chladni-body") {
+    const mbs_export::ModalBody body = mbs_export::read_body(file);
+    return titled(body) + "\n" + format_table(list_modes(body));
+  }
+  if (format == "chladni-squeal") return format_table(describe(squeal::read_results(file)));
+  throw Error(
+      fmt::format("{}: holds \"{}\", which this program does not know", file.string(), format));
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,88 @@
+#include "cli/petsc_session.hpp"
+
+#include <mpi.h>
+#include <slepcsys.h>
+
+#include <cstdlib>
+#include <exception>
+
+#include "common/error.hpp"
+#include "common/petsc.hpp"
+
+namespace chladni::cli {
+namespace {
+
+double reduce_over_ranks(double x, MPI_Op operation)
+{
+  double result = x;
+  MPI_Allreduce(&x, &result, 1, MPI_DOUBLE, operation, PETSC_COMM_WORLD);
+  return result;
+}
+
+}  // namespace
+
+PetscSession::PetscSession(const std::vector<std::string>& options)
+{
+  std::vector<std::string> words = options;
+  words.insert(words.begin(), "chladni");
+  words.emplace_back("-no_signal_handler");  // a crash is a crash, not a page of advice
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  int argc = static_cast<int>(words.size());
+  char** argv = pointers.data();
+  petsc::check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
+  petsc::check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+}
+
+PetscSession::~PetscSession()
+{
+  SlepcFinalize();
+}
+
+int rank()
+{
+  return petsc::rank(PETSC_COMM_WORLD);
+}
+
+int n_ranks()
+{
+  return petsc::size(PETSC_COMM_WORLD);
+}
+
+double sum_over_ranks(double x)
+{
+  return reduce_over_ranks(x, MPI_SUM);
+}
+
+double largest_of_ranks(double x)
+{
+  return reduce_over_ranks(x, MPI_MAX);
+}
+
+void on_first_rank(const std::function<void()>& work)
+{
+  std::string failure;
+  if (rank() == 0) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      failure = error.what();
+      if (failure.empty()) failure = "unknown failure";
+    }
+  }
+  int size = static_cast<int>(failure.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  if (size == 0) return;
+  failure.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(failure.data(), size, MPI_CHAR, 0, PETSC_COMM_WORLD);
+  throw Error(failure);
+}
+
+void abort_all_ranks(int exit_code)
+{
+  MPI_Abort(PETSC_COMM_WORLD, exit_code);
+  std::abort();
+}
+
+}  // namespace chladni::cli

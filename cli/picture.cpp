@@ -1,0 +1,89 @@
+#include "cli/picture.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using Cell = std::array<int, 4>;
+
+/// Cells of one element as places of its lattice; `step` lattice intervals wide.
+std::vector<Cell> lattice_cells(const mesh::ElementBlock& block, int step)
+{
+  const int p = block.order;
+  const bool triangle = block.shape == mesh::Shape::triangle;
+  // Lattice place of column i and row j; rows of a triangle grow shorter.
+  const auto place = [&](int i, int j) {
+    return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
+  };
+  std::vector<Cell> cells;
+  for (int j = 0; j < p; j += step) {
+    for (int i = 0; i + (triangle ? j : 0) < p; i += step) {
+      const int a = place(i, j), b = place(i + step, j), d = place(i, j + step);
+      if (!triangle) {
+        cells.push_back({a, b, place(i + step, j + step), d});
+        continue;
+      }
+      cells.push_back({a, b, d, d});
+      if (i + j + 2 * step <= p) {
+        const int c = place(i + step, j + step);
+        cells.push_back({b, c, d, d});
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+PictureNodes picture_nodes(const mesh::Mesh& mesh, PictureChoice choice)
+{
+  PictureNodes chosen;
+  if (choice == PictureChoice::none) return chosen;
+  std::vector<int> index(mesh.n_nodes(), -1);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    const int step = choice == PictureChoice::vertices ? block.order : 1;
+    const std::vector<Cell> cells = lattice_cells(block, step);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      for (Cell cell : cells) {
+        for (int& corner : cell) {
+          const int node = block.element_nodes(e)[corner];
+          if (index[node] < 0) {
+            index[node] = static_cast<int>(chosen.nodes.size());
+            chosen.nodes.push_back(node);
+          }
+          corner = index[node];
+        }
+        chosen.cells.push_back(cell);
+      }
+    }
+  }
+  return chosen;
+}
+
+mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
+                                 const RowsOf& rows_of)
+{
+  std::vector<int> wanted;  // six DOFs of each node or of its reference
+  for (const int node : chosen.nodes) {
+    for (int c = 0; c < 6; ++c) wanted.push_back(6 * dofs.number[node] + c);
+  }
+  const Eigen::MatrixXd rows = rows_of(wanted);
+  const auto n = static_cast<Eigen::Index>(chosen.nodes.size());
+  mbs_export::Picture picture;
+  picture.positions.resize(n, 3);
+  picture.cells = chosen.cells;
+  picture.transformation.resize(3 * n, rows.cols());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int node = chosen.nodes[static_cast<std::size_t>(k)];
+    const auto& x = dofs.positions[static_cast<std::size_t>(node)];
+    picture.positions.row(k) << x[0], x[1], x[2];
+    picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * k);
+    if (!dofs.is_dependent(node)) continue;
+    const auto [a, b, c] = dofs.arm(node);
+    Eigen::Matrix3d R;  // theta x arm = R theta
+    R << 0.0, c, -b, -c, 0.0, a, b, -a, 0.0;
+    picture.transformation.middleRows<3>(3 * k) += R * rows.middleRows<3>(6 * k + 3);
+  }
+  return picture;
+}
+
+}  // namespace chladni::cli

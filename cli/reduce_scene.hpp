@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/scene/scene.hpp"
+#include "cli/timing.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::cli {
+
+/// A reduced system and what it took to make it.
+struct ReduceSummary {
+  mbs_export::ReducedSystem reduced;  ///< on the first rank; empty on the others
+  std::vector<PhaseTime> phases;      ///< of this rank, in order
+  std::int64_t n_dofs;                ///< of the FE model, after elimination of the couplings
+  std::int64_t n_nodes;               ///< of the mesh
+  int n_masters;
+  int n_modes;              ///< fixed-interface modes
+  PhaseTime factorization;  ///< of K_ss, on this rank; part of one of the phases
+};
+
+/// Called with the name of the phase under way and the fraction of it that is done, 0 to 1.
+using ReduceProgress = std::function<void(const std::string& phase, double fraction)>;
+
+/// Meshes, assembles and reduces the scene.
+/// @param petsc_options  what was given after `--`, for the provenance; PETSc knows it already
+/// @note   Collective on all ranks; PETSc and SLEPc are initialised.
+/// @throws chladni::Error on all ranks alike.
+ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
+                           const ReduceProgress& progress);
+
+}  // namespace chladni::cli

@@ -1,0 +1,157 @@
+#include <algorithm>
+
+#include "cli/scene/read_tables.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using mbs_export::Damping;
+using mbs_export::InterfaceModes;
+using mbs_export::KeptModes;
+
+const std::vector<std::string> component_names = {"x", "y", "z", "rx", "ry", "rz"};
+
+/// "hub" or "hub.rz": the set must be an interface node, the component one of the six.
+void check_fixed(const Table& body, std::size_t i, const std::vector<std::string>& interface_nodes)
+{
+  const std::string name = body.texts("fixed")[i];
+  if (contains(interface_nodes, name)) return;
+  const std::size_t dot = name.rfind('.');
+  const std::string set = name.substr(0, dot);
+  if (!contains(interface_nodes, set)) {
+    body.refuse_element("fixed", i, no_such_name("interface node", set, interface_nodes));
+  }
+  if (!contains(component_names, name.substr(dot + 1))) {
+    body.refuse_element("fixed", i, "the component must be one of " + quoted_list(component_names));
+  }
+}
+
+std::vector<std::string> read_fixed(const Table& body,
+                                    const std::vector<std::string>& interface_nodes)
+{
+  if (!body.has("fixed")) return {};
+  std::vector<std::string> fixed = body.texts("fixed");
+  for (std::size_t i = 0; i < fixed.size(); ++i) check_fixed(body, i, interface_nodes);
+  return fixed;
+}
+
+KeptModes read_kept_modes(const Table& body)
+{
+  if (!body.has("keep")) return {};
+  const Table keep = body.table("keep");
+  if (keep.has("tolerance")) {
+    keep.refuse("tolerance", "not available yet, give modes, up_to_Hz or list");
+  }
+  KeptModes kept;
+  const std::string_view key = keep.only_one_of({"modes", "up_to_Hz", "list"});
+  if (key == "modes") kept.count = keep.integer(key, {.above = 0.0});
+  if (key == "up_to_Hz") kept.up_to_Hz = keep.number(key, {.above = 0.0, .unit = "Hz"});
+  if (key == "list") kept.list = read_mode_list(keep, key);
+  return kept;
+}
+
+std::vector<int> read_components(const Table& mode)
+{
+  const std::vector<std::string> dofs = mode.texts("dofs");
+  if (dofs.empty()) mode.refuse("dofs", "must name a component: " + quoted_list(component_names));
+  std::vector<int> components;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto found = std::find(component_names.begin(), component_names.end(), dofs[i]);
+    if (found == component_names.end()) {
+      mode.refuse_element("dofs", i, "must be one of " + quoted_list(component_names));
+    }
+    const int component = static_cast<int>(found - component_names.begin());
+    if (std::find(components.begin(), components.end(), component) != components.end()) {
+      mode.refuse_element("dofs", i, "is named twice");
+    }
+    components.push_back(component);
+  }
+  return components;
+}
+
+std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
+{
+  if (kind == InterfaceModes::Kind::irm) {
+    if (mode.has("omega0"))
+      mode.refuse("omega0", "an IRM is static; take this key out, or use frm");
+    return 0.0;
+  }
+  if (!mode.has("omega0")) return std::nullopt;
+  if (mode.is_number("omega0")) return mode.number("omega0", {.above = 0.0, .unit = "rad/s"});
+  if (mode.text("omega0") != "auto") {
+    mode.refuse("omega0", "must be \"auto\" or a number > 0 (rad/s)");
+  }
+  return std::nullopt;
+}
+
+InterfaceModes read_interface_mode(const Table& mode,
+                                   const std::vector<std::string>& interface_nodes)
+{
+  const auto kind = mode.choice<InterfaceModes::Kind>(
+      "kind", {{"irm", InterfaceModes::Kind::irm}, {"frm", InterfaceModes::Kind::frm}});
+  const std::string at = mode.text("at");
+  if (!contains(interface_nodes, at)) {
+    mode.refuse("at", no_such_name("interface node", at, interface_nodes));
+  }
+  return {.kind = kind,
+          .at = at,
+          .components = read_components(mode),
+          .omega0 = read_omega0(mode, kind)};
+}
+
+/// One ratio for all modes, or one for each.
+std::vector<double> read_ratios(const Table& damping)
+{
+  const Admissible ratios{.at_least = 0.0, .below = 1.0};
+  if (damping.has("ratio") && damping.is_list("ratio")) return damping.numbers("ratio", ratios);
+  return {damping.number("ratio", ratios)};
+}
+
+Damping read_damping(const Table& body)
+{
+  if (!body.has("damping")) return {};
+  const Table table = body.table("damping");
+  Damping damping;
+  damping.type = table.choice<Damping::Type>("type", {{"none", Damping::Type::none},
+                                                      {"modal", Damping::Type::modal},
+                                                      {"rayleigh", Damping::Type::rayleigh},
+                                                      {"matrix", Damping::Type::matrix}});
+  if (damping.type == Damping::Type::modal) damping.ratios = read_ratios(table);
+  if (damping.type == Damping::Type::rayleigh) {
+    damping.alpha = table.number("alpha", {.at_least = 0.0, .unit = "1/s"});
+    damping.beta = table.number("beta", {.at_least = 0.0, .unit = "s"});
+  }
+  return damping;
+}
+
+}  // namespace
+
+std::vector<int> read_mode_list(const Table& table, std::string_view key)
+{
+  const std::vector<int> modes = table.integers(key, {.at_least = 1});
+  if (modes.empty()) table.refuse(key, "must name at least one mode, counted from 1");
+  for (std::size_t i = 1; i < modes.size(); ++i) {
+    if (modes[i] <= modes[i - 1])
+      table.refuse_element(key, i, "modes must ascend, each named once");
+  }
+  return modes;
+}
+
+mbs_export::BodyOptions read_body(const Table& root,
+                                  const std::vector<std::string>& interface_nodes)
+{
+  if (!root.has("body")) return {};
+  const Table body = root.table("body");
+  mbs_export::BodyOptions options;
+  options.fixed = read_fixed(body, interface_nodes);
+  options.keep = read_kept_modes(body);
+  if (body.has("interface_modes")) {
+    for (const Table& mode : body.tables("interface_modes")) {
+      options.interface_modes.push_back(read_interface_mode(mode, interface_nodes));
+    }
+  }
+  options.damping = read_damping(body);
+  return options;
+}
+
+}  // namespace chladni::cli

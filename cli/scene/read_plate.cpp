@@ -1,0 +1,94 @@
+#include <map>
+#include <set>
+
+#include "cli/scene/read_tables.hpp"
+
+namespace chladni::cli {
+namespace {
+
+plate::Material read_material(const Table& material)
+{
+  return {.young = material.number("young", {.above = 0.0, .unit = "Pa"}),
+          .poisson = material.number("poisson", {.above = -1.0, .below = 0.5}),
+          .density = material.number("density", {.above = 0.0, .unit = "kg/m^3"})};
+}
+
+std::map<std::string, plate::Material> read_materials(const Table& root)
+{
+  const Table table = root.table("material");
+  std::map<std::string, plate::Material> materials;
+  for (const std::string& name : table.names()) {
+    materials[name] = read_material(table.table(name));
+  }
+  return materials;
+}
+
+/// The group of a section or a coupling, checked where the scene alone knows the groups.
+std::string read_group(const Table& table, const std::vector<std::string>& groups)
+{
+  const std::string group = table.text("group");
+  if (!groups.empty() && !contains(groups, group)) {
+    table.refuse("group", no_such_name("group", group, groups));
+  }
+  return group;
+}
+
+const plate::Material& read_material_of(const Table& section,
+                                        const std::map<std::string, plate::Material>& materials)
+{
+  const auto found = materials.find(section.text("material"));
+  if (found != materials.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, material] : materials) names.push_back(name);
+  section.refuse("material", no_such_name("material", section.text("material"), names));
+}
+
+void check_coupling_name(const Table& coupling, const std::set<std::string>& taken)
+{
+  const std::string name = coupling.text("name");
+  if (taken.contains(name)) {
+    coupling.refuse("name", "is the name of another coupling, ring or group");
+  }
+}
+
+}  // namespace
+
+std::vector<plate::ShellSection> read_sections(const Table& root, const mesh::MeshOptions& mesh)
+{
+  const std::map<std::string, plate::Material> materials = read_materials(root);
+  const std::vector<std::string> groups = surface_groups(mesh);
+  std::set<std::string> taken;
+  std::vector<plate::ShellSection> sections;
+  for (const Table& table : root.tables("section")) {
+    table.choice<int>("type", {{"shell", 0}});
+    const std::string group = read_group(table, groups);
+    if (!taken.insert(group).second) table.refuse("group", "has another section already");
+    sections.push_back({.group = group,
+                        .material = read_material_of(table, materials),
+                        .thickness = table.number("thickness", {.above = 0.0, .unit = "m"})});
+  }
+  if (sections.empty()) root.refuse("section", "must hold at least one section");
+  return sections;
+}
+
+std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh)
+{
+  const std::vector<std::string> groups = group_names(mesh);
+  const std::vector<std::string> rings = ring_names(mesh);
+  std::set<std::string> taken(groups.begin(), groups.end());
+  taken.insert(rings.begin(), rings.end());
+  std::vector<plate::RigidCoupling> couplings;
+  if (!root.has("coupling")) return couplings;
+  for (const Table& table : root.tables("coupling")) {
+    if (table.text("type") == "averaging") {
+      table.refuse("type", "averaging couplings are not available yet; use \"rigid\"");
+    }
+    table.choice<int>("type", {{"rigid", 0}});
+    check_coupling_name(table, taken);
+    couplings.push_back({.name = table.text("name"), .group = read_group(table, groups)});
+    taken.insert(couplings.back().name);
+  }
+  return couplings;
+}
+
+}  // namespace chladni::cli

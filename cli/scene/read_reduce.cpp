@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/scene/read_tables.hpp"
+
+namespace chladni::cli {
+namespace {
+
+/// What may be an attachment: couplings, rings and, where the scene alone knows them, edges.
+std::vector<std::string> attachable_names(const Scene& scene)
+{
+  std::vector<std::string> names = ring_names(scene.mesh);
+  for (const plate::RigidCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  for (const std::string& group : group_names(scene.mesh)) {
+    if (!contains(names, group) && !contains(surface_groups(scene.mesh), group)) {
+      names.push_back(group);
+    }
+  }
+  for (const plate::RigidCoupling& coupling : scene.couplings) std::erase(names, coupling.group);
+  return names;
+}
+
+void check_interface_node(const Table& interface, std::size_t i, const Scene& scene)
+{
+  const std::vector<std::string> nodes = interface.texts("nodes");
+  const std::string& name = nodes[i];
+  if (std::find(nodes.begin(), nodes.begin() + i, name) != nodes.begin() + i) {
+    interface.refuse_element("nodes", i, "is named twice");
+  }
+  for (const plate::RigidCoupling& coupling : scene.couplings) {
+    if (coupling.group != name) continue;
+    interface.refuse_element(
+        "nodes", i,
+        fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead", coupling.name));
+  }
+  // The groups of a mesh file are known only once it is read.
+  const std::vector<std::string> names = attachable_names(scene);
+  if (scene.mesh.annulus && !contains(names, name)) {
+    interface.refuse_element("nodes", i, no_such_name("ring, edge or coupling", name, names));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> read_interface(const Table& root, const Scene& scene)
+{
+  const Table interface = root.table("interface");
+  if (interface.has("dofs")) {
+    interface.refuse("dofs",
+                     "not available yet; all six DOFs of each node are masters, take it out");
+  }
+  std::vector<std::string> nodes = interface.texts("nodes");
+  if (nodes.empty()) interface.refuse("nodes", "must name at least one ring, edge or coupling");
+  for (std::size_t i = 0; i < nodes.size(); ++i) check_interface_node(interface, i, scene);
+  return nodes;
+}
+
+reduce::ReduceOptions read_reduce(const Table& root)
+{
+  const Table table = root.table("reduce");
+  reduce::ReduceOptions options;
+  options.method = table.choice<reduce::Method>(
+      "method",
+      {{"craig-bampton", reduce::Method::craig_bampton}, {"guyan", reduce::Method::guyan}});
+  for (const char* key : {"tolerance", "up_to_Hz"}) {
+    if (table.has(key)) table.refuse(key, "not available yet, give modes or cutoff_Hz");
+  }
+  if (options.method == reduce::Method::guyan) {
+    for (const char* key : {"modes", "cutoff_Hz"}) {
+      if (table.has(key))
+        table.refuse(key, "Guyan has no fixed-interface modes; take this key out");
+    }
+    return options;
+  }
+  if (table.only_one_of({"modes", "cutoff_Hz"}) == "modes") {
+    options.modes = table.integer("modes", {.above = 0.0});
+  } else {
+    options.cutoff_Hz = table.number("cutoff_Hz", {.above = 0.0, .unit = "Hz"});
+  }
+  return options;
+}
+
+PictureChoice read_pictures(const Table& root)
+{
+  const Table table = root.table("reduce");
+  if (!table.has("pictures")) return PictureChoice::vertices;
+  return table.choice<PictureChoice>("pictures", {{"vertices", PictureChoice::vertices},
+                                                  {"all", PictureChoice::all},
+                                                  {"none", PictureChoice::none}});
+}
+
+}  // namespace chladni::cli

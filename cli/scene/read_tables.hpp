@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/scene/document.hpp"
+#include "cli/scene/scene.hpp"
+
+/// The readers of the scene's tables. Each takes the root table and the part of the scene that was
+/// read before it, so that names which refer to other tables can be checked.
+namespace chladni::cli {
+
+/// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene.
+mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
+
+/// [[section]] with the [material.NAME] that they name.
+std::vector<plate::ShellSection> read_sections(const Table& root, const mesh::MeshOptions& mesh);
+
+/// [[coupling]]
+std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
+
+/// [interface] nodes; needs the mesh and the couplings of `scene`.
+std::vector<std::string> read_interface(const Table& root, const Scene& scene);
+
+/// [reduce] without its key `pictures`.
+reduce::ReduceOptions read_reduce(const Table& root);
+
+/// [reduce] pictures
+PictureChoice read_pictures(const Table& root);
+
+/// [body]; without the table the body is free and keeps all modes.
+mbs_export::BodyOptions read_body(const Table& root,
+                                  const std::vector<std::string>& interface_nodes);
+
+/// [squeal]; needs the mesh and the interface of `scene`.
+std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
+
+/// The names of the rings of a mesh.
+std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
+
+/// The groups of a mesh, its rings among them; empty for a mesh file, which alone knows them.
+std::vector<std::string> group_names(const mesh::MeshOptions& mesh);
+
+/// Those groups that are surfaces.
+std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);
+
+/// A list of mode numbers, counted from 1, ascending.
+std::vector<int> read_mode_list(const Table& table, std::string_view key);
+
+}  // namespace chladni::cli

@@ -1,0 +1,57 @@
+#include "cli/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "cli/scene/read_tables.hpp"
+#include "common/error.hpp"
+
+namespace chladni::cli {
+namespace {
+
+/// The stem of the files that the programs write; it must not lead out of their folder.
+std::string read_name(const Table& root)
+{
+  if (!root.has("name")) return "disc";
+  const std::string name = root.text("name");
+  const std::string allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (name.find_first_not_of(allowed) != std::string::npos) {
+    root.refuse("name", "names files: only letters, digits, _ and -");
+  }
+  return name;
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& path)
+{
+  const Table root = parse_toml(text, path);
+  Scene scene;
+  scene.name = read_name(root);
+  scene.title = root.has("title") ? root.text("title") : scene.name;
+  scene.text = text;
+  scene.path = path;
+  scene.mesh = read_mesh(root, path);
+  scene.sections = read_sections(root, scene.mesh);
+  scene.couplings = read_couplings(root, scene.mesh);
+  scene.interface_nodes = read_interface(root, scene);
+  scene.reduce = read_reduce(root);
+  scene.pictures = read_pictures(root);
+  scene.body = read_body(root, scene.interface_nodes);
+  scene.squeal = read_squeal(root, scene);
+  root.refuse_unknown_keys();
+  return scene;
+}
+
+Scene read_scene(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
+  return parse_scene(text.str(), path);
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mbs_export/body_options.hpp"
+#include "mesh/mesh_options.hpp"
+#include "plate/plate_options.hpp"
+#include "reduce/reduce_options.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::cli {
+
+/// Of which nodes the reduced file keeps the displacements, for pictures.
+enum class PictureChoice { none, vertices, all };
+
+/// A scene file, read and checked: one case from the mesh to the squeal.
+struct Scene {
+  std::string name;  ///< stem of the files that the programs write
+  std::string title;
+  std::string text;  ///< of the file, for provenance
+  std::string path;  ///< of the file
+  mesh::MeshOptions mesh;
+  std::vector<plate::ShellSection> sections;
+  std::vector<plate::RigidCoupling> couplings;
+  std::vector<std::string>
+      interface_nodes;  ///< rings, couplings or groups; all six DOFs of each node
+  PictureChoice pictures = PictureChoice::vertices;
+  reduce::ReduceOptions reduce;
+  mbs_export::BodyOptions body;
+  std::optional<squeal::SquealOptions> squeal;
+};
+
+/// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
+/// @throws chladni::Error naming file, line, key and value of what is wrong, and what is allowed.
+Scene parse_scene(const std::string& text, const std::string& path);
+
+/// The scene of a file.
+/// @throws chladni::Error as parse_scene, and when the file cannot be read.
+Scene read_scene(const std::string& path);
+
+}  // namespace chladni::cli

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "cli/arguments.hpp"
+#include "cli/describe.hpp"
+#include "cli/squeal_run.hpp"
+#include "cli/version.hpp"
+
+namespace {
+
+namespace cli = chladni::cli;
+
+struct SquealArguments {
+  cli::SceneArguments scene;
+  std::string body_file;
+  std::string info_file;
+};
+
+void declare_run(CLI::App& app, SquealArguments& arguments)
+{
+  CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
+  cli::declare_scene_arguments(*run, arguments.scene);
+  run->add_option("--body", arguments.body_file, "the body; default: NAME.body.h5 in DIR")
+      ->type_name("FILE");
+  run->footer(
+      "Examples:\n"
+      "  squeal run scene.toml                             ./disc.body.h5 -> ./disc.squeal.h5\n"
+      "  squeal run scene.toml --output out --json s.json  out/disc.body.h5 -> out/disc.squeal.h5\n"
+      "  squeal run scene.toml --body other.body.h5        another body, the same pads");
+}
+
+void declare_info(CLI::App& app, SquealArguments& arguments)
+{
+  CLI::App* info = app.add_subcommand("info", "prints what a body or a result file holds");
+  info->add_option("FILE", arguments.info_file, "*.body.h5 or *.squeal.h5")->required();
+  info->footer("Example:\n  squeal info out/disc.squeal.h5");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  SquealArguments arguments;
+  CLI::App app("Brake squeal of a modal body: stability, growth, transients and limit cycles.",
+               "squeal");
+  app.set_version_flag("--version", fmt::format("squeal {}", cli::version));
+  app.require_subcommand(1);
+  declare_run(app, arguments);
+  declare_info(app, arguments);
+  app.footer("Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5");
+  if (const auto code = cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
+  try {
+    if (app.got_subcommand("run")) {
+      cli::run_squeal(arguments.scene, arguments.body_file);
+    } else {
+      fmt::print("{}", cli::describe_file(arguments.info_file));
+    }
+    return cli::exit_ok;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return cli::exit_failed;
+  }
+}

@@ -1,0 +1,148 @@
+#include "cli/squeal_run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/cost.hpp"
+#include "cli/describe.hpp"
+#include "cli/json.hpp"
+#include "cli/output.hpp"
+#include "cli/scene/scene.hpp"
+#include "cli/timing.hpp"
+#include "cli/version.hpp"
+#include "common/error.hpp"
+#include "mbs_export/body_file.hpp"
+#include "squeal/disc.hpp"
+#include "squeal/result_file.hpp"
+#include "squeal/run.hpp"
+
+namespace chladni::cli {
+namespace {
+
+mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
+                                   const SceneArguments& arguments)
+{
+  if (!std::filesystem::exists(file)) {
+    throw Error(
+        fmt::format("{}: no such file; make it with `chladni run {} --output {}`, or name "
+                    "another one with --body",
+                    file.string(), arguments.scene, arguments.output));
+  }
+  return mbs_export::read_body(file);
+}
+
+squeal::SquealResults perform(const squeal::Disc& disc, const squeal::SquealOptions& options)
+{
+  ProgressLine line;
+  return squeal::run(disc, options, [&](const std::string& analysis, double fraction) {
+    line.show(analysis, fraction);
+  });
+}
+
+mbs_export::Provenance provenance(const Scene& scene, const mbs_export::ModalBody& body)
+{
+  mbs_export::Provenance origin = body.provenance;
+  origin.scene = scene.text;
+  origin.versions = fmt::format("squeal {}; body: {}", version, origin.versions);
+  return origin;
+}
+
+Json eigenvalues_json(const squeal::EigenvalueMap& map)
+{
+  std::vector<Json> speeds;
+  for (Eigen::Index i = 0; i < map.speeds.size(); ++i) {
+    std::vector<Json> lambda;
+    for (const std::complex<double>& value : map.lambda.row(i)) {
+      lambda.push_back(Json::array({value.real(), value.imag()}));
+    }
+    speeds.push_back(
+        Json::object({{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}}));
+  }
+  return Json::array(speeds);
+}
+
+Json growth_json(const std::vector<squeal::Growth>& growths)
+{
+  std::vector<Json> speeds;
+  for (const squeal::Growth& growth : growths) {
+    speeds.push_back(
+        Json::object({{"speed_rad_s", growth.speed},
+                      {"growth_1_s", growth.rate},
+                      {"eigenvalue_growth_1_s",
+                       growth.eigenvalue_rate ? Json(*growth.eigenvalue_rate) : Json()}}));
+  }
+  return Json::array(speeds);
+}
+
+Json limit_cycle_json(const squeal::LimitCycle& cycle)
+{
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"drift", cycle.drift}});
+}
+
+/// Only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
+std::vector<Json::Member> results_json(const squeal::SquealResults& results)
+{
+  std::vector<Json::Member> members;
+  if (results.eigenvalues) {
+    members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
+  }
+  if (results.searched_critical_speed) {
+    const auto& critical = results.critical_speed;
+    members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
+    members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+  }
+  if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
+  if (results.transient) {
+    const auto& rate = results.transient->growth_rate;
+    members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+  }
+  if (results.limit_cycle) {
+    members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
+  }
+  return members;
+}
+
+void write_json(const std::string& file, const squeal::SquealResults& results, const Cost& cost)
+{
+  std::vector<Json::Member> members = {{"program", "squeal"}, {"version", version}};
+  for (Json::Member& member : results_json(results)) members.push_back(std::move(member));
+  for (Json::Member& member : cost_json(cost)) members.push_back(std::move(member));
+  write_text_atomically(file, Json::object(members).text() + "\n");
+}
+
+}  // namespace
+
+void run_squeal(const SceneArguments& arguments, const std::string& body_file)
+{
+  PhaseClock clock;
+  const Scene scene = read_scene(arguments.scene);
+  if (!scene.squeal) {
+    throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
+  }
+  const std::filesystem::path folder = arguments.output;
+  const mbs_export::ModalBody body = read_body_of(
+      body_file.empty() ? folder / (scene.name + ".body.h5") : std::filesystem::path(body_file),
+      arguments);
+  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
+  clock.end_phase("read");
+
+  const squeal::SquealResults results = perform(disc, *scene.squeal);
+  clock.end_phase("analyses");
+
+  const std::filesystem::path file = folder / (scene.name + ".squeal.h5");
+  make_folder(folder);
+  squeal::write_results(file, results, provenance(scene, body));
+  clock.end_phase("write");
+  const Cost cost = cost_so_far(clock.phases());
+
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, format_table(describe(results)),
+             format_table(cost_table(cost)), file.string());
+  if (!arguments.json.empty()) write_json(arguments.json, results, cost);
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,18 @@
+# Every dependency is a Debian 12 package; nothing is downloaded.
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+# The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+
+if(CHLADNI_FE)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)
+  pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18)
+  find_library(GMSH_LIBRARY gmsh REQUIRED)
+  find_library(METIS_LIBRARY metis REQUIRED)
+  # dgemm and dsyrk of the projection; OpenBLAS, since the reference BLAS is five times slower.
+  find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+endif()

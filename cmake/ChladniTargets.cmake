@@ -1,0 +1,41 @@
+# chladni_library(NAME SOURCES... LINK LIBRARIES...): the static library chladni::NAME of one folder.
+function(chladni_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(chladni_${name} STATIC ${ARG_SOURCES})
+  add_library(chladni::${name} ALIAS chladni_${name})
+  target_include_directories(chladni_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(chladni_${name} PUBLIC ${ARG_LINK})
+  set_target_properties(chladni_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  chladni_warnings(chladni_${name})
+endfunction()
+
+function(chladni_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                           -Wno-sign-conversion -Wno-maybe-uninitialized)
+  if(CHLADNI_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# chladni_test(NAME SOURCES... LINK LIBRARIES... [RANKS 1 2 3]): a GoogleTest program; with RANKS it
+# runs under mpirun once for each number of ranks (its own main initialises PETSc).
+function(chladni_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;RANKS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  chladni_warnings(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  target_compile_definitions(${name} PRIVATE CHLADNI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(NOT ARG_RANKS)
+    target_link_libraries(${name} PRIVATE GTest::gtest_main)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+    return()
+  endif()
+  target_link_libraries(${name} PRIVATE GTest::gtest)
+  foreach(n IN LISTS ARG_RANKS)
+    add_test(NAME ${name}.ranks${n}
+             COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${n} $<TARGET_FILE:${name}>)
+    set_tests_properties(${name}.ranks${n} PROPERTIES PROCESSORS ${n} ENVIRONMENT
+      "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
+  endforeach()
+endfunction()

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <petscmat.h>
+#include <slepceps.h>
+
+#include <utility>
+
+#include "common/error.hpp"
+
+static_assert(!PetscDefined(USE_COMPLEX), "Chladni needs the real build of PETSc");
+static_assert(PetscDefined(USE_REAL_DOUBLE), "Chladni needs the double-precision build of PETSc");
+
+/// Owned PETSc objects and the bridge from PETSc's error codes to chladni::Error.
+namespace chladni::petsc {
+
+/// @throws chladni::Error with PETSc's own text when a PETSc call failed.
+inline void check(PetscErrorCode code)
+{
+  if (code == 0) return;
+  const char* text = nullptr;
+  char* specific = nullptr;
+  PetscErrorMessage(code, &text, &specific);
+  throw Error(fmt::format("PETSc error {}: {} {}", static_cast<int>(code), text ? text : "",
+                          specific ? specific : ""));
+}
+
+/// Move-only owner of a PETSc object; destroyed before PetscFinalize by scope.
+template <typename Object, PetscErrorCode (*destroy)(Object*)>
+class Owned {
+ public:
+  Owned() = default;
+  explicit Owned(Object object) : object_(object) {}
+  Owned(Owned&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Owned& operator=(Owned&& other) noexcept
+  {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned()
+  {
+    if (object_) destroy(&object_);
+  }
+
+  operator Object() const { return object_; }  // NOLINT(google-explicit-constructor): as PETSc's
+
+  /// Address for a PETSc creator; only of an empty handle.
+  Object* put() { return &object_; }
+
+ private:
+  Object object_ = nullptr;
+};
+
+using Matrix = Owned<Mat, MatDestroy>;
+using Vector = Owned<Vec, VecDestroy>;
+using IndexSet = Owned<IS, ISDestroy>;
+using LinearSolver = Owned<KSP, KSPDestroy>;
+using EigenSolver = Owned<EPS, EPSDestroy>;
+
+/// @return the communicator of a PETSc object.
+template <typename Object>
+MPI_Comm communicator(Object object)
+{
+  MPI_Comm comm = MPI_COMM_NULL;
+  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(object), &comm));
+  return comm;
+}
+
+template <typename Object, PetscErrorCode (*destroy)(Object*)>
+MPI_Comm communicator(const Owned<Object, destroy>& owned)
+{
+  return communicator(static_cast<Object>(owned));
+}
+
+inline int rank(MPI_Comm comm)
+{
+  int r = 0;
+  MPI_Comm_rank(comm, &r);
+  return r;
+}
+
+inline int size(MPI_Comm comm)
+{
+  int n = 1;
+  MPI_Comm_size(comm, &n);
+  return n;
+}
+
+}  // namespace chladni::petsc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chladni::mbs_export {
+
+/// Which constrained modes the body keeps: exactly one member is set; none means all.
+struct KeptModes {
+  std::optional<int> count;
+  std::optional<double> up_to_Hz;
+  std::optional<std::vector<int>> list;  ///< 1-based, in ascending order of frequency
+};
+
+/// IRM (at = set, omega0 = 0) or FRM of one set of loaded attachment nodes.
+struct InterfaceModes {
+  enum class Kind { irm, frm };
+  Kind kind;
+  std::string at;                ///< name of an attachment set
+  std::vector<int> components;   ///< loaded components 0..5 of each of its nodes
+  std::optional<double> omega0;  ///< rad/s; absent = half the first elastic free frequency
+};
+
+/// Damping of the body in its final coordinates.
+struct Damping {
+  enum class Type { none, modal, rayleigh, matrix };
+  Type type = Type::none;
+  std::vector<double> ratios = {};  ///< modal: one for all modes or one for each
+  double alpha = 0.0;               ///< Rayleigh, 1/s
+  double beta = 0.0;                ///< Rayleigh, s
+};
+
+/// The scene's [body].
+struct BodyOptions {
+  std::vector<std::string> fixed;  ///< "SET" (whole nodes) or "SET.x|y|z|rx|ry|rz"
+  KeptModes keep;
+  std::vector<InterfaceModes> interface_modes;
+  Damping damping;
+};
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,74 @@
+#include "mbs_export/eigenmodes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "common/error.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off.
+double deflation_shift(const MatrixXd& K, const MatrixXd& M)
+{
+  const VectorXd ratio =
+      (M.diagonal().array() > 0.0).select(K.diagonal().array() / M.diagonal().array(), 0.0);
+  const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
+  if (largest <= 0.0) return 1.0;
+  return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
+}
+
+/// L^-1 M L^-T without the directions L^T R of the zero-energy vectors.
+MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
+{
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const MatrixXd half = lower.solve(M);
+  MatrixXd A = lower.solve(half.transpose());
+  if (R.cols() > 0) {
+    const MatrixXd LtR = L.transpose() * R;
+    const MatrixXd Y_r =
+        Eigen::LLT<MatrixXd>(LtR.transpose() * LtR).matrixL().solve(LtR.transpose()).transpose();
+    A -= Y_r * (Y_r.transpose() * A);
+    A -= (A * Y_r) * Y_r.transpose();
+  }
+  return 0.5 * (A + A.transpose());
+}
+
+/// X made M-orthonormal and M-orthogonal to R, low modes first: round-off leaves a high mode with a
+/// share eps lambda_max / lambda_min of low ones.
+MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R)
+{
+  const MatrixXd X_0 = X - R * (R.transpose() * M * X);
+  const Eigen::LLT<MatrixXd> MX(X_0.transpose() * M * X_0);
+  return MX.matrixL().solve(X_0.transpose()).transpose();
+}
+
+}  // namespace
+
+Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  const Index n = K.rows(), r = R.cols();
+  if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
+  const MatrixXd MR = M * R;
+  const Eigen::LLT<MatrixXd> B(K + deflation_shift(K, M) * MR * MR.transpose());
+  if (B.info() != Eigen::Success)
+    throw Error(
+        "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
+        " is the structure in one piece, without mechanisms?");
+  const MatrixXd L = B.matrixL();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(deflated(L, M, R));
+  const VectorXd mu = solver.eigenvalues().reverse();
+  const double round_off = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  if (mu[n - 1] < -round_off * mu[0])
+    throw Error("eigenmodes: the mass matrix is not positive semidefinite");
+  const Index k = std::min<Index>(n - r, (mu.array() > round_off * mu[0]).count());
+  const MatrixXd Y = solver.eigenvectors().rowwise().reverse().leftCols(k);
+  MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
+  X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
+  return {mu.head(k).cwiseInverse(), orthonormalized(X, M, R), static_cast<int>(n - r - k)};
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace chladni::mbs_export {
+
+/// Eigenpairs of K x = lambda M x with X^T M X = I, lambda ascending.
+struct Eigenmodes {
+  Eigen::VectorXd lambda;  ///< [k], rad^2/s^2
+  Eigen::MatrixXd X;       ///< [n x k]
+  int n_massless;          ///< directions without mass (to round-off) that were left out
+};
+
+/// The modes of (K, M) that are M-orthogonal to the zero-energy vectors R (K R = 0, R^T M R = I).
+/// Solved as M x = mu (K + sigma M R R^T M) x, whose largest eigenvalues mu = 1/lambda are the low
+/// modes: these keep full relative accuracy, where the form in M^-1 K loses lambda_max / lambda.
+/// @param K  [n x n], symmetric, positive definite on the complement of R
+/// @param M  [n x n], symmetric, positive semidefinite
+/// @param R  [n x r], r may be 0
+/// @throws chladni::Error when K has more zero-energy vectors than R, or M is not semidefinite.
+Eigenmodes eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& R);
+
+}  // namespace chladni::mbs_export

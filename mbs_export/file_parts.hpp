@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mbs_export/hdf5.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+/// The groups that the files of a reduced system and of a modal body have in common.
+namespace chladni::mbs_export::file_parts {
+
+struct Attachment {
+  std::vector<AttachmentNode> nodes;
+  std::vector<AttachmentSet> sets;
+};
+
+void write_attachment(hdf5::Writer& file, const std::vector<AttachmentNode>& nodes,
+                      const std::vector<AttachmentSet>& sets);
+Attachment read_attachment(const hdf5::Reader& file);
+
+/// Nothing is written for an empty picture.
+void write_picture(hdf5::Writer& file, const Picture& picture);
+/// @param n_columns  that `transformation` must have
+Picture read_picture(const hdf5::Reader& file, Eigen::Index n_columns);
+
+void write_provenance(hdf5::Writer& file, const Provenance& provenance);
+Provenance read_provenance(const hdf5::Reader& file);
+
+/// Integers of which each must be an index 0 .. limit - 1.
+std::vector<int> read_indices(const hdf5::Reader& file, const std::string& name, Eigen::Index limit,
+                              Eigen::Index size = hdf5::any);
+/// A count or index of 0 or more.
+int read_count(const hdf5::Reader& file, const std::string& name);
+
+/// A name that can be a link of HDF5; returned unchanged.
+/// @throws chladni::Error when it is empty, "." or contains "/".
+const std::string& link_name(const std::string& name);
+
+}  // namespace chladni::mbs_export::file_parts

@@ -1,0 +1,190 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "common/error.hpp"
+#include "mbs_export/hdf5.hpp"
+#include "mbs_export/hdf5_handle.hpp"
+
+namespace chladni::mbs_export::hdf5 {
+namespace {
+
+/// On disk before the rename, so that a power cut cannot leave a named but empty file.
+bool synchronise(const std::string& path)
+{
+  const int descriptor = open(path.c_str(), O_RDONLY);
+  if (descriptor < 0) return false;
+  const bool done = fsync(descriptor) == 0;
+  close(descriptor);
+  return done;
+}
+
+Handle create_dataset(hid_t file, const std::string& name, hid_t type,
+                      const std::vector<std::uint64_t>& shape)
+{
+  const std::vector<hsize_t> dims(shape.begin(), shape.end());
+  const Handle space{dims.empty() ? H5Screate(H5S_SCALAR)
+                                  : H5Screate_simple(int(dims.size()), dims.data(), nullptr),
+                     H5Sclose};
+  const Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
+  H5Pset_create_intermediate_group(links.get(), 1);
+  return {H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
+          H5Dclose};
+}
+
+bool set_attribute(hid_t object, const std::string& name, hid_t type, const void* value)
+{
+  const Handle space{H5Screate(H5S_SCALAR), H5Sclose};
+  const Handle attribute{
+      H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
+  return attribute.valid() && H5Awrite(attribute.get(), type, value) >= 0;
+}
+
+bool set_text_attribute(hid_t object, const std::string& name, const std::string& text)
+{
+  return set_attribute(object, name, text_type(text.size()).get(), text.c_str());
+}
+
+/// Where it is written and what it is measured in.
+struct Target {
+  hid_t file;
+  const std::string& name;
+  const std::string& unit;
+};
+
+bool write_dataset(const Target& target, hid_t type, const std::vector<std::uint64_t>& shape,
+                   const void* values)
+{
+  const Handle dataset = create_dataset(target.file, target.name, type, shape);
+  if (!dataset.valid()) return false;
+  if (H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) return false;
+  return set_text_attribute(dataset.get(), "unit", target.unit);
+}
+
+void require(bool done, const std::string& file, const std::string& name)
+{
+  if (!done)
+    throw Error(fmt::format("{}: cannot write {} (disk full, or the name is taken)", file, name));
+}
+
+}  // namespace
+
+Writer::Writer(std::string path)
+    : path_(std::move(path)), temporary_(fmt::format("{}.tmp-{}", path_, getpid()))
+{
+  silence_errors();
+  file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file_ < 0)
+    throw Error(fmt::format(
+        "{}: cannot be written; does its folder exist, and may you write there?", path_));
+}
+
+Writer::~Writer()
+{
+  if (file_ < 0) return;
+  H5Fclose(file_);
+  std::remove(temporary_.c_str());
+}
+
+void Writer::commit()
+{
+  const bool flushed = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
+  const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
+  if (flushed && closed && synchronise(temporary_) &&
+      std::rename(temporary_.c_str(), path_.c_str()) == 0)
+    return;
+  const std::string reason = std::strerror(errno);
+  std::remove(temporary_.c_str());
+  throw Error(
+      fmt::format("{}: cannot be completed ({}); an older file is left as it was", path_, reason));
+}
+
+void Writer::group(const std::string& name)
+{
+  const Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
+  H5Pset_create_intermediate_group(links.get(), 1);
+  const Handle created{H5Gcreate2(file_, name.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose};
+  require(created.valid(), path_, name);
+}
+
+void Writer::write(const std::string& name, double x, const std::string& unit)
+{
+  write_reals(name, &x, {}, unit);
+}
+
+void Writer::write(const std::string& name, std::span<const double> x, const std::string& unit)
+{
+  write_reals(name, x.data(), {x.size()}, unit);
+}
+
+void Writer::write(const std::string& name, std::int64_t x, const std::string& unit)
+{
+  write_integers(name, &x, {}, unit);
+}
+
+void Writer::write(const std::string& name, std::span<const std::int64_t> x,
+                   const std::string& unit)
+{
+  write_integers(name, x.data(), {x.size()}, unit);
+}
+
+void Writer::write(const std::string& name, std::span<const int> x, const std::string& unit)
+{
+  const std::vector<std::int64_t> wide(x.begin(), x.end());
+  write_integers(name, wide.data(), {wide.size()}, unit);
+}
+
+void Writer::write(const std::string& name, const IntegerMatrix& x, const std::string& unit)
+{
+  write_integers(name, x.data(), extents(x.rows(), x.cols()), unit);
+}
+
+void Writer::write(const std::string& name, const std::string& text)
+{
+  const Handle type = text_type(text.size());
+  require(write_dataset({file_, name, "text"}, type.get(), {}, text.c_str()), path_, name);
+}
+
+void Writer::write(const std::string& name, const std::vector<std::string>& texts)
+{
+  std::size_t size = 1;
+  for (const std::string& text : texts) size = std::max(size, text.size());
+  std::string padded;
+  for (const std::string& text : texts) padded.append(text).append(size - text.size(), '\0');
+  const Handle type = text_type(size);
+  require(write_dataset({file_, name, "text"}, type.get(), {texts.size()}, padded.data()), path_,
+          name);
+}
+
+void Writer::attribute(const std::string& object, const std::string& name, const std::string& text)
+{
+  const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
+  require(owner.valid() && set_text_attribute(owner.get(), name, text), path_, object + "@" + name);
+}
+
+void Writer::attribute(const std::string& object, const std::string& name, std::int64_t number)
+{
+  const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
+  require(owner.valid() && set_attribute(owner.get(), name, H5T_NATIVE_INT64, &number), path_,
+          object + "@" + name);
+}
+
+void Writer::write_reals(const std::string& name, const double* x, const Extents& shape,
+                         const std::string& unit)
+{
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_DOUBLE, shape, x), path_, name);
+}
+
+void Writer::write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,
+                            const std::string& unit)
+{
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_INT64, shape, x), path_, name);
+}
+
+}  // namespace chladni::mbs_export::hdf5

@@ -1,0 +1,187 @@
+#include "mbs_export/make_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "mbs_export/constrained_modes.hpp"
+#include "mbs_export/contact_rings.hpp"
+#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/interface_modes.hpp"
+#include "mbs_export/mode_shift.hpp"
+#include "mbs_export/orthogonalize.hpp"
+#include "mbs_export/rigid_body.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// All modes of the held body in the coordinates of the reduced system.
+struct HeldModes {
+  const ReducedSystem& reduced;
+  const FreeModes& free;
+  const HeldDofs& held;
+  const VectorXd& omega;
+  MatrixXd T;  ///< Q_e Q_c X, [n_FE x n]
+};
+
+/// The final modes: kept ones and interface modes, in ascending order of frequency.
+struct BodyModes {
+  VectorXd omega;
+  std::vector<ModeKind> kinds;
+  MatrixXd T;  ///< [n_FE x n_modes]
+};
+
+/// Rows of K_r of the loaded DOFs of one specification of interface modes.
+std::vector<int> loaded_rows(const HeldModes& modes, const InterfaceModes& wanted)
+{
+  std::vector<int> rows;
+  for (const int node : find_set(modes.reduced, wanted.at).nodes)
+    for (const int component : wanted.components) {
+      rows.push_back(master_row(modes.reduced, node, component));
+      const auto held = std::ranges::find(modes.held.rows, rows.back());
+      if (held != modes.held.rows.end())
+        throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
+                                modes.held.names[std::size_t(held - modes.held.rows.begin())]));
+    }
+  return rows;
+}
+
+/// Omega_0 of one specification, rad/s: half the first elastic free frequency when left open.
+double load_frequency(const FreeModes& free, const InterfaceModes& wanted)
+{
+  if (wanted.kind == InterfaceModes::Kind::irm) return 0.0;
+  if (wanted.omega0) return *wanted.omega0;
+  return free.n_rigid < free.omega.size() ? 0.5 * free.omega[free.n_rigid] : 0.0;
+}
+
+/// Response modes of all specifications, [n_neglected x n_loads].
+MatrixXd all_responses(const HeldModes& modes, const std::vector<int>& neglected,
+                       const std::vector<InterfaceModes>& wanted)
+{
+  MatrixXd responses(Index(neglected.size()), 0);
+  for (const InterfaceModes& one : wanted) {
+    const MatrixXd g = modes.T(loaded_rows(modes, one), neglected).transpose();
+    const MatrixXd phi = response_modes(modes.omega(neglected), g, load_frequency(modes.free, one));
+    responses.conservativeResize(Eigen::NoChange, responses.cols() + phi.cols());
+    responses.rightCols(phi.cols()) = phi;
+  }
+  return responses;
+}
+
+BodyModes merge(const HeldModes& modes, const ModeSelection& selection, const InterfaceBasis& basis)
+{
+  const Index n_kept = Index(selection.kept.size()), n = n_kept + basis.omega.size();
+  VectorXd omega(n);
+  omega << modes.omega(selection.kept), basis.omega;
+  MatrixXd T(modes.T.rows(), n);
+  T << modes.T(Eigen::all, selection.kept), modes.T(Eigen::all, selection.neglected) * basis.V;
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int i) { return omega[i]; });
+  BodyModes body{.omega = omega(order), .kinds = {}, .T = T(Eigen::all, order)};
+  for (const int i : order)
+    body.kinds.push_back(i >= n_kept         ? ModeKind::interface
+                         : omega[i] == 0.0 ? ModeKind::rigid
+                                             : ModeKind::constrained);
+  return body;
+}
+
+/// C_m in the final coordinates, [n_modes x n_modes] or [0 x 0].
+MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
+                        const Damping& damping)
+{
+  const Index n = modes.omega.size();
+  switch (damping.type) {
+    case Damping::Type::none:
+      return {};
+    case Damping::Type::rayleigh:
+      return VectorXd(damping.alpha + damping.beta * modes.omega.array().square()).asDiagonal();
+    case Damping::Type::matrix:
+      if (reduced.C.size() == 0)
+        throw Error("damping: 'matrix' needs a reduced damping matrix, and this system has none");
+      return modes.T.transpose() * reduced.C * modes.T;
+    case Damping::Type::modal:
+      break;
+  }
+  if (damping.ratios.size() != 1 && Index(damping.ratios.size()) != n)
+    throw Error(fmt::format("damping: {} ratios for {} modes; give one for all or one for each",
+                            damping.ratios.size(), n));
+  const VectorXd zeta = damping.ratios.size() == 1
+                            ? VectorXd(VectorXd::Constant(n, damping.ratios[0]))
+                            : VectorXd(Eigen::Map<const VectorXd>(damping.ratios.data(), n));
+  return VectorXd(2.0 * zeta.array() * modes.omega.array()).asDiagonal();
+}
+
+/// Displacement and rotation of each attachment node; components that are no masters are zero.
+MatrixXd attachment_modes(const ReducedSystem& reduced, const MatrixXd& T)
+{
+  MatrixXd modes = MatrixXd::Zero(6 * Index(reduced.attachment_nodes.size()), T.cols());
+  for (Index row = 0; row < reduced.n_masters(); ++row) {
+    const auto [node, component] = reduced.masters[static_cast<std::size_t>(row)];
+    modes.row(6 * node + component) = T.row(row);
+  }
+  return modes;
+}
+
+Picture picture_modes(const Picture& picture, const MatrixXd& T)
+{
+  if (picture.positions.rows() == 0) return {};
+  return {picture.positions, picture.cells, picture.transformation * T};
+}
+
+ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, const BodyModes& modes)
+{
+  const RigidInertia rigid = rigid_inertia(reduced);
+  ModalBody body{.title = reduced.title,
+                 .kinds = modes.kinds,
+                 .omega = modes.omega,
+                 .C = damping_matrix(reduced, modes, options.damping),
+                 .attachment_nodes = reduced.attachment_nodes,
+                 .sets = reduced.sets,
+                 .fixed = options.fixed,
+                 .attachment_modes = attachment_modes(reduced, modes.T),
+                 .rings = {},
+                 .picture = picture_modes(reduced.picture, modes.T),
+                 .mass = rigid.mass,
+                 .centre_of_mass = rigid.centre_of_mass,
+                 .inertia = rigid.inertia,
+                 .free_frequencies = {},
+                 .n_rigid = 0,
+                 .condition_Q_dd = 1.0,
+                 .provenance = reduced.provenance};
+  body.rings = contact_rings(reduced, body.attachment_modes);
+  return body;
+}
+
+}  // namespace
+
+ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
+{
+  const FreeModes free = orthogonalize(reduced);
+  const HeldDofs held = held_dofs(reduced, options.fixed);
+  const ModeShift shift = shift_modes(free, held);
+  const ConstrainedModes constrained = constrained_modes(shift);
+  const HeldModes modes{reduced, free, held, constrained.omega,
+                        free.Q_e * (shift.Q_c * constrained.X)};
+  const ModeSelection selection = select_modes(constrained.omega, options.keep);
+  const InterfaceBasis basis =
+      interface_basis(constrained.omega(selection.neglected),
+                      all_responses(modes, selection.neglected, options.interface_modes));
+  ModalBody body = assemble(reduced, options, merge(modes, selection, basis));
+  body.free_frequencies = free.omega;
+  body.n_rigid = free.n_rigid;
+  body.condition_Q_dd = shift.condition_Q_dd;
+  body.n_free_rigid = constrained.n_rigid;
+  body.preparation = {.n_constrained_modes = static_cast<int>(constrained.omega.size()),
+                      .n_partners = selection.n_partners,
+                      .n_interface_dropped = basis.n_dropped,
+                      .n_massless = free.n_massless,
+                      .rigid_residual = free.rigid_residual};
+  return body;
+}
+
+}  // namespace chladni::mbs_export

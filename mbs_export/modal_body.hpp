@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::mbs_export {
+
+enum class ModeKind { rigid, constrained, interface };
+
+/// A contact ring of the body: attachment nodes on a circle about the z axis, ordered by angle, and
+/// what each mode does there. Slopes come from the nodal rotations of the shear-flexible shell:
+/// W_r = -theta_t and W_t = theta_r (unit normal (-W_r, -W_t, 1) to first order).
+struct ContactRing {
+  std::string name;
+  double radius;           ///< m
+  double height;           ///< z of the circle, m
+  std::vector<int> nodes;  ///< indices into `attachment_nodes`
+  Eigen::VectorXd angles;  ///< [n], rad, ascending, equally spaced
+  Eigen::MatrixXd W;       ///< [n x n_modes] displacement u_z, m per unit of q
+  Eigen::MatrixXd W_r;     ///< [n x n_modes] radial slope, rad per unit of q
+  Eigen::MatrixXd W_t;     ///< [n x n_modes] circumferential slope, rad per unit of q
+};
+
+/// How the modes were chosen, for a report.
+struct Preparation {
+  int n_constrained_modes = 0;  ///< modes of the held body that there were to keep
+  int n_partners = 0;  ///< kept beyond the choice, so as not to part modes of one frequency
+  int n_interface_dropped = 0;  ///< interface modes that depended on others
+  int n_massless = 0;           ///< reduced coordinates without mass, which the modes cannot carry
+  double rigid_residual = 0.0;  ///< energy of the rigid modes over the first elastic omega^2
+};
+
+/// A body of n_modes modal coordinates q with mass matrix I and stiffness diag(omega^2):
+/// q'' + C q' + diag(omega^2) q = (mode shapes)^T forces. It is all that a squeal study needs.
+struct ModalBody {
+  std::string title;
+  std::vector<ModeKind> kinds;  ///< [n_modes]
+  Eigen::VectorXd omega;        ///< [n_modes], rad/s, ascending
+  Eigen::MatrixXd C;            ///< [n_modes x n_modes], 1/s, or [0 x 0]
+  std::vector<AttachmentNode> attachment_nodes;
+  std::vector<AttachmentSet> sets;
+  std::vector<std::string> fixed;    ///< what the scene holds, e.g. "hub", "hub.z"
+  Eigen::MatrixXd attachment_modes;  ///< [6 n_nodes x n_modes] u and theta of each node
+  std::vector<ContactRing> rings;
+  Picture picture;                   ///< transformation is [3 n x n_modes] here
+  double mass;                       ///< kg
+  Eigen::Vector3d centre_of_mass;    ///< m
+  Eigen::Matrix3d inertia;           ///< about the centre of mass, kg m^2
+  Eigen::VectorXd free_frequencies;  ///< of the free reduced body, rad/s; see n_rigid
+  int n_rigid;                       ///< how many of them are rigid-body motions
+  double condition_Q_dd;             ///< of the mode shifting (1 when nothing is held)
+  int n_free_rigid = 0;  ///< rigid-body motions that `fixed` leaves free: 0 for a held body
+  Preparation preparation = {};
+  Provenance provenance;
+
+  Eigen::Index n_modes() const { return omega.size(); }
+};
+
+/// @throws chladni::Error naming the rings that exist.
+const ContactRing& find_ring(const ModalBody& body, const std::string& name);
+
+}  // namespace chladni::mbs_export

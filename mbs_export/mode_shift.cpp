@@ -1,0 +1,152 @@
+#include "mbs_export/mode_shift.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+
+#include "common/error.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr double largest_condition = 1e6;
+
+double condition(const MatrixXd& Q_dd)
+{
+  if (Q_dd.size() == 0) return 1.0;
+  const VectorXd s = Eigen::JacobiSVD<MatrixXd>(Q_dd).singularValues();
+  const double smallest = s[s.size() - 1];
+  return smallest > 0.0 ? s[0] / smallest : std::numeric_limits<double>::infinity();
+}
+
+/// Columns of A in the order of a pivoted QR, as far as they are independent.
+std::vector<int> independent_columns(const MatrixXd& A, double threshold)
+{
+  if (A.size() == 0) return {};
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(A);
+  qr.setThreshold(threshold);
+  const auto& order = qr.colsPermutation().indices();
+  return {order.data(), order.data() + qr.rank()};
+}
+
+/// 1 for rigid modes, omega_1 / omega for elastic ones: a high mode can follow a held displacement
+/// only at the price of accuracy in all others.
+VectorXd preference(const FreeModes& modes)
+{
+  VectorXd weight = VectorXd::Ones(modes.omega.size());
+  for (Index i = modes.n_rigid; i < weight.size(); ++i)
+    weight[i] = modes.omega[modes.n_rigid] / modes.omega[i];
+  return weight;
+}
+
+/// Rigid modes first; what they cannot follow is left to elastic modes.
+std::vector<int> rigid_then_elastic(const FreeModes& modes, const MatrixXd& Q_held)
+{
+  std::vector<int> chosen =
+      independent_columns(Q_held.leftCols(modes.n_rigid), 1.0 / largest_condition);
+  if (Index(chosen.size()) == Q_held.rows()) return chosen;
+  MatrixXd rest = Q_held * preference(modes).asDiagonal();
+  rest.leftCols(modes.n_rigid).setZero();
+  if (!chosen.empty()) {
+    const Eigen::HouseholderQR<MatrixXd> qr(Q_held(Eigen::all, chosen));
+    const MatrixXd V = qr.householderQ() * MatrixXd::Identity(Q_held.rows(), Index(chosen.size()));
+    rest -= V * (V.transpose() * rest).eval();
+  }
+  for (const int i : independent_columns(rest, 1e-14))
+    if (Index(chosen.size()) < Q_held.rows()) chosen.push_back(i);
+  return chosen;
+}
+
+/// The modes that are not `dependent`, ascending.
+std::vector<int> complement(const std::vector<int>& dependent, Index n_modes)
+{
+  std::vector<int> independent;
+  for (int i = 0; i < n_modes; ++i)
+    if (std::ranges::find(dependent, i) == dependent.end()) independent.push_back(i);
+  return independent;
+}
+
+/// Held DOFs whose rows in Q_dd depend on the others.
+std::string dependent_names(const MatrixXd& Q_dd, const HeldDofs& held)
+{
+  const std::vector<int> independent =
+      independent_columns(Q_dd.transpose(), 1.0 / largest_condition);
+  std::vector<std::string> names;
+  for (const int i : complement(independent, Q_dd.rows()))
+    names.push_back(held.names[static_cast<std::size_t>(i)]);
+  return fmt::format("{}", fmt::join(names.empty() ? held.names : names, ", "));
+}
+
+/// Combinations of the rigid modes with Q_held q = 0, as orthonormal columns [n_modes x k].
+MatrixXd free_rigid_motions(const MatrixXd& Q_held, Index n_rigid)
+{
+  MatrixXd q = MatrixXd::Identity(Q_held.cols(), n_rigid);
+  if (Q_held.rows() == 0 || n_rigid == 0) return q;
+  MatrixXd rows = Q_held.leftCols(n_rigid);
+  for (Index i = 0; i < rows.rows(); ++i)
+    if (const double norm = rows.row(i).norm(); norm > 0.0) rows.row(i) /= norm;
+  Eigen::JacobiSVD<MatrixXd> svd(rows, Eigen::ComputeFullV);
+  svd.setThreshold(1.0 / largest_condition);
+  return q * svd.matrixV().rightCols(n_rigid - svd.rank());
+}
+
+}  // namespace
+
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
+{
+  const MatrixXd Q_held = modes.Q_e(held.rows, Eigen::all);
+  std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
+  const bool complete = Index(dependent.size()) == Q_held.rows();
+  if (!complete || condition(Q_held(Eigen::all, dependent)) > largest_condition) {
+    dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
+    if (dependent.size() < held.rows.size())
+      throw Error(fmt::format(
+          "mode shifting: the modes cannot hold {} apart from the other held displacements; fix "
+          "fewer, or reduce with more masters or modes",
+          dependent_names(Q_held, held)));
+  }
+  std::ranges::sort(dependent);
+  return shift_modes(modes, held, dependent);
+}
+
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
+                      const std::vector<int>& dependent)
+{
+  if (dependent.size() != held.rows.size())
+    throw Error(fmt::format("mode shifting: {} dependent modes for {} held displacements",
+                            dependent.size(), held.rows.size()));
+  const MatrixXd Q_held = modes.Q_e(held.rows, Eigen::all);
+  const std::vector<int> independent = complement(dependent, modes.omega.size());
+  const MatrixXd Q_dd = Q_held(Eigen::all, dependent);
+  const double cond = condition(Q_dd);
+  if (!(cond <= largest_condition))
+    throw Error(fmt::format(
+        "mode shifting: cond(Q_dd) = {:.1e} with the dependent modes {}, so {} cannot be held; "
+        "choose other dependent modes or fix fewer displacements",
+        cond, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
+
+  // q_d = G q_i,  K_c = G^T Lambda_d G + Lambda_i,  M_c = G^T G + I
+  const VectorXd lambda = modes.omega.cwiseAbs2();
+  const MatrixXd G = -Q_dd.partialPivLu().solve(MatrixXd(Q_held(Eigen::all, independent)));
+  const Index n_i = Index(independent.size());
+  ModeShift shift{.Q_c = MatrixXd::Zero(modes.omega.size(), n_i),
+                  .K_c = G.transpose() * lambda(dependent).asDiagonal() * G,
+                  .M_c = G.transpose() * G,
+                  .R_c = {},
+                  .dependent = dependent,
+                  .condition_Q_dd = cond};
+  shift.Q_c(dependent, Eigen::all) = G;
+  shift.Q_c(independent, Eigen::all).setIdentity();
+  shift.K_c.diagonal() += lambda(independent);
+  shift.M_c.diagonal().array() += 1.0;
+  shift.R_c = free_rigid_motions(Q_held, modes.n_rigid)(independent, Eigen::all);
+  return shift;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/orthogonalize.hpp"
+
+namespace chladni::mbs_export {
+
+/// The free modes under the constraint 0 = Q_dd q_d + Q_di q_i on n_c held displacements:
+/// q = Q_c q_i with Q_c = [-Q_dd^-1 Q_di; I], rows in the order of the free modes.
+struct ModeShift {
+  Eigen::MatrixXd Q_c;  ///< [n_modes x n_modes - n_c]
+  Eigen::MatrixXd K_c;  ///< Q_c^T diag(omega^2) Q_c, rad^2/s^2
+  Eigen::MatrixXd M_c;  ///< Q_c^T Q_c
+  Eigen::MatrixXd R_c;  ///< [n_modes - n_c x n_free_rigid] rigid motion left, M_c-orthonormal
+  std::vector<int> dependent;  ///< [n_c] the modes d, ascending
+  double condition_Q_dd;       ///< 1 when nothing is held
+};
+
+/// Mode shifting with the rigid modes as dependent ones, as far as they are independent at the held
+/// DOFs; further ones are taken by pivoting among the elastic modes, low frequencies preferred.
+/// @throws chladni::Error naming the DOFs when no choice has cond(Q_dd) below 1e6.
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held);
+
+/// The same with a choice of dependent modes by hand.
+/// @param dependent  [n_c] indices of free modes, ascending
+/// @throws chladni::Error when cond(Q_dd) > 1e6, naming the DOFs.
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
+                      const std::vector<int>& dependent);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,78 @@
+#include "mbs_export/orthogonalize.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "common/error.hpp"
+#include "mbs_export/eigenmodes.hpp"
+#include "mbs_export/rigid_body.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// An M_r-orthonormal basis of the rigid-body vectors; their rank is found after scaling to unit
+/// length, and centred on the body, so that neither units nor the origin decide.
+MatrixXd rigid_basis(const ReducedSystem& reduced)
+{
+  MatrixXd R = rigid_body_vectors(reduced, centre_of_nodes(reduced));
+  // A rotation about the line through all nodes has an arm of round-off only.
+  const double arm_round_off = 1e-10 * R.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < R.cols(); ++j) {
+    const double norm = R.col(j).norm();
+    R.col(j) *= norm > arm_round_off ? 1.0 / norm : 0.0;
+  }
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(R);
+  qr.setThreshold(1e-10);
+  if (qr.rank() == 0) return MatrixXd(R.rows(), 0);
+  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
+  const Eigen::LLT<MatrixXd> MR(basis.transpose() * reduced.M * basis);
+  if (MR.info() != Eigen::Success)
+    throw Error(
+        "orthogonalize: the mass matrix gives a rigid-body motion no mass; has every material "
+        "a density, and is M_r symmetric?");
+  return MR.matrixL().solve(basis.transpose()).transpose();
+}
+
+struct RigidModes {
+  MatrixXd R;             ///< [n_FE x n_rigid], M_r-orthonormal
+  double largest_energy;  ///< of phi_r^T K_r phi_r, rad^2/s^2
+};
+
+/// The combinations of the rigid-body vectors that K_r does not resist. Round-off in K_r leaves
+/// them an energy of 1e-16 of its largest stiffness-to-mass ratio; a support leaves far more.
+RigidModes unresisted(const ReducedSystem& reduced, const MatrixXd& basis)
+{
+  if (basis.cols() == 0) return {basis, 0.0};
+  const double largest_ratio =
+      (reduced.M.diagonal().array() > 0.0)
+          .select(reduced.K.diagonal().array() / reduced.M.diagonal().array(), 0.0)
+          .maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> energies(basis.transpose() * reduced.K * basis);
+  const auto free = energies.eigenvalues().array().abs() <= 1e-12 * largest_ratio;
+  const Index n_rigid = free.count();
+  // Ascending: what is free comes first, up to negative round-off.
+  const MatrixXd R = basis * energies.eigenvectors().leftCols(n_rigid);
+  return {R, n_rigid > 0 ? energies.eigenvalues().head(n_rigid).cwiseAbs().maxCoeff() : 0.0};
+}
+
+}  // namespace
+
+FreeModes orthogonalize(const ReducedSystem& reduced)
+{
+  const RigidModes rigid = unresisted(reduced, rigid_basis(reduced));
+  const Eigenmodes elastic = eigenmodes(reduced.K, reduced.M, rigid.R);
+  const Index n_rigid = rigid.R.cols(), n_elastic = elastic.lambda.size();
+  FreeModes modes{.omega = VectorXd::Zero(n_rigid + n_elastic),
+                  .Q_e = MatrixXd(reduced.K.rows(), n_rigid + n_elastic),
+                  .n_rigid = static_cast<int>(n_rigid),
+                  .n_massless = elastic.n_massless,
+                  .rigid_residual = n_elastic > 0 ? rigid.largest_energy / elastic.lambda[0] : 0.0};
+  modes.omega.tail(n_elastic) = elastic.lambda.cwiseSqrt();
+  modes.Q_e << rigid.R, elastic.X;
+  return modes;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::mbs_export {
+
+/// Free modes of the reduced system: Q_e^T M_r Q_e = I, Q_e^T K_r Q_e = diag(omega^2).
+struct FreeModes {
+  Eigen::VectorXd omega;  ///< [n_modes], rad/s, ascending; the first n_rigid are exactly zero
+  Eigen::MatrixXd Q_e;    ///< [n_FE x n_modes]
+  int n_rigid;            ///< 6 in space, 2 for a bending beam, 0 for a grounded structure
+  int n_massless;         ///< reduced coordinates without mass: n_FE - n_modes
+  double
+      rigid_residual;  ///< largest phi_r^T K_r phi_r over the first elastic omega^2; 0 is perfect
+};
+
+/// Solves (K_r - omega^2 M_r) phi = 0. The rigid modes are not looked for among small frequencies:
+/// they are the rigid-body vectors of the geometry that K_r does not resist, and are deflated.
+/// Assumes K_r, M_r symmetric positive semidefinite, and no zero-energy motion but rigid ones.
+/// @throws chladni::Error when K_r is singular beyond the rigid-body motions, or M_r gives
+///         one of these no mass.
+FreeModes orthogonalize(const ReducedSystem& reduced);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,21 @@
+#include "mbs_export/reduced_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace chladni::mbs_export {
+
+const AttachmentSet& find_set(const ReducedSystem& reduced, const std::string& name)
+{
+  const auto found = std::ranges::find(reduced.sets, name, &AttachmentSet::name);
+  if (found != reduced.sets.end()) return *found;
+  std::vector<std::string> names;
+  for (const AttachmentSet& set : reduced.sets) names.push_back("'" + set.name + "'");
+  throw Error(fmt::format("no attachment set '{}'; there is {}", name,
+                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace chladni::mbs_export

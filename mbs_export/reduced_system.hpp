@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace chladni::mbs_export {
+
+/// A node at which loads, supports and contacts may act (all of its DOFs are masters).
+struct AttachmentNode {
+  std::int64_t number;       ///< node number of the mesh; a reference node has one of its own
+  Eigen::Vector3d position;  ///< m
+};
+
+/// A named set of attachment nodes of the scene, e.g. the ring "track" or the reference node "hub".
+struct AttachmentSet {
+  std::string name;
+  std::vector<int> nodes;  ///< indices into `attachment_nodes`; a ring is ordered by angle
+};
+
+/// The DOF of one row of K_r: attachment node and component (0..2 displacement x, y, z in m;
+/// 3..5 rotation about x, y, z in rad).
+struct MasterDof {
+  int node;
+  int component;
+};
+
+/// Surface for pictures: some nodes of the mesh, triangles and quadrilaterals over them, and the
+/// rows of the Craig-Bampton transformation that give their displacements.
+struct Picture {
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;  ///< [n x 3], m
+  std::vector<std::array<int, 4>> cells;  ///< corner indices; a triangle repeats its last one
+  Eigen::MatrixXd transformation;         ///< [3 n x n_FE], rows x, y, z of each node in turn
+};
+
+/// Where a result comes from; written into every file.
+struct Provenance {
+  std::string scene;          ///< text of the scene file
+  std::string mesh_checksum;  ///< FNV-1a of node coordinates and connectivity, hexadecimal
+  std::string versions;       ///< of Chladni and its libraries
+  std::string options;        ///< options of the solvers
+  int ranks = 1;
+};
+
+/// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates
+/// (u_m, q) = (displacements of the masters, amplitudes of the fixed-interface modes).
+/// Rows are ordered as `masters`, then the fixed-interface modes.
+struct ReducedSystem {
+  std::string title;
+  std::vector<AttachmentNode> attachment_nodes;
+  std::vector<AttachmentSet> sets;
+  std::vector<MasterDof> masters;               ///< [n_m]
+  Eigen::MatrixXd K;                            ///< [n_FE x n_FE], N/m, N, N m
+  Eigen::MatrixXd M;                            ///< [n_FE x n_FE], kg, kg m, kg m^2
+  Eigen::MatrixXd C;                            ///< [n_FE x n_FE] or [0 x 0] when undamped
+  Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
+  Picture picture;                              ///< empty when the scene wants none
+  Provenance provenance;
+
+  Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }
+};
+
+/// The index in `sets` of the set with this name.
+/// @throws chladni::Error naming the sets that exist.
+const AttachmentSet& find_set(const ReducedSystem& reduced, const std::string& name);
+
+}  // namespace chladni::mbs_export

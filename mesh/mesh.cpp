@@ -1,0 +1,51 @@
+#include "mesh/mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "common/error.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+/// Fowler-Noll-Vo hash, variant 1a, 64 bits.
+class Fnv1a {
+ public:
+  template <typename T>
+  void add(std::span<const T> values)
+  {
+    for (const std::byte b : std::as_bytes(values)) {
+      state_ = (state_ ^ std::to_integer<std::uint64_t>(b)) * 1099511628211ULL;
+    }
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 14695981039346656037ULL;
+};
+
+}  // namespace
+
+const Group& find_group(const Mesh& mesh, const std::string& name)
+{
+  const auto it = std::ranges::find(mesh.groups, name, &Group::name);
+  if (it != mesh.groups.end()) return *it;
+  std::vector<std::string> names;
+  for (const Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(fmt::format("the mesh has no group \"{}\"; its groups are: {}", name,
+                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+std::string checksum(const Mesh& mesh)
+{
+  Fnv1a hash;
+  hash.add(std::span(mesh.positions));
+  for (const ElementBlock& block : mesh.blocks) hash.add(std::span(block.nodes));
+  return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace chladni::mesh

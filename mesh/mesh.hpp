@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace chladni::mesh {
+
+enum class Shape { line, triangle, quadrilateral };
+
+/// Elements of one shape and order. The nodes of each element stand in lattice order: a
+/// quadrilateral of order p has (p+1)^2 nodes, xi fastest; a triangle (p+1)(p+2)/2, r fastest, rows
+/// of falling length; a line p+1 nodes from end to end.
+struct ElementBlock {
+  Shape shape;
+  int order;
+  int nodes_per_element;
+  std::vector<std::int64_t> numbers;  ///< [n_elements] element numbers of the mesh file
+  std::vector<int> nodes;  ///< [n_elements x nodes_per_element] indices into Mesh::positions
+  std::vector<int> group;  ///< [n_elements] index into Mesh::groups, -1 = none
+
+  int n_elements() const { return static_cast<int>(numbers.size()); }
+  std::span<const int> element_nodes(int e) const
+  {
+    return std::span(nodes).subspan(std::size_t(e) * nodes_per_element, nodes_per_element);
+  }
+};
+
+/// A physical group or a ring: a named set of nodes.
+struct Group {
+  std::string name;
+  int dimension;  ///< 0, 1 or 2
+  std::vector<int>
+      nodes;  ///< indices into Mesh::positions; of a ring ordered by angle, else ascending
+};
+
+/// A mesh of lines, triangles and quadrilaterals in space; the same on every rank.
+struct Mesh {
+  std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
+  std::vector<std::array<double, 3>> positions;  ///< [n], m
+  std::vector<ElementBlock> blocks;              ///< of dimension 2
+  std::vector<Group> groups;
+
+  int n_nodes() const { return static_cast<int>(positions.size()); }
+};
+
+/// @throws chladni::Error naming the groups that exist.
+const Group& find_group(const Mesh& mesh, const std::string& name);
+
+/// FNV-1a of coordinates and connectivity, hexadecimal.
+std::string checksum(const Mesh& mesh);
+
+}  // namespace chladni::mesh

@@ -1,0 +1,78 @@
+#include "mesh/partition.hpp"
+
+#include <fmt/format.h>
+#include <metis.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+/// Corner nodes of all elements, in METIS' compressed format.
+struct CornerLists {
+  std::vector<idx_t> start{0};
+  std::vector<idx_t> corners;
+};
+
+std::vector<int> corner_places(const ElementBlock& block)
+{
+  const int p = block.order;
+  if (block.shape == Shape::triangle) return {0, p, block.nodes_per_element - 1};
+  return {0, p, block.nodes_per_element - 1, block.nodes_per_element - 1 - p};
+}
+
+CornerLists corner_lists(const Mesh& mesh)
+{
+  CornerLists lists;
+  for (const ElementBlock& block : mesh.blocks) {
+    const std::vector<int> places = corner_places(block);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      for (const int k : places) lists.corners.push_back(block.element_nodes(e)[k]);
+      lists.start.push_back(static_cast<idx_t>(lists.corners.size()));
+    }
+  }
+  return lists;
+}
+
+std::vector<idx_t> element_parts(const Mesh& mesh, int n_parts)
+{
+  CornerLists lists = corner_lists(mesh);
+  auto n_elements = static_cast<idx_t>(lists.start.size() - 1);
+  if (n_elements < n_parts) {
+    throw Error(fmt::format("the mesh has {} elements, too few for {} ranks", n_elements, n_parts));
+  }
+  std::vector<idx_t> parts(n_elements, 0);
+  if (n_parts == 1) return parts;
+  auto n_nodes = static_cast<idx_t>(mesh.n_nodes());
+  auto parts_wanted = static_cast<idx_t>(n_parts);
+  idx_t shared_nodes = 2;
+  idx_t cut = 0;
+  std::vector<idx_t> node_parts(n_nodes);
+  const int status = METIS_PartMeshDual(
+      &n_elements, &n_nodes, lists.start.data(), lists.corners.data(), nullptr, nullptr,
+      &shared_nodes, &parts_wanted, nullptr, nullptr, &cut, parts.data(), node_parts.data());
+  if (status != METIS_OK) throw Error(fmt::format("METIS_PartMeshDual failed with {}", status));
+  return parts;
+}
+
+}  // namespace
+
+std::vector<int> node_owners(const Mesh& mesh, int n_parts)
+{
+  const std::vector<idx_t> parts = element_parts(mesh, n_parts);
+  std::vector<int> owners(mesh.n_nodes(), n_parts - 1);
+  std::size_t element = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e, ++element) {
+      for (const int node : block.element_nodes(e)) {
+        owners[node] = std::min(owners[node], static_cast<int>(parts[element]));
+      }
+    }
+  }
+  return owners;
+}
+
+}  // namespace chladni::mesh

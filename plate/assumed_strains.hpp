@@ -1,0 +1,48 @@
+#pragma once
+
+#include "plate/covariant_strains.hpp"
+
+namespace chladni::plate {
+
+/// Interpolation of assumed strains from tying points: one set of points and one matrix
+/// [n_integration_points x n_tying_points] for each component.
+struct Tying {
+  struct Component {
+    Basis basis;              ///< at the tying points
+    Eigen::MatrixXd weights;  ///< [n_integration_points x n_tying_points]
+  };
+  std::array<Component, 2> shear;     ///< gamma_1, gamma_2
+  std::array<Component, 3> membrane;  ///< eps_11, eps_22, eps_12; not used at order 1
+};
+
+/// Tying points of the quadrilateral of order p: shear gamma_xi at Gauss_p in xi times
+/// Gauss-Lobatto p+1 in eta (on the element edges) and transposed; membrane eps_xixi at Gauss_p x
+/// Gauss_(p+1), transposed, and eps_xieta at Gauss_p x Gauss_p. Made once for each order.
+const Tying& quadrilateral_tying(int order);
+
+/// Replaces the transverse shear and membrane rows of `strains` by the assumed ones; bending stays
+/// compatible. The membrane strains are corrected by a field constant in a local Cartesian frame so
+/// that their element mean is that of the compatible ones (else distorted elements fail the
+/// constant-stress patch test).
+CovariantStrains assume_quadrilateral_strains(int order, const Points& integration,
+                                              const ShellNodes& nodes,
+                                              const CovariantStrains& compatible);
+
+/// Shear of a triangle of order p tied in the Nedelec space of the first kind: the tangential
+/// component at p Gauss points of each edge, both components at inner points.
+CovariantStrains assume_triangle_shear(int order, const Points& integration,
+                                       const ShellNodes& nodes, const CovariantStrains& compatible);
+
+/// Membrane strains of a triangle tied by edge direction: eps along each of the three edge
+/// directions in P_(p-1), then the mean correction as in the quadrilateral.
+CovariantStrains assume_triangle_membrane(int order, const Points& integration,
+                                          const ShellNodes& nodes,
+                                          const CovariantStrains& compatible);
+
+/// `tied` plus the constant Cartesian membrane strain that restores the element mean of
+/// `compatible`; rows are weighted with `weight` times the area element.
+std::array<StrainRows, 3> correct_mean(const std::array<StrainRows, 3>& tied,
+                                       const std::array<StrainRows, 3>& compatible,
+                                       const ShellFrame& frame, const Eigen::VectorXd& weight);
+
+}  // namespace chladni::plate

@@ -1,0 +1,92 @@
+#include "plate/covariant_strains.hpp"
+
+#include <Eigen/Geometry>
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::RowVector3d;
+
+CovariantStrains zero_strains(Eigen::Index n_points, Eigen::Index n_dofs)
+{
+  const StrainRows zero = StrainRows::Zero(n_points, n_dofs);
+  return {.m = {zero, zero, zero},
+          .b = {zero, zero, zero},
+          .c = {zero, zero, zero},
+          .g0 = {zero, zero},
+          .g1 = {zero, zero}};
+}
+
+/// The frame at one point, with indices 0, 1 for the two surface coordinates.
+struct PointFrame {
+  std::array<RowVector3d, 2> a, d_a;
+  RowVector3d d;
+};
+
+/// Strain rows of one node at one point.
+struct NodeTerms {
+  double N;
+  std::array<double, 2> N_a;
+  std::array<RowVector3d, 2> Dxa, Dxd_a;  ///< D_i x a_a, D_i x d_a
+  RowVector3d Dxd;                        ///< D_i x d
+};
+
+void add_in_plane(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
+                  const NodeTerms& n)
+{
+  constexpr std::array<std::pair<int, int>, 3> components{{{0, 0}, {1, 1}, {0, 1}}};
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto [A, B] = components[r];
+    s.m[r].row(q).segment<3>(dof) = 0.5 * (f.a[A] * n.N_a[B] + f.a[B] * n.N_a[A]);
+    s.b[r].row(q).segment<3>(dof) = 0.5 * (f.d_a[A] * n.N_a[B] + f.d_a[B] * n.N_a[A]);
+    s.b[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxa[A] * n.N_a[B] + n.Dxa[B] * n.N_a[A]);
+    s.c[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxd_a[A] * n.N_a[B] + n.Dxd_a[B] * n.N_a[A]);
+  }
+}
+
+void add_shear(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
+               const NodeTerms& n)
+{
+  for (std::size_t A = 0; A < 2; ++A) {
+    s.g0[A].row(q).segment<3>(dof) = f.d * n.N_a[A];
+    s.g0[A].row(q).segment<3>(dof + 3) = n.Dxa[A] * n.N;
+    s.g1[A].row(q).segment<3>(dof + 3) = n.Dxd * n.N_a[A] + n.Dxd_a[A] * n.N;
+  }
+}
+
+}  // namespace
+
+ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes)
+{
+  return {.a_1 = basis.N_xi * nodes.x,
+          .a_2 = basis.N_eta * nodes.x,
+          .d = basis.N * nodes.D,
+          .d_1 = basis.N_xi * nodes.D,
+          .d_2 = basis.N_eta * nodes.D};
+}
+
+CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes)
+{
+  const ShellFrame frame = shell_frame(basis, nodes);
+  const Eigen::Index n_nodes = nodes.x.rows();
+  CovariantStrains strains = zero_strains(basis.N.rows(), 6 * n_nodes);
+  for (Eigen::Index q = 0; q < basis.N.rows(); ++q) {
+    const PointFrame f{.a = {frame.a_1.row(q), frame.a_2.row(q)},
+                       .d_a = {frame.d_1.row(q), frame.d_2.row(q)},
+                       .d = frame.d.row(q)};
+    for (Eigen::Index i = 0; i < n_nodes; ++i) {
+      const RowVector3d D = nodes.D.row(i);
+      const NodeTerms terms{.N = basis.N(q, i),
+                            .N_a = {basis.N_xi(q, i), basis.N_eta(q, i)},
+                            .Dxa = {D.cross(f.a[0]), D.cross(f.a[1])},
+                            .Dxd_a = {D.cross(f.d_a[0]), D.cross(f.d_a[1])},
+                            .Dxd = D.cross(f.d)};
+      add_in_plane(strains, q, 6 * i, f, terms);
+      add_shear(strains, q, 6 * i, f, terms);
+    }
+  }
+  return strains;
+}
+
+}  // namespace chladni::plate

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "mesh/mesh.hpp"
+#include "plate/covariant_strains.hpp"
+
+namespace chladni::plate {
+
+/// Mean unit normal at every node over the elements that meet there, [n_nodes x 3]. Elements of
+/// opposite orientation count with their normals turned.
+/// @throws chladni::Error naming an element and node where the Jacobian is not positive.
+NodeVectors mean_normals(const mesh::Mesh& mesh);
+
+/// Mid-surface points and half-thickness directors of one element. A director is the mean normal
+/// where the surface is smooth, and the element's own normal at a kink of more than 20 degrees; it
+/// points to the side to which the element is oriented.
+ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
+                       const NodeVectors& normals, double thickness);
+
+}  // namespace chladni::plate

@@ -1,0 +1,72 @@
+#include "reduce/constraint_modes.hpp"
+
+#include <algorithm>
+
+#include "reduce/dense.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+constexpr PetscInt block_columns = 64;  // right-hand sides at a time: bounds the memory
+
+petsc::Matrix dense_like(Mat sparse)
+{
+  PetscInt n_rows_local = 0;
+  PetscInt n_columns_local = 0;
+  PetscInt n_rows = 0;
+  PetscInt n_columns = 0;
+  petsc::check(MatGetLocalSize(sparse, &n_rows_local, &n_columns_local));
+  petsc::check(MatGetSize(sparse, &n_rows, &n_columns));
+  petsc::Matrix dense;
+  petsc::check(MatCreateDense(petsc::communicator(sparse), n_rows_local, n_columns_local, n_rows,
+                              n_columns, nullptr, dense.put()));
+  return dense;
+}
+
+/// Columns first to last of the sparse A, copied into the zeroed dense B.
+void copy_columns(Mat A, PetscInt first, PetscInt last, Mat B)
+{
+  petsc::check(MatZeroEntries(B));
+  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+    if (column < first || column >= last) return;
+    petsc::check(MatSetValue(B, row, column - first, value, INSERT_VALUES));
+  });
+  petsc::check(MatAssemblyBegin(B, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(B, MAT_FINAL_ASSEMBLY));
+}
+
+/// K_ss^-1 K_sm block by block. PETSc 3.18 fails with sparse right-hand sides on several ranks
+/// where a rank has none (MUMPS error -27), and its dense ones are gathered: blocks keep that
+/// small.
+void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
+{
+  PetscInt n_m = 0;
+  petsc::check(MatGetSize(Psi, nullptr, &n_m));
+  for (PetscInt first = 0; first < n_m; first += block_columns) {
+    const PetscInt last = std::min(first + block_columns, n_m);
+    Mat X = nullptr;
+    petsc::Matrix B;
+    petsc::check(MatDenseGetSubMatrix(Psi, PETSC_DECIDE, PETSC_DECIDE, first, last, &X));
+    petsc::check(MatDuplicate(X, MAT_DO_NOT_COPY_VALUES, B.put()));
+    copy_columns(K_sm, first, last, B);
+    petsc::check(MatMatSolve(factor, B, X));
+    petsc::check(MatDenseRestoreSubMatrix(Psi, &X));
+  }
+}
+
+}  // namespace
+
+petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
+{
+  petsc::Matrix Psi = dense_like(K.sm);
+  if (petsc::size(petsc::communicator(K.ms)) == 1) {
+    petsc::check(MatMatTransposeSolve(K_ss.factor(), K.ms, Psi));
+  } else {
+    solve_by_blocks(K_ss.factor(), K.sm, Psi);
+  }
+  petsc::check(MatScale(Psi, -1.0));
+  return Psi;
+}
+
+}  // namespace chladni::reduce

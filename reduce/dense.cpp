@@ -1,0 +1,91 @@
+#include "reduce/dense.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+
+namespace chladni::reduce {
+
+namespace {
+
+PetscInt first_row(Mat A)
+{
+  PetscInt first = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, nullptr));
+  return first;
+}
+
+}  // namespace
+
+void sum_over_ranks(SmallMatrix& A, MPI_Comm comm)
+{
+  // In pieces: an MPI count is an int.
+  constexpr std::size_t piece = std::size_t(1) << 28;
+  for (std::size_t at = 0; at < A.values.size(); at += piece) {
+    const auto count = static_cast<int>(std::min(piece, A.values.size() - at));
+    MPI_Allreduce(MPI_IN_PLACE, A.values.data() + at, count, MPI_DOUBLE, MPI_SUM, comm);
+  }
+}
+
+LocalRows::LocalRows(Mat dense) : dense_(dense)
+{
+  petsc::check(MatGetLocalSize(dense_, &n_rows_, nullptr));
+  petsc::check(MatGetSize(dense_, nullptr, &n_cols_));
+  petsc::check(MatDenseGetLDA(dense_, &lda_));
+  petsc::check(MatDenseGetArrayRead(dense_, &values_));
+}
+
+LocalRows::~LocalRows()
+{
+  MatDenseRestoreArrayRead(dense_, &values_);
+}
+
+SmallMatrix inner_product(Mat X, Mat Y)
+{
+  const LocalRows x(X);
+  const LocalRows y(Y);
+  SmallMatrix product(x.n_cols(), y.n_cols());
+  const PetscBLASInt m = x.n_cols();
+  const PetscBLASInt n = y.n_cols();
+  const PetscBLASInt k = x.n_rows();
+  const PetscBLASInt ldx = x.leading_dimension();
+  const PetscBLASInt ldy = y.leading_dimension();
+  const PetscScalar one = 1.0;
+  const PetscScalar zero = 0.0;
+  if (k > 0) {
+    BLASgemm_("T", "N", &m, &n, &k, &one, x.values(), &ldx, y.values(), &ldy, &zero,
+              product.values.data(), &m);
+  }
+  sum_over_ranks(product, petsc::communicator(X));
+  return product;
+}
+
+SmallMatrix inner_product_sparse(Mat X, Mat A)
+{
+  PetscInt n_cols = 0;
+  petsc::check(MatGetSize(A, nullptr, &n_cols));
+  SmallMatrix product(LocalRows(X).n_cols(), n_cols);
+  {
+    const LocalRows x(X);
+    const PetscInt first = first_row(A);
+    for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+      for (PetscInt i = 0; i < x.n_cols(); ++i) product(i, column) += x(row - first, i) * value;
+    });
+  }
+  sum_over_ranks(product, petsc::communicator(X));
+  return product;
+}
+
+SmallMatrix replicate(Mat A)
+{
+  PetscInt n_rows = 0;
+  PetscInt n_cols = 0;
+  petsc::check(MatGetSize(A, &n_rows, &n_cols));
+  SmallMatrix dense(n_rows, n_cols);
+  for_local_entries(
+      A, [&](PetscInt row, PetscInt column, double value) { dense(row, column) = value; });
+  sum_over_ranks(dense, petsc::communicator(A));
+  return dense;
+}
+
+}  // namespace chladni::reduce

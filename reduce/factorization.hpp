@@ -1,0 +1,30 @@
+#pragma once
+
+#include "common/petsc.hpp"
+
+namespace chladni::reduce {
+
+/// The Cholesky factor of a symmetric positive-definite matrix, made once and shared by constraint
+/// modes and eigen-solver. By MUMPS unless the options say otherwise.
+class Factorization {
+ public:
+  /// @note   Collective on the communicator of `A`.
+  /// @throws chladni::Error when `A` is not positive definite.
+  /// Options: `-cms_pc_...`, `-cms_mat_mumps_...`
+  explicit Factorization(Mat A);
+
+  /// Solves with the factor only; for SLEPc's spectral transformation at shift 0.
+  KSP solver() const { return solver_; }
+  /// The factored matrix, for MatMatTransposeSolve.
+  Mat factor() const;
+  /// The matrix itself.
+  Mat matrix() const;
+
+ private:
+  petsc::LinearSolver solver_;
+};
+
+/// The factor of K_ss.
+Factorization factorize(Mat K_ss);
+
+}  // namespace chladni::reduce

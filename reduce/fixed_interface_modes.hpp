@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "reduce/factorization.hpp"
+#include "reduce/reduce_options.hpp"
+
+namespace chladni::reduce {
+
+/// K_ss Phi = M_ss Phi diag(omega^2), Phi^T M_ss Phi = I: vibrations with all masters held.
+struct FixedInterfaceModes {
+  petsc::Matrix Phi;          ///< [n_s x n] dense, rows as K_ss; 1/sqrt(kg)
+  std::vector<double> omega;  ///< [n] rad/s, ascending
+};
+
+/// The lowest modes, by number or up to a frequency, with the factor of K_ss as shift-and-invert
+/// operator at shift 0 (M_ss may be singular). Modes closer than 1e-4 in frequency stay together:
+/// where the last one wanted has such a partner, that comes too.
+/// @note   Collective on the communicator of `M_ss`.
+/// @throws chladni::Error when the solver does not converge or more modes are asked than exist.
+/// Options: `-cms_eps_...`
+FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
+                                          const ReduceOptions& wanted);
+
+}  // namespace chladni::reduce

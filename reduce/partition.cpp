@@ -1,0 +1,97 @@
+#include "reduce/partition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace chladni::reduce {
+
+namespace {
+
+/// What is wrong with the masters of this rank: count of those out of its range and of doubles.
+std::array<PetscInt, 2> count_faults(const std::vector<PetscInt>& sorted, PetscInt first,
+                                     PetscInt last)
+{
+  const auto outside =
+      std::ranges::count_if(sorted, [&](PetscInt i) { return i < first || i >= last; });
+  PetscInt doubles = 0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) doubles += sorted[i] == sorted[i - 1];
+  return {static_cast<PetscInt>(outside), doubles};
+}
+
+std::vector<PetscInt> sorted_indices(IS set)
+{
+  PetscInt n = 0;
+  const PetscInt* indices = nullptr;
+  petsc::check(ISGetLocalSize(set, &n));
+  petsc::check(ISGetIndices(set, &indices));
+  std::vector<PetscInt> sorted(indices, indices + n);
+  petsc::check(ISRestoreIndices(set, &indices));
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
+petsc::Matrix submatrix(Mat A, IS rows, IS columns)
+{
+  petsc::Matrix block;
+  petsc::check(MatCreateSubMatrix(A, rows, columns, MAT_INITIAL_MATRIX, block.put()));
+  return block;
+}
+
+/// All DOFs of a node stay together (block size of K) when masters and slaves are whole nodes.
+void keep_block_size(Mat K, IS slaves)
+{
+  PetscInt block_size = 1;
+  petsc::check(MatGetBlockSize(K, &block_size));
+  const std::vector<PetscInt> s = sorted_indices(slaves);
+  int whole = s.size() % block_size == 0 ? 1 : 0;
+  for (std::size_t i = 0; whole == 1 && i < s.size(); i += block_size) {
+    if (s[i] % block_size != 0 || s[i + block_size - 1] != s[i] + block_size - 1) whole = 0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &whole, 1, MPI_INT, MPI_MIN, petsc::communicator(K));
+  if (whole == 1) petsc::check(ISSetBlockSize(slaves, block_size));
+}
+
+}  // namespace
+
+DofPartition partition(Mat K, IS masters)
+{
+  const MPI_Comm comm = petsc::communicator(K);
+  PetscInt first = 0;
+  PetscInt last = 0;
+  PetscInt n = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  petsc::check(MatGetSize(K, &n, nullptr));
+  const std::vector<PetscInt> sorted = sorted_indices(masters);
+  const auto faults = count_faults(sorted, first, last);
+  std::array<PetscInt, 3> total{faults[0], faults[1], static_cast<PetscInt>(sorted.size())};
+  MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPIU_INT, MPI_SUM, comm);
+  if (total[0] + total[1] > 0) {
+    throw Error(
+        fmt::format("partition: {} masters are out of range (0 to {}, each on the rank that "
+                    "owns it) and {} are given twice",
+                    total[0], n - 1, total[1]));
+  }
+  if (total[2] == 0 || total[2] >= n) {
+    throw Error(
+        fmt::format("partition: {} masters of {} DOFs; give at least one and leave at least "
+                    "one slave",
+                    total[2], n));
+  }
+  DofPartition dofs;
+  petsc::check(ISCreateGeneral(comm, static_cast<PetscInt>(sorted.size()), sorted.data(),
+                               PETSC_COPY_VALUES, dofs.masters.put()));
+  petsc::check(ISComplement(dofs.masters, first, last, dofs.slaves.put()));
+  keep_block_size(K, dofs.slaves);
+  return dofs;
+}
+
+Blocks split(Mat A, const DofPartition& dofs)
+{
+  return {.mm = submatrix(A, dofs.masters, dofs.masters),
+          .ms = submatrix(A, dofs.masters, dofs.slaves),
+          .sm = submatrix(A, dofs.slaves, dofs.masters),
+          .ss = submatrix(A, dofs.slaves, dofs.slaves)};
+}
+
+}  // namespace chladni::reduce

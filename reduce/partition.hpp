@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/petsc.hpp"
+
+namespace chladni::reduce {
+
+/// Masters m and slaves s of a system; each rank holds those that it owns, ascending.
+struct DofPartition {
+  petsc::IndexSet masters, slaves;
+};
+
+/// Blocks of a symmetric matrix in the order (m, s); ms is the transpose of sm.
+struct Blocks {
+  petsc::Matrix mm, ms, sm, ss;
+};
+
+/// Slaves are all DOFs of `K` that are not masters.
+/// @param masters  global indices, each on the rank that owns it (in any order).
+/// @note   Collective on the communicator of `K`.
+/// @throws chladni::Error when there is no master or no slave, or a master is out of range or
+/// double.
+DofPartition partition(Mat K, IS masters);
+
+/// @note   Collective on the communicator of `A`.
+Blocks split(Mat A, const DofPartition& dofs);
+
+}  // namespace chladni::reduce

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// One pad pair on the ring of a disc: everything that the contact forces depend on but the motion.
+struct PadContact {
+  double radius;     ///< of the contact ring, m
+  double thickness;  ///< distance h of the two contact planes, m
+  double friction;   ///< mu
+  ContactLaw law;
+  double stiffness;  ///< k of each pad spring, N/m
+  double damping;    ///< d, N s/m
+  double preload;    ///< N_0, N
+};
+
+/// Motion of the disc under a pad: displacement, slopes and their material rates.
+template <class Scalar>
+struct RingMotion {
+  Scalar w;        ///< m
+  Scalar g_r;      ///< radial slope, rad
+  Scalar g_t;      ///< circumferential slope, rad
+  Scalar w_dot;    ///< m/s
+  Scalar g_r_dot;  ///< rad/s
+  Scalar g_t_dot;  ///< rad/s
+};
+
+/// Generalised contact force: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
+template <class Scalar>
+struct RingForce {
+  Scalar F_w;  ///< N
+  Scalar F_r;  ///< N m
+  Scalar F_t;  ///< N m
+};
+
+/// State of one of the two pads of a pair.
+template <class Scalar>
+struct PadState {
+  Scalar z;           ///< height of the contact point on the pad axis, m
+  Scalar z_dot;       ///< velocity of the pad, m/s
+  Scalar N;           ///< normal force, N
+  Scalar slip_speed;  ///< |v_r|, m/s
+  Scalar S;           ///< force of the pad along its axis, N
+  Scalar f_r;         ///< in-plane force on the disc, radial, N
+  Scalar f_t;         ///< in-plane force on the disc, circumferential, N
+};
+
+/// Forces on the disc and the state of the two pads of a pair.
+template <class Scalar>
+struct ContactResult {
+  RingForce<Scalar> force;
+  PadState<Scalar> upper;
+  PadState<Scalar> lower;
+};
+
+inline double real_part(double x)
+{
+  return x;
+}
+inline double real_part(const std::complex<double>& x)
+{
+  return x.real();
+}
+
+/// g and S of the contact law: the sign of N in the friction force, and the pad force along the
+/// axis after the law has acted on `S`.
+template <class Scalar>
+struct AxialForce {
+  Scalar S;
+  double g;
+};
+
+template <class Scalar>
+AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
+{
+  const bool pulls = real_part(S) < 0.0;
+  if (law == ContactLaw::unilateral && pulls) return {Scalar(0.0), 1.0};
+  return {S, law == ContactLaw::bilateral && pulls ? -1.0 : 1.0};
+}
+
+/// The pad above (sigma = +1) or below (sigma = -1) a tangent plane that is rigidly extended from
+/// the middle surface; massless and laterally guided, so its vertical equilibrium gives the normal
+/// force.
+///   z = w + sigma h s / 2,   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
+///   S = N_0 + sigma (k (z - sigma h / 2) + d z'),   N = S / (1 / s + sigma g mu t_z)
+///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y),   t = v_r / |v_r|
+template <class Scalar>
+PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
+                           double sigma)
+{
+  using std::sqrt;
+  const Scalar s = sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  const Scalar lever = sigma * 0.5 * pad.thickness / s;
+  const Scalar v_x = -lever * m.g_r_dot;
+  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot;
+  const Scalar v_z = m.g_r * v_x + m.g_t * v_y;
+  const Scalar slip = sqrt(v_x * v_x + v_y * v_y + v_z * v_z);
+
+  const Scalar lift = m.w + sigma * 0.5 * pad.thickness * (s - 1.0);
+  const Scalar z_dot = m.w_dot - v_z;
+  const auto [S, g] = axial_force<Scalar>(
+      pad.law, pad.preload + sigma * (pad.stiffness * lift + pad.damping * z_dot));
+  const Scalar N = S / (1.0 / s + sigma * g * pad.friction * v_z / slip);
+  const Scalar friction_per_slip = pad.friction * g * N / slip;
+  return {lift + sigma * 0.5 * pad.thickness,
+          z_dot,
+          N,
+          slip,
+          S,
+          sigma * N * m.g_r / s - friction_per_slip * v_x,
+          sigma * N * m.g_t / s - friction_per_slip * v_y};
+}
+
+/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest.
+///   Q_i = (S_- - S_+) W_i + h / (2 s) ((f_r- - f_r+) W_r,i + (f_t- - f_t+) W_t,i)
+/// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
+template <class Scalar>
+ContactResult<Scalar> contact(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
+{
+  using std::sqrt;
+  const PadState<Scalar> up = pad_state(pad, m, speed, 1.0);
+  const PadState<Scalar> lo = pad_state(pad, m, speed, -1.0);
+  const Scalar lever = 0.5 * pad.thickness / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  return {{lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)}, up, lo};
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mbs_export/modal_body.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// What each mode does at one point of the contact ring.
+struct Shapes {
+  Eigen::VectorXd W;    ///< [n_modes] displacement along the axis, m per unit of q
+  Eigen::VectorXd W_r;  ///< [n_modes] radial slope, rad per unit of q
+  Eigen::VectorXd W_t;  ///< [n_modes] circumferential slope, rad per unit of q
+};
+
+/// A function of the ring angle for each mode, f_i(theta) = sum_k cosine_ki cos(k theta)
+/// + sine_ki sin(k theta): the trigonometric interpolation of values at n equally spaced nodes.
+struct Harmonics {
+  Eigen::MatrixXd cosine;  ///< [n/2 + 1 x n_modes]
+  Eigen::MatrixXd sine;    ///< [n/2 + 1 x n_modes]
+};
+
+/// The disc of a squeal study, in the frame that rotates with it:
+/// q'' + C q' + diag(omega^2) q = Q, with the mode shapes along one contact ring.
+struct Disc {
+  double radius;                  ///< of the contact ring, m
+  std::vector<int> mode_numbers;  ///< [n_modes] 1-based in the body
+  Eigen::VectorXd omega;          ///< [n_modes] rad/s
+  Eigen::MatrixXd C;              ///< [n_modes x n_modes] 1/s, zero when undamped
+  Harmonics W;                    ///< m per unit of q
+  Harmonics W_r;                  ///< rad per unit of q
+  Harmonics W_t;                  ///< rad per unit of q
+
+  Eigen::Index n_modes() const { return omega.size(); }
+};
+
+/// The disc of `body` that touches the pads at the ring called `ring`. With no choice or a choice
+/// by nodal diameters, modes that do not move the ring along the axis are left out: no pad sees
+/// them.
+/// @throws chladni::Error for an unknown ring, a mode number out of range or given twice, a number
+///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),
+///         and modes that do not move the ring.
+Disc make_disc(const mbs_export::ModalBody& body, const std::string& ring, const ModeChoice& modes);
+
+/// Shapes at the angle `theta` (rad) of the disc, exact for harmonics below half the ring nodes.
+Shapes shapes_at(const Disc& disc, double theta);
+
+/// Trigonometric interpolation of the columns of `values` [n x n_modes], which are given at the
+/// ascending, equally spaced `angles` [n] (rad).
+/// @throws chladni::Error when the angles are not equally spaced over the circle.
+Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& values);
+
+/// The dominant harmonic of each mode along the ring, i.e. its number of nodal diameters.
+std::vector<int> nodal_diameters(const Disc& disc);
+
+}  // namespace chladni::squeal

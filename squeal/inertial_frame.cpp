@@ -1,0 +1,252 @@
+#include "squeal/inertial_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <variant>
+
+#include "common/error.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Eigen::Matrix2d;
+using std::numbers::pi;
+
+/// Why a disc has no inertial frame, in words for the user.
+struct Complaint {
+  std::string text;
+};
+
+/// One mode (n = 0, j = i) or a pair.
+struct Group {
+  int n;
+  int i;
+  int j;
+};
+
+std::variant<std::vector<Group>, Complaint> group_modes(const Disc& disc)
+{
+  const std::vector<int> n = nodal_diameters(disc);
+  std::vector<Group> groups;
+  std::vector<char> taken(n.size(), 0);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    if (taken[i]) continue;
+    std::size_t j = i;
+    if (n[i] > 0) do
+        ++j;
+      while (j < n.size() && (taken[j] || n[j] != n[i]));
+    if (j == n.size())
+      return Complaint{fmt::format(
+          "mode {} ({:.1f} Hz) has {} nodal diameters, but no partner among the modes used",
+          disc.mode_numbers[i], disc.omega[static_cast<int>(i)] / (2.0 * pi), n[i])};
+    taken[i] = taken[j] = 1;
+    groups.push_back({n[i], static_cast<int>(i), static_cast<int>(j)});
+  }
+  return groups;
+}
+
+/// [cos(n theta), sin(n theta)] B = (f_i, f_j) for the harmonic n of two modes.
+Matrix2d harmonic_of_pair(const Harmonics& f, const Group& group)
+{
+  Matrix2d B;
+  B << f.cosine(group.n, group.i), f.cosine(group.n, group.j), f.sine(group.n, group.i),
+      f.sine(group.n, group.j);
+  return B;
+}
+
+/// What remains of a pair when the harmonic n is taken out, squared.
+double other_harmonics(const Harmonics& f, const Group& group)
+{
+  double sum = 0.0;
+  for (const int mode : {group.i, group.j})
+    sum += f.cosine.col(mode).squaredNorm() + f.sine.col(mode).squaredNorm();
+  return std::max(0.0, sum - harmonic_of_pair(f, group).squaredNorm());
+}
+
+/// A pair in its own coordinates (cos, sin): q = R a, amplitudes, and how pure it is.
+struct PurePair {
+  Matrix2d R;
+  double U;
+  double U_r;
+  double U_t;
+  double impurity;
+};
+
+/// B R = U I for a pure pair; R is the orthogonal polar factor of B, transposed. The shape with the
+/// larger motion gives it, in case a nodal circle lies on the ring.
+PurePair purify(const Disc& disc, const Group& group)
+{
+  const double r = disc.radius;
+  const Matrix2d B = harmonic_of_pair(disc.W, group), B_r = harmonic_of_pair(disc.W_r, group),
+                 B_t = harmonic_of_pair(disc.W_t, group);
+  const Eigen::JacobiSVD<Matrix2d> svd(B.norm() > 0.1 * r * B_r.norm() ? B : B_r,
+                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Matrix2d R = svd.matrixV() * svd.matrixU().transpose();
+  const Matrix2d turn{{0.0, 1.0}, {-1.0, 0.0}};  // (cos, sin) turn = (-sin, cos)
+  const double U = 0.5 * (B * R).trace(), U_r = 0.5 * (B_r * R).trace(),
+               U_t = 0.5 * (turn.transpose() * B_t * R).trace();
+
+  const Matrix2d I = Matrix2d::Identity();
+  const double rest =
+      (B * R - U * I).squaredNorm() + other_harmonics(disc.W, group) +
+      r * r * ((B_r * R - U_r * I).squaredNorm() + other_harmonics(disc.W_r, group)) +
+      r * r * ((B_t * R - U_t * turn).squaredNorm() + other_harmonics(disc.W_t, group));
+  const double whole = 2.0 * (U * U + r * r * (U_r * U_r + U_t * U_t));
+  return {R, U, U_r, U_t, std::sqrt(rest / whole)};
+}
+
+/// A mode without nodal diameters, as the first of a pair whose second does not exist.
+PurePair purify_single(const Disc& disc, const Group& group)
+{
+  const auto square = [&](const Harmonics& f) {
+    return f.cosine.col(group.i).squaredNorm() + f.sine.col(group.i).squaredNorm();
+  };
+  const double U = disc.W.cosine(0, group.i), U_r = disc.W_r.cosine(0, group.i);
+  const double r = disc.radius, whole = U * U + r * r * U_r * U_r;
+  const double rest = square(disc.W) + r * r * (square(disc.W_r) + square(disc.W_t)) - whole;
+  return {Matrix2d::Identity(), U, U_r, 0.0, std::sqrt(std::max(0.0, rest) / whole)};
+}
+
+InertialDisc empty_inertial_disc(const Disc& disc)
+{
+  const Eigen::Index n = disc.n_modes();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  const Eigen::MatrixXd Zero = Eigen::MatrixXd::Zero(n, n);
+  return {.radius = disc.radius,
+          .nodal_diameters = std::vector<int>(static_cast<std::size_t>(n), 0),
+          .omega = zero,
+          .C = Zero,
+          .D = Zero,
+          .R = Zero,
+          .U = zero,
+          .U_r = zero,
+          .U_t = zero,
+          .largest_split = 0.0,
+          .largest_impurity = 0.0};
+}
+
+/// Puts a group at the coordinates `at` (and `at` + 1) of the inertial disc.
+InertialDisc with_group(InertialDisc inertial, const Disc& disc, const Group& group, int at)
+{
+  const int size = group.n == 0 ? 1 : 2;
+  const PurePair pair = group.n == 0 ? purify_single(disc, group) : purify(disc, group);
+  const double omega = 0.5 * (disc.omega[group.i] + disc.omega[group.j]);
+  const int modes[] = {group.i, group.j};
+  for (int column = 0; column < size; ++column) {
+    for (int row = 0; row < size; ++row) inertial.R(modes[row], at + column) = pair.R(row, column);
+    inertial.nodal_diameters[static_cast<std::size_t>(at + column)] = group.n;
+  }
+  inertial.omega.segment(at, size).setConstant(omega);
+  inertial.U.segment(at, size).setConstant(pair.U);
+  inertial.U_r.segment(at, size).setConstant(pair.U_r);
+  inertial.U_t.segment(at, size).setConstant(pair.U_t);
+  if (size == 2) inertial.D.block<2, 2>(at, at) << 0.0, group.n, -group.n, 0.0;
+  inertial.largest_split =
+      std::max(inertial.largest_split, std::abs(disc.omega[group.i] - disc.omega[group.j]) / omega);
+  inertial.largest_impurity = std::max(inertial.largest_impurity, pair.impurity);
+  return inertial;
+}
+
+/// Mean over the circumference of exp(-phi D) C exp(phi D), exact with more than 2 n_max + 1
+/// angles.
+Eigen::MatrixXd averaged_damping(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+{
+  const int n_max =
+      *std::max_element(inertial.nodal_diameters.begin(), inertial.nodal_diameters.end());
+  const int n_angles = 2 * n_max + 2;
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(C.rows(), C.cols());
+  for (int k = 0; k < n_angles; ++k) {
+    const double angle = 2.0 * pi * k / n_angles;
+    Eigen::MatrixXd turn = C;
+    for (Eigen::Index i = 0; i < C.cols(); ++i) turn.col(i) = turned(inertial, C.col(i), angle);
+    const Eigen::MatrixXd half = turn.transpose();
+    for (Eigen::Index i = 0; i < C.cols(); ++i)
+      mean.row(i) += turned(inertial, half.col(i), angle).transpose() / n_angles;
+  }
+  return mean;
+}
+
+std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
+{
+  const auto groups = group_modes(disc);
+  if (const auto* complaint = std::get_if<Complaint>(&groups)) return *complaint;
+  InertialDisc inertial = empty_inertial_disc(disc);
+  int at = 0;
+  for (const Group& group : std::get<0>(groups)) {
+    inertial = with_group(std::move(inertial), disc, group, at);
+    at += group.n == 0 ? 1 : 2;
+  }
+  if (!(inertial.largest_impurity < kImpurityLimit))
+    return Complaint{
+        fmt::format("its mode shapes on the ring differ from pure harmonics by {:.2g} "
+                    "(allowed: {})",
+                    inertial.largest_impurity, kImpurityLimit)};
+  if (!(inertial.largest_split < kSplitLimit))
+    return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
+                                 inertial.largest_split, kSplitLimit)};
+  const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
+  inertial.C = averaged_damping(inertial, C);
+  const double deviation = (C - inertial.C).norm();
+  if (deviation > kImpurityLimit * C.norm())
+    return Complaint{
+        fmt::format("its damping changes around the circumference by {:.2g} "
+                    "(allowed: {})",
+                    deviation / C.norm(), kImpurityLimit)};
+  return inertial;
+}
+
+}  // namespace
+
+InertialDisc inertial_disc(const Disc& disc)
+{
+  auto outcome = try_inertial_disc(disc);
+  if (const auto* complaint = std::get_if<Complaint>(&outcome))
+    throw Error(
+        fmt::format("the disc is not axisymmetric: {}. Eigenvalues and critical speeds need "
+                    "an axisymmetric disc and both modes of each pair; a transient does not",
+                    complaint->text));
+  return std::get<InertialDisc>(std::move(outcome));
+}
+
+std::optional<InertialDisc> find_inertial_disc(const Disc& disc)
+{
+  auto outcome = try_inertial_disc(disc);
+  if (std::holds_alternative<Complaint>(outcome)) return std::nullopt;
+  return std::get<InertialDisc>(std::move(outcome));
+}
+
+Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, double angle)
+{
+  Eigen::VectorXd b = a;
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
+    if (n == 0) continue;
+    const double c = std::cos(n * angle), s = std::sin(n * angle);
+    b[i] = c * a[i] - s * a[i + 1];
+    b[i + 1] = s * a[i] + c * a[i + 1];
+    ++i;
+  }
+  return b;
+}
+
+Shapes shapes_at(const InertialDisc& disc, double theta)
+{
+  Shapes shapes{disc.U, disc.U_r, Eigen::VectorXd::Zero(disc.n_modes())};
+  for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
+    const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
+    if (n == 0) continue;
+    const Eigen::Vector2d along{std::cos(n * theta), std::sin(n * theta)};
+    shapes.W.segment<2>(i) = disc.U[i] * along;
+    shapes.W_r.segment<2>(i) = disc.U_r[i] * along;
+    shapes.W_t.segment<2>(i) = disc.U_t[i] * Eigen::Vector2d{-along[1], along[0]};
+    ++i;
+  }
+  return shapes;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace chladni::squeal {
+
+/// Modal coordinates and their rates.
+struct ModalState {
+  Eigen::VectorXd q;  ///< [n_modes]
+  Eigen::VectorXd v;  ///< [n_modes] q'
+};
+
+/// The exact flow of q'' + C q' + diag(omega^2) q = 0 over a fixed time.
+class OscillatorFlow {
+ public:
+  /// @param omega  [n_modes] rad/s
+  /// @param C      [n_modes x n_modes] 1/s
+  /// @param time   s
+  OscillatorFlow(const Eigen::VectorXd& omega, const Eigen::MatrixXd& C, double time);
+
+  void advance(ModalState& x) const;
+
+ private:
+  bool coupled_;
+  Eigen::MatrixXd flow_;              ///< coupled: exp of the whole system, [2 n x 2 n]
+  Eigen::ArrayXd qq_, qv_, vq_, vv_;  ///< uncoupled: its 2 x 2 blocks
+};
+
+}  // namespace chladni::squeal

@@ -1,0 +1,221 @@
+#include "squeal/result_file.hpp"
+
+#include <fmt/format.h>
+
+#include "mbs_export/hdf5.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using mbs_export::hdf5::Reader;
+using mbs_export::hdf5::Writer;
+
+constexpr const char* kFormat = "chladni-squeal";
+constexpr std::int64_t kVersion = 1;
+
+void write_optional(Writer& file, const std::string& name, const std::optional<double>& x,
+                    const std::string& unit)
+{
+  if (x) file.write(name, *x, unit);
+}
+
+std::optional<double> read_optional(const Reader& file, const std::string& name)
+{
+  return file.contains(name) ? std::optional(file.real(name)) : std::nullopt;
+}
+
+std::vector<double> read_series(const Reader& file, const std::string& name, Eigen::Index size = -1)
+{
+  const Eigen::VectorXd x = file.vector(name, size);
+  return {x.begin(), x.end()};
+}
+
+Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
+{
+  return re + std::complex<double>(0.0, 1.0) * im;
+}
+
+void write_eigenvalues(Writer& file, const EigenvalueMap& map)
+{
+  file.write("eigenvalues/speeds", map.speeds, "rad/s");
+  file.write("eigenvalues/lambda_re", map.lambda.real(), "1/s");
+  file.write("eigenvalues/lambda_im", map.lambda.imag(), "rad/s");
+}
+
+EigenvalueMap read_eigenvalues(const Reader& file)
+{
+  const Eigen::VectorXd speeds = file.vector("eigenvalues/speeds");
+  const Eigen::MatrixXd re = file.matrix("eigenvalues/lambda_re", {speeds.size()});
+  const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
+  return {speeds, complex_matrix(re, im)};
+}
+
+void write_critical_speed(Writer& file, const std::optional<CriticalSpeed>& critical)
+{
+  file.group("critical");
+  if (!critical) return;
+  file.write("critical/speed", critical->speed, "rad/s");
+  file.write("critical/frequency", critical->frequency_Hz, "Hz");
+}
+
+void write_envelope(Writer& file, const std::string& group, const Envelope& envelope)
+{
+  file.write(group + "/t", envelope.t, "s");
+  file.write(group + "/pad_velocity", envelope.pad_velocity, "m/s");
+  file.write(group + "/pad_displacement", envelope.pad_displacement, "m");
+}
+
+Envelope read_envelope(const Reader& file, const std::string& group)
+{
+  const std::vector<double> t = read_series(file, group + "/t");
+  const auto n = static_cast<Eigen::Index>(t.size());
+  return {t, read_series(file, group + "/pad_velocity", n),
+          read_series(file, group + "/pad_displacement", n)};
+}
+
+void write_history(Writer& file, const std::string& group, const History& history)
+{
+  file.write(group + "/t", history.t, "s");
+  file.write(group + "/pad_velocity", history.pad_velocity, "m/s");
+  file.write(group + "/pad_displacement", history.pad_displacement, "m");
+  file.write(group + "/N_up", history.N_up, "N");
+}
+
+History read_history(const Reader& file, const std::string& group)
+{
+  const std::vector<double> t = read_series(file, group + "/t");
+  const auto n = static_cast<Eigen::Index>(t.size());
+  return {t, read_series(file, group + "/pad_velocity", n),
+          read_series(file, group + "/pad_displacement", n), read_series(file, group + "/N_up", n)};
+}
+
+void write_growth(Writer& file, const std::string& group, const Growth& growth)
+{
+  file.write(group + "/speed", growth.speed, "rad/s");
+  file.write(group + "/rate", growth.rate, "1/s");
+  write_optional(file, group + "/eigenvalue_rate", growth.eigenvalue_rate, "1/s");
+  write_envelope(file, group + "/envelope", growth.envelope);
+}
+
+Growth read_growth(const Reader& file, const std::string& group)
+{
+  return {file.real(group + "/speed"), read_envelope(file, group + "/envelope"),
+          file.real(group + "/rate"), read_optional(file, group + "/eigenvalue_rate")};
+}
+
+void write_transient(Writer& file, const Transient& run)
+{
+  file.write("transient/speed", run.speed, "rad/s");
+  file.write("transient/step", run.step, "s");
+  file.write("transient/finished", std::int64_t{run.finished}, "1");
+  file.write("transient/N_min", run.N_min, "N");
+  file.write("transient/N_max", run.N_max, "N");
+  file.write("transient/slip_speed_min", run.slip_speed_min, "m/s");
+  write_optional(file, "transient/t_zero_force", run.t_zero_force, "s");
+  write_optional(file, "transient/growth_rate", run.growth_rate, "1/s");
+  write_envelope(file, "transient/envelope", run.envelope);
+  write_history(file, "transient/history", run.history);
+  write_history(file, "transient/tail", run.tail);
+}
+
+Transient read_transient(const Reader& file)
+{
+  return {.speed = file.real("transient/speed"),
+          .step = file.real("transient/step"),
+          .finished = file.integer("transient/finished") != 0,
+          .envelope = read_envelope(file, "transient/envelope"),
+          .history = read_history(file, "transient/history"),
+          .tail = read_history(file, "transient/tail"),
+          .tail_a = {},
+          .N_min = file.real("transient/N_min"),
+          .N_max = file.real("transient/N_max"),
+          .slip_speed_min = file.real("transient/slip_speed_min"),
+          .t_zero_force = read_optional(file, "transient/t_zero_force"),
+          .growth_rate = read_optional(file, "transient/growth_rate")};
+}
+
+void write_limit_cycle(Writer& file, const LimitCycle& cycle)
+{
+  file.write("limit_cycle/speed", cycle.speed, "rad/s");
+  file.write("limit_cycle/frequency", cycle.frequency_Hz, "Hz");
+  file.write("limit_cycle/pad_velocity", cycle.pad_velocity, "m/s");
+  file.write("limit_cycle/pad_displacement", cycle.pad_displacement, "m");
+  file.write("limit_cycle/N_min", cycle.N_min, "N");
+  file.write("limit_cycle/N_max", cycle.N_max, "N");
+  file.write("limit_cycle/drift", cycle.drift, "1");
+  file.write("limit_cycle/settled", std::int64_t{cycle.settled}, "1");
+  write_optional(file, "limit_cycle/t_zero_force", cycle.t_zero_force, "s");
+  file.write("limit_cycle/t_99", cycle.t_99, "s");
+  file.write("limit_cycle/mode_numbers", std::span<const int>(cycle.mode_numbers), "1");
+  file.write("limit_cycle/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
+  file.write("limit_cycle/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
+}
+
+LimitCycle read_limit_cycle(const Reader& file)
+{
+  const auto numbers = file.integers("limit_cycle/mode_numbers");
+  const Eigen::VectorXd re = file.vector("limit_cycle/amplitude_re");
+  const Eigen::VectorXd im = file.vector("limit_cycle/amplitude_im", re.size());
+  if (re.size() != 0 && re.size() != static_cast<Eigen::Index>(numbers.size()))
+    file.fail("limit_cycle/amplitude_re", "it must have one value for each mode");
+  return {.speed = file.real("limit_cycle/speed"),
+          .frequency_Hz = file.real("limit_cycle/frequency"),
+          .pad_velocity = file.real("limit_cycle/pad_velocity"),
+          .pad_displacement = file.real("limit_cycle/pad_displacement"),
+          .N_min = file.real("limit_cycle/N_min"),
+          .N_max = file.real("limit_cycle/N_max"),
+          .drift = file.real("limit_cycle/drift"),
+          .settled = file.integer("limit_cycle/settled") != 0,
+          .t_zero_force = read_optional(file, "limit_cycle/t_zero_force"),
+          .t_99 = file.real("limit_cycle/t_99"),
+          .mode_numbers = {numbers.begin(), numbers.end()},
+          .amplitude = complex_matrix(re, im)};
+}
+
+void write_provenance(Writer& file, const mbs_export::Provenance& provenance)
+{
+  file.write("provenance/scene", provenance.scene);
+  file.write("provenance/mesh_checksum", provenance.mesh_checksum);
+  file.write("provenance/versions", provenance.versions);
+  file.write("provenance/options", provenance.options);
+  file.write("provenance/ranks", std::int64_t{provenance.ranks}, "1");
+}
+
+}  // namespace
+
+void write_results(const std::filesystem::path& path, const SquealResults& results,
+                   const mbs_export::Provenance& provenance)
+{
+  Writer file(path.string());
+  file.attribute("/", "format", kFormat);
+  file.attribute("/", "version", kVersion);
+  write_provenance(file, provenance);
+  write_optional(file, "largest_split", results.largest_split, "1");
+  if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
+  if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
+  for (std::size_t i = 0; i < results.growth.size(); ++i)
+    write_growth(file, fmt::format("growth/{}", i + 1), results.growth[i]);
+  if (results.transient) write_transient(file, *results.transient);
+  if (results.limit_cycle) write_limit_cycle(file, *results.limit_cycle);
+  file.commit();
+}
+
+SquealResults read_results(const std::filesystem::path& path)
+{
+  const Reader file(path.string());
+  file.expect_format(kFormat, kVersion);
+  SquealResults results;
+  results.largest_split = read_optional(file, "largest_split");
+  if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);
+  results.searched_critical_speed = file.contains("critical");
+  if (file.contains("critical/speed"))
+    results.critical_speed =
+        CriticalSpeed{file.real("critical/speed"), file.real("critical/frequency")};
+  for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)
+    results.growth.push_back(read_growth(file, fmt::format("growth/{}", i)));
+  if (file.contains("transient")) results.transient = read_transient(file);
+  if (file.contains("limit_cycle")) results.limit_cycle = read_limit_cycle(file);
+  return results;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// Eigenvalues with Im >= 0 of the sliding disc, each column followed over the speed.
+struct EigenvalueMap {
+  Eigen::VectorXd speeds;   ///< [m] rad/s
+  Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
+};
+
+/// The speed at which the sliding disc loses its stability.
+struct CriticalSpeed {
+  double speed;         ///< rad/s
+  double frequency_Hz;  ///< of the undamped oscillation there
+};
+
+/// Largest motion of the first upper pad within successive windows of time.
+struct Envelope {
+  std::vector<double> t;                 ///< s, when the velocity was largest
+  std::vector<double> pad_velocity;      ///< m/s
+  std::vector<double> pad_displacement;  ///< m
+};
+
+/// Samples of the first pad pair.
+struct History {
+  std::vector<double> t;                 ///< s
+  std::vector<double> pad_velocity;      ///< of the upper pad, m/s
+  std::vector<double> pad_displacement;  ///< of the upper pad from its position at rest, m
+  std::vector<double> N_up;              ///< normal force on the upper pad, N
+};
+
+/// A transient in the rotating frame.
+struct Transient {
+  double speed;   ///< rad/s
+  double step;    ///< s
+  bool finished;  ///< false: the motion diverged and the run ended early
+  Envelope envelope;
+  History history;         ///< the whole run, decimated
+  History tail;            ///< the end of the run, every step
+  Eigen::MatrixXd tail_a;  ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
+  double N_min;            ///< over all pads, N
+  double N_max;            ///< over all pads, N
+  double slip_speed_min;   ///< over all pads, m/s
+  std::optional<double> t_zero_force;  ///< when a normal force first reaches zero, s
+  std::optional<double> growth_rate;   ///< of the linear phase, 1/s, when there is one
+};
+
+/// Growth of a small disturbance at one speed, from a simulation and from the eigenvalues.
+struct Growth {
+  double speed;  ///< rad/s
+  Envelope envelope;
+  double rate;                            ///< least squares of ln(envelope), 1/s
+  std::optional<double> eigenvalue_rate;  ///< largest Re lambda, 1/s; absent if not axisymmetric
+};
+
+/// The periodic motion at the end of a transient.
+struct LimitCycle {
+  double speed;             ///< rad/s
+  double frequency_Hz;      ///< in the inertial frame
+  double pad_velocity;      ///< amplitude of the first upper pad, m/s
+  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double N_min;             ///< smallest normal force on the first upper pad, N
+  double N_max;             ///< largest normal force on the first upper pad, N
+  double drift;             ///< relative change of the envelope over the last tenth of the run
+  bool settled;             ///< drift below kSettledDrift
+  std::optional<double> t_zero_force;  ///< when a normal force first reached zero, s
+  double t_99;                         ///< when the envelope first reached 99 % of its end, s
+  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
+  /// [n_modes] complex amplitude of the fundamental: displacement at the inertial angle phi and
+  /// time t is Re(exp(i omega t) sum_i amplitude_i shape_i(phi)), with the shapes of the body's
+  /// modes. Empty when the disc is not axisymmetric.
+  Eigen::VectorXcd amplitude;
+};
+
+/// Everything that a study may yield; what was not asked for is absent.
+struct SquealResults {
+  /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
+  /// computed without; absent when the disc is not axisymmetric. 1e-4 of split changes the growth
+  /// rate of the reference disc by 1e-4 of it, 1e-3 by 1e-2.
+  std::optional<double> largest_split;
+  std::optional<EigenvalueMap> eigenvalues;
+  bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
+  std::optional<CriticalSpeed> critical_speed;
+  std::vector<Growth> growth;
+  std::optional<Transient> transient;
+  std::optional<LimitCycle> limit_cycle;
+};
+
+}  // namespace chladni::squeal

@@ -1,0 +1,59 @@
+#include "squeal/run.hpp"
+
+#include <algorithm>
+
+#include "squeal/inertial_frame.hpp"
+#include "squeal/limit_cycle.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/transient.hpp"
+#include "squeal/validate.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& options,
+                                       const Progress& progress)
+{
+  const GrowthCase& runs = *options.growth;
+  std::vector<Growth> results;
+  for (const double speed : runs.speeds) {
+    progress(double(results.size()) / double(runs.speeds.size()));
+    results.push_back(growth(disc, options, speed, runs.duration));
+  }
+  return results;
+}
+
+}  // namespace
+
+SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgress& progress)
+{
+  validate(options);
+  const auto asked = [&](const char* analysis) {
+    return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
+           options.analyses.end();
+  };
+  const auto progress_of = [&](const std::string& analysis) -> Progress {
+    return [&progress, analysis](double fraction) {
+      if (progress) progress(analysis, fraction);
+    };
+  };
+  SquealResults results;
+  if (const auto inertial = find_inertial_disc(disc))
+    results.largest_split = inertial->largest_split;
+  if (asked("eigenvalues")) {
+    progress_of("eigenvalues")(0.0);
+    results.eigenvalues = eigenvalues(inertial_disc(disc), options);
+  }
+  if (asked("critical-speed")) {
+    progress_of("critical-speed")(0.0);
+    results.critical_speed = critical_speed(inertial_disc(disc), options);
+    results.searched_critical_speed = true;
+  }
+  if (asked("growth")) results.growth = growth_over_speeds(disc, options, progress_of("growth"));
+  if (asked("transient") || asked("limit-cycle"))
+    results.transient = transient(disc, options, *options.transient, progress_of("transient"));
+  if (asked("limit-cycle")) results.limit_cycle = limit_cycle(disc, *results.transient);
+  return results;
+}
+
+}  // namespace chladni::squeal

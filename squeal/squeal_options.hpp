@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// What happens when the disc pulls away from a pad.
+enum class ContactLaw {
+  bilateral,    ///< the pad also pulls; |N| in the friction law (the thesis)
+  unilateral,   ///< contact is lost
+  signed_force  ///< the pad also pulls; friction changes sign with N
+};
+
+/// One pad pair: an upper and a lower massless pad on one vertical axis.
+struct PadPair {
+  double angle;      ///< inertial angle of the axis, rad
+  double stiffness;  ///< of each pad spring, N/m
+  double damping;    ///< N s/m
+  double preload;    ///< N_0 of each pad, N
+};
+
+/// Rotation speeds, rad/s, equally spaced.
+struct SpeedRange {
+  double from;
+  double to;
+  int count;
+};
+
+/// Which modes of the body take part: exactly one member is set; none means all.
+struct ModeChoice {
+  std::optional<int> nodal_diameters;    ///< the lowest pair with so many nodal diameters
+  std::optional<std::vector<int>> list;  ///< 1-based mode numbers of the body
+};
+
+/// A transient from a small initial displacement of the pads at rest in the inertial frame.
+struct TransientCase {
+  double speed;                     ///< rad/s
+  double duration;                  ///< s
+  double initial_pad_displacement;  ///< m
+  int steps_per_period = 40;        ///< of the highest frequency among the modes used
+};
+
+/// Growth of the pad velocity over a short transient at each of several speeds.
+struct GrowthCase {
+  std::vector<double> speeds;  ///< rad/s
+  double duration;             ///< s
+};
+
+/// The scene's [squeal].
+struct SquealOptions {
+  std::string ring;
+  double thickness;  ///< distance h of the two contact planes, m
+  ModeChoice modes;
+  SpeedRange speeds;
+  double friction;  ///< Coulomb coefficient mu
+  ContactLaw contact = ContactLaw::unilateral;
+  std::vector<PadPair> pads;
+  std::vector<std::string>
+      analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient", "limit-cycle"
+  std::optional<TransientCase> transient;
+  std::optional<GrowthCase> growth;
+};
+
+}  // namespace chladni::squeal

@@ -1,0 +1,148 @@
+#include "squeal/stability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "common/error.hpp"
+#include "squeal/pads.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// One eigenvalue for each mode, largest Im first: of an oscillating pair the one with Im > 0, of
+/// an overdamped pair the less damped one.
+Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
+{
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, /*computeEigenvectors=*/false);
+  if (solver.info() != Eigen::Success)
+    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
+  const Eigen::VectorXcd lambda = solver.eigenvalues();
+  std::vector<Complex> sorted(lambda.begin(), lambda.end());
+  std::sort(sorted.begin(), sorted.end(), [](const Complex& x, const Complex& y) {
+    return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();
+  });
+  return Eigen::Map<const Eigen::VectorXcd>(sorted.data(), lambda.size() / 2);
+}
+
+/// The values in the order of `expected`: closest pairs of both first.
+Eigen::VectorXcd matched(const Eigen::VectorXcd& values, const Eigen::VectorXcd& expected)
+{
+  Eigen::MatrixXd distance(values.size(), values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    distance.row(i) = (expected.array() - values[i]).abs().transpose();
+  Eigen::VectorXcd ordered(values.size());
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    Eigen::Index i = 0, j = 0;
+    distance.minCoeff(&i, &j);
+    ordered[j] = values[i];
+    distance.row(i).setConstant(std::numeric_limits<double>::infinity());
+    distance.col(j).setConstant(std::numeric_limits<double>::infinity());
+  }
+  return ordered;
+}
+
+Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
+{
+  return Eigen::VectorXd::LinSpaced(count, range.from, range.to);
+}
+
+/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
+constexpr double kRounding = 1e-12;
+
+/// Root of a continuous function between `low` (negative) and `high` (positive): regula falsi with
+/// the Illinois rule, which halves the value at an end that stays twice.
+template <class Function>
+double root(const Function& f, double low, double high)
+{
+  double f_low = f(low), f_high = f(high), last = low;
+  int stay = 0;  // > 0: `high` stayed, < 0: `low` stayed
+  for (int i = 0; i < 100; ++i) {
+    const double x = (low * f_high - high * f_low) / (f_high - f_low);
+    const double f_x = f(x);
+    if (f_x == 0.0 || std::abs(x - last) <= 1e-14 * x) return x;
+    last = x;
+    if (f_x < 0.0) {
+      low = x;
+      f_low = f_x;
+      stay = std::max(stay, 0) + 1;
+      if (stay > 1) f_high *= 0.5;
+    } else {
+      high = x;
+      f_high = f_x;
+      stay = std::min(stay, 0) - 1;
+      if (stay < -1) f_low *= 0.5;
+    }
+  }
+  return last;
+}
+
+}  // namespace
+
+Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed)
+{
+  const Eigen::Index n = disc.n_modes();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = disc.C;
+  for (const PadPair& pad : options.pads) {
+    const ContactDerivatives d = contact_derivatives(pad_contact(options, pad, disc.radius), speed);
+    const Shapes shapes = shapes_at(disc, pad.angle);
+    Eigen::MatrixX3d S(n, 3);
+    S << shapes.W, shapes.W_r, shapes.W_t;
+    K -= S * d.D_a * S.transpose();
+    C -= S * d.D_p * S.transpose();
+  }
+  const Eigen::MatrixXd omega = disc.omega.asDiagonal();
+  const Eigen::MatrixXd by_omega = disc.omega.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd A(2 * n, 2 * n);
+  A << -speed * disc.D, omega, -omega - K * by_omega, -speed * disc.D - C;
+  return A;
+}
+
+Complex least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
+                                double speed)
+{
+  const Eigen::VectorXcd lambda = oscillating_eigenvalues(state_matrix(disc, options, speed));
+  Eigen::Index worst = 0;
+  lambda.real().maxCoeff(&worst);
+  return lambda[worst];
+}
+
+EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options)
+{
+  const Eigen::VectorXd speeds = speeds_of(options.speeds, options.speeds.count);
+  Eigen::MatrixXcd lambda(speeds.size(), disc.n_modes());
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) {
+    const Eigen::VectorXcd now = oscillating_eigenvalues(state_matrix(disc, options, speeds[i]));
+    if (i == 0) {
+      lambda.row(i) = now.reverse().transpose();
+      continue;
+    }
+    const Eigen::VectorXcd before = lambda.row(std::max<Eigen::Index>(i - 2, 0)).transpose();
+    const Eigen::VectorXcd last = lambda.row(i - 1).transpose();
+    lambda.row(i) = matched(now, 2.0 * last - before).transpose();
+  }
+  return {speeds, lambda};
+}
+
+std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)
+{
+  const auto worst = [&](double speed) { return least_stable_eigenvalue(disc, options, speed); };
+  const Eigen::VectorXd speeds = speeds_of(options.speeds, std::max(128, options.speeds.count));
+  std::optional<double> last_stable;
+  for (const double speed : speeds) {
+    const Complex now = worst(speed);
+    const bool decided = std::abs(now.real()) > kRounding * std::abs(now);
+    if (decided && now.real() < 0.0) last_stable = speed;
+    if (!decided || now.real() < 0.0 || !last_stable) continue;
+    const double critical = root([&](double x) { return worst(x).real(); }, *last_stable, speed);
+    return CriticalSpeed{critical, worst(critical).imag() / (2.0 * std::numbers::pi)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace chladni::squeal

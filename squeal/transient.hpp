@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+
+#include "squeal/disc.hpp"
+#include "squeal/results.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// Called now and then with the fraction done, 0 to 1.
+using Progress = std::function<void(double)>;
+
+/// The motion after a small displacement of the first pads, at rest in the inertial frame.
+/// Strang splitting in the rotating frame: exact flow of the damped modes over half a step, contact
+/// kick by the explicit midpoint rule, exact flow over half a step. Second order; without contact
+/// it is exact. An axisymmetric disc starts in its first pair of modes with a_cos = a_sin, the
+/// crest of the cosine mode under the first pad; any other disc starts with the smallest modal
+/// displacement that moves the first pad so far, at rest in the disc.
+/// @throws chladni::Error for a speed of zero, a duration or an initial displacement that is not
+///         positive, and too few steps for the highest mode.
+Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
+                    const Progress& progress = {});
+
+/// Growth of a small disturbance at `speed` (rad/s) over `duration` (s), far below contact loss.
+Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration);
+
+}  // namespace chladni::squeal

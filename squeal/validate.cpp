@@ -1,0 +1,111 @@
+#include "squeal/validate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "common/error.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+constexpr std::array<std::string_view, 5> kAnalyses{"eigenvalues", "critical-speed", "growth",
+                                                    "transient", "limit-cycle"};
+
+bool asks_for(const SquealOptions& options, std::string_view analysis)
+{
+  return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
+         options.analyses.end();
+}
+
+void require_positive(double x, const std::string& key)
+{
+  if (!(x > 0.0) || !std::isfinite(x))
+    throw Error(fmt::format("[squeal] {} = {}; it must be a number > 0", key, x));
+}
+
+void require_not_negative(double x, const std::string& key)
+{
+  if (!(x >= 0.0) || !std::isfinite(x))
+    throw Error(fmt::format("[squeal] {} = {}; it must be a number >= 0", key, x));
+}
+
+void validate_pads(const SquealOptions& options)
+{
+  if (options.pads.empty()) throw Error("[squeal] pads: there is none; give at least one pad pair");
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
+    const PadPair& pad = options.pads[i];
+    if (!std::isfinite(pad.angle))
+      throw Error(fmt::format("[squeal] pads[{}].angle_deg is not a number", i));
+    require_positive(pad.stiffness, fmt::format("pads[{}].stiffness", i));
+    require_not_negative(pad.damping, fmt::format("pads[{}].damping", i));
+    require_positive(pad.preload, fmt::format("pads[{}].preload", i));
+  }
+}
+
+void validate_modes(const ModeChoice& modes)
+{
+  if (modes.nodal_diameters && modes.list)
+    throw Error("[squeal] use_modes: either nodal diameters or a list, not both");
+  if (modes.nodal_diameters && *modes.nodal_diameters < 0)
+    throw Error(fmt::format("[squeal] use_modes: {} nodal diameters; it must be 0 or more",
+                            *modes.nodal_diameters));
+}
+
+void validate_speeds(const SpeedRange& speeds)
+{
+  require_positive(speeds.from, "speeds.from_rad_s");
+  require_positive(speeds.to, "speeds.to_rad_s");
+  if (speeds.to < speeds.from)
+    throw Error(fmt::format("[squeal] speeds: to_rad_s = {} is below from_rad_s = {}", speeds.to,
+                            speeds.from));
+  if (speeds.count < 1)
+    throw Error(fmt::format("[squeal] speeds.count = {}; it must be 1 or more", speeds.count));
+}
+
+void validate_transient(const SquealOptions& options)
+{
+  if (!options.transient)
+    throw Error("[squeal] analyses: \"transient\" and \"limit-cycle\" need `transient = { ... }`");
+  require_positive(options.transient->speed, "transient.speed_rad_s");
+  require_positive(options.transient->duration, "transient.duration_s");
+  require_positive(options.transient->initial_pad_displacement,
+                   "transient.initial_pad_displacement");
+  if (options.transient->steps_per_period < 8)
+    throw Error(fmt::format("[squeal] transient.steps_per_period = {}; it must be 8 or more",
+                            options.transient->steps_per_period));
+}
+
+void validate_growth(const SquealOptions& options)
+{
+  if (!options.growth || options.growth->speeds.empty())
+    throw Error("[squeal] analyses: \"growth\" needs `growth = { speeds_rad_s = [...], ... }`");
+  for (const double speed : options.growth->speeds) require_positive(speed, "growth.speeds_rad_s");
+  require_positive(options.growth->duration, "growth.duration_s");
+}
+
+}  // namespace
+
+void validate(const SquealOptions& options)
+{
+  require_positive(options.thickness, "thickness");
+  require_not_negative(options.friction, "friction");
+  validate_modes(options.modes);
+  validate_pads(options);
+  for (const std::string& analysis : options.analyses)
+    if (std::find(kAnalyses.begin(), kAnalyses.end(), analysis) == kAnalyses.end())
+      throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
+                              fmt::join(kAnalyses, ", ")));
+  if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed"))
+    validate_speeds(options.speeds);
+  if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))
+    validate_transient(options);
+  if (asks_for(options, "growth")) validate_growth(options);
+}
+
+}  // namespace chladni::squeal

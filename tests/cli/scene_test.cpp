@@ -1,0 +1,357 @@
+#include "cli/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+#include <regex>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace chladni::cli {
+namespace {
+
+/// The thesis disc, short; the numbers of its lines stand in the tests below.
+const std::string disc = R"(title = "Disc"
+[mesh]
+generator = "annulus"
+inner_radius = 0.025
+outer_radius = 0.162
+element_order = 3
+element_size = 0.0078
+rings = [{ name = "track", radius = 0.13, nodes = 60 }]
+[material.iron]
+young = 9e10
+poisson = 0.3
+density = 6300.0
+[[section]]
+group = "disc"
+type = "shell"
+material = "iron"
+thickness = 0.02
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = "inner_edge"
+[interface]
+nodes = ["track", "hub"]
+[reduce]
+method = "craig-bampton"
+modes = 100
+[body]
+fixed = ["hub"]
+keep = { modes = 40 }
+interface_modes = [{ kind = "frm", at = "track", dofs = ["z"], omega0 = "auto" }]
+damping = { type = "none" }
+[squeal]
+ring = "track"
+thickness = 0.03
+use_modes = "nodal-diameters 3"
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 60 }
+friction = 0.6
+contact = "bilateral"
+pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0 }]
+analyses = ["eigenvalues", "growth", "transient"]
+transient = { speed_rad_s = 19.0, duration_s = 6.0, initial_pad_displacement = 7e-8 }
+growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }
+)";
+
+std::string replaced(const std::string& text, const std::string& old_part,
+                     const std::string& new_part)
+{
+  const std::size_t at = text.find(old_part);
+  if (at == std::string::npos) throw Error("the test replaces what is not there: " + old_part);
+  return text.substr(0, at) + new_part + text.substr(at + old_part.size());
+}
+
+std::string error_of(const std::string& text)
+{
+  try {
+    parse_scene(text, "scene.toml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A change of the disc and the whole message that it must give.
+struct Mistake {
+  std::string old_part;
+  std::string new_part;
+  std::string message;
+};
+
+void expect_messages(const std::vector<Mistake>& mistakes)
+{
+  for (const Mistake& mistake : mistakes) {
+    EXPECT_EQ(error_of(replaced(disc, mistake.old_part, mistake.new_part)), mistake.message)
+        << mistake.new_part;
+  }
+}
+
+TEST(Scene, HoldsTheMeshAndItsSections)
+{
+  const Scene scene = parse_scene(disc, "folder/scene.toml");
+  ASSERT_TRUE(scene.mesh.annulus);
+  EXPECT_EQ(scene.name, "disc");
+  EXPECT_EQ(scene.title, "Disc");
+  EXPECT_EQ(scene.text, disc);
+  EXPECT_EQ(scene.mesh.annulus->inner_radius, 0.025);
+  EXPECT_EQ(scene.mesh.annulus->outer_radius, 0.162);
+  EXPECT_EQ(scene.mesh.annulus->element_size, 0.0078);
+  EXPECT_EQ(scene.mesh.annulus->element_order, 3);
+  ASSERT_EQ(scene.mesh.annulus->rings.size(), 1u);
+  EXPECT_EQ(scene.mesh.annulus->rings[0].radius, 0.13);
+  EXPECT_EQ(scene.mesh.annulus->rings[0].nodes, 60);
+  ASSERT_EQ(scene.sections.size(), 1u);
+  EXPECT_EQ(scene.sections[0].material.young, 9e10);
+  EXPECT_EQ(scene.sections[0].material.poisson, 0.3);
+  EXPECT_EQ(scene.sections[0].material.density, 6300.0);
+  EXPECT_EQ(scene.sections[0].thickness, 0.02);
+  ASSERT_EQ(scene.couplings.size(), 1u);
+  EXPECT_EQ(scene.couplings[0].group, "inner_edge");
+}
+
+TEST(Scene, HoldsTheReductionAndTheBody)
+{
+  const Scene scene = parse_scene(disc, "scene.toml");
+  EXPECT_EQ(scene.interface_nodes, (std::vector<std::string>{"track", "hub"}));
+  EXPECT_EQ(scene.pictures, PictureChoice::vertices);
+  EXPECT_EQ(scene.reduce.modes, 100);
+  EXPECT_FALSE(scene.reduce.cutoff_Hz);
+  EXPECT_EQ(scene.body.keep.count, 40);
+  ASSERT_EQ(scene.body.interface_modes.size(), 1u);
+  EXPECT_EQ(scene.body.interface_modes[0].components, std::vector<int>{2});
+  EXPECT_FALSE(scene.body.interface_modes[0].omega0);
+  EXPECT_EQ(scene.body.damping.type, mbs_export::Damping::Type::none);
+}
+
+TEST(Scene, HoldsTheSquealStudyInRadians)
+{
+  const Scene scene = parse_scene(disc, "scene.toml");
+  ASSERT_TRUE(scene.squeal);
+  EXPECT_EQ(scene.squeal->thickness, 0.03);
+  EXPECT_EQ(scene.squeal->modes.nodal_diameters, 3);
+  EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
+  ASSERT_EQ(scene.squeal->pads.size(), 1u);
+  EXPECT_DOUBLE_EQ(scene.squeal->pads[0].angle, std::numbers::pi / 2.0);
+  ASSERT_TRUE(scene.squeal->growth);
+  EXPECT_EQ(scene.squeal->growth->speeds, (std::vector<double>{12.0, 13.0}));
+  ASSERT_TRUE(scene.squeal->transient);
+  EXPECT_EQ(scene.squeal->transient->steps_per_period, 40);
+}
+
+TEST(Scene, TakesValuesInsteadOfDefaults)
+{
+  std::string text = replaced(disc, "title = \"Disc\"", "name = \"rotor_1\"");
+  text = replaced(text, "modes = 100", "cutoff_Hz = 16e3\npictures = \"none\"");
+  text = replaced(text, "{ modes = 40 }", "{ list = [7, 8] }");
+  text = replaced(text, "{ type = \"none\" }", "{ type = \"modal\", ratio = 0.001 }");
+  text = replaced(text, "\"nodal-diameters 3\"", "[1, 2]");
+  text = replaced(text, "7e-8 }", "7e-8, steps_per_period = 80 }");
+  text = replaced(text, "contact = \"bilateral\"\n", "");
+  const Scene scene = parse_scene(text, "scene.toml");
+  EXPECT_EQ(scene.name, "rotor_1");
+  EXPECT_EQ(scene.title, "rotor_1");
+  EXPECT_EQ(scene.reduce.cutoff_Hz, 16e3);
+  EXPECT_FALSE(scene.reduce.modes);
+  EXPECT_EQ(scene.pictures, PictureChoice::none);
+  EXPECT_EQ(scene.body.keep.list, (std::vector<int>{7, 8}));
+  EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
+  EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));
+  EXPECT_EQ(scene.squeal->transient->steps_per_period, 80);
+  EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
+}
+
+TEST(Scene, NeedsNeitherBodyNorSqueal)
+{
+  const Scene scene = parse_scene(disc.substr(0, disc.find("[body]")), "scene.toml");
+  EXPECT_TRUE(scene.body.fixed.empty());
+  EXPECT_FALSE(scene.body.keep.count);
+  EXPECT_FALSE(scene.squeal);
+}
+
+TEST(Scene, FindsAMeshFileInItsOwnFolder)
+{
+  const std::size_t begin = disc.find("generator");
+  const std::string generator = disc.substr(begin, disc.find("rings") - begin);
+  const std::string text = replaced(disc, generator, "file = \"../mesh/disc.msh\"\n");
+  const Scene scene = parse_scene(text, "cases/a/scene.toml");
+  EXPECT_EQ(scene.mesh.file, "cases/mesh/disc.msh");
+  EXPECT_FALSE(scene.mesh.annulus);
+  EXPECT_EQ(scene.mesh.rings.size(), 1u);
+}
+
+TEST(Scene, OfTheExampleIsReadable)
+{
+  const Scene scene = read_scene(CHLADNI_SOURCE_DIR "/examples/thesis_disc/scene.toml");
+  ASSERT_TRUE(scene.squeal && scene.squeal->transient && scene.squeal->growth);
+  // Written with nine digits in the file.
+  EXPECT_NEAR(scene.squeal->transient->speed, 6.0 * std::numbers::pi, 1e-7);
+  EXPECT_NEAR(scene.squeal->growth->speeds.front(), 3.8 * std::numbers::pi, 1e-7);
+  EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
+}
+
+TEST(SceneError, NamesPlaceAndRangeOfANumber)
+{
+  expect_messages({
+      {"thickness = 0.02", "thickness = -0.02",
+       "scene.toml:17: section.thickness = -0.02: must be > 0 (m)"},
+      {"poisson = 0.3", "poisson = 0.5",
+       "scene.toml:11: material.iron.poisson = 0.5: must be > -1 and < 0.5"},
+      {"density = 6300.0", "density = nan",
+       "scene.toml:12: material.iron.density = nan: must be > 0 (kg/m^3)"},
+      {"young = 9e10", "young = 0", "scene.toml:10: material.iron.young = 0: must be > 0 (Pa)"},
+      {"outer_radius = 0.162", "outer_radius = 0.02",
+       "scene.toml:5: mesh.outer_radius = 0.02: must be > 0.025 (m, the inner radius)"},
+      {"radius = 0.13", "radius = 0.2",
+       "scene.toml:8: mesh.rings.radius = 0.2: must be > 0.025 and < 0.162 "
+       "(m, between the edges of the annulus)"},
+      {"nodes = 60", "nodes = 2", "scene.toml:8: mesh.rings.nodes = 2: must be >= 3"},
+      {"friction = 0.6", "friction = -0.1", "scene.toml:37: squeal.friction = -0.1: must be >= 0"},
+      {"from_rad_s = 3.0", "from_rad_s = 0.0",
+       "scene.toml:36: squeal.speeds.from_rad_s = 0: must be > 0 (rad/s)"},
+      {"count = 60", "count = 0", "scene.toml:36: squeal.speeds.count = 0: must be >= 2"},
+      {"angle_deg = 90.0", "angle_deg = inf",
+       "scene.toml:39: squeal.pads.angle_deg = inf: must be finite (degrees)"},
+      {"[12.0, 13.0]", "[12.0, -1.0]",
+       "scene.toml:42: squeal.growth.speeds_rad_s[2] = -1: must be > 0 (rad/s)"},
+      {"modes = 100", "modes = 3000000000",
+       "scene.toml:26: reduce.modes = 3000000000: is too large"},
+  });
+}
+
+TEST(SceneError, NamesPlaceAndTypeOfAValue)
+{
+  expect_messages({
+      {"thickness = 0.02", "thickness = \"0.02\"",
+       "scene.toml:17: section.thickness = \"0.02\": must be a number > 0 (m)"},
+      {"modes = 100", "modes = 1e2",
+       "scene.toml:26: reduce.modes = 100: must be a whole number > 0"},
+      {"title = \"Disc\"", "title = 3", "scene.toml:1: title = 3: must be a text in quotes"},
+      {"nodes = [\"track\", \"hub\"]", "nodes = \"track\"",
+       "scene.toml:23: interface.nodes = \"track\": must be a list of texts in quotes in [ ]"},
+      {"keep = { modes = 40 }", "keep = 40", "scene.toml:29: body.keep = 40: must be a table"},
+      {"use_modes = \"nodal-diameters 3\"", "use_modes = \"nodal-diameters three\"",
+       "scene.toml:35: squeal.use_modes = \"nodal-diameters three\": must be \"all\", "
+       "\"nodal-diameters N\" with N >= 1, or a list of mode numbers"},
+  });
+}
+
+TEST(SceneError, NamesWhatIsMissing)
+{
+  expect_messages({
+      {"young = 9e10\n", "",
+       "scene.toml:9: material.iron.young is missing: must be a number > 0 (Pa)"},
+      {"modes = 100\n", "", "scene.toml:24: reduce: give exactly one of modes, cutoff_Hz"},
+      {"generator = \"annulus\"\n", "", "scene.toml:2: mesh: give exactly one of generator, file"},
+      {"growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }\n", "",
+       "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'growth', 'transient' ]: "
+       "\"growth\" needs the key growth"},
+  });
+  EXPECT_EQ(error_of("title = \"nothing\"\n"), "scene.toml: mesh is missing: must be a table");
+}
+
+TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
+{
+  expect_messages({
+      {"element_size", "elment_size",
+       "scene.toml:7: mesh.elment_size is not a key here; did you mean element_size?"},
+      {"element_order", "elementorder",
+       "scene.toml:6: mesh.elementorder is not a key here; did you mean element_order? allowed: "
+       "element_order, element_size, file, generator, inner_radius, outer_radius, rings"},
+      {"[body]", "[boddy]",
+       "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
+       "interface, material, mesh, name, reduce, section, squeal, title"},
+      {"count = 60", "count = 60, colour = 3",
+       "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "
+       "to_rad_s"},
+      {"modes = 100", "mods = 100",
+       "scene.toml:26: reduce.mods is not a key here; did you mean modes?"},
+  });
+}
+
+TEST(SceneError, ListsAllUnknownKeysByLine)
+{
+  const std::string text = replaced(replaced(disc, "keep =", "keeep ="), "title", "titel");
+  EXPECT_TRUE(std::regex_match(error_of(text),
+                               std::regex("scene.toml:1: titel .*\nscene.toml:29: body.keeep .*")));
+}
+
+TEST(SceneError, NamesAWordThatRefersToNothing)
+{
+  expect_messages({
+      {"material = \"iron\"", "material = \"irn\"",
+       "scene.toml:16: section.material = \"irn\": no such material in the scene; did you mean "
+       "\"iron\"? there are: \"iron\""},
+      {"\"track\", \"hub\"", "\"trak\", \"hub\"",
+       "scene.toml:23: interface.nodes[1] = \"trak\": no such ring, edge or coupling in the scene; "
+       "did you mean \"track\"? there are: \"track\", \"hub\", \"outer_edge\""},
+      {"\"track\", \"hub\"", "\"track\", \"inner_edge\"",
+       "scene.toml:23: interface.nodes[2] = \"inner_edge\": follows the reference node \"hub\"; "
+       "name \"hub\" instead"},
+      {"fixed = [\"hub\"]", "fixed = [\"wheel.z\"]",
+       "scene.toml:28: body.fixed[1] = \"wheel.z\": no such interface node in the scene; there "
+       "are: \"track\", \"hub\""},
+      {"fixed = [\"hub\"]", "fixed = [\"hub.u\"]",
+       "scene.toml:28: body.fixed[1] = \"hub.u\": the component must be one of \"x\", \"y\", "
+       "\"z\", \"rx\", \"ry\", \"rz\""},
+      {"ring = \"track\"", "ring = \"hub\"",
+       "scene.toml:33: squeal.ring = \"hub\": no such ring in the scene; there are: \"track\""},
+      {"group = \"disc\"", "group = \"dics\"",
+       "scene.toml:14: section.group = \"dics\": no such group in the scene; did you mean "
+       "\"disc\"? there are: \"disc\""},
+      {"contact = \"bilateral\"", "contact = \"lateral\"",
+       "scene.toml:38: squeal.contact = \"lateral\": must be one of \"unilateral\", "
+       "\"bilateral\", \"signed\""},
+  });
+}
+
+TEST(SceneError, SaysWhatIsNotAvailableYet)
+{
+  expect_messages({
+      {"type = \"rigid\"", "type = \"averaging\"",
+       "scene.toml:19: coupling.type = \"averaging\": averaging couplings are not available yet; "
+       "use \"rigid\""},
+      {"element_order = 3", "element_order = 4",
+       "scene.toml:6: mesh.element_order = 4: elements of order 2 and 3 are available"},
+      {"modes = 100", "tolerance = 1e-3",
+       "scene.toml:26: reduce.tolerance = 0.001: not available yet, give modes or cutoff_Hz"},
+      {"{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3 }",
+       "scene.toml:29: body.keep.tolerance = 0.001: not available yet, give modes, up_to_Hz or "
+       "list"},
+  });
+}
+
+TEST(SceneError, NamesTheLineOfASyntaxError)
+{
+  EXPECT_TRUE(error_of(replaced(disc, "[squeal]", "[squeal")).starts_with("scene.toml:32: "));
+  EXPECT_TRUE(error_of(replaced(disc, "young = 9e10", "young = ")).starts_with("scene.toml:10: "));
+}
+
+TEST(SceneError, KeepsFilesInTheirFolder)
+{
+  EXPECT_EQ(error_of(replaced(disc, "title = \"Disc\"", "name = \"../disc\"")),
+            "scene.toml:1: name = \"../disc\": names files: only letters, digits, _ and -");
+}
+
+TEST(SceneError, NamesAFileThatCannotBeRead)
+{
+  EXPECT_THROW(read_scene("/nowhere/scene.toml"), Error);
+}
+
+// A key that is taken out must be reported as missing; were two keys of one table spelled alike,
+// the other one would be taken for a slip.
+TEST(SceneError, NeverTakesOneKeyForAnother)
+{
+  std::istringstream lines(disc);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[") || line.starts_with("type")) continue;
+    const std::string message = error_of(replaced(disc, line + "\n", ""));
+    EXPECT_EQ(message.find("not a key"), std::string::npos) << line << ": " << message;
+  }
+}
+
+}  // namespace
+}  // namespace chladni::cli

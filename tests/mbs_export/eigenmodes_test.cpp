@@ -1,0 +1,79 @@
+#include "mbs_export/eigenmodes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scratch_folder.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::MatrixXd, Eigen::VectorXd;
+
+/// Free chain of n unit masses and unit springs: lambda_k = 4 sin^2(k pi / 2 n), k = 0 .. n - 1.
+MatrixXd free_chain(int n)
+{
+  MatrixXd K = MatrixXd::Zero(n, n);
+  for (int i = 0; i + 1 < n; ++i) {
+    K(i, i) += 1.0;
+    K(i + 1, i + 1) += 1.0;
+    K(i, i + 1) = K(i + 1, i) = -1.0;
+  }
+  return K;
+}
+
+TEST(Eigenmodes, OfAFreeChainAreItsClosedForm)
+{
+  const int n = 40;
+  const MatrixXd R = VectorXd::Constant(n, 1.0 / std::sqrt(n));
+  const Eigenmodes modes = eigenmodes(free_chain(n), MatrixXd::Identity(n, n), R);
+  ASSERT_EQ(modes.lambda.size(), n - 1);
+  for (int k = 1; k < n; ++k) {
+    const double s = std::sin(k * std::numbers::pi / (2 * n));
+    // Round-off of mu is eps mu_1: relative to lambda_k, eps lambda_k / lambda_1 < 1e-12.
+    EXPECT_NEAR(modes.lambda[k - 1] / (4 * s * s), 1.0, 1e-11);
+  }
+  EXPECT_LT((R.transpose() * modes.X).norm(), 1e-13);
+}
+
+TEST(Eigenmodes, KeepTheLowOnesAccurateBesideStiffOnes)
+{
+  // lambda spans twelve decades; an eigen-solve of M^-1 K would leave lambda_1 an error of 1e-4.
+  const VectorXd lambda =
+      VectorXd::LinSpaced(13, 0.0, 12.0).unaryExpr([](double d) { return std::pow(10.0, d); });
+  MatrixXd mix = MatrixXd::Identity(13, 13);
+  mix.triangularView<Eigen::StrictlyLower>().setConstant(0.1);
+  const MatrixXd M = mix.transpose() * mix;
+  const MatrixXd K = mix.transpose() * lambda.asDiagonal() * mix;
+  const Eigenmodes modes = eigenmodes(K, M, MatrixXd(13, 0));
+  // The entries of K hold lambda_1 to eps lambda_max only where columns mix, here in column 1.
+  EXPECT_NEAR(modes.lambda[0], 1.0, 1e-4);
+  EXPECT_LT((modes.X.transpose() * M * modes.X - MatrixXd::Identity(13, 13)).norm(), 1e-9);
+}
+
+TEST(Eigenmodes, LeaveOutMasslessDirections)
+{
+  const MatrixXd K = VectorXd{{1.0, 4.0, 9.0}}.asDiagonal();
+  const MatrixXd M = VectorXd{{1.0, 0.0, 1.0}}.asDiagonal();
+  const Eigenmodes modes = eigenmodes(K, M, MatrixXd(3, 0));
+  ASSERT_EQ(modes.lambda.size(), 2);
+  EXPECT_EQ(modes.n_massless, 1);
+  EXPECT_NEAR(modes.lambda[0], 1.0, 1e-14);
+  EXPECT_NEAR(modes.lambda[1], 9.0, 1e-13);
+}
+
+TEST(Eigenmodes, RefuseMechanismsAndNegativeMass)
+{
+  const MatrixXd I = MatrixXd::Identity(3, 3);
+  const MatrixXd K = VectorXd{{1.0, -1.0, 9.0}}.asDiagonal();
+  EXPECT_NE(test::error_of([&] { eigenmodes(K, I, MatrixXd(3, 0)); }).find("mechanisms"),
+            std::string::npos);
+  const MatrixXd M = VectorXd{{1.0, -1.0, 1.0}}.asDiagonal();
+  EXPECT_NE(test::error_of([&] { eigenmodes(I, M, MatrixXd(3, 0)); }).find("semidefinite"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export

@@ -1,0 +1,93 @@
+#include "mbs_export/mode_shift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bending_beam.hpp"
+#include "scratch_folder.hpp"
+#include "wheel.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::MatrixXd;
+
+TEST(ModeShift, HasTheConditionOfTheRigidModesOfABeam)
+{
+  const FreeModes modes = orthogonalize(test::regression_beam());
+  // Rigid modes 1 and sqrt(12) (x - 1/2). Clamped: Q_dd = [1, -sqrt 3; 0, sqrt 12], so
+  // s_1^2 + s_2^2 = 16 and s_1 s_2 = sqrt 12; supported: [1, -sqrt 3; 1, sqrt 3].
+  const double sum = std::sqrt(16 + 2 * std::sqrt(12)),
+               difference = std::sqrt(16 - 2 * std::sqrt(12));
+  const ModeShift clamped = shift_modes(modes, held_dofs(test::regression_beam(), {"A"}));
+  EXPECT_NEAR(clamped.condition_Q_dd, (sum + difference) / (sum - difference), 1e-6);  // 4.391067
+  EXPECT_EQ(clamped.dependent, (std::vector<int>{0, 1}));
+  const ModeShift supported =
+      shift_modes(modes, held_dofs(test::regression_beam(), {"A.z", "C.z"}));
+  EXPECT_NEAR(supported.condition_Q_dd, std::sqrt(3.0), 1e-7);
+  EXPECT_EQ(supported.Q_c.cols(), 104);
+}
+
+TEST(ModeShift, HoldsTheHeldDisplacements)
+{
+  const ReducedSystem wheel = test::wheel();
+  const FreeModes modes = orthogonalize(wheel);
+  const std::vector<std::vector<std::string>> cases{
+      {"hub"}, {"hub.z"}, {"rim.z"}, {"hub", "rim.z"}, {"hub.x", "hub.y", "hub.z"}};
+  for (const auto& fixed : cases) {
+    const HeldDofs held = held_dofs(wheel, fixed);
+    const ModeShift shift = shift_modes(modes, held);
+    const MatrixXd displacement = modes.Q_e(held.rows, Eigen::all) * shift.Q_c;
+    // Round-off times cond(Q_dd), which stays below 1e3 here.
+    EXPECT_LT(displacement.cwiseAbs().maxCoeff(),
+              1e-12 * modes.Q_e(held.rows, Eigen::all).cwiseAbs().maxCoeff());
+    EXPECT_EQ(shift.Q_c.cols(), 78 - Eigen::Index(held.rows.size()));
+    EXPECT_LT(shift.condition_Q_dd, 1e6);
+  }
+}
+
+TEST(ModeShift, LeavesTheRigidMotionsThatNothingHolds)
+{
+  const ReducedSystem wheel = test::wheel();
+  const FreeModes modes = orthogonalize(wheel);
+  const auto n_free = [&](const std::vector<std::string>& fixed) {
+    return shift_modes(modes, held_dofs(wheel, fixed)).R_c.cols();
+  };
+  EXPECT_EQ(n_free({}), 6);
+  EXPECT_EQ(n_free({"hub.z"}), 5);
+  EXPECT_EQ(n_free({"rim.z"}), 3);  // twelve heights hold one translation and two rotations
+  EXPECT_EQ(n_free({"hub.x", "hub.y", "hub.z"}), 3);
+  EXPECT_EQ(n_free({"hub"}), 0);
+}
+
+TEST(ModeShift, RefusesDependentModesThatCannotFollow)
+{
+  // Elastic modes 1 and 3 of the free beam are both symmetric, so they cannot move the two ends
+  // apart: Q_dd is singular.
+  const ReducedSystem& beam = test::regression_beam();
+  const FreeModes modes = orthogonalize(beam);
+  const HeldDofs held = held_dofs(beam, {"A.z", "C.z"});
+  const std::string error = test::error_of([&] { shift_modes(modes, held, {2, 4}); });
+  EXPECT_NE(error.find("cond(Q_dd)"), std::string::npos) << error;
+  EXPECT_TRUE(error.find("A.z") != std::string::npos || error.find("C.z") != std::string::npos);
+  EXPECT_NE(test::error_of([&] { shift_modes(modes, held, {0}); }), "");
+}
+
+TEST(ModeShift, RefusesMoreSupportsThanTheModesCanHold)
+{
+  // Guyan with 6 masters has 6 modes: holding 6 leaves none, a seventh does not exist; a massless
+  // rotation drops one mode, so that all six masters cannot be held any more.
+  ReducedSystem beam = test::reduced_beam(30, 0);
+  beam.M.row(5).setZero();
+  beam.M.col(5).setZero();
+  const FreeModes modes = orthogonalize(beam);
+  EXPECT_EQ(modes.n_massless, 1);
+  const std::string error = test::error_of([&] {
+    shift_modes(modes, held_dofs(beam, {"A", "B", "C"}));
+  });
+  EXPECT_NE(error.find("cannot hold"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export

@@ -1,0 +1,185 @@
+#include "mbs_export/reduced_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "bending_beam.hpp"
+#include "mbs_export/body_file.hpp"
+#include "mbs_export/make_body.hpp"
+#include "scratch_folder.hpp"
+#include "wheel.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using test::ScratchFolder, test::error_of;
+
+/// Everything that the format can hold: a wheel with damping, picture and provenance.
+ReducedSystem complete_system()
+{
+  ReducedSystem system = test::wheel();
+  system.C = 0.1 * system.K;
+  system.picture.positions.resize(3, 3);
+  system.picture.positions << 0, 0, 0, 1, 0, 0, 0, 1.0 / 3.0, 0;
+  system.picture.cells = {{0, 1, 2, 2}};
+  system.picture.transformation = Eigen::MatrixXd::Random(9, system.K.cols());
+  system.provenance = {.scene = "title = \"wheel\"\n",
+                       .mesh_checksum = "cbf29ce484222325",
+                       .versions = "PETSc 3.18",
+                       .options = "-a 1",
+                       .ranks = 3};
+  return system;
+}
+
+void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
+{
+  EXPECT_EQ(a.title, b.title);
+  ASSERT_EQ(a.attachment_nodes.size(), b.attachment_nodes.size());
+  for (std::size_t i = 0; i < a.attachment_nodes.size(); ++i) {
+    EXPECT_EQ(a.attachment_nodes[i].number, b.attachment_nodes[i].number);
+    EXPECT_EQ(a.attachment_nodes[i].position, b.attachment_nodes[i].position);
+  }
+  ASSERT_EQ(a.sets.size(), b.sets.size());
+  for (std::size_t i = 0; i < a.sets.size(); ++i) {
+    EXPECT_EQ(a.sets[i].name, b.sets[i].name);
+    EXPECT_EQ(a.sets[i].nodes, b.sets[i].nodes);
+  }
+  ASSERT_EQ(a.masters.size(), b.masters.size());
+  for (std::size_t i = 0; i < a.masters.size(); ++i) {
+    EXPECT_EQ(a.masters[i].node, b.masters[i].node);
+    EXPECT_EQ(a.masters[i].component, b.masters[i].component);
+  }
+  EXPECT_EQ(a.K, b.K);
+  EXPECT_EQ(a.M, b.M);
+  EXPECT_EQ(a.C, b.C);
+  EXPECT_EQ(a.fixed_interface_frequencies, b.fixed_interface_frequencies);
+  EXPECT_EQ(a.picture.positions, b.picture.positions);
+  EXPECT_EQ(a.picture.cells, b.picture.cells);
+  EXPECT_EQ(a.picture.transformation, b.picture.transformation);
+  EXPECT_EQ(a.provenance.scene, b.provenance.scene);
+  EXPECT_EQ(a.provenance.mesh_checksum, b.provenance.mesh_checksum);
+  EXPECT_EQ(a.provenance.versions, b.provenance.versions);
+  EXPECT_EQ(a.provenance.options, b.provenance.options);
+  EXPECT_EQ(a.provenance.ranks, b.provenance.ranks);
+}
+
+TEST(ReducedFile, ReturnsWhatWasWrittenBitByBit)
+{
+  const ScratchFolder folder;
+  for (const ReducedSystem& system : {complete_system(), test::reduced_beam(30, 10)}) {
+    write_reduced(folder.file("a.reduced.h5"), system);
+    expect_equal(read_reduced(folder.file("a.reduced.h5")), system);
+  }
+}
+
+/// What reading says after `damage` was done to the system before it was written.
+template <class Damage>
+std::string error_after(const ScratchFolder& folder, Damage damage)
+{
+  ReducedSystem system = complete_system();
+  damage(system);
+  write_reduced(folder.file("bad.h5"), system);
+  return error_of([&] { read_reduced(folder.file("bad.h5")); });
+}
+
+void expect_mention(const std::string& text, const std::string& part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << text << "' lacks '" << part << "'";
+}
+
+TEST(ReducedFile, IsRefusedWhenItsContentMakesNoSense)
+{
+  using System = ReducedSystem;
+  const ScratchFolder folder;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_mention(error_after(folder, [&](System& s) { s.K(3, 4) = s.K(4, 3) = nan; }), "stiffness");
+  expect_mention(error_after(folder, [&](System& s) { s.M(3, 3) = infinity; }), "mass");
+  expect_mention(error_after(folder, [](System& s) { s.K(0, 1) += 1.0 + s.K(0, 0); }),
+                 "stiffness: is not symmetric");
+  expect_mention(error_after(folder, [](System& s) { s.M(2, 2) = -1.0; }), "negative diagonal");
+  expect_mention(error_after(folder, [](System& s) { s.K.conservativeResize(70, 78); }),
+                 "stiffness: has shape [70 x 78], expected [78 x 78]");
+  expect_mention(error_after(folder, [](System& s) { s.C.conservativeResize(70, 70); }), "damping");
+  expect_mention(error_after(folder, [](System& s) { s.masters[5].node = 13; }),
+                 "masters/node: has the index 13, expected 0 .. 12");
+  expect_mention(error_after(folder, [](System& s) { s.masters[5].component = 6; }), "component");
+  expect_mention(error_after(folder, [](System& s) { s.masters[5] = s.masters[4]; }), "twice");
+  expect_mention(error_after(folder, [](System& s) { s.sets[0].nodes[0] = -1; }), "sets/rim");
+  expect_mention(error_after(folder, [](System& s) { s.picture.cells[0][2] = 3; }),
+                 "picture/cells");
+  expect_mention(error_after(folder, [](System& s) { s.picture.transformation.resize(9, 5); }),
+                 "picture/displacements");
+  expect_mention(error_after(folder, [](System& s) { s.provenance.ranks = -1; }), "ranks");
+  expect_mention(
+      error_after(folder, [](System& s) { s.fixed_interface_frequencies.setConstant(1, -1.0); }),
+      "fixed_interface_frequencies");
+  EXPECT_EQ(error_after(folder, [](System& s) { s.K(0, 1) *= 1.0 + 1e-13; }), "");
+}
+
+TEST(ReducedFile, IsNotWrittenWithANameThatNoFileCanHold)
+{
+  const ScratchFolder folder;
+  ReducedSystem system = complete_system();
+  system.sets[0].name = "rim/outer";
+  expect_mention(error_of([&] { write_reduced(folder.file("b.h5"), system); }), "rim/outer");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.h5")));
+}
+
+TEST(ReducedFile, IsRefusedWithoutOneOfItsDatasets)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  for (const char* name : {"attachment/node_numbers", "attachment/sets/hub", "masters/component",
+                           "matrices/mass", "fixed_interface_frequencies", "provenance/scene"}) {
+    write_reduced(path, complete_system());
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, name, H5P_DEFAULT);
+    H5Fclose(file);
+    expect_mention(error_of([&] { read_reduced(path); }), std::string(name) + ": is missing");
+  }
+}
+
+TEST(ReducedFile, IsRefusedInAnotherFormatOrVersion)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_body(path, make_body(test::wheel(), {}));
+  expect_mention(error_of([&] { read_reduced(path); }),
+                 "has format 'chladni-body', expected 'chladni-reduced'");
+  write_reduced(path, complete_system());
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen(file, "version", H5P_DEFAULT);
+  const std::int64_t version = 2;
+  H5Awrite(attribute, H5T_NATIVE_INT64, &version);
+  H5Aclose(attribute);
+  H5Fclose(file);
+  expect_mention(error_of([&] { read_reduced(path); }), "version 2");
+}
+
+TEST(ReducedFile, IsReadOrRefusedWhateverBytesAreDamaged)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_reduced(path, test::reduced_beam(6, 2));
+  const std::string whole = test::bytes_of(path);
+  std::mt19937 random(1);
+  int n_refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = whole;
+    if (i % 2 == 0)
+      damaged.resize(random() % whole.size());
+    else
+      for (int k = 0; k < 20; ++k) damaged[random() % whole.size()] = static_cast<char>(random());
+    std::ofstream(path, std::ios::binary) << damaged;
+    n_refused += !error_of([&] { read_reduced(path); }).empty();
+  }
+  EXPECT_GT(n_refused, 150);  // all that are cut short, and more
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export

@@ -1,0 +1,125 @@
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "mesh/generate.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+/// A folder of its own that disappears with the test.
+class ReadGmsh : public ::testing::Test {
+ protected:
+  void SetUp() override
+  {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() / (std::string("chladni_") + test->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+
+  /// A strip of 3 x 2 rectangles 3 m x 1 m, meshed at order 2, in a format of Gmsh.
+  std::string write_strip(const std::string& name, double format, bool binary) const
+  {
+    gmsh::initialize();
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::open(write("strip.geo", strip_geo));
+    gmsh::model::mesh::generate(2);
+    gmsh::model::mesh::setOrder(2);
+    gmsh::option::setNumber("Mesh.MshFileVersion", format);
+    gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
+    gmsh::write(path(name));
+    gmsh::finalize();
+    return path(name);
+  }
+
+  static constexpr const char* strip_geo =
+      "Point(1) = {0, 0, 0}; Point(2) = {3, 0, 0}; Point(3) = {3, 1, 0}; Point(4) = {0, 1, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+      "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+      "Transfinite Curve{1, 3} = 4; Transfinite Curve{2, 4} = 3; Transfinite Surface{1};\n"
+      "Recombine Surface{1};\n"
+      "Physical Surface(\"strip\") = {1}; Physical Curve(\"left\") = {4};\n";
+
+ private:
+  std::filesystem::path folder_;
+};
+
+MeshOptions file_options(const std::string& file)
+{
+  return {.annulus = {}, .file = file, .element_order = {}, .rings = {}};
+}
+
+void expect_strip(const Mesh& mesh)
+{
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_EQ(mesh.blocks[0].n_elements(), 6);
+  EXPECT_EQ(mesh.blocks[0].order, 2);
+  EXPECT_EQ(mesh.n_nodes(), 7 * 5);
+  EXPECT_EQ(find_group(mesh, "left").nodes.size(), 5u);
+  EXPECT_EQ(find_group(mesh, "strip").nodes.size(), 35u);
+}
+
+TEST_F(ReadGmsh, ReadsVersion22)
+{
+  expect_strip(generate(file_options(write_strip("a.msh", 2.2, false))));
+}
+TEST_F(ReadGmsh, ReadsVersion22Binary)
+{
+  expect_strip(generate(file_options(write_strip("a.msh", 2.2, true))));
+}
+TEST_F(ReadGmsh, ReadsVersion41)
+{
+  expect_strip(generate(file_options(write_strip("a.msh", 4.1, false))));
+}
+TEST_F(ReadGmsh, ReadsVersion41Binary)
+{
+  expect_strip(generate(file_options(write_strip("a.msh", 4.1, true))));
+}
+
+TEST_F(ReadGmsh, MeshesAGeometryAtTheOrderAsked)
+{
+  MeshOptions options = file_options(write("strip.geo", strip_geo));
+  options.element_order = 3;
+  const Mesh mesh = generate(options);
+  EXPECT_EQ(mesh.blocks.at(0).order, 3);
+  EXPECT_EQ(mesh.n_nodes(), 10 * 7);
+}
+
+TEST_F(ReadGmsh, NamesAFileThatIsMissing)
+{
+  try {
+    generate(file_options(path("absent.msh")));
+    FAIL() << "a missing file is read";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("absent.msh does not exist"), std::string::npos);
+  }
+}
+
+TEST_F(ReadGmsh, RefusesATruncatedFile)
+{
+  const std::string file = write_strip("a.msh", 4.1, false);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THROW(generate(file_options(file)), Error);
+}
+
+TEST_F(ReadGmsh, NamesARingThatNoNodeMeets)
+{
+  MeshOptions options = file_options(write_strip("a.msh", 4.1, false));
+  options.rings = {{.name = "track", .radius = 0.4, .nodes = 8}};
+  EXPECT_THROW(generate(options), Error);
+}
+
+}  // namespace
+}  // namespace chladni::mesh

@@ -1,0 +1,120 @@
+#include "plate/assemble.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "small_disc.hpp"
+
+namespace chladni::plate {
+namespace {
+
+System assemble_disc(MPI_Comm comm)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const int n_ranks = petsc::size(comm);
+  return assemble(mesh, testing::section,
+                  make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
+                  comm);
+}
+
+/// Translation along (component < 3) or rotation about an axis, at every DOF of the system.
+petsc::Vector rigid_motion(const System& system, int component)
+{
+  petsc::Vector R;
+  petsc::check(MatCreateVecs(system.K, R.put(), nullptr));
+  PetscInt first = 0, last = 0;
+  petsc::check(VecGetOwnershipRange(R, &first, &last));
+  for (int node = 0; node < system.dofs.n_nodes(); ++node) {
+    const PetscInt dof = 6 * system.dofs.number[node];
+    if (system.dofs.is_dependent(node) || dof < first || dof >= last) continue;
+    const auto& x = system.dofs.positions[node];
+    std::array<double, 6> u{};
+    u[component] = 1.0;
+    const int a = (component + 1) % 3, b = (component + 2) % 3;
+    if (component >= 3) {  // e_axis x r
+      u[b] = x[a];
+      u[a] = -x[b];
+    }
+    for (int c = 0; c < 6; ++c) petsc::check(VecSetValue(R, dof + c, u[c], INSERT_VALUES));
+  }
+  petsc::check(VecAssemblyBegin(R));
+  petsc::check(VecAssemblyEnd(R));
+  return R;
+}
+
+double quadratic_form(Mat A, Vec x)
+{
+  petsc::Vector Ax;
+  petsc::check(VecDuplicate(x, Ax.put()));
+  petsc::check(MatMult(A, x, Ax));
+  double value = 0.0;
+  petsc::check(VecDot(x, Ax, &value));
+  return value;
+}
+
+TEST(Assemble, LeavesTheFreeBodyWithoutForceInRigidMotion)
+{
+  const System system = assemble_disc(PETSC_COMM_WORLD);
+  double K_norm = 0.0;
+  petsc::check(MatNorm(system.K, NORM_FROBENIUS, &K_norm));
+  for (int component = 0; component < 6; ++component) {
+    const petsc::Vector R = rigid_motion(system, component);
+    petsc::Vector force;
+    petsc::check(VecDuplicate(R, force.put()));
+    petsc::check(MatMult(system.K, R, force));
+    double norm = 0.0;
+    petsc::check(VecNorm(force, NORM_2, &norm));
+    EXPECT_LT(norm, 1e-14 * K_norm);  // round-off of the sums
+  }
+}
+
+TEST(Assemble, HasTheMassAndInertiaOfTheDisc)
+{
+  const System system = assemble_disc(PETSC_COMM_WORLD);
+  const double area = std::numbers::pi * (0.162 * 0.162 - 0.025 * 0.025);
+  const double mass = 6300.0 * 0.02 * area;
+  const double polar = 0.5 * mass * (0.162 * 0.162 + 0.025 * 0.025);
+  // Cubic arcs of 30 mm miss the circle by (h / r)^4 / 1000.
+  EXPECT_NEAR(quadratic_form(system.M, rigid_motion(system, 2)), mass, 1e-5 * mass);
+  EXPECT_NEAR(quadratic_form(system.M, rigid_motion(system, 5)), polar, 1e-5 * polar);
+  const double diametral = 0.5 * polar + mass * 0.02 * 0.02 / 12.0;
+  EXPECT_NEAR(quadratic_form(system.M, rigid_motion(system, 3)), diametral, 1e-5 * diametral);
+}
+
+TEST(Assemble, IsTheSameOnEachNumberOfRanks)
+{
+  // A node-wise invariant that does not depend on the numbering: x^T K x for a smooth field.
+  const auto energy = [](const System& system) {
+    petsc::Vector u = rigid_motion(system, 2);
+    petsc::Vector v = rigid_motion(system, 4);
+    petsc::check(VecPointwiseMult(u, v, v));  // w = -x, rotations zero: shear and bending energy
+    return quadratic_form(system.K, u);
+  };
+  const double here = energy(assemble_disc(PETSC_COMM_WORLD));
+  const double alone = energy(assemble_disc(PETSC_COMM_SELF));
+  EXPECT_GT(here, 1.0);
+  EXPECT_NEAR(here, alone, 1e-12 * alone);  // order of the sums of the products only
+}
+
+TEST(Assemble, NamesAnElementThatIsFoldedOver)
+{
+  mesh::Mesh mesh = testing::small_disc();
+  mesh::ElementBlock& block = mesh.blocks[0];
+  std::swap(mesh.positions[block.nodes[0]], mesh.positions[block.nodes[5]]);
+  const int n_ranks = petsc::size(PETSC_COMM_WORLD);
+  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
+  EXPECT_THROW(assemble(mesh, testing::section, map, PETSC_COMM_WORLD), Error);
+}
+
+TEST(Assemble, NamesAnElementWithoutSection)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const int n_ranks = petsc::size(PETSC_COMM_WORLD);
+  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
+  EXPECT_THROW(assemble(mesh, {}, map, PETSC_COMM_WORLD), Error);
+}
+
+}  // namespace
+}  // namespace chladni::plate

@@ -1,0 +1,55 @@
+#include "plate/dof_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "small_disc.hpp"
+
+namespace chladni::plate {
+namespace {
+
+TEST(DofMap, NumbersTheNodesOfEachRankInOneRange)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const std::vector<int> owners = mesh::node_owners(mesh, 3);
+  const DofMap map = make_dof_map(mesh, testing::hub, owners, 3);
+  std::vector<int> seen(map.n_active(), 0);
+  for (int node = 0; node < map.n_nodes(); ++node) {
+    if (map.is_dependent(node)) continue;
+    ++seen[map.number[node]];
+    if (node < mesh.n_nodes()) {
+      EXPECT_GE(map.number[node], map.range[owners[node]]);
+      EXPECT_LT(map.number[node], map.range[owners[node] + 1]);
+    }
+  }
+  EXPECT_EQ(std::ranges::count(seen, 1), map.n_active());
+}
+
+TEST(DofMap, PutsTheReferenceNodeInTheCentreOfItsGroup)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, 1), 1);
+  const auto reference = map.reference_node("hub");
+  ASSERT_TRUE(reference.has_value());
+  // Gmsh puts the nodes at equal angles to 1e-11 of the radius.
+  for (const double x : map.positions[*reference]) EXPECT_NEAR(x, 0.0, 1e-12);
+}
+
+TEST(DofMap, NamesANodeThatTwoCouplingsClaim)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const std::vector<RigidCoupling> twice{{"hub", "inner_edge"}, {"other", "inner_edge"}};
+  EXPECT_THROW(make_dof_map(mesh, twice, mesh::node_owners(mesh, 1), 1), Error);
+}
+
+TEST(DofMap, RefusesACouplingNamedAsAGroup)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const std::vector<RigidCoupling> clash{{"disc", "inner_edge"}};
+  EXPECT_THROW(make_dof_map(mesh, clash, mesh::node_owners(mesh, 1), 1), Error);
+}
+
+}  // namespace
+}  // namespace chladni::plate

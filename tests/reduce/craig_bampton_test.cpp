@@ -1,0 +1,146 @@
+#include "reduce/craig_bampton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "chain.hpp"
+
+namespace chladni::reduce {
+namespace {
+
+using testing::free_chain;
+using testing::master_set;
+
+constexpr PetscInt n = 40;  // masses
+constexpr double round_off = 1e-12;
+
+/// The chain reduced to its two ends.
+struct Reduction {
+  testing::Chain chain = free_chain(n);
+  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
+  Blocks K = split(chain.K, dofs);
+  Blocks M = split(chain.M, dofs);
+  Factorization K_ss = factorize(K.ss);
+};
+
+CraigBamptonBasis craig_bampton(const Reduction& r, int n_modes)
+{
+  return {.Psi = constraint_modes(r.K_ss, r.K),
+          .modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = n_modes, .cutoff_Hz = {}})};
+}
+
+/// Frequency of mode k = 1, 2, ... of m = n - 2 masses between fixed ends.
+double fixed_chain_frequency(int k)
+{
+  return 2.0 * std::sin(0.5 * k * std::numbers::pi / (n - 1));
+}
+
+std::vector<PetscInt> all_dofs()
+{
+  std::vector<PetscInt> dofs(n);
+  std::iota(dofs.begin(), dofs.end(), 0);
+  return dofs;
+}
+
+TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
+{
+  const Reduction r;
+  const SmallMatrix Q =
+      basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all_dofs());
+  for (PetscInt i = 0; i < n; ++i) {
+    EXPECT_NEAR(Q(i, 1), double(i) / (n - 1), round_off);
+    EXPECT_NEAR(Q(i, 0) + Q(i, 1), 1.0, round_off);  // rigid translation
+  }
+}
+
+TEST(FixedInterfaceModes, HaveTheFrequenciesOfTheChainBetweenFixedEnds)
+{
+  const Reduction r;
+  const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
+  ASSERT_EQ(modes.omega.size(), 7u);
+  for (int k = 1; k <= 7; ++k) {
+    EXPECT_NEAR(modes.omega[k - 1], fixed_chain_frequency(k), 1e-10);  // tolerance of the solver
+  }
+}
+
+TEST(FixedInterfaceModes, BelowACutoffAreAllThereAre)
+{
+  const Reduction r;
+  const double cutoff = 0.5 * (fixed_chain_frequency(12) + fixed_chain_frequency(13));
+  const auto modes = fixed_interface_modes(
+      r.K_ss, r.M.ss, {.modes = {}, .cutoff_Hz = cutoff / (2.0 * std::numbers::pi)});
+  EXPECT_EQ(modes.omega.size(), 12u);
+}
+
+TEST(FixedInterfaceModes, AreOrthonormalInTheMass)
+{
+  const Reduction r;
+  const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 9, .cutoff_Hz = {}});
+  const SmallMatrix I = inner_product(modes.Phi, modes.Phi);  // M_ss = I
+  for (PetscInt i = 0; i < I.n_rows; ++i) {
+    for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, round_off);
+  }
+}
+
+TEST(FixedInterfaceModes, RefuseMoreModesThanExist)
+{
+  const Reduction r;
+  EXPECT_THROW(fixed_interface_modes(r.K_ss, r.M.ss, {.modes = n, .cutoff_Hz = {}}), Error);
+}
+
+TEST(FixedInterfaceModes, KeepTheTwoPartnersOfADoubleModeTogether)
+{
+  // Two equal chains that share the masters of a third between them: masters hold both ends of
+  // each.
+  const testing::Chain chain = free_chain(2 * n - 1);
+  const DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1, 2 * n - 2}));
+  const Blocks K = split(chain.K, dofs);
+  const Blocks M = split(chain.M, dofs);
+  const auto modes = fixed_interface_modes(factorize(K.ss), M.ss, {.modes = 3, .cutoff_Hz = {}});
+  EXPECT_EQ(modes.omega.size(), 4u);  // the cut through the second pair moves
+}
+
+TEST(Factorization, RefusesAPartThatNoMasterHolds)
+{
+  const testing::Chain chain = free_chain(12);
+  EXPECT_THROW(factorize(chain.K), Error);
+}
+
+TEST(Project, GivesTheGuyanMatricesOfTheChain)
+{
+  const Reduction r;
+  const ReducedModel guyan = project({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.K, r.M);
+  const double k = 1.0 / (n - 1);  // springs in series
+  EXPECT_NEAR(guyan.K(0, 0), k, round_off);
+  EXPECT_NEAR(guyan.K(0, 1), -k, round_off);
+  const double total = guyan.M(0, 0) + 2.0 * guyan.M(0, 1) + guyan.M(1, 1);
+  EXPECT_NEAR(total, n, 100 * round_off);  // all of the mass moves with the two ends
+}
+
+TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
+{
+  const Reduction r;
+  const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
+  const ReducedModel reduced = project(Q_CB, r.K, r.M);
+  const SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const auto product = [&](Mat A, PetscInt i, PetscInt j) {
+    const SmallMatrix full = replicate(A);
+    double sum = 0.0;
+    for (PetscInt a = 0; a < n; ++a) {
+      for (PetscInt b = 0; b < n; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
+    }
+    return sum;
+  };
+  for (PetscInt i = 0; i < reduced.K.n_rows; ++i) {
+    for (PetscInt j = 0; j < reduced.K.n_cols; ++j) {
+      EXPECT_NEAR(reduced.K(i, j), product(r.chain.K, i, j), 1e-10);  // tolerance of the modes
+      EXPECT_NEAR(reduced.M(i, j), product(r.chain.M, i, j), 1e-10);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chladni::reduce

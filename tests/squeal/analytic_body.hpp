@@ -1,0 +1,109 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mbs_export/modal_body.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal::test {
+
+using std::numbers::pi;
+
+/// A pair of plate modes W = U (cos, sin)(n theta) on the ring, not yet mass-normalised; n = 0 is a
+/// single mode. The real pair may come turned by `turn` (rad) and with its second mode reversed, as
+/// eigenvectors of a degenerate eigenvalue do.
+struct PlatePair {
+  int n;
+  double f_Hz;
+  double mass;  ///< modal mass, kg
+  double U;     ///< on the ring
+  double U_r;   ///< radial slope, 1/m
+  double U_t;   ///< circumferential slope, 1/m; n U / r of a thin plate
+  double turn = 0.0;
+  double sign = 1.0;
+  double split = 0.0;  ///< relative: the second mode has f_Hz (1 + split)
+};
+
+inline constexpr double kRadius = 0.13;
+
+// SQUEAL reference values: disc 50 / 324 / 20 mm, Kirchhoff plate, closed form in Bessel functions,
+// scaled to 1 at the rim. Computed independently of this code.
+inline PlatePair kirchhoff_pair(int n, double f_Hz, double mass, double U, double U_r)
+{
+  return {n, f_Hz, mass, U, U_r, n * U / kRadius};
+}
+inline PlatePair kirchhoff_3(double f_Hz = 1749.7487734358904)
+{
+  return kirchhoff_pair(3, f_Hz, 1.6037467581009566, 0.6167886863496717, 10.927655001436424);
+}
+inline PlatePair kirchhoff_2()
+{
+  return kirchhoff_pair(2, 839.1289218193727, 1.8538737429258392, 0.6804592484370092,
+                        9.568643508174414);
+}
+inline PlatePair kirchhoff_4()
+{
+  return kirchhoff_pair(4, 3056.51937233769, 1.406927567574736, 0.5577639701052876,
+                        12.102403030433843);
+}
+/// Mindlin plate, kappa = 5/6; slopes are those of the director, so U_t is not n U / r.
+inline PlatePair mindlin_3()
+{
+  return {3,
+          1672.090697994377,
+          1.6337885261857095,
+          0.6138865850599486,
+          10.79586659952686,
+          13.75762276510705};
+}
+
+/// A body with these pairs and one ring "track" of 60 nodes, modes in the order given.
+inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
+{
+  Eigen::Index n_modes = 0;
+  for (const PlatePair& pair : pairs) n_modes += pair.n == 0 ? 1 : 2;
+  const Eigen::Index n_nodes = 60;
+  mbs_export::ContactRing ring{};
+  ring.name = "track";
+  ring.radius = kRadius;
+  ring.angles = Eigen::VectorXd::LinSpaced(n_nodes, 0.0, 2.0 * pi * (1.0 - 1.0 / n_nodes));
+  ring.W = ring.W_r = ring.W_t = Eigen::MatrixXd::Zero(n_nodes, n_modes);
+
+  mbs_export::ModalBody body{};
+  body.omega.resize(n_modes);
+  Eigen::Index i = 0;
+  for (const PlatePair& p : pairs) {
+    const double by_mass = 1.0 / std::sqrt(p.mass);
+    const int size = p.n == 0 ? 1 : 2;
+    for (int k = 0; k < size; ++k, ++i) {
+      // cos(x - k pi / 2) is the cosine mode for k = 0 and the sine mode for k = 1.
+      const Eigen::ArrayXd x = double(p.n) * ring.angles.array() - p.turn - k * 0.5 * pi;
+      const double scale = by_mass * (k == 1 ? p.sign : 1.0);
+      ring.W.col(i) = scale * p.U * x.cos();
+      ring.W_r.col(i) = scale * p.U_r * x.cos();
+      ring.W_t.col(i) = -scale * p.U_t * x.sin();
+      body.omega[i] = 2.0 * pi * p.f_Hz * (1.0 + k * p.split);
+      body.kinds.push_back(mbs_export::ModeKind::constrained);
+    }
+  }
+  body.rings.push_back(ring);
+  return body;
+}
+
+/// One pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad damping.
+inline SquealOptions reference_options(ContactLaw law = ContactLaw::bilateral)
+{
+  SquealOptions options{};
+  options.ring = "track";
+  options.thickness = 0.02;
+  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 60};
+  options.friction = 0.6;
+  options.contact = law;
+  options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
+  return options;
+}
+
+}  // namespace chladni::squeal::test

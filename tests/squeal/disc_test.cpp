@@ -1,0 +1,164 @@
+#include "squeal/disc.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+#include "squeal/ring_shapes.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+/// The text of the error that making the disc throws, empty when it does not.
+std::string complaint(const mbs_export::ModalBody& body, const ModeChoice& modes,
+                      const std::string& ring = "track")
+{
+  try {
+    make_disc(body, ring, modes);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+ModeChoice nodal(int n)
+{
+  return {.nodal_diameters = n, .list = std::nullopt};
+}
+ModeChoice list(std::vector<int> modes)
+{
+  return {.nodal_diameters = std::nullopt, .list = std::move(modes)};
+}
+
+mbs_export::ModalBody three_pairs()
+{
+  return analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()});
+}
+
+TEST(Harmonics, InterpolateTrigonometricPolynomialsExactly)
+{
+  // A ring that does not begin at angle 0, odd and even: 11 nodes carry harmonics up to 5, 12 nodes
+  // up to 5 and one function of harmonic 6.
+  for (const int n : {11, 12}) {
+    const Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(n, 0.3, 0.3 + 2 * pi * (n - 1.0) / n);
+    const auto f = [](double x) { return 0.7 - 1.2 * std::cos(2 * x) + 0.4 * std::sin(5 * x); };
+    const Harmonics harmonics = harmonics_of(angles, angles.unaryExpr(f));
+    EXPECT_NEAR(harmonics.cosine(0, 0), 0.7, 1e-14);
+    EXPECT_NEAR(harmonics.cosine(2, 0), -1.2, 1e-14);
+    EXPECT_NEAR(harmonics.sine(5, 0), 0.4, 1e-14);
+    EXPECT_NEAR(harmonics.cosine.squaredNorm() + harmonics.sine.squaredNorm(), 0.49 + 1.44 + 0.16,
+                1e-13);
+  }
+}
+
+TEST(Harmonics, ReturnAnyValuesAtTheNodes)
+{
+  const Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(8, 0.1, 0.1 + 2 * pi * 7 / 8);
+  const Eigen::VectorXd values = (Eigen::VectorXd(8) << 3, -1, 4, 1, -5, 9, 2, -6).finished();
+  const Harmonics f = harmonics_of(angles, values);
+  const Disc disc{.radius = 1.0,
+                  .mode_numbers = {1},
+                  .omega = Eigen::VectorXd::Ones(1),
+                  .C = Eigen::MatrixXd::Zero(1, 1),
+                  .W = f,
+                  .W_r = f,
+                  .W_t = f};
+  for (int j = 0; j < 8; ++j)
+    EXPECT_NEAR(shapes_at(disc, angles[j]).W[0], values[j], 1e-13);  // rounding of 5 harmonics
+}
+
+TEST(Harmonics, RefuseUnequalSpacing)
+{
+  Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(8, 0.0, 2 * pi * 7 / 8);
+  angles[3] += 1e-3;
+  EXPECT_THROW(harmonics_of(angles, Eigen::MatrixXd::Zero(8, 1)), Error);
+}
+
+TEST(Disc, GivesTheShapesOfThePlateBetweenTheNodes)
+{
+  const PlatePair pair = kirchhoff_3();
+  const Disc disc = make_disc(analytic_body({pair}), "track", {});
+  const double theta = 0.1234, root = std::sqrt(pair.mass);
+  const Shapes shapes = shapes_at(disc, theta);
+  EXPECT_NEAR(shapes.W[0] * root, pair.U * std::cos(3 * theta), 1e-13);
+  EXPECT_NEAR(shapes.W_r[1] * root, pair.U_r * std::sin(3 * theta), 1e-12);
+  EXPECT_NEAR(shapes.W_t[1] * root, pair.U_t * std::cos(3 * theta), 1e-12);
+}
+
+TEST(RingShapes, AgreeWithTheShapesOfTheDisc)
+{
+  const Disc disc = make_disc(three_pairs(), "track", {});
+  RingShapes ring(disc);
+  for (const double theta : {0.0, 1.7, -42.0}) {
+    const Shapes shapes = shapes_at(disc, theta);
+    const Eigen::MatrixX3d at = ring.at(theta);
+    EXPECT_LT((at.col(0) - shapes.W).norm(), 1e-12);
+    EXPECT_LT((at.col(1) - shapes.W_r).norm(), 1e-12);
+    EXPECT_LT((at.col(2) - shapes.W_t).norm(), 1e-12);
+  }
+}
+
+TEST(Disc, PicksTheLowestPairWithSoManyNodalDiameters)
+{
+  PlatePair higher = kirchhoff_3(7554.0);
+  higher.U = 0.1;
+  const auto body = analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4(), higher});
+  EXPECT_EQ(make_disc(body, "track", nodal(3)).mode_numbers, (std::vector{3, 4}));
+  EXPECT_EQ(nodal_diameters(make_disc(body, "track", {})), (std::vector{2, 2, 3, 3, 4, 4, 3, 3}));
+}
+
+TEST(Disc, TakesListedModesInTheirOrderOfFrequency)
+{
+  const Disc disc = make_disc(three_pairs(), "track", list({6, 5, 2, 1}));
+  EXPECT_EQ(disc.mode_numbers, (std::vector{1, 2, 5, 6}));
+  EXPECT_DOUBLE_EQ(disc.omega[2], 2 * pi * kirchhoff_4().f_Hz);
+}
+
+TEST(Disc, LeavesOutModesThatDoNotMoveTheRing)
+{
+  auto body = three_pairs();
+  for (Eigen::MatrixXd* shape : {&body.rings[0].W, &body.rings[0].W_r, &body.rings[0].W_t})
+    shape->col(2) *= 1e-9;
+  EXPECT_EQ(make_disc(body, "track", {}).mode_numbers, (std::vector{1, 2, 4, 5, 6}));
+  EXPECT_NE(complaint(body, list({2, 3})).find("mode 3 does not move the ring"), std::string::npos);
+}
+
+TEST(Disc, KeepsTheDampingOfTheChosenModes)
+{
+  auto body = three_pairs();
+  body.C = Eigen::MatrixXd::Random(6, 6);
+  const Disc disc = make_disc(body, "track", list({3, 5}));
+  EXPECT_EQ(disc.C(0, 1), body.C(2, 4));
+  EXPECT_EQ(make_disc(three_pairs(), "track", nodal(3)).C, Eigen::MatrixXd::Zero(2, 2));
+}
+
+TEST(Disc, RefusesWhatTheBodyDoesNotHave)
+{
+  EXPECT_NE(complaint(three_pairs(), {}, "brake"), "");
+  EXPECT_NE(complaint(three_pairs(), nodal(5)).find("5 nodal diameters"), std::string::npos);
+  EXPECT_NE(complaint(three_pairs(), list({1, 7})).find("modes 1 to 6"), std::string::npos);
+  EXPECT_NE(complaint(three_pairs(), list({0})).find("no mode 0"), std::string::npos);
+  EXPECT_NE(complaint(three_pairs(), list({2, 2})).find("twice"), std::string::npos);
+  EXPECT_NE(complaint(three_pairs(), list({})), "");
+}
+
+TEST(Disc, RefusesAHeldRingAndAFreeBody)
+{
+  auto held = three_pairs();
+  held.rings[0].W.setZero();
+  held.rings[0].W_r.setZero();
+  held.rings[0].W_t.setZero();
+  EXPECT_NE(complaint(held, {}).find("no mode of the body moves it"), std::string::npos);
+  auto free = three_pairs();
+  free.omega[1] = 1e-4;
+  EXPECT_NE(complaint(free, {}).find("hold the disc"), std::string::npos);
+  EXPECT_EQ(complaint(free, nodal(3)), "");
+  free = three_pairs();
+  free.kinds[0] = mbs_export::ModeKind::rigid;
+  EXPECT_NE(complaint(free, {}).find("mode 1 is a rigid-body motion"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::squeal

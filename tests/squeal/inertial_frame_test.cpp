@@ -1,0 +1,129 @@
+#include "squeal/inertial_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc disc_of(const std::vector<PlatePair>& pairs)
+{
+  return make_disc(analytic_body(pairs), "track", {});
+}
+
+std::string complaint(const Disc& disc)
+{
+  try {
+    inertial_disc(disc);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Eigenvectors of a degenerate pair: turned by 0.4 rad, the second one reversed.
+PlatePair turned_pair()
+{
+  PlatePair pair = kirchhoff_3();
+  pair.turn = 0.4;
+  pair.sign = -1.0;
+  return pair;
+}
+
+TEST(InertialDisc, FindsAmplitudesOfAPairInAnyOrientation)
+{
+  const InertialDisc disc = inertial_disc(disc_of({turned_pair()}));
+  const double root = std::sqrt(kirchhoff_3().mass);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(disc.U[i] * root, kirchhoff_3().U, 1e-13);
+    EXPECT_NEAR(disc.U_r[i] * root, kirchhoff_3().U_r, 1e-12);
+    EXPECT_NEAR(disc.U_t[i] * root, kirchhoff_3().U_t, 1e-12);
+  }
+  EXPECT_LT(disc.largest_impurity, 1e-7);  // square root of the rounding of squares
+  EXPECT_LT((disc.R.transpose() * disc.R - Eigen::Matrix2d::Identity()).norm(), 1e-14);
+}
+
+TEST(InertialDisc, SeesWhatTheRotatingDiscSees)
+{
+  // w(phi, t) = sum W_i(phi - Omega t) q_i = sum W_i(phi) a_i with a = exp(-Omega t D) R' q, for
+  // pairs in any orientation, neighbours or not, and a mode without nodal diameters.
+  PlatePair umbrella{.n = 0, .f_Hz = 657.0, .mass = 4.2, .U = 0.7, .U_r = 8.5, .U_t = 0.0};
+  const Disc disc = disc_of({umbrella, turned_pair(), kirchhoff_2(), kirchhoff_4()});
+  const InertialDisc inertial = inertial_disc(disc);
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(7, -1.0, 2.0);
+  const double phi = 0.8, angle = 2.1;
+  const Eigen::VectorXd a = turned(inertial, inertial.R.transpose() * q, angle);
+  const Shapes body = shapes_at(disc, phi - angle), fixed = shapes_at(inertial, phi);
+  EXPECT_NEAR(body.W.dot(q), fixed.W.dot(a), 1e-12);
+  EXPECT_NEAR(body.W_r.dot(q), fixed.W_r.dot(a), 1e-11);
+  EXPECT_NEAR(body.W_t.dot(q), fixed.W_t.dot(a), 1e-11);
+}
+
+TEST(InertialDisc, HasTheCircumferentialDerivativeOfItsShapes)
+{
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_2(), turned_pair()}));
+  const double phi = 0.6, step = 1e-4;
+  const Eigen::VectorXd difference =
+      (shapes_at(disc, phi + step).W - shapes_at(disc, phi - step).W) / (2 * step);
+  // Central difference: error n^3 step^2 / 6.
+  EXPECT_LT((difference - disc.D.transpose() * shapes_at(disc, phi).W).norm(), 1e-6);
+}
+
+TEST(InertialDisc, AveragesTheFrequenciesOfAPairAndTellsTheirSplit)
+{
+  PlatePair pair = kirchhoff_3();
+  pair.split = 2e-4;
+  const InertialDisc disc = inertial_disc(disc_of({pair}));
+  EXPECT_NEAR(disc.omega[0], 2 * pi * pair.f_Hz * (1 + 1e-4), 1e-9);
+  EXPECT_EQ(disc.omega[0], disc.omega[1]);
+  EXPECT_NEAR(disc.largest_split, 2e-4, 1e-7);
+}
+
+TEST(InertialDisc, ToleratesTheImpuritiesOfAMesh)
+{
+  auto body = analytic_body({kirchhoff_3()});
+  srand(1);
+  body.rings[0].W += 1e-3 * Eigen::MatrixXd::Random(60, 2);
+  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
+  EXPECT_GT(disc.largest_impurity, 1e-4);
+  EXPECT_NEAR(disc.U[0] * std::sqrt(kirchhoff_3().mass), kirchhoff_3().U, 1e-3);
+}
+
+TEST(InertialDisc, SaysByHowMuchADiscIsNotAxisymmetric)
+{
+  auto body = analytic_body({kirchhoff_3()});
+  body.rings[0].W.col(0) *= 1.3;  // about 0.06 of the motion of the pair
+  EXPECT_NE(complaint(make_disc(body, "track", {})).find("differ from pure harmonics by 0.0"),
+            std::string::npos);
+  PlatePair split = kirchhoff_3();
+  split.split = 0.02;
+  EXPECT_NE(complaint(disc_of({split})).find("frequencies of a pair differ by 0.02"),
+            std::string::npos);
+  EXPECT_FALSE(find_inertial_disc(disc_of({split})));
+}
+
+TEST(InertialDisc, NeedsBothModesOfAPair)
+{
+  const auto body = analytic_body({kirchhoff_2(), kirchhoff_3()});
+  const Disc disc =
+      make_disc(body, "track", {.nodal_diameters = std::nullopt, .list = std::vector{1, 2, 3}});
+  EXPECT_NE(complaint(disc).find("mode 3 (1749.7 Hz) has 3 nodal diameters, but no partner"),
+            std::string::npos);
+}
+
+TEST(InertialDisc, KeepsRotationallySymmetricDamping)
+{
+  auto body = analytic_body({kirchhoff_2(), turned_pair()});
+  body.C = Eigen::Vector4d{5.0, 5.0, 7.0, 7.0}.asDiagonal();
+  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
+  EXPECT_LT((disc.C - body.C).norm(), 1e-13);
+  body.C(2, 2) = 9.0;
+  EXPECT_NE(complaint(make_disc(body, "track", {})).find("damping changes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::squeal

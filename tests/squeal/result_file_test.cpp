@@ -1,0 +1,95 @@
+#include "squeal/result_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+#include "mbs_export/hdf5.hpp"
+#include "squeal/run.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+/// A file name of this process, removed at the end.
+struct TemporaryFile {
+  std::filesystem::path path = std::filesystem::temp_directory_path() /
+                               ("result_file_test-" + std::to_string(getpid()) + ".h5");
+  ~TemporaryFile() { std::filesystem::remove(path); }
+};
+
+SquealResults complete_results()
+{
+  SquealOptions options = reference_options();
+  options.speeds.count = 5;
+  options.analyses = {"eigenvalues", "critical-speed", "growth", "limit-cycle"};
+  options.transient =
+      TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
+  options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
+  return run(make_disc(analytic_body({kirchhoff_3()}), "track", {}), options);
+}
+
+TEST(ResultFile, ReturnsEveryValueItWasGiven)
+{
+  const TemporaryFile file;
+  const SquealResults written = complete_results();
+  write_results(file.path, written, {});
+  const SquealResults read = read_results(file.path);
+  EXPECT_EQ(read.largest_split, written.largest_split);
+  EXPECT_EQ(read.eigenvalues->speeds, written.eigenvalues->speeds);
+  EXPECT_EQ(read.eigenvalues->lambda, written.eigenvalues->lambda);
+  EXPECT_EQ(read.critical_speed->speed, written.critical_speed->speed);
+  ASSERT_EQ(read.growth.size(), 2u);
+  EXPECT_EQ(read.growth[1].rate, written.growth[1].rate);
+  EXPECT_EQ(read.growth[1].eigenvalue_rate, written.growth[1].eigenvalue_rate);
+  EXPECT_EQ(read.growth[0].envelope.pad_velocity, written.growth[0].envelope.pad_velocity);
+  EXPECT_EQ(read.transient->tail.N_up, written.transient->tail.N_up);
+  EXPECT_EQ(read.transient->history.t, written.transient->history.t);
+  ASSERT_TRUE(written.transient->t_zero_force);
+  EXPECT_EQ(read.transient->t_zero_force, written.transient->t_zero_force);
+  EXPECT_EQ(read.transient->growth_rate, written.transient->growth_rate);
+  EXPECT_EQ(read.limit_cycle->frequency_Hz, written.limit_cycle->frequency_Hz);
+  EXPECT_EQ(read.limit_cycle->amplitude, written.limit_cycle->amplitude);
+  EXPECT_EQ(read.limit_cycle->mode_numbers, written.limit_cycle->mode_numbers);
+}
+
+TEST(ResultFile, TellsNoCriticalSpeedFromNoSearch)
+{
+  const TemporaryFile file;
+  SquealResults results;
+  write_results(file.path, results, {});
+  EXPECT_FALSE(read_results(file.path).searched_critical_speed);
+  results.searched_critical_speed = true;
+  write_results(file.path, results, {});
+  EXPECT_TRUE(read_results(file.path).searched_critical_speed);
+  EXPECT_FALSE(read_results(file.path).critical_speed);
+}
+
+TEST(ResultFile, NamesFormatUnitsAndOrigin)
+{
+  const TemporaryFile file;
+  mbs_export::Provenance provenance;
+  provenance.scene = "title = \"x\"";
+  write_results(file.path, complete_results(), provenance);
+  const mbs_export::hdf5::Reader reader(file.path.string());
+  EXPECT_NO_THROW(reader.expect_format("chladni-squeal", 1));
+  EXPECT_EQ(reader.text("provenance/scene"), "title = \"x\"");
+  EXPECT_EQ(reader.text_attribute("transient/tail/N_up", "unit"), "N");
+  EXPECT_EQ(reader.text_attribute("eigenvalues/speeds", "unit"), "rad/s");
+}
+
+TEST(ResultFile, RefusesFilesThatAreNotResults)
+{
+  const TemporaryFile file;
+  EXPECT_THROW(read_results(file.path), Error);
+  std::ofstream(file.path) << "no results";
+  EXPECT_THROW(read_results(file.path), Error);
+  EXPECT_THROW(write_results("/nowhere/at/all/x.squeal.h5", {}, {}), Error);
+}
+
+}  // namespace
+}  // namespace chladni::squeal

@@ -1,0 +1,69 @@
+#include "squeal/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc reference_disc()
+{
+  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
+}
+
+TEST(Run, YieldsWhatWasAskedForAndNothingElse)
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"critical-speed"};
+  const SquealResults results = run(reference_disc(), options);
+  EXPECT_TRUE(results.searched_critical_speed);
+  EXPECT_TRUE(results.critical_speed);
+  EXPECT_FALSE(results.eigenvalues || results.transient || results.limit_cycle);
+  EXPECT_TRUE(results.growth.empty());
+}
+
+TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"eigenvalues", "growth", "limit-cycle"};
+  options.transient =
+      TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 1e-4};
+  options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
+  std::set<std::string> names;
+  const SquealResults results =
+      run(reference_disc(), options, [&](const std::string& name, double) { names.insert(name); });
+  EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
+  EXPECT_EQ(results.growth.size(), 2u);
+  EXPECT_FALSE(results.searched_critical_speed);
+  EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "transient"}));
+}
+
+TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
+{
+  auto body = analytic_body({kirchhoff_3()});
+  body.omega[1] *= 1.1;
+  const Disc disc = make_disc(body, "track", {});
+  SquealOptions options = reference_options();
+  options.analyses = {"eigenvalues"};
+  EXPECT_THROW(run(disc, options), Error);
+  options.analyses = {"transient"};
+  options.transient =
+      TransientCase{.speed = 6.0 * pi, .duration = 0.1, .initial_pad_displacement = 1e-6};
+  EXPECT_TRUE(run(disc, options).transient);
+}
+
+TEST(Run, ValidatesTheOptionsFirst)
+{
+  SquealOptions options = reference_options();
+  options.friction = -1.0;
+  EXPECT_THROW(run(reference_disc(), options), Error);
+}
+
+}  // namespace
+}  // namespace chladni::squeal

@@ -1,0 +1,77 @@
+#include "squeal/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+SquealOptions complete_options()
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"eigenvalues", "critical-speed", "growth", "transient", "limit-cycle"};
+  options.transient =
+      TransientCase{.speed = 10.0, .duration = 1.0, .initial_pad_displacement = 1e-8};
+  options.growth = GrowthCase{.speeds = {10.0}, .duration = 1.0};
+  return options;
+}
+
+/// The error after one change to good options must name the key.
+void expect_named(const std::string& key, const std::function<void(SquealOptions&)>& change)
+{
+  SquealOptions options = complete_options();
+  change(options);
+  try {
+    validate(options);
+    ADD_FAILURE() << "no error for " << key;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+  }
+}
+
+TEST(Validate, AcceptsTheReferenceOptions)
+{
+  EXPECT_NO_THROW(validate(complete_options()));
+  SquealOptions frictionless = complete_options();
+  frictionless.friction = 0.0;
+  EXPECT_NO_THROW(validate(frictionless));
+}
+
+TEST(Validate, NamesTheKeyThatMakesNoSense)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_named("friction", [](auto& o) { o.friction = -0.1; });
+  expect_named("friction", [&](auto& o) { o.friction = nan; });
+  expect_named("thickness", [](auto& o) { o.thickness = 0.0; });
+  expect_named("pads", [](auto& o) { o.pads.clear(); });
+  expect_named("pads[0].stiffness", [](auto& o) { o.pads[0].stiffness = 0.0; });
+  expect_named("pads[0].damping", [](auto& o) { o.pads[0].damping = -1.0; });
+  expect_named("pads[0].preload", [](auto& o) { o.pads[0].preload = 0.0; });
+  expect_named("use_modes", [](auto& o) { o.modes.nodal_diameters = -1; });
+}
+
+TEST(Validate, NamesWhatAnAnalysisLacks)
+{
+  expect_named("eigenvalue", [](auto& o) { o.analyses = {"eigenvalue"}; });
+  expect_named("from_rad_s", [](auto& o) { o.speeds.from = 0.0; });
+  expect_named("to_rad_s", [](auto& o) { o.speeds.to = 1.0; });
+  expect_named("count", [](auto& o) { o.speeds.count = 0; });
+  expect_named("transient", [](auto& o) { o.transient.reset(); });
+  expect_named("transient.speed", [](auto& o) { o.transient->speed = 0.0; });
+  expect_named("transient.duration", [](auto& o) { o.transient->duration = -1.0; });
+  expect_named("initial_pad", [](auto& o) { o.transient->initial_pad_displacement = 0.0; });
+  expect_named("steps_per_period", [](auto& o) { o.transient->steps_per_period = 4; });
+  expect_named("growth", [](auto& o) { o.growth.reset(); });
+  expect_named("growth.speeds", [](auto& o) { o.growth->speeds = {10.0, 0.0}; });
+  expect_named("growth.duration", [](auto& o) { o.growth->duration = 0.0; });
+}
+
+}  // namespace
+}  // namespace chladni::squeal
