@@ -58,6 +58,7 @@ PhaseTime time_of_all_ranks(const PhaseTime& time)
 Cost cost_of_all_ranks(const std::vector<PhaseTime>& phases)
 {
   Cost cost{.phases = {},
+            .wall_s = largest_of_ranks(process_wall_s()),
             .cpu_s = sum_over_ranks(process_cpu_s()),
             .peak_MiB = largest_of_ranks(peak_MiB())};
   for (const PhaseTime& phase : phases) cost.phases.push_back(time_of_all_ranks(phase));

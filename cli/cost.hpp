@@ -12,15 +12,13 @@ namespace chladni::cli {
 /// Time and memory of a whole program.
 struct Cost {
   std::vector<PhaseTime> phases;
+  double wall_s;    ///< of the slowest rank, from the start of the process
   double cpu_s;     ///< of all ranks, from the start of the process
   double peak_MiB;  ///< of the rank that needed most
 };
 
-/// The phases so far with the CPU time and the peak memory of this process.
+/// The phases so far with the times and the peak memory of this process.
 Cost cost_so_far(std::vector<PhaseTime> phases);
-
-/// The sum over the phases, s.
-double wall_s(const Cost& cost);
 
 TextTable cost_table(const Cost& cost);
 

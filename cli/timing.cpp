@@ -7,6 +7,8 @@
 namespace chladni::cli {
 namespace {
 
+const std::chrono::steady_clock::time_point start_of_process = std::chrono::steady_clock::now();
+
 rusage usage_of_this_process()
 {
   rusage usage{};
@@ -39,6 +41,11 @@ void PhaseClock::end_phase(std::string name)
 {
   phases_.push_back({.name = std::move(name), .wall_s = watch_.wall_s(), .cpu_s = watch_.cpu_s()});
   watch_ = Stopwatch();
+}
+
+double process_wall_s()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_of_process).count();
 }
 
 double process_cpu_s()

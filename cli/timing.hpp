@@ -37,6 +37,9 @@ class PhaseClock {
   std::vector<PhaseTime> phases_;
 };
 
+/// Time since this process began, s.
+double process_wall_s();
+
 /// CPU time of this process and its threads since it began, s.
 double process_cpu_s();
 

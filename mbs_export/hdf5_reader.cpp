@@ -29,12 +29,12 @@ const char* class_name(H5T_class_t type)
 /// An open dataset whose kind is checked and whose extents fit into its file.
 struct Dataset {
   Handle id;
-  std::vector<hsize_t> shape;
+  std::vector<Eigen::Index> shape;
 
   std::size_t n_values() const
   {
     std::size_t n = 1;
-    for (const hsize_t extent : shape) n *= extent;
+    for (const Eigen::Index extent : shape) n *= static_cast<std::size_t>(extent);
     return n;
   }
 };
@@ -47,7 +47,8 @@ struct Expected {
 
 /// The extents; none when the values could not fit into a file of this size. Compressed ones can be
 /// larger than it, by a factor of about 1000 at most.
-std::optional<std::vector<hsize_t>> plausible_shape(hid_t dataset, hid_t type, hsize_t file_size)
+std::optional<std::vector<Eigen::Index>> plausible_shape(hid_t dataset, hid_t type,
+                                                         hsize_t file_size)
 {
   const Handle space{H5Dget_space(dataset), H5Sclose};
   const Handle creation{H5Dget_create_plist(dataset), H5Pclose};
@@ -63,14 +64,15 @@ std::optional<std::vector<hsize_t>> plausible_shape(hid_t dataset, hid_t type, h
     if (extent > rest) return std::nullopt;
     if (extent > 0) rest /= extent;
   }
-  return rest > 0 ? std::optional(shape) : std::nullopt;
+  if (rest == 0) return std::nullopt;
+  return std::vector<Eigen::Index>(shape.begin(), shape.end());
 }
 
-bool matches(const std::vector<hsize_t>& shape, const std::vector<Eigen::Index>& expected)
+bool matches(const std::vector<Eigen::Index>& shape, const std::vector<Eigen::Index>& expected)
 {
   if (shape.size() != expected.size()) return false;
   for (std::size_t i = 0; i < shape.size(); ++i)
-    if (expected[i] != any && shape[i] != static_cast<hsize_t>(expected[i])) return false;
+    if (expected[i] != any && shape[i] != expected[i]) return false;
   return true;
 }
 
@@ -219,8 +221,7 @@ Eigen::MatrixXd Reader::matrix(const std::string& name, Shape shape) const
   const Source source{*this, file_, size_};
   const Dataset dataset = open_dataset(source, name, {H5T_FLOAT, {shape.rows, shape.cols}});
   const auto values = read_reals(source, name, dataset);
-  return Eigen::Map<const RowMajorMatrix>(values.data(), Eigen::Index(dataset.shape[0]),
-                                          Eigen::Index(dataset.shape[1]));
+  return Eigen::Map<const RowMajorMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
 }
 
 Eigen::VectorXd Reader::vector(const std::string& name, Eigen::Index size) const
@@ -255,8 +256,7 @@ IntegerMatrix Reader::integer_matrix(const std::string& name, Shape shape) const
   const Source source{*this, file_, size_};
   const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {shape.rows, shape.cols}});
   const auto values = read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64);
-  return Eigen::Map<const IntegerMatrix>(values.data(), Eigen::Index(dataset.shape[0]),
-                                         Eigen::Index(dataset.shape[1]));
+  return Eigen::Map<const IntegerMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
 }
 
 std::string Reader::text(const std::string& name) const

@@ -1,24 +1,55 @@
 #include "reduce/fixed_interface_modes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+
+#include "reduce/block_lanczos.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-constexpr double pair_gap = 1e-4;  // relative distance of frequencies of one cluster
-constexpr double tolerance = 1e-11;
+constexpr double pair_gap = 1e-4;   // relative distance of frequencies of one cluster
+constexpr double tolerance = 1e-9;  // of the vectors; the error of lambda is its square
 
-petsc::EigenSolver shift_invert_solver(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
+EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
+{
+  PetscInt n = 0, n_local = 0, n_s = 0, n_iterations = 0;
+  petsc::check(EPSGetConverged(eps, &n));
+  petsc::check(EPSGetIterationNumber(eps, &n_iterations));
+  if (n < n_modes) {
+    throw Error(
+        fmt::format("fixed_interface_modes: {} of {} modes converged in {} restarts; ask for "
+                    "fewer modes or raise -cms_eps_ncv or -cms_eps_max_it",
+                    n, n_modes, n_iterations));
+  }
+  petsc::check(MatGetLocalSize(M_ss, &n_local, nullptr));
+  petsc::check(MatGetSize(M_ss, &n_s, nullptr));
+  EigenPairs pairs{.lambda = {}, .residual = {}, .X = {}, .n_solves = 0};
+  petsc::check(MatCreateDense(petsc::communicator(M_ss), n_local, PETSC_DECIDE, n_s, n, nullptr,
+                              pairs.X.put()));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscScalar lambda = 0.0;
+    Vec column = nullptr;
+    petsc::check(MatDenseGetColumnVecWrite(pairs.X, i, &column));
+    petsc::check(EPSGetEigenpair(eps, i, &lambda, nullptr, column, nullptr));
+    petsc::check(MatDenseRestoreColumnVecWrite(pairs.X, i, &column));
+    pairs.lambda.push_back(lambda);
+  }
+  return pairs;
+}
+
+/// By SLEPc's Krylov-Schur, one column at a time.
+EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
   petsc::EigenSolver eps;
   petsc::check(EPSCreate(petsc::communicator(M_ss), eps.put()));
   petsc::check(EPSSetOptionsPrefix(eps, "cms_"));
   petsc::check(EPSSetOperators(eps, K_ss.matrix(), M_ss));
   petsc::check(EPSSetProblemType(eps, EPS_GHEP));
-  petsc::check(EPSSetType(eps, EPSKRYLOVSCHUR));
   petsc::check(EPSSetDimensions(eps, n_modes, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
   petsc::check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
@@ -31,31 +62,47 @@ petsc::EigenSolver shift_invert_solver(const Factorization& K_ss, Mat M_ss, Pets
   petsc::check(STSetShift(st, 0.0));
   petsc::check(STSetKSP(st, K_ss.solver()));  // the same matrix object: no second factorisation
   petsc::check(EPSSetFromOptions(eps));
-  return eps;
+  petsc::check(EPSSolve(eps));
+  return converged_pairs(eps, M_ss, n_modes);
 }
 
-std::vector<double> solve(EPS eps, PetscInt n_modes)
+/// "block-lanczos" (default) or "krylov-schur".
+bool uses_krylov_schur()
 {
-  petsc::check(EPSSolve(eps));
-  PetscInt converged = 0;
-  petsc::check(EPSGetConverged(eps, &converged));
-  if (converged < n_modes) {
-    throw Error(
-        fmt::format("fixed_interface_modes: {} of {} modes converged; ask for fewer modes or "
-                    "raise -cms_eps_ncv or -cms_eps_max_it",
-                    converged, n_modes));
+  std::array<char, 64> name{};
+  PetscBool given = PETSC_FALSE;
+  petsc::check(PetscOptionsGetString(nullptr, nullptr, "-cms_modes_solver", name.data(),
+                                     name.size(), &given));
+  const std::string_view solver = given ? name.data() : "block-lanczos";
+  if (solver != "block-lanczos" && solver != "krylov-schur") {
+    throw Error(fmt::format("-cms_modes_solver {}: give block-lanczos or krylov-schur", solver));
+  }
+  return solver == "krylov-schur";
+}
+
+EigenPairs lowest_pairs(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
+{
+  return uses_krylov_schur()
+             ? krylov_schur(K_ss, M_ss, n_modes)
+             : block_lanczos(K_ss.factor(), M_ss, {.n_pairs = n_modes, .tolerance = tolerance});
+}
+
+/// sqrt(lambda) where all are there and positive.
+std::vector<double> angular_frequencies(const std::vector<double>& lambda, PetscInt n_modes)
+{
+  if (std::ssize(lambda) < n_modes) {
+    throw Error(fmt::format("fixed_interface_modes: {} of {} modes found; M_ss has no more",
+                            lambda.size(), n_modes));
   }
   std::vector<double> omega;
-  for (PetscInt i = 0; i < converged; ++i) {
-    PetscScalar lambda = 0.0;
-    petsc::check(EPSGetEigenvalue(eps, i, &lambda, nullptr));
-    if (!(lambda > 0.0)) {
+  for (const double value : lambda) {
+    if (!(value > 0.0)) {
       throw Error(
-          fmt::format("fixed_interface_modes: eigenvalue {} of mode {} is not positive; a "
-                      "part of the body is free while the masters are held",
-                      lambda, i + 1));
+          fmt::format("fixed_interface_modes: eigenvalue {} is not positive; a part of the "
+                      "body is free while the masters are held",
+                      value));
     }
-    omega.push_back(std::sqrt(lambda));
+    omega.push_back(std::sqrt(value));
   }
   return omega;
 }
@@ -67,22 +114,16 @@ PetscInt complete_cluster(const std::vector<double>& omega, PetscInt n)
   return n;
 }
 
-FixedInterfaceModes copy_modes(EPS eps, Mat M_ss, std::vector<double> omega)
+/// The first n pairs; without a copy where these are all.
+FixedInterfaceModes leading_modes(EigenPairs pairs, std::vector<double> omega, PetscInt n)
 {
-  PetscInt n_local = 0;
-  PetscInt n_s = 0;
-  petsc::check(MatGetLocalSize(M_ss, &n_local, nullptr));
-  petsc::check(MatGetSize(M_ss, &n_s, nullptr));
+  if (n == std::ssize(omega)) return {.Phi = std::move(pairs.X), .omega = std::move(omega)};
   FixedInterfaceModes modes{.Phi = {}, .omega = std::move(omega)};
-  const auto n_modes = static_cast<PetscInt>(modes.omega.size());
-  petsc::check(MatCreateDense(petsc::communicator(M_ss), n_local, PETSC_DECIDE, n_s, n_modes,
-                              nullptr, modes.Phi.put()));
-  for (PetscInt i = 0; i < n_modes; ++i) {
-    Vec column = nullptr;
-    petsc::check(MatDenseGetColumnVecWrite(modes.Phi, i, &column));
-    petsc::check(EPSGetEigenvector(eps, i, column, nullptr));
-    petsc::check(MatDenseRestoreColumnVecWrite(modes.Phi, i, &column));
-  }
+  modes.omega.resize(n);
+  Mat columns = nullptr;
+  petsc::check(MatDenseGetSubMatrix(pairs.X, PETSC_DECIDE, PETSC_DECIDE, 0, n, &columns));
+  petsc::check(MatDuplicate(columns, MAT_COPY_VALUES, modes.Phi.put()));
+  petsc::check(MatDenseRestoreSubMatrix(pairs.X, &columns));
   return modes;
 }
 
@@ -106,10 +147,10 @@ FixedInterfaceModes modes_by_number(const Factorization& K_ss, Mat M_ss, PetscIn
   PetscInt n_s = 0;
   petsc::check(MatGetSize(M_ss, &n_s, nullptr));
   const PetscInt n_asked = std::min(n_modes + n_guard_modes, n_s);
-  const petsc::EigenSolver eps = shift_invert_solver(K_ss, M_ss, n_asked);
-  std::vector<double> omega = solve(eps, n_asked);
-  omega.resize(complete_cluster(omega, n_modes));
-  return copy_modes(eps, M_ss, std::move(omega));
+  EigenPairs pairs = lowest_pairs(K_ss, M_ss, n_asked);
+  std::vector<double> omega = angular_frequencies(pairs.lambda, n_modes);
+  const PetscInt n = complete_cluster(omega, n_modes);
+  return leading_modes(std::move(pairs), std::move(omega), n);
 }
 
 FixedInterfaceModes modes_below(const Factorization& K_ss, Mat M_ss, double omega_cutoff)
@@ -118,8 +159,8 @@ FixedInterfaceModes modes_below(const Factorization& K_ss, Mat M_ss, double omeg
   petsc::check(MatGetSize(M_ss, &n_s, nullptr));
   for (PetscInt n_asked = 32;; n_asked *= 2) {
     n_asked = std::min(n_asked, n_s);
-    const petsc::EigenSolver eps = shift_invert_solver(K_ss, M_ss, n_asked);
-    std::vector<double> omega = solve(eps, n_asked);
+    EigenPairs pairs = lowest_pairs(K_ss, M_ss, n_asked);
+    std::vector<double> omega = angular_frequencies(pairs.lambda, 1);
     const auto n =
         static_cast<PetscInt>(std::ranges::lower_bound(omega, omega_cutoff) - omega.begin());
     if (n == std::ssize(omega) && n_asked < n_s) continue;
@@ -129,8 +170,8 @@ FixedInterfaceModes modes_below(const Factorization& K_ss, Mat M_ss, double omeg
           "Hz); raise cutoff_Hz or use Guyan",
           omega_cutoff / (2.0 * std::numbers::pi), omega.front() / (2.0 * std::numbers::pi)));
     }
-    omega.resize(complete_cluster(omega, n));
-    return copy_modes(eps, M_ss, std::move(omega));
+    const PetscInt n_complete = complete_cluster(omega, n);
+    return leading_modes(std::move(pairs), std::move(omega), n_complete);
   }
 }
 

@@ -14,11 +14,12 @@ struct FixedInterfaceModes {
 };
 
 /// The lowest modes, by number or up to a frequency, with the factor of K_ss as shift-and-invert
-/// operator at shift 0 (M_ss may be singular). Modes closer than 1e-4 in frequency stay together:
-/// where the last one wanted has such a partner, that comes too.
+/// operator at shift 0 (M_ss may be singular): by block Lanczos, or by SLEPc's Krylov-Schur. Modes
+/// closer than 1e-4 in frequency stay together: where the last one wanted has such a partner, that
+/// comes too.
 /// @note   Collective on the communicator of `M_ss`.
 /// @throws chladni::Error when the solver does not converge or more modes are asked than exist.
-/// Options: `-cms_eps_...`
+/// Options: `-cms_modes_solver block-lanczos|krylov-schur`, `-cms_eps_...` for the latter
 FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
                                           const ReduceOptions& wanted);
 

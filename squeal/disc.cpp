@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <set>
 
 #include "common/error.hpp"
 
@@ -20,13 +19,13 @@ using mbs_export::ModeKind;
 using std::numbers::pi;
 
 /// Below this angular frequency (0.1 Hz) a mode counts as a rigid-body motion, rad/s.
-constexpr double kRigidLimit = 0.2 * pi;
+constexpr double rigid_limit = 0.2 * pi;
 
 /// Ring motion below this part of the largest one is rounding of the FE model: an in-plane mode.
-constexpr double kStillLimit = 1e-5;
+constexpr double still_limit = 1e-5;
 
 /// Angles of a mesh are known to about 1e-9; beyond this the nodes are not equally spaced, rad.
-constexpr double kAngleLimit = 1e-5;
+constexpr double angle_limit = 1e-5;
 
 void check_ring(const ModalBody& body, const ContactRing& ring)
 {
@@ -73,7 +72,7 @@ std::vector<int> moving_modes(const Disc& disc)
   const Eigen::VectorXd motion = ring_motion(disc).colwise().sum().transpose().cwiseSqrt();
   std::vector<int> modes;
   for (int i = 0; i < motion.size(); ++i)
-    if (motion[i] > kStillLimit * motion.maxCoeff()) modes.push_back(i);
+    if (motion[i] > still_limit * motion.maxCoeff()) modes.push_back(i);
   return modes;
 }
 
@@ -124,7 +123,7 @@ void check_elastic(const ModalBody& body, const std::vector<int>& modes)
   for (const int i : modes) {
     const auto at = static_cast<std::size_t>(i);
     const bool rigid = at < body.kinds.size() && body.kinds[at] == ModeKind::rigid;
-    if (rigid || !(body.omega[i] > kRigidLimit))
+    if (rigid || !(body.omega[i] > rigid_limit))
       throw Error(
           fmt::format("mode {} is a rigid-body motion ({:.3g} Hz): hold the disc, e.g. "
                       "fixed = [\"hub\"] in [body], or choose other modes",
@@ -140,6 +139,7 @@ Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
 Disc with_modes(const Disc& all, const std::vector<int>& modes)
 {
   std::vector<int> numbers;
+  numbers.reserve(modes.size());
   for (const int i : modes) numbers.push_back(all.mode_numbers[static_cast<std::size_t>(i)]);
   return {.radius = all.radius,
           .mode_numbers = numbers,
@@ -156,7 +156,7 @@ Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& val
 {
   const Eigen::Index n = angles.size();
   for (Eigen::Index j = 0; j < n; ++j)
-    if (!(std::abs(angles[j] - angles[0] - 2.0 * pi * double(j) / double(n)) < kAngleLimit))
+    if (!(std::abs(angles[j] - angles[0] - 2.0 * pi * double(j) / double(n)) < angle_limit))
       throw Error(
           fmt::format("ring node {} of {} is at {:.6f} rad: the nodes of a contact ring must "
                       "be equally spaced, in the order of their angles",

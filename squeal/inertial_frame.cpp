@@ -116,13 +116,13 @@ InertialDisc empty_inertial_disc(const Disc& disc)
 {
   const Eigen::Index n = disc.n_modes();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  const Eigen::MatrixXd Zero = Eigen::MatrixXd::Zero(n, n);
+  const Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(n, n);
   return {.radius = disc.radius,
           .nodal_diameters = std::vector<int>(static_cast<std::size_t>(n), 0),
           .omega = zero,
-          .C = Zero,
-          .D = Zero,
-          .R = Zero,
+          .C = zeros,
+          .D = zeros,
+          .R = zeros,
           .U = zero,
           .U_r = zero,
           .U_t = zero,
@@ -137,9 +137,10 @@ InertialDisc with_group(InertialDisc inertial, const Disc& disc, const Group& gr
   const PurePair pair = group.n == 0 ? purify_single(disc, group) : purify(disc, group);
   const double omega = 0.5 * (disc.omega[group.i] + disc.omega[group.j]);
   const int modes[] = {group.i, group.j};
+  const auto first = static_cast<std::size_t>(at);
   for (int column = 0; column < size; ++column) {
     for (int row = 0; row < size; ++row) inertial.R(modes[row], at + column) = pair.R(row, column);
-    inertial.nodal_diameters[static_cast<std::size_t>(at + column)] = group.n;
+    inertial.nodal_diameters[first + column] = group.n;
   }
   inertial.omega.segment(at, size).setConstant(omega);
   inertial.U.segment(at, size).setConstant(pair.U);
@@ -181,22 +182,22 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     inertial = with_group(std::move(inertial), disc, group, at);
     at += group.n == 0 ? 1 : 2;
   }
-  if (!(inertial.largest_impurity < kImpurityLimit))
+  if (!(inertial.largest_impurity < impurity_limit))
     return Complaint{
         fmt::format("its mode shapes on the ring differ from pure harmonics by {:.2g} "
                     "(allowed: {})",
-                    inertial.largest_impurity, kImpurityLimit)};
-  if (!(inertial.largest_split < kSplitLimit))
+                    inertial.largest_impurity, impurity_limit)};
+  if (!(inertial.largest_split < split_limit))
     return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
-                                 inertial.largest_split, kSplitLimit)};
+                                 inertial.largest_split, split_limit)};
   const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
   inertial.C = averaged_damping(inertial, C);
   const double deviation = (C - inertial.C).norm();
-  if (deviation > kImpurityLimit * C.norm())
+  if (deviation > impurity_limit * C.norm())
     return Complaint{
         fmt::format("its damping changes around the circumference by {:.2g} "
                     "(allowed: {})",
-                    deviation / C.norm(), kImpurityLimit)};
+                    deviation / C.norm(), impurity_limit)};
   return inertial;
 }
 

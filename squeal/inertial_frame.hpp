@@ -29,10 +29,10 @@ struct InertialDisc {
 
 /// How far a mode shape may be from a pure harmonic, relative to its amplitude on the ring: a mesh
 /// that is not rotationally symmetric leaves 1e-6 to 1e-3, a disc with vanes or slots much more.
-inline constexpr double kImpurityLimit = 0.02;
+inline constexpr double impurity_limit = 0.02;
 
 /// How far the two frequencies of a pair may be apart, relative.
-inline constexpr double kSplitLimit = 0.01;
+inline constexpr double split_limit = 0.01;
 
 /// The disc in the inertial frame.
 /// @throws chladni::Error when the disc is not axisymmetric (impurity, split or damping beyond the

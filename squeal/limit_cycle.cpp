@@ -116,7 +116,7 @@ LimitCycle limit_cycle(const Disc& disc, const Transient& run)
                    .N_min = *N_low,
                    .N_max = *N_high,
                    .drift = drift,
-                   .settled = std::abs(drift) < kSettledDrift,
+                   .settled = std::abs(drift) < settled_drift,
                    .t_zero_force = run.t_zero_force,
                    .t_99 = time_of_99_percent(run.envelope, velocity),
                    .mode_numbers = disc.mode_numbers,

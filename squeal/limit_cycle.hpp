@@ -6,7 +6,7 @@
 namespace chladni::squeal {
 
 /// Largest relative change of the envelope over the last tenth of a run that counts as settled.
-inline constexpr double kSettledDrift = 1e-3;
+inline constexpr double settled_drift = 1e-3;
 
 /// The limit cycle at the end of a transient of `disc`; frequency from interpolated zero crossings
 /// of the pad velocity over the whole tail. Look at `settled` before you trust it.

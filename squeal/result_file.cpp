@@ -10,8 +10,8 @@ namespace {
 using mbs_export::hdf5::Reader;
 using mbs_export::hdf5::Writer;
 
-constexpr const char* kFormat = "chladni-squeal";
-constexpr std::int64_t kVersion = 1;
+constexpr const char* file_format = "chladni-squeal";
+constexpr std::int64_t file_version = 1;
 
 void write_optional(Writer& file, const std::string& name, const std::optional<double>& x,
                     const std::string& unit)
@@ -187,8 +187,8 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
                    const mbs_export::Provenance& provenance)
 {
   Writer file(path.string());
-  file.attribute("/", "format", kFormat);
-  file.attribute("/", "version", kVersion);
+  file.attribute("/", "format", file_format);
+  file.attribute("/", "version", file_version);
   write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
@@ -203,7 +203,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
 SquealResults read_results(const std::filesystem::path& path)
 {
   const Reader file(path.string());
-  file.expect_format(kFormat, kVersion);
+  file.expect_format(file_format, file_version);
   SquealResults results;
   results.largest_split = read_optional(file, "largest_split");
   if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);

@@ -66,7 +66,7 @@ struct LimitCycle {
   double N_min;             ///< smallest normal force on the first upper pad, N
   double N_max;             ///< largest normal force on the first upper pad, N
   double drift;             ///< relative change of the envelope over the last tenth of the run
-  bool settled;             ///< drift below kSettledDrift
+  bool settled;             ///< drift below settled_drift
   std::optional<double> t_zero_force;  ///< when a normal force first reached zero, s
   double t_99;                         ///< when the envelope first reached 99 % of its end, s
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body

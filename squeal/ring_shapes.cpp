@@ -6,7 +6,7 @@ namespace chladni::squeal {
 namespace {
 
 /// Part of the largest coefficient of a function below which another one is rounding.
-constexpr double kNegligible = 1e-15;
+constexpr double negligible = 1e-15;
 
 Eigen::VectorXd column_of(const Eigen::MatrixXd& W, const Eigen::MatrixXd& W_r,
                           const Eigen::MatrixXd& W_t, Eigen::Index k)
@@ -26,7 +26,7 @@ RingShapes::RingShapes(const Disc& disc) : shapes_(disc.n_modes(), 3)
     all.col(2 * k) = column_of(disc.W.cosine, disc.W_r.cosine, disc.W_t.cosine, k);
     all.col(2 * k + 1) = column_of(disc.W.sine, disc.W_r.sine, disc.W_t.sine, k);
   }
-  const Eigen::ArrayXd limit = kNegligible * all.cwiseAbs().rowwise().maxCoeff();
+  const Eigen::ArrayXd limit = negligible * all.cwiseAbs().rowwise().maxCoeff();
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < n_orders; ++k) {
     const auto magnitude = all.middleCols(2 * k, 2).cwiseAbs().rowwise().maxCoeff().array();

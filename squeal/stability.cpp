@@ -22,7 +22,7 @@ Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, /*computeEigenvectors=*/false);
   if (solver.info() != Eigen::Success)
     throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
-  const Eigen::VectorXcd lambda = solver.eigenvalues();
+  const Eigen::VectorXcd& lambda = solver.eigenvalues();
   std::vector<Complex> sorted(lambda.begin(), lambda.end());
   std::sort(sorted.begin(), sorted.end(), [](const Complex& x, const Complex& y) {
     return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();
@@ -53,7 +53,7 @@ Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
 }
 
 /// Largest real part that rounding can make of a zero, relative to the eigenvalue.
-constexpr double kRounding = 1e-12;
+constexpr double rounding = 1e-12;
 
 /// Root of a continuous function between `low` (negative) and `high` (positive): regula falsi with
 /// the Illinois rule, which halves the value at an end that stays twice.
@@ -136,7 +136,7 @@ std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const Sque
   std::optional<double> last_stable;
   for (const double speed : speeds) {
     const Complex now = worst(speed);
-    const bool decided = std::abs(now.real()) > kRounding * std::abs(now);
+    const bool decided = std::abs(now.real()) > rounding * std::abs(now);
     if (decided && now.real() < 0.0) last_stable = speed;
     if (!decided || now.real() < 0.0 || !last_stable) continue;
     const double critical = root([&](double x) { return worst(x).real(); }, *last_stable, speed);

@@ -20,17 +20,17 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kStepsPerPeriodMin = 8;
-constexpr double kStepsMax = 1e10;
+constexpr int steps_per_period_min = 8;
+constexpr double steps_max = 1e10;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
-constexpr int kPeriodsPerWindow = 4;
-constexpr int kPeriodsInTail = 100;
-constexpr std::int64_t kHistoryPoints = 20000;
+constexpr int periods_per_window = 4;
+constexpr int periods_in_tail = 100;
+constexpr std::int64_t history_points = 20000;
 /// Pad displacement up to which growth is linear, relative to the compression of the pads at rest:
 /// the first nonlinear term is quadratic and reaches about 1 % of the rate at 1.
-constexpr double kLinearPart = 0.05;
+constexpr double linear_part = 0.05;
 /// Initial displacement for a growth rate, relative to the same.
-constexpr double kGrowthStart = 1e-4;
+constexpr double growth_start = 1e-4;
 
 void check(const Disc& disc, const SquealOptions& options, const TransientCase& run)
 {
@@ -45,27 +45,27 @@ void check(const Disc& disc, const SquealOptions& options, const TransientCase& 
   if (!(run.initial_pad_displacement > 0.0))
     throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
                             run.initial_pad_displacement));
-  if (run.steps_per_period < kStepsPerPeriodMin)
-    throw Error(
-        fmt::format("transient: {} steps per period do not resolve the highest mode "
-                    "({:.0f} Hz); take at least {}, better 40",
-                    run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), kStepsPerPeriodMin));
+  if (run.steps_per_period < steps_per_period_min)
+    throw Error(fmt::format(
+        "transient: {} steps per period do not resolve the highest mode "
+        "({:.0f} Hz); take at least {}, better 40",
+        run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
 }
 
 RecordingPlan plan_of(const Disc& disc, const TransientCase& run)
 {
   const double step = 2.0 * pi / (disc.omega.maxCoeff() * run.steps_per_period);
   const double n_steps = std::ceil(run.duration / step);
-  if (!(n_steps < kStepsMax))
+  if (!(n_steps < steps_max))
     throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
-                            n_steps, kStepsMax));
+                            n_steps, steps_max));
   const double steps_of_period = 2.0 * pi / (disc.omega.minCoeff() * step);
   const auto n = static_cast<std::int64_t>(n_steps);
-  const auto tail = static_cast<std::int64_t>(kPeriodsInTail * steps_of_period);
+  const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
   return {.step = step,
           .n_steps = n,
-          .window = static_cast<std::int64_t>(kPeriodsPerWindow * steps_of_period),
-          .every = std::max<std::int64_t>(1, n / kHistoryPoints),
+          .window = static_cast<std::int64_t>(periods_per_window * steps_of_period),
+          .every = std::max<std::int64_t>(1, n / history_points),
           .n_tail = std::min(n, tail)};
 }
 
@@ -142,7 +142,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
   Transient result = recorder.transient();
   result.speed = run.speed;
   result.finished = finite;
-  result.growth_rate = growth_rate(result.envelope, kLinearPart * rest_compression(options));
+  result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
   if (inertial) result.tail_a = in_inertial_frame(*inertial, tail_q, result.tail.t, run.speed);
   return result;
 }
@@ -153,7 +153,7 @@ Growth growth(const Disc& disc, const SquealOptions& options, double speed, doub
   const Transient run = transient(disc, options,
                                   {.speed = speed,
                                    .duration = duration,
-                                   .initial_pad_displacement = kGrowthStart * compression});
+                                   .initial_pad_displacement = growth_start * compression});
   if (!run.growth_rate)
     throw Error(
         fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "

@@ -14,8 +14,8 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 5> kAnalyses{"eigenvalues", "critical-speed", "growth",
-                                                    "transient", "limit-cycle"};
+constexpr std::array<std::string_view, 5> analyses{"eigenvalues", "critical-speed", "growth",
+                                                   "transient", "limit-cycle"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -98,9 +98,9 @@ void validate(const SquealOptions& options)
   validate_modes(options.modes);
   validate_pads(options);
   for (const std::string& analysis : options.analyses)
-    if (std::find(kAnalyses.begin(), kAnalyses.end(), analysis) == kAnalyses.end())
+    if (std::find(analyses.begin(), analyses.end(), analysis) == analyses.end())
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
-                              fmt::join(kAnalyses, ", ")));
+                              fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))

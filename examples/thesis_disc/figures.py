@@ -1,7 +1,7 @@
 """Draws the figures of a squeal study. Usage: figures.py SCENE_OUTPUT_DIR [OVERVIEW_DIR]
 
-Reads the one *.body.h5 and the one *.squeal.h5 in SCENE_OUTPUT_DIR and writes PNG files beside them;
-the overview, one picture of the whole path, goes to OVERVIEW_DIR if it is given.
+Reads the *.body.h5 and the *.squeal.h5 in SCENE_OUTPUT_DIR and writes PNG files beside them; the
+overview, one picture of the whole path, goes to OVERVIEW_DIR if that is given.
 """
 
 import sys

@@ -9,15 +9,19 @@ from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 
-PLATE = "annular Reissner-Mindlin plate, shear factor 5/6, Fourier series in the angle"
-TWO_MODES = "two-mode model in the inertial frame with that plate's mode"
-KIRCHHOFF = "two-mode model with Kirchhoff's mode at 1672.13 Hz, bilateral contact"
-THESIS = "Steinbrecher 2015, section 5.3"
+PLATE = "annular Reissner-Mindlin plate, shear factor 5/6, clamped inside, Fourier series in the angle"
+TWO_MODES = "linear model of two modes in the inertial frame, with the mode of [1]"
+KIRCHHOFF = "simulation of two modes with Kirchhoff's mode shape, at 1672.13 Hz, bilateral contact"
+SHELLS = "Steinbrecher 2015, section 5.3: Abaqus, S8R shells"
+THESIS = "Steinbrecher 2015, section 5.3: Simpack, at 6 pi rad/s"
+LINEAR = "Steinbrecher 2015, section 5.1: linear model, with Kirchhoff's mode and frequency"
+SYMMETRY = "symmetry: the two modes of a pair have one frequency"
+SOURCES = [PLATE, SHELLS, SYMMETRY, TWO_MODES, LINEAR, KIRCHHOFF, THESIS]
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One computed number beside its reference; `within` is the relative error that a test allows."""
+    """A computed number and its reference; `within` is the relative error that a test allows."""
 
     name: str
     unit: str
@@ -43,46 +47,52 @@ def growth(squeal, speed):
 
 def figures(chladni, squeal):
     lower, upper = three_diameters(chladni)
-    cycle = squeal["limit_cycle"]
     critical = squeal["critical_speed_rad_s"] / pi
     simulated, eigenvalue = growth(squeal, 6 * pi)
+    cycle = squeal["limit_cycle"]
+    f, v, z = cycle["frequency_Hz"], cycle["pad_velocity_m_s"], 1e3 * cycle["pad_displacement_m"]
     return [
-        Figure("frequency, 3 nodal diameters", "Hz", lower, 1672.0907, PLATE, 1e-3),
-        Figure("the same", "Hz", lower, 1672.13, THESIS + ".2, Abaqus S8R"),
-        Figure("its twin over it", "1", upper / lower, 1.0, "symmetry", 0.3 / 1672),
-        Figure("critical speed / pi", "rad/s", critical, 4.23518, TWO_MODES, 5e-3),
-        Figure("the same", "rad/s", critical, 4.269, THESIS + ".4, Kirchhoff's mode"),
+        Figure("frequency with 3 nodal diameters", "Hz", lower, 1672.0907, PLATE, 1e-3),
+        Figure("frequency with 3 nodal diameters", "Hz", lower, 1672.13, SHELLS),
+        Figure("upper over lower frequency of the pair", "", upper / lower, 1, SYMMETRY, 0.3 / 1672),
+        Figure("critical speed", "pi rad/s", critical, 4.23518, TWO_MODES, 5e-3),
+        Figure("critical speed", "pi rad/s", critical, 4.269, LINEAR),
         Figure("growth at 6 pi rad/s, eigenvalue", "1/s", eigenvalue, 2.68534, TWO_MODES),
-        Figure("the same, simulated", "1/s", simulated, 2.68534, TWO_MODES),
-        Figure("squeal frequency", "Hz", cycle["frequency_Hz"], 1696.853, KIRCHHOFF, 2e-3),
-        Figure("the same", "Hz", cycle["frequency_Hz"], 1696.0, THESIS + ".4"),
-        Figure("pad velocity", "m/s", cycle["pad_velocity_m_s"], 6.727, KIRCHHOFF),
-        Figure("pad displacement", "mm", 1e3 * cycle["pad_displacement_m"], 0.6309, KIRCHHOFF),
+        Figure("growth at 6 pi rad/s, simulated", "1/s", simulated, 2.68534, TWO_MODES),
+        Figure("limit cycle, frequency", "Hz", f, 1696.853, KIRCHHOFF, 2e-3),
+        Figure("limit cycle, frequency", "Hz", f, 1696, THESIS),
+        Figure("limit cycle, pad velocity", "m/s", v, 6.727, KIRCHHOFF),
+        Figure("limit cycle, pad displacement", "mm", z, 0.6309, KIRCHHOFF),
     ]
 
 
 def read(folder):
-    return [json.loads((Path(folder) / f"{name}.json").read_text()) for name in ("chladni", "squeal")]
+    """The summaries of both programs."""
+    files = (Path(folder) / f"{program}.json" for program in ("chladni", "squeal"))
+    return [json.loads(file.read_text()) for file in files]
 
 
 def print_table(rows):
     width = max(len(row.name) for row in rows)
-    print(f"{'figure':{width}}  {'computed':>10} {'reference':>10} {'unit':5} {'ratio':>8}  source")
+    print(f"{'figure':{width}} {'unit':8} {'computed':>10} {'reference':>10}        ratio")
     for row in rows:
         print(
-            f"{row.name:{width}}  {row.computed:10.6g} {row.reference:10.6g} {row.unit:5} "
-            f"{row.ratio():8.5f}  {row.source}"
+            f"{row.name:{width}} {row.unit:8} {row.computed:10.7g} {row.reference:10.7g} "
+            f"[{SOURCES.index(row.source) + 1}] {row.ratio():8.5f}"
         )
+    print()
+    for number, source in enumerate(SOURCES, start=1):
+        print(f"[{number}] {source}")
 
 
 def print_times(summaries):
     for summary in summaries:
-        phases = ", ".join(f"{name} {spent:.2f}" for name, spent in summary["phases"].items())
+        phases = ", ".join(f"{name} {spent:.1f}" for name, spent in summary["phases"].items())
         print(f"{summary['program']}: {summary['wall_s']:.1f} s ({phases})")
 
 
 if __name__ == "__main__":
-    summaries = read(sys.argv[1])
-    print_table(figures(*summaries))
+    both = read(sys.argv[1])
+    print_table(figures(*both))
     print()
-    print_times(summaries)
+    print_times(both)

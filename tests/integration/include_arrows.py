@@ -1,4 +1,7 @@
-"""Fails on an #include against the arrows of the architecture. Usage: include_arrows.py SOURCE_DIR"""
+"""Fails on an #include against the arrows of the architecture.
+
+Usage: include_arrows.py SOURCE_DIR
+"""
 
 import re
 import sys

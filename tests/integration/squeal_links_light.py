@@ -1,4 +1,7 @@
-"""Fails when `squeal` needs a library of the FE side. Usage: squeal_links_light.py SQUEAL_PROGRAM"""
+"""Fails when `squeal` needs a library of the FE side.
+
+Usage: squeal_links_light.py SQUEAL_PROGRAM
+"""
 
 import re
 import subprocess

@@ -1,4 +1,7 @@
-"""The thesis disc from the mesh to the squeal, against its references. Usage: thesis_disc.py PROGRAM_DIR"""
+"""The thesis disc from the mesh to the squeal, against its references.
+
+Usage: thesis_disc.py PROGRAM_DIR
+"""
 
 import subprocess
 import sys

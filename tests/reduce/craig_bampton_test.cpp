@@ -66,6 +66,19 @@ TEST(FixedInterfaceModes, HaveTheFrequenciesOfTheChainBetweenFixedEnds)
   }
 }
 
+TEST(FixedInterfaceModes, AreTheSameByKrylovSchur)
+{
+  const Reduction r;
+  const auto blocks = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
+  petsc::check(PetscOptionsSetValue(nullptr, "-cms_modes_solver", "krylov-schur"));
+  const auto single = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
+  petsc::check(PetscOptionsClearValue(nullptr, "-cms_modes_solver"));
+  ASSERT_EQ(single.omega.size(), 7u);
+  for (int k = 0; k < 7; ++k) {
+    EXPECT_NEAR(single.omega[k], blocks.omega[k], 1e-11);  // both to round-off of cond(K) eps
+  }
+}
+
 TEST(FixedInterfaceModes, BelowACutoffAreAllThereAre)
 {
   const Reduction r;

@@ -27,13 +27,13 @@ struct PlatePair {
   double split = 0.0;  ///< relative: the second mode has f_Hz (1 + split)
 };
 
-inline constexpr double kRadius = 0.13;
+inline constexpr double ring_radius = 0.13;
 
 // SQUEAL reference values: disc 50 / 324 / 20 mm, Kirchhoff plate, closed form in Bessel functions,
 // scaled to 1 at the rim. Computed independently of this code.
 inline PlatePair kirchhoff_pair(int n, double f_Hz, double mass, double U, double U_r)
 {
-  return {n, f_Hz, mass, U, U_r, n * U / kRadius};
+  return {n, f_Hz, mass, U, U_r, n * U / ring_radius};
 }
 inline PlatePair kirchhoff_3(double f_Hz = 1749.7487734358904)
 {
@@ -68,7 +68,7 @@ inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
   const Eigen::Index n_nodes = 60;
   mbs_export::ContactRing ring{};
   ring.name = "track";
-  ring.radius = kRadius;
+  ring.radius = ring_radius;
   ring.angles = Eigen::VectorXd::LinSpaced(n_nodes, 0.0, 2.0 * pi * (1.0 - 1.0 / n_nodes));
   ring.W = ring.W_r = ring.W_t = Eigen::MatrixXd::Zero(n_nodes, n_modes);
 

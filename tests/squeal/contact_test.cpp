@@ -15,7 +15,7 @@ PadContact reference_pad(ContactLaw law, double damping = 0.0)
 {
   SquealOptions options = reference_options(law);
   options.pads[0].damping = damping;
-  return pad_contact(options, options.pads[0], kRadius);
+  return pad_contact(options, options.pads[0], ring_radius);
 }
 
 RingMotion<double> motion_of(const Shapes& shapes, const Eigen::VectorXd& q,

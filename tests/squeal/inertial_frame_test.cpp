@@ -36,15 +36,19 @@ PlatePair turned_pair()
 
 TEST(InertialDisc, FindsAmplitudesOfAPairInAnyOrientation)
 {
-  const InertialDisc disc = inertial_disc(disc_of({turned_pair()}));
   const double root = std::sqrt(kirchhoff_3().mass);
-  for (int i = 0; i < 2; ++i) {
-    EXPECT_NEAR(disc.U[i] * root, kirchhoff_3().U, 1e-13);
-    EXPECT_NEAR(disc.U_r[i] * root, kirchhoff_3().U_r, 1e-12);
-    EXPECT_NEAR(disc.U_t[i] * root, kirchhoff_3().U_t, 1e-12);
+  for (const double sign : {1.0, -1.0}) {
+    PlatePair pair = turned_pair();
+    pair.sign = sign;
+    const InertialDisc disc = inertial_disc(disc_of({pair}));
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_NEAR(disc.U[i] * root, kirchhoff_3().U, 1e-13);
+      EXPECT_NEAR(disc.U_r[i] * root, kirchhoff_3().U_r, 1e-12);
+      EXPECT_NEAR(disc.U_t[i] * root, kirchhoff_3().U_t, 1e-12);
+    }
+    EXPECT_LT(disc.largest_impurity, 1e-7);  // square root of the rounding of squares
+    EXPECT_LT((disc.R.transpose() * disc.R - Eigen::Matrix2d::Identity()).norm(), 1e-14);
   }
-  EXPECT_LT(disc.largest_impurity, 1e-7);  // square root of the rounding of squares
-  EXPECT_LT((disc.R.transpose() * disc.R - Eigen::Matrix2d::Identity()).norm(), 1e-14);
 }
 
 TEST(InertialDisc, SeesWhatTheRotatingDiscSees)

@@ -1,0 +1,225 @@
+#include "reduce/block_basis.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+
+extern "C" void dsyevd_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda,
+                        double* w, double* work, const int* lwork, int* iwork, const int* liwork,
+                        int* info);
+
+namespace chladni::reduce {
+
+namespace {
+
+/// Y <- Y + alpha X S for column-major local rows.
+void add_product(double alpha, const double* X, PetscInt n_local, const SmallMatrix& S, double beta,
+                 double* Y)
+{
+  const PetscBLASInt m = n_local;
+  const PetscBLASInt n = S.n_cols;
+  const PetscBLASInt k = S.n_rows;
+  if (m == 0 || n == 0 || k == 0) return;
+  BLASgemm_("N", "N", &m, &n, &k, &alpha, X, &m, S.values.data(), &k, &beta, Y, &m);
+}
+
+/// Dense matrix on given storage, or on its own.
+petsc::Matrix dense(MPI_Comm comm, PetscInt n_local, PetscInt n_global, PetscInt n_columns,
+                    double* values)
+{
+  petsc::Matrix A;
+  petsc::check(MatCreateDense(comm, n_local, PETSC_DECIDE, n_global, n_columns, values, A.put()));
+  return A;
+}
+
+SmallMatrix sum(const SmallMatrix& A, const SmallMatrix& B)
+{
+  SmallMatrix C = A;
+  for (std::size_t i = 0; i < C.values.size(); ++i) C.values[i] += B.values[i];
+  return C;
+}
+
+SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
+{
+  SmallMatrix C(A.n_rows, B.n_cols);
+  add_product(1.0, A.values.data(), A.n_rows, B, 0.0, C.values.data());
+  return C;
+}
+
+/// Orthonormalisation of a block with Gram matrix G = E D E^T: Q = block E D^-1/2 and
+/// R = D^1/2 E^T over the directions whose squared length exceeds `least_squared`.
+struct Orthonormalisation {
+  SmallMatrix to_Q;  ///< [n x r]
+  SmallMatrix R;     ///< [r x n]
+  double condition;  ///< sqrt of the ratio of the kept eigenvalues
+};
+
+Orthonormalisation orthonormalisation(const SmallMatrix& G, double least_squared)
+{
+  const SymmetricEigen eigen = symmetric_eigen(G);
+  const PetscInt n = G.n_rows;
+  PetscInt r = 0;
+  while (r < n && eigen.values[n - 1 - r] > least_squared) ++r;
+  Orthonormalisation result{.to_Q = {n, r}, .R = {r, n}, .condition = 1.0};
+  for (PetscInt k = 0; k < r; ++k) {
+    const double length = std::sqrt(eigen.values[n - 1 - k]);
+    for (PetscInt i = 0; i < n; ++i) {
+      result.to_Q(i, k) = eigen.vectors(i, n - 1 - k) / length;
+      result.R(k, i) = eigen.vectors(i, n - 1 - k) * length;
+    }
+  }
+  if (r > 0) result.condition = std::sqrt(eigen.values[n - 1] / eigen.values[n - r]);
+  return result;
+}
+
+double squared_norm(const SmallMatrix& A)
+{
+  double sum = 0.0;
+  for (const double value : A.values) sum += value * value;
+  return sum;
+}
+
+double trace(const SmallMatrix& G)
+{
+  double t = 0.0;
+  for (PetscInt i = 0; i < G.n_rows; ++i) t += G(i, i);
+  return t;
+}
+
+}  // namespace
+
+BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), capacity_(capacity)
+{
+  petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
+  petsc::check(MatGetSize(M, &n_global_, nullptr));
+  values_.resize(std::size_t(n_local_) * capacity_);
+}
+
+petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const
+{
+  return dense(petsc::communicator(M_), n_local_, n_global_, n_columns, nullptr);
+}
+
+petsc::Matrix BlockBasis::columns(PetscInt first, PetscInt n_columns)
+{
+  return dense(petsc::communicator(M_), n_local_, n_global_, n_columns,
+               values_.data() + std::size_t(first) * n_local_);
+}
+
+petsc::Matrix BlockBasis::times_mass(Mat X) const
+{
+  petsc::Matrix MX;
+  petsc::check(MatMatMult(M_, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, MX.put()));
+  return MX;
+}
+
+/// block <- block - V V^T M block; returns V^T M block.
+SmallMatrix BlockBasis::project_out(Mat block)
+{
+  if (n_columns_ == 0) {
+    PetscInt n = 0;
+    petsc::check(MatGetSize(block, nullptr, &n));
+    return {0, n};
+  }
+  const SmallMatrix h = inner_product(columns(0, n_columns_), times_mass(block));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(block, &values));
+  add_product(-1.0, values_.data(), n_local_, h, 1.0, values);
+  petsc::check(MatDenseRestoreArray(block, &values));
+  return h;
+}
+
+/// X to_Q behind the basis, and M X to_Q as the newest.
+void BlockBasis::store(Mat X, Mat MX, const SmallMatrix& to_Q)
+{
+  newest_M_ = new_block(to_Q.n_cols);
+  PetscScalar* M_values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(newest_M_, &M_values));
+  const LocalRows x(X);
+  const LocalRows mx(MX);
+  add_product(1.0, x.values(), n_local_, to_Q, 0.0,
+              values_.data() + std::size_t(n_columns_) * n_local_);
+  add_product(1.0, mx.values(), n_local_, to_Q, 0.0, M_values);
+  petsc::check(MatDenseRestoreArrayWrite(newest_M_, &M_values));
+}
+
+BlockBasis::Appended BlockBasis::append(Mat block)
+{
+  SmallMatrix h = project_out(block);
+  h = sum(h, project_out(block));  // twice is enough
+  petsc::Matrix M_block = times_mass(block);
+  const SmallMatrix G = inner_product(block, M_block);
+  constexpr double dependent = 1e-26;  // of squared lengths: (round-off)^2 with room
+  const Orthonormalisation o = orthonormalisation(G, dependent * (trace(G) + squared_norm(h)));
+  SmallMatrix R = o.R;
+  store(block, M_block, o.to_Q);
+  // Short directions were amplified together with their round-off: clean them once more.
+  // One that loses most of its length then was round-off only.
+  constexpr double genuine = 0.1;
+  constexpr double harmless = 30.0;  // loses 900 eps of orthonormality
+  if (o.condition > harmless) {
+    petsc::Matrix Q;
+    petsc::check(MatDuplicate(columns(n_columns_, R.n_rows), MAT_COPY_VALUES, Q.put()));
+    h = sum(h, product(project_out(Q), R));
+    petsc::Matrix MQ = times_mass(Q);
+    const Orthonormalisation again = orthonormalisation(inner_product(Q, MQ), genuine);
+    store(Q, MQ, again.to_Q);
+    R = product(again.R, R);
+  }
+  n_columns_ += R.n_rows;
+  return {.coefficients = std::move(h), .R = std::move(R)};
+}
+
+void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)
+{
+  constexpr PetscInt piece = 512;  // rows at a time, in place
+  std::vector<double> rows(std::size_t(piece) * n_first);
+  for (PetscInt at = 0; at < n_local_; at += piece) {
+    const PetscInt n = std::min(piece, n_local_ - at);
+    for (PetscInt j = 0; j < n_first; ++j) {
+      std::copy_n(values_.data() + at + std::size_t(j) * n_local_, n,
+                  rows.data() + std::size_t(j) * n);
+    }
+    const PetscBLASInt m = n, columns = S.n_cols, k = n_first, ld = n_local_;
+    const PetscScalar one = 1.0, zero = 0.0;
+    BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.values.data(), &k, &zero,
+              values_.data() + at, &ld);
+  }
+  const PetscInt n_behind = n_columns_ - n_first;
+  std::copy_n(values_.begin() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
+              values_.begin() + std::size_t(S.n_cols) * n_local_);
+  n_columns_ = S.n_cols + n_behind;
+}
+
+petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
+{
+  petsc::Matrix X = new_block(S.n_cols);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(X, &values));
+  add_product(1.0, values_.data(), n_local_, S, 0.0, values);
+  petsc::check(MatDenseRestoreArrayWrite(X, &values));
+  return X;
+}
+
+SymmetricEigen symmetric_eigen(SmallMatrix A)
+{
+  const int n = A.n_rows;
+  SymmetricEigen eigen{.values = std::vector<double>(n), .vectors = {0, 0}};
+  if (n == 0) return eigen;
+  int info = 0, work_size = -1, integer_size = -1, integers_needed = 0;
+  double work_needed = 0.0;
+  dsyevd_("V", "U", &n, A.values.data(), &n, eigen.values.data(), &work_needed, &work_size,
+          &integers_needed, &integer_size, &info);
+  work_size = static_cast<int>(work_needed);
+  integer_size = integers_needed;
+  std::vector<double> work(work_size);
+  std::vector<int> integers(integer_size);
+  dsyevd_("V", "U", &n, A.values.data(), &n, eigen.values.data(), work.data(), &work_size,
+          integers.data(), &integer_size, &info);
+  if (info != 0) throw Error(fmt::format("symmetric_eigen: LAPACK dsyevd failed with {}", info));
+  eigen.vectors = std::move(A);
+  return eigen;
+}
+
+}  // namespace chladni::reduce

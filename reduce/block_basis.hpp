@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "common/petsc.hpp"
+#include "reduce/dense.hpp"
+
+namespace chladni::reduce {
+
+/// A growing set of vectors that are orthonormal in the inner product of a symmetric positive
+/// semidefinite M; rows distributed as those of M. All operations are collective and by blocks.
+class BlockBasis {
+ public:
+  BlockBasis(Mat M, PetscInt capacity);
+
+  PetscInt n_rows() const { return n_global_; }
+  PetscInt n_columns() const { return n_columns_; }
+  PetscInt capacity() const { return capacity_; }
+
+  /// An empty dense matrix with the rows of the basis.
+  petsc::Matrix new_block(PetscInt n_columns) const;
+  /// Columns of the basis without a copy; valid until the next append or compress.
+  petsc::Matrix columns(PetscInt first, PetscInt n_columns);
+  /// M X
+  petsc::Matrix times_mass(Mat X) const;
+
+  /// block = V coefficients + Q R, with Q orthonormal and orthogonal to V; Q joins the basis.
+  /// Directions that are dependent to round-off are left out: Q may have fewer columns or none.
+  struct Appended {
+    SmallMatrix coefficients;  ///< [n_columns before x columns of block]
+    SmallMatrix R;             ///< [columns of Q x columns of block]
+  };
+  Appended append(Mat block);
+  /// M times the columns that the last append added.
+  Mat newest_times_mass() const { return newest_M_; }
+
+  /// Replaces the first `n_first` columns V by V S; the columns behind them follow.
+  void compress(const SmallMatrix& S, PetscInt n_first);
+
+  /// V S of all columns.
+  petsc::Matrix combine(const SmallMatrix& S) const;
+
+ private:
+  SmallMatrix project_out(Mat block);
+  void store(Mat X, Mat MX, const SmallMatrix& to_Q);
+
+  Mat M_;
+  PetscInt n_local_ = 0, n_global_ = 0;
+  PetscInt capacity_;
+  PetscInt n_columns_ = 0;
+  petsc::Matrix newest_M_;
+  std::vector<double> values_;  ///< [n_local x capacity] column-major
+};
+
+/// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix (LAPACK
+/// dsyevd).
+struct SymmetricEigen {
+  std::vector<double> values;
+  SmallMatrix vectors;
+};
+SymmetricEigen symmetric_eigen(SmallMatrix A);
+
+}  // namespace chladni::reduce

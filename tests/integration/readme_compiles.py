@@ -1,0 +1,54 @@
+"""The C++ of the README compiles against the headers. Usage: readme_compiles.py BUILD_DIR"""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+PROLOGUE = """
+#include "mbs_export/make_body.hpp"
+#include "mbs_export/reduced_file.hpp"
+#include "mesh/generate.hpp"
+#include "mesh/partition.hpp"
+#include "plate/assemble.hpp"
+#include "reduce/craig_bampton.hpp"
+#include "squeal/run.hpp"
+using namespace chladni;
+"""
+# What each piece of the README takes as given.
+GIVEN = [
+    "const mesh::AnnulusOptions& annulus_options, std::vector<plate::RigidCoupling> couplings, "
+    "std::vector<plate::ShellSection> sections, int n_ranks, IS masters",
+    "const squeal::SquealOptions& options",
+]
+
+
+def flags(build):
+    """Definitions and include folders of the file that sees all of the FE side."""
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        if entry["file"].endswith("cli/reduce_scene.cpp"):
+            words = shlex.split(entry["command"])
+            pairs = zip(words, words[1:])
+            systems = [word for flag, path in pairs if flag == "-isystem" for word in (flag, path)]
+            return systems + [word for word in words if re.match("-[ID]|-std", word)]
+    sys.exit("cli/reduce_scene.cpp is not in the compile database")
+
+
+def main(build):
+    readme = (Path(__file__).parents[2] / "README.md").read_text()
+    pieces = re.findall(r"```cpp\n(.*?)```", readme, flags=re.S)
+    if len(pieces) != len(GIVEN):
+        sys.exit(f"the README has {len(pieces)} pieces of C++, this test knows {len(GIVEN)}")
+    functions = [
+        f"void piece_{i}({given})\n{{\n{piece}}}\n"
+        for i, (given, piece) in enumerate(zip(GIVEN, pieces))
+    ]
+    command = ["c++", *flags(build), "-fsyntax-only", "-x", "c++", "-"]
+    run = subprocess.run(command, input=PROLOGUE + "\n".join(functions), text=True, check=False)
+    sys.exit(run.returncode)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

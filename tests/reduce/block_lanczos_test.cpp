@@ -1,0 +1,109 @@
+#include "reduce/block_lanczos.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "chain.hpp"
+#include "reduce/block_basis.hpp"
+#include "reduce/factorization.hpp"
+
+namespace chladni::reduce {
+namespace {
+
+using testing::free_chain;
+using testing::master_set;
+
+/// A chain of n masses between fixed ends: lambda_k = 4 sin^2(k pi / (2 (n + 1))).
+struct FixedChain {
+  explicit FixedChain(PetscInt n) : chain(free_chain(n + 2))
+  {
+    const DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n + 1}));
+    K = split(chain.K, dofs);
+    M = split(chain.M, dofs);
+  }
+  testing::Chain chain;
+  Blocks K, M;
+};
+
+double exact(int k, int n)
+{
+  return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n + 1)), 2);
+}
+
+void expect_exact(const EigenPairs& pairs, int n)
+{
+  for (std::size_t i = 0; i < pairs.lambda.size(); ++i) {
+    const double lambda = exact(static_cast<int>(i) + 1, n);
+    // The error of lambda is the square of the residual; what remains is cond(K) = 4 n^2 / pi^2
+    // times round-off.
+    EXPECT_NEAR(pairs.lambda[i], lambda, 1e-11 * lambda) << "pair " << i + 1;
+  }
+}
+
+TEST(BlockLanczos, FindsTheLowestPairsOfAChain)
+{
+  const FixedChain c(200);
+  const Factorization factor(c.K.ss);
+  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 12});
+  ASSERT_EQ(pairs.lambda.size(), 12u);
+  expect_exact(pairs, 200);
+}
+
+TEST(BlockLanczos, GivesTheSameWhenItMustRestart)
+{
+  const FixedChain c(400);
+  const Factorization factor(c.K.ss);
+  const BlockLanczosOptions options{.n_pairs = 40, .block_size = 4, .max_subspace = 60};
+  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, options);
+  EXPECT_GT(pairs.n_solves, 64);  // it did restart
+  expect_exact(pairs, 400);
+}
+
+TEST(BlockLanczos, HasOrthonormalVectors)
+{
+  const FixedChain c(200);
+  const Factorization factor(c.K.ss);
+  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20});
+  const SmallMatrix I = inner_product(pairs.X, pairs.X);  // M = I
+  for (PetscInt i = 0; i < I.n_rows; ++i) {
+    for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
+  }
+}
+
+TEST(BlockLanczos, ExhaustsASmallProblem)
+{
+  const FixedChain c(9);
+  const Factorization factor(c.K.ss);
+  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 9});
+  ASSERT_EQ(pairs.lambda.size(), 9u);
+  expect_exact(pairs, 9);
+}
+
+TEST(BlockLanczos, SaysWhenItDoesNotConverge)
+{
+  const FixedChain c(200);
+  const Factorization factor(c.K.ss);
+  EXPECT_THROW(block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20, .max_steps = 2}), Error);
+}
+
+TEST(BlockBasis, LeavesOutADependentDirection)
+{
+  const FixedChain c(30);
+  BlockBasis basis(c.M.ss, 10);
+  petsc::Matrix block = basis.new_block(3);
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(block, &first, &last));
+  for (PetscInt i = first; i < last; ++i) {
+    petsc::check(MatSetValue(block, i, 0, 1.0, INSERT_VALUES));
+    petsc::check(MatSetValue(block, i, 1, double(i), INSERT_VALUES));
+    petsc::check(MatSetValue(block, i, 2, 2.0 * i - 3.0, INSERT_VALUES));  // of the first two
+  }
+  testing::finish(block);
+  EXPECT_EQ(basis.append(block).R.n_rows, 2);
+  EXPECT_EQ(basis.n_columns(), 2);
+}
+
+}  // namespace
+}  // namespace chladni::reduce
