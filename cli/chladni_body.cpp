@@ -34,8 +34,10 @@ void make_and_write_body(const SceneArguments& arguments)
   clock.end_phase("write");
 
   const Cost cost = cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}\n{}\nwrote {}\n", scene.title, format_table(list_modes(body)),
-             format_table(describe(body)), format_table(cost_table(cost)), file.string());
+  const std::string selection = describe_selection(body);
+  fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title, format_table(list_modes(body)),
+             selection, selection.empty() ? "" : "\n", format_table(describe(body)),
+             format_table(cost_table(cost)), file.string());
   write_summary(arguments,
                 {{"n_masters", reduced.n_masters()},
                  {"n_modes", reduced.fixed_interface_frequencies.size()},

@@ -10,9 +10,20 @@
 /// @note Collective on all ranks.
 namespace chladni::cli {
 
+/// What `chladni export` takes.
+struct ExportArguments {
+  std::string source;      ///< a scene or a *.reduced.h5
+  std::string format;      ///< one of export_formats()
+  std::string from = ".";  ///< folder of the scene's reduced system
+  std::string output;      ///< the file to write; empty for NAME and the extension of the format
+  int superelement = 100;  ///< its number in Nastran
+};
+
 struct ChladniArguments {
   SceneArguments scene;
   std::string info_file;
+  std::string check_file;
+  ExportArguments exported;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
 };
 
@@ -27,6 +38,16 @@ void body_command(const ChladniArguments& arguments);
 
 /// All of this, from the scene to both files.
 void run_command(const ChladniArguments& arguments);
+
+/// Checks a reduced system or a modal body.
+/// @throws chladni::Error after the table is printed, when a check fails.
+void check_command(const ChladniArguments& arguments);
+
+/// Writes a reduced system or a body in the format of another program. Needs no PETSc.
+void export_command(const ChladniArguments& arguments);
+
+/// The values of --format.
+const std::vector<std::string>& export_formats();
 
 /// Says what a file of Chladni holds.
 void info_command(const ChladniArguments& arguments);

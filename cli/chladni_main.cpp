@@ -40,6 +40,25 @@ constexpr Subcommand on_scenes[] = {
      cli::run_command},
 };
 
+void declare_export(CLI::App& app, cli::ExportArguments& arguments)
+{
+  CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
+  exported->add_option("SOURCE", arguments.source, "the scene file, or a *.reduced.h5")->required();
+  exported->add_option("--format", arguments.format, "format of the other program")
+      ->required()
+      ->check(CLI::IsMember(cli::export_formats()));
+  exported->add_option("--from", arguments.from, "folder of the scene's NAME.reduced.h5")
+      ->type_name("DIR")
+      ->capture_default_str();
+  exported->add_option("--output", arguments.output, "file to write")->type_name("FILE");
+  exported->add_option("--superelement", arguments.superelement, "its number in Nastran")
+      ->check(CLI::Range(1, 9999))
+      ->capture_default_str();
+  exported->footer(
+      "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
+      "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem");
+}
+
 void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
@@ -51,6 +70,10 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5 or *.squeal.h5")
       ->required();
   info->footer("Example:\n  chladni info out/disc.body.h5");
+  CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
+  check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
+  check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
+  declare_export(app, arguments.exported);
   app.require_subcommand(1);
 }
 
@@ -59,6 +82,8 @@ void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
   for (const Subcommand& subcommand : on_scenes) {
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
   }
+  if (app.got_subcommand("export")) return cli::export_command(arguments);
+  if (app.got_subcommand("check")) return cli::check_command(arguments);
   cli::info_command(arguments);
 }
 

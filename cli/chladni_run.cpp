@@ -21,9 +21,10 @@ void write_both_files(const Scene& scene, const SceneArguments& arguments,
 void print_and_write_summary(const SceneArguments& arguments, const ReduceSummary& summary,
                              const mbs_export::ModalBody& body, const Cost& cost)
 {
-  fmt::print("{}\n\n{}\n{}\n{}\n{}", body.title, format_table(list_modes(body)),
-             format_table(reduction_table(summary)), format_table(describe(body)),
-             format_table(cost_table(cost)));
+  const std::string selection = describe_selection(body);
+  fmt::print("{}\n\n{}\n{}{}{}\n{}\n{}", body.title, format_table(list_modes(body)), selection,
+             selection.empty() ? "" : "\n", format_table(reduction_table(summary)),
+             format_table(describe(body)), format_table(cost_table(cost)));
   std::vector<Json::Member> members = reduction_json(summary);
   members.emplace_back("frequencies_Hz", frequencies_json(body.omega));
   members.emplace_back("n_rigid", body.n_rigid);

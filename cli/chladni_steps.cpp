@@ -72,6 +72,12 @@ TextTable reduction_table(const ReduceSummary& summary)
   table.rows.push_back({"DOFs", fmt::format("{}", summary.n_dofs)});
   table.rows.push_back({"masters", fmt::format("{}", summary.n_masters)});
   table.rows.push_back({"fixed-interface modes", fmt::format("{}", summary.n_modes)});
+  const mbs_export::Certificate& certificate = summary.reduced.certificate;
+  if (const Eigen::Index n = certificate.eta2.size(); n > 0) {
+    table.rows.push_back({fmt::format("error of the frequencies up to {:.0f} Hz",
+                                      certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
+                          fmt::format("{:.1e}", 0.5 * certificate.eta2.maxCoeff())});
+  }
   table.rows.push_back(
       {"CPU of the factorisation, s", fmt::format("{:.3f}", summary.factorization.cpu_s)});
   return table;
@@ -83,8 +89,17 @@ std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
           {"n_nodes", summary.n_nodes},
           {"n_masters", summary.n_masters},
           {"n_modes", summary.n_modes},
+          {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
+          {"eta2", numbers_json(summary.reduced.certificate.eta2)},
           {"factor_wall_s", summary.factorization.wall_s},
           {"factor_cpu_s", summary.factorization.cpu_s}};
+}
+
+Json numbers_json(const Eigen::VectorXd& values)
+{
+  std::vector<Json> numbers;
+  for (const double value : values) numbers.emplace_back(value);
+  return Json::array(numbers);
 }
 
 Json frequencies_json(const Eigen::VectorXd& omega)

@@ -29,8 +29,12 @@ PhaseTime time_of_all_ranks(const PhaseTime& time);
 /// What the reduction was about, beside what the factorisation cost.
 TextTable reduction_table(const ReduceSummary& summary);
 
-/// Members `n_dofs`, `n_nodes`, `n_masters`, `n_modes`, `factor_wall_s`, `factor_cpu_s`.
+/// Members `n_dofs`, `n_nodes`, `n_masters`, `n_modes`, `certified_frequencies_Hz` with their
+/// `eta2`, `factor_wall_s`, `factor_cpu_s`.
 std::vector<Json::Member> reduction_json(const ReduceSummary& summary);
+
+/// Numbers as a JSON array.
+Json numbers_json(const Eigen::VectorXd& values);
 
 /// Angular frequencies in rad/s as a JSON array in Hz.
 Json frequencies_json(const Eigen::VectorXd& omega);

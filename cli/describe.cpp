@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
+#include <set>
 
 #include "common/error.hpp"
 #include "mbs_export/body_file.hpp"
@@ -67,6 +72,14 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
   }
 }
 
+void add_map(TextTable& table, const squeal::StabilityMap& map)
+{
+  add_count(table, fmt::format("points of the map of speed and {}", map.parameter),
+            map.growth.size());
+  add_count(table, "unstable ones of them", (map.growth.array() > 0.0).count());
+  add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
+}
+
 void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
 {
   add(table, "limit cycle: speed", cycle.speed, "rad/s");
@@ -78,6 +91,59 @@ void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
   if (!cycle.settled) {
     add(table, "limit cycle: not settled, drift", 100.0 * cycle.drift, "%");
   }
+}
+
+using Steps = std::vector<mbs_export::SelectionStep>;
+
+/// The last step that needs no more than `size` modes; null before the first and after the last.
+const mbs_export::SelectionStep* step_at(const Steps& steps, int size)
+{
+  if (steps.empty() || size > steps.back().size()) return nullptr;
+  const auto after = std::ranges::upper_bound(steps, size, {}, &mbs_export::SelectionStep::size);
+  return after == steps.begin() ? nullptr : &*(after - 1);
+}
+
+/// Sizes at which the error of a path falls to another half of a power of ten, and the last one.
+void add_telling_sizes(std::set<int>& sizes, const Steps& steps)
+{
+  int last = std::numeric_limits<int>::max();
+  for (const mbs_export::SelectionStep& step : steps) {
+    const int level = static_cast<int>(std::floor(2.0 * std::log10(step.error + 1e-300)));
+    if (level < last || &step == &steps.back()) sizes.insert(step.size());
+    last = std::min(last, level);
+  }
+}
+
+TextTable selection_table(const mbs_export::SelectionTable& selection)
+{
+  std::set<int> sizes;
+  add_telling_sizes(sizes, selection.modes_only);
+  add_telling_sizes(sizes, selection.with_interface_modes);
+  TextTable table{
+      .header = {"size", "error, modes alone", "error, with interface modes", "interface modes"},
+      .rows = {}};
+  for (const int size : sizes) {
+    const auto* modes = step_at(selection.modes_only, size);
+    const auto* mixed = step_at(selection.with_interface_modes, size);
+    table.rows.push_back({fmt::format("{}", size),
+                          modes != nullptr ? fmt::format("{:.2e}", modes->error) : "",
+                          mixed != nullptr ? fmt::format("{:.2e}", mixed->error) : "",
+                          mixed != nullptr ? fmt::format("{}", mixed->n_interface) : ""});
+  }
+  return table;
+}
+
+void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
+{
+  add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
+  add(table, "direct limit cycle: frequency", cycle.frequency_Hz, "Hz");
+  add(table, "direct limit cycle: pad velocity", cycle.pad_velocity, "m/s");
+  add(table, "direct limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
+  add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
+  add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
+  if (!cycle.stable) table.rows.push_back({"direct limit cycle", "not stable", ""});
+  add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
 }
 
 template <class Object>
@@ -127,6 +193,7 @@ TextTable describe(const squeal::SquealResults& results)
     add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
   }
   add_critical_speed(table, results);
+  if (results.map) add_map(table, *results.map);
   for (const squeal::Growth& growth : results.growth) {
     add(table, fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi), growth.rate, "1/s");
   }
@@ -137,6 +204,7 @@ TextTable describe(const squeal::SquealResults& results)
     table.rows.push_back({"transient", "diverged", ""});
   }
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
+  if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
   return table;
 }
 
@@ -151,13 +219,31 @@ TextTable list_modes(const mbs_export::ModalBody& body)
   return table;
 }
 
+std::string describe_selection(const mbs_export::ModalBody& body)
+{
+  if (!body.selection) return "";
+  const mbs_export::SelectionTable& selection = *body.selection;
+  const auto n_interface = std::ranges::count(body.kinds, mbs_export::ModeKind::interface);
+  const Steps& steps = n_interface > 0 ? selection.with_interface_modes : selection.modes_only;
+  const double error = steps.empty() ? 0.0 : steps.back().error;
+  return fmt::format(
+      "selection for loads at {} up to {:.6g} Hz, tolerance {:.3g}\n\n{}\n{}: {} modes and {} "
+      "interface modes, error {:.2e}\n",
+      fmt::join(selection.loads, ", "), selection.Omega_max / (2.0 * pi), selection.error,
+      format_table(selection_table(selection)),
+      error <= selection.error ? "chosen" : "the tolerance cannot be reached; the best is",
+      body.n_modes() - n_interface, n_interface, error);
+}
+
 std::string describe_file(const std::filesystem::path& file)
 {
   const std::string format = mbs_export::hdf5::Reader(file.string()).text_attribute("/", "format");
   if (format == "chladni-reduced") return titled(mbs_export::read_reduced(file));
   if (format == "chladni-body") {
     const mbs_export::ModalBody body = mbs_export::read_body(file);
-    return titled(body) + "\n" + format_table(list_modes(body));
+    const std::string selection = describe_selection(body);
+    return titled(body) + "\n" + format_table(list_modes(body)) +
+           (selection.empty() ? "" : "\n" + selection);
   }
   if (format == "chladni-squeal") return format_table(describe(squeal::read_results(file)));
   throw Error(

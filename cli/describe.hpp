@@ -18,6 +18,10 @@ TextTable describe(const squeal::SquealResults& results);
 /// The frequencies of a body's modes with their kinds.
 TextTable list_modes(const mbs_export::ModalBody& body);
 
+/// Size against error of a selection by tolerance, and what became of it; empty when a body's modes
+/// were chosen otherwise.
+std::string describe_selection(const mbs_export::ModalBody& body);
+
 /// Says what any file of Chladni holds: a reduced system, a modal body or the results of squeal.
 /// @throws chladni::Error when the file is none of these or is damaged.
 std::string describe_file(const std::filesystem::path& file);

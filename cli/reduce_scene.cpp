@@ -2,69 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
-#include <optional>
+#include <array>
 
-#include "cli/attachments.hpp"
 #include "cli/broadcast_mesh.hpp"
 #include "cli/mesh_scene.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/picture.hpp"
+#include "cli/reduce_steps.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
-#include "reduce/craig_bampton.hpp"
 
 namespace chladni::cli {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
-
-/// The master DOFs in the order of the scene, as global DOFs of K.
-std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::DofMap& dofs)
-{
-  std::vector<PetscInt> masters;
-  for (const int node : attachments.nodes) {
-    for (int c = 0; c < 6; ++c) masters.push_back(6 * dofs.number[node] + c);
-  }
-  return masters;
-}
-
-petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
-{
-  PetscInt first = 0;
-  PetscInt last = 0;
-  petsc::check(MatGetOwnershipRange(K, &first, &last));
-  std::vector<PetscInt> own;
-  std::ranges::copy_if(masters, std::back_inserter(own),
-                       [&](PetscInt dof) { return dof >= first && dof < last; });
-  petsc::IndexSet set;
-  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
-                               PETSC_COPY_VALUES, set.put()));
-  return set;
-}
-
-/// For each coordinate of the file (masters in the scene's order, then modes) its place in the
-/// reduced model, whose masters ascend by DOF.
-std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscInt n_modes)
-{
-  std::vector<PetscInt> ascending = masters;
-  std::ranges::sort(ascending);
-  std::vector<int> places;
-  for (const PetscInt dof : masters) {
-    places.push_back(
-        static_cast<int>(std::ranges::lower_bound(ascending, dof) - ascending.begin()));
-  }
-  for (PetscInt k = 0; k < n_modes; ++k) places.push_back(static_cast<int>(std::ssize(places)));
-  return places;
-}
-
-MatrixXd as_eigen(const reduce::SmallMatrix& A)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
-}
 
 std::string library_versions()
 {
@@ -74,13 +25,6 @@ std::string library_versions()
                      petsc_version.data(), SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR,
                      SLEPC_VERSION_SUBMINOR);
 }
-
-/// What the phases hand on.
-struct FeModel {
-  mesh::Mesh mesh;
-  plate::System system;
-  Attachments attachments;
-};
 
 FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 {
@@ -92,55 +36,29 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
       .mesh = std::move(mesh), .system = std::move(system), .attachments = std::move(attachments)};
 }
 
-mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
-                                        const reduce::ReducedModel& model,
-                                        const std::vector<int>& places)
-{
-  mbs_export::ReducedSystem reduced;
-  reduced.title = scene.title;
-  reduced.sets = fe.attachments.sets;
-  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
-    const int node = fe.attachments.nodes[i];
-    const auto& x = fe.system.dofs.positions[node];
-    reduced.attachment_nodes.push_back(
-        {.number = node_number(fe.mesh, fe.system.dofs, node), .position = {x[0], x[1], x[2]}});
-    for (int c = 0; c < 6; ++c) {
-      reduced.masters.push_back({.node = static_cast<int>(i), .component = c});
-    }
-  }
-  reduced.K = as_eigen(model.K)(places, places);
-  reduced.M = as_eigen(model.M)(places, places);
-  reduced.fixed_interface_frequencies =
-      Eigen::Map<const Eigen::VectorXd>(model.omega.data(), std::ssize(model.omega));
-  return reduced;
-}
-
-/// Ends a phase of the clock when it goes out of use, and reports the progress.
-class Phases {
- public:
-  explicit Phases(const ReduceProgress& progress) : progress_(progress) {}
-
-  template <typename Work>
-  auto run(const std::string& name, const Work& work)
-  {
-    if (progress_) progress_(name, 0.0);
-    auto result = work();
-    clock_.end_phase(name);
-    if (progress_) progress_(name, 1.0);
-    return result;
-  }
-  const std::vector<PhaseTime>& times() const { return clock_.phases(); }
-
- private:
-  const ReduceProgress& progress_;
-  PhaseClock clock_;
-};
-
 mesh::Mesh mesh_on_all_ranks(const Scene& scene)
 {
   mesh::Mesh mesh;
   on_first_rank([&] { mesh = mesh_scene(scene); });
   return broadcast(mesh);
+}
+
+Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                       const reduce::Factorization& K_ss, Phases& phases)
+{
+  return reduce_blocks(scene, fe, blocks, K_ss, constraint_basis(blocks, K_ss, phases),
+                       scene.reduce, phases);
+}
+
+mbs_export::Picture picture_of(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                               const Reduced& reduced)
+{
+  const RowsOf rows_of = [&](const std::vector<int>& dofs) -> MatrixXd {
+    const reduce::SmallMatrix rows = reduce::basis_rows(reduced.Q_CB, blocks.rows, dofs);
+    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(Eigen::all,
+                                                                                    reduced.places);
+  };
+  return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows_of);
 }
 
 }  // namespace
@@ -151,42 +69,27 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   Phases phases(progress);
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   const FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
-  const std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
-  const auto rows = phases.run("partition", [&] {
-    return reduce::partition(fe.system.K, own_masters(fe.system.K, masters));
-  });
-  const reduce::Blocks K = reduce::split(fe.system.K, rows);
-  const reduce::Blocks M = reduce::split(fe.system.M, rows);
-  const auto K_ss = phases.run("factorization", [&] { return reduce::factorize(K.ss); });
+  const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
+  const auto K_ss = phases.run("factorization", [&] { return reduce::factorize(blocks.K.ss); });
   const PhaseTime factorization = phases.times().back();
-  reduce::CraigBamptonBasis Q_CB{
-      .Psi = phases.run("constraint modes", [&] { return reduce::constraint_modes(K_ss, K); }),
-      .modes = std::nullopt};
-  if (scene.reduce.method == reduce::Method::craig_bampton) {
-    Q_CB.modes = phases.run("fixed-interface modes", [&] {
-      return reduce::fixed_interface_modes(K_ss, M.ss, scene.reduce);
-    });
-  }
-  const auto model = phases.run("projection", [&] { return reduce::project(Q_CB, K, M); });
-  const std::vector<int> places = coordinate_places(masters, Q_CB.n_modes());
-  mbs_export::ReducedSystem reduced = to_file_order(scene, fe, model, places);
-  reduced.picture = phases.run("pictures", [&] {
-    const RowsOf rows_of = [&](const std::vector<int>& dofs) -> MatrixXd {
-      return as_eigen(reduce::basis_rows(Q_CB, rows, dofs))(Eigen::all, places);
-    };
-    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows_of);
-  });
-  reduced.provenance = {.scene = scene.text,
-                        .mesh_checksum = mesh::checksum(fe.mesh),
-                        .versions = library_versions(),
-                        .options = petsc_options,
-                        .ranks = n_ranks()};
-  return {.reduced = std::move(reduced),
+  Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
+                                           : reduce_as_told(scene, fe, blocks, K_ss, phases);
+  mbs_export::ReducedSystem& system = reduced.system;
+  const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
+  system.certificate = phases.run(
+      "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  system.picture = phases.run("pictures", [&] { return picture_of(scene, fe, blocks, reduced); });
+  system.provenance = {.scene = scene.text,
+                       .mesh_checksum = mesh::checksum(fe.mesh),
+                       .versions = library_versions(),
+                       .options = petsc_options,
+                       .ranks = n_ranks()};
+  return {.reduced = std::move(system),
           .phases = phases.times(),
           .n_dofs = 6 * std::int64_t(fe.system.dofs.n_active()),
           .n_nodes = fe.mesh.n_nodes(),
-          .n_masters = static_cast<int>(masters.size()),
-          .n_modes = static_cast<int>(Q_CB.n_modes()),
+          .n_masters = static_cast<int>(blocks.masters.size()),
+          .n_modes = n_modes,
           .factorization = factorization};
 }
 

@@ -84,6 +84,20 @@ Json limit_cycle_json(const squeal::LimitCycle& cycle)
                        {"drift", cycle.drift}});
 }
 
+Json direct_json(const squeal::DirectLimitCycle& cycle)
+{
+  std::vector<Json> multipliers;
+  for (const std::complex<double>& value : cycle.multipliers) {
+    multipliers.push_back(Json::array({value.real(), value.imag()}));
+  }
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"multipliers", Json::array(multipliers)},
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
+}
+
 /// Only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
 {
@@ -103,6 +117,9 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   }
   if (results.limit_cycle) {
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
+  }
+  if (results.limit_cycle_direct) {
+    members.emplace_back("limit_cycle_direct", direct_json(*results.limit_cycle_direct));
   }
   return members;
 }

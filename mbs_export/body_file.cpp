@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "mbs_export/contact_rings.hpp"
@@ -131,6 +132,59 @@ Preparation read_preparation(const hdf5::Reader& file)
           .rigid_residual = file.real("preparation/rigid_residual")};
 }
 
+void write_steps(hdf5::Writer& file, const std::string& group,
+                 const std::vector<SelectionStep>& steps)
+{
+  std::vector<std::string> added;
+  std::vector<int> n_modes, n_interface;
+  VectorXd error(Index(steps.size()));
+  for (const SelectionStep& step : steps) {
+    error[Index(added.size())] = step.error;
+    added.push_back(step.added);
+    n_modes.push_back(step.n_modes);
+    n_interface.push_back(step.n_interface);
+  }
+  file.write(group + "added", added);
+  file.write(group + "modes", std::span<const int>(n_modes), "1");
+  file.write(group + "interface_modes", std::span<const int>(n_interface), "1");
+  file.write(group + "error", error, "1");
+}
+
+std::vector<SelectionStep> read_steps(const hdf5::Reader& file, const std::string& group)
+{
+  const std::vector<std::string> added = file.texts(group + "added");
+  const Index n = Index(added.size());
+  constexpr Index limit = std::numeric_limits<int>::max();
+  const std::vector<int> n_modes = file_parts::read_indices(file, group + "modes", limit, n);
+  const std::vector<int> n_interface =
+      file_parts::read_indices(file, group + "interface_modes", limit, n);
+  const VectorXd error = file.vector(group + "error", n);
+  std::vector<SelectionStep> steps;
+  for (std::size_t i = 0; i < added.size(); ++i)
+    steps.push_back({added[i], n_modes[i], n_interface[i], error[Index(i)]});
+  return steps;
+}
+
+void write_selection(hdf5::Writer& file, const SelectionTable& table)
+{
+  file.write("selection/tolerance", table.error, "1");
+  file.write("selection/highest_frequency", table.Omega_max, "rad/s");
+  file.write("selection/loads", table.loads);
+  write_steps(file, "selection/modes_only/", table.modes_only);
+  write_steps(file, "selection/with_interface_modes/", table.with_interface_modes);
+}
+
+std::optional<SelectionTable> read_selection(const hdf5::Reader& file)
+{
+  if (!file.contains("selection")) return std::nullopt;
+  return SelectionTable{
+      .error = file.real("selection/tolerance"),
+      .Omega_max = file.real("selection/highest_frequency"),
+      .loads = file.texts("selection/loads"),
+      .modes_only = read_steps(file, "selection/modes_only/"),
+      .with_interface_modes = read_steps(file, "selection/with_interface_modes/")};
+}
+
 std::vector<ContactRing> read_rings(const hdf5::Reader& file, Index n_nodes, Index n_modes)
 {
   std::vector<ContactRing> rings;
@@ -169,6 +223,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("free_body/frequencies", body.free_frequencies, "rad/s");
   file.write("free_body/rigid_modes", std::int64_t{body.n_rigid}, "1");
   write_preparation(file, body);
+  if (body.selection) write_selection(file, *body.selection);
   file_parts::write_provenance(file, body.provenance);
   file.commit();
 }
@@ -202,6 +257,7 @@ ModalBody read_body(const std::string& path)
           .condition_Q_dd = file.real("preparation/condition_Q_dd"),
           .n_free_rigid = file_parts::read_count(file, "preparation/free_rigid_modes"),
           .preparation = read_preparation(file),
+          .selection = read_selection(file),
           .provenance = file_parts::read_provenance(file)};
 }
 

@@ -6,11 +6,19 @@
 
 namespace chladni::mbs_export {
 
+/// Largest relative error of the frequency responses at the loaded attachment DOFs, over a range.
+struct Tolerance {
+  double error;     ///< 0 < error < 1
+  double up_to_Hz;  ///< the range is 0 to here
+};
+
 /// Which constrained modes the body keeps: exactly one member is set; none means all.
 struct KeptModes {
   std::optional<int> count;
   std::optional<double> up_to_Hz;
   std::optional<std::vector<int>> list;  ///< 1-based, in ascending order of frequency
+  /// As few modes and interface modes as meet it; `interface_modes` then name loads to choose from.
+  std::optional<Tolerance> tolerance = {};
 };
 
 /// IRM (at = set, omega0 = 0) or FRM of one set of loaded attachment nodes.

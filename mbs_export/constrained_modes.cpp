@@ -55,15 +55,24 @@ ConstrainedModes constrained_modes(const ModeShift& shift)
   return modes;
 }
 
+std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega)
+{
+  std::vector<ModeCluster> clusters;
+  for (int first = 0, end; first < int(omega.size()); first = end) {
+    for (end = first + 1; end < int(omega.size()); ++end)
+      if (omega[end] - omega[end - 1] > partner_gap * omega[end]) break;
+    clusters.push_back({first, end});
+  }
+  return clusters;
+}
+
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
 {
   if (int(keep.count.has_value()) + int(keep.up_to_Hz.has_value()) + int(keep.list.has_value()) > 1)
     throw Error("keep: give only one of a number of modes, a highest frequency, and a list");
   const std::vector<char> asked = chosen(omega, keep);
   ModeSelection selection{.kept = {}, .neglected = {}, .n_partners = 0};
-  for (int first = 0, end; first < int(omega.size()); first = end) {
-    for (end = first + 1; end < int(omega.size()); ++end)
-      if (omega[end] - omega[end - 1] > partner_gap * omega[end]) break;
+  for (const auto [first, end] : mode_clusters(omega)) {
     const auto n_asked = std::count(asked.begin() + first, asked.begin() + end, true);
     if (n_asked > 0) selection.n_partners += end - first - static_cast<int>(n_asked);
     for (int i = first; i < end; ++i)

@@ -24,9 +24,19 @@ struct ModeSelection {
   int n_partners;  ///< kept beyond the choice, because a cut would part modes of one frequency
 };
 
-/// Applies the scene's choice; rigid modes count as modes. Frequencies closer than 1e-4 belong
-/// together (the two modes of a disc's nodal diameters; all rigid modes): a choice of one is
-/// extended to its partners.
+/// Modes first .. end - 1.
+struct ModeCluster {
+  int first;
+  int end;
+};
+
+/// The modes in clusters of one frequency: neighbours within 1e-4 (the two modes of a disc's nodal
+/// diameters; all rigid modes).
+/// @param omega  [n], rad/s, ascending
+std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega);
+
+/// Applies the scene's choice; rigid modes count as modes. A choice of one mode of a cluster is
+/// extended to its partners. A tolerance is not for here but for `select_by_tolerance`.
 /// @throws chladni::Error for more than one criterion, a mode that does not exist, or no mode left.
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep);
 

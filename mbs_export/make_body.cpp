@@ -10,9 +10,11 @@
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/interface_modes.hpp"
+#include "mbs_export/loaded_dofs.hpp"
 #include "mbs_export/mode_shift.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "mbs_export/rigid_body.hpp"
+#include "mbs_export/select_by_tolerance.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -35,18 +37,20 @@ struct BodyModes {
   MatrixXd T;  ///< [n_FE x n_modes]
 };
 
+/// The choice of the scene: kept modes, and interface modes of the others.
+struct Choice {
+  ModeSelection selection;
+  InterfaceBasis basis;
+  std::optional<SelectionTable> table;  ///< when a tolerance has chosen
+};
+
 /// Rows of K_r of the loaded DOFs of one specification of interface modes.
 std::vector<int> loaded_rows(const HeldModes& modes, const InterfaceModes& wanted)
 {
   std::vector<int> rows;
   for (const int node : find_set(modes.reduced, wanted.at).nodes)
-    for (const int component : wanted.components) {
-      rows.push_back(master_row(modes.reduced, node, component));
-      const auto held = std::ranges::find(modes.held.rows, rows.back());
-      if (held != modes.held.rows.end())
-        throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
-                                modes.held.names[std::size_t(held - modes.held.rows.begin())]));
-    }
+    for (const int component : wanted.components)
+      rows.push_back(loaded_row(modes.reduced, modes.held, {node, component}));
   return rows;
 }
 
@@ -58,18 +62,43 @@ double load_frequency(const FreeModes& free, const InterfaceModes& wanted)
   return free.n_rigid < free.omega.size() ? 0.5 * free.omega[free.n_rigid] : 0.0;
 }
 
-/// Response modes of all specifications, [n_neglected x n_loads].
-MatrixXd all_responses(const HeldModes& modes, const std::vector<int>& neglected,
-                       const std::vector<InterfaceModes>& wanted)
+/// A with the columns of B beside it.
+MatrixXd beside(const MatrixXd& A, const MatrixXd& B)
 {
-  MatrixXd responses(Index(neglected.size()), 0);
-  for (const InterfaceModes& one : wanted) {
-    const MatrixXd g = modes.T(loaded_rows(modes, one), neglected).transpose();
-    const MatrixXd phi = response_modes(modes.omega(neglected), g, load_frequency(modes.free, one));
-    responses.conservativeResize(Eigen::NoChange, responses.cols() + phi.cols());
-    responses.rightCols(phi.cols()) = phi;
+  MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
+Choice choose_by_hand(const HeldModes& modes, const BodyOptions& options)
+{
+  ModeSelection selection = select_modes(modes.omega, options.keep);
+  const VectorXd omega_n = modes.omega(selection.neglected);
+  MatrixXd responses(omega_n.size(), 0);
+  for (const InterfaceModes& one : options.interface_modes) {
+    const MatrixXd g = modes.T(loaded_rows(modes, one), selection.neglected).transpose();
+    responses = beside(responses, response_modes(omega_n, g, load_frequency(modes.free, one)));
   }
-  return responses;
+  InterfaceBasis basis = interface_basis(omega_n, responses);
+  return {std::move(selection), std::move(basis), {}};
+}
+
+Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
+{
+  if (options.keep.count || options.keep.up_to_Hz || options.keep.list)
+    throw Error("keep: a tolerance chooses the modes itself; give nothing else with it");
+  const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
+  const MatrixXd B = modes.T(loads.rows, Eigen::all).transpose();
+  ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
+  const VectorXd omega_n = modes.omega(chosen.neglected);
+  MatrixXd responses(omega_n.size(), 0);
+  for (const InterfaceChoice& one : chosen.interface) {
+    const MatrixXd g = B(chosen.neglected, Eigen::all) * one.patterns;
+    responses = beside(responses, response_modes(omega_n, g, one.Omega_0));
+  }
+  return {{std::move(chosen.kept), std::move(chosen.neglected), 0},
+          interface_basis(omega_n, responses),
+          std::move(chosen.table)};
 }
 
 BodyModes merge(const HeldModes& modes, const ModeSelection& selection, const InterfaceBasis& basis)
@@ -167,20 +196,19 @@ ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
   const ConstrainedModes constrained = constrained_modes(shift);
   const HeldModes modes{reduced, free, held, constrained.omega,
                         free.Q_e * (shift.Q_c * constrained.X)};
-  const ModeSelection selection = select_modes(constrained.omega, options.keep);
-  const InterfaceBasis basis =
-      interface_basis(constrained.omega(selection.neglected),
-                      all_responses(modes, selection.neglected, options.interface_modes));
-  ModalBody body = assemble(reduced, options, merge(modes, selection, basis));
+  const Choice choice =
+      options.keep.tolerance ? choose_by_tolerance(modes, options) : choose_by_hand(modes, options);
+  ModalBody body = assemble(reduced, options, merge(modes, choice.selection, choice.basis));
   body.free_frequencies = free.omega;
   body.n_rigid = free.n_rigid;
   body.condition_Q_dd = shift.condition_Q_dd;
   body.n_free_rigid = constrained.n_rigid;
   body.preparation = {.n_constrained_modes = static_cast<int>(constrained.omega.size()),
-                      .n_partners = selection.n_partners,
-                      .n_interface_dropped = basis.n_dropped,
+                      .n_partners = choice.selection.n_partners,
+                      .n_interface_dropped = choice.basis.n_dropped,
                       .n_massless = free.n_massless,
                       .rigid_residual = free.rigid_residual};
+  body.selection = choice.table;
   return body;
 }
 

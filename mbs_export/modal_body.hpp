@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,25 @@ struct Preparation {
   double rigid_residual = 0.0;  ///< energy of the rigid modes over the first elastic omega^2
 };
 
+/// One step of a selection by tolerance, and what the basis is after it.
+struct SelectionStep {
+  std::string added;  ///< "modes 7, 8" or "interface modes track.z, 3 diameters, at 1500 Hz"
+  int n_modes;        ///< constrained and rigid modes
+  int n_interface;    ///< interface modes
+  double error;       ///< largest relative error of the frequency responses
+
+  int size() const { return n_modes + n_interface; }
+};
+
+/// Size against error: what each size buys, without and with interface modes.
+struct SelectionTable {
+  double error;                    ///< the tolerance
+  double Omega_max;                ///< end of the range, rad/s
+  std::vector<std::string> loads;  ///< loaded attachment DOFs, "track.z" for all nodes of a set
+  std::vector<SelectionStep> modes_only;
+  std::vector<SelectionStep> with_interface_modes;
+};
+
 /// A body of n_modes modal coordinates q with mass matrix I and stiffness diag(omega^2):
 /// q'' + C q' + diag(omega^2) q = (mode shapes)^T forces. It is all that a squeal study needs.
 struct ModalBody {
@@ -54,6 +74,7 @@ struct ModalBody {
   double condition_Q_dd;             ///< of the mode shifting (1 when nothing is held)
   int n_free_rigid = 0;  ///< rigid-body motions that `fixed` leaves free: 0 for a held body
   Preparation preparation = {};
+  std::optional<SelectionTable> selection = {};  ///< when a tolerance chose the modes
   Provenance provenance;
 
   Eigen::Index n_modes() const { return omega.size(); }

@@ -44,6 +44,14 @@ struct Provenance {
   int ranks = 1;
 };
 
+/// Estimated errors of the reduced system's frequencies under one support, made at the time of the
+/// reduction, when the FE model is at hand. Empty when there is none.
+struct Certificate {
+  std::vector<std::string> fixed;  ///< the support, as BodyOptions::fixed
+  Eigen::VectorXd frequencies;     ///< [k] rad/s, of the elastic modes, ascending
+  Eigen::VectorXd eta2;            ///< [k] estimated relative error of omega^2 against the FE model
+};
+
 /// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates
 /// (u_m, q) = (displacements of the masters, amplitudes of the fixed-interface modes).
 /// Rows are ordered as `masters`, then the fixed-interface modes.
@@ -57,6 +65,7 @@ struct ReducedSystem {
   Eigen::MatrixXd C;                            ///< [n_FE x n_FE] or [0 x 0] when undamped
   Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
   Picture picture;                              ///< empty when the scene wants none
+  Certificate certificate = {};
   Provenance provenance;
 
   Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }

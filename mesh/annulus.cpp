@@ -62,6 +62,7 @@ std::vector<int> add_surfaces(const std::vector<Circle>& circles)
 {
   namespace geo = gmsh::model::geo;
   std::vector<int> loops;
+  loops.reserve(circles.size());
   for (const Circle& circle : circles) loops.push_back(geo::addCurveLoop(circle.arcs));
   std::vector<int> surfaces;
   for (std::size_t i = 0; i + 1 < circles.size(); ++i) {

@@ -108,8 +108,7 @@ std::map<int, int> read_groups(Mesh& mesh, const NodeIndex& index)
       Group group{.name = physical_name(dim, tag), .dimension = dim, .nodes = {}};
       for (const std::size_t t : tags) group.nodes.push_back(index.at(t));
       std::ranges::sort(group.nodes);
-      const auto repeated = std::ranges::unique(group.nodes);
-      group.nodes.erase(repeated.begin(), repeated.end());
+      group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
       if (dim == 2) {
         std::vector<int> entities;
         gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);

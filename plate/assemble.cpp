@@ -59,7 +59,7 @@ Preallocation preallocation(const mesh::Mesh& mesh, const DofMap& dofs, int rank
   Preallocation rows;
   for (auto& list : neighbours) {
     std::ranges::sort(list);
-    list.erase(std::ranges::unique(list).begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
     const auto own = std::ranges::count_if(list, [&](int c) { return c >= first && c < last; });
     rows.diagonal.insert(rows.diagonal.end(), 6, PetscInt(6 * own));
     rows.off_diagonal.insert(rows.off_diagonal.end(), 6, PetscInt(6 * (std::ssize(list) - own)));

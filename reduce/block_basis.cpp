@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-extern "C" void dsyevd_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda,
-                        double* w, double* work, const int* lwork, int* iwork, const int* liwork,
-                        int* info);
+// LAPACK's symbol: PETSc declares dsyev only, which is several times slower with vectors.
+extern "C" void dsyevd_(const char* jobz,
+                        const char* uplo,  // NOLINT(readability-identifier-naming)
+                        const int* n, double* a, const int* lda, double* w, double* work,
+                        const int* lwork, int* iwork, const int* liwork, int* info);
 
 namespace chladni::reduce {
 

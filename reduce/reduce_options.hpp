@@ -6,11 +6,19 @@ namespace chladni::reduce {
 
 enum class Method { guyan, craig_bampton };
 
+/// As few fixed-interface modes as keep the estimated relative error eta^2 of omega^2 of each mode of
+/// the supported body up to a frequency below a tolerance.
+struct ModesByTolerance {
+  double tolerance;
+  double up_to_Hz;
+};
+
 /// How many fixed-interface modes: exactly one member is set (none for Guyan).
 struct ReduceOptions {
   Method method = Method::craig_bampton;
-  std::optional<int> modes;
-  std::optional<double> cutoff_Hz;
+  std::optional<int> modes = {};
+  std::optional<double> cutoff_Hz = {};
+  std::optional<ModesByTolerance> tolerance = {};
 };
 
 }  // namespace chladni::reduce

@@ -115,17 +115,25 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
           sigma * N * m.g_t / s - friction_per_slip * v_y};
 }
 
-/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest.
+/// Generalised force of the two pads of a pair.
 ///   Q_i = (S_- - S_+) W_i + h / (2 s) ((f_r- - f_r+) W_r,i + (f_t- - f_t+) W_t,i)
+template <class Scalar>
+RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
+                             const PadState<Scalar>& up, const PadState<Scalar>& lo)
+{
+  using std::sqrt;
+  const Scalar lever = 0.5 * pad.thickness / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  return {lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)};
+}
+
+/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest.
 /// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
 template <class Scalar>
 ContactResult<Scalar> contact(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
 {
-  using std::sqrt;
   const PadState<Scalar> up = pad_state(pad, m, speed, 1.0);
   const PadState<Scalar> lo = pad_state(pad, m, speed, -1.0);
-  const Scalar lever = 0.5 * pad.thickness / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
-  return {{lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)}, up, lo};
+  return {pair_force(pad, m, up, lo), up, lo};
 }
 
 }  // namespace chladni::squeal

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace chladni::squeal {
@@ -16,6 +18,15 @@ struct EigenvalueMap {
 struct CriticalSpeed {
   double speed;         ///< rad/s
   double frequency_Hz;  ///< of the undamped oscillation there
+};
+
+/// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
+struct StabilityMap {
+  std::string parameter;         ///< "friction", "preload" or "stiffness"
+  Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
+  Eigen::VectorXd speeds;        ///< [n] rad/s
+  Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
+  Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
 };
 
 /// Largest motion of the first upper pad within successive windows of time.
@@ -76,6 +87,26 @@ struct LimitCycle {
   Eigen::VectorXcd amplitude;
 };
 
+/// A periodic motion found as such: x(T) = x(0) in the inertial frame.
+struct DirectLimitCycle {
+  double speed;             ///< rad/s
+  double frequency_Hz;      ///< 1 / T
+  double pad_velocity;      ///< largest of the first upper pad, m/s
+  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double N_min;             ///< smallest normal force on the first upper pad, N
+  double N_max;             ///< largest normal force on the first upper pad, N
+  double slip_speed_min;    ///< of the first pad pair, m/s
+  /// [2 n_modes] Floquet multipliers, factors of a disturbance over one period: first the one along
+  /// the cycle, which is 1, then the others by falling modulus.
+  Eigen::VectorXcd multipliers;
+  bool stable;                         ///< all but the first are below 1
+  int n_newton_steps;                  ///< of the successful search
+  std::int64_t n_contact_evaluations;  ///< in all; see SlidingDisc
+  Eigen::VectorXd x;                   ///< [2 n_modes] a point of the cycle; see SlidingDisc
+  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
+  Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
+};
+
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
@@ -85,9 +116,11 @@ struct SquealResults {
   std::optional<EigenvalueMap> eigenvalues;
   bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
+  std::optional<StabilityMap> map;
   std::vector<Growth> growth;
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;
+  std::optional<DirectLimitCycle> limit_cycle_direct;
 };
 
 }  // namespace chladni::squeal

@@ -4,7 +4,9 @@
 
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle.hpp"
+#include "squeal/limit_cycle_direct.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
 #include "squeal/validate.hpp"
 
@@ -49,10 +51,19 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgr
     results.critical_speed = critical_speed(inertial_disc(disc), options);
     results.searched_critical_speed = true;
   }
+  if (asked("stability-map")) {
+    progress_of("stability-map")(0.0);
+    results.map = stability_map(inertial_disc(disc), options);
+  }
   if (asked("growth")) results.growth = growth_over_speeds(disc, options, progress_of("growth"));
   if (asked("transient") || asked("limit-cycle"))
     results.transient = transient(disc, options, *options.transient, progress_of("transient"));
   if (asked("limit-cycle")) results.limit_cycle = limit_cycle(disc, *results.transient);
+  if (asked("limit-cycle-direct")) {
+    progress_of("limit-cycle-direct")(0.0);
+    results.limit_cycle_direct =
+        limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
+  }
   return results;
 }
 

@@ -48,6 +48,26 @@ struct GrowthCase {
   double duration;             ///< s
 };
 
+/// A limit cycle that is found without a transient.
+struct DirectCase {
+  double speed;  ///< rad/s
+};
+
+/// The second parameter of a stability map; the first is the speed.
+enum class MapParameter {
+  friction,  ///< mu
+  preload,   ///< N_0 of every pad, N
+  stiffness  ///< k of every pad, N/m
+};
+
+/// Growth rates over the speeds of the study and over one more parameter, equally spaced.
+struct MapCase {
+  MapParameter parameter;
+  double from;
+  double to;
+  int count;
+};
+
 /// The scene's [squeal].
 struct SquealOptions {
   std::string ring;
@@ -57,10 +77,13 @@ struct SquealOptions {
   double friction;  ///< Coulomb coefficient mu
   ContactLaw contact = ContactLaw::unilateral;
   std::vector<PadPair> pads;
-  std::vector<std::string>
-      analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient", "limit-cycle"
+  std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
+                                      ///< "limit-cycle", "limit-cycle-direct",
+                                      ///< "stability-map"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
+  std::optional<DirectCase> limit_cycle_direct;
+  std::optional<MapCase> map;
 };
 
 }  // namespace chladni::squeal

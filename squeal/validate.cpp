@@ -14,8 +14,9 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 5> analyses{"eigenvalues", "critical-speed", "growth",
-                                                   "transient", "limit-cycle"};
+constexpr std::array<std::string_view, 7> analyses{
+    "eigenvalues", "critical-speed",     "growth",       "transient",
+    "limit-cycle", "limit-cycle-direct", "stability-map"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -89,6 +90,33 @@ void validate_growth(const SquealOptions& options)
   require_positive(options.growth->duration, "growth.duration_s");
 }
 
+void validate_direct(const SquealOptions& options)
+{
+  if (!options.limit_cycle_direct)
+    throw Error(
+        "[squeal] analyses: \"limit-cycle-direct\" needs `limit_cycle_direct = { speed_rad_s = ... "
+        "}`");
+  require_positive(options.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
+}
+
+void validate_map(const SquealOptions& options)
+{
+  if (!options.map)
+    throw Error(
+        "[squeal] analyses: \"stability-map\" needs `map = { parameter = ..., from = ..., to = "
+        "..., "
+        "count = ... }`");
+  if (options.map->parameter == MapParameter::friction)
+    require_not_negative(options.map->from, "map.from");
+  else
+    require_positive(options.map->from, "map.from");
+  if (!(options.map->to >= options.map->from) || !std::isfinite(options.map->to))
+    throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", options.map->to,
+                            options.map->from));
+  if (options.map->count < 1)
+    throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", options.map->count));
+}
+
 }  // namespace
 
 void validate(const SquealOptions& options)
@@ -101,11 +129,14 @@ void validate(const SquealOptions& options)
     if (std::find(analyses.begin(), analyses.end(), analysis) == analyses.end())
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
                               fmt::join(analyses, ", ")));
-  if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed"))
+  if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
+      asks_for(options, "stability-map"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))
     validate_transient(options);
   if (asks_for(options, "growth")) validate_growth(options);
+  if (asks_for(options, "limit-cycle-direct")) validate_direct(options);
+  if (asks_for(options, "stability-map")) validate_map(options);
 }
 
 }  // namespace chladni::squeal

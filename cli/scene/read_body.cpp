@@ -39,10 +39,12 @@ KeptModes read_kept_modes(const Table& body)
 {
   if (!body.has("keep")) return {};
   const Table keep = body.table("keep");
-  if (keep.has("tolerance")) {
-    keep.refuse("tolerance", "not available yet, give modes, up_to_Hz or list");
-  }
   KeptModes kept;
+  if (keep.has("tolerance")) {
+    kept.tolerance = {.error = keep.number("tolerance", {.above = 0.0, .below = 1.0}),
+                      .up_to_Hz = keep.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
+    return kept;
+  }
   const std::string_view key = keep.only_one_of({"modes", "up_to_Hz", "list"});
   if (key == "modes") kept.count = keep.integer(key, {.above = 0.0});
   if (key == "up_to_Hz") kept.up_to_Hz = keep.number(key, {.above = 0.0, .unit = "Hz"});

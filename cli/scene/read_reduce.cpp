@@ -63,20 +63,21 @@ reduce::ReduceOptions read_reduce(const Table& root)
   options.method = table.choice<reduce::Method>(
       "method",
       {{"craig-bampton", reduce::Method::craig_bampton}, {"guyan", reduce::Method::guyan}});
-  for (const char* key : {"tolerance", "up_to_Hz"}) {
-    if (table.has(key)) table.refuse(key, "not available yet, give modes or cutoff_Hz");
-  }
   if (options.method == reduce::Method::guyan) {
-    for (const char* key : {"modes", "cutoff_Hz"}) {
+    for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"}) {
       if (table.has(key))
         table.refuse(key, "Guyan has no fixed-interface modes; take this key out");
     }
     return options;
   }
-  if (table.only_one_of({"modes", "cutoff_Hz"}) == "modes") {
+  const std::string_view criterion = table.only_one_of({"modes", "cutoff_Hz", "tolerance"});
+  if (criterion == "modes") {
     options.modes = table.integer("modes", {.above = 0.0});
-  } else {
+  } else if (criterion == "cutoff_Hz") {
     options.cutoff_Hz = table.number("cutoff_Hz", {.above = 0.0, .unit = "Hz"});
+  } else {
+    options.tolerance = {.tolerance = table.number("tolerance", {.above = 0.0, .below = 1.0}),
+                         .up_to_Hz = table.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
   }
   return options;
 }

@@ -10,9 +10,11 @@ namespace chladni::cli {
 namespace {
 
 using squeal::ContactLaw;
+using squeal::MapParameter;
 
-const std::vector<std::string> analysis_names = {"eigenvalues", "critical-speed", "growth",
-                                                 "transient", "limit-cycle"};
+const std::vector<std::string> analysis_names = {
+    "eigenvalues", "critical-speed",     "growth",       "transient",
+    "limit-cycle", "limit-cycle-direct", "stability-map"};
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {
@@ -97,6 +99,15 @@ std::vector<std::string> read_analyses(const Table& squeal)
   if (contains(analyses, "limit-cycle") && !squeal.has("transient")) {
     squeal.refuse("analyses", "\"limit-cycle\" needs the speed in the key transient");
   }
+  if (contains(analyses, "limit-cycle-direct") && !squeal.has("limit_cycle_direct") &&
+      !squeal.has("transient")) {
+    squeal.refuse("analyses",
+                  "\"limit-cycle-direct\" needs the key limit_cycle_direct, or else the speed in "
+                  "the key transient");
+  }
+  if (contains(analyses, "stability-map") && !squeal.has("map")) {
+    squeal.refuse("analyses", "\"stability-map\" needs the key map");
+  }
   for (const char* needed : {"transient", "growth"}) {
     if (contains(analyses, needed) && !squeal.has(needed)) {
       squeal.refuse("analyses", fmt::format("\"{0}\" needs the key {0}", needed));
@@ -131,6 +142,34 @@ std::optional<squeal::GrowthCase> read_growth(const Table& squeal)
   return growth;
 }
 
+/// At the speed of the transient unless the scene gives another one.
+std::optional<squeal::DirectCase> read_direct(const Table& squeal,
+                                              const std::optional<squeal::TransientCase>& transient)
+{
+  if (squeal.has("limit_cycle_direct")) {
+    const Table table = squeal.table("limit_cycle_direct");
+    return squeal::DirectCase{table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"})};
+  }
+  if (transient) return squeal::DirectCase{transient->speed};
+  return std::nullopt;
+}
+
+std::optional<squeal::MapCase> read_map(const Table& squeal)
+{
+  if (!squeal.has("map")) return std::nullopt;
+  const Table table = squeal.table("map");
+  const auto parameter =
+      table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
+                                               {"preload", MapParameter::preload},
+                                               {"stiffness", MapParameter::stiffness}});
+  const double from = parameter == MapParameter::friction ? table.number("from", {.at_least = 0.0})
+                                                          : table.number("from", {.above = 0.0});
+  return squeal::MapCase{.parameter = parameter,
+                         .from = from,
+                         .to = table.number("to", {.at_least = from}),
+                         .count = table.integer("count", {.at_least = 1.0})};
+}
+
 }  // namespace
 
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene)
@@ -152,6 +191,8 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.analyses = read_analyses(squeal);
   options.transient = read_transient(squeal);
   options.growth = read_growth(squeal);
+  options.limit_cycle_direct = read_direct(squeal, options.transient);
+  options.map = read_map(squeal);
   return options;
 }
 

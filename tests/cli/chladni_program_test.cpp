@@ -92,6 +92,23 @@ TEST(ChladniProgram, MakesTheBodyOfAReducedSystem)
   EXPECT_NE(info.out.find("ring of bodies"), std::string::npos);
 }
 
+TEST(ChladniProgram, TellsWhatATolerancePicked)
+{
+  const Folder folder;
+  write_text(folder.path() / "scene.toml",
+             replaced(scene_with("[\"hub\"]"), "keep = { modes = 40 }",
+                      "keep = { tolerance = 1e-2, up_to_Hz = 1000.0 }"));
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", ring_of_bodies());
+  const Ending ending = run(folder, chladni_program + " body scene.toml");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_NE(ending.out.find("loads at track.z up to 1000 Hz, tolerance 0.01"), std::string::npos);
+  EXPECT_NE(ending.out.find("size  error, modes alone  error, with interface modes"),
+            std::string::npos);
+  EXPECT_NE(ending.out.find("\nchosen: "), std::string::npos) << ending.out;
+  const Ending info = run(folder, chladni_program + " info disc.body.h5");
+  EXPECT_NE(info.out.find("\nchosen: "), std::string::npos) << info.out;
+}
+
 TEST(ChladniProgram, RefusesAFreeDiscThatIsToSqueal)
 {
   for (const std::string fixed : {"[]", "[\"hub.z\"]"}) {

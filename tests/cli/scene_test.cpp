@@ -127,6 +127,28 @@ TEST(Scene, HoldsTheReductionAndTheBody)
   EXPECT_EQ(scene.body.damping.type, mbs_export::Damping::Type::none);
 }
 
+TEST(Scene, HoldsTheToleranceOfTheBody)
+{
+  const Scene scene = parse_scene(
+      replaced(disc, "{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3 }"), "scene.toml");
+  ASSERT_TRUE(scene.body.keep.tolerance);
+  EXPECT_EQ(scene.body.keep.tolerance->error, 1e-3);
+  EXPECT_EQ(scene.body.keep.tolerance->up_to_Hz, 8e3);
+  EXPECT_FALSE(scene.body.keep.up_to_Hz || scene.body.keep.count || scene.body.keep.list);
+}
+
+TEST(SceneError, NeedsARangeForATolerance)
+{
+  expect_messages({
+      {"{ modes = 40 }", "{ tolerance = 1e-3 }",
+       "scene.toml:29: body.keep.up_to_Hz is missing: must be a number > 0 (Hz)"},
+      {"{ modes = 40 }", "{ tolerance = 1.0, up_to_Hz = 8e3 }",
+       "scene.toml:29: body.keep.tolerance = 1: must be > 0 and < 1"},
+      {"{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3, modes = 40 }",
+       "scene.toml:29: body.keep.modes is not a key here; allowed: tolerance, up_to_Hz"},
+  });
+}
+
 TEST(Scene, HoldsTheSquealStudyInRadians)
 {
   const Scene scene = parse_scene(disc, "scene.toml");
@@ -140,6 +162,41 @@ TEST(Scene, HoldsTheSquealStudyInRadians)
   EXPECT_EQ(scene.squeal->growth->speeds, (std::vector<double>{12.0, 13.0}));
   ASSERT_TRUE(scene.squeal->transient);
   EXPECT_EQ(scene.squeal->transient->steps_per_period, 40);
+}
+
+TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
+{
+  EXPECT_EQ(parse_scene(disc, "scene.toml").squeal->limit_cycle_direct->speed, 19.0);
+  const Scene scene =
+      parse_scene(disc + "limit_cycle_direct = { speed_rad_s = 20.0 }\n", "scene.toml");
+  EXPECT_EQ(scene.squeal->limit_cycle_direct->speed, 20.0);
+}
+
+TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
+{
+  EXPECT_FALSE(parse_scene(disc, "scene.toml").squeal->map);
+  const std::string map =
+      "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
+  const Scene scene = parse_scene(disc + map, "scene.toml");
+  ASSERT_TRUE(scene.squeal->map);
+  EXPECT_EQ(scene.squeal->map->parameter, squeal::MapParameter::stiffness);
+  EXPECT_EQ(scene.squeal->map->from, 1e6);
+  EXPECT_EQ(scene.squeal->map->to, 9e6);
+  EXPECT_EQ(scene.squeal->map->count, 100);
+}
+
+TEST(SceneError, NamesWhatAStabilityMapCannotBe)
+{
+  const std::string map =
+      "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
+  EXPECT_EQ(error_of(disc + replaced(map, "stiffness", "speed")),
+            "scene.toml:43: squeal.map.parameter = \"speed\": must be one of \"friction\", "
+            "\"preload\", \"stiffness\"");
+  EXPECT_EQ(error_of(disc + replaced(map, "to = 9e6", "to = 9e5")),
+            "scene.toml:43: squeal.map.to = 900000: must be a number >= 1000000");
+  EXPECT_EQ(error_of(replaced(disc, "\"growth\", ", "\"stability-map\", ")),
+            "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'stability-map', 'transient' ]: "
+            "\"stability-map\" needs the key map");
 }
 
 TEST(Scene, TakesValuesInsteadOfDefaults)
@@ -244,11 +301,18 @@ TEST(SceneError, NamesWhatIsMissing)
   expect_messages({
       {"young = 9e10\n", "",
        "scene.toml:9: material.iron.young is missing: must be a number > 0 (Pa)"},
-      {"modes = 100\n", "", "scene.toml:24: reduce: give exactly one of modes, cutoff_Hz"},
+      {"modes = 100\n", "",
+       "scene.toml:24: reduce: give exactly one of modes, cutoff_Hz, tolerance"},
       {"generator = \"annulus\"\n", "", "scene.toml:2: mesh: give exactly one of generator, file"},
       {"growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }\n", "",
        "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'growth', 'transient' ]: "
        "\"growth\" needs the key growth"},
+      {"analyses = [\"eigenvalues\", \"growth\", \"transient\"]\n"
+       "transient = { speed_rad_s = 19.0, duration_s = 6.0, initial_pad_displacement = 7e-8 }\n",
+       "analyses = [\"limit-cycle-direct\"]\n",
+       "scene.toml:40: squeal.analyses = [ 'limit-cycle-direct' ]: \"limit-cycle-direct\" needs "
+       "the "
+       "key limit_cycle_direct, or else the speed in the key transient"},
   });
   EXPECT_EQ(error_of("title = \"nothing\"\n"), "scene.toml: mesh is missing: must be a table");
 }
@@ -308,6 +372,15 @@ TEST(SceneError, NamesAWordThatRefersToNothing)
   });
 }
 
+TEST(Scene, ReadsATolerancePromisedUpToAFrequency)
+{
+  const Scene scene =
+      parse_scene(replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3"), "scene.toml");
+  ASSERT_TRUE(scene.reduce.tolerance.has_value());
+  EXPECT_EQ(scene.reduce.tolerance->tolerance, 1e-3);
+  EXPECT_EQ(scene.reduce.tolerance->up_to_Hz, 8e3);
+}
+
 TEST(SceneError, SaysWhatIsNotAvailableYet)
 {
   expect_messages({
@@ -316,11 +389,6 @@ TEST(SceneError, SaysWhatIsNotAvailableYet)
        "use \"rigid\""},
       {"element_order = 3", "element_order = 4",
        "scene.toml:6: mesh.element_order = 4: elements of order 2 and 3 are available"},
-      {"modes = 100", "tolerance = 1e-3",
-       "scene.toml:26: reduce.tolerance = 0.001: not available yet, give modes or cutoff_Hz"},
-      {"{ modes = 40 }", "{ tolerance = 1e-3, up_to_Hz = 8e3 }",
-       "scene.toml:29: body.keep.tolerance = 0.001: not available yet, give modes, up_to_Hz or "
-       "list"},
   });
 }
 

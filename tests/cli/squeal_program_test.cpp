@@ -106,6 +106,25 @@ TEST(SquealProgram, ReproducesTheSquealOfTheTwoModeDisc)
   EXPECT_EQ(results.critical_speed->speed, number_at(json, "critical_speed_rad_s"));
 }
 
+TEST(SquealProgram, FindsTheLimitCycleWithoutATransient)
+{
+  const Folder folder;
+  const std::string scene = example_scene();
+  const std::size_t analyses = scene.find("analyses = ");
+  write_text(folder.path() / "scene.toml",
+             replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+                      "analyses = [\"limit-cycle-direct\"]"));
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  const std::string json = read_text(folder.path() / "summary.json");
+  EXPECT_NE(json.find("\"limit_cycle_direct\": {"), std::string::npos);
+  // The mode data above have 12 digits, the speed of the scene has nine.
+  EXPECT_NEAR(number_at(json, "frequency_Hz"), 1696.8533, 1e-4);
+  EXPECT_NEAR(number_at(json, "pad_velocity_m_s"), 6.7274, 1e-4);
+  EXPECT_NE(ending.out.find("direct limit cycle: pad velocity"), std::string::npos);
+}
+
 TEST(SquealProgram, DescribesBodiesAndResults)
 {
   const Folder folder;

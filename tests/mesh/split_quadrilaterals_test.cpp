@@ -67,7 +67,7 @@ TEST_P(SplitFlatCorners, UseEachNodeOfTheQuadrilateral)
   const Mesh after = split_flat_corners(flat_quadrilateral(GetParam()));
   std::vector<int> used = after.blocks.at(0).nodes;
   std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   EXPECT_EQ(used.size(), 9u);
 }
 

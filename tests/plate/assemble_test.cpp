@@ -46,11 +46,11 @@ petsc::Vector rigid_motion(const System& system, int component)
 
 double quadratic_form(Mat A, Vec x)
 {
-  petsc::Vector Ax;
-  petsc::check(VecDuplicate(x, Ax.put()));
-  petsc::check(MatMult(A, x, Ax));
+  petsc::Vector A_x;
+  petsc::check(VecDuplicate(x, A_x.put()));
+  petsc::check(MatMult(A, x, A_x));
   double value = 0.0;
-  petsc::check(VecDot(x, Ax, &value));
+  petsc::check(VecDot(x, A_x, &value));
   return value;
 }
 

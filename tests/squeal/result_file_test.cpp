@@ -26,7 +26,11 @@ SquealResults complete_results()
 {
   SquealOptions options = reference_options();
   options.speeds.count = 5;
-  options.analyses = {"eigenvalues", "critical-speed", "growth", "limit-cycle"};
+  options.analyses = {"eigenvalues", "critical-speed",     "growth",
+                      "limit-cycle", "limit-cycle-direct", "stability-map"};
+  options.map =
+      MapCase{.parameter = MapParameter::preload, .from = 500.0, .to = 2000.0, .count = 3};
+  options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
   options.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
   options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
@@ -55,6 +59,20 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   EXPECT_EQ(read.limit_cycle->frequency_Hz, written.limit_cycle->frequency_Hz);
   EXPECT_EQ(read.limit_cycle->amplitude, written.limit_cycle->amplitude);
   EXPECT_EQ(read.limit_cycle->mode_numbers, written.limit_cycle->mode_numbers);
+  ASSERT_TRUE(read.map);
+  EXPECT_EQ(read.map->parameter, "preload");
+  EXPECT_EQ(read.map->values, written.map->values);
+  EXPECT_EQ(read.map->growth, written.map->growth);
+  EXPECT_EQ(read.map->frequency_Hz, written.map->frequency_Hz);
+  ASSERT_TRUE(read.limit_cycle_direct);
+  const DirectLimitCycle &direct = *read.limit_cycle_direct,
+                         &original = *written.limit_cycle_direct;
+  EXPECT_EQ(direct.frequency_Hz, original.frequency_Hz);
+  EXPECT_EQ(direct.multipliers, original.multipliers);
+  EXPECT_EQ(direct.stable, original.stable);
+  EXPECT_EQ(direct.n_contact_evaluations, original.n_contact_evaluations);
+  EXPECT_EQ(direct.x, original.x);
+  EXPECT_EQ(direct.amplitude, original.amplitude);
 }
 
 TEST(ResultFile, TellsNoCriticalSpeedFromNoSearch)
@@ -80,6 +98,7 @@ TEST(ResultFile, NamesFormatUnitsAndOrigin)
   EXPECT_EQ(reader.text("provenance/scene"), "title = \"x\"");
   EXPECT_EQ(reader.text_attribute("transient/tail/N_up", "unit"), "N");
   EXPECT_EQ(reader.text_attribute("eigenvalues/speeds", "unit"), "rad/s");
+  EXPECT_EQ(reader.text_attribute("stability_map/values", "unit"), "N");
 }
 
 TEST(ResultFile, RefusesFilesThatAreNotResults)

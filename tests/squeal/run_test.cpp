@@ -44,6 +44,16 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
   EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "transient"}));
 }
 
+TEST(Run, FindsALimitCycleWithoutATransient)
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"limit-cycle-direct"};
+  options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
+  const SquealResults results = run(reference_disc(), options);
+  EXPECT_TRUE(results.limit_cycle_direct);
+  EXPECT_FALSE(results.transient || results.limit_cycle);
+}
+
 TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
 {
   auto body = analytic_body({kirchhoff_3()});

@@ -16,10 +16,13 @@ using namespace test;
 SquealOptions complete_options()
 {
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues", "critical-speed", "growth", "transient", "limit-cycle"};
+  options.analyses = {"eigenvalues", "critical-speed",     "growth",       "transient",
+                      "limit-cycle", "limit-cycle-direct", "stability-map"};
   options.transient =
       TransientCase{.speed = 10.0, .duration = 1.0, .initial_pad_displacement = 1e-8};
   options.growth = GrowthCase{.speeds = {10.0}, .duration = 1.0};
+  options.map = MapCase{.parameter = MapParameter::preload, .from = 100.0, .to = 200.0, .count = 3};
+  options.limit_cycle_direct = DirectCase{.speed = 10.0};
   return options;
 }
 
@@ -70,6 +73,12 @@ TEST(Validate, NamesWhatAnAnalysisLacks)
   expect_named("steps_per_period", [](auto& o) { o.transient->steps_per_period = 4; });
   expect_named("growth", [](auto& o) { o.growth.reset(); });
   expect_named("growth.speeds", [](auto& o) { o.growth->speeds = {10.0, 0.0}; });
+  expect_named("limit_cycle_direct", [](auto& o) { o.limit_cycle_direct.reset(); });
+  expect_named("limit_cycle_direct.speed", [](auto& o) { o.limit_cycle_direct->speed = 0.0; });
+  expect_named("map", [](auto& o) { o.map.reset(); });
+  expect_named("map.from", [](auto& o) { o.map->from = 0.0; });
+  expect_named("map.to", [](auto& o) { o.map->to = 50.0; });
+  expect_named("map.count", [](auto& o) { o.map->count = 0; });
   expect_named("growth.duration", [](auto& o) { o.growth->duration = 0.0; });
 }
 

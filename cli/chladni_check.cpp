@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/chladni_commands.hpp"
+#include "cli/output.hpp"
+#include "cli/petsc_session.hpp"
+#include "common/error.hpp"
+#include "mbs_export/body_file.hpp"
+#include "mbs_export/check_body.hpp"
+#include "mbs_export/hdf5.hpp"
+#include "mbs_export/reduced_file.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using mbs_export::Check, mbs_export::Verdict;
+
+std::vector<Check> checks_of(const std::string& file)
+{
+  const std::string format = mbs_export::hdf5::Reader(file).text_attribute("/", "format");
+  if (format == "chladni-reduced") return check_reduced(mbs_export::read_reduced(file));
+  if (format == "chladni-body") return check_body(mbs_export::read_body(file));
+  throw Error(fmt::format(
+      "{}: a file of format '{}' has no checks; *.reduced.h5 and *.body.h5 have", file, format));
+}
+
+const char* name_of(Verdict verdict)
+{
+  if (verdict == Verdict::pass) return "pass";
+  return verdict == Verdict::warn ? "warn" : "FAIL";
+}
+
+std::string number(double x)
+{
+  return std::isnan(x) ? "-" : fmt::format("{:.3g}", x);
+}
+
+TextTable table_of(const std::vector<Check>& checks)
+{
+  TextTable table{.header = {"check", "verdict", "value", "limit"}, .rows = {}};
+  for (const Check& check : checks)
+    table.rows.push_back(
+        {check.name, name_of(check.verdict), number(check.value), number(check.limit)});
+  return table;
+}
+
+void print_checks(const std::string& file)
+{
+  const std::vector<Check> checks = checks_of(file);
+  fmt::print("{}\n\n{}", file, format_table(table_of(checks)));
+  int n_failed = 0;
+  for (const Check& check : checks) {
+    if (check.verdict == Verdict::pass) continue;
+    fmt::print("\n{}: {}: {}", name_of(check.verdict), check.name, check.meaning);
+    n_failed += check.verdict == Verdict::fail ? 1 : 0;
+  }
+  fmt::print("\n");
+  if (n_failed > 0)
+    throw Error(fmt::format("{}: {} of {} checks failed", file, n_failed, checks.size()));
+}
+
+}  // namespace
+
+void check_command(const ChladniArguments& arguments)
+{
+  on_first_rank([&] { print_checks(arguments.check_file); });
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/chladni_commands.hpp"
+#include "cli/petsc_session.hpp"
+#include "cli/scene/scene.hpp"
+#include "common/error.hpp"
+#include "mbs_export/formats/mbdyn.hpp"
+#include "mbs_export/formats/nastran.hpp"
+#include "mbs_export/formats/text_file.hpp"
+#include "mbs_export/reduced_file.hpp"
+
+namespace chladni::cli {
+namespace {
+
+namespace formats = mbs_export::formats;
+using std::filesystem::path;
+
+/// The scene's supports and modes, or only a reduced file.
+struct Source {
+  std::optional<Scene> scene;
+  path reduced_file;
+  path stem;  ///< of the written file, when no name is given
+};
+
+Source source_of(const ExportArguments& arguments)
+{
+  const path given = arguments.source;
+  if (given.extension() == ".h5") {
+    path stem = given.filename();
+    while (stem.has_extension()) stem.replace_extension();
+    return {.scene = std::nullopt, .reduced_file = given, .stem = stem};
+  }
+  Scene scene = read_scene(given);
+  const path file = path(arguments.from) / (scene.name + ".reduced.h5");
+  if (!std::filesystem::exists(file))
+    throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
+                            file.string(), arguments.source, arguments.from));
+  path stem = scene.name;
+  return {.scene = std::move(scene), .reduced_file = file, .stem = stem};
+}
+
+/// The file to write: as asked for, or NAME with the extension of the format.
+path target_of(const ExportArguments& arguments, const Source& source, const std::string& extension)
+{
+  return arguments.output.empty() ? path(source.stem.string() + extension) : path(arguments.output);
+}
+
+void write(const path& file, const std::string& text)
+{
+  formats::write_text(file, text);
+  fmt::print("wrote {}\n", file.string());
+}
+
+void export_superelement(const ExportArguments& arguments, const Source& source,
+                         const mbs_export::ReducedSystem& reduced)
+{
+  path file = target_of(arguments, source, ".op4");
+  const auto files = formats::nastran_superelement(reduced, arguments.superelement);
+  write(file, files.op4);
+  write(file.replace_extension(".asm"), files.assembly);
+  write(file.replace_extension(".pch"), files.superelement);
+}
+
+void export_mbdyn(const ExportArguments& arguments, const Source& source,
+                  const mbs_export::ReducedSystem& reduced, formats::MbdynVersion version)
+{
+  if (!source.scene)
+    throw Error(fmt::format("{}: {} needs the supports and modes of [body]; give the scene",
+                            arguments.source, arguments.format));
+  const auto floating = formats::floating_body(reduced, source.scene->body);
+  write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
+}
+
+void export_as(const ExportArguments& arguments)
+{
+  const Source source = source_of(arguments);
+  const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
+  if (arguments.format == "nastran-dmig")
+    return write(target_of(arguments, source, ".dmig"), formats::nastran_dmig(reduced));
+  if (arguments.format == "nastran-op4") return export_superelement(arguments, source, reduced);
+  export_mbdyn(
+      arguments, source, reduced,
+      arguments.format == "mbdyn" ? formats::MbdynVersion::v1_7 : formats::MbdynVersion::develop);
+}
+
+}  // namespace
+
+const std::vector<std::string>& export_formats()
+{
+  static const std::vector<std::string> names{"nastran-dmig", "nastran-op4", "mbdyn",
+                                              "mbdyn-develop"};
+  return names;
+}
+
+void export_command(const ChladniArguments& arguments)
+{
+  on_first_rank([&] { export_as(arguments.exported); });
+}
+
+}  // namespace chladni::cli

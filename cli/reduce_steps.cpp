@@ -1,0 +1,138 @@
+#include "cli/reduce_steps.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "cli/certify.hpp"
+#include "cli/petsc_session.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// The master DOFs in the order of the scene, as global DOFs of K.
+std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::DofMap& dofs)
+{
+  std::vector<PetscInt> masters;
+  for (const int node : attachments.nodes) {
+    for (int c = 0; c < 6; ++c) masters.push_back(6 * dofs.number[node] + c);
+  }
+  return masters;
+}
+
+petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
+{
+  PetscInt first = 0;
+  PetscInt last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  std::vector<PetscInt> own;
+  std::ranges::copy_if(masters, std::back_inserter(own),
+                       [&](PetscInt dof) { return dof >= first && dof < last; });
+  petsc::IndexSet set;
+  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
+                               PETSC_COPY_VALUES, set.put()));
+  return set;
+}
+
+/// For each coordinate of the file (masters in the scene's order, then modes) its place in the
+/// reduced model, whose masters ascend by DOF.
+std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscInt n_modes)
+{
+  std::vector<PetscInt> ascending = masters;
+  std::ranges::sort(ascending);
+  std::vector<int> places;
+  places.reserve(masters.size() + n_modes);
+  for (const PetscInt dof : masters) {
+    places.push_back(
+        static_cast<int>(std::ranges::lower_bound(ascending, dof) - ascending.begin()));
+  }
+  for (PetscInt k = 0; k < n_modes; ++k) places.push_back(static_cast<int>(std::ssize(places)));
+  return places;
+}
+
+MatrixXd as_eigen(const reduce::SmallMatrix& A)
+{
+  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
+}
+
+mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
+                                        const reduce::ReducedModel& model,
+                                        const std::vector<int>& places)
+{
+  mbs_export::ReducedSystem reduced;
+  reduced.title = scene.title;
+  reduced.sets = fe.attachments.sets;
+  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
+    const int node = fe.attachments.nodes[i];
+    const auto& x = fe.system.dofs.positions[node];
+    reduced.attachment_nodes.push_back(
+        {.number = node_number(fe.mesh, fe.system.dofs, node), .position = {x[0], x[1], x[2]}});
+    for (int c = 0; c < 6; ++c) {
+      reduced.masters.push_back({.node = static_cast<int>(i), .component = c});
+    }
+  }
+  reduced.K = as_eigen(model.K)(places, places);
+  reduced.M = as_eigen(model.M)(places, places);
+  reduced.fixed_interface_frequencies =
+      Eigen::Map<const Eigen::VectorXd>(model.omega.data(), std::ssize(model.omega));
+  return reduced;
+}
+
+}  // namespace
+
+Partitioned partition_scene(const FeModel& fe)
+{
+  std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
+  reduce::DofPartition rows = reduce::partition(fe.system.K, own_masters(fe.system.K, masters));
+  reduce::Blocks K = reduce::split(fe.system.K, rows);
+  reduce::Blocks M = reduce::split(fe.system.M, rows);
+  return {
+      .rows = std::move(rows), .K = std::move(K), .M = std::move(M), .masters = std::move(masters)};
+}
+
+reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
+                                           const reduce::Factorization& K_ss, Phases& phases)
+{
+  return {.Psi = phases.run("constraint modes",
+                            [&] { return reduce::constraint_modes(K_ss, blocks.K); }),
+          .modes = std::nullopt};
+}
+
+Reduced reduce_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                      const reduce::Factorization& K_ss, reduce::CraigBamptonBasis Q_CB,
+                      const reduce::ReduceOptions& wanted, Phases& phases)
+{
+  if (scene.reduce.method == reduce::Method::craig_bampton) {
+    Q_CB.modes = phases.run("fixed-interface modes", [&] {
+      return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted);
+    });
+  }
+  reduce::ReducedModel model =
+      phases.run("projection", [&] { return reduce::project(Q_CB, blocks.K, blocks.M); });
+  std::vector<int> places = coordinate_places(blocks.masters, Q_CB.n_modes());
+  mbs_export::ReducedSystem system = to_file_order(scene, fe, model, places);
+  return {.Q_CB = std::move(Q_CB),
+          .model = std::move(model),
+          .places = std::move(places),
+          .system = std::move(system)};
+}
+
+mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
+                                      const reduce::Factorization& K_ss, const Reduced& reduced,
+                                      int n_modes)
+{
+  const auto& frequencies = reduced.system.fixed_interface_frequencies;
+  const double omega_max = scene.reduce.tolerance
+                               ? 2.0 * std::numbers::pi * scene.reduce.tolerance->up_to_Hz
+                               : (n_modes > 0 ? frequencies[n_modes - 1] : 0.0);
+  return certify(reduced.system,
+                 {.K_ss = K_ss,
+                  .Q_CB = reduced.Q_CB,
+                  .M = blocks.M,
+                  .model = reduced.model,
+                  .places = reduced.places},
+                 scene.body.fixed, n_modes, omega_max);
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/attachments.hpp"
+#include "cli/reduce_scene.hpp"
+#include "cli/scene/scene.hpp"
+#include "cli/timing.hpp"
+#include "mesh/mesh.hpp"
+#include "plate/assemble.hpp"
+#include "reduce/craig_bampton.hpp"
+
+/// The steps of reduce_scene and what they hand on.
+namespace chladni::cli {
+
+struct FeModel {
+  mesh::Mesh mesh;
+  plate::System system;
+  Attachments attachments;
+};
+
+/// The small systems and what they were made with.
+struct Reduced {
+  reduce::CraigBamptonBasis Q_CB;
+  reduce::ReducedModel model;
+  std::vector<int> places;
+  mbs_export::ReducedSystem system;  ///< in the order of the file
+};
+
+/// The matrices that all steps share.
+struct Partitioned {
+  reduce::DofPartition rows;
+  reduce::Blocks K, M;
+  std::vector<PetscInt> masters;
+};
+
+/// Ends a phase of the clock when it goes out of use, and reports the progress.
+class Phases {
+ public:
+  explicit Phases(const ReduceProgress& progress) : progress_(progress) {}
+
+  template <typename Work>
+  auto run(const std::string& name, const Work& work)
+  {
+    if (progress_) progress_(name, 0.0);
+    auto result = work();
+    clock_.end_phase(name);
+    if (progress_) progress_(name, 1.0);
+    return result;
+  }
+  const std::vector<PhaseTime>& times() const { return clock_.phases(); }
+
+ private:
+  const ReduceProgress& progress_;
+  PhaseClock clock_;
+};
+
+Partitioned partition_scene(const FeModel& fe);
+
+/// Psi alone.
+reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
+                                           const reduce::Factorization& K_ss, Phases& phases);
+
+/// Adds the modes that are asked for to the constraint modes, and projects.
+Reduced reduce_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                      const reduce::Factorization& K_ss, reduce::CraigBamptonBasis Q_CB,
+                      const reduce::ReduceOptions& wanted, Phases& phases);
+
+/// Estimates with the first n_modes, up to the frequency that the scene promises.
+mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
+                                      const reduce::Factorization& K_ss, const Reduced& reduced,
+                                      int n_modes);
+
+/// As few modes as keep the tolerance of the scene.
+Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                            const reduce::Factorization& K_ss, Phases& phases);
+
+}  // namespace chladni::cli

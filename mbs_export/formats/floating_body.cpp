@@ -1,0 +1,70 @@
+#include "mbs_export/formats/floating_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "mbs_export/make_body.hpp"
+#include "mbs_export/rigid_body.hpp"
+
+namespace chladni::mbs_export::formats {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd;
+
+/// Asks for all reduced coordinates where a picture asks for the displacements of some nodes, so
+/// that the body comes with its modes in the reduced coordinates.
+ReducedSystem with_all_coordinates(ReducedSystem reduced)
+{
+  const Index n = reduced.K.rows();
+  reduced.picture = {};
+  reduced.picture.positions.setZero(1, 3);
+  reduced.picture.transformation = MatrixXd::Identity(n, n);
+  return reduced;
+}
+
+/// The modes from `n_rigid` on.
+ModalBody elastic_part(const ModalBody& body, Index n_rigid)
+{
+  const Index n = body.n_modes() - n_rigid;
+  ModalBody elastic = body;
+  elastic.kinds.erase(elastic.kinds.begin(), elastic.kinds.begin() + n_rigid);
+  elastic.omega = body.omega.tail(n);
+  if (body.C.size() > 0) elastic.C = body.C.bottomRightCorner(n, n);
+  elastic.attachment_modes = body.attachment_modes.rightCols(n);
+  elastic.rings.clear();
+  elastic.picture = {};
+  return elastic;
+}
+
+}  // namespace
+
+FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& options)
+{
+  const ModalBody body = make_body(with_all_coordinates(reduced), options);
+  if (body.n_rigid != 6)
+    throw Error(
+        fmt::format("the interface nodes show {} of the 6 rigid-body motions; a floating frame "
+                    "needs a free body with all of them",
+                    body.n_rigid));
+  const Index n_rigid = std::ranges::count(body.kinds, ModeKind::rigid);
+  const MatrixXd T = body.picture.transformation.rightCols(body.n_modes() - n_rigid);
+  const MatrixXd P =
+      rigid_body_vectors(reduced, Eigen::Vector3d::Zero()).transpose() * (reduced.M * T);
+  return {.body = elastic_part(body, n_rigid),
+          .momentum = P.topRows(3),
+          .angular_momentum = P.bottomRows(3)};
+}
+
+double coupling(const FloatingBody& floating)
+{
+  const ModalBody& body = floating.body;
+  if (body.n_modes() == 0) return 0.0;
+  const double inertia = body.inertia.trace() + body.mass * body.centre_of_mass.squaredNorm();
+  return std::max(floating.momentum.colwise().norm().maxCoeff() / std::sqrt(body.mass),
+                  floating.angular_momentum.colwise().norm().maxCoeff() / std::sqrt(inertia));
+}
+
+}  // namespace chladni::mbs_export::formats

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mbs_export/body_options.hpp"
+#include "mbs_export/modal_body.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::mbs_export::formats {
+
+/// A modal body that moves with a frame: the frame does the rigid motion, the elastic modes the
+/// rest. What couples the two is exact for the consistent mass of the full model.
+struct FloatingBody {
+  ModalBody body;                                             ///< elastic modes only
+  Eigen::Matrix<double, 3, Eigen::Dynamic> momentum;          ///< int u_j dm of each mode
+  Eigen::Matrix<double, 3, Eigen::Dynamic> angular_momentum;  ///< int X x u_j dm about the origin
+};
+
+/// The elastic modes of `make_body`, in the frame of the mesh. Modes of a body that is not held are
+/// orthogonal to the rigid motions, so they carry no momentum; those of a held body do.
+/// @throws chladni::Error as make_body, and when the masters do not show all six rigid motions.
+FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& options);
+
+/// Largest momentum of a mode over that of the body at the same kinetic energy; below 1e-6 it is
+/// round-off.
+double coupling(const FloatingBody& floating);
+
+}  // namespace chladni::mbs_export::formats

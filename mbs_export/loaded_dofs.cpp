@@ -1,0 +1,209 @@
+#include "mbs_export/loaded_dofs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/error.hpp"
+#include "mbs_export/contact_rings.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// Receptances between all of them are compared at every frequency.
+constexpr std::size_t most_loads = 256;
+
+/// Components that change among themselves when a ring is turned about z.
+constexpr std::array<std::array<int, 2>, 4> bundles{{{0, 1}, {2, 2}, {3, 4}, {5, 5}}};
+
+/// Some components at all nodes of a set.
+struct SetLoad {
+  std::string set;
+  std::vector<int> components;
+  std::optional<double> Omega_0;
+};
+
+/// Loads with an index for each pattern row, while the number of loads is still open.
+struct Pattern {
+  std::string name;
+  std::vector<Index> loads;
+  MatrixXd values;  ///< [loads x k]
+  std::optional<double> Omega_0;
+};
+
+std::vector<SetLoad> loads_of(const std::vector<InterfaceModes>& wanted)
+{
+  std::vector<SetLoad> loads;
+  for (const InterfaceModes& one : wanted)
+    loads.push_back({one.at, one.components,
+                     one.kind == InterfaceModes::Kind::irm ? std::optional(0.0) : one.omega0});
+  return loads;
+}
+
+/// Components that are masters of all nodes of a set and held at none.
+std::vector<int> free_components(const ReducedSystem& reduced, const HeldDofs& held,
+                                 const AttachmentSet& set)
+{
+  std::array<std::size_t, 6> n_free{};
+  for (std::size_t row = 0; row < reduced.masters.size(); ++row) {
+    const MasterDof dof = reduced.masters[row];
+    if (!std::ranges::binary_search(held.rows, static_cast<int>(row)))
+      n_free[std::size_t(dof.component)] += std::size_t(std::ranges::count(set.nodes, dof.node));
+  }
+  std::vector<int> components;
+  for (int component = 0; component < 6; ++component)
+    if (!set.nodes.empty() && n_free[std::size_t(component)] == set.nodes.size())
+      components.push_back(component);
+  return components;
+}
+
+std::vector<SetLoad> default_loads(const ReducedSystem& reduced, const HeldDofs& held,
+                                   const std::vector<ContactRing>& rings)
+{
+  std::vector<SetLoad> loads;
+  for (const AttachmentSet& set : reduced.sets) {
+    std::vector<int> components = free_components(reduced, held, set);
+    if (std::ranges::find(rings, set.name, &ContactRing::name) != rings.end())
+      std::erase_if(components, [](int component) { return component != 2; });
+    if (!components.empty()) loads.push_back({set.name, components, {}});
+  }
+  return loads;
+}
+
+/// cos(n phi), sin(n phi) at the nodes, orthonormal, [N x 2]; [N x 1] where the sine vanishes.
+MatrixXd harmonic(const VectorXd& angles, Index n)
+{
+  const Index N = angles.size();
+  // Counted from the first node, so that the highest harmonic of an even ring has its cosine.
+  const Eigen::ArrayXd phase = static_cast<double>(n) * (angles.array() - angles[0]);
+  MatrixXd F(N, n == 0 || 2 * n == N ? 1 : 2);
+  F.col(0) = phase.cos();
+  if (F.cols() == 2) F.col(1) = phase.sin();
+  return F.colwise().normalized();
+}
+
+/// Places of these DOFs among the loads; new ones are appended.
+std::vector<Index> enlist(LoadedDofs& loads, const std::vector<int>& rows, int component)
+{
+  std::vector<Index> places;
+  for (const int row : rows) {
+    places.push_back(std::ranges::find(loads.rows, row) - loads.rows.begin());
+    if (places.back() < Index(loads.rows.size())) continue;
+    loads.rows.push_back(row);
+    loads.is_moment.push_back(component >= 3);
+  }
+  return places;
+}
+
+std::vector<int> rows_of(const ReducedSystem& reduced, const HeldDofs& held,
+                         const std::vector<int>& nodes, int component)
+{
+  std::vector<int> rows;
+  for (const int node : nodes) rows.push_back(loaded_row(reduced, held, {node, component}));
+  return rows;
+}
+
+/// The harmonics of those components of a load that turn together.
+std::vector<Pattern> ring_patterns(const ContactRing& ring, const Pattern& loads)
+{
+  const Index N = ring.angles.size(), n_components = Index(loads.loads.size()) / N;
+  std::vector<Pattern> patterns;
+  for (Index n = 0; n <= N / 2; ++n) {
+    const MatrixXd F = harmonic(ring.angles, n);
+    MatrixXd values = MatrixXd::Zero(n_components * N, n_components * F.cols());
+    for (Index i = 0; i < n_components; ++i) values.block(i * N, i * F.cols(), N, F.cols()) = F;
+    patterns.push_back(
+        {fmt::format("{}, {} diameters", loads.name, n), loads.loads, values, loads.Omega_0});
+  }
+  return patterns;
+}
+
+/// Enlists the loads of a ring and returns their harmonics.
+std::vector<Pattern> add_ring(LoadedDofs& loads, const ReducedSystem& reduced, const HeldDofs& held,
+                              const SetLoad& load, const ContactRing& ring)
+{
+  std::vector<Pattern> patterns;
+  for (const auto& bundle : bundles) {
+    Pattern together{load.set + ".", {}, {}, load.Omega_0};
+    for (const int component : load.components) {
+      if (component < bundle[0] || component > bundle[1]) continue;
+      together.name += component_name(component);
+      for (const Index i : enlist(loads, rows_of(reduced, held, ring.nodes, component), component))
+        together.loads.push_back(i);
+    }
+    if (together.loads.empty()) continue;
+    for (Pattern& pattern : ring_patterns(ring, together)) patterns.push_back(std::move(pattern));
+  }
+  return patterns;
+}
+/// Enlists the loads of a set and returns each as a pattern of its own.
+std::vector<Pattern> add_set(LoadedDofs& loads, const ReducedSystem& reduced, const HeldDofs& held,
+                             const SetLoad& load)
+{
+  std::vector<Pattern> patterns;
+  const std::vector<int>& nodes = find_set(reduced, load.set).nodes;
+  for (const int component : load.components) {
+    const std::vector<Index> places =
+        enlist(loads, rows_of(reduced, held, nodes, component), component);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::string name = fmt::format("{}.{}", load.set, component_name(component));
+      if (nodes.size() > 1)
+        name += fmt::format(" (node {})", reduced.attachment_nodes[std::size_t(nodes[i])].number);
+      patterns.push_back({name, {places[i]}, MatrixXd::Ones(1, 1), load.Omega_0});
+    }
+  }
+  return patterns;
+}
+
+LoadGroup group_of(const Pattern& pattern, Index n_loads)
+{
+  LoadGroup group{pattern.name, MatrixXd::Zero(n_loads, pattern.values.cols()), pattern.Omega_0};
+  for (std::size_t i = 0; i < pattern.loads.size(); ++i)
+    group.patterns.row(pattern.loads[i]) = pattern.values.row(Index(i));
+  return group;
+}
+
+}  // namespace
+
+int loaded_row(const ReducedSystem& reduced, const HeldDofs& held, MasterDof dof)
+{
+  const int row = master_row(reduced, dof.node, dof.component);
+  const auto found = std::ranges::find(held.rows, row);
+  if (found != held.rows.end())
+    throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
+                            held.names[std::size_t(found - held.rows.begin())]));
+  return row;
+}
+
+LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
+                       const std::vector<InterfaceModes>& wanted)
+{
+  const std::vector<ContactRing> rings =
+      contact_rings(reduced, MatrixXd(6 * Index(reduced.attachment_nodes.size()), 0));
+  LoadedDofs loads;
+  std::vector<Pattern> patterns;
+  for (const SetLoad& load :
+       wanted.empty() ? default_loads(reduced, held, rings) : loads_of(wanted)) {
+    const auto ring = std::ranges::find(rings, load.set, &ContactRing::name);
+    for (Pattern& pattern : ring != rings.end() ? add_ring(loads, reduced, held, load, *ring)
+                                                : add_set(loads, reduced, held, load))
+      patterns.push_back(std::move(pattern));
+    for (const int component : load.components)
+      loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
+  }
+  if (loads.rows.empty())
+    throw Error("keep: a tolerance is about loads, and every attachment DOF is held");
+  if (loads.rows.size() > most_loads)
+    throw Error(
+        fmt::format("keep: {} loaded DOFs are more than the {} that a tolerance can compare; "
+                    "name those that matter by interface_modes",
+                    loads.rows.size(), most_loads));
+  for (const Pattern& pattern : patterns)
+    loads.groups.push_back(group_of(pattern, Index(loads.rows.size())));
+  return loads;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mbs_export/body_options.hpp"
+#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::mbs_export {
+
+/// Loads that get their interface modes together: one DOF, or one circumferential harmonic of a
+/// ring with its cosine and sine, so that a disc keeps its symmetry.
+struct LoadGroup {
+  std::string name;               ///< "arm.x", "track.z, 3 diameters"
+  Eigen::MatrixXd patterns;       ///< [n_loads x k], orthonormal, all forces or all moments
+  std::optional<double> Omega_0;  ///< of its interface modes, rad/s, where the scene says it
+};
+
+/// Attachment DOFs at which the scene loads the body.
+struct LoadedDofs {
+  std::vector<int> rows;           ///< of K_r, each once
+  std::vector<char> is_moment;     ///< [n_loads]
+  std::vector<std::string> names;  ///< "track.z" stands for all nodes of the set
+  std::vector<LoadGroup> groups;
+};
+
+/// The loads of a scene: the DOFs of its `interface_modes`. Without these: the displacement normal
+/// to the disc on every contact ring, and all DOFs that are not held on every other set.
+/// @throws chladni::Error for a set or component that does not exist or is held, when nothing is
+///         left to load, and for more loads than a selection can compare.
+LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
+                       const std::vector<InterfaceModes>& wanted);
+
+/// The row of K_r of a DOF that is to be loaded.
+/// @throws chladni::Error when it is held or no master.
+int loaded_row(const ReducedSystem& reduced, const HeldDofs& held, MasterDof dof);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,284 @@
+#include "mbs_export/response_error.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <complex>
+#include <numbers>
+
+#include "mbs_export/interface_modes.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd, Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+constexpr double zeta = 0.01;  // of critical, in the comparison only
+constexpr Complex stiffness_factor{1.0, 2.0 * zeta};
+constexpr double dependent = 1e-8;  // what is left of a vector after orthogonalisation
+
+VectorXcd dynamic_stiffness(const VectorXd& omega, double Omega)
+{
+  return stiffness_factor * omega.cwiseAbs2().cast<Complex>().array() - Omega * Omega;
+}
+
+/// B in which forces and moments count alike: each of the two divided by the square root of its
+/// mean static flexibility.
+MatrixXd commensurable(const VectorXd& omega, const MatrixXd& B, const std::vector<char>& is_moment)
+{
+  const VectorXd flexibility_k =
+      (omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);
+  const VectorXd flexibility = B.cwiseAbs2().transpose() * flexibility_k;
+  double sum[2] = {0.0, 0.0};
+  Index n[2] = {0, 0};
+  for (Index j = 0; j < B.cols(); ++j) {
+    const int unit = is_moment[std::size_t(j)] ? 1 : 0;
+    sum[unit] += flexibility[j];
+    ++n[unit];
+  }
+  MatrixXd scaled = B;
+  for (Index j = 0; j < B.cols(); ++j) {
+    const int unit = is_moment[std::size_t(j)] ? 1 : 0;
+    if (sum[unit] > 0.0) scaled.col(j) *= std::sqrt(static_cast<double>(n[unit]) / sum[unit]);
+  }
+  return scaled;
+}
+
+/// [m x n] squares of what each mode contributes to the response to each load.
+MatrixXd contributions(const VectorXd& omega, const MatrixXd& B, double Omega)
+{
+  const VectorXd weight = B.rowwise().squaredNorm().array() /
+                          dynamic_stiffness(omega, Omega).array().abs2().max(1e-300);
+  return B.cwiseAbs2().transpose() * weight.asDiagonal();
+}
+
+/// Clusters that respond at their own frequency with more than `error` of what all modes do.
+std::vector<int> resonances(const ReferenceResponse& reference, const Tolerance& tolerance)
+{
+  std::vector<int> excited;
+  for (std::size_t c = 0; c < reference.clusters.size(); ++c) {
+    const auto [first, end] = reference.clusters[c];
+    const double Omega = reference.omega[first];
+    if (Omega == 0.0 || Omega > 2.0 * std::numbers::pi * tolerance.up_to_Hz) continue;
+    const MatrixXd squares = contributions(reference.omega, reference.B, Omega);
+    const VectorXd own = squares.middleCols(first, end - first).rowwise().sum();
+    const VectorXd all = squares.rowwise().sum();
+    if ((own.array() > tolerance.error * tolerance.error * all.array()).any())
+      excited.push_back(static_cast<int>(c));
+  }
+  return excited;
+}
+
+/// Ascending, without neighbours closer than a tenth of a resonance's width.
+VectorXd thinned(std::vector<double> Omega)
+{
+  std::ranges::sort(Omega);
+  std::vector<double> grid;
+  for (const double x : Omega)
+    if (grid.empty() || x - grid.back() > 0.1 * zeta * x) grid.push_back(x);
+  return Eigen::Map<const VectorXd>(grid.data(), Index(grid.size()));
+}
+
+VectorXd frequency_grid(const ReferenceResponse& reference, double Omega_max)
+{
+  // A free body answers static loads with infinite motion; its range begins above zero.
+  double lowest = reference.omega[0] == 0.0 ? 1e-2 * Omega_max : 0.0;
+  if (!reference.resonances.empty())
+    lowest = std::min(
+        lowest,
+        0.1 * reference.omega[reference.clusters[std::size_t(reference.resonances[0])].first]);
+  std::vector<double> knots{lowest}, grid{lowest, Omega_max};
+  for (const int c : reference.resonances)
+    knots.push_back(reference.omega[reference.clusters[std::size_t(c)].first]);
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    for (const double x : {1.0 - zeta, 1.0, 1.0 + zeta})
+      if (x * knots[i] <= Omega_max) grid.push_back(x * knots[i]);
+  knots.push_back(Omega_max);
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    for (const double part : {0.25, 0.5, 0.75})
+      if (knots[i] > knots[i - 1]) grid.push_back(knots[i - 1] + part * (knots[i] - knots[i - 1]));
+  std::erase_if(grid, [&](double x) { return x < lowest; });
+  return thinned(std::move(grid));
+}
+
+/// [n x k] vectors of modal amplitudes seen by the basis: V^T D v and v^T D v need only these.
+struct Addition {
+  MatrixXd v;
+  MatrixXd outputs;     ///< B^T v
+  MatrixXd V_K_v, V_v;  ///< V^T diag(omega^2) v, V^T v
+  MatrixXd v_K_v, v_v;
+};
+
+Addition addition(const ReferenceResponse& reference, const TrialBasis& basis, MatrixXd v)
+{
+  const MatrixXd K_v = reference.omega.cwiseAbs2().asDiagonal() * v;
+  return {.v = v,
+          .outputs = reference.B.transpose() * v,
+          .V_K_v = basis.V.transpose() * K_v,
+          .V_v = basis.V.transpose() * v,
+          .v_K_v = v.transpose() * K_v,
+          .v_v = v.transpose() * v};
+}
+
+VectorXd errors_at(const ReferenceResponse& reference, const MatrixXcd& remainder, Index g)
+{
+  return remainder.colwise().norm().transpose().cwiseQuotient(reference.size.col(g));
+}
+
+/// Galerkin with one more vector v: w = v - V (V^T D V)^-1 V^T D v is D-orthogonal to the basis, so
+/// that H of the basis grows by B^T w (v^T D w)^-1 w^T B.
+void extend(const ReferenceResponse& reference, TrialBasis& basis, const Addition& added)
+{
+  const MatrixXd outputs_V = reference.B.transpose() * basis.V;
+  for (Index g = 0; g < reference.Omega.size(); ++g) {
+    const double Omega_squared = reference.Omega[g] * reference.Omega[g];
+    const VectorXcd d = dynamic_stiffness(basis.omega_p, reference.Omega[g]);
+    const MatrixXcd V_D_v = stiffness_factor * added.V_K_v - Omega_squared * added.V_v;
+    const MatrixXcd scaled = d.cwiseInverse().asDiagonal() * V_D_v;
+    MatrixXcd outputs_w = added.outputs.cast<Complex>();
+    outputs_w.real() -= outputs_V * scaled.real();
+    outputs_w.imag() -= outputs_V * scaled.imag();
+    const MatrixXcd v_D_w =
+        stiffness_factor * added.v_K_v - Omega_squared * added.v_v - V_D_v.transpose() * scaled;
+    const MatrixXcd rows = v_D_w.inverse() * outputs_w.transpose();
+    MatrixXcd& remainder = basis.remainder[std::size_t(g)];
+    remainder -= outputs_w.lazyProduct(rows);
+    basis.error.col(g) = errors_at(reference, remainder, g);
+  }
+}
+
+/// The interface modes anew, in the modes that are not kept.
+void update_interface(const ReferenceResponse& reference, TrialBasis& basis)
+{
+  std::vector<int> neglected;
+  for (std::size_t k = 0; k < basis.is_kept.size(); ++k)
+    if (!basis.is_kept[k]) neglected.push_back(static_cast<int>(k));
+  MatrixXd responses(Index(neglected.size()), 0);
+  for (const InterfaceChoice& choice : basis.interface) {
+    const MatrixXd x = undamped_response(reference, basis, choice);
+    responses.conservativeResize(Eigen::NoChange, responses.cols() + x.cols());
+    responses.rightCols(x.cols()) = x(neglected, Eigen::all);
+  }
+  const InterfaceBasis interface = interface_basis(reference.omega(neglected), responses);
+  basis.omega_p = interface.omega;
+  basis.V = MatrixXd::Zero(reference.omega.size(), interface.omega.size());
+  basis.V(neglected, Eigen::all) = interface.V;
+}
+
+/// Columns of X made orthonormal to V and to each other, without those that depend on them.
+MatrixXd independent(const MatrixXd& V, const MatrixXd& X)
+{
+  MatrixXd Q(X.rows(), 0);
+  for (Index j = 0; j < X.cols(); ++j) {
+    VectorXd x = X.col(j).normalized();
+    for (int pass = 0; pass < 2; ++pass) {
+      x -= V * (V.transpose() * x);
+      x -= Q * (Q.transpose() * x);
+    }
+    if (!(x.norm() > dependent)) continue;
+    Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
+    Q.col(Q.cols() - 1) = x.normalized();
+  }
+  return Q;
+}
+
+}  // namespace
+
+ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
+                                     const LoadedDofs& loads, const Tolerance& tolerance)
+{
+  ReferenceResponse reference{.omega = omega,
+                              .B = commensurable(omega, B, loads.is_moment),
+                              .clusters = mode_clusters(omega),
+                              .resonances = {},
+                              .Omega = {},
+                              .H = {},
+                              .size = {}};
+  reference.resonances = resonances(reference, tolerance);
+  reference.Omega = frequency_grid(reference, 2.0 * std::numbers::pi * tolerance.up_to_Hz);
+  reference.size.resize(B.cols(), reference.Omega.size());
+  for (Index g = 0; g < reference.Omega.size(); ++g) {
+    const VectorXcd flexibility = dynamic_stiffness(omega, reference.Omega[g]).cwiseInverse();
+    MatrixXcd H(B.cols(), B.cols());
+    H.real() = reference.B.transpose() * (flexibility.real().asDiagonal() * reference.B);
+    H.imag() = reference.B.transpose() * (flexibility.imag().asDiagonal() * reference.B);
+    const VectorXd incoherent =
+        contributions(omega, reference.B, reference.Omega[g]).rowwise().sum().cwiseSqrt();
+    reference.size.col(g) = H.colwise().norm().transpose().cwiseMax(incoherent).cwiseMax(1e-300);
+    reference.H.push_back(std::move(H));
+  }
+  return reference;
+}
+
+int TrialBasis::n_kept() const
+{
+  return static_cast<int>(std::ranges::count(is_kept, char{1}));
+}
+
+TrialBasis rigid_basis(const ReferenceResponse& reference)
+{
+  const Index n = reference.omega.size();
+  TrialBasis basis{.is_kept = std::vector<char>(std::size_t(n), 0),
+                   .interface = {},
+                   .V = MatrixXd(n, 0),
+                   .omega_p = {},
+                   .remainder = reference.H,
+                   .error = reference.size};
+  for (Index g = 0; g < reference.Omega.size(); ++g)
+    basis.error.col(g) = errors_at(reference, reference.H[std::size_t(g)], g);
+  if (n > 0 && reference.omega[0] == 0.0)
+    return with_cluster(reference, basis, reference.clusters.front());
+  return basis;
+}
+
+TrialBasis with_cluster(const ReferenceResponse& reference, const TrialBasis& basis,
+                        const ModeCluster& cluster)
+{
+  TrialBasis larger = basis;
+  MatrixXd v = MatrixXd::Zero(reference.omega.size(), cluster.end - cluster.first);
+  for (int k = cluster.first; k < cluster.end; ++k) {
+    v(k, k - cluster.first) = 1.0;
+    larger.is_kept[std::size_t(k)] = 1;
+  }
+  extend(reference, larger, addition(reference, larger, std::move(v)));
+  if (!larger.interface.empty()) update_interface(reference, larger);
+  return larger;
+}
+
+TrialBasis with_interface(const ReferenceResponse& reference, const TrialBasis& basis,
+                          const InterfaceChoice& choice)
+{
+  TrialBasis larger = basis;
+  MatrixXd v = independent(basis.V, undamped_response(reference, basis, choice));
+  if (v.cols() == 0) return larger;
+  extend(reference, larger, addition(reference, larger, std::move(v)));
+  larger.interface.push_back(choice);
+  update_interface(reference, larger);
+  return larger;
+}
+
+MatrixXd undamped_response(const ReferenceResponse& reference, const TrialBasis& basis,
+                           const InterfaceChoice& choice)
+{
+  MatrixXd x = reference.B * choice.patterns;
+  for (Index k = 0; k < x.rows(); ++k) {
+    const double gap = reference.omega[k] * reference.omega[k] - choice.Omega_0 * choice.Omega_0;
+    x.row(k) *= basis.is_kept[std::size_t(k)] ? 0.0 : 1.0 / gap;
+  }
+  return x;
+}
+
+VectorXcd missing_response(const ReferenceResponse& reference, const TrialBasis& basis, Index j,
+                           Index g)
+{
+  const double Omega = reference.Omega[g];
+  const VectorXd b = reference.B.col(j);
+  VectorXcd x = dynamic_stiffness(reference.omega, Omega).cwiseInverse().cwiseProduct(b);
+  for (Index k = 0; k < x.size(); ++k)
+    if (basis.is_kept[std::size_t(k)]) x[k] = 0.0;
+  const VectorXd b_p = basis.V.transpose() * b;
+  const VectorXcd q_p = dynamic_stiffness(basis.omega_p, Omega).cwiseInverse().cwiseProduct(b_p);
+  return x - basis.V * q_p;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,208 @@
+#include "mbs_export/select_by_tolerance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXcd;
+
+/// A basis and the steps that led to it.
+struct Path {
+  TrialBasis basis;
+  std::vector<SelectionStep> steps;
+};
+
+/// A load and a grid frequency.
+struct Place {
+  Index load;
+  Index g;
+};
+
+struct Candidate {
+  std::string name;
+  TrialBasis basis;
+};
+
+Place worst_place(const TrialBasis& basis)
+{
+  Place worst{};
+  basis.error.maxCoeff(&worst.load, &worst.g);
+  return worst;
+}
+
+SelectionStep step_of(const TrialBasis& basis, const std::string& added)
+{
+  return {.added = added,
+          .n_modes = basis.n_kept(),
+          .n_interface = static_cast<int>(basis.omega_p.size()),
+          .error = basis.error.maxCoeff()};
+}
+
+/// What is still to be gained: the sum of log(error / tolerance) where this is positive.
+double excess(const TrialBasis& basis, double tolerance)
+{
+  return (basis.error.array() / tolerance).max(1.0).log().sum();
+}
+
+std::string name_of(const ModeCluster& cluster)
+{
+  if (cluster.end - cluster.first == 1) return fmt::format("mode {}", cluster.end);
+  if (cluster.end - cluster.first == 2)
+    return fmt::format("modes {}, {}", cluster.first + 1, cluster.end);
+  return fmt::format("modes {} to {}", cluster.first + 1, cluster.end);
+}
+
+std::string name_of(const LoadGroup& group, double Omega_0)
+{
+  if (Omega_0 == 0.0) return group.name + ", static";
+  return fmt::format("{}, {:.6g} Hz", group.name, Omega_0 / (2.0 * std::numbers::pi));
+}
+
+/// The cluster that carries most of the response which the basis misses at a place.
+std::optional<ModeCluster> largest_missing_cluster(const ReferenceResponse& reference,
+                                                   const TrialBasis& basis, const Place& place)
+{
+  const VectorXcd x = missing_response(reference, basis, place.load, place.g);
+  std::optional<ModeCluster> largest;
+  double largest_norm = 0.0;
+  for (const ModeCluster& cluster : reference.clusters) {
+    if (basis.is_kept[std::size_t(cluster.first)]) continue;
+    const Index n = cluster.end - cluster.first;
+    const double norm =
+        (reference.B.middleRows(cluster.first, n).transpose() * x.segment(cluster.first, n)).norm();
+    if (largest && norm <= largest_norm) continue;
+    largest = cluster;
+    largest_norm = norm;
+  }
+  return largest;
+}
+
+/// The group of loads whose response makes most of the error at a place.
+const LoadGroup* largest_missing_group(const TrialBasis& basis, std::span<const LoadGroup> groups,
+                                       const Place& place)
+{
+  const MatrixXcd& remainder = basis.remainder[std::size_t(place.g)];
+  const LoadGroup* largest = nullptr;
+  double largest_norm = -1.0;
+  for (const LoadGroup& group : groups) {
+    const MatrixXd& P = group.patterns;
+    const double norm = (remainder * (P * P.row(place.load).transpose())).norm();
+    if (norm <= largest_norm) continue;
+    largest = &group;
+    largest_norm = norm;
+  }
+  return largest;
+}
+
+bool meets_neglected_mode(const ReferenceResponse& reference, const TrialBasis& basis,
+                          double Omega_0)
+{
+  for (Index k = 0; k < reference.omega.size(); ++k)
+    if (!basis.is_kept[std::size_t(k)] &&
+        std::abs(reference.omega[k] - Omega_0) <= 1e-6 * reference.omega[k])
+      return true;
+  return false;
+}
+
+std::optional<Candidate> interface_candidate(const ReferenceResponse& reference,
+                                             const TrialBasis& basis,
+                                             std::span<const LoadGroup> groups, const Place& place)
+{
+  const LoadGroup* group = largest_missing_group(basis, groups, place);
+  if (group == nullptr) return std::nullopt;
+  const double Omega_0 = group->Omega_0.value_or(reference.Omega[place.g]);
+  if (meets_neglected_mode(reference, basis, Omega_0)) return std::nullopt;
+  TrialBasis larger = with_interface(reference, basis, {group->patterns, Omega_0});
+  if (larger.n_modes() <= basis.n_modes()) return std::nullopt;
+  return Candidate{name_of(*group, Omega_0), std::move(larger)};
+}
+
+std::vector<Candidate> candidates(const ReferenceResponse& reference, const TrialBasis& basis,
+                                  std::span<const LoadGroup> groups)
+{
+  const Place worst = worst_place(basis);
+  Place lowest{0, 0};
+  basis.error.col(0).maxCoeff(&lowest.load);
+  std::vector<Candidate> all;
+  if (const auto cluster = largest_missing_cluster(reference, basis, worst))
+    all.push_back({name_of(*cluster), with_cluster(reference, basis, *cluster)});
+  if (auto candidate = interface_candidate(reference, basis, groups, worst))
+    all.push_back(std::move(*candidate));
+  if (worst.g != 0)
+    if (auto candidate = interface_candidate(reference, basis, groups, lowest))
+      all.push_back(std::move(*candidate));
+  return all;
+}
+
+/// Adds candidates until the tolerance is met or nothing is left to add.
+Path grow(const ReferenceResponse& reference, Path path, std::span<const LoadGroup> groups,
+          double tolerance)
+{
+  while (path.basis.error.maxCoeff() > tolerance) {
+    std::vector<Candidate> all = candidates(reference, path.basis, groups);
+    if (all.empty()) break;
+    const auto gain = [&](const Candidate& candidate) {
+      return (excess(path.basis, tolerance) - excess(candidate.basis, tolerance)) /
+             (candidate.basis.n_modes() - path.basis.n_modes());
+    };
+    Candidate& best = *std::ranges::max_element(all, {}, gain);
+    path.basis = std::move(best.basis);
+    path.steps.push_back(step_of(path.basis, best.name));
+  }
+  return path;
+}
+
+/// Rigid modes and the resonances that the loads excite.
+Path resonant_path(const ReferenceResponse& reference)
+{
+  Path path{rigid_basis(reference), {}};
+  if (path.basis.n_kept() > 0)
+    path.steps.push_back(step_of(path.basis, name_of(reference.clusters.front())));
+  for (const int c : reference.resonances) {
+    const ModeCluster& cluster = reference.clusters[std::size_t(c)];
+    path.basis = with_cluster(reference, path.basis, cluster);
+    path.steps.push_back(step_of(path.basis, name_of(cluster)));
+  }
+  return path;
+}
+
+/// The one that meets the tolerance with fewer modes, else the more accurate one.
+const Path& better(const Path& modes, const Path& mixed, double tolerance)
+{
+  const double error_modes = modes.basis.error.maxCoeff(),
+               error_mixed = mixed.basis.error.maxCoeff();
+  if (std::max(error_modes, error_mixed) > tolerance)
+    return error_modes <= error_mixed ? modes : mixed;
+  return modes.basis.n_modes() <= mixed.basis.n_modes() ? modes : mixed;
+}
+
+}  // namespace
+
+ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const MatrixXd& B,
+                                       const LoadedDofs& loads, const Tolerance& tolerance)
+{
+  const ReferenceResponse reference = reference_response(omega, B, loads, tolerance);
+  const Path start = resonant_path(reference);
+  const Path modes = grow(reference, start, {}, tolerance.error);
+  const Path mixed = grow(reference, start, loads.groups, tolerance.error);
+  const Path& chosen = better(modes, mixed, tolerance.error);
+  ToleranceSelection selection{.kept = {},
+                               .neglected = {},
+                               .interface = chosen.basis.interface,
+                               .table = {.error = tolerance.error,
+                                         .Omega_max = 2.0 * std::numbers::pi * tolerance.up_to_Hz,
+                                         .loads = loads.names,
+                                         .modes_only = modes.steps,
+                                         .with_interface_modes = mixed.steps}};
+  for (int k = 0; k < int(omega.size()); ++k)
+    (chosen.basis.is_kept[std::size_t(k)] ? selection.kept : selection.neglected).push_back(k);
+  return selection;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,109 @@
+#include "reduce/error_estimates.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+
+namespace chladni::reduce {
+
+namespace {
+
+/// Rows first to first + n of a small matrix.
+SmallMatrix rows_of(const SmallMatrix& A, PetscInt first, PetscInt n)
+{
+  SmallMatrix rows(n, A.n_cols);
+  for (PetscInt j = 0; j < A.n_cols; ++j) {
+    for (PetscInt i = 0; i < n; ++i) rows(i, j) = A(first + i, j);
+  }
+  return rows;
+}
+
+/// Y <- Y + X S for dense distributed X, Y and a small S.
+void add_product(Mat X, const SmallMatrix& S, Mat Y)
+{
+  const LocalRows x(X);
+  PetscScalar* y = nullptr;
+  PetscInt ldy = 0;
+  petsc::check(MatDenseGetLDA(Y, &ldy));
+  petsc::check(MatDenseGetArray(Y, &y));
+  const PetscBLASInt m = x.n_rows();
+  const PetscBLASInt n = S.n_cols;
+  const PetscBLASInt k = S.n_rows;
+  const PetscBLASInt ldx = x.leading_dimension();
+  const PetscBLASInt ld = ldy;
+  const PetscScalar one = 1.0;
+  if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &one, x.values(), &ldx, S.values.data(), &k, &one, y, &ld);
+  }
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+petsc::Matrix zero_block(Mat like, PetscInt n_columns)
+{
+  PetscInt n_local = 0;
+  PetscInt n = 0;
+  petsc::check(MatGetLocalSize(like, &n_local, nullptr));
+  petsc::check(MatGetSize(like, &n, nullptr));
+  petsc::Matrix block;
+  petsc::check(MatCreateDense(petsc::communicator(like), n_local, PETSC_DECIDE, n, n_columns,
+                              nullptr, block.put()));
+  return block;
+}
+
+/// Y <- Y + A S for a sparse A [n_s x n_m] and a small S [n_m x k].
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
+{
+  PetscInt first = 0;
+  PetscInt ld = 0;
+  PetscScalar* y = nullptr;
+  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
+  petsc::check(MatDenseGetLDA(Y, &ld));
+  petsc::check(MatDenseGetArray(Y, &y));
+  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+    for (PetscInt j = 0; j < S.n_cols; ++j) {
+      y[row - first + std::size_t(j) * ld] += value * S(column, j);
+    }
+  });
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+/// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
+/// and leaving them out avoids the difference of two large forces.
+petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Blocks& M,
+                             const ReducedPairs& pairs)
+{
+  PetscInt n_m = 0;
+  petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
+  const SmallMatrix x_m = rows_of(pairs.X, 0, n_m);
+  const SmallMatrix x_q = rows_of(pairs.X, n_m, Q_CB.n_modes());
+  petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
+  if (Q_CB.modes) add_product(Q_CB.modes->Phi, x_q, elastic);
+  petsc::Matrix r;
+  petsc::check(MatMatMult(K_ss, elastic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, r.put()));
+  add_product(Q_CB.Psi, x_m, elastic);  // now u_s
+  petsc::Matrix inertia;
+  petsc::check(MatMatMult(M.ss, elastic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, inertia.put()));
+  add_sparse_product(M.sm, x_m, inertia);
+  SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
+  for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
+  add_product(inertia, minus_lambda, r);
+  return r;
+}
+
+}  // namespace
+
+std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
+                                    const Blocks& M, const ReducedPairs& pairs)
+{
+  const petsc::Matrix r = slave_residual(K_ss.matrix(), Q_CB, M, pairs);
+  const petsc::Matrix z = zero_block(r, pairs.X.n_cols);
+  petsc::check(MatMatSolve(K_ss.factor(), r, z));
+  const SmallMatrix r_z = inner_product(r, z);
+  std::vector<double> eta2;
+  for (PetscInt i = 0; i < r_z.n_rows; ++i) {
+    eta2.push_back(std::max(0.0, r_z(i, i)) / pairs.lambda[i]);
+  }
+  return eta2;
+}
+
+}  // namespace chladni::reduce

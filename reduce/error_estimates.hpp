@@ -1,0 +1,21 @@
+#pragma once
+
+#include "reduce/craig_bampton.hpp"
+
+namespace chladni::reduce {
+
+/// Eigenpairs of the reduced pencil under some support, in the coordinates of ReducedModel.
+struct ReducedPairs {
+  SmallMatrix X;               ///< [n_m + n_CB x k], X^T M_r X = I; the same on every rank
+  std::vector<double> lambda;  ///< [k] rad^2/s^2, positive
+};
+
+/// eta^2 = r_s^T K_ss^-1 r_s / lambda for each pair, with r = (K - lambda M) Q_CB x.
+/// An eigenvalue of the full pencil under the same support lies within lambda (1 -+ eta); eta^2
+/// itself estimates the relative error of lambda, twice that of the frequency. Exact where supports
+/// hold masters only: Galerkin's condition leaves no residual in the free ones.
+/// @note   Collective; one block solve of k columns with the factor.
+std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
+                                    const Blocks& M, const ReducedPairs& pairs);
+
+}  // namespace chladni::reduce

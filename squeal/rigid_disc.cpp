@@ -1,0 +1,196 @@
+#include "squeal/rigid_disc.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "squeal/contact.hpp"
+#include "squeal/root.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
+constexpr double rounding = 1e-12;
+
+/// Axes of the disc that do not spin with it, in inertial components: b_3 is its normal.
+template <class Scalar>
+struct Frame {
+  Eigen::Vector3<Scalar> b_1, b_2, b_3;
+  Eigen::Vector3<Scalar> omega;  ///< of the disc, rad/s
+  Scalar s_1, c_1, s_2, c_2;
+};
+
+template <class Scalar>
+Frame<Scalar> frame_of(const RigidMotion<Scalar>& motion)
+{
+  using std::cos, std::sin;
+  const Scalar s_1 = sin(motion.q[0]), c_1 = cos(motion.q[0]);
+  const Scalar s_2 = sin(motion.q[1]), c_2 = cos(motion.q[1]);
+  const Scalar zero(0.0);
+  const Eigen::Vector3<Scalar> b_1{c_2, s_1 * s_2, -c_1 * s_2}, b_2{zero, c_1, s_1},
+      b_3{s_2, -s_1 * c_2, c_1 * c_2};
+  const Eigen::Vector3<Scalar> e_x{Scalar(1.0), zero, zero};
+  return {b_1, b_2, b_3, motion.q_dot[0] * e_x + motion.q_dot[1] * b_2 + motion.spin * b_3,
+          s_1, c_1, s_2, c_2};
+}
+
+/// Without the conjugation of Eigen's dot product, which has no derivative.
+template <class Scalar>
+Scalar dot(const Eigen::Vector3<Scalar>& a, const Eigen::Vector3<Scalar>& b)
+{
+  return a.cwiseProduct(b).sum();
+}
+
+template <class Scalar>
+Eigen::Vector3<Scalar> cross(const Eigen::Vector3<Scalar>& a, const Eigen::Vector3<Scalar>& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// z = (sigma h / 2 - b_3x x_p - b_3y y_p) / b_3z,   S = N_0 + sigma (k (z - sigma h / 2) + d z'),
+/// N = S / (b_3z + sigma g mu t_z),   F = -sigma N b_3 - mu g N t
+template <class Scalar>
+RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, double sigma)
+{
+  using std::sqrt;
+  const double half = 0.5 * sigma * disc.thickness;
+  const Scalar z = (half + disc.radius * frame.b_3[1]) / frame.b_3[2];
+  const Eigen::Vector3<Scalar> r{Scalar(0.0), Scalar(-disc.radius), z};
+  const Eigen::Vector3<Scalar> v = cross<Scalar>(frame.omega, r);
+  const Scalar z_dot = dot<Scalar>(frame.b_3, v) / frame.b_3[2];
+  const Eigen::Vector3<Scalar> v_r = v - z_dot * Eigen::Vector3<Scalar>::UnitZ();
+  const Scalar slip = sqrt(dot<Scalar>(v_r, v_r));
+
+  const Scalar pad_force =
+      disc.preload + sigma * (disc.stiffness * (z - half) + disc.damping * z_dot);
+  const auto [S, g] = axial_force<Scalar>(disc.law, pad_force);
+  const Scalar N = S / (frame.b_3[2] + sigma * g * disc.friction * v_r[2] / slip);
+  const Eigen::Vector3<Scalar> F = (-sigma * N) * frame.b_3 - (disc.friction * g * N / slip) * v_r;
+  return {z, z_dot, S, N, slip, F};
+}
+
+/// Moment of the force of a pad about the centre of the disc.
+template <class Scalar>
+Eigen::Vector3<Scalar> moment_of(const RigidDisc& disc, const RigidPad<Scalar>& pad)
+{
+  return cross<Scalar>({Scalar(0.0), Scalar(-disc.radius), pad.z}, pad.F);
+}
+
+/// What is left of the equations of motion along b_1, b_2, b_3 without accelerations and drive:
+/// moments of pads, springs and dampers, and the gyroscopic terms.
+template <class Scalar>
+Eigen::Vector3<Scalar> moments(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
+                               const Frame<Scalar>& frame, const Eigen::Vector3<Scalar>& M_pads)
+{
+  const Eigen::Vector2<Scalar>&q = motion.q, &u = motion.q_dot;
+  const Scalar s_2 = frame.s_2, c_2 = frame.c_2, omega_3 = u[0] * s_2 + motion.spin;
+  return {dot<Scalar>(M_pads, frame.b_1) - (disc.k_t * q[0] + disc.d_t * u[0]) / c_2 +
+              2.0 * disc.Theta * s_2 * u[0] * u[1] - disc.Phi * u[1] * omega_3,
+          dot<Scalar>(M_pads, frame.b_2) - (disc.k_t * q[1] + disc.d_t * u[1]) -
+              disc.Theta * s_2 * c_2 * u[0] * u[0] + disc.Phi * c_2 * u[0] * omega_3,
+          dot<Scalar>(M_pads, frame.b_3) - disc.Phi * c_2 * u[0] * u[1]};
+}
+
+}  // namespace
+
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
+                                     Drive drive)
+{
+  const Frame<Scalar> frame = frame_of(motion);
+  const RigidPad<Scalar> up = pad_of(disc, frame, 1.0), lo = pad_of(disc, frame, -1.0);
+  // Theta c_2 q_1''          = rhs_1 + M_A e_z.b_1
+  // Theta q_2''              = rhs_2 + M_A e_z.b_2
+  // Phi (spin' + s_2 q_1'')  = rhs_3 + M_A e_z.b_3
+  Eigen::Vector3<Scalar> rhs =
+      moments<Scalar>(disc, motion, frame, moment_of(disc, up) + moment_of(disc, lo));
+  const Eigen::Vector3<Scalar> e_z{frame.b_1[2], frame.b_2[2], frame.b_3[2]};
+  Eigen::Matrix3<Scalar> A = Eigen::Matrix3<Scalar>::Zero();  // of (q_1'', q_2'', M_A or spin')
+  A(0, 0) = disc.Theta * frame.c_2;
+  A(1, 1) = disc.Theta;
+  A(2, 0) = disc.Phi * frame.s_2;
+  const Scalar constant_moment(2.0 * disc.friction * disc.radius * disc.preload);
+  const bool by_speed = drive == Drive::speed;
+  if (by_speed) {
+    A.col(2) = -e_z;
+  } else {
+    A(2, 2) = disc.Phi;
+    rhs += constant_moment * e_z;
+  }
+  const Eigen::Vector3<Scalar> x = A.partialPivLu().solve(rhs);
+  return {x.template head<2>(), by_speed ? Scalar(0.0) : x[2], by_speed ? x[2] : constant_moment,
+          up, lo};
+}
+
+template RigidAcceleration<double> accelerate(const RigidDisc&, const RigidMotion<double>&, Drive);
+template RigidAcceleration<std::complex<double>> accelerate(
+    const RigidDisc&, const RigidMotion<std::complex<double>>&, Drive);
+
+RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed)
+{
+  const double mu = disc.friction, N_0 = disc.preload, h = disc.thickness, r_0 = disc.radius;
+  const double k = disc.stiffness, d = disc.damping;
+  const double slip = 0.5 * mu * N_0 * h * h / r_0;
+  RigidMatrices matrices;
+  matrices.M = disc.Theta * Eigen::Matrix2d::Identity();
+  matrices.C << slip / speed + 2.0 * d * r_0 * r_0 + disc.d_t, disc.Phi * speed,
+      -disc.Phi * speed - mu * d * h * r_0, disc.d_t;
+  matrices.K << disc.k_t + 2.0 * k * r_0 * r_0 + N_0 * h, slip,
+      -mu * (k * h * r_0 + 2.0 * N_0 * r_0), disc.k_t + (1.0 + mu * mu) * N_0 * h;
+  return matrices;
+}
+
+RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed)
+{
+  using Complex = std::complex<double>;
+  constexpr double step = 1e-30;  // f(i h) / h has no difference in it
+  RigidMatrices matrices;
+  matrices.M = disc.Theta * Eigen::Matrix2d::Identity();
+  for (int j = 0; j < 2; ++j) {
+    RigidMotion<Complex> tilted{Eigen::Vector2cd::Zero(), Eigen::Vector2cd::Zero(), speed};
+    RigidMotion<Complex> tilting = tilted;
+    tilted.q[j] = tilting.q_dot[j] = Complex(0.0, step);
+    matrices.K.col(j) = -disc.Theta / step * accelerate(disc, tilted, drive).q_ddot.imag();
+    matrices.C.col(j) = -disc.Theta / step * accelerate(disc, tilting, drive).q_ddot.imag();
+  }
+  return matrices;
+}
+
+Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices)
+{
+  // x = (omega q, q') with a frequency of the system keeps all entries of one size.
+  const double omega = std::sqrt(matrices.K.trace() / matrices.M.trace());
+  const Eigen::Matrix2d by_M = matrices.M.inverse();
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  A.topRightCorner<2, 2>() = omega * Eigen::Matrix2d::Identity();
+  A.bottomLeftCorner<2, 2>() = -by_M * matrices.K / omega;
+  A.bottomRightCorner<2, 2>() = -by_M * matrices.C;
+  Eigen::Vector4cd lambda = A.eigenvalues();
+  std::sort(lambda.begin(), lambda.end(),
+            [](const auto& x, const auto& y) { return x.imag() < y.imag(); });
+  return lambda.tail<2>();
+}
+
+std::optional<double> critical_speed(const std::function<RigidMatrices(double)>& matrices_at,
+                                     const SpeedRange& speeds)
+{
+  const auto growth = [&](double speed) {
+    return eigenvalues(matrices_at(speed)).real().maxCoeff();
+  };
+  std::optional<double> last_stable;
+  for (const double speed :
+       Eigen::VectorXd::LinSpaced(std::max(128, speeds.count), speeds.from, speeds.to)) {
+    const Eigen::Vector2cd lambda = eigenvalues(matrices_at(speed));
+    const double now = lambda.real().maxCoeff();
+    const bool decided = std::abs(now) > rounding * lambda.cwiseAbs().maxCoeff();
+    if (decided && now < 0.0) last_stable = speed;
+    if (decided && now > 0.0 && last_stable) return root(growth, *last_stable, speed);
+  }
+  return std::nullopt;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <functional>
+#include <optional>
+
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// A rigid disc on a spherical joint at its centre, held by rotational springs and dampers, between
+/// two pads on the vertical axis through (0, -r_0).
+struct RigidDisc {
+  double Theta;      ///< moment of inertia about a diameter, kg m^2
+  double Phi;        ///< moment of inertia about the axis, kg m^2
+  double k_t;        ///< rotational spring, N m
+  double d_t;        ///< rotational damper, N m s
+  double radius;     ///< r_0 of the pads, m
+  double thickness;  ///< distance h of the two contact planes, m
+  double stiffness;  ///< k of each pad, N/m
+  double damping;    ///< d of each pad, N s/m
+  double preload;    ///< N_0 of each pad, N
+  double friction;   ///< mu
+  ContactLaw law = ContactLaw::unilateral;
+};
+
+/// What turns the disc, along the inertial vertical.
+enum class Drive {
+  speed,  ///< a moment that keeps the spin constant
+  moment  ///< the constant moment 2 mu r_0 N_0
+};
+
+/// Cardan angles q_1 (about the inertial x axis) and q_2 (about the tilted y axis), their rates,
+/// and the rate of the spin about the axis of the disc.
+template <class Scalar>
+struct RigidMotion {
+  Eigen::Vector2<Scalar> q;      ///< rad
+  Eigen::Vector2<Scalar> q_dot;  ///< rad/s
+  Scalar spin;                   ///< rad/s
+};
+
+template <class Scalar>
+struct RigidPad {
+  Scalar z;                  ///< height of the contact point on the pad axis, m
+  Scalar z_dot;              ///< velocity of the pad, m/s
+  Scalar S;                  ///< force of the pad along its axis, N
+  Scalar N;                  ///< normal force, N
+  Scalar slip_speed;         ///< |v_r|, m/s
+  Eigen::Vector3<Scalar> F;  ///< force on the disc, inertial axes, N; F_z = -sigma S
+};
+
+/// The accelerations of a motion and what causes them.
+template <class Scalar>
+struct RigidAcceleration {
+  Eigen::Vector2<Scalar> q_ddot;  ///< rad/s^2
+  Scalar spin_rate;               ///< rad/s^2, zero for Drive::speed
+  Scalar moment;                  ///< M_A of the drive, N m
+  RigidPad<Scalar> upper;
+  RigidPad<Scalar> lower;
+};
+
+/// The nonlinear equations of motion. `Scalar` is double, or complex for derivatives.
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
+                                     Drive drive);
+
+/// M q'' + C q' + K q = 0.
+struct RigidMatrices {
+  Eigen::Matrix2d M;  ///< kg m^2
+  Eigen::Matrix2d C;  ///< N m s
+  Eigen::Matrix2d K;  ///< N m
+};
+
+/// The linearised equations at `speed` (rad/s, > 0) in closed form; the same for both drives.
+RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed);
+
+/// The derivatives of `accelerate` at rest by complex steps, exact to rounding.
+RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed);
+
+/// The two eigenvalues with Im > 0, of rising frequency: growth rate 1/s + i rad/s.
+Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices);
+
+/// The smallest speed (rad/s) of the range at which a growth rate turns from negative to positive,
+/// to 1e-12 relative; absent when there is none.
+std::optional<double> critical_speed(const std::function<RigidMatrices(double)>& matrices_at,
+                                     const SpeedRange& speeds);
+
+}  // namespace chladni::squeal

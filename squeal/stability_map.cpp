@@ -1,0 +1,75 @@
+#include "squeal/stability_map.hpp"
+
+#include <algorithm>
+#include <future>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+#include "common/error.hpp"
+#include "squeal/stability.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using std::numbers::pi;
+
+/// Every `stride`-th row of the map, from `first` on.
+void fill_rows(StabilityMap& map, const InertialDisc& disc, const SquealOptions& options,
+               Eigen::Index first, Eigen::Index stride)
+{
+  for (Eigen::Index i = first; i < map.values.size(); i += stride) {
+    const SquealOptions changed = with_parameter(options, options.map->parameter, map.values[i]);
+    for (Eigen::Index j = 0; j < map.speeds.size(); ++j) {
+      const std::complex<double> lambda = least_stable_eigenvalue(disc, changed, map.speeds[j]);
+      map.growth(i, j) = lambda.real();
+      map.frequency_Hz(i, j) = lambda.imag() / (2.0 * pi);
+    }
+  }
+}
+
+}  // namespace
+
+const char* name_of(MapParameter parameter)
+{
+  switch (parameter) {
+    case MapParameter::friction:
+      return "friction";
+    case MapParameter::preload:
+      return "preload";
+    case MapParameter::stiffness:
+      return "stiffness";
+  }
+  return "";
+}
+
+SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value)
+{
+  if (parameter == MapParameter::friction) options.friction = value;
+  for (PadPair& pad : options.pads) {
+    if (parameter == MapParameter::preload) pad.preload = value;
+    if (parameter == MapParameter::stiffness) pad.stiffness = value;
+  }
+  return options;
+}
+
+StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options)
+{
+  if (!options.map) throw Error("stability map: no second parameter is given");
+  const MapCase& range = *options.map;
+  const SpeedRange& speeds = options.speeds;
+  StabilityMap map{.parameter = name_of(range.parameter),
+                   .values = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
+                   .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
+                   .growth = Eigen::MatrixXd(range.count, speeds.count),
+                   .frequency_Hz = Eigen::MatrixXd(range.count, speeds.count)};
+  const Eigen::Index n_threads = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> rows;
+  for (Eigen::Index first = 0; first < n_threads; ++first)
+    rows.push_back(std::async(std::launch::async,
+                              [&, first] { fill_rows(map, disc, options, first, n_threads); }));
+  for (std::future<void>& done : rows) done.get();
+  return map;
+}
+
+}  // namespace chladni::squeal

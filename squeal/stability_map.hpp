@@ -1,0 +1,20 @@
+#pragma once
+
+#include "squeal/inertial_frame.hpp"
+#include "squeal/results.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// The options with one parameter set to `value`, for every pad if it is one of pads.
+SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value);
+
+/// "friction", "preload" or "stiffness", as in the scene.
+const char* name_of(MapParameter parameter);
+
+/// The least stable eigenvalues over `options.speeds` and `options.map`, on all processors. Each
+/// point is computed alone, so that the result does not depend on their number.
+/// @throws chladni::Error when `options.map` is absent.
+StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options);
+
+}  // namespace chladni::squeal

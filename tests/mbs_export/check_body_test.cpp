@@ -1,0 +1,192 @@
+#include "mbs_export/check_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bending_beam.hpp"
+#include "mbs_export/make_body.hpp"
+#include "wheel.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+/// The names of the checks with this verdict, in one text.
+std::string names(const std::vector<Check>& checks, Verdict verdict)
+{
+  std::string text;
+  for (const Check& check : checks)
+    if (check.verdict == verdict) text += "[" + check.name + "]";
+  return text;
+}
+
+double value_of(const std::vector<Check>& checks, const std::string& name)
+{
+  const auto found = std::ranges::find(checks, name, &Check::name);
+  return found == checks.end() ? std::nan("") : found->value;
+}
+
+ModalBody held_wheel()
+{
+  BodyOptions options;
+  options.fixed = {"hub"};
+  options.keep.count = 12;
+  options.damping = {.type = Damping::Type::modal, .ratios = {0.01}};
+  return make_body(test::wheel(), options);
+}
+
+/// The verdict on a system after `damage` was done to it.
+template <class System, class Run, class Damage>
+void expect(const System& sound, Run run, const std::string& name, Verdict verdict, Damage damage)
+{
+  System system = sound;
+  damage(system);
+  const std::string found = names(run(system), verdict);
+  EXPECT_NE(found.find("[" + name + "]"), std::string::npos) << name << " is not in " << found;
+}
+
+TEST(CheckReduced, FindsNothingWrongWithSoundSystems)
+{
+  for (const ReducedSystem& system : {test::wheel(), test::reduced_beam(30, 5)}) {
+    const std::vector<Check> checks = check_reduced(system);
+    EXPECT_EQ(worst(checks), Verdict::pass)
+        << names(checks, Verdict::warn) << names(checks, Verdict::fail);
+  }
+}
+
+TEST(CheckReduced, CountsRigidModesAndMasslessDirections)
+{
+  ReducedSystem wheel = test::wheel();
+  EXPECT_EQ(value_of(check_reduced(wheel), "rigid modes"), 6);
+  EXPECT_EQ(value_of(check_reduced(test::reduced_beam(30, 5)), "rigid modes"), 2);
+  EXPECT_EQ(value_of(check_reduced(wheel), "massless directions"), 0);
+  wheel.M(5, 5) = wheel.M(11, 11) = 0.0;  // two rotations of the rim, which K resists
+  const std::vector<Check> checks = check_reduced(wheel);
+  EXPECT_EQ(value_of(checks, "massless directions"), 2);
+  EXPECT_EQ(worst(checks), Verdict::pass) << names(checks, Verdict::fail);
+}
+
+TEST(CheckReduced, FailsEachPropertyThatIsSpoiled)
+{
+  const auto fails = [&, wheel = test::wheel()](const std::string& name, auto damage) {
+    expect(wheel, check_reduced, name, Verdict::fail, damage);
+  };
+  fails("symmetry of K", [](ReducedSystem& s) { s.K(0, 8) += 1e-3 * s.K(0, 0); });
+  fails("symmetry of M", [](ReducedSystem& s) { s.M(0, 8) += 1e-3 * s.M(0, 0); });
+  fails("symmetry of C", [](ReducedSystem& s) { (s.C = s.K)(0, 8) += 1e-3 * s.K(0, 0); });
+  fails("definiteness of K", [](ReducedSystem& s) { s.K(7, 7) *= 0.1; });
+  fails("definiteness of M", [](ReducedSystem& s) { s.M(7, 7) *= -0.1; });
+  fails("rigid-body energy", [](ReducedSystem& s) { s.K(2, 2) += 1e3; });
+  fails("mass of rigid motions", [](ReducedSystem& s) { s.M(7, 7) *= 1.01; });
+  fails("mass, kg", [](ReducedSystem& s) { s.M.setZero(); });
+  fails("inertia", [](ReducedSystem& s) { s.M(77, 77) += 1.0; });  // the hub about z alone
+  fails("their stiffness", [](ReducedSystem& s) {
+    s.M(5, 5) = 0.0;
+    s.K.row(5).setZero();
+    s.K.col(5).setZero();
+  });
+}
+
+TEST(CheckReduced, FailsAMechanismBeyondTheRigidMotions)
+{
+  const auto cut_free = [](ReducedSystem& s) {  // node 0 may turn about x without resistance
+    s.K.row(3).setZero();
+    s.K.col(3).setZero();
+  };
+  expect(test::wheel(), check_reduced, "rigid modes", Verdict::fail, [](ReducedSystem& s) {
+    // Two wheels that know nothing of each other: K = diag(K, K), seen as one of 26 nodes.
+    const ReducedSystem one = test::wheel();
+    const Eigen::Index n = one.K.rows();
+    s.K = s.M = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    s.K.topLeftCorner(n, n) = s.K.bottomRightCorner(n, n) = one.K;
+    s.M.topLeftCorner(n, n) = s.M.bottomRightCorner(n, n) = one.M;
+    for (const AttachmentNode& node : one.attachment_nodes) s.attachment_nodes.push_back(node);
+    for (const MasterDof& dof : one.masters)
+      s.masters.push_back({dof.node + test::wheel_rim_nodes + 1, dof.component});
+  });
+  expect(test::wheel(), check_reduced, "orthogonality of modes", Verdict::fail,
+         [&](ReducedSystem& s) {
+           cut_free(s);
+           s.M(3, 3) = 0.0;
+         });
+}
+
+TEST(CheckReduced, WarnsOfGroundAndOfIllConditionedMatrices)
+{
+  const auto warns = [&, wheel = test::wheel()](const std::string& name, auto damage) {
+    expect(wheel, check_reduced, name, Verdict::warn, damage);
+  };
+  warns("grounding", [](ReducedSystem& s) { s.K(2, 2) += 1e8; });
+  warns("condition of M", [](ReducedSystem& s) { s.M(5, 5) = 1e-11; });
+  warns("condition of K", [](ReducedSystem& s) {
+    // Two pairs of rim nodes nearly glued in their rotation about z: how one pair turns against the
+    // other is soft beside that.
+    const double stiffness = 1e8 * s.K(5, 5);
+    for (const int row : {5, 29}) {
+      s.K(row, row) += stiffness;
+      s.K(row + 6, row + 6) += stiffness;
+      s.K(row, row + 6) -= stiffness;
+      s.K(row + 6, row) -= stiffness;
+    }
+  });
+}
+
+TEST(CheckReduced, FailsFixedInterfaceModesThatAreNotWhatTheFormatSays)
+{
+  const auto fails = [&, beam = test::reduced_beam(30, 5)](auto damage) {
+    expect(beam, check_reduced, "fixed-interface modes", Verdict::fail, damage);
+  };
+  fails([](ReducedSystem& s) { s.fixed_interface_frequencies[2] *= 1.001; });
+  fails([](ReducedSystem& s) { s.M(8, 8) *= 1.001; });
+  fails([](ReducedSystem& s) { s.K(1, 8) = s.K(8, 1) = 1e-3 * s.K(8, 8); });
+}
+
+TEST(CheckBody, FindsNothingWrongWithSoundBodies)
+{
+  BodyOptions sliding;  // four rigid motions stay
+  sliding.fixed = {"hub.x", "hub.y"};
+  for (const ModalBody& body :
+       {held_wheel(), make_body(test::wheel(), {}), make_body(test::wheel(), sliding),
+        make_body(test::reduced_beam(30, 5), {})}) {
+    const std::vector<Check> checks = check_body(body);
+    EXPECT_EQ(worst(checks), Verdict::pass)
+        << names(checks, Verdict::warn) << names(checks, Verdict::fail);
+  }
+}
+
+TEST(CheckBody, FailsEachPropertyThatIsSpoiled)
+{
+  const auto fails = [&, wheel = held_wheel()](const std::string& name, auto damage) {
+    expect(wheel, check_body, name, Verdict::fail, damage);
+  };
+  fails("rigid modes", [](ModalBody& b) { b.kinds[0] = ModeKind::rigid; });
+  fails("free rigid motions", [](ModalBody& b) { b.kinds[0] = ModeKind::rigid; });
+  fails("rigid modes when free", [](ModalBody& b) { b.n_rigid = 5; });
+  fails("frequencies", [](ModalBody& b) { b.free_frequencies *= 1e3; });
+  fails("rigid-body energy", [](ModalBody& b) { b.preparation.rigid_residual = 1e-3; });
+  fails("held displacements", [](ModalBody& b) { b.attachment_modes(74, 3) = 1e-3; });
+  fails("condition of Q_dd", [](ModalBody& b) { b.condition_Q_dd = 1e9; });
+  fails("mass, kg", [](ModalBody& b) { b.mass = -1.0; });
+  fails("inertia", [](ModalBody& b) { b.inertia(2, 2) *= 3.0; });
+  fails("symmetry of C", [](ModalBody& b) { b.C(0, 1) = b.C(0, 0); });
+  fails("ring rim", [](ModalBody& b) { b.rings[0].W(3, 2) *= 1.0001; });
+  fails("ring rim", [](ModalBody& b) { b.rings[0].W_t *= -1.0; });
+  fails("ring rim", [](ModalBody& b) { b.attachment_nodes[4].position.z() += 0.01; });
+  expect(held_wheel(), check_body, "definiteness of C", Verdict::warn,
+         [](ModalBody& b) { b.C(0, 0) *= -1.0; });
+}
+
+TEST(CheckBody, FailsRigidModesThatAreNoRigidMotionsOrOfAnotherBody)
+{
+  const auto fails = [&, wheel = make_body(test::wheel(), {})](const std::string& name,
+                                                               auto damage) {
+    expect(wheel, check_body, name, Verdict::fail, damage);
+  };
+  fails("shape of rigid modes", [](ModalBody& b) { b.attachment_modes(8, 1) += 0.01; });
+  fails("shape of rigid modes", [](ModalBody& b) { b.attachment_nodes[2].position.x() += 0.01; });
+  fails("orthogonality of modes", [](ModalBody& b) { b.mass *= 1.001; });
+  fails("orthogonality of modes", [](ModalBody& b) { b.attachment_modes.col(5) *= 1.001; });
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export

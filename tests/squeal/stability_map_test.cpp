@@ -1,0 +1,81 @@
+#include "squeal/stability_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "analytic_body.hpp"
+#include "squeal/stability.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+InertialDisc reference_disc()
+{
+  return inertial_disc(make_disc(analytic_body({kirchhoff_3()}), "track", {}));
+}
+
+SquealOptions map_options(const MapCase& map)
+{
+  SquealOptions options = reference_options();
+  options.map = map;
+  return options;
+}
+
+TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
+{
+  const struct {
+    MapCase map;
+    void (*set)(SquealOptions&, double);
+  } cases[] = {
+      {{MapParameter::friction, 0.1, 0.9, 3}, [](auto& o, double x) { o.friction = x; }},
+      {{MapParameter::preload, 500.0, 4e3, 3}, [](auto& o, double x) { o.pads[0].preload = x; }},
+      {{MapParameter::stiffness, 1e6, 9e6, 3}, [](auto& o, double x) { o.pads[0].stiffness = x; }}};
+  for (const auto& c : cases) {
+    const StabilityMap map = stability_map(reference_disc(), map_options(c.map));
+    ASSERT_EQ(map.growth.rows(), 3);
+    ASSERT_EQ(map.growth.cols(), 60);
+    EXPECT_EQ(map.parameter, name_of(c.map.parameter));
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (const Eigen::Index j : {0, 17, 59}) {
+        SquealOptions point = reference_options();
+        c.set(point, map.values[i]);
+        const auto lambda = least_stable_eigenvalue(reference_disc(), point, map.speeds[j]);
+        EXPECT_EQ(map.growth(i, j), lambda.real());
+        EXPECT_EQ(map.frequency_Hz(i, j), lambda.imag() / (2.0 * pi));
+      }
+  }
+}
+
+TEST(StabilityMap, TurnsUnstableAtTheCriticalSpeedOfEachFriction)
+{
+  const SquealOptions options = map_options({MapParameter::friction, 0.4, 0.8, 5});
+  const StabilityMap map = stability_map(reference_disc(), options);
+  for (Eigen::Index i = 0; i < map.values.size(); ++i) {
+    const auto critical = critical_speed(
+        reference_disc(), with_parameter(options, MapParameter::friction, map.values[i]));
+    ASSERT_TRUE(critical);
+    for (Eigen::Index j = 0; j < map.speeds.size(); ++j)
+      EXPECT_EQ(map.growth(i, j) > 0.0, map.speeds[j] > critical->speed);
+  }
+}
+
+TEST(StabilityMap, IsTheSameInEveryRunAndFast)
+{
+  SquealOptions options = map_options({MapParameter::stiffness, 1e6, 9e6, 100});
+  options.speeds.count = 100;
+  const auto begin = std::chrono::steady_clock::now();
+  const StabilityMap map = stability_map(reference_disc(), options);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  EXPECT_EQ(map.growth, stability_map(reference_disc(), options).growth);
+#ifdef NDEBUG
+  EXPECT_LT(time.count(), 10.0);  // a promise to users; it takes a fraction of a second
+#endif
+  RecordProperty("seconds", std::to_string(time.count()));
+}
+
+}  // namespace
+}  // namespace chladni::squeal
