@@ -146,6 +146,17 @@ void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cy
   add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
 }
 
+void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
+{
+  add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
+  if (branch.points.empty()) return;
+  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
+    add(table, fmt::format("pad velocity at {:.4f} pi rad/s", end.speed / pi), end.pad_velocity,
+        "m/s");
+  }
+  if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
+}
+
 template <class Object>
 std::string titled(const Object& object)
 {
@@ -205,6 +216,7 @@ TextTable describe(const squeal::SquealResults& results)
   }
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
   if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
+  if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);
   return table;
 }
 

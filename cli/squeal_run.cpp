@@ -98,6 +98,19 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
 }
 
+Json branch_json(const squeal::LimitCycleBranch& branch)
+{
+  std::vector<Json> points;
+  for (const squeal::BranchPoint& point : branch.points) {
+    points.push_back(Json::object({{"speed_rad_s", point.speed},
+                                   {"frequency_Hz", point.frequency_Hz},
+                                   {"pad_velocity_m_s", point.pad_velocity},
+                                   {"pad_displacement_m", point.pad_displacement},
+                                   {"largest_multiplier", point.largest_multiplier}}));
+  }
+  return Json::array(points);
+}
+
 /// Only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
 {
@@ -120,6 +133,9 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   }
   if (results.limit_cycle_direct) {
     members.emplace_back("limit_cycle_direct", direct_json(*results.limit_cycle_direct));
+  }
+  if (results.limit_cycle_branch) {
+    members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
   }
   return members;
 }

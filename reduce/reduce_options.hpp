@@ -6,8 +6,8 @@ namespace chladni::reduce {
 
 enum class Method { guyan, craig_bampton };
 
-/// As few fixed-interface modes as keep the estimated relative error eta^2 of omega^2 of each mode of
-/// the supported body up to a frequency below a tolerance.
+/// As few fixed-interface modes as keep the estimated relative error eta^2 of omega^2 of each mode
+/// of the supported body up to a frequency below a tolerance.
 struct ModesByTolerance {
   double tolerance;
   double up_to_Hz;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mbs_export/hdf5.hpp"
+#include "squeal/cycle_file.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -197,48 +198,6 @@ LimitCycle read_limit_cycle(const Reader& file)
           .amplitude = complex_matrix(re, im)};
 }
 
-void write_direct(Writer& file, const DirectLimitCycle& cycle)
-{
-  file.write("limit_cycle_direct/speed", cycle.speed, "rad/s");
-  file.write("limit_cycle_direct/frequency", cycle.frequency_Hz, "Hz");
-  file.write("limit_cycle_direct/pad_velocity", cycle.pad_velocity, "m/s");
-  file.write("limit_cycle_direct/pad_displacement", cycle.pad_displacement, "m");
-  file.write("limit_cycle_direct/N_min", cycle.N_min, "N");
-  file.write("limit_cycle_direct/N_max", cycle.N_max, "N");
-  file.write("limit_cycle_direct/slip_speed_min", cycle.slip_speed_min, "m/s");
-  file.write("limit_cycle_direct/multipliers_re", cycle.multipliers.real(), "1");
-  file.write("limit_cycle_direct/multipliers_im", cycle.multipliers.imag(), "1");
-  file.write("limit_cycle_direct/stable", std::int64_t{cycle.stable}, "1");
-  file.write("limit_cycle_direct/newton_steps", std::int64_t{cycle.n_newton_steps}, "1");
-  file.write("limit_cycle_direct/contact_evaluations", cycle.n_contact_evaluations, "1");
-  file.write("limit_cycle_direct/x", cycle.x, "m kg^(1/2) / s");
-  file.write("limit_cycle_direct/mode_numbers", std::span<const int>(cycle.mode_numbers), "1");
-  file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
-  file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
-}
-
-DirectLimitCycle read_direct(const Reader& file)
-{
-  const auto numbers = file.integers("limit_cycle_direct/mode_numbers");
-  const auto n = static_cast<Eigen::Index>(numbers.size());
-  return {.speed = file.real("limit_cycle_direct/speed"),
-          .frequency_Hz = file.real("limit_cycle_direct/frequency"),
-          .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
-          .pad_displacement = file.real("limit_cycle_direct/pad_displacement"),
-          .N_min = file.real("limit_cycle_direct/N_min"),
-          .N_max = file.real("limit_cycle_direct/N_max"),
-          .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
-          .multipliers = complex_matrix(file.vector("limit_cycle_direct/multipliers_re", 2 * n),
-                                        file.vector("limit_cycle_direct/multipliers_im", 2 * n)),
-          .stable = file.integer("limit_cycle_direct/stable") != 0,
-          .n_newton_steps = static_cast<int>(file.integer("limit_cycle_direct/newton_steps")),
-          .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
-          .x = file.vector("limit_cycle_direct/x", 2 * n),
-          .mode_numbers = {numbers.begin(), numbers.end()},
-          .amplitude = complex_matrix(file.vector("limit_cycle_direct/amplitude_re", n),
-                                      file.vector("limit_cycle_direct/amplitude_im", n))};
-}
-
 void write_provenance(Writer& file, const mbs_export::Provenance& provenance)
 {
   file.write("provenance/scene", provenance.scene);
@@ -266,6 +225,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.transient) write_transient(file, *results.transient);
   if (results.limit_cycle) write_limit_cycle(file, *results.limit_cycle);
   if (results.limit_cycle_direct) write_direct(file, *results.limit_cycle_direct);
+  if (results.limit_cycle_branch) write_branch(file, *results.limit_cycle_branch);
   file.commit();
 }
 
@@ -286,6 +246,7 @@ SquealResults read_results(const std::filesystem::path& path)
   if (file.contains("transient")) results.transient = read_transient(file);
   if (file.contains("limit_cycle")) results.limit_cycle = read_limit_cycle(file);
   if (file.contains("limit_cycle_direct")) results.limit_cycle_direct = read_direct(file);
+  if (file.contains("limit_cycle_branch")) results.limit_cycle_branch = read_branch(file);
   return results;
 }
 

@@ -107,6 +107,24 @@ struct DirectLimitCycle {
   Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
 };
 
+/// What is kept of each limit cycle of a branch; see DirectLimitCycle.
+struct BranchPoint {
+  double speed;  ///< rad/s
+  double frequency_Hz;
+  double pad_velocity;        ///< m/s
+  double pad_displacement;    ///< m
+  double N_min;               ///< N
+  double N_max;               ///< N
+  double largest_multiplier;  ///< modulus, without the one along the cycle
+};
+
+/// Limit cycles over the speed, by rising speed.
+struct LimitCycleBranch {
+  std::vector<BranchPoint> points;
+  /// The cycle could not be followed below this speed, rad/s, though the disc is unstable there.
+  std::optional<double> lost_below;
+};
+
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
@@ -121,6 +139,7 @@ struct SquealResults {
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;
   std::optional<DirectLimitCycle> limit_cycle_direct;
+  std::optional<LimitCycleBranch> limit_cycle_branch;
 };
 
 }  // namespace chladni::squeal

@@ -4,6 +4,7 @@
 
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle.hpp"
+#include "squeal/limit_cycle_branch.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
@@ -64,6 +65,9 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgr
     results.limit_cycle_direct =
         limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
   }
+  if (asked("limit-cycle-branch"))
+    results.limit_cycle_branch =
+        limit_cycle_branch(disc, options, progress_of("limit-cycle-branch"));
   return results;
 }
 

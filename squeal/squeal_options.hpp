@@ -79,7 +79,7 @@ struct SquealOptions {
   std::vector<PadPair> pads;
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
                                       ///< "limit-cycle", "limit-cycle-direct",
-                                      ///< "stability-map"
+                                      ///< "limit-cycle-branch", "stability-map"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
   std::optional<DirectCase> limit_cycle_direct;

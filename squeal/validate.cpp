@@ -14,9 +14,9 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 7> analyses{
-    "eigenvalues", "critical-speed",     "growth",       "transient",
-    "limit-cycle", "limit-cycle-direct", "stability-map"};
+constexpr std::array<std::string_view, 8> analyses{
+    "eigenvalues",        "critical-speed",     "growth",       "transient", "limit-cycle",
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -130,7 +130,7 @@ void validate(const SquealOptions& options)
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
                               fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
-      asks_for(options, "stability-map"))
+      asks_for(options, "stability-map") || asks_for(options, "limit-cycle-branch"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))
     validate_transient(options);

@@ -13,8 +13,8 @@ using squeal::ContactLaw;
 using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
-    "eigenvalues", "critical-speed",     "growth",       "transient",
-    "limit-cycle", "limit-cycle-direct", "stability-map"};
+    "eigenvalues",        "critical-speed",     "growth",       "transient", "limit-cycle",
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {

@@ -186,6 +186,30 @@ def draw_phase_portrait(ax, squeal):
     ax.set_title("phase portrait")
 
 
+def draw_stability_map(ax, squeal):
+    """Growth rate over the speed and the second parameter, with the border of stability."""
+    group = squeal["stability_map"]
+    speed, growth = group["speeds"][:] / np.pi, group["growth"][:]
+    limit = np.abs(growth).max()
+    colours = ax.pcolormesh(
+        speed, group["values"][:], growth, cmap="RdBu_r", vmin=-limit, vmax=limit, shading="nearest"
+    )
+    if growth.min() < 0 < growth.max():
+        ax.contour(speed, group["values"][:], growth, levels=[0], colors="black", linewidths=1.0)
+    ax.figure.colorbar(colours, ax=ax, label="largest growth rate in 1/s")
+    parameter = group["parameter"].asstr()[()]
+    unit = np.bytes_(group["values"].attrs["unit"]).decode()
+    ax.set(xlabel=r"rotation speed / $\pi$ in rad/s")
+    ax.set_ylabel(parameter if unit == "1" else f"{parameter} in {unit}")
+
+
+def draw_branch(ax, squeal):
+    branch = squeal["limit_cycle_branch"]
+    ax.plot(branch["speeds"][:] / np.pi, branch["pad_velocity"][:], color=LOWER)
+    ax.set(xlabel=r"rotation speed / $\pi$ in rad/s", ylabel="pad velocity in m/s")
+    ax.set_title("limit cycles")
+
+
 def save(figure, path, dpi=150):
     figure.savefig(path, dpi=dpi)
     plt.close(figure)
@@ -207,6 +231,13 @@ def draw_all(body, squeal, folder):
     figure, ax = plt.subplots(figsize=(6.5, 3.6))
     draw_growth(ax, squeal)
     save(figure, folder / "growth.png")
+
+    # Only of a study that asks for them.
+    for name, draw in (("stability_map", draw_stability_map), ("limit_cycle_branch", draw_branch)):
+        if name in squeal:
+            figure, ax = plt.subplots(figsize=(5.5, 3.6))
+            draw(ax, squeal)
+            save(figure, folder / f"{name}.png")
 
     figure, axes = plt.subplots(1, 3, figsize=(10, 3.2))
     draw_envelope(axes[0], squeal)

@@ -193,7 +193,7 @@ TEST(SceneError, NamesWhatAStabilityMapCannotBe)
             "scene.toml:43: squeal.map.parameter = \"speed\": must be one of \"friction\", "
             "\"preload\", \"stiffness\"");
   EXPECT_EQ(error_of(disc + replaced(map, "to = 9e6", "to = 9e5")),
-            "scene.toml:43: squeal.map.to = 900000: must be a number >= 1000000");
+            "scene.toml:43: squeal.map.to = 900000: must be >= 1000000");
   EXPECT_EQ(error_of(replaced(disc, "\"growth\", ", "\"stability-map\", ")),
             "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'stability-map', 'transient' ]: "
             "\"stability-map\" needs the key map");

@@ -111,9 +111,11 @@ TEST(SquealProgram, FindsTheLimitCycleWithoutATransient)
   const Folder folder;
   const std::string scene = example_scene();
   const std::size_t analyses = scene.find("analyses = ");
-  write_text(folder.path() / "scene.toml",
-             replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
-                      "analyses = [\"limit-cycle-direct\"]"));
+  write_text(
+      folder.path() / "scene.toml",
+      replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+               "analyses = [\"limit-cycle-direct\", \"limit-cycle-branch\", \"stability-map\"]\n"
+               "map = { parameter = \"friction\", from = 0.1, to = 0.8, count = 10 }"));
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
   const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
   ASSERT_EQ(ending.exit_code, 0) << ending.err;
@@ -123,6 +125,12 @@ TEST(SquealProgram, FindsTheLimitCycleWithoutATransient)
   EXPECT_NEAR(number_at(json, "frequency_Hz"), 1696.8533, 1e-4);
   EXPECT_NEAR(number_at(json, "pad_velocity_m_s"), 6.7274, 1e-4);
   EXPECT_NE(ending.out.find("direct limit cycle: pad velocity"), std::string::npos);
+  EXPECT_NE(json.find("\"limit_cycle_branch\": ["), std::string::npos);
+  const auto results = squeal::read_results(folder.path() / "disc.squeal.h5");
+  ASSERT_TRUE(results.map && results.limit_cycle_branch);
+  EXPECT_EQ(results.map->growth.size(), 600);
+  // Speeds of 1 to 20 pi in 60 steps, unstable from 4.257 pi: the eleventh is 4.22 pi.
+  EXPECT_EQ(results.limit_cycle_branch->points.size(), 49u);
 }
 
 TEST(SquealProgram, DescribesBodiesAndResults)

@@ -68,7 +68,8 @@ TEST(ErrorEstimates, MatchTheTrueErrorOfAHeldChain)
   const std::vector<double> eta2 = error_estimates(held.K_ss, held.Q_CB, held.M, pairs);
   // The error lies in the fixed-interface modes left out. One of frequency lambda_j contributes
   // 1 / (1 - lambda / lambda_j) of its share in eta^2, at most that of the first one left out.
-  const double left_out = 4.0 * std::pow(std::sin((n_modes + 1) * std::numbers::pi / (2.0 * (n - 1))), 2);
+  const double left_out =
+      4.0 * std::pow(std::sin((n_modes + 1) * std::numbers::pi / (2.0 * (n - 1))), 2);
   for (int k = 1; k < 9; ++k) {
     const double effectivity = eta2[k] / true_error(pairs, k);
     EXPECT_GT(effectivity, 1.0 - pairs.lambda[k] / left_out - 1e-3) << "mode " << k + 1;

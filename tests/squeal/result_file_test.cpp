@@ -26,8 +26,8 @@ SquealResults complete_results()
 {
   SquealOptions options = reference_options();
   options.speeds.count = 5;
-  options.analyses = {"eigenvalues", "critical-speed",     "growth",
-                      "limit-cycle", "limit-cycle-direct", "stability-map"};
+  options.analyses = {"eigenvalues",        "critical-speed",     "growth",       "limit-cycle",
+                      "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
   options.map =
       MapCase{.parameter = MapParameter::preload, .from = 500.0, .to = 2000.0, .count = 3};
   options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
@@ -40,7 +40,8 @@ SquealResults complete_results()
 TEST(ResultFile, ReturnsEveryValueItWasGiven)
 {
   const TemporaryFile file;
-  const SquealResults written = complete_results();
+  SquealResults written = complete_results();
+  written.limit_cycle_branch->lost_below = 18.0;
   write_results(file.path, written, {});
   const SquealResults read = read_results(file.path);
   EXPECT_EQ(read.largest_split, written.largest_split);
@@ -64,6 +65,14 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   EXPECT_EQ(read.map->values, written.map->values);
   EXPECT_EQ(read.map->growth, written.map->growth);
   EXPECT_EQ(read.map->frequency_Hz, written.map->frequency_Hz);
+  EXPECT_EQ(read.limit_cycle_branch->lost_below, 18.0);
+  ASSERT_EQ(read.limit_cycle_branch->points.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(read.limit_cycle_branch->points[i].speed,
+              written.limit_cycle_branch->points[i].speed);
+    EXPECT_EQ(read.limit_cycle_branch->points[i].largest_multiplier,
+              written.limit_cycle_branch->points[i].largest_multiplier);
+  }
   ASSERT_TRUE(read.limit_cycle_direct);
   const DirectLimitCycle &direct = *read.limit_cycle_direct,
                          &original = *written.limit_cycle_direct;

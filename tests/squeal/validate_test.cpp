@@ -16,8 +16,9 @@ using namespace test;
 SquealOptions complete_options()
 {
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues", "critical-speed",     "growth",       "transient",
-                      "limit-cycle", "limit-cycle-direct", "stability-map"};
+  options.analyses = {"eigenvalues",        "critical-speed", "growth",
+                      "transient",          "limit-cycle",    "limit-cycle-direct",
+                      "limit-cycle-branch", "stability-map"};
   options.transient =
       TransientCase{.speed = 10.0, .duration = 1.0, .initial_pad_displacement = 1e-8};
   options.growth = GrowthCase{.speeds = {10.0}, .duration = 1.0};

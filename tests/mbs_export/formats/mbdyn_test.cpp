@@ -20,7 +20,7 @@ struct FemFile {
   std::vector<std::string> labels;
   MatrixXd positions;           ///< [3 x n_nodes]
   std::vector<MatrixXd> modes;  ///< [6 x n_nodes] each
-  MatrixXd M, K, C, Inv3, Inv4;
+  MatrixXd M, K, C, invariant_3, invariant_4;
   double mass = 0.0;
   Vector3d centre;
   Eigen::Matrix3d inertia;
@@ -88,10 +88,10 @@ void read_group(std::istream& file, FemFile& fem, int number)
       fem.C = read_rows(file, n, n);
       return;
     case 14:
-      fem.Inv3 = read_rows(file, 3, n);
+      fem.invariant_3 = read_rows(file, 3, n);
       return;
     case 15:
-      fem.Inv4 = read_rows(file, 3, n);
+      fem.invariant_4 = read_rows(file, 3, n);
       return;
     default:
       FAIL() << "RECORD GROUP " << number << " unhandled";
@@ -167,20 +167,20 @@ TEST(MbdynFem, HasTheMomentaOfTheNodesThatItHolds)
                MbdynVersion::develop);
   double largest = 0.0;
   for (Index j = 0; j < fem.n_modes; ++j) {
-    Vector3d Inv3 = Vector3d::Zero(), Inv4 = Vector3d::Zero();
+    Vector3d invariant_3 = Vector3d::Zero(), invariant_4 = Vector3d::Zero();
     for (Index node = 0; node < fem.n_nodes; ++node) {
       const bool hub = node == test::wheel_rim_nodes;
       const double m = hub ? test::hub_mass : test::rim_node_mass;
       const double J = hub ? test::hub_inertia : test::rim_node_inertia;
       const Vector3d f = fem.positions.col(node), U = fem.modes[std::size_t(j)].col(node).head(3),
                      V = fem.modes[std::size_t(j)].col(node).tail(3);
-      Inv3 += m * U;
-      Inv4 += m * f.cross(U) + J * V;
+      invariant_3 += m * U;
+      invariant_4 += m * f.cross(U) + J * V;
     }
     // Round-off of sums of 13 terms of at most 1 sqrt(kg).
-    EXPECT_LT((fem.Inv3.col(j) - Inv3).norm(), 1e-13);
-    EXPECT_LT((fem.Inv4.col(j) - Inv4).norm(), 1e-13);
-    largest = std::max(largest, Inv3.norm());
+    EXPECT_LT((fem.invariant_3.col(j) - invariant_3).norm(), 1e-13);
+    EXPECT_LT((fem.invariant_4.col(j) - invariant_4).norm(), 1e-13);
+    largest = std::max(largest, invariant_3.norm());
   }
   EXPECT_GT(largest, 0.1);  // a held body couples, or the test would tell nothing
 }

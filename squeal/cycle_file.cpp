@@ -1,0 +1,107 @@
+#include "squeal/cycle_file.hpp"
+
+#include <complex>
+#include <span>
+#include <string>
+
+namespace chladni::squeal {
+namespace {
+
+using mbs_export::hdf5::Reader;
+using mbs_export::hdf5::Writer;
+
+Eigen::VectorXcd complex_vector(const Eigen::VectorXd& re, const Eigen::VectorXd& im)
+{
+  return re + std::complex<double>(0.0, 1.0) * im;
+}
+
+/// A dataset of a branch and the member that it holds.
+struct Column {
+  const char* name;
+  const char* unit;
+  double BranchPoint::*member;
+};
+
+constexpr Column columns[] = {{"speeds", "rad/s", &BranchPoint::speed},
+                              {"frequency", "Hz", &BranchPoint::frequency_Hz},
+                              {"pad_velocity", "m/s", &BranchPoint::pad_velocity},
+                              {"pad_displacement", "m", &BranchPoint::pad_displacement},
+                              {"N_min", "N", &BranchPoint::N_min},
+                              {"N_max", "N", &BranchPoint::N_max},
+                              {"largest_multiplier", "1", &BranchPoint::largest_multiplier}};
+
+std::string path_of(const Column& column)
+{
+  return std::string("limit_cycle_branch/") + column.name;
+}
+
+}  // namespace
+
+void write_direct(Writer& file, const DirectLimitCycle& cycle)
+{
+  file.write("limit_cycle_direct/speed", cycle.speed, "rad/s");
+  file.write("limit_cycle_direct/frequency", cycle.frequency_Hz, "Hz");
+  file.write("limit_cycle_direct/pad_velocity", cycle.pad_velocity, "m/s");
+  file.write("limit_cycle_direct/pad_displacement", cycle.pad_displacement, "m");
+  file.write("limit_cycle_direct/N_min", cycle.N_min, "N");
+  file.write("limit_cycle_direct/N_max", cycle.N_max, "N");
+  file.write("limit_cycle_direct/slip_speed_min", cycle.slip_speed_min, "m/s");
+  file.write("limit_cycle_direct/multipliers_re", cycle.multipliers.real(), "1");
+  file.write("limit_cycle_direct/multipliers_im", cycle.multipliers.imag(), "1");
+  file.write("limit_cycle_direct/stable", std::int64_t{cycle.stable}, "1");
+  file.write("limit_cycle_direct/newton_steps", std::int64_t{cycle.n_newton_steps}, "1");
+  file.write("limit_cycle_direct/contact_evaluations", cycle.n_contact_evaluations, "1");
+  file.write("limit_cycle_direct/x", cycle.x, "m kg^(1/2) / s");
+  file.write("limit_cycle_direct/mode_numbers", std::span<const int>(cycle.mode_numbers), "1");
+  file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
+  file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
+}
+
+DirectLimitCycle read_direct(const Reader& file)
+{
+  const auto numbers = file.integers("limit_cycle_direct/mode_numbers");
+  const auto n = static_cast<Eigen::Index>(numbers.size());
+  return {.speed = file.real("limit_cycle_direct/speed"),
+          .frequency_Hz = file.real("limit_cycle_direct/frequency"),
+          .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
+          .pad_displacement = file.real("limit_cycle_direct/pad_displacement"),
+          .N_min = file.real("limit_cycle_direct/N_min"),
+          .N_max = file.real("limit_cycle_direct/N_max"),
+          .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
+          .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", 2 * n),
+                                        file.vector("limit_cycle_direct/multipliers_im", 2 * n)),
+          .stable = file.integer("limit_cycle_direct/stable") != 0,
+          .n_newton_steps = static_cast<int>(file.integer("limit_cycle_direct/newton_steps")),
+          .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
+          .x = file.vector("limit_cycle_direct/x", 2 * n),
+          .mode_numbers = {numbers.begin(), numbers.end()},
+          .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
+                                      file.vector("limit_cycle_direct/amplitude_im", n))};
+}
+
+void write_branch(Writer& file, const LimitCycleBranch& branch)
+{
+  for (const Column& column : columns) {
+    std::vector<double> values;
+    for (const BranchPoint& point : branch.points) values.push_back(point.*column.member);
+    file.write(path_of(column), values, column.unit);
+  }
+  if (branch.lost_below) file.write("limit_cycle_branch/lost_below", *branch.lost_below, "rad/s");
+}
+
+LimitCycleBranch read_branch(const Reader& file)
+{
+  LimitCycleBranch branch;
+  const Eigen::Index n = file.vector(path_of(columns[0])).size();
+  branch.points.resize(static_cast<std::size_t>(n));
+  for (const Column& column : columns) {
+    const Eigen::VectorXd values = file.vector(path_of(column), n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      branch.points[static_cast<std::size_t>(i)].*column.member = values[i];
+  }
+  if (file.contains("limit_cycle_branch/lost_below"))
+    branch.lost_below = file.real("limit_cycle_branch/lost_below");
+  return branch;
+}
+
+}  // namespace chladni::squeal

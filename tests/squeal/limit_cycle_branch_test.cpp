@@ -1,0 +1,136 @@
+#include "squeal/limit_cycle_branch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "analytic_body.hpp"
+#include "squeal/limit_cycle.hpp"
+#include "squeal/limit_cycle_direct.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc reference_disc()
+{
+  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
+}
+
+LimitCycleBranch branch_over(ContactLaw law, const SpeedRange& speeds)
+{
+  SquealOptions options = reference_options(law);
+  options.speeds = speeds;
+  return limit_cycle_branch(reference_disc(), options);
+}
+
+const SpeedRange onset{.from = 4.25 * pi, .to = 5.0 * pi, .count = 31};
+const SpeedRange fast{.from = 6.0 * pi, .to = 20.0 * pi, .count = 8};
+
+/// SQUEAL reference values, 1749.75 Hz: shooting with finite differences.
+struct Reference {
+  double speed_by_pi, velocity, frequency_Hz;
+};
+
+void expect_points(const LimitCycleBranch& branch, const std::vector<Reference>& references,
+                   const Reference& tolerance)
+{
+  for (const Reference& reference : references) {
+    bool found = false;
+    for (const BranchPoint& point : branch.points) {
+      if (std::abs(point.speed / pi - reference.speed_by_pi) > 1e-9) continue;
+      found = true;
+      EXPECT_NEAR(point.pad_velocity, reference.velocity, tolerance.velocity * reference.velocity)
+          << reference.speed_by_pi;
+      EXPECT_NEAR(point.frequency_Hz, reference.frequency_Hz, tolerance.frequency_Hz)
+          << reference.speed_by_pi;
+      EXPECT_LT(point.largest_multiplier, 1.0);
+    }
+    EXPECT_TRUE(found) << reference.speed_by_pi;
+  }
+}
+
+TEST(LimitCycleBranch, IsThatOfTheReferenceWithBilateralContact)
+{
+  // The reference steps over the kinks of |N|, which leaves it up to 8e-5 of the velocity.
+  const Reference tolerance{0.0, 1.5e-4, 1e-4};
+  const LimitCycleBranch branch = branch_over(ContactLaw::bilateral, onset);
+  EXPECT_FALSE(branch.lost_below);
+  expect_points(branch,
+                {{4.275, 1.227312, 1772.09693},
+                 {4.3, 3.72364, 1772.10984},
+                 {4.5, 4.37486, 1772.27184},
+                 {5.0, 5.374382, 1772.70162}},
+                tolerance);
+  expect_points(branch_over(ContactLaw::bilateral, fast),
+                {{6.0, 6.946217, 1773.6455},
+                 {8.0, 9.501921, 1775.79304},
+                 {10.0, 11.669196, 1778.18307},
+                 {20.0, 20.085018, 1791.72788}},
+                tolerance);
+}
+
+TEST(LimitCycleBranch, IsThatOfTheReferenceWithUnilateralContact)
+{
+  // Where contact is lost, steps over the kinks and finite differences leave the reference 1e-3 of
+  // the velocity; the next test has a sharper one.
+  const Reference tolerance{0.0, 1.2e-3, 5e-3};
+  expect_points(branch_over(ContactLaw::unilateral, onset),
+                {{4.275, 1.227312, 1772.09693},
+                 {4.3, 3.738524, 1772.10374},
+                 {4.5, 5.825282, 1769.98156},
+                 {5.0, 8.489082, 1768.54927}},
+                tolerance);
+  expect_points(branch_over(ContactLaw::unilateral, fast),
+                {{6.0, 12.174917, 1768.34559},
+                 {8.0, 17.486761, 1769.99201},
+                 {10.0, 21.759116, 1772.34606},
+                 {20.0, 40.398247, 1786.21926}},
+                tolerance);
+}
+
+TEST(LimitCycleBranch, HoldsTheEndOfATransient)
+{
+  // 80 steps per period leave 1e-5 of the velocity to the splitting.
+  const LimitCycle end = limit_cycle(
+      reference_disc(), transient(reference_disc(), reference_options(ContactLaw::unilateral),
+                                  {.speed = 8.0 * pi,
+                                   .duration = 4.0,
+                                   .initial_pad_displacement = 1e-3,
+                                   .steps_per_period = 80}));
+  const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
+  ASSERT_EQ(branch.points.size(), 8u);
+  EXPECT_NEAR(branch.points[1].pad_velocity, end.pad_velocity, 2e-5 * end.pad_velocity);
+  EXPECT_NEAR(branch.points[1].frequency_Hz, end.frequency_Hz, 1e-7 * end.frequency_Hz);
+}
+
+TEST(LimitCycleBranch, BeginsAtTheCriticalSpeedWithASquareRoot)
+{
+  // v^2 = 486 (Omega - Omega_c) / pi (SQUEAL reference value, three digits, near the onset).
+  const LimitCycleBranch branch =
+      branch_over(ContactLaw::bilateral, {.from = 4.27 * pi, .to = 4.28 * pi, .count = 11});
+  ASSERT_EQ(branch.points.size(), 9u);  // two of the speeds are below 4.2719 pi
+  const BranchPoint& first = branch.points.front();
+  const double v = first.pad_velocity;
+  EXPECT_NEAR(v * v / (first.speed / pi - 4.2718984074), 486.0, 5.0);
+}
+
+TEST(LimitCycleBranch, IsTheSameFromAboveAndFromTheEigenvector)
+{
+  // Both are integrated until the multiplier along the cycle is 1 to 1e-6; the other multipliers
+  // near 1 magnify what is left, about 1e-8 per period, by 500.
+  const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
+  const DirectLimitCycle cycle =
+      limit_cycle_direct(reference_disc(), reference_options(ContactLaw::unilateral), 6.0 * pi);
+  EXPECT_NEAR(branch.points.front().pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity);
+}
+
+TEST(LimitCycleBranch, IsEmptyWhereTheDiscIsStable)
+{
+  EXPECT_TRUE(
+      branch_over(ContactLaw::bilateral, {.from = pi, .to = 4.0 * pi, .count = 5}).points.empty());
+}
+
+}  // namespace
+}  // namespace chladni::squeal
