@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 
+import h5py
+import numpy as np
+
 PLATE = "annular Reissner-Mindlin plate, shear factor 5/6, clamped inside, Fourier series in the angle"
 TWO_MODES = "linear model of two modes in the inertial frame, with the mode of [1]"
 KIRCHHOFF = "simulation of two modes with Kirchhoff's mode shape, at 1672.13 Hz, bilateral contact"
@@ -85,6 +88,29 @@ def print_table(rows):
         print(f"[{number}] {source}")
 
 
+def free_frequencies(folder):
+    """Of the free reduced disc, Hz, ascending; straight from its matrices, without the body.
+
+    With a shift that makes K definite: M x = mu (K + shift M) x, lambda = 1 / mu - shift.
+    """
+    with h5py.File(next(folder.glob("*.reduced.h5"))) as reduced:
+        K, M = reduced["matrices/stiffness"][:], reduced["matrices/mass"][:]
+    shift = (2 * np.pi * 100.0) ** 2
+    L = np.linalg.cholesky(K + shift * M)
+    mu = np.linalg.eigvalsh(np.linalg.solve(L, np.linalg.solve(L, M).T))[::-1]
+    return np.sqrt(np.abs(1 / mu[:12] - shift)) / (2 * np.pi)
+
+
+def rigid_body_ratio(folder):
+    """The sixth frequency of the free disc over the seventh, its first elastic one."""
+    f = free_frequencies(folder)
+    return f[5] / f[6]
+
+
+def print_rigid_body_ratio(ratio):
+    print(f"six rigid-body frequencies of the free disc: below {ratio:.1e} of the first elastic one")
+
+
 def print_times(summaries):
     for summary in summaries:
         phases = ", ".join(f"{name} {spent:.1f}" for name, spent in summary["phases"].items())
@@ -95,4 +121,5 @@ if __name__ == "__main__":
     both = read(sys.argv[1])
     print_table(figures(*both))
     print()
+    print_rigid_body_ratio(rigid_body_ratio(Path(sys.argv[1])))
     print_times(both)
