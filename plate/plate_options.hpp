@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,26 @@ struct ShellSection {
   std::string group;
   Material material;
   double thickness;  ///< m
+};
+
+enum class BeamTheory { bernoulli_euler, timoshenko };
+
+/// The beam section of one physical group of lines. Local axes: x along the line, z as near to
+/// `orientation` as it can be at a right angle to x, y = z x x. Centroid and shear centre are on
+/// the line.
+struct BeamSection {
+  std::string group;
+  Material material;
+  BeamTheory theory = BeamTheory::timoshenko;
+  double area;                          ///< m^2
+  double I_y;                           ///< int z^2 dA, bending in the x-z plane, m^4
+  double I_z;                           ///< int y^2 dA, bending in the x-y plane, m^4
+  double J;                             ///< torsion constant, m^4
+  double shear_factor_y = 5.0 / 6.0;    ///< kappa of kappa G A for shear along y
+  double shear_factor_z = 5.0 / 6.0;    ///< along z
+  bool has_rotary_inertia = true;       ///< rho I_y and rho I_z of the bending rotations
+  std::optional<std::array<double, 3>>  ///< needed unless y and z are alike
+      orientation = {};
 };
 
 /// A reference node at the centre of a group whose nodes follow it as a rigid body.
