@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Reduced {
 struct Partitioned {
   reduce::DofPartition rows;
   reduce::Blocks K, M;
+  std::optional<reduce::Blocks> C;  ///< where there are dampers
   std::vector<PetscInt> masters;
 };
 

@@ -9,13 +9,17 @@ namespace chladni::mesh {
 /// @throws chladni::Error when Gmsh fails or the radii are not ordered.
 Mesh annulus(const AnnulusOptions& options);
 
-/// Reads a .msh (formats 2.2 and 4.1) or meshes a .geo. Only elements of dimension 2 and the
-/// physical groups are kept. Triangles and quadrilaterals of order 2 and 3.
+/// Straight line of two-node elements.
+/// @throws chladni::Error when its length vanishes or a point meets no node.
+Mesh beam(const BeamMeshOptions& options);
+
+/// Reads a .msh (formats 2.2 and 4.1) or meshes a .geo. Kept are elements of dimension 2, those of
+/// the `line_groups`, and all physical groups. Triangles and quadrilaterals of order 2 and 3.
 /// @param options `file` is set; rings must be met by nodes of the mesh.
-/// @throws chladni::Error when the file is missing, unreadable or has no surface elements.
+/// @throws chladni::Error when the file is missing, unreadable or has no such elements.
 Mesh read_gmsh(const MeshOptions& options);
 
-/// The mesh of the scene: `annulus` or `read_gmsh`.
+/// The mesh of the scene: `annulus`, `beam` or `read_gmsh`.
 Mesh generate(const MeshOptions& options);
 
 }  // namespace chladni::mesh

@@ -141,12 +141,10 @@ bool is_symmetric(const BeamSection& section)
                                         section.shear_factor_y == section.shear_factor_z);
 }
 
-/// A global axis far from parallel to `e_x`.
+/// The global z axis, or x for a beam that is nearly parallel to z.
 RowVector3d any_across(const RowVector3d& e_x)
 {
-  Index least = 0;
-  e_x.cwiseAbs().minCoeff(&least);
-  return RowVector3d::Unit(least);
+  return std::abs(e_x.z()) < 0.9 ? RowVector3d::UnitZ() : RowVector3d::UnitX();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "plate/dof_map.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -74,11 +75,31 @@ std::array<double, 3> DofMap::arm(int node) const
   return r;
 }
 
+std::optional<int> DofMap::dof(int node, int component) const
+{
+  const auto it = std::ranges::find(components, component);
+  if (it == components.end()) return std::nullopt;
+  return n_components() * number[node] + static_cast<int>(it - components.begin());
+}
+
 std::optional<int> DofMap::reference_node(const std::string& name) const
 {
   const auto it = std::ranges::find(reference_names, name);
   if (it == reference_names.end()) return std::nullopt;
   return n_mesh_nodes + static_cast<int>(it - reference_names.begin());
+}
+
+std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& what,
+                             const std::string& name)
+{
+  if (const auto reference = dofs.reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = dofs.reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("{} \"{}\" is neither a group or ring of the mesh nor a coupling; there are: {}",
+                  what, name, fmt::join(names, ", ")));
 }
 
 DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const RigidCoupling> couplings,

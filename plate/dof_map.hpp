@@ -15,7 +15,8 @@ namespace chladni::plate {
 /// dependent node has no DOFs of its own; it follows its reference node as a rigid body,
 ///   u = u_ref + theta_ref x arm,  theta = theta_ref.
 /// Active nodes are numbered so that each rank owns a contiguous range; the map is the same on
-/// every rank. DOF `6 * number[node] + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z).
+/// every rank. DOF `6 * number[node] + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or
+/// correspondingly fewer where the nodes have only some of the components.
 struct DofMap {
   std::vector<int> number;     ///< [n] active number of the node or, if dependent, of its reference
   std::vector<int> reference;  ///< [n] node index of the reference, -1 for an independent node
@@ -23,13 +24,23 @@ struct DofMap {
   std::vector<std::string> reference_names;
   std::vector<int> range;  ///< [n_ranks + 1] first active number of each rank
   int n_mesh_nodes = 0;
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero
 
   int n_nodes() const { return static_cast<int>(number.size()); }
   int n_active() const { return range.back(); }
+  int n_components() const { return static_cast<int>(components.size()); }
+  int n_dofs() const { return n_components() * n_active(); }
+  /// Of the node or, if dependent, of its reference; nothing for a component that is not there.
+  std::optional<int> dof(int node, int component) const;
   bool is_dependent(int node) const { return reference[node] >= 0; }
   std::array<double, 3> arm(int node) const;  ///< m, from the reference to a dependent node
   std::optional<int> reference_node(const std::string& name) const;
 };
+
+/// The nodes of a group or ring of the mesh, or the reference node of a coupling.
+/// @throws chladni::Error that begins with `what "name"`, naming those that exist.
+std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& what,
+                             const std::string& name);
 
 /// @param owners [n_mesh_nodes] rank of each node of the mesh.
 /// @throws chladni::Error for an unknown group, a node that two couplings claim, or a name that the

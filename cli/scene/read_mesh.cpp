@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -48,7 +49,6 @@ std::vector<mesh::RingOptions> read_rings(const Table& mesh, const Admissible& r
 
 mesh::AnnulusOptions read_annulus(const Table& mesh)
 {
-  mesh.choice<int>("generator", {{"annulus", 0}});
   mesh::AnnulusOptions annulus{};
   annulus.inner_radius = mesh.number("inner_radius", {.above = 0.0, .unit = "m"});
   annulus.outer_radius =
@@ -61,6 +61,42 @@ mesh::AnnulusOptions read_annulus(const Table& mesh)
                                     .below = annulus.outer_radius,
                                     .unit = "m, between the edges of the annulus"});
   return annulus;
+}
+
+/// The groups that the generator of the beam makes besides its points.
+const std::vector<std::string> beam_groups = {"beam", "start", "end"};
+
+std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
+{
+  std::set<std::string> taken(beam_groups.begin(), beam_groups.end());
+  std::vector<mesh::BeamPoint> points;
+  if (!mesh.has("points")) return points;
+  const Admissible distances{.at_least = 0.0, .at_most = length, .unit = "m, along the beam"};
+  for (const Table& table : mesh.tables("points")) {
+    points.push_back({.name = table.text("name"), .distance = table.number("distance", distances)});
+    if (!taken.insert(points.back().name).second) {
+      table.refuse("name", "is the name of another point or group of the mesh");
+    }
+  }
+  return points;
+}
+
+mesh::BeamMeshOptions read_beam(const Table& mesh)
+{
+  mesh::BeamMeshOptions beam{.start = read_vector(mesh, "start", {.unit = "m"}),
+                             .end = read_vector(mesh, "end", {.unit = "m"})};
+  const double length = std::hypot(beam.end[0] - beam.start[0], beam.end[1] - beam.start[1],
+                                   beam.end[2] - beam.start[2]);
+  if (!(length > 0.0)) mesh.refuse("end", "is the start of the beam too");
+  if (mesh.only_one_of({"elements", "element_size"}) == "elements") {
+    beam.elements = mesh.integer("elements", {.at_least = 1, .at_most = 1e6});
+  } else {
+    beam.element_size =
+        mesh.number("element_size",
+                    {.at_least = 1e-6 * length, .at_most = length, .unit = "m, up to the length"});
+  }
+  beam.points = read_points(mesh, length);
+  return beam;
 }
 
 std::string read_file_name(const Table& mesh, const std::string& scene_path)
@@ -83,7 +119,11 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
   const Table mesh = root.table("mesh");
   mesh::MeshOptions options;
   if (mesh.only_one_of({"generator", "file"}) == "generator") {
-    options.annulus = read_annulus(mesh);
+    enum class Generator { annulus, beam };
+    const auto generator = mesh.choice<Generator>(
+        "generator", {{"annulus", Generator::annulus}, {"beam", Generator::beam}});
+    if (generator == Generator::annulus) options.annulus = read_annulus(mesh);
+    if (generator == Generator::beam) options.beam = read_beam(mesh);
     return options;
   }
   options.file = read_file_name(mesh, scene_path);
@@ -108,6 +148,11 @@ std::vector<std::string> ring_names(const mesh::MeshOptions& mesh)
 
 std::vector<std::string> group_names(const mesh::MeshOptions& mesh)
 {
+  if (mesh.beam) {
+    std::vector<std::string> names = beam_groups;
+    for (const mesh::BeamPoint& point : mesh.beam->points) names.push_back(point.name);
+    return names;
+  }
   if (!mesh.annulus) return {};
   std::vector<std::string> names = annulus_groups;
   const std::vector<std::string> rings = ring_names(mesh);
@@ -117,6 +162,7 @@ std::vector<std::string> group_names(const mesh::MeshOptions& mesh)
 
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh)
 {
+  if (mesh.beam) return {"beam"};
   return mesh.annulus ? std::vector<std::string>{"disc"} : std::vector<std::string>{};
 }
 

@@ -22,11 +22,16 @@ struct Scene {
   std::string text;  ///< of the file, for provenance
   std::string path;  ///< of the file
   mesh::MeshOptions mesh;
+  /// Of each node; the others are held at zero and not part of the model.
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};
   std::vector<plate::ShellSection> sections;
+  std::vector<plate::BeamSection> beams;
+  std::vector<plate::PointMass> masses;
+  std::vector<plate::Spring> springs;
   std::vector<plate::RigidCoupling> couplings;
-  std::vector<std::string>
-      interface_nodes;  ///< rings, couplings or groups; all six DOFs of each node
+  std::vector<std::string> interface_nodes;  ///< rings, couplings or groups; all DOFs of each node
   PictureChoice pictures = PictureChoice::vertices;
+  std::vector<std::string> resultants;  ///< groups whose elements give their section forces
   reduce::ReduceOptions reduce;
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
