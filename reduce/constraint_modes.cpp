@@ -1,8 +1,10 @@
 #include "reduce/constraint_modes.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "reduce/dense.hpp"
+#include "reduce/mumps_metis.hpp"
 
 namespace chladni::reduce {
 
@@ -55,12 +57,20 @@ void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
   }
 }
 
+/// Whether the factor keeps right-hand sides and solutions distributed.
+bool takes_distributed(Mat factor)
+{
+  MatSolverType package = nullptr;
+  petsc::check(MatFactorGetSolverType(factor, &package));
+  return std::string_view(package) == mumps_metis;
+}
+
 }  // namespace
 
 petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
 {
   petsc::Matrix Psi = dense_like(K.sm);
-  if (petsc::size(petsc::communicator(K.ms)) == 1) {
+  if (petsc::size(petsc::communicator(K.ms)) == 1 || takes_distributed(K_ss.factor())) {
     petsc::check(MatMatTransposeSolve(K_ss.factor(), K.ms, Psi));
   } else {
     solve_by_blocks(K_ss.factor(), K.sm, Psi);

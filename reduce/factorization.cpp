@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "reduce/mumps_metis.hpp"
+
 namespace chladni::reduce {
 
 namespace {
@@ -14,7 +16,8 @@ void check_definite(Mat factor)
   PetscInt negative = 0;
   MatSolverType package = nullptr;
   petsc::check(MatFactorGetSolverType(factor, &package));
-  if (error == MAT_FACTOR_NOERROR && std::string_view(package) == MATSOLVERMUMPS) {
+  if (error == MAT_FACTOR_NOERROR &&
+      (std::string_view(package) == MATSOLVERMUMPS || std::string_view(package) == mumps_metis)) {
     petsc::check(MatMumpsGetInfog(factor, 12, &negative));
   }
   if (error == MAT_FACTOR_OUTMEMORY) {
@@ -52,7 +55,8 @@ Factorization::Factorization(Mat A)
   PC pc = nullptr;
   petsc::check(KSPGetPC(solver_, &pc));
   petsc::check(PCSetType(pc, PCCHOLESKY));
-  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  register_mumps_metis();
+  petsc::check(PCFactorSetMatSolverType(pc, mumps_metis));
   petsc::check(KSPSetFromOptions(solver_));
   petsc::check(KSPSetUp(solver_));
   check_definite(factor());
