@@ -41,14 +41,16 @@ class BlockBasis {
   petsc::Matrix combine(const SmallMatrix& S) const;
 
  private:
-  SmallMatrix project_out(Mat block);
+  SmallMatrix project_out_newest(Mat block, Mat M_block);
+  SmallMatrix project_out(Mat block, Mat M_block);
   void store(Mat X, Mat MX, const SmallMatrix& to_Q);
 
   Mat M_;
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;
+  petsc::Matrix newest_M_;      ///< M times the last block
+  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
   std::vector<double> values_;  ///< [n_local x capacity] column-major
 };
 
