@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 // OpenBLAS' own; its headers are not needed for it.
 extern "C" char* openblas_get_corename();  // NOLINT(readability-identifier-naming)
@@ -39,7 +41,9 @@ void restart_with_fitting_blas_kernels(char** argv)
   if (std::getenv(variable) != nullptr || !is_fallback(openblas_get_corename())) return;
   const char* kernels = fitting_kernels();
   if (kernels == nullptr || setenv(variable, kernels, 0) != 0) return;
-  execv("/proc/self/exe", argv);  // where that fails, the slow kernels do
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  execv(program.c_str(), argv);  // where that fails, the slow kernels do
 }
 
 }  // namespace chladni::cli

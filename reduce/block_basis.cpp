@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reduce/log_event.hpp"
+
 // LAPACK's symbol: PETSc declares dsyev only, which is several times slower with vectors.
 extern "C" void dsyevd_(const char* jobz,
                         const char* uplo,  // NOLINT(readability-identifier-naming)
@@ -113,28 +115,28 @@ bool is_large(const SmallMatrix& h, const SmallMatrix& G)
 
 }  // namespace
 
-BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), capacity_(capacity)
+BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M), capacity_(capacity)
 {
   petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
   petsc::check(MatGetSize(M, &n_global_, nullptr));
-  values_.resize(std::size_t(n_local_) * capacity_);
+  values_ = std::make_unique_for_overwrite<double[]>(std::size_t(n_local_) * capacity_);
 }
 
 petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const
 {
-  return dense(petsc::communicator(M_), n_local_, n_global_, n_columns, nullptr);
+  return uninitialized_dense(M_, n_columns);
 }
 
 petsc::Matrix BlockBasis::columns(PetscInt first, PetscInt n_columns)
 {
   return dense(petsc::communicator(M_), n_local_, n_global_, n_columns,
-               values_.data() + std::size_t(first) * n_local_);
+               values_.get() + std::size_t(first) * n_local_);
 }
 
 petsc::Matrix BlockBasis::times_mass(Mat X) const
 {
-  petsc::Matrix MX;
-  petsc::check(MatMatMult(M_, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, MX.put()));
+  petsc::Matrix MX = new_block(LocalRows(X).n_cols());
+  product_with_M_.apply(X, MX);
   return MX;
 }
 
@@ -178,13 +180,14 @@ void BlockBasis::store(Mat X, Mat MX, const SmallMatrix& to_Q)
   const LocalRows x(X);
   const LocalRows mx(MX);
   add_product(1.0, x.values(), n_local_, to_Q, 0.0,
-              values_.data() + std::size_t(n_columns_) * n_local_);
+              values_.get() + std::size_t(n_columns_) * n_local_);
   add_product(1.0, mx.values(), n_local_, to_Q, 0.0, M_values);
   petsc::check(MatDenseRestoreArrayWrite(newest_M_, &M_values));
 }
 
 BlockBasis::Appended BlockBasis::append(Mat block)
 {
+  const LogEvent event(Event::orthogonalization);
   petsc::Matrix M_block = times_mass(block);
   SmallMatrix h = project_out_newest(block, M_block);
   // What the other blocks still take away is round-off, and once is enough; where it is not, as
@@ -227,17 +230,17 @@ void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)
   for (PetscInt at = 0; at < n_local_; at += piece) {
     const PetscInt n = std::min(piece, n_local_ - at);
     for (PetscInt j = 0; j < n_first; ++j) {
-      std::copy_n(values_.data() + at + std::size_t(j) * n_local_, n,
+      std::copy_n(values_.get() + at + std::size_t(j) * n_local_, n,
                   rows.data() + std::size_t(j) * n);
     }
     const PetscBLASInt m = n, columns = S.n_cols, k = n_first, ld = n_local_;
     const PetscScalar one = 1.0, zero = 0.0;
     BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.values.data(), &k, &zero,
-              values_.data() + at, &ld);
+              values_.get() + at, &ld);
   }
   const PetscInt n_behind = n_columns_ - n_first;
-  std::copy_n(values_.begin() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
-              values_.begin() + std::size_t(S.n_cols) * n_local_);
+  std::copy_n(values_.get() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
+              values_.get() + std::size_t(S.n_cols) * n_local_);
   n_columns_ = S.n_cols + n_behind;
   second_last_M_ = {};
 }
@@ -247,7 +250,7 @@ petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
   petsc::Matrix X = new_block(S.n_cols);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X, &values));
-  add_product(1.0, values_.data(), n_local_, S, 0.0, values);
+  add_product(1.0, values_.get(), n_local_, S, 0.0, values);
   petsc::check(MatDenseRestoreArrayWrite(X, &values));
   return X;
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "reduce/elimination_order.hpp"
+#include "reduce/log_event.hpp"
 
 namespace chladni::reduce {
 
@@ -117,6 +118,7 @@ void MumpsFactor::call(int job)
 
 void MumpsFactor::call_solve()
 {
+  const LogEvent event(Event::solution);
   call(job_solve);
   if (info(1) >= 0) return;
   throw Error(fmt::format("MUMPS: the solution of {} columns failed with INFOG(1) = {}, INFOG(2) = {}",
@@ -168,7 +170,11 @@ void MumpsFactor::analyze(Mat A)
   std::iota(own_rows_.begin(), own_rows_.end(), first_rows_[rank] + 1);
   mumps_.n = n;
   std::vector<int> places;
-  if (control(ordering) == 1) places = elimination_order(A);
+  if (control(ordering) == 1) {
+    const LogEvent event(Event::ordering);
+    places = elimination_order(A);
+  }
+  const LogEvent event(Event::analysis);
   mumps_.perm_in = places.data();
   load_entries(A);
   call(job_analyze);
@@ -177,6 +183,7 @@ void MumpsFactor::analyze(Mat A)
 
 void MumpsFactor::factorize(Mat A)
 {
+  const LogEvent event(Event::factorization);
   if (values_.empty()) load_entries(A);
   call(job_factorize);
   // Neither refinement nor error analysis is asked for: the entries are not needed again.
