@@ -181,6 +181,19 @@ void MumpsFactor::analyze(Mat A)
   mumps_.perm_in = nullptr;
 }
 
+double MumpsFactor::forecast_MiB() const
+{
+  constexpr int forecast = 15;  // INFO
+  const double own = mumps_.info[forecast - 1];
+  double machine = own, fullest = 0.0;
+  MPI_Comm same_memory = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &same_memory);
+  MPI_Allreduce(&own, &machine, 1, MPI_DOUBLE, MPI_SUM, same_memory);
+  MPI_Comm_free(&same_memory);
+  MPI_Allreduce(&machine, &fullest, 1, MPI_DOUBLE, MPI_MAX, comm_);
+  return fullest;
+}
+
 void MumpsFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);

@@ -2,6 +2,7 @@
 
 #include <dmumps_c.h>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -50,11 +51,14 @@ class MumpsFactor {
   /// INFOG(index), from 1.
   int info(int index) const { return mumps_.infog[index - 1]; }
   double real_info(int index) const { return mumps_.rinfog[index - 1]; }
-  /// MiB that the factorisation needs on this rank, by the analysis.
-  int forecast_MiB() const { return mumps_.info[14]; }
-
   /// Ordering and symbolic factorisation.
   void analyze(Mat A);
+  /// MiB that the ranks of the fullest machine need together for the factorisation, by the
+  /// analysis.
+  /// @note   Collective.
+  double forecast_MiB() const;
+  /// What the factor may take on one machine; infinite at first.
+  double budget_MiB = std::numeric_limits<double>::infinity();
   /// Numerical factorisation; info(1) < 0 tells of failure.
   void factorize(Mat A);
   /// X <- A^-1 X in place.

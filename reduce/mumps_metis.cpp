@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <numeric>
+#include <string_view>
 
 #include "reduce/mumps_factor.hpp"
 
@@ -171,8 +172,10 @@ PetscErrorCode analyze(Mat F, Mat A, IS, const MatFactorInfo*)
 {
   F->ops->choleskyfactornumeric = factorize;
   return guarded([&] {
-    factor_of(F).analyze(A);
-    F->factorerrortype = failure(factor_of(F).info(1));
+    MumpsFactor& factor = factor_of(F);
+    factor.analyze(A);
+    F->factorerrortype = failure(factor.info(1));
+    if (factor.forecast_MiB() > factor.budget_MiB) F->factorerrortype = MAT_FACTOR_OUTMEMORY;
   });
 }
 
@@ -268,7 +271,26 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   return 0;
 }
 
+/// The C++ object behind a factor of our type, otherwise null.
+MumpsFactor* ours(Mat F)
+{
+  MatSolverType type = nullptr;
+  petsc::check(MatFactorGetSolverType(F, &type));
+  return std::string_view(type) == mumps_metis ? &factor_of(F) : nullptr;
+}
+
 }  // namespace
+
+void set_budget(Mat F, double MiB)
+{
+  if (MumpsFactor* factor = ours(F)) factor->budget_MiB = MiB;
+}
+
+double forecast_MiB(Mat F)
+{
+  const MumpsFactor* factor = ours(F);
+  return factor ? factor->forecast_MiB() : 0.0;
+}
 
 void register_mumps_metis()
 {

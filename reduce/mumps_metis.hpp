@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/petsc.hpp"
+
 namespace chladni::reduce {
 
 /// PETSc's name of our Cholesky factorisation: `-pc_factor_mat_solver_type mumps-metis`.
@@ -11,5 +13,14 @@ inline constexpr const char* mumps_metis = "mumps-metis";
 /// MatMatTransposeSolve (sparse right-hand sides) take matrices distributed by rows as they are.
 /// @throws chladni::Error when PETSc does.
 void register_mumps_metis();
+
+/// What the factor may take of one machine's memory: a symbolic factorisation that needs more ends
+/// with MAT_FACTOR_OUTMEMORY. Without effect on factors of other types.
+void set_budget(Mat F, double MiB);
+
+/// What the numerical factorisation needs on the fullest machine, by the symbolic one; 0 for other
+/// types.
+/// @note   Collective.
+double forecast_MiB(Mat F);
 
 }  // namespace chladni::reduce
