@@ -327,7 +327,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "element_order, element_size, file, generator, inner_radius, outer_radius, rings"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
-       "interface, material, mesh, name, reduce, section, squeal, title"},
+       "interface, load, material, mesh, modes, name, reduce, section, squeal, static, support, "
+       "title"},
       {"count = 60", "count = 60, colour = 3",
        "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "
        "to_rad_s"},
