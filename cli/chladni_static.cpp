@@ -17,9 +17,10 @@ using Eigen::MatrixXd;
 
 /// What was found, on every rank.
 struct Found {
-  MatrixXd motions;    ///< [n_nodes x 6] m, rad
-  MatrixXd reactions;  ///< [n_active x 6] N, N m on the body
-  double work;         ///< J, of the loads: twice the strain energy
+  MatrixXd motions;                                ///< [n_nodes x 6] m, rad
+  MatrixXd reactions;                              ///< [n_active x 6] N, N m on the body
+  double work;                                     ///< J, of the loads: twice the strain energy
+  std::vector<plate::ShellResultants> resultants;  ///< at the nodes, of each section
 };
 
 /// K u = f has no solution when a part of the body can move freely.
@@ -49,6 +50,10 @@ Found solve(const Scene& scene, const SupportedModel& model)
   found.motions = plate::node_motions(model.system.dofs, solution.u);
   found.reactions = plate::reactions(model.system.dofs, model.held, solution.reaction);
   petsc::check(VecDot(f, solution.u, &found.work));
+  for (const plate::ShellSection& section : scene.sections) {
+    found.resultants.push_back(
+        plate::nodal_resultants(model.mesh, section, found.motions, PETSC_COMM_WORLD));
+  }
   return found;
 }
 
@@ -110,6 +115,7 @@ VtuGrid picture(const Scene& scene, const SupportedModel& model, const Found& fo
 {
   SceneGrid grid = scene_grid(model.mesh, scene.sections, model.owners);
   add_motions(grid, found.motions, "");
+  add_resultants(grid, model.mesh, scene.sections, found.resultants);
   return std::move(grid.grid);
 }
 

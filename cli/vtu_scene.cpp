@@ -106,4 +106,25 @@ void add_motions(SceneGrid& scene_grid, const Eigen::MatrixXd& motions, const st
   fields.push_back({.name = prefix + "rotation", .values = of_points.rightCols<3>()});
 }
 
+void add_resultants(SceneGrid& scene_grid, const mesh::Mesh& mesh,
+                    std::span<const plate::ShellSection> sections,
+                    std::span<const plate::ShellResultants> resultants)
+{
+  const std::vector<int> of_group = plate::section_of_group(mesh, sections);
+  const auto n = static_cast<Index>(scene_grid.node_of_point.size());
+  VtuField N{.name = "membrane_force", .values = MatrixXd::Zero(n, 6)};
+  VtuField M{.name = "moment", .values = MatrixXd::Zero(n, 6)};
+  VtuField Q{.name = "shear_force", .values = MatrixXd::Zero(n, 3)};
+  for (Index i = 0; i < n; ++i) {
+    const int group = scene_grid.group_of_point[static_cast<std::size_t>(i)];
+    const int node = scene_grid.node_of_point[static_cast<std::size_t>(i)];
+    if (group < 0 || of_group[group] < 0) continue;
+    const plate::ShellResultants& section = resultants[of_group[group]];
+    N.values.row(i) = section.N.row(node);
+    M.values.row(i) = section.M.row(node);
+    Q.values.row(i) = section.Q.row(node);
+  }
+  for (VtuField* field : {&N, &M, &Q}) scene_grid.grid.of_points.push_back(std::move(*field));
+}
+
 }  // namespace chladni::cli

@@ -6,6 +6,7 @@
 #include "cli/vtu.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/plate_options.hpp"
+#include "plate/shell_resultants.hpp"
 
 namespace chladni::cli {
 
@@ -23,5 +24,11 @@ SceneGrid scene_grid(const mesh::Mesh& mesh, std::span<const plate::ShellSection
 /// Adds displacement and rotation of the points, `prefix` before their names.
 /// @param motions  [n_nodes x 6], as plate::node_motions
 void add_motions(SceneGrid& scene_grid, const Eigen::MatrixXd& motions, const std::string& prefix);
+
+/// Adds membrane forces, moments and shear forces of the points.
+/// @param resultants  of each section, as plate::nodal_resultants
+void add_resultants(SceneGrid& scene_grid, const mesh::Mesh& mesh,
+                    std::span<const plate::ShellSection> sections,
+                    std::span<const plate::ShellResultants> resultants);
 
 }  // namespace chladni::cli

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 
 #include "plate/assemble.hpp"
+#include "plate/directors.hpp"
+#include "plate/shell_resultants.hpp"
 
 namespace chladni::plate {
 
@@ -18,5 +20,28 @@ Eigen::MatrixXd node_motions(const DofMap& dofs, Vec q);
 /// @return [n_active x 6] N, N m, on every rank
 /// @note   Collective on the communicator of `residual`.
 Eigen::MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual);
+
+/// One element of a mesh with its section.
+struct ShellOfMesh {
+  const mesh::Mesh& mesh;
+  const mesh::ElementBlock& block;
+  int element;
+  const ShellSection& section;
+};
+
+/// Section forces of one element at its `resultant_points`.
+/// @param normals  mean_normals of the mesh.
+/// @param motions  as node_motions gives them.
+ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
+                                   const Eigen::MatrixXd& motions);
+
+/// Section forces at the nodes of the group of one section: those of each element are extrapolated
+/// to its nodes, and averaged over the elements of the group that meet there. Moments and shear
+/// forces refer to the normal of most of them where neighbours are oriented differently. At a kink
+/// inside a group the average means nothing.
+/// @return rows as the nodes of the mesh, zero at nodes outside the group; on every rank
+/// @note   Collective on `comm`, over which the elements are divided.
+ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,
+                                 const Eigen::MatrixXd& motions, MPI_Comm comm);
 
 }  // namespace chladni::plate
