@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "cli/broadcast_mesh.hpp"
 #include "cli/mesh_scene.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/picture.hpp"
@@ -34,13 +33,6 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
   plate::System system = plate::assemble(mesh, scene.sections, std::move(dofs), PETSC_COMM_WORLD);
   return {
       .mesh = std::move(mesh), .system = std::move(system), .attachments = std::move(attachments)};
-}
-
-mesh::Mesh mesh_on_all_ranks(const Scene& scene)
-{
-  mesh::Mesh mesh;
-  on_first_rank([&] { mesh = mesh_scene(scene); });
-  return broadcast(mesh);
 }
 
 Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned& blocks,

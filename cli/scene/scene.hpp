@@ -6,6 +6,7 @@
 
 #include "mbs_export/body_options.hpp"
 #include "mesh/mesh_options.hpp"
+#include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 #include "reduce/reduce_options.hpp"
 #include "squeal/squeal_options.hpp"
@@ -14,6 +15,16 @@ namespace chladni::cli {
 
 /// Of which nodes the reduced file keeps the displacements, for pictures.
 enum class PictureChoice { none, vertices, all };
+
+/// `chladni static`: whose displacements the summary lists.
+struct StaticOptions {
+  std::vector<std::string> report;  ///< groups, rings or couplings
+};
+
+/// `chladni modes`
+struct ModesOptions {
+  int count = 10;  ///< natural modes, rigid-body motions included
+};
 
 /// A scene file, read and checked: one case from the mesh to the squeal.
 struct Scene {
@@ -24,8 +35,13 @@ struct Scene {
   mesh::MeshOptions mesh;
   std::vector<plate::ShellSection> sections;
   std::vector<plate::RigidCoupling> couplings;
+  std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
+  std::vector<plate::Load> loads;        ///< of `static`
+  std::optional<StaticOptions> static_solution;
+  std::optional<ModesOptions> natural_modes;
   std::vector<std::string>
-      interface_nodes;  ///< rings, couplings or groups; all six DOFs of each node
+      interface_nodes;  ///< rings, couplings or groups, all six DOFs of each node; empty in a scene
+                        ///< for `static` or `modes` alone
   PictureChoice pictures = PictureChoice::vertices;
   reduce::ReduceOptions reduce;
   mbs_export::BodyOptions body;

@@ -324,10 +324,12 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "scene.toml:7: mesh.elment_size is not a key here; did you mean element_size?"},
       {"element_order", "elementorder",
        "scene.toml:6: mesh.elementorder is not a key here; did you mean element_order? allowed: "
-       "element_order, element_size, file, generator, inner_radius, outer_radius, rings"},
+       "edge_row, element_order, element_size, file, generator, inner_radius, outer_radius, "
+       "pattern, rings"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
-       "interface, material, mesh, name, reduce, section, squeal, title"},
+       "interface, load, material, mesh, modes, name, reduce, section, squeal, static, support, "
+       "title"},
       {"count = 60", "count = 60, colour = 3",
        "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "
        "to_rad_s"},
@@ -387,8 +389,8 @@ TEST(SceneError, SaysWhatIsNotAvailableYet)
       {"type = \"rigid\"", "type = \"averaging\"",
        "scene.toml:19: coupling.type = \"averaging\": averaging couplings are not available yet; "
        "use \"rigid\""},
-      {"element_order = 3", "element_order = 4",
-       "scene.toml:6: mesh.element_order = 4: elements of order 2 and 3 are available"},
+      {"element_order = 3", "element_order = 5",
+       "scene.toml:6: mesh.element_order = 5: must be >= 1 and <= 4"},
   });
 }
 
