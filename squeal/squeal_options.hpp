@@ -15,10 +15,11 @@ enum class ContactLaw {
 
 /// One pad pair: an upper and a lower massless pad on one vertical axis.
 struct PadPair {
-  double angle;      ///< inertial angle of the axis, rad
-  double stiffness;  ///< of each pad spring, N/m
-  double damping;    ///< N s/m
-  double preload;    ///< N_0 of each pad, N
+  double angle;                  ///< inertial angle of the axis, rad
+  double stiffness;              ///< of each pad spring, N/m
+  double damping;                ///< N s/m
+  double preload;                ///< N_0 of each pad, N
+  double cubic_stiffness = 0.0;  ///< k_3 of each pad spring, N/m^3
 };
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -74,7 +75,10 @@ struct SquealOptions {
   double thickness;  ///< distance h of the two contact planes, m
   ModeChoice modes;
   SpeedRange speeds;
-  double friction;  ///< Coulomb coefficient mu
+  double friction;  ///< Coulomb coefficient mu; beside the next three that of fast sliding
+  double friction_rise = 0.0;         ///< static minus kinetic coefficient
+  double friction_decay_speed = 1.0;  ///< of the rise, m/s; see FrictionLaw
+  double slip_regularisation = 0.0;   ///< m/s
   ContactLaw contact = ContactLaw::unilateral;
   std::vector<PadPair> pads;
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
