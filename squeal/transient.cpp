@@ -1,5 +1,8 @@
 #include "squeal/transient.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "common/error.hpp"
@@ -13,11 +16,6 @@
 
 namespace chladni::squeal {
 namespace {
-
-FrequencyRange frequencies_of(const Disc& disc)
-{
-  return {.lowest = disc.omega.minCoeff(), .highest = disc.omega.maxCoeff()};
-}
 
 /// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
 /// in the inertial frame, i.e. a' = 0, p = Omega D a.
@@ -45,6 +43,44 @@ ModalState initial_state(const Disc& disc, const std::optional<InertialDisc>& in
           Eigen::VectorXd::Zero(disc.n_modes())};
 }
 
+/// Modes of the disc, then those of the pads, without contact.
+struct FreeBrake {
+  Eigen::VectorXd omega;  ///< rad/s
+  Eigen::MatrixXd C;      ///< 1/s
+};
+
+FreeBrake free_brake(const Disc& disc, const PadSystem& pads)
+{
+  const Eigen::Index n = disc.n_modes(), m = pads.n_modes();
+  FreeBrake brake{Eigen::VectorXd(n + m), Eigen::MatrixXd::Zero(n + m, n + m)};
+  brake.omega << disc.omega, pads.omega;
+  brake.C.topLeftCorner(n, n) = disc.C;
+  brake.C.bottomRightCorner(m, m) = pads.C;
+  return brake;
+}
+
+/// Beside the springs between disc and plates a light plate is fast: the highest frequency is then
+/// that of the symmetric part of the stiffness, at one position of the disc.
+FrequencyRange frequencies_of(const Disc& disc, const FreeBrake& free, const ContactKick& kick)
+{
+  double highest = free.omega.maxCoeff();
+  if (kick.pads().n_modes() > 0) {
+    const Eigen::MatrixXd K =
+        free.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
+                                                               Eigen::EigenvaluesOnly);
+    highest = std::max(highest, std::sqrt(modes.eigenvalues().maxCoeff()));
+  }
+  return {.lowest = disc.omega.minCoeff(), .highest = highest};
+}
+
+ModalState with_pads_at_rest(ModalState x, Eigen::Index n)
+{
+  x.q.conservativeResizeLike(Eigen::VectorXd::Zero(n));
+  x.v.conservativeResizeLike(Eigen::VectorXd::Zero(n));
+  return x;
+}
+
 double rest_compression(const SquealOptions& options)
 {
   return options.pads.front().preload / options.pads.front().stiffness;
@@ -67,21 +103,24 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
                     const Progress& progress)
 {
   if (options.pads.empty()) throw Error("transient: no pads");
-  const RecordingPlan plan = recording_plan(run, frequencies_of(disc));
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
-  const OscillatorFlow whole_step(disc.omega, disc.C, plan.step);
   ContactKick kick(disc, options, run.speed);
+  const FreeBrake free = free_brake(disc, kick.pads());
+  const RecordingPlan plan = recording_plan(run, frequencies_of(disc, free, kick));
+  const OscillatorFlow whole_step(free.omega, free.C, plan.step);
   Recorder recorder(plan, 0.5 * options.thickness);
   Eigen::MatrixXd tail_q(disc.n_modes(), plan.n_tail);
 
-  ModalState x = initial_state(disc, inertial, run, options.pads.front().angle);
-  OscillatorFlow(disc.omega, disc.C, 0.5 * plan.step).advance(x);
+  ModalState x = with_pads_at_rest(initial_state(disc, inertial, run, options.pads.front().angle),
+                                   free.omega.size());
+  OscillatorFlow(free.omega, free.C, 0.5 * plan.step).advance(x);
   bool finite = true;
   for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
     // The two half flows between two kicks are one; all results are those of the kick, which
     // the splitting leaves symmetric in time.
     const double t = (double(i) + 0.5) * plan.step;
-    if (recorder.in_tail(i)) tail_q.col(i - (plan.n_steps - plan.n_tail)) = x.q;
+    if (recorder.in_tail(i))
+      tail_q.col(i - (plan.n_steps - plan.n_tail)) = x.q.head(disc.n_modes());
     const auto& contacts = kick.apply(x, t, plan.step);
     finite = x.v.allFinite();
     if (finite) recorder.add(i, t, contacts);
@@ -101,8 +140,8 @@ Growth growth(const Disc& disc, const SquealOptions& options, double speed, doub
 {
   const Transient run =
       transient(disc, options, growth_case(speed, duration, rest_compression(options)));
-  Growth result{speed, run.envelope,
-                required_growth_rate(run, duration, frequencies_of(disc).lowest), std::nullopt};
+  Growth result{speed, run.envelope, required_growth_rate(run, duration, disc.omega.minCoeff()),
+                std::nullopt};
   if (const auto inertial = find_inertial_disc(disc))
     result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
   return result;
