@@ -34,7 +34,7 @@ Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
   Attachments attachments;
   for (const std::string& name : names) {
     mbs_export::AttachmentSet set{.name = name, .nodes = {}};
-    for (const int node : plate::named_nodes(mesh, dofs, "interface node set", name)) {
+    for (const int node : plate::named_nodes(mesh, dofs, name)) {
       check_independent(mesh, dofs, name, node);
       const auto it = std::ranges::find(attachments.nodes, node);
       set.nodes.push_back(static_cast<int>(it - attachments.nodes.begin()));

@@ -6,23 +6,22 @@ using Eigen::Index, Eigen::MatrixXd;
 
 MatrixXd node_rows(const std::vector<int>& nodes, const plate::DofMap& dofs, const RowsOf& rows_of)
 {
-  std::vector<int> wanted;  // the DOFs of each node or of its reference
+  const Index n_c = dofs.n_components();
+  std::vector<int> wanted;  // the DOFs of all terms of the nodes' motions
   for (const int node : nodes) {
-    for (const int c : dofs.components) wanted.push_back(*dofs.dof(node, c));
+    for (const plate::MotionTerm& term : dofs.motion(node)) {
+      for (int c = 0; c < n_c; ++c) wanted.push_back(static_cast<int>(n_c) * term.number + c);
+    }
   }
   const MatrixXd known = rows_of(wanted);
-  const Index n_c = dofs.n_components();
   MatrixXd rows = MatrixXd::Zero(6 * std::ssize(nodes), known.cols());
+  Index next = 0;
   for (Index k = 0; k < std::ssize(nodes); ++k) {
-    const int node = nodes[static_cast<std::size_t>(k)];
-    for (Index i = 0; i < n_c; ++i) {
-      rows.row(6 * k + dofs.components[static_cast<std::size_t>(i)]) = known.row(n_c * k + i);
+    for (const plate::MotionTerm& term : dofs.motion(nodes[static_cast<std::size_t>(k)])) {
+      rows.middleRows<6>(6 * k) +=
+          term.T(Eigen::all, dofs.components) * known.middleRows(next, n_c);
+      next += n_c;
     }
-    if (!dofs.is_dependent(node)) continue;
-    const auto [a, b, c] = dofs.arm(node);
-    Eigen::Matrix3d R;  // theta x arm = R theta
-    R << 0.0, c, -b, -c, 0.0, a, b, -a, 0.0;
-    rows.middleRows<3>(6 * k) += R * rows.middleRows<3>(6 * k + 3);
   }
   return rows;
 }

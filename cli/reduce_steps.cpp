@@ -81,6 +81,14 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
 
 }  // namespace
 
+plate::Structure structure_of(const Scene& scene)
+{
+  return {.shells = scene.sections,
+          .beams = scene.beams,
+          .masses = scene.masses,
+          .springs = scene.springs};
+}
+
 Partitioned partition_scene(const FeModel& fe)
 {
   std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
@@ -104,15 +112,18 @@ reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
           .modes = std::nullopt};
 }
 
-Reduced reduce_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                      const reduce::Factorization& K_ss, reduce::CraigBamptonBasis Q_CB,
-                      const reduce::ReduceOptions& wanted, Phases& phases)
+reduce::FixedInterfaceModes fixed_interface_modes(const Partitioned& blocks,
+                                                  const reduce::Factorization& K_ss,
+                                                  const reduce::ReduceOptions& wanted,
+                                                  Phases& phases)
 {
-  if (scene.reduce.method == reduce::Method::craig_bampton) {
-    Q_CB.modes = phases.run("fixed-interface modes", [&] {
-      return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted);
-    });
-  }
+  return phases.run("fixed-interface modes",
+                    [&] { return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted); });
+}
+
+Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                       reduce::CraigBamptonBasis Q_CB, Phases& phases)
+{
   reduce::ReducedModel model =
       phases.run("projection", [&] { return reduce::project(Q_CB, blocks.K, blocks.M); });
   std::vector<int> places = coordinate_places(blocks.masters, Q_CB.n_modes());

@@ -5,9 +5,12 @@
 
 namespace chladni::mesh {
 
-/// Quadrilateral-dominated mesh of a plane annular disc, by Gmsh.
-/// @throws chladni::Error when Gmsh fails or the radii are not ordered.
+/// Meshes of the generators, with the groups that their options tell.
+/// @throws chladni::Error when Gmsh fails or the lengths do not fit together.
 Mesh annulus(const AnnulusOptions& options);
+Mesh hat_disc(const HatDiscOptions& options);
+Mesh pad(const PadOptions& options);
+Mesh rectangle(const RectangleOptions& options);
 
 /// Straight line of two-node elements.
 /// @throws chladni::Error when its length vanishes or a point meets no node.
@@ -19,7 +22,7 @@ Mesh beam(const BeamMeshOptions& options);
 /// @throws chladni::Error when the file is missing, unreadable or has no such elements.
 Mesh read_gmsh(const MeshOptions& options);
 
-/// The mesh of the scene: `annulus`, `beam` or `read_gmsh`.
+/// The mesh of the scene: of the generator that is set, or of the file.
 Mesh generate(const MeshOptions& options);
 
 }  // namespace chladni::mesh

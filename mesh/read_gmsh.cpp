@@ -27,8 +27,8 @@ void check_readable(const std::string& file)
 void check_orders(const Mesh& mesh, const std::string& file)
 {
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.shape == Shape::line || block.order == 2 || block.order == 3) continue;
-    throw Error(fmt::format("mesh file {} has elements of order {}; use 2 or 3 (Mesh.ElementOrder)",
+    if (block.shape == Shape::line || (block.order >= 1 && block.order <= 4)) continue;
+    throw Error(fmt::format("mesh file {} has elements of order {}; use 1 to 4 (Mesh.ElementOrder)",
                             file, block.order));
   }
 }
@@ -56,7 +56,11 @@ Mesh read_gmsh(const MeshOptions& options)
 Mesh generate(const MeshOptions& options)
 {
   if (options.annulus) return annulus(*options.annulus);
-  return options.beam ? beam(*options.beam) : read_gmsh(options);
+  if (options.hat_disc) return hat_disc(*options.hat_disc);
+  if (options.pad) return pad(*options.pad);
+  if (options.rectangle) return rectangle(*options.rectangle);
+  if (options.beam) return beam(*options.beam);
+  return read_gmsh(options);
 }
 
 }  // namespace chladni::mesh

@@ -201,16 +201,17 @@ System empty_system(const mesh::Mesh& mesh, std::span<const PointElement> points
 
 }  // namespace
 
-System assemble(const mesh::Mesh& mesh, const Parts& parts, DofMap dofs, MPI_Comm comm)
+System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
 {
   const int rank = petsc::rank(comm);
-  const SectionMap sections = map_sections(mesh, parts);
-  const std::vector<PointElement> points = point_elements(mesh, parts, dofs);
+  const SectionMap sections = map_sections(mesh, structure);
+  const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const NodeVectors normals = mean_normals(mesh);
   System system = empty_system(mesh, points, dofs, comm);
   const Inserter inserter(dofs, rank);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    const ElementMatrices matrices = element_matrices(mesh, block, e, {sections, parts, normals});
+    const ElementMatrices matrices =
+        element_matrices(mesh, block, e, {sections, structure, normals});
     inserter.add(system.K, matrices.K, block.element_nodes(e));
     inserter.add(system.M, matrices.M, block.element_nodes(e));
   });
@@ -227,7 +228,7 @@ System assemble(const mesh::Mesh& mesh, const Parts& parts, DofMap dofs, MPI_Com
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
                 MPI_Comm comm)
 {
-  return assemble(mesh, Parts{.shells = sections}, std::move(dofs), comm);
+  return assemble(mesh, Structure{.shells = sections}, std::move(dofs), comm);
 }
 
 }  // namespace chladni::plate

@@ -24,7 +24,7 @@ struct System {
 /// Components that `dofs` does not have are held at zero and are not part of the system.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error as map_sections and point_elements.
-System assemble(const mesh::Mesh& mesh, const Parts& parts, DofMap dofs, MPI_Comm comm);
+System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm);
 
 /// Of shells alone.
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,

@@ -62,7 +62,7 @@ struct Spring {
 };
 
 /// What a body is made of.
-struct Parts {
+struct Structure {
   std::span<const ShellSection> shells = {};
   std::span<const BeamSection> beams = {};
   std::span<const PointMass> masses = {};

@@ -27,7 +27,7 @@ Matrix3d cross(const Vector3d& a)
 std::vector<int> nodes_at(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& what,
                           const std::string& name)
 {
-  std::vector<int> nodes = named_nodes(mesh, dofs, what, name);
+  std::vector<int> nodes = named_nodes(mesh, dofs, name);
   if (!nodes.empty()) return nodes;
   throw Error(
       fmt::format("{} \"{}\": no element of the mesh has a node of this group; its motion "
@@ -98,16 +98,16 @@ Eigen::Matrix<double, 12, 12> spring_matrix(const std::array<double, 6>& k, cons
   return B.transpose() * Eigen::Map<const Eigen::Vector<double, 6>>(k.data()).asDiagonal() * B;
 }
 
-std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Parts& parts,
+std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs)
 {
   std::vector<PointElement> elements;
-  for (const PointMass& mass : parts.masses) {
+  for (const PointMass& mass : structure.masses) {
     for (const int node : nodes_at(mesh, dofs, "mass at", mass.at)) {
       elements.push_back({.nodes = {node}, .K = {}, .M = point_mass_matrix(mass), .C = {}});
     }
   }
-  for (const Spring& spring : parts.springs) {
+  for (const Spring& spring : structure.springs) {
     if (spring.to) {
       elements.push_back(spring_between(mesh, dofs, spring));
       continue;

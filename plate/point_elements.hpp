@@ -18,7 +18,7 @@ struct PointElement {
 /// Of all masses and springs, in their order.
 /// @throws chladni::Error for a name that does not exist, a group without nodes, a spring between
 ///         several nodes or from a node to itself.
-std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Parts& parts,
+std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs);
 
 /// M of a rigid body in the displacement and rotation of the node it is fixed to,

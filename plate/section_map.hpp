@@ -9,7 +9,7 @@
 
 namespace chladni::plate {
 
-/// Which section each group of the mesh has: indices into Parts, -1 for none.
+/// Which section each group of the mesh has: indices into Structure, -1 for none.
 struct SectionMap {
   std::vector<int> shell;  ///< [n_groups]
   std::vector<int> beam;   ///< [n_groups]
@@ -18,12 +18,12 @@ struct SectionMap {
 /// Checks the whole mesh, so that every rank throws or none.
 /// @throws chladni::Error when an element has no section, a section has no elements, an element of
 ///         this shape and order does not exist, or the axes of a beam are not defined.
-SectionMap map_sections(const mesh::Mesh& mesh, const Parts& parts);
+SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure);
 
 /// What the matrices of an element depend on besides its nodes.
 struct ElementContext {
   const SectionMap& sections;
-  const Parts& parts;
+  const Structure& structure;
   const NodeVectors& normals;  ///< [n_nodes x 3] mean_normals
 };
 

@@ -52,8 +52,8 @@ void check_kind(const Table& section, SectionKind kind, const mesh::MeshOptions&
   if (mesh.beam && kind != SectionKind::beam) {
     section.refuse("type", "the generator \"beam\" makes lines; use \"beam\"");
   }
-  if (mesh.annulus && kind != SectionKind::shell) {
-    section.refuse("type", "the generator \"annulus\" makes surfaces; use \"shell\"");
+  if (!mesh.beam && !mesh.file && kind != SectionKind::shell) {
+    section.refuse("type", "this generator makes surfaces; use \"shell\"");
   }
 }
 

@@ -233,7 +233,7 @@ TEST(Assemble, NamesAnElementWithoutSection)
   const mesh::Mesh mesh = testing::small_disc();
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
   const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
-  EXPECT_THROW(assemble(mesh, Parts{}, map, PETSC_COMM_WORLD), Error);
+  EXPECT_THROW(assemble(mesh, Structure{}, map, PETSC_COMM_WORLD), Error);
 }
 
 }  // namespace

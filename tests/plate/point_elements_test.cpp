@@ -131,11 +131,10 @@ std::string complaint(const std::vector<PointMass>& masses, const std::vector<Sp
 
 TEST(PointElements, NamePlacesThatDoNotFit)
 {
-  EXPECT_NE(
-      complaint({{.at = "tip", .mass = 1.0}}, {})
-          .find("mass at \"tip\" is neither a group or ring of the mesh nor a coupling; there "
-                "are: beam, start, end, middle"),
-      std::string::npos);
+  EXPECT_NE(complaint({{.at = "tip", .mass = 1.0}}, {})
+                .find("\"tip\" is neither a group or ring of the mesh nor a coupling; there "
+                      "are: beam, start, end, middle"),
+            std::string::npos);
   EXPECT_NE(complaint({}, {{.at = "start", .to = "beam", .stiffness = uneven}})
                 .find("spring at \"beam\": between two places each must be one node, and this "
                       "group has 5"),
