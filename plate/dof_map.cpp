@@ -94,8 +94,9 @@ std::vector<MotionTerm> DofMap::motion(int node) const
 
 std::optional<int> DofMap::dof(int node, int component) const
 {
-  if (is_dependent(node)) return std::nullopt;
-  return 6 * number[node] + component;
+  const auto it = std::ranges::find(components, component);
+  if (is_dependent(node) || it == components.end()) return std::nullopt;
+  return n_components() * number[node] + static_cast<int>(it - components.begin());
 }
 
 const std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
