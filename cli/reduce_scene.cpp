@@ -39,7 +39,10 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 mesh::Mesh mesh_on_all_ranks(const Scene& scene)
 {
   mesh::Mesh mesh;
-  on_first_rank([&] { mesh = mesh_scene(scene); });
+  on_first_rank([&] {
+    mesh = mesh_scene(scene);
+    for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+  });
   return broadcast(mesh);
 }
 

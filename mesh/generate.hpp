@@ -12,13 +12,19 @@ Mesh hat_disc(const HatDiscOptions& options);
 Mesh pad(const PadOptions& options);
 Mesh rectangle(const RectangleOptions& options);
 
-/// Reads a .msh (formats 2.2 and 4.1) or meshes a .geo. Only elements of dimension 2 and the
-/// physical groups are kept. Triangles and quadrilaterals of order 2 and 3.
+/// Reads a .msh (formats 2.2 and 4.1, text or binary), or meshes a .geo or the surfaces of a .step.
+/// Only surface elements and groups are kept; triangles and quadrilaterals of order 1 to 4,
+/// serendipity elements completed.
 /// @param options `file` is set; rings must be met by nodes of the mesh.
-/// @throws chladni::Error when the file is missing, unreadable or has no surface elements.
+/// @throws chladni::Error when the file is missing, unreadable, cut off or of the wrong dimension,
+///         and when nodes of unconnected elements stand at one place.
 Mesh read_gmsh(const MeshOptions& options);
 
-/// The mesh of the scene: of the generator that is set, or of the file.
+/// The mesh of the generator that is set or of the file, whatever its elements are like.
+Mesh draft(const MeshOptions& options);
+
+/// The mesh of the scene: a draft of which all elements can work.
+/// @throws chladni::Error as check_usable.
 Mesh generate(const MeshOptions& options);
 
 }  // namespace chladni::mesh

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace chladni::mesh {
@@ -61,7 +62,8 @@ struct HatDiscOptions {
 };
 
 /// Plane sector of an annulus about the z axis, symmetric to `centre_angle`: a pad. Groups: "pad"
-/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge", "corners".
+/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge",
+/// "corners".
 struct PadOptions {
   double inner_radius;      ///< m
   double outer_radius;      ///< m
@@ -84,15 +86,31 @@ struct RectangleOptions {
   std::optional<double> edge_row = {};  ///< m, along all four edges
 };
 
+/// What becomes of nodes of unconnected elements of a file that stand at one place.
+enum class Coincident { refuse, merge, keep };
+
+/// A group of the points, curves or surfaces of a file's geometry.
+struct EntityGroup {
+  std::string name;
+  std::vector<std::string> entities;  ///< "surface_3", "curve_1", "point_2", or labels of the file
+};
+
 /// The scene's [mesh]: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
-  std::optional<std::string> file = {};   ///< .msh or .geo, resolved against the scene file's folder
-  std::optional<int> element_order = {};  ///< for .geo; a .msh has its own
-  std::vector<RingOptions> rings = {};    ///< of a file: nodes that must lie on a circle; checked
+  /// .msh, .geo or .step, resolved against the scene file's folder; the rest is about the file.
+  std::optional<std::string> file = {};
+  std::optional<int> element_order = {};    ///< not of a .msh, which has its own
+  std::optional<double> element_size = {};  ///< m; of a .step, else as Gmsh likes
+  std::vector<std::pair<std::string, double>> parameters = {};  ///< of a .geo, in its own unit
+  double length_unit = 1.0;              ///< m; what 1 is in the file; a .step tells it itself
+  std::vector<EntityGroup> groups = {};  ///< besides those of the file
+  std::vector<RingOptions> rings = {};   ///< nodes must lie there; a .step gets them
+  Coincident coincident_nodes = Coincident::refuse;
+  std::optional<double> merge_tolerance = {};  ///< m
 };
 
 }  // namespace chladni::mesh
