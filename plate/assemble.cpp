@@ -148,6 +148,19 @@ void insert(Mat A, const MatrixXd& A_e, const std::vector<PetscInt>& rows,
   petsc::check(MatSetValuesBlocked(A, n, rows.data(), n, columns.data(), A_e.data(), ADD_VALUES));
 }
 
+/// Assembled, in the memory that its entries need: a row of M holds a quarter of what is
+/// preallocated for K's pattern, and PETSc gives nothing back by itself.
+petsc::Matrix finished(petsc::Matrix A)
+{
+  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  petsc::Matrix tight;
+  petsc::check(MatDuplicate(A, MAT_COPY_VALUES, tight.put()));
+  petsc::check(MatSetOption(tight, MAT_SYMMETRIC, PETSC_TRUE));
+  petsc::check(MatSetOption(tight, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  return tight;
+}
+
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
@@ -173,10 +186,8 @@ System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, 
     insert(system.K, eliminate_dependents(matrices.K, dofs, nodes), own, columns);
     insert(system.M, eliminate_dependents(matrices.M, dofs, nodes), own, columns);
   });
-  for (const Mat A : {Mat(system.K), Mat(system.M)}) {
-    petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-    petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-  }
+  system.M = finished(std::move(system.M));  // first, for the lesser peak
+  system.K = finished(std::move(system.K));
   system.dofs = std::move(dofs);
   return system;
 }
