@@ -39,8 +39,9 @@ NodeDerivatives of_quadrilateral(int p)
   const int n = (p + 1) * (p + 1);
   NodeDerivatives d{.n_nodes = n, .first = {}, .second = {}};
   for (int i = 0; i < n; ++i) {
+    const int row = i / (p + 1);
     const double r = double(i % (p + 1)) / p;
-    const double s = double(i / (p + 1)) / p;
+    const double s = double(row) / p;
     for (int j = 0; j < n; ++j) {
       const ValueSlope a = lagrange(p, j % (p + 1), r);
       const ValueSlope b = lagrange(p, j / (p + 1), s);

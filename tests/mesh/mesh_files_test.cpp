@@ -10,32 +10,15 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "file_test.hpp"
 #include "mesh/generate.hpp"
 #include "surface.hpp"
 
 namespace chladni::mesh {
 namespace {
 
-/// A folder of its own that disappears with the test.
-class MeshFile : public ::testing::Test {
+class MeshFile : public testing::FileTest {
  protected:
-  void SetUp() override
-  {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::temp_directory_path() / (std::string("chladni_file_") + test->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(path(name)) << text;
-    return path(name);
-  }
-
   /// What `build` makes in a session of Gmsh, saved in the format of the name.
   std::string save(const std::string& name, const std::function<void()>& build) const
   {
@@ -46,9 +29,6 @@ class MeshFile : public ::testing::Test {
     gmsh::finalize();
     return path(name);
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 std::string error_of(const MeshOptions& options)
