@@ -106,6 +106,8 @@ std::vector<char> pack(const mesh::Mesh& mesh)
   for (const mesh::ElementBlock& block : mesh.blocks) transfer_block(packer, block);
   packer(mesh.groups.size());
   for (const mesh::Group& group : mesh.groups) transfer_group(packer, group);
+  packer(mesh.notes.size());
+  for (const std::string& note : mesh.notes) packer(note);
   return packer.bytes();
 }
 
@@ -119,6 +121,8 @@ mesh::Mesh unpack(const std::vector<char>& bytes)
   for (mesh::ElementBlock& block : mesh.blocks) transfer_block(unpacker, block);
   mesh.groups.resize(unpacker.size());
   for (mesh::Group& group : mesh.groups) transfer_group(unpacker, group);
+  mesh.notes.resize(unpacker.size());
+  for (std::string& note : mesh.notes) unpacker(note);
   return mesh;
 }
 

@@ -19,15 +19,22 @@ struct ExportArguments {
   int superelement = 100;  ///< its number in Nastran
 };
 
+/// What `chladni mesh` takes besides; SCENE may be a mesh file there.
+struct QualityChoice {
+  bool quality = false;  ///< report the shapes of the elements
+};
+
 struct ChladniArguments {
   SceneArguments scene;
+  QualityChoice mesh;
   std::string info_file;
   std::string check_file;
   ExportArguments exported;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
 };
 
-/// Meshes the scene and says what the mesh is like.
+/// Meshes the scene, or reads a mesh file, and says what the mesh is like.
+/// @throws chladni::Error after the report on quality is printed, when an element cannot work.
 void mesh_command(const ChladniArguments& arguments);
 
 /// Meshes, assembles and reduces; writes NAME.reduced.h5.

@@ -27,7 +27,8 @@ struct Subcommand {
 
 constexpr Subcommand on_scenes[] = {
     {"mesh", "meshes the scene and says what the mesh is like",
-     "Example:\n  chladni mesh scene.toml", cli::mesh_command},
+     "Examples:\n  chladni mesh scene.toml\n  chladni mesh disc.msh --quality --json mesh.json",
+     cli::mesh_command},
     {"static", "displacements and section forces under supports and loads: NAME.static.vtu",
      "Examples:\n  chladni static scene.toml --output out\n"
      "  mpirun -n 2 chladni static scene.toml --json static.json",
@@ -75,6 +76,9 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
     cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
+  app.get_subcommand("mesh")->add_flag(
+      "--quality", arguments.mesh.quality,
+      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
   CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
   info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5 or *.squeal.h5")
       ->required();

@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/mesh_scene.hpp"
+#include "cli/mesh_quality.hpp"
 #include "cli/petsc_session.hpp"
+#include "cli/scene/names.hpp"
+#include "mesh/generate.hpp"
+#include "mesh/quality.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -42,27 +47,54 @@ std::vector<Json::Member> mesh_json(const mesh::Mesh& mesh)
   for (const mesh::ElementBlock& block : mesh.blocks) n_elements += block.n_elements();
   return {{"n_nodes", mesh.n_nodes()},
           {"n_elements", n_elements},
-          {"mesh_checksum", mesh::checksum(mesh)}};
+          {"mesh_checksum", mesh::checksum(mesh)},
+          {"notes", Json::array({mesh.notes.begin(), mesh.notes.end()})}};
 }
 
-void mesh_and_print(const SceneArguments& arguments)
+/// A scene's [mesh], or a mesh file by itself.
+struct Subject {
+  std::string title;
+  mesh::MeshOptions mesh;
+};
+
+Subject read_subject(const std::string& path)
+{
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+    return {.title = path, .mesh = {.file = path}};
+  }
+  const Scene scene = read_meshed_scene(path);
+  return {.title = scene.title, .mesh = scene.mesh};
+}
+
+void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice)
 {
   PhaseClock clock;
-  const Scene scene = read_meshed_scene(arguments.scene);
+  const Subject subject = read_subject(arguments.scene);
   clock.end_phase("read");
-  const mesh::Mesh mesh = mesh_scene(scene);
+  const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
+  std::vector<Json::Member> summary = mesh_json(mesh);
+  std::string text;
+  if (choice.quality) {
+    const std::vector<mesh::ElementQuality> elements = mesh::quality(mesh);
+    text = quality_text(elements) + "\n";
+    for (const Json::Member& member : quality_json(elements)) summary.push_back(member);
+    clock.end_phase("quality");
+  }
   const Cost cost = cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}", scene.title, format_table(mesh_table(mesh)),
+  fmt::print("{}\n\n{}\n{}{}", subject.title, format_table(mesh_table(mesh)), text,
              format_table(cost_table(cost)));
-  write_summary(arguments, mesh_json(mesh), cost);
+  for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
+  write_summary(arguments, summary, cost);
+  if (choice.quality) mesh::check_usable(mesh, arguments.scene);
 }
 
 }  // namespace
 
 void mesh_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { mesh_and_print(arguments.scene); });
+  on_first_rank([&] { mesh_and_print(arguments.scene, arguments.mesh); });
 }
 
 }  // namespace chladni::cli

@@ -1,5 +1,7 @@
 #include "cli/mesh_scene.hpp"
 
+#include <fmt/format.h>
+
 #include "cli/broadcast_mesh.hpp"
 #include "cli/petsc_session.hpp"
 #include "mesh/generate.hpp"
@@ -14,7 +16,10 @@ mesh::Mesh mesh_scene(const Scene& scene)
 mesh::Mesh mesh_on_all_ranks(const Scene& scene)
 {
   mesh::Mesh mesh;
-  on_first_rank([&] { mesh = mesh_scene(scene); });
+  on_first_rank([&] {
+    mesh = mesh_scene(scene);
+    for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+  });
   return broadcast(mesh);
 }
 

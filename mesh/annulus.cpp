@@ -59,9 +59,10 @@ void check_radii(const AnnulusOptions& o)
   const double row = o.edge_row.value_or(0.0);
   for (const RingOptions& ring : o.rings) {
     if (!(ring.radius > o.inner_radius + row && ring.radius < o.outer_radius - row)) {
-      throw Error(fmt::format("annulus: ring \"{}\" of radius {} m is not between {:.6g} and "
-                              "{:.6g} m, the edges with their rows of elements",
-                              ring.name, ring.radius, o.inner_radius + row, o.outer_radius - row));
+      throw Error(
+          fmt::format("annulus: ring \"{}\" of radius {} m is not between {:.6g} and "
+                      "{:.6g} m, the edges with their rows of elements",
+                      ring.name, ring.radius, o.inner_radius + row, o.outer_radius - row));
     }
   }
 }

@@ -19,8 +19,8 @@ Circle add_arcs(const CirclePlace& place, int n_elements)
   Circle circle{.radius = place.radius, .n_elements = n_elements, .points = {}, .arcs = {}};
   for (int i = 0; i < place.n_arcs; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / place.n_arcs;
-    circle.points.push_back(geo::addPoint(x + place.radius * std::cos(angle),
-                                          y + place.radius * std::sin(angle), z));
+    circle.points.push_back(
+        geo::addPoint(x + place.radius * std::cos(angle), y + place.radius * std::sin(angle), z));
   }
   for (int i = 0; i < place.n_arcs; ++i) {
     const int arc =

@@ -10,10 +10,10 @@ namespace chladni::mesh {
 
 /// A circle of Gmsh's model about an axis along z, split into equal arcs that begin on the x side.
 struct Circle {
-  double radius;              ///< m
-  int n_elements;             ///< of each arc
-  std::vector<int> points;    ///< tags
-  std::vector<int> arcs;      ///< tags
+  double radius;            ///< m
+  int n_elements;           ///< of each arc
+  std::vector<int> points;  ///< tags
+  std::vector<int> arcs;    ///< tags
 };
 
 /// Where a circle is, and into how many arcs it is cut.

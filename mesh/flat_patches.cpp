@@ -128,8 +128,8 @@ Mesh mesh_patch(const FourEdges& patch, const PatchOptions& o)
     throw Error(fmt::format("{}: element_size = {} m must be > 0 and at most the width, {:.6g} m",
                             patch.surface, o.element_size, width));
   }
-  Mesh mesh = o.pattern == Pattern::structured ? structured_patch(patch, o)
-                                               : patch_by_gmsh(patch, o);
+  Mesh mesh =
+      o.pattern == Pattern::structured ? structured_patch(patch, o) : patch_by_gmsh(patch, o);
   add_corners(mesh, patch);
   return mesh;
 }
@@ -139,8 +139,8 @@ Mesh mesh_patch(const FourEdges& patch, const PatchOptions& o)
 Mesh rectangle(const RectangleOptions& o)
 {
   if (!(o.length > 0.0 && o.width > 0.0)) {
-    throw Error(fmt::format("rectangle: length and width must be > 0, not {} and {} m", o.length,
-                            o.width));
+    throw Error(
+        fmt::format("rectangle: length and width must be > 0, not {} and {} m", o.length, o.width));
   }
   const double width = o.width;
   return mesh_patch({.surface = "plate",
@@ -148,9 +148,10 @@ Mesh rectangle(const RectangleOptions& o)
                      .start = 0.0,
                      .end = o.length,
                      .length = width,
-                     .position = [=](const Station& s, double t) {
-                       return std::array{s[0], t * width, 0.0};
-                     }},
+                     .position =
+                         [=](const Station& s, double t) {
+                           return std::array{s[0], t * width, 0.0};
+                         }},
                     {o.element_size, o.element_order, o.pattern, o.edge_row});
 }
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "common/error.hpp"
+#include "mesh/complete_elements.hpp"
 #include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
@@ -18,7 +19,8 @@ namespace {
 /// Gmsh is a process-wide singleton: one session at a time, closed also when an error leaves it.
 class Session {
  public:
-  Session() { gmsh::initialize(); }
+  /// Without the user's ~/.gmshrc, for the same mesh everywhere.
+  Session() { gmsh::initialize(0, nullptr, false); }
   ~Session() { gmsh::finalize(); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -38,29 +40,60 @@ void set_meshing_options()
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
 }
 
-/// For each node of our lattice order, its place in Gmsh's node order of this element type.
-std::vector<int> lattice_permutation(int type, Shape shape, int order)
+/// A type of element of Gmsh, and the element of ours that it is or becomes.
+struct ElementType {
+  Shape shape;
+  int order;
+  int n_nodes;               ///< that Gmsh lists
+  std::vector<int> lattice;  ///< Gmsh's place of each node of our order, -1 where it has none
+};
+
+/// A line has its nodes from end to end.
+/// @param local  parent coordinates of Gmsh's nodes, from -1 to 1
+ElementType line_type(ElementType line, const std::vector<double>& local)
+{
+  line.shape = Shape::line;
+  line.lattice.resize(local.size());
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const auto place = static_cast<std::size_t>(std::lround((local[k] + 1.0) / 2.0 * line.order));
+    line.lattice[place] = static_cast<int>(k);
+  }
+  return line;
+}
+
+ElementType element_type(int type)
 {
   std::string name;
   int dimension = 0;
-  int gmsh_order = 0;
-  int n_nodes = 0;
+  ElementType element{};
   int n_primary = 0;
   std::vector<double> local;  // parent coordinates, `dimension` for each node
-  gmsh::model::mesh::getElementProperties(type, name, dimension, gmsh_order, n_nodes, local,
-                                          n_primary);
-  const bool from_minus_one = shape != Shape::triangle;
-  std::map<std::pair<int, int>, int> place;  // (row, column) -> Gmsh's index
-  for (int k = 0; k < n_nodes; ++k) {
-    const auto column = [&](double x) {
-      return static_cast<int>(std::lround((from_minus_one ? (x + 1.0) / 2.0 : x) * order));
-    };
-    const int row = dimension == 2 ? column(local[2 * k + 1]) : 0;
-    place[{row, column(local[dimension * k])}] = k;
+  gmsh::model::mesh::getElementProperties(type, name, dimension, element.order, element.n_nodes,
+                                          local, n_primary);
+  if (dimension == 1) return line_type(element, local);
+  if (n_primary < 3 || n_primary > 4 || element.order > 4) {
+    throw Error(
+        fmt::format("the mesh has elements of the type \"{}\"; Chladni takes triangles and "
+                    "quadrilaterals of order 1 to 4",
+                    name));
   }
-  std::vector<int> permutation;
-  for (const auto& [lattice_point, k] : place) permutation.push_back(k);
-  return permutation;
+  const bool quadrilateral = n_primary == 4;
+  const int p = element.order;
+  element.shape = quadrilateral ? Shape::quadrilateral : Shape::triangle;
+  std::map<std::pair<int, int>, int> place;  // (row, column) -> Gmsh's index
+  for (int k = 0; k < element.n_nodes; ++k) {
+    const auto lattice = [&](double x) {
+      return static_cast<int>(std::lround((quadrilateral ? (x + 1.0) / 2.0 : x) * p));
+    };
+    place[{lattice(local[2 * k + 1]), lattice(local[2 * k])}] = k;
+  }
+  for (int row = 0; row <= p; ++row) {
+    for (int column = 0; column <= (quadrilateral ? p : p - row); ++column) {
+      const auto found = place.find({row, column});
+      element.lattice.push_back(found == place.end() ? -1 : found->second);
+    }
+  }
+  return element;
 }
 
 std::vector<std::pair<int, int>> physical_entities(int dimension)
@@ -129,33 +162,16 @@ GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index,
   return group_of_entity;
 }
 
-ElementBlock& block_of(Mesh& mesh, int type)
+ElementBlock& block_of(Mesh& mesh, const ElementType& type)
 {
-  std::string name;
-  int dimension = 0;
-  int order = 0;
-  int n_nodes = 0;
-  int n_primary = 0;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_primary);
-  const Shape shape = dimension == 1   ? Shape::line
-                      : n_primary == 3 ? Shape::triangle
-                                       : Shape::quadrilateral;
-  const int complete = shape == Shape::line       ? order + 1
-                       : shape == Shape::triangle ? (order + 1) * (order + 2) / 2
-                                                  : (order + 1) * (order + 1);
-  if (n_nodes != complete) {
-    throw Error(
-        fmt::format("the mesh has \"{}\" elements; Chladni reads complete elements only: "
-                    "set Mesh.SecondOrderIncomplete = 0 in Gmsh",
-                    name));
-  }
-  const auto same = [&](const ElementBlock& b) { return b.shape == shape && b.order == order; };
+  const auto same = [&](const ElementBlock& b) {
+    return b.shape == type.shape && b.order == type.order;
+  };
   const auto it = std::ranges::find_if(mesh.blocks, same);
   if (it != mesh.blocks.end()) return *it;
-  mesh.blocks.push_back(ElementBlock{.shape = shape,
-                                     .order = order,
-                                     .nodes_per_element = n_nodes,
+  mesh.blocks.push_back(ElementBlock{.shape = type.shape,
+                                     .order = type.order,
+                                     .nodes_per_element = static_cast<int>(type.lattice.size()),
                                      .numbers = {},
                                      .nodes = {},
                                      .group = {}});
@@ -170,40 +186,54 @@ void read_elements(Mesh& mesh, const NodeIndex& index, std::pair<int, int> entit
   std::vector<std::vector<std::size_t>> nodes;
   gmsh::model::mesh::getElements(types, numbers, nodes, entity.first, entity.second);
   for (std::size_t t = 0; t < types.size(); ++t) {
-    ElementBlock& block = block_of(mesh, types[t]);
-    const std::vector<int> permutation = lattice_permutation(types[t], block.shape, block.order);
+    const ElementType type = element_type(types[t]);
+    ElementBlock& block = block_of(mesh, type);
     for (std::size_t e = 0; e < numbers[t].size(); ++e) {
       block.numbers.push_back(static_cast<std::int64_t>(numbers[t][e]));
       block.group.push_back(group);
-      for (const int k : permutation) {
-        block.nodes.push_back(index.at(nodes[t][e * permutation.size() + k]));
+      for (const int k : type.lattice) {
+        block.nodes.push_back(k < 0 ? -1 : index.at(nodes[t][e * type.n_nodes + k]));
       }
     }
   }
 }
 
-/// Keeps only the nodes that an element uses, in their order.
-void drop_unused_nodes(Mesh& mesh)
+/// @return number of elements of this dimension
+std::size_t n_elements(int dimension)
 {
-  std::vector<int> renumbered(mesh.positions.size(), -1);
-  for (const ElementBlock& block : mesh.blocks) {
-    for (const int node : block.nodes) renumbered[node] = 0;
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> numbers;
+  std::vector<std::vector<std::size_t>> nodes;
+  gmsh::model::mesh::getElements(types, numbers, nodes, dimension, -1);
+  std::size_t n = 0;
+  for (const auto& of_type : numbers) n += of_type.size();
+  return n;
+}
+
+[[noreturn]] void refuse_wrong_dimension()
+{
+  const std::size_t n_solids = n_elements(3);
+  const std::size_t n_lines = n_elements(1);
+  if (n_solids == 0 && n_lines == 0) throw Error("the mesh has no elements");
+  throw Error(fmt::format(
+      "the mesh has {} solid and {} line elements, but neither surface elements (triangles, quads) "
+      "nor lines of the group of a beam section: "
+      "mesh the mid-surface in two dimensions, and save its elements (with physical groups Gmsh "
+      "saves only elements that are in one)",
+      n_solids, n_lines));
+}
+
+void note_what_is_left_out(Mesh& mesh)
+{
+  const std::size_t n_solids = n_elements(3);
+  if (n_solids > 0) {
+    mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
   }
-  int n = 0;
-  for (std::size_t i = 0; i < renumbered.size(); ++i) {
-    if (renumbered[i] < 0) continue;
-    mesh.positions[n] = mesh.positions[i];
-    mesh.node_numbers[n] = mesh.node_numbers[i];
-    renumbered[i] = n++;
-  }
-  mesh.positions.resize(n);
-  mesh.node_numbers.resize(n);
-  for (ElementBlock& block : mesh.blocks) {
-    for (int& node : block.nodes) node = renumbered[node];
-  }
-  for (Group& group : mesh.groups) {
-    for (int& node : group.nodes) node = renumbered[node];
-    std::erase(group.nodes, -1);
+  const auto empty = [](const Group& group) { return group.nodes.empty(); };
+  for (const Group& group : mesh.groups) {
+    if (!empty(group)) continue;
+    mesh.notes.push_back(
+        fmt::format("group \"{}\" is left out: no surface element has a node of it", group.name));
   }
 }
 
@@ -218,19 +248,11 @@ Mesh current_model(const std::vector<std::string>& line_groups)
   for (const auto& [entity, group] : group_of_entity) {
     read_elements(mesh, index, entity, group);
   }
-  if (mesh.blocks.empty()) {
-    throw Error(
-        "the mesh has no elements: neither triangles and quads nor lines of a beam's group");
-  }
+  if (mesh.blocks.empty()) refuse_wrong_dimension();
+  add_inner_nodes(mesh);
   drop_unused_nodes(mesh);
+  note_what_is_left_out(mesh);
   return mesh;
-}
-
-bool has_elements()
-{
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types);
-  return !types.empty();
 }
 
 }  // namespace
@@ -242,7 +264,7 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
   try {
     set_meshing_options();
     build();
-    if (!has_elements()) {
+    if (order > 0 && n_elements(2) == 0) {
       gmsh::model::mesh::generate(2);
       if (order > 1) gmsh::model::mesh::setOrder(order);
     }

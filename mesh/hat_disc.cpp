@@ -81,8 +81,8 @@ std::vector<int> add_flange(const HatDiscOptions& o, const HatModel& hat)
     holes.push_back(hat.hub);
     return {add_plane(hat.top, holes)};
   }
-  const Circle row = add_circle(
-      {.radius = o.hub_radius + *o.edge_row, .centre = {0.0, 0.0, o.height}}, hat.hub);
+  const Circle row =
+      add_circle({.radius = o.hub_radius + *o.edge_row, .centre = {0.0, 0.0, o.height}}, hat.hub);
   std::vector<int> surfaces = add_rows(hat.hub, row, o.element_size);
   holes.push_back(row);
   surfaces.push_back(add_plane(hat.top, holes));
@@ -137,9 +137,10 @@ void check_rings(const HatDiscOptions& o)
   const double row = o.edge_row.value_or(0.0);
   for (const RingOptions& ring : o.rings) {
     if (ring.radius > o.wall_radius && ring.radius < o.outer_radius - row) continue;
-    throw Error(fmt::format("hat_disc: ring \"{}\" of radius {} m is not on the disc between the "
-                            "wall and the outer edge with its row, {} and {:.6g} m",
-                            ring.name, ring.radius, o.wall_radius, o.outer_radius - row));
+    throw Error(
+        fmt::format("hat_disc: ring \"{}\" of radius {} m is not on the disc between the "
+                    "wall and the outer edge with its row, {} and {:.6g} m",
+                    ring.name, ring.radius, o.wall_radius, o.outer_radius - row));
   }
 }
 
@@ -151,9 +152,10 @@ void check_bolts(const HatDiscOptions& o)
   }
   const double c = o.bolts->circle_radius;
   const double r = o.bolts->hole_radius;
-  check_ascending({{"0", 0.0},
-                   {"bolts.hole_radius", r},
-                   {"half the distance of two bolts", c * std::sin(std::numbers::pi / o.bolts->count)}});
+  check_ascending(
+      {{"0", 0.0},
+       {"bolts.hole_radius", r},
+       {"half the distance of two bolts", c * std::sin(std::numbers::pi / o.bolts->count)}});
   check_ascending({{"hub_radius with its row", o.hub_radius + o.edge_row.value_or(0.0)},
                    {"the inmost point of a bolt's hole", c - r},
                    {"its outmost point", c + r},
@@ -167,14 +169,16 @@ void check(const HatDiscOptions& o)
   check_ascending({{"foot", o.foot}, {"height", o.height}});
   if (!(o.foot >= 0.0)) throw Error(fmt::format("hat_disc: foot = {} m is below the disc", o.foot));
   if (!(o.inner_radius > 0.0 && o.inner_radius <= o.wall_radius)) {
-    throw Error(fmt::format("hat_disc: inner_radius = {} m must be > 0 and at most wall_radius = "
-                            "{} m",
-                            o.inner_radius, o.wall_radius));
+    throw Error(
+        fmt::format("hat_disc: inner_radius = {} m must be > 0 and at most wall_radius = "
+                    "{} m",
+                    o.inner_radius, o.wall_radius));
   }
   if (o.edge_row) {
     check_edge_rows(*o.edge_row, o.outer_radius - o.wall_radius);
     check_edge_rows(*o.edge_row, o.top_radius - o.hub_radius);
-    if (o.inner_radius < o.wall_radius) check_edge_rows(*o.edge_row, o.wall_radius - o.inner_radius);
+    if (o.inner_radius < o.wall_radius)
+      check_edge_rows(*o.edge_row, o.wall_radius - o.inner_radius);
   }
   check_rings(o);
   check_bolts(o);

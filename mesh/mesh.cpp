@@ -40,6 +40,30 @@ const Group& find_group(const Mesh& mesh, const std::string& name)
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
+void drop_unused_nodes(Mesh& mesh)
+{
+  std::vector<int> renumbered(mesh.positions.size(), -1);
+  for (const ElementBlock& block : mesh.blocks) {
+    for (const int node : block.nodes) renumbered[node] = 0;
+  }
+  int n = 0;
+  for (std::size_t i = 0; i < renumbered.size(); ++i) {
+    if (renumbered[i] < 0) continue;
+    mesh.positions[n] = mesh.positions[i];
+    mesh.node_numbers[n] = mesh.node_numbers[i];
+    renumbered[i] = n++;
+  }
+  mesh.positions.resize(n);
+  mesh.node_numbers.resize(n);
+  for (ElementBlock& block : mesh.blocks) {
+    for (int& node : block.nodes) node = renumbered[node];
+  }
+  for (Group& group : mesh.groups) {
+    for (int& node : group.nodes) node = renumbered[node];
+    std::erase(group.nodes, -1);
+  }
+}
+
 std::string checksum(const Mesh& mesh)
 {
   Fnv1a hash;

@@ -42,12 +42,16 @@ struct Mesh {
   std::vector<std::array<double, 3>> positions;  ///< [n], m
   std::vector<ElementBlock> blocks;              ///< surfaces, and lines that are beams
   std::vector<Group> groups;
+  std::vector<std::string> notes;  ///< for the user: what was changed or left out on the way here
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };
 
 /// @throws chladni::Error naming the groups that exist.
 const Group& find_group(const Mesh& mesh, const std::string& name);
+
+/// Keeps only the nodes that an element uses, in their order; groups lose the others.
+void drop_unused_nodes(Mesh& mesh);
 
 /// FNV-1a of coordinates and connectivity, hexadecimal.
 std::string checksum(const Mesh& mesh);

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace chladni::mesh {
@@ -102,18 +103,33 @@ struct BeamMeshOptions {
   std::vector<BeamPoint> points = {};
 };
 
+/// What becomes of nodes of unconnected elements of a file that stand at one place.
+enum class Coincident { refuse, merge, keep };
+
+/// A group of the points, curves or surfaces of a file's geometry.
+struct EntityGroup {
+  std::string name;
+  std::vector<std::string> entities;  ///< "surface_3", "curve_1", "point_2", or labels of the file
+};
+
 /// The scene's [mesh]: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
-  std::optional<std::string> file = {};  ///< .msh or .geo, resolved against the scene file's folder
-  std::optional<int> element_order = {};  ///< for .geo; a .msh has its own
-  std::vector<RingOptions> rings = {};    ///< of a file: nodes that must lie on a circle; checked
   std::optional<BeamMeshOptions> beam = {};
-  /// Of a file: groups of curves whose elements become blocks of lines.
-  std::vector<std::string> line_groups = {};
+  /// .msh, .geo or .step, resolved against the scene file's folder; the rest is about the file.
+  std::optional<std::string> file = {};
+  std::optional<int> element_order = {};    ///< not of a .msh, which has its own
+  std::optional<double> element_size = {};  ///< m; of a .step, else as Gmsh likes
+  std::vector<std::pair<std::string, double>> parameters = {};  ///< of a .geo, in its own unit
+  double length_unit = 1.0;                   ///< m; what 1 is in the file; a .step tells it itself
+  std::vector<EntityGroup> groups = {};       ///< besides those of the file
+  std::vector<RingOptions> rings = {};        ///< nodes must lie there; a .step gets them
+  std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
+  Coincident coincident_nodes = Coincident::refuse;
+  std::optional<double> merge_tolerance = {};  ///< m
 };
 
 }  // namespace chladni::mesh

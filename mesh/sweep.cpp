@@ -40,8 +40,7 @@ std::vector<int> rows_between(Swept& swept, const Path& path, const Station& a, 
   std::vector<int> rows{shared_row(swept, path, a)};
   for (int k = 1; k < path.order; ++k) {
     const double s = double(k) / path.order;
-    rows.push_back(
-        add_row(swept, path, {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}));
+    rows.push_back(add_row(swept, path, {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}));
   }
   rows.push_back(shared_row(swept, path, b));
   return rows;
@@ -85,7 +84,8 @@ void add_profile(Swept& swept, const Path& path, const Profile& profile)
 Swept sweep(std::span<const Profile> profiles, const Path& path)
 {
   const int p = path.order;
-  Swept swept{.mesh = {}, .first_node = {}, .n_columns = path.n_elements * p + (path.closed ? 0 : 1)};
+  Swept swept{
+      .mesh = {}, .first_node = {}, .n_columns = path.n_elements * p + (path.closed ? 0 : 1)};
   swept.mesh.blocks.push_back({.shape = Shape::quadrilateral,
                                .order = p,
                                .nodes_per_element = (p + 1) * (p + 1),

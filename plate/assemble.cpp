@@ -199,6 +199,19 @@ System empty_system(const mesh::Mesh& mesh, std::span<const PointElement> points
   return system;
 }
 
+/// Assembled, in the memory that its entries need: a row of M holds a quarter of what is
+/// preallocated for K's pattern, and PETSc gives nothing back by itself.
+petsc::Matrix finished(petsc::Matrix A)
+{
+  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  petsc::Matrix tight;
+  petsc::check(MatDuplicate(A, MAT_COPY_VALUES, tight.put()));
+  petsc::check(MatSetOption(tight, MAT_SYMMETRIC, PETSC_TRUE));
+  petsc::check(MatSetOption(tight, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  return tight;
+}
+
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
@@ -216,11 +229,9 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
     inserter.add(system.M, matrices.M, block.element_nodes(e));
   });
   add_points(system, points, inserter);
-  for (const Mat A : {Mat(system.K), Mat(system.M), Mat(system.C)}) {
-    if (A == nullptr) continue;
-    petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-    petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-  }
+  system.M = finished(std::move(system.M));  // first, for the lesser peak
+  system.K = finished(std::move(system.K));
+  if (system.C != nullptr) system.C = finished(std::move(system.C));
   system.dofs = std::move(dofs);
   return system;
 }

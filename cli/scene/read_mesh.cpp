@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -21,13 +23,91 @@ std::string read_file_name(const Table& mesh, const std::string& scene_path)
 {
   const std::filesystem::path file = mesh.text("file");
   const std::string extension = file.extension().string();
-  if (extension == ".step" || extension == ".stp") {
-    mesh.refuse("file", "STEP files are not available yet; give a .msh or a .geo file");
-  }
-  if (extension != ".msh" && extension != ".geo") {
-    mesh.refuse("file", "must be a .msh or a .geo file");
+  if (!contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+    mesh.refuse("file", "must be a .msh, .geo or .step file");
   }
   return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();
+}
+
+/// What 1 in a file is, m.
+double read_length_unit(const Table& mesh)
+{
+  return mesh.choice<double>("length_unit",
+                             {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"inch", 0.0254}});
+}
+
+/// The names go into a script of Gmsh.
+void check_is_identifier(const Table& table, const std::string& name)
+{
+  const auto is_letter = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+  };
+  const auto is_part = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
+  if (is_letter(name.front()) && std::ranges::all_of(name, is_part)) return;
+  table.refuse(name, "names a parameter of Gmsh: letters, digits and _ only");
+}
+
+std::vector<std::pair<std::string, double>> read_parameters(const Table& mesh)
+{
+  std::vector<std::pair<std::string, double>> parameters;
+  const Table table = mesh.table("parameters");
+  for (const std::string& name : table.names()) {
+    check_is_identifier(table, name);
+    parameters.emplace_back(name, table.number(name, {}));
+  }
+  return parameters;
+}
+
+std::vector<mesh::EntityGroup> read_entity_groups(const Table& mesh)
+{
+  std::vector<mesh::EntityGroup> groups;
+  const Table table = mesh.table("groups");
+  for (const std::string& name : table.names()) {
+    groups.push_back({.name = name, .entities = table.texts(name)});
+    if (groups.back().entities.empty()) {
+      table.refuse(name, "must name entities, such as \"surface_1\"");
+    }
+  }
+  return groups;
+}
+
+mesh::Coincident read_coincident_nodes(const Table& mesh)
+{
+  return mesh.choice<mesh::Coincident>("coincident_nodes", {{"refuse", mesh::Coincident::refuse},
+                                                            {"merge", mesh::Coincident::merge},
+                                                            {"keep", mesh::Coincident::keep}});
+}
+
+/// Refuses a key that makes no sense with this kind of file.
+void check_only_for(const Table& mesh, const char* key, bool makes_sense, const char* why)
+{
+  if (mesh.has(key) && !makes_sense) mesh.refuse(key, why);
+}
+
+mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
+{
+  mesh::MeshOptions options{.file = read_file_name(mesh, scene_path)};
+  const bool is_msh = options.file->ends_with(".msh");
+  const bool is_geo = options.file->ends_with(".geo");
+  const bool is_step = !is_msh && !is_geo;
+  check_only_for(mesh, "element_order", !is_msh,
+                 "a .msh file has its own order; take this key out");
+  check_only_for(mesh, "element_size", is_step, "is for .step files; a .geo has its own sizes");
+  check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
+  check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
+  if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
+  if (is_step) options.element_size = mesh.number("element_size", {.above = 0.0, .unit = "m"});
+  if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
+  if (mesh.has("length_unit")) options.length_unit = read_length_unit(mesh);
+  if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
+  if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
+  if (mesh.has("merge_tolerance")) {
+    options.merge_tolerance = mesh.number("merge_tolerance", {.above = 0.0, .unit = "m"});
+  }
+  std::vector<std::string> taken;
+  for (const mesh::EntityGroup& group : options.groups) taken.push_back(group.name);
+  options.rings = read_rings(mesh, taken, {.above = 0.0, .unit = "m"});
+  return options;
 }
 
 }  // namespace
@@ -61,16 +141,7 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
 {
   const Table mesh = root.table("mesh");
   if (mesh.only_one_of({"generator", "file"}) == "generator") return read_generator(mesh);
-  mesh::MeshOptions options;
-  options.file = read_file_name(mesh, scene_path);
-  if (mesh.has("element_order")) {
-    options.element_order = read_element_order(mesh);
-    if (options.file->ends_with(".msh")) {
-      mesh.refuse("element_order", "a .msh file has its own order; take this key out");
-    }
-  }
-  options.rings = read_rings(mesh, {}, {.above = 0.0, .unit = "m"});
-  return options;
+  return read_file(mesh, scene_path);
 }
 
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh)

@@ -135,6 +135,31 @@ TEST(ChladniProgram, SaysHowToMakeTheReducedSystemThatIsMissing)
   EXPECT_EQ(folder.n_files(), 1u);
 }
 
+TEST(ChladniProgram, ReportsTheQualityOfAMeshFileAndTheElementsThatCannotWork)
+{
+  const Folder folder;
+  const std::string good =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+      "5 3 0 0\n6 3 1 0\n$EndNodes\n$Elements\n2\n11 3 2 1 1 1 2 3 4\n12 3 2 1 1 2 5 6 3\n"
+      "$EndElements\n";
+  write_text(folder.path() / "good.msh", good);
+  write_text(folder.path() / "folded.msh", replaced(good, "6 3 1 0", "6 1.2 0.2 0"));
+  const Ending ending =
+      run(folder, chladni_program + " mesh good.msh --quality --json quality.json");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_NE(ending.out.find("elements that cannot work: 0\n"), std::string::npos) << ending.out;
+  const std::string json = read_text(folder.path() / "quality.json");
+  const std::string aspect = json.substr(json.find("\"aspect_ratio\""));
+  EXPECT_EQ(number_at(aspect, "max"), 2.0);
+  EXPECT_EQ(number_at(aspect, "mean"), 1.5);
+  EXPECT_NE(json.find("\"unusable_elements\": []"), std::string::npos) << json;
+  const Ending folded = run(folder, chladni_program + " mesh folded.msh --quality");
+  EXPECT_EQ(folded.exit_code, 1);
+  EXPECT_NE(folded.out.find("elements that cannot work: 1: 12\n"), std::string::npos) << folded.out;
+  EXPECT_NE(folded.err.find("folded.msh: 1 elements"), std::string::npos) << folded.err;
+  EXPECT_EQ(run(folder, chladni_program + " mesh folded.msh").exit_code, 1);
+}
+
 TEST(ChladniProgram, TellsWrongUsageFromAFailedJob)
 {
   const Folder folder;

@@ -134,5 +134,52 @@ TEST(SceneMeshError, NamesWhatAGeneratorDoesNotAdmit)
             std::string::npos);
 }
 
+TEST(SceneMesh, HoldsWhatAFileNeeds)
+{
+  const auto options = options_of(
+      "file = \"a.geo\"\nlength_unit = \"mm\"\nelement_order = 2\n"
+      "parameters = { n_holes = 24, size = 6.5 }\n"
+      "groups = { disc = [\"surface_1\", \"surface_2\"], outer_edge = [\"curve_3\"] }\n"
+      "coincident_nodes = \"merge\"\nmerge_tolerance = 1e-6\n"
+      "rings = [{ name = \"track\", radius = 0.13, nodes = 60, z = 0.01 }]\n",
+      "disc");
+  EXPECT_EQ(options.file, "folder/a.geo");
+  EXPECT_EQ(options.length_unit, 1e-3);
+  EXPECT_EQ(options.element_order, 2);
+  const std::vector<std::pair<std::string, double>> parameters{{"n_holes", 24.0}, {"size", 6.5}};
+  EXPECT_EQ(options.parameters, parameters);
+  ASSERT_EQ(options.groups.size(), 2u);
+  EXPECT_EQ(options.groups[0].name, "disc");
+  EXPECT_EQ(options.groups[0].entities, (std::vector<std::string>{"surface_1", "surface_2"}));
+  EXPECT_EQ(options.coincident_nodes, mesh::Coincident::merge);
+  EXPECT_EQ(options.merge_tolerance, 1e-6);
+  EXPECT_EQ(options.rings.at(0).z, 0.01);
+  const auto step = options_of("file = \"a.step\"\nelement_size = 0.01\n", "surface_1");
+  EXPECT_EQ(step.element_size, 0.01);
+}
+
+TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
+{
+  EXPECT_EQ(error_of("file = \"a.iges\"\n"),
+            "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo or .step file");
+  EXPECT_EQ(error_of("file = \"a.msh\"\nelement_order = 2\n"),
+            "scene.toml:3: mesh.element_order = 2: a .msh file has its own order; take this key "
+            "out");
+  EXPECT_EQ(error_of("file = \"a.geo\"\nelement_size = 0.1\n"),
+            "scene.toml:3: mesh.element_size = 0.1: is for .step files; a .geo has its own sizes");
+  EXPECT_EQ(error_of("file = \"a.step\"\nelement_size = 0.1\nlength_unit = \"mm\"\n"),
+            "scene.toml:4: mesh.length_unit = \"mm\": a .step file tells its own unit");
+  EXPECT_NE(error_of("file = \"a.step\"\n").find("element_size"), std::string::npos);
+  EXPECT_EQ(error_of("file = \"a.geo\"\nparameters = { \"a-b\" = 1.0 }\n").substr(0, 13),
+            "scene.toml:3:");
+  EXPECT_EQ(error_of("file = \"a.geo\"\nlength_unit = \"yard\"\n"),
+            "scene.toml:3: mesh.length_unit = \"yard\": must be one of \"m\", \"cm\", \"mm\", "
+            "\"inch\"");
+  EXPECT_NE(error_of("file = \"a.geo\"\ngroups = { disc = [] }\n").find("surface_1"),
+            std::string::npos);
+  EXPECT_NE(error_of("file = \"a.geo\"\ncoincident_nodes = \"glue\"\n").find("\"keep\""),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace chladni::cli

@@ -26,6 +26,35 @@ Rectangle(1) = {0, 0, 0, 0.2, 0.1};
 Physical Surface("plate") = {1};
 """
 
+# Element 12 is folded over at its node 6.
+FOLDED_MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 2 0 0
+6 1.2 0.2 0
+$EndNodes
+$Elements
+2
+11 3 2 1 1 1 2 3 4
+12 3 2 1 1 2 5 6 3
+$EndElements
+"""
+MESH_FILES = {
+    "plate.geo": PLATE_GEO,
+    "folded.msh": FOLDED_MSH,
+    "cut_off.msh": FOLDED_MSH[:-30],
+    "crack.msh": FOLDED_MSH.replace("6 1.2 0.2 0", "6 2 1 0")
+    .replace("6\n1 0", "7\n1 0")
+    .replace("$EndNodes", "7 1 1 0\n$EndNodes")
+    .replace("2 5 6 3", "2 5 6 7"),
+}
+
 
 def changed(old, new):
     """The good scene with one mistake in it."""
@@ -46,6 +75,12 @@ SCENES = [
     ("missing scene file", None, ["scene.toml"]),
     ("no TOML", "title = = 1\n", ["scene.toml:1"]),
     ("missing mesh file", with_mesh_file("no_such.msh"), ["no_such.msh"]),
+    ("folded element", with_mesh_file("folded.msh"), ["folded.msh", "1 elements", ": 12"]),
+    ("mesh file that is cut off", with_mesh_file("cut_off.msh"), ["cut_off.msh", "missing"]),
+    ("coincident nodes", with_mesh_file("crack.msh"), ["crack.msh", "3 and 7", "merge"]),
+    ("parameter that the geometry lacks",
+     with_mesh_file("plate.geo").replace("element_order", "parameters = { r = 1.0 }\nelement_order"),
+     ["plate.geo", "no parameter r"]),
     ("missing group in a mesh file", with_mesh_file("plate.geo"), ["inner_edge", "plate"]),
     ("missing group", changed('group = "disc"', 'group = "disk"'), ["disk", "disc"]),
     ("brake disc that is free", changed('fixed = ["hub"]', "fixed = []") + SQUEAL, ["hub"]),
@@ -100,7 +135,8 @@ def passes(name, scene, command, code, words):
         folder = Path(folder)
         if scene is not None:
             (folder / "scene.toml").write_text(scene)
-        (folder / "plate.geo").write_text(PLATE_GEO)
+        for file, text in MESH_FILES.items():
+            (folder / file).write_text(text)
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100)
         bad = list(complaints(run, folder, code, words))
     print(f"{'FAILED' if bad else 'ok':8}{name}: {'; '.join(bad)}\n{run.stderr.rstrip()}\n")

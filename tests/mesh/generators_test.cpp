@@ -143,17 +143,26 @@ TEST_P(Generated, AnnulusCoversItsAreaWithRingsAndEdgesOnTheirCircles)
 
 TEST_P(Generated, AnnulusHasOneRowOfElementsAlongItsEdges)
 {
-  const AnnulusOptions options = annulus_options(pattern(), order());
-  const Mesh mesh = annulus(options);
-  for (const ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
-      for (const int node : testing::corners(block, e)) {
-        const double r = radius(mesh, node);
-        const bool inside_a_row = (r > 0.05 + 1e-9 && r < 0.058 - 1e-9) ||
-                                  (r > 0.152 + 1e-9 && r < 0.16 - 1e-9);
-        EXPECT_FALSE(inside_a_row) << r;
+  const Mesh mesh = annulus(annulus_options(pattern(), order()));
+  for (const auto& [edge, inside] : {std::pair{0.05, 0.058}, {0.16, 0.152}}) {
+    const auto is_at = [&](double r) {
+      return [&mesh, r](int node) { return std::abs(radius(mesh, node) - r) < 1e-9; };
+    };
+    std::set<int> on_edge;
+    std::ptrdiff_t n_in_row = 0;
+    for (const ElementBlock& block : mesh.blocks) {
+      for (int e = 0; e < block.n_elements(); ++e) {
+        const std::vector<int> corners = testing::corners(block, e);
+        const auto n_on_edge = std::ranges::count_if(corners, is_at(edge));
+        const auto n_inside = std::ranges::count_if(corners, is_at(inside));
+        std::ranges::copy_if(corners, std::inserter(on_edge, on_edge.end()), is_at(edge));
+        if (n_on_edge == 0) continue;
+        ++n_in_row;
+        EXPECT_EQ(n_on_edge + n_inside, std::ssize(corners));  // from one circle to the other
       }
     }
+    const int n_columns = pattern() == Pattern::triangles ? 2 : 1;
+    EXPECT_EQ(n_in_row, n_columns * std::ssize(on_edge));
   }
 }
 
@@ -163,9 +172,11 @@ TEST_P(Generated, HatDiscHasItsThreeSurfacesAndItsCircles)
   const Mesh mesh = hat_disc(options);
   expect_shapes(mesh);
   for (const RingOptions& ring : options.rings) expect_ring(mesh, ring);
-  for (const auto& [name, r] :
-       {std::pair{"inner_edge", 0.07}, {"outer_edge", 0.16}, {"wall_seat", 0.08},
-        {"wall_foot", 0.08}, {"hub_edge", 0.03}}) {
+  for (const auto& [name, r] : {std::pair{"inner_edge", 0.07},
+                                {"outer_edge", 0.16},
+                                {"wall_seat", 0.08},
+                                {"wall_foot", 0.08},
+                                {"hub_edge", 0.03}}) {
     expect_radius(mesh, name, r);
   }
   EXPECT_EQ(find_group(mesh, "wall_foot").nodes.size(), find_group(mesh, "wall_seat").nodes.size());
@@ -222,8 +233,8 @@ TEST_P(Generated, PadIsASectorWithItsEdgesAndCorners)
   expect_shapes(mesh);
   expect_radius(mesh, "inner_edge", 0.10);
   expect_radius(mesh, "outer_edge", 0.15);
-  for (const auto& [name, angle] : {std::pair{"first_edge", pi / 2.0 - 0.5},
-                                    {"last_edge", pi / 2.0 + 0.5}}) {
+  for (const auto& [name, angle] :
+       {std::pair{"first_edge", pi / 2.0 - 0.5}, {"last_edge", pi / 2.0 + 0.5}}) {
     for (const int node : find_group(mesh, name).nodes) {
       EXPECT_NEAR(std::atan2(mesh.positions[node][1], mesh.positions[node][0]), angle, 1e-12);
     }
@@ -260,11 +271,8 @@ INSTANTIATE_TEST_SUITE_P(Patterns, Generated,
 
 TEST(Rectangle, HasOneRowOfElementsAlongAllFourEdges)
 {
-  const Mesh mesh = rectangle({.length = 0.3,
-                               .width = 0.2,
-                               .element_size = 0.05,
-                               .element_order = 2,
-                               .edge_row = 0.01});
+  const Mesh mesh = rectangle(
+      {.length = 0.3, .width = 0.2, .element_size = 0.05, .element_order = 2, .edge_row = 0.01});
   std::set<double> x, y;
   for (int e = 0; e < mesh.blocks[0].n_elements(); ++e) {
     for (const int node : testing::corners(mesh.blocks[0], e)) {
@@ -334,7 +342,10 @@ TEST(Pad, NamesTheLengthsThatDoNotFit)
 {
   const auto error = [](double outer_radius, double angle, double size) {
     return error_of([&] {
-      pad({.inner_radius = 0.1, .outer_radius = outer_radius, .angle = angle, .element_size = size});
+      pad({.inner_radius = 0.1,
+           .outer_radius = outer_radius,
+           .angle = angle,
+           .element_size = size});
     });
   };
   EXPECT_NE(error(0.05, 1.0, 0.01).find("inner_radius < outer_radius"), std::string::npos);

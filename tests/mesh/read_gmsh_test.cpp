@@ -5,30 +5,14 @@
 #include <fstream>
 
 #include "common/error.hpp"
+#include "file_test.hpp"
 #include "mesh/generate.hpp"
 
 namespace chladni::mesh {
 namespace {
 
-/// A folder of its own that disappears with the test.
-class ReadGmsh : public ::testing::Test {
+class ReadGmsh : public testing::FileTest {
  protected:
-  void SetUp() override
-  {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / (std::string("chladni_") + test->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(path(name)) << text;
-    return path(name);
-  }
-
   /// A strip of 3 x 2 rectangles 3 m x 1 m, meshed at order 2, in a format of Gmsh.
   std::string write_strip(const std::string& name, double format, bool binary) const
   {
@@ -51,9 +35,6 @@ class ReadGmsh : public ::testing::Test {
       "Transfinite Curve{1, 3} = 4; Transfinite Curve{2, 4} = 3; Transfinite Surface{1};\n"
       "Recombine Surface{1};\n"
       "Physical Surface(\"strip\") = {1}; Physical Curve(\"left\") = {4};\n";
-
- private:
-  std::filesystem::path folder_;
 };
 
 MeshOptions file_options(const std::string& file)

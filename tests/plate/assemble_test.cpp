@@ -70,6 +70,20 @@ double quadratic_form(Mat A, Vec x)
   return value;
 }
 
+TEST(Assemble, KeepsNoMemoryBeyondTheEntries)
+{
+  const System system = assemble_disc(PETSC_COMM_WORLD);
+  for (const Mat A : {Mat(system.K), Mat(system.M)}) {
+    MatInfo info{};
+    petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+    EXPECT_GT(info.nz_used, 0.0);
+    EXPECT_EQ(info.nz_allocated, info.nz_used);
+    PetscBool set = PETSC_FALSE, symmetric = PETSC_FALSE;
+    petsc::check(MatIsSymmetricKnown(A, &set, &symmetric));
+    EXPECT_TRUE(set && symmetric);  // Cholesky asks for it
+  }
+}
+
 TEST(Assemble, LeavesTheFreeBodyWithoutForceInRigidMotion)
 {
   const System system = assemble_disc(PETSC_COMM_WORLD);

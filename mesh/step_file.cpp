@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "mesh/entities.hpp"
+#include "mesh/gmsh_files.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+constexpr double mm = 1e-3;  // m
+
+std::vector<Entity> entities_of(int dimension)
+{
+  std::vector<Entity> entities;
+  gmsh::model::getEntities(entities, dimension);
+  return entities;
+}
+
+void check_shells(const std::string& file)
+{
+  if (const auto solids = entities_of(3); !solids.empty()) {
+    throw Error(
+        fmt::format("mesh file {} holds {} solids; Chladni meshes shells: export the "
+                    "mid-surfaces as surfaces (shell or faces)",
+                    file, solids.size()));
+  }
+  if (entities_of(2).empty()) throw Error(fmt::format("mesh file {} has no surface", file));
+}
+
+/// Arcs between the nodes of a ring.
+std::vector<Entity> add_ring_arcs(const RingOptions& ring)
+{
+  std::vector<Entity> arcs;
+  for (int i = 0; i < ring.nodes; ++i) {
+    const double step = 2.0 * std::numbers::pi / ring.nodes;
+    arcs.emplace_back(1, occ::addCircle(0.0, 0.0, ring.z.value_or(0.0) / mm, ring.radius / mm, -1,
+                                        i * step, (i + 1) * step));
+  }
+  return arcs;
+}
+
+/// Makes all surfaces meet in common curves, with the rings' arcs among them.
+/// @return what became of each surface and curve of the file
+std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings)
+{
+  std::vector<Entity> objects = entities_of(2);
+  const std::vector<Entity> curves = entities_of(1);
+  objects.insert(objects.end(), curves.begin(), curves.end());
+  std::vector<Entity> tools;
+  for (const RingOptions& ring : rings) {
+    const std::vector<Entity> arcs = add_ring_arcs(ring);
+    tools.insert(tools.end(), arcs.begin(), arcs.end());
+  }
+  std::vector<Entity> all;
+  std::vector<std::vector<Entity>> parts;
+  occ::fragment(objects, tools, all, parts);
+  occ::synchronize();
+  std::map<Entity, std::vector<Entity>> became;
+  for (std::size_t i = 0; i < objects.size(); ++i) became[objects[i]] = parts[i];
+  return became;
+}
+
+void set_sizes(double element_size)
+{
+  gmsh::option::setNumber("Mesh.MeshSizeMax", element_size / mm);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0.02 * element_size / mm);
+  // A cubic edge of 90 degrees folds its element over.
+  gmsh::option::setNumber("Mesh.MinimumElementsPerTwoPi", 12);
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 1);
+}
+
+/// Groups of the file's entities, as what became of them; one for each surface and curve that is
+/// left, unless groups of surfaces or curves are given.
+void add_groups(const MeshOptions& options, const std::vector<std::vector<Entity>>& of_groups,
+                const std::map<Entity, std::vector<Entity>>& became)
+{
+  std::array<bool, 3> given{};
+  for (std::size_t i = 0; i < options.groups.size(); ++i) {
+    std::vector<Entity> parts;
+    for (const Entity& entity : of_groups[i]) {
+      const auto& p = became.at(entity);
+      parts.insert(parts.end(), p.begin(), p.end());
+    }
+    if (parts.empty()) continue;
+    given.at(parts.front().first) = true;
+    add_entity_group(options.groups[i], parts);
+  }
+  for (const auto& [entity, parts] : became) {
+    if (given.at(entity.first) || parts.empty()) continue;
+    add_entity_group({.name = entity_name(entity), .entities = {}}, parts);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> open_step(const MeshOptions& options)
+{
+  gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+  gmsh::model::add("step");
+  std::vector<Entity> imported;
+  occ::importShapes(*options.file, imported, false);
+  occ::synchronize();
+  check_shells(*options.file);
+  std::vector<std::vector<Entity>> of_groups;
+  for (const EntityGroup& group : options.groups) of_groups.push_back(find_entities(group));
+  add_groups(options, of_groups, join(options.rings));
+  if (options.element_size) set_sizes(*options.element_size);
+  return {};
+}
+
+}  // namespace chladni::mesh

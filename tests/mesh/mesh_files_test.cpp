@@ -1,0 +1,318 @@
+// What users' mesh files hold beside well-formed meshes in metres.
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "file_test.hpp"
+#include "mesh/generate.hpp"
+#include "surface.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+class MeshFile : public testing::FileTest {
+ protected:
+  /// What `build` makes in a session of Gmsh, saved in the format of the name.
+  std::string save(const std::string& name, const std::function<void()>& build) const
+  {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    build();
+    gmsh::write(path(name));
+    gmsh::finalize();
+    return path(name);
+  }
+};
+
+std::string error_of(const MeshOptions& options)
+{
+  try {
+    generate(options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words)
+{
+  for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
+}
+
+double area(const Mesh& mesh)
+{
+  double sum = 0.0;
+  for (const ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e) sum += testing::corner_area_3d(mesh, block, e);
+  }
+  return sum;
+}
+
+/// A rectangle of quadrilaterals n x 1 from x = start to x = start + 1, with its physical group.
+void add_rectangle(double start, int n, const std::string& name)
+{
+  namespace geo = gmsh::model::geo;
+  const std::array<int, 4> p{geo::addPoint(start, 0, 0), geo::addPoint(start + 1, 0, 0),
+                             geo::addPoint(start + 1, 1, 0), geo::addPoint(start, 1, 0)};
+  std::vector<int> lines;
+  for (std::size_t i = 0; i < 4; ++i) {
+    lines.push_back(geo::addLine(p[i], p[(i + 1) % 4]));
+    geo::mesh::setTransfiniteCurve(lines.back(), i % 2 == 0 ? n + 1 : 2);
+  }
+  const int surface = geo::addPlaneSurface({geo::addCurveLoop(lines)});
+  geo::mesh::setTransfiniteSurface(surface);
+  geo::mesh::setRecombine(2, surface);
+  geo::synchronize();
+  if (name.empty()) return;
+  const int tag = gmsh::model::addPhysicalGroup(2, {surface});
+  gmsh::model::setPhysicalName(2, tag, name);
+}
+
+const std::string parametric_geo =
+    "DefineConstant[ width = 2, n = 3 ];\nheight = 1;\n"
+    "Point(1) = {0, 0, 0}; Point(2) = {width, 0, 0};\n"
+    "Point(3) = {width, height, 0}; Point(4) = {0, height, 0};\n"
+    "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+    "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+    "Transfinite Curve{1, 3} = n + 1; Transfinite Curve{2, 4} = 2; Transfinite Surface{1};\n";
+
+TEST_F(MeshFile, OfAGeometryTakesParameters)
+{
+  MeshOptions options{.file = write("a.geo", parametric_geo)};
+  EXPECT_NEAR(area(generate(options)), 2.0, 1e-12);
+  options.parameters = {{"width", 5.0}, {"n", 4}};
+  const Mesh mesh = generate(options);
+  EXPECT_NEAR(area(mesh), 5.0, 1e-12);
+  EXPECT_EQ(mesh.blocks.at(0).n_elements(), 4);
+  options.parameters.clear();
+  EXPECT_NEAR(area(generate(options)), 2.0, 1e-12);  // nothing is left behind in Gmsh
+}
+
+TEST_F(MeshFile, OfAGeometryNamesAParameterThatItDoesNotTake)
+{
+  const std::string file = write("a.geo", parametric_geo);
+  expect_words(error_of({.file = file, .parameters = {{"widht", 5.0}}}),
+               {"a.geo", "no parameter widht"});
+  expect_words(error_of({.file = file, .parameters = {{"height", 5.0}}}),
+               {"overwrites the parameter height", "DefineConstant[height"});
+}
+
+TEST_F(MeshFile, OfAGeometryIsNotMeshedByTheAlgorithmThatCrashes)
+{
+  std::string disc = "Mesh.Algorithm = 8;\nPoint(100) = {0, 0, 0};\n";
+  for (int i = 0; i < 60; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 60;
+    disc += "Point(" + std::to_string(i + 1) + ") = {" + std::to_string(std::cos(angle)) + ", " +
+            std::to_string(std::sin(angle)) + ", 0, 0.1};\n";
+  }
+  for (int i = 1; i <= 60; ++i) {
+    disc += "Line(" + std::to_string(i) + ") = {" + std::to_string(i) + ", " +
+            std::to_string(i % 60 + 1) + "};\n";
+  }
+  disc += "Curve Loop(1) = {1:60}; Plane Surface(1) = {1};\n";
+  const Mesh mesh = generate({.file = write("a.geo", disc)});
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  expect_words(mesh.notes[0], {"Mesh.Algorithm 8", "meshed by 6"});
+  const Mesh of_surface =
+      generate({.file = write("b.geo", parametric_geo + "MeshAlgorithm Surface {1} = 8;\n")});
+  EXPECT_EQ(of_surface.notes.size(), 1u);
+  EXPECT_TRUE(generate({.file = write("c.geo", parametric_geo + "// Mesh.Algorithm = 8;\n")})
+                  .notes.empty());
+  expect_words(error_of({.file = write("d.geo", disc + "Mesh 2;\n")}), {"meshes itself", "d.geo"});
+}
+
+TEST_F(MeshFile, OfAGeometryWithoutGroupsHasOneForEachEntity)
+{
+  const Mesh mesh = generate({.file = write("a.geo", parametric_geo), .element_order = 2});
+  EXPECT_EQ(find_group(mesh, "surface_1").nodes.size(), 7u * 3u);
+  EXPECT_EQ(find_group(mesh, "curve_4").nodes.size(), 3u);
+  EXPECT_EQ(mesh.blocks.at(0).group.at(0), &find_group(mesh, "surface_1") - mesh.groups.data());
+}
+
+TEST_F(MeshFile, GetsTheGroupsOfTheScene)
+{
+  MeshOptions options{.file = write("a.geo", parametric_geo), .element_order = 1};
+  options.groups = {
+      {"plate", {"surface_1"}}, {"ends", {"curve_2", "curve_4"}}, {"origin", {"point_1"}}};
+  const Mesh mesh = generate(options);
+  EXPECT_EQ(find_group(mesh, "plate").nodes.size(), 8u);
+  EXPECT_EQ(find_group(mesh, "ends").nodes.size(), 4u);
+  EXPECT_EQ(find_group(mesh, "origin").nodes.size(), 1u);
+  options.groups = {{"plate", {"surface_7"}}};
+  expect_words(error_of(options), {"no entity \"surface_7\"", "surface_1", "curve_4"});
+  options.groups = {{"plate", {"surface_1", "curve_4"}}};
+  expect_words(error_of(options), {"\"plate\" mixes"});
+  options.groups = {{"plate", {"surface_1"}}, {"other", {"surface_1"}}};
+  expect_words(error_of(options), {"\"other\"", "belongs to the group \"plate\" already"});
+}
+
+TEST_F(MeshFile, IsScaledToMetres)
+{
+  const Mesh mesh =
+      generate({.file = write("a.geo", parametric_geo), .element_order = 1, .length_unit = 1e-3});
+  EXPECT_NEAR(area(mesh), 2e-6, 1e-18);
+}
+
+TEST_F(MeshFile, OfStepIsInMetresAndOnePiece)
+{
+  // Two faces of a step, not sewn: one upright on the middle of the other.
+  const std::string file = save("a.step", [] {
+    gmsh::model::occ::addRectangle(0, 0, 0, 200, 100);
+    const int wall = gmsh::model::occ::addRectangle(0, 0, 0, 50, 100);
+    gmsh::model::occ::rotate({{2, wall}}, 0, 0, 0, 0, 1, 0, -std::numbers::pi / 2);
+    gmsh::model::occ::translate({{2, wall}}, 100, 0, 0);
+    gmsh::model::occ::synchronize();
+  });
+  MeshOptions options{.file = file, .element_order = 2, .element_size = 0.025};
+  const Mesh mesh = generate(options);
+  EXPECT_NEAR(area(mesh), 0.2 * 0.1 + 0.05 * 0.1, 1e-9);
+  const auto& wall = find_group(mesh, "surface_2").nodes;
+  const auto& plate = find_group(mesh, "surface_1").nodes;
+  std::vector<int> common;
+  std::ranges::set_intersection(wall, plate, std::back_inserter(common));
+  const auto on_joint = [](const std::array<double, 3>& x) {
+    return std::hypot(x[0] - 0.1, x[2]) < 1e-9;
+  };
+  EXPECT_EQ(std::ssize(common), std::ranges::count_if(mesh.positions, on_joint));
+  EXPECT_GE(common.size(), 9u);  // four edges of order 2 at 25 mm
+  options.groups = {{"plate", {"surface_1"}}, {"wall", {"surface_2"}}};
+  EXPECT_EQ(find_group(generate(options), "wall").nodes.size(), wall.size());
+}
+
+TEST_F(MeshFile, OfStepGetsItsRingsOnItsFlatPart)
+{
+  const std::string file = save("a.step", [] {
+    gmsh::model::occ::addDisk(0, 0, 10, 160, 160);
+    gmsh::model::occ::synchronize();
+  });
+  const Mesh mesh =
+      generate({.file = file,
+                .element_order = 3,
+                .element_size = 0.03,
+                .rings = {{.name = "track", .radius = 0.13, .nodes = 24, .z = 0.01}}});
+  const Group& track = find_group(mesh, "track");
+  ASSERT_EQ(track.nodes.size(), 24u);
+  for (int i = 0; i < 24; ++i) {
+    const auto& x = mesh.positions[track.nodes[i]];
+    EXPECT_EQ(x[0], 0.13 * std::cos(2.0 * std::numbers::pi * i / 24));
+    EXPECT_EQ(x[1], 0.13 * std::sin(2.0 * std::numbers::pi * i / 24));
+  }
+  EXPECT_EQ(find_group(mesh, "surface_1").nodes.size(), mesh.positions.size());
+}
+
+TEST_F(MeshFile, OfStepWithASolidIsRefused)
+{
+  const std::string file = save("a.step", [] {
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::synchronize();
+  });
+  expect_words(error_of({.file = file, .element_size = 0.1}), {"1 solids", "mid-surface"});
+}
+
+TEST_F(MeshFile, ThatIsCutOffIsRefusedInEachFormat)
+{
+  for (const double format : {2.2, 4.1}) {
+    for (const int binary : {0, 1}) {
+      const std::string file = save("a.msh", [&] {
+        add_rectangle(0, 20, "strip");
+        gmsh::model::mesh::generate(2);
+        gmsh::option::setNumber("Mesh.MshFileVersion", format);
+        gmsh::option::setNumber("Mesh.Binary", binary);
+      });
+      EXPECT_EQ(error_of({.file = file}), "no error");
+      const auto size = std::filesystem::file_size(file);
+      for (const double part : {0.95, 0.7, 0.4, 0.1, 0.0}) {
+        std::filesystem::resize_file(file, static_cast<std::uintmax_t>(part * double(size)));
+        const std::string error = error_of({.file = file});
+        EXPECT_NE(error.find("a.msh"), std::string::npos) << format << " " << part << " " << error;
+        EXPECT_NE(error.find("missing"), std::string::npos)
+            << format << " " << part << " " << error;
+      }
+    }
+  }
+}
+
+TEST_F(MeshFile, OfSolidsOrCurvesOnlyIsRefused)
+{
+  const auto save_dimension = [&](int dimension) {
+    return save("a.msh", [=] {
+      gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+      gmsh::model::occ::synchronize();
+      std::vector<std::pair<int, int>> entities;
+      gmsh::model::getEntities(entities, dimension);
+      std::vector<int> tags;
+      for (const auto& [d, tag] : entities) tags.push_back(tag);
+      gmsh::model::addPhysicalGroup(dimension, tags);
+      gmsh::model::mesh::generate(dimension);
+    });
+  };
+  expect_words(error_of({.file = save_dimension(3)}), {"solid", " and 0 line", "mid-surface"});
+  expect_words(error_of({.file = save_dimension(1)}), {"0 solid", "neither surface elements"});
+}
+
+TEST_F(MeshFile, WithCoincidentNodesIsRefusedMergedOrKept)
+{
+  const std::string file = save("a.msh", [] {
+    add_rectangle(0, 3, "left");
+    add_rectangle(1, 2, "right");
+    gmsh::model::mesh::generate(2);
+  });
+  expect_words(error_of({.file = file}), {"2 and 5, 3 and 8", "coincident_nodes = \"merge\""});
+  const Mesh kept = generate({.file = file, .coincident_nodes = Coincident::keep});
+  EXPECT_EQ(kept.n_nodes(), 8 + 6);
+  const Mesh merged = generate({.file = file, .coincident_nodes = Coincident::merge});
+  EXPECT_EQ(merged.n_nodes(), 8 + 6 - 2);
+  EXPECT_EQ(find_group(merged, "right").nodes.size(), 6u);
+  expect_words(merged.notes.at(0), {"2 coincident nodes were merged"});
+  expect_words(
+      error_of({.file = file, .coincident_nodes = Coincident::merge, .merge_tolerance = 0.4}),
+      {"element", "would collapse"});
+}
+
+TEST_F(MeshFile, OfSerendipityElementsIsCompleted)
+{
+  for (const int order : {2, 3}) {
+    const std::string file = save("a.msh", [=] {
+      add_rectangle(0, 3, "plate");
+      gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+      gmsh::model::mesh::generate(2);
+      gmsh::model::mesh::setOrder(order);
+    });
+    const Mesh mesh = generate({.file = file});
+    EXPECT_EQ(mesh.n_nodes(), (3 * order + 1) * (order + 1));
+    EXPECT_EQ(find_group(mesh, "plate").nodes.size(), mesh.positions.size());
+    ASSERT_FALSE(mesh.notes.empty());
+    const ElementBlock& block = mesh.blocks.at(0);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const auto nodes = block.element_nodes(e);
+      const auto& first = mesh.positions[nodes[0]];
+      const auto& inner = mesh.positions[nodes[order + 2]];  // one step along each edge
+      EXPECT_NEAR(std::abs(inner[0] - first[0]) * order, 1.0 / 3.0, 1e-11);
+      EXPECT_NEAR(std::abs(inner[1] - first[1]) * order, 1.0, 1e-11);  // round-off in Gmsh
+    }
+  }
+}
+
+TEST_F(MeshFile, TellsOfAGroupThatNoElementUses)
+{
+  const std::string file = save("a.msh", [] {
+    add_rectangle(0, 2, "plate");
+    const int point = gmsh::model::geo::addPoint(5, 5, 0);
+    gmsh::model::geo::synchronize();
+    gmsh::model::setPhysicalName(0, gmsh::model::addPhysicalGroup(0, {point}), "lost");
+    gmsh::model::mesh::generate(2);
+  });
+  const Mesh mesh = generate({.file = file});
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  expect_words(mesh.notes[0], {"\"lost\"", "left out"});
+}
+
+}  // namespace
+}  // namespace chladni::mesh
