@@ -10,7 +10,7 @@ namespace chladni::mesh {
 Mesh annulus(const AnnulusOptions& options);
 
 /// Reads a .msh (formats 2.2 and 4.1) or meshes a .geo. Only elements of dimension 2 and the
-/// physical groups are kept. Triangles and quadrilaterals of order 2 and 3.
+/// physical groups are kept. Triangles and quadrilaterals of order 1 to 3.
 /// @param options `file` is set; rings must be met by nodes of the mesh.
 /// @throws chladni::Error when the file is missing, unreadable or has no surface elements.
 Mesh read_gmsh(const MeshOptions& options);

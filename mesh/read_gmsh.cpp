@@ -27,9 +27,10 @@ void check_readable(const std::string& file)
 void check_orders(const Mesh& mesh, const std::string& file)
 {
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.order == 2 || block.order == 3) continue;
-    throw Error(fmt::format("mesh file {} has elements of order {}; use 2 or 3 (Mesh.ElementOrder)",
-                            file, block.order));
+    if (block.order >= 1 && block.order <= 3) continue;
+    throw Error(
+        fmt::format("mesh file {} has elements of order {}; use 1, 2 or 3 (Mesh.ElementOrder)",
+                    file, block.order));
   }
 }
 

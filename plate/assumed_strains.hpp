@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plate/covariant_strains.hpp"
+#include "plate/plate_options.hpp"
 
 namespace chladni::plate {
 
@@ -12,7 +13,7 @@ struct Tying {
     Eigen::MatrixXd weights;  ///< [n_integration_points x n_tying_points]
   };
   std::array<Component, 2> shear;     ///< gamma_1, gamma_2
-  std::array<Component, 3> membrane;  ///< eps_11, eps_22, eps_12; not used at order 1
+  std::array<Component, 3> membrane;  ///< eps_11, eps_22, eps_12; not at order 1
 };
 
 /// Tying points of the quadrilateral of order p: shear gamma_xi at Gauss_p in xi times
@@ -23,10 +24,22 @@ const Tying& quadrilateral_tying(int order);
 /// Replaces the transverse shear and membrane rows of `strains` by the assumed ones; bending stays
 /// compatible. The membrane strains are corrected by a field constant in a local Cartesian frame so
 /// that their element mean is that of the compatible ones (else distorted elements fail the
-/// constant-stress patch test).
+/// constant-stress patch test). Order 1 has the membrane strains of MITC4+ instead.
 CovariantStrains assume_quadrilateral_strains(int order, const Points& integration,
                                               const ShellNodes& nodes,
                                               const CovariantStrains& compatible);
+
+/// Membrane strains of MITC4+ from eps_11 and eps_22 at the middles of the edges and eps_12 in the
+/// centre. Their combination vanishes for every inextensional bending of a warped element, where
+/// the compatible ones lock, and passes the patch test.
+/// Source: Ko, Lee and Bathe, Comput. Struct. 182 (2017) 404.
+std::array<StrainRows, 3> assume_bilinear_membrane(const Points& integration,
+                                                   const ShellNodes& nodes);
+
+/// K of the triangle of order 1, MITC3+: rotations enriched by a bubble that is eliminated in the
+/// element, shear tied at six inner points, membrane strains constant.
+/// Source: Lee, Lee and Bathe, Comput. Struct. 138 (2014) 12.
+Eigen::MatrixXd linear_triangle_stiffness(const ShellNodes& nodes, const Material& material);
 
 /// Shear of a triangle of order p tied in the Nedelec space of the first kind: the tangential
 /// component at p Gauss points of each edge, both components at inner points.

@@ -68,17 +68,21 @@ ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes)
 
 CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes)
 {
-  const ShellFrame frame = shell_frame(basis, nodes);
-  const Eigen::Index n_nodes = nodes.x.rows();
-  CovariantStrains strains = zero_strains(basis.N.rows(), 6 * n_nodes);
-  for (Eigen::Index q = 0; q < basis.N.rows(); ++q) {
+  return covariant_strains(basis, shell_frame(basis, nodes), nodes.D);
+}
+
+CovariantStrains covariant_strains(const Basis& field, const ShellFrame& frame,
+                                   const NodeVectors& directors)
+{
+  CovariantStrains strains = zero_strains(field.N.rows(), 6 * directors.rows());
+  for (Eigen::Index q = 0; q < field.N.rows(); ++q) {
     const PointFrame f{.a = {frame.a_1.row(q), frame.a_2.row(q)},
                        .d_a = {frame.d_1.row(q), frame.d_2.row(q)},
                        .d = frame.d.row(q)};
-    for (Eigen::Index i = 0; i < n_nodes; ++i) {
-      const RowVector3d D = nodes.D.row(i);
-      const NodeTerms terms{.N = basis.N(q, i),
-                            .N_a = {basis.N_xi(q, i), basis.N_eta(q, i)},
+    for (Eigen::Index i = 0; i < directors.rows(); ++i) {
+      const RowVector3d D = directors.row(i);
+      const NodeTerms terms{.N = field.N(q, i),
+                            .N_a = {field.N_xi(q, i), field.N_eta(q, i)},
                             .Dxa = {D.cross(f.a[0]), D.cross(f.a[1])},
                             .Dxd_a = {D.cross(f.d_a[0]), D.cross(f.d_a[1])},
                             .Dxd = D.cross(f.d)};

@@ -37,4 +37,10 @@ ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes);
 /// Compatible (displacement-based) strains at the points of `basis`.
 CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes);
 
+/// The same for a field that has other shape functions than the surface.
+/// @param frame      of the surface, at the points of `field`
+/// @param directors  [n_field_nodes x 3] half-thickness directors that the rotations turn, m
+CovariantStrains covariant_strains(const Basis& field, const ShellFrame& frame,
+                                   const NodeVectors& directors);
+
 }  // namespace chladni::plate

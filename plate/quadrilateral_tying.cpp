@@ -58,7 +58,10 @@ CovariantStrains assume_quadrilateral_strains(int order, const Points& integrati
     assumed.g0[A].noalias() = tying.shear[A].weights * tied.g0[A];
     assumed.g1[A].noalias() = tying.shear[A].weights * tied.g1[A];
   }
-  if (order == 1) return assumed;  // tying at one point would fail the membrane patch test
+  if (order == 1) {  // tying at one point would fail the membrane patch test
+    assumed.m = assume_bilinear_membrane(integration, nodes);
+    return assumed;
+  }
   for (std::size_t r = 0; r < 3; ++r) {
     const CovariantStrains tied = covariant_strains(tying.membrane[r].basis, nodes);
     assumed.m[r].noalias() = tying.membrane[r].weights * tied.m[r];

@@ -13,9 +13,9 @@ const std::vector<std::string> annulus_groups = {"disc", "inner_edge", "outer_ed
 
 int read_element_order(const Table& mesh)
 {
-  const int order = mesh.integer("element_order", {.unit = "2 or 3"});
-  if (order != 2 && order != 3) {
-    mesh.refuse("element_order", "elements of order 2 and 3 are available");
+  const int order = mesh.integer("element_order", {.unit = "1, 2 or 3"});
+  if (order < 1 || order > 3) {
+    mesh.refuse("element_order", "elements of order 1, 2 and 3 are available");
   }
   return order;
 }

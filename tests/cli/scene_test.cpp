@@ -388,7 +388,7 @@ TEST(SceneError, SaysWhatIsNotAvailableYet)
        "scene.toml:19: coupling.type = \"averaging\": averaging couplings are not available yet; "
        "use \"rigid\""},
       {"element_order = 3", "element_order = 4",
-       "scene.toml:6: mesh.element_order = 4: elements of order 2 and 3 are available"},
+       "scene.toml:6: mesh.element_order = 4: elements of order 1, 2 and 3 are available"},
   });
 }
 
