@@ -41,15 +41,18 @@ std::array<StrainRows, 3> assume_bilinear_membrane(const Points& integration,
 /// Source: Lee, Lee and Bathe, Comput. Struct. 138 (2014) 12.
 Eigen::MatrixXd linear_triangle_stiffness(const ShellNodes& nodes, const Material& material);
 
-/// Shear of a triangle of order p tied in the Nedelec space of the first kind: the tangential
-/// component at p Gauss points of each edge, both components at inner points.
-CovariantStrains assume_triangle_shear(int order, const Points& integration,
-                                       const ShellNodes& nodes, const CovariantStrains& compatible);
+/// Shear of a triangle of order 2 or 3 at its (p+1)^2 Gauss points, tied in the Nedelec space of
+/// the first kind: the tangential component at p Gauss points of each edge, both components at
+/// inner points.
+CovariantStrains assume_triangle_shear(int order, const ShellNodes& nodes,
+                                       const CovariantStrains& compatible);
 
-/// Membrane strains of a triangle tied by edge direction: eps along each of the three edge
-/// directions in P_(p-1), then the mean correction as in the quadrilateral.
-CovariantStrains assume_triangle_membrane(int order, const Points& integration,
-                                          const ShellNodes& nodes,
+/// Membrane strains of a triangle of order 2 or 3 at its (p+1)^2 Gauss points, interpolated in the
+/// Regge space of degree p-1: the strain along each edge at its p Gauss points, and the moments of
+/// all components against the polynomials of degree p-2, which keep the element mean.
+/// @param compatible  strains with the bubbles of rotation_bubbles.hpp, at the Gauss points
+/// Source: Neunteufel and Schoeberl, Comput. Methods Appl. Mech. Eng. 373 (2021) 113524.
+CovariantStrains assume_triangle_membrane(int order, const ShellNodes& nodes,
                                           const CovariantStrains& compatible);
 
 /// `tied` plus the constant Cartesian membrane strain that restores the element mean of

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "plate/assumed_strains.hpp"
+#include "plate/rotation_bubbles.hpp"
 #include "plate/strain_energy.hpp"
 
 namespace chladni::plate {
@@ -68,16 +69,18 @@ MatrixXd triangle_stiffness(int order, const ShellNodes& nodes, const Material& 
 {
   if (order == 1) return linear_triangle_stiffness(nodes, material);
   const Points points = gauss_points(mesh::Shape::triangle, order + 1);
-  const Basis basis = lagrange_basis(mesh::Shape::triangle, order, points);
-  const ShellFrame frame = shell_frame(basis, nodes);
-  const CovariantStrains compatible = covariant_strains(basis, nodes);
+  const BubbleBasis basis = basis_with_bubbles(order, points);
+  const ShellFrame frame = shell_frame(basis.surface, nodes);
+  const CovariantStrains compatible = strains_with_bubbles(basis, nodes);
   const auto shear_root = elasticity_root(material, Strains::shear);
-  const double alpha = blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
-  return stiffness(assume_triangle_membrane(order, points, nodes, compatible), frame, points,
-                   elasticity_root(material, Strains::without_shear)) +
-         (1.0 - alpha) * stiffness(assume_triangle_shear(order, points, nodes, compatible), frame,
-                                   points, shear_root) +
-         alpha * stiffness(compatible, frame, points, shear_root);
+  const double alpha =
+      order == 2 ? 0.0 : blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
+  MatrixXd K = stiffness(assume_triangle_membrane(order, nodes, compatible), frame, points,
+                         elasticity_root(material, Strains::without_shear)) +
+               (1.0 - alpha) * stiffness(assume_triangle_shear(order, nodes, compatible), frame,
+                                         points, shear_root);
+  if (alpha > 0.0) K += alpha * stiffness(compatible, frame, points, shear_root);
+  return eliminate_bubbles(K, nodes);
 }
 
 MatrixXd drilling_stiffness(const Basis& basis, const ShellNodes& nodes, const Points& points,

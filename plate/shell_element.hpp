@@ -16,8 +16,9 @@ struct ElementMatrices {
 /// - transverse shear and membrane strains assumed (assumed_strains.hpp), bending compatible;
 /// - quadrilaterals of order 2 and 3 blend in uniform reduced integration,
 ///   K = beta K_reduced + (1 - beta) K, beta = min(0.95, t^2 / (t^2 + c h^2)), c = 0.5 and 0.1;
-/// - triangles of order 2 and 3 blend compatible shear in, alpha = t^2 / (t^2 + 0.5 h^2);
-///   h^2 is a quarter of the sum of the squared edges; both vanish in the thin limit;
+/// - triangles have rotation bubbles (rotation_bubbles.hpp), eliminated in the element; those of
+///   order 3 blend compatible shear in, alpha = t^2 / (t^2 + 0.5 h^2);
+///   h^2 is a quarter of the sum of the squared edges; both blends vanish in the thin limit;
 /// - drilling rotation by Hughes and Brezzi, 1e-3 G t (theta . n - curl u . n / 2)^2, massless;
 /// - consistent mass with rotary inertia.
 /// @param nodes  D is half the thickness times the unit director.

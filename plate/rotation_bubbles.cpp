@@ -1,0 +1,72 @@
+#include "plate/rotation_bubbles.hpp"
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+Basis bubbles(int order, const Points& points)
+{
+  const Eigen::ArrayXd r = points.xi, s = points.eta;
+  const Eigen::ArrayXd b = 27.0 * r * s * (1.0 - r - s);
+  const Eigen::ArrayXd b_r = 27.0 * s * (1.0 - 2.0 * r - s);
+  const Eigen::ArrayXd b_s = 27.0 * r * (1.0 - r - 2.0 * s);
+  if (order < 3) return {.N = b.matrix(), .N_xi = b_r.matrix(), .N_eta = b_s.matrix()};
+  const Eigen::ArrayXd f = 3.0 * r - 1.0, g = 3.0 * s - 1.0;
+  Basis two{
+      .N = MatrixXd(r.size(), 2), .N_xi = MatrixXd(r.size(), 2), .N_eta = MatrixXd(r.size(), 2)};
+  two.N << b * f, b * g;
+  two.N_xi << b_r * f + 3.0 * b, b_r * g;
+  two.N_eta << b_s * f, b_s * g + 3.0 * b;
+  return two;
+}
+
+MatrixXd side_by_side(const MatrixXd& A, const MatrixXd& B)
+{
+  MatrixXd AB(A.rows(), A.cols() + B.cols());
+  AB << A, B;
+  return AB;
+}
+
+}  // namespace
+
+BubbleBasis basis_with_bubbles(int order, const Points& points)
+{
+  const Basis nodes = lagrange_basis(mesh::Shape::triangle, order, points);
+  const Basis inner = bubbles(order, points);
+  return {.surface = nodes,
+          .field = {.N = side_by_side(nodes.N, inner.N),
+                    .N_xi = side_by_side(nodes.N_xi, inner.N_xi),
+                    .N_eta = side_by_side(nodes.N_eta, inner.N_eta)}};
+}
+
+CovariantStrains strains_with_bubbles(const BubbleBasis& basis, const ShellNodes& nodes)
+{
+  const Index n_bubbles = basis.field.N.cols() - basis.surface.N.cols();
+  NodeVectors D(nodes.D.rows() + n_bubbles, 3);
+  D << nodes.D, nodes.D.colwise().mean().replicate(n_bubbles, 1);
+  return covariant_strains(basis.field, shell_frame(basis.surface, nodes), D);
+}
+
+MatrixXd eliminate_bubbles(const MatrixXd& K, const ShellNodes& nodes)
+{
+  const Index n = 6 * nodes.x.rows();
+  std::vector<Index> rotations;
+  for (Index dof = n; dof < K.rows(); ++dof) {
+    if (dof % 6 >= 3) rotations.push_back(dof);
+  }
+  MatrixXd K_bb = K(rotations, rotations);
+  const Eigen::Vector3d d = nodes.D.colwise().mean().transpose().normalized();
+  const double held = K_bb.trace();
+  for (Index i = 0; i < K_bb.rows(); i += 3) K_bb.block<3, 3>(i, i) += held * d * d.transpose();
+  const MatrixXd K_bn = K(rotations, Eigen::seqN(0, n));
+  const MatrixXd condensed = K.topLeftCorner(n, n) - K_bn.transpose() * K_bb.llt().solve(K_bn);
+  return 0.5 * (condensed + condensed.transpose());
+}
+
+}  // namespace chladni::plate
