@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "common/petsc.hpp"
+
+namespace chladni::plate {
+
+/// The 6 x 6 blocks in the rows of the nodes first, first + 1, ... of a square matrix, in CSR form.
+struct BlockPattern {
+  PetscInt first = 0;
+  std::vector<std::ptrdiff_t> start;  ///< [n_rows + 1] of each row in `column`
+  std::vector<PetscInt> column;       ///< node numbers, ascending in each row
+
+  PetscInt n_rows() const { return static_cast<PetscInt>(start.size()) - 1; }
+};
+
+/// @param neighbours  [n_rows] for each row the nodes that share an element with it, in any order
+BlockPattern block_pattern(PetscInt first, std::vector<std::vector<PetscInt>> neighbours);
+
+/// Sums of element matrices over a pattern. Each entry adds in the order of the calls, whatever
+/// rank the row is on.
+class BlockRows {
+ public:
+  explicit BlockRows(const BlockPattern& pattern);
+
+  /// Adds the rows of `A_e` whose nodes are in the pattern.
+  /// @param A_e    [6 n x 6 n], symmetric
+  /// @param nodes  [n] numbers; the same may stand there twice
+  void add(const Eigen::MatrixXd& A_e, std::span<const PetscInt> nodes);
+
+  /// The matrix without its zeros off the diagonal, of block size 6; empties this one.
+  /// @note   Collective on `comm`.
+  petsc::Matrix to_matrix(MPI_Comm comm);
+
+ private:
+  const BlockPattern& pattern_;
+  std::vector<double> values_;  ///< [n_blocks x 36] each block by rows
+};
+
+}  // namespace chladni::plate
