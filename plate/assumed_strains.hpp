@@ -25,8 +25,9 @@ const Tying& quadrilateral_tying(int order);
 /// compatible. The membrane strains are corrected by a field constant in a local Cartesian frame so
 /// that their element mean is that of the compatible ones (else distorted elements fail the
 /// constant-stress patch test). Order 1 has the membrane strains of MITC4+ instead.
+/// @param frame  of the surface at the integration points
 CovariantStrains assume_quadrilateral_strains(int order, const Points& integration,
-                                              const ShellNodes& nodes,
+                                              const ShellNodes& nodes, const ShellFrame& frame,
                                               const CovariantStrains& compatible);
 
 /// Membrane strains of MITC4+ from eps_11 and eps_22 at the middles of the edges and eps_12 in the

@@ -24,16 +24,22 @@ Distortion distortion(const NodeVectors& x)
   return {.c_r = x_d.dot(x_s.cross(area)) / J, .c_s = x_d.dot(area.cross(x_r)) / J};
 }
 
+/// A and B: middles of the edges s = 1, -1; C and D: of r = 1, -1; E: the centre.
+Points tying_points()
+{
+  Points tying{.xi = Eigen::VectorXd(5), .eta = Eigen::VectorXd(5), .weight = {}};
+  tying.xi << 0.0, 0.0, 1.0, -1.0, 0.0;
+  tying.eta << 1.0, -1.0, 0.0, 0.0, 0.0;
+  return tying;
+}
+
 }  // namespace
 
 std::array<StrainRows, 3> assume_bilinear_membrane(const Points& integration,
                                                    const ShellNodes& nodes)
 {
-  // A and B: middles of the edges s = 1, -1; C and D: of r = 1, -1; E: the centre.
-  Points tying{.xi = Eigen::VectorXd(5), .eta = Eigen::VectorXd(5), .weight = {}};
-  tying.xi << 0.0, 0.0, 1.0, -1.0, 0.0;
-  tying.eta << 1.0, -1.0, 0.0, 0.0, 0.0;
-  const auto m = covariant_strains(lagrange_basis(mesh::Shape::quadrilateral, 1, tying), nodes).m;
+  static const Basis at_tying = lagrange_basis(mesh::Shape::quadrilateral, 1, tying_points());
+  const auto m = covariant_strains(at_tying, nodes, StrainParts::membrane).m;
   const auto e_rr_A = m[0].row(0), e_rr_B = m[0].row(1);
   const auto e_ss_C = m[1].row(2), e_ss_D = m[1].row(3);
   const auto e_rs_E = m[2].row(4);

@@ -45,12 +45,13 @@ BubbleBasis basis_with_bubbles(int order, const Points& points)
                     .N_eta = side_by_side(nodes.N_eta, inner.N_eta)}};
 }
 
-CovariantStrains strains_with_bubbles(const BubbleBasis& basis, const ShellNodes& nodes)
+CovariantStrains strains_with_bubbles(const BubbleBasis& basis, const ShellNodes& nodes,
+                                      StrainParts parts)
 {
   const Index n_bubbles = basis.field.N.cols() - basis.surface.N.cols();
   NodeVectors D(nodes.D.rows() + n_bubbles, 3);
   D << nodes.D, nodes.D.colwise().mean().replicate(n_bubbles, 1);
-  return covariant_strains(basis.field, shell_frame(basis.surface, nodes), D);
+  return covariant_strains(basis.field, shell_frame(basis.surface, nodes), D, parts);
 }
 
 MatrixXd eliminate_bubbles(const MatrixXd& K, const ShellNodes& nodes)

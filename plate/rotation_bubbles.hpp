@@ -17,7 +17,8 @@ BubbleBasis basis_with_bubbles(int order, const Points& points);
 
 /// Strains in the 6 DOFs of the nodes, then 6 of each bubble, whose translations are to be dropped.
 /// A bubble turns the mean director.
-CovariantStrains strains_with_bubbles(const BubbleBasis& basis, const ShellNodes& nodes);
+CovariantStrains strains_with_bubbles(const BubbleBasis& basis, const ShellNodes& nodes,
+                                      StrainParts parts = StrainParts::all);
 
 /// The Schur complement of `K` on the nodes: no load drives the bubbles' rotations. A bubble has no
 /// stiffness about the mean director; that direction is held.

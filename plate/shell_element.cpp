@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "common/error.hpp"
@@ -47,19 +49,49 @@ double blend(const ElementSize& size, double c)
   return size.thickness_squared / (size.thickness_squared + c * size.h_squared);
 }
 
+/// Integration points with their bases, made once for each element of the library.
+struct Rule {
+  Points points;
+  Basis basis;
+};
+
+struct Rules {
+  Rule full, reduced;   ///< Gauss p+1 and p
+  BubbleBasis bubbles;  ///< of triangles of order 2 and 3, at the points of `full`
+};
+
+Rules make_rules(mesh::Shape shape, int order)
+{
+  Rules rules;
+  for (auto [rule, n] : {std::pair{&rules.full, order + 1}, {&rules.reduced, order}}) {
+    rule->points = gauss_points(shape, n);
+    rule->basis = lagrange_basis(shape, order, rule->points);
+  }
+  if (shape == mesh::Shape::triangle) rules.bubbles = basis_with_bubbles(order, rules.full.points);
+  return rules;
+}
+
+const Rules& rules_of(mesh::Shape shape, int order)
+{
+  static std::map<std::pair<mesh::Shape, int>, Rules> cache;
+  const std::pair key{shape, order};
+  const auto it = cache.find(key);
+  return it != cache.end() ? it->second
+                           : cache.emplace(key, make_rules(shape, order)).first->second;
+}
+
 MatrixXd quadrilateral_stiffness(int order, const ShellNodes& nodes, const Material& material)
 {
   const auto root = elasticity_root(material, Strains::all);
-  const Points full = gauss_points(mesh::Shape::quadrilateral, order + 1);
-  const Basis basis = lagrange_basis(mesh::Shape::quadrilateral, order, full);
-  const CovariantStrains compatible = covariant_strains(basis, nodes);
-  const MatrixXd K = stiffness(assume_quadrilateral_strains(order, full, nodes, compatible),
-                               shell_frame(basis, nodes), full, root);
+  const auto& [full, reduced, none] = rules_of(mesh::Shape::quadrilateral, order);
+  const ShellFrame frame = shell_frame(full.basis, nodes);
+  const MatrixXd K =
+      stiffness(assume_quadrilateral_strains(order, full.points, nodes, frame,
+                                             covariant_strains(full.basis, frame, nodes.D)),
+                frame, full.points, root);
   if (order != 2 && order != 3) return K;
-  const Points reduced = gauss_points(mesh::Shape::quadrilateral, order);
-  const Basis reduced_basis = lagrange_basis(mesh::Shape::quadrilateral, order, reduced);
-  const MatrixXd K_reduced = stiffness(covariant_strains(reduced_basis, nodes),
-                                       shell_frame(reduced_basis, nodes), reduced, root);
+  const MatrixXd K_reduced = stiffness(covariant_strains(reduced.basis, nodes),
+                                       shell_frame(reduced.basis, nodes), reduced.points, root);
   const double beta = std::min(
       0.95, blend(element_size(mesh::Shape::quadrilateral, order, nodes), order == 2 ? 0.5 : 0.1));
   return beta * K_reduced + (1.0 - beta) * K;
@@ -68,10 +100,10 @@ MatrixXd quadrilateral_stiffness(int order, const ShellNodes& nodes, const Mater
 MatrixXd triangle_stiffness(int order, const ShellNodes& nodes, const Material& material)
 {
   if (order == 1) return linear_triangle_stiffness(nodes, material);
-  const Points points = gauss_points(mesh::Shape::triangle, order + 1);
-  const BubbleBasis basis = basis_with_bubbles(order, points);
-  const ShellFrame frame = shell_frame(basis.surface, nodes);
-  const CovariantStrains compatible = strains_with_bubbles(basis, nodes);
+  const Rules& rules = rules_of(mesh::Shape::triangle, order);
+  const Points& points = rules.full.points;
+  const ShellFrame frame = shell_frame(rules.full.basis, nodes);
+  const CovariantStrains compatible = strains_with_bubbles(rules.bubbles, nodes);
   const auto shear_root = elasticity_root(material, Strains::shear);
   const double alpha =
       order == 2 ? 0.0 : blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
@@ -83,9 +115,9 @@ MatrixXd triangle_stiffness(int order, const ShellNodes& nodes, const Material& 
   return eliminate_bubbles(K, nodes);
 }
 
-MatrixXd drilling_stiffness(const Basis& basis, const ShellNodes& nodes, const Points& points,
-                            const Material& material)
+MatrixXd drilling_stiffness(const Rule& rule, const ShellNodes& nodes, const Material& material)
 {
+  const auto& [points, basis] = rule;
   const ShellFrame frame = shell_frame(basis, nodes);
   const double G = 0.5 * material.young / (1.0 + material.poisson);
   StrainRows B(points.size(), 6 * nodes.x.rows());
@@ -113,26 +145,36 @@ Matrix3d rotation_to_displacement(const Vector3d& D)
   return S;
 }
 
-/// M = int rho H^T H dV with u = H (u_i, theta_i).
-MatrixXd mass(const Basis& basis, const ShellNodes& nodes, const Points& points, double density)
+/// M = int rho u . u dV of u = sum N_i (u_i + zeta theta_i x D_i): the moments
+/// m_k = int rho zeta^k N_i N_j dV give the blocks of each pair of nodes.
+MatrixXd mass(const Rule& rule, const ShellNodes& nodes, double density)
 {
-  const ShellFrame frame = shell_frame(basis, nodes);
+  const ShellFrame frame = shell_frame(rule.basis, nodes);
   const Index n = nodes.x.rows();
-  StrainRows H(3, 6 * n);
-  StrainRows scaled(2 * points.size() * 3, 6 * n);
-  Index row = 0;
+  Eigen::MatrixX3d moment = Eigen::MatrixX3d::Zero(rule.points.size(), 3);
   for (const double zeta : thickness_points) {
-    for (Index q = 0; q < points.size(); ++q, row += 3) {
-      const double det = volume_element(frame, q, zeta);
-      for (Index i = 0; i < n; ++i) {
-        H.middleCols<3>(6 * i) = basis.N(q, i) * Matrix3d::Identity();
-        H.middleCols<3>(6 * i + 3) =
-            zeta * basis.N(q, i) * rotation_to_displacement(nodes.D.row(i).transpose());
-      }
-      scaled.middleRows<3>(row) = std::sqrt(density * det * points.weight[q]) * H;
+    for (Index q = 0; q < rule.points.size(); ++q) {
+      const double m = density * rule.points.weight[q] * volume_element(frame, q, zeta);
+      moment.row(q) += m * Eigen::RowVector3d(1.0, zeta, zeta * zeta);
     }
   }
-  return gram_matrix(scaled);
+  const MatrixXd& N = rule.basis.N;
+  const auto weighted = [&](int k) {
+    return MatrixXd(N.transpose() * moment.col(k).asDiagonal() * N);
+  };
+  const MatrixXd m_0 = weighted(0), m_1 = weighted(1), m_2 = weighted(2);
+  MatrixXd M(6 * n, 6 * n);
+  for (Index i = 0; i < n; ++i) {
+    const Matrix3d S_i = rotation_to_displacement(nodes.D.row(i).transpose());
+    for (Index j = 0; j < n; ++j) {
+      const Matrix3d S_j = rotation_to_displacement(nodes.D.row(j).transpose());
+      M.block<3, 3>(6 * i, 6 * j) = m_0(i, j) * Matrix3d::Identity();
+      M.block<3, 3>(6 * i, 6 * j + 3) = m_1(i, j) * S_j;
+      M.block<3, 3>(6 * i + 3, 6 * j) = m_1(i, j) * S_i.transpose();
+      M.block<3, 3>(6 * i + 3, 6 * j + 3) = m_2(i, j) * S_i.transpose() * S_j;
+    }
+  }
+  return M;
 }
 
 }  // namespace
@@ -152,13 +194,12 @@ ElementMatrices shell_matrices(mesh::Shape shape, int order, const ShellNodes& n
                                const Material& material)
 {
   check_element_exists(shape, order);
-  const Points points = gauss_points(shape, order + 1);
-  const Basis basis = lagrange_basis(shape, order, points);
+  const Rule& rule = rules_of(shape, order).full;
   const MatrixXd K = shape == mesh::Shape::triangle
                          ? triangle_stiffness(order, nodes, material)
                          : quadrilateral_stiffness(order, nodes, material);
-  return {.K = K + drilling_stiffness(basis, nodes, points, material),
-          .M = mass(basis, nodes, points, material.density)};
+  return {.K = K + drilling_stiffness(rule, nodes, material),
+          .M = mass(rule, nodes, material.density)};
 }
 
 }  // namespace chladni::plate

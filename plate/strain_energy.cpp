@@ -49,11 +49,12 @@ LocalFrame local_frame(const ShellFrame& frame, Index q, double zeta)
   return {.T = T, .det = det};
 }
 
+using FiveRows = Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// The five covariant strain rows at one point and height.
-Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> strain_rows(const CovariantStrains& s,
-                                                                      Index q, double zeta)
+FiveRows strain_rows(const CovariantStrains& s, Index q, double zeta)
 {
-  Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> rows(5, s.m[0].cols());
+  FiveRows rows(5, s.m[0].cols());
   for (int r = 0; r < 3; ++r) {
     rows.row(r) = s.m[r].row(q) + zeta * s.b[r].row(q) + zeta * zeta * s.c[r].row(q);
   }
@@ -104,18 +105,11 @@ MatrixXd stiffness(const CovariantStrains& strains, const ShellFrame& frame, con
       const LocalFrame local = local_frame(frame, q, zeta);
       const Eigen::Matrix<double, Eigen::Dynamic, 5> weighted =
           std::sqrt(local.det * points.weight[q]) * root * local.T;
-      R.middleRows(row, n).noalias() = weighted * strain_rows(strains, q, zeta);
+      // Coefficient by coefficient: the matrices are too small for a blocked product.
+      R.middleRows(row, n) = weighted.lazyProduct(strain_rows(strains, q, zeta));
     }
   }
   return gram_matrix(R);
-}
-
-MatrixXd gram_matrix(const StrainRows& R)
-{
-  MatrixXd K = MatrixXd::Zero(R.cols(), R.cols());
-  K.selfadjointView<Eigen::Lower>().rankUpdate(R.transpose());
-  K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
-  return K;
 }
 
 }  // namespace chladni::plate

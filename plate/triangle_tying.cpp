@@ -156,8 +156,8 @@ CovariantStrains assume_triangle_shear(int order, const ShellNodes& nodes,
                                        const CovariantStrains& compatible)
 {
   const ShearTying& tying = made_once(order, make_shear_tying);
-  const CovariantStrains on_edges = strains_with_bubbles(tying.edges, nodes);
-  const CovariantStrains inside = strains_with_bubbles(tying.inside, nodes);
+  const CovariantStrains on_edges = strains_with_bubbles(tying.edges, nodes, StrainParts::shear);
+  const CovariantStrains inside = strains_with_bubbles(tying.inside, nodes, StrainParts::shear);
   const auto interpolate = [&](const auto& edge_values, const auto& inner_values) {
     const MatrixXd dofs = nedelec_values(order, {edge_values[0], edge_values[1]}, tying.inner,
                                          {inner_values[0], inner_values[1]});
@@ -173,7 +173,7 @@ CovariantStrains assume_triangle_membrane(int order, const ShellNodes& nodes,
                                           const CovariantStrains& compatible)
 {
   const MembraneTying& tying = made_once(order, make_membrane_tying);
-  const CovariantStrains tied = strains_with_bubbles(tying.edges, nodes);
+  const CovariantStrains tied = strains_with_bubbles(tying.edges, nodes, StrainParts::membrane);
   const MatrixXd values =
       regge_values(order, {tied.m[0], tied.m[1], tied.m[2]},
                    {tying.moments * compatible.m[0], tying.moments * compatible.m[1],
