@@ -141,7 +141,7 @@ Factor of the rms error of n = 0 ... 8 at the same DOFs, mean over the sweep.
 ## Assembly
 
 CPU time of the slowest rank for K and M, against one factorisation of K by MUMPS; memory that the program grew by in the assembly,
-for each nonzero of K and M.
+for each nonzero of K and M: its peak, since the allocator keeps what is freed for later.
 
 {table(["order", "ranks", "DOFs", "assembly, s", "factorisation, s", "share", "DOFs/s", "bytes per nonzero"],
        [[str(a["order"]), str(a["ranks"]), f"{a['n_dofs']:,}", f"{a['assembly_s']:.2f}", f"{a['factorization_s']:.2f}",
