@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "plate/block_rows.hpp"
 #include "plate/directors.hpp"
 #include "plate/point_elements.hpp"
 #include "plate/section_map.hpp"
@@ -39,12 +40,7 @@ std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> no
   return numbers;
 }
 
-/// Entries of each scalar row, in diagonal and off-diagonal block.
-struct Preallocation {
-  std::vector<PetscInt> diagonal, off_diagonal;
-};
-
-/// Active numbers of the neighbours of each node that this rank owns.
+/// The nodes that share an element with each node that this rank owns.
 class Neighbours {
  public:
   Neighbours(const DofMap& dofs, int rank)
@@ -61,21 +57,9 @@ class Neighbours {
       list.insert(list.end(), numbers.begin(), numbers.end());
     }
   }
-
-  Preallocation preallocation()
+  BlockPattern pattern() &&
   {
-    const int n_c = dofs_.n_components();
-    const auto last = first_ + std::ssize(lists_);
-    Preallocation rows;
-    for (auto& list : lists_) {
-      std::ranges::sort(list);
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-      const auto own = std::ranges::count_if(list, [&](int c) { return c >= first_ && c < last; });
-      rows.diagonal.insert(rows.diagonal.end(), n_c, PetscInt(n_c * own));
-      rows.off_diagonal.insert(rows.off_diagonal.end(), n_c,
-                               PetscInt(n_c * (std::ssize(list) - own)));
-    }
-    return rows;
+    return block_pattern(dofs_.n_components(), first_, std::move(lists_));
   }
 
  private:
@@ -84,42 +68,15 @@ class Neighbours {
   std::vector<std::vector<PetscInt>> lists_;
 };
 
-Preallocation preallocation(const mesh::Mesh& mesh, std::span<const PointElement> points,
-                            const DofMap& dofs, int rank)
+BlockPattern pattern_of(const mesh::Mesh& mesh, std::span<const PointElement> points,
+                        const DofMap& dofs, int rank)
 {
   Neighbours neighbours(dofs, rank);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
     neighbours.connect(block.element_nodes(e));
   });
   for (const PointElement& point : points) neighbours.connect(point.nodes);
-  return neighbours.preallocation();
-}
-
-/// Of C alone, whose few entries are those of the dampers.
-Preallocation preallocation(std::span<const PointElement> points, const DofMap& dofs, int rank)
-{
-  Neighbours neighbours(dofs, rank);
-  for (const PointElement& point : points) {
-    if (point.C.size() > 0) neighbours.connect(point.nodes);
-  }
-  return neighbours.preallocation();
-}
-
-petsc::Matrix empty_matrix(const Preallocation& rows, int block_size, MPI_Comm comm)
-{
-  const auto n_rows = static_cast<PetscInt>(rows.diagonal.size());
-  petsc::Matrix A;
-  petsc::check(MatCreate(comm, A.put()));
-  petsc::check(MatSetSizes(A, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE));
-  petsc::check(MatSetType(A, MATAIJ));
-  petsc::check(MatSetBlockSize(A, block_size));
-  petsc::check(MatSeqAIJSetPreallocation(A, 0, rows.diagonal.data()));
-  petsc::check(MatMPIAIJSetPreallocation(A, 0, rows.diagonal.data(), 0, rows.off_diagonal.data()));
-  petsc::check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
-  petsc::check(MatSetOption(A, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE));
-  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
-  petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-  return A;
+  return std::move(neighbours).pattern();
 }
 
 /// A_e <- T_e^T A_e T_e with u = u_ref + theta_ref x arm, theta = theta_ref of dependent nodes.
@@ -148,68 +105,29 @@ MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
   return A_e(kept, kept);
 }
 
-/// Adds element matrices of 6 DOFs for each node: those rows that this rank owns.
-class Inserter {
- public:
-  Inserter(const DofMap& dofs, int rank) : dofs_(dofs), rank_(rank) {}
-
-  void add(Mat A, const MatrixXd& A_e, std::span<const int> nodes) const
-  {
-    const std::vector<PetscInt> columns = active_numbers(dofs_, nodes);
-    std::vector<PetscInt> rows = columns;
-    for (PetscInt& row : rows) {
-      if (row < dofs_.range[rank_] || row >= dofs_.range[rank_ + 1]) row = -1;  // PETSc skips it
-    }
-    const MatrixXd in_system = only_components(eliminate_dependents(A_e, dofs_, nodes), dofs_);
-    const auto n = static_cast<PetscInt>(columns.size());
-    // A_e is symmetric: its column-major storage is the row-major one that PETSc reads.
-    petsc::check(
-        MatSetValuesBlocked(A, n, rows.data(), n, columns.data(), in_system.data(), ADD_VALUES));
-  }
-
- private:
-  const DofMap& dofs_;
-  int rank_;
-};
-
-void add_points(const System& system, std::span<const PointElement> points,
-                const Inserter& inserter)
+/// Adds element matrices of 6 DOFs for each node.
+void add(BlockRows& A, MatrixXd A_e, const DofMap& dofs, std::span<const int> nodes)
 {
-  for (const PointElement& point : points) {
-    if (point.K.size() > 0) inserter.add(system.K, point.K, point.nodes);
-    if (point.M.size() > 0) inserter.add(system.M, point.M, point.nodes);
-    if (point.C.size() > 0) inserter.add(system.C, point.C, point.nodes);
-  }
+  A.add(only_components(eliminate_dependents(std::move(A_e), dofs, nodes), dofs),
+        active_numbers(dofs, nodes));
 }
 
-System empty_system(const mesh::Mesh& mesh, std::span<const PointElement> points,
-                    const DofMap& dofs, MPI_Comm comm)
+/// C of the dampers, whose few entries have a pattern of their own; null without one.
+petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap& dofs,
+                             MPI_Comm comm)
 {
-  const int rank = petsc::rank(comm);
-  const int block_size = dofs.n_components();
-  const Preallocation rows = preallocation(mesh, points, dofs, rank);
-  System system{.K = empty_matrix(rows, block_size, comm),
-                .M = empty_matrix(rows, block_size, comm),
-                .C = {},
-                .dofs = {}};
   const auto is_damper = [](const PointElement& point) { return point.C.size() > 0; };
-  if (std::ranges::any_of(points, is_damper)) {
-    system.C = empty_matrix(preallocation(points, dofs, rank), block_size, comm);
+  if (std::ranges::none_of(points, is_damper)) return {};
+  Neighbours neighbours(dofs, petsc::rank(comm));
+  for (const PointElement& point : points) {
+    if (is_damper(point)) neighbours.connect(point.nodes);
   }
-  return system;
-}
-
-/// Assembled, in the memory that its entries need: a row of M holds a quarter of what is
-/// preallocated for K's pattern, and PETSc gives nothing back by itself.
-petsc::Matrix finished(petsc::Matrix A)
-{
-  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-  petsc::Matrix tight;
-  petsc::check(MatDuplicate(A, MAT_COPY_VALUES, tight.put()));
-  petsc::check(MatSetOption(tight, MAT_SYMMETRIC, PETSC_TRUE));
-  petsc::check(MatSetOption(tight, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-  return tight;
+  const BlockPattern pattern = std::move(neighbours).pattern();
+  BlockRows C(pattern);
+  for (const PointElement& point : points) {
+    if (is_damper(point)) add(C, point.C, dofs, point.nodes);
+  }
+  return C.to_matrix(comm);
 }
 
 }  // namespace
@@ -220,18 +138,21 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   const SectionMap sections = map_sections(mesh, structure);
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const NodeVectors normals = mean_normals(mesh);
-  System system = empty_system(mesh, points, dofs, comm);
-  const Inserter inserter(dofs, rank);
+  const BlockPattern pattern = pattern_of(mesh, points, dofs, rank);
+  BlockRows K(pattern), M(pattern);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    const ElementMatrices matrices =
-        element_matrices(mesh, block, e, {sections, structure, normals});
-    inserter.add(system.K, matrices.K, block.element_nodes(e));
-    inserter.add(system.M, matrices.M, block.element_nodes(e));
+    ElementMatrices matrices = element_matrices(mesh, block, e, {sections, structure, normals});
+    add(K, std::move(matrices.K), dofs, block.element_nodes(e));
+    add(M, std::move(matrices.M), dofs, block.element_nodes(e));
   });
-  add_points(system, points, inserter);
-  system.M = finished(std::move(system.M));  // first, for the lesser peak
-  system.K = finished(std::move(system.K));
-  if (system.C != nullptr) system.C = finished(std::move(system.C));
+  for (const PointElement& point : points) {
+    if (point.K.size() > 0) add(K, point.K, dofs, point.nodes);
+    if (point.M.size() > 0) add(M, point.M, dofs, point.nodes);
+  }
+  System system{.K = K.to_matrix(comm),
+                .M = M.to_matrix(comm),
+                .C = damping_matrix(points, dofs, comm),
+                .dofs = {}};
   system.dofs = std::move(dofs);
   return system;
 }

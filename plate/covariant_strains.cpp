@@ -8,14 +8,22 @@ namespace {
 
 using Eigen::RowVector3d;
 
-CovariantStrains zero_strains(Eigen::Index n_points, Eigen::Index n_dofs)
+CovariantStrains zero_strains(Eigen::Index n_points, Eigen::Index n_dofs, StrainParts parts)
 {
-  const StrainRows zero = StrainRows::Zero(n_points, n_dofs);
-  return {.m = {zero, zero, zero},
-          .b = {zero, zero, zero},
-          .c = {zero, zero, zero},
-          .g0 = {zero, zero},
-          .g1 = {zero, zero}};
+  CovariantStrains strains;
+  const auto set_zero = [=](auto& components) {
+    for (StrainRows& rows : components) rows.setZero(n_points, n_dofs);
+  };
+  if (parts != StrainParts::shear) set_zero(strains.m);
+  if (parts != StrainParts::membrane) {
+    set_zero(strains.g0);
+    set_zero(strains.g1);
+  }
+  if (parts == StrainParts::all) {
+    set_zero(strains.b);
+    set_zero(strains.c);
+  }
+  return strains;
 }
 
 /// The frame at one point, with indices 0, 1 for the two surface coordinates.
@@ -32,13 +40,22 @@ struct NodeTerms {
   RowVector3d Dxd;                        ///< D_i x d
 };
 
-void add_in_plane(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
+constexpr std::array<std::pair<int, int>, 3> components{{{0, 0}, {1, 1}, {0, 1}}};
+
+void add_membrane(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
                   const NodeTerms& n)
 {
-  constexpr std::array<std::pair<int, int>, 3> components{{{0, 0}, {1, 1}, {0, 1}}};
   for (std::size_t r = 0; r < 3; ++r) {
     const auto [A, B] = components[r];
     s.m[r].row(q).segment<3>(dof) = 0.5 * (f.a[A] * n.N_a[B] + f.a[B] * n.N_a[A]);
+  }
+}
+
+void add_bending(CovariantStrains& s, Eigen::Index q, Eigen::Index dof, const PointFrame& f,
+                 const NodeTerms& n)
+{
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto [A, B] = components[r];
     s.b[r].row(q).segment<3>(dof) = 0.5 * (f.d_a[A] * n.N_a[B] + f.d_a[B] * n.N_a[A]);
     s.b[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxa[A] * n.N_a[B] + n.Dxa[B] * n.N_a[A]);
     s.c[r].row(q).segment<3>(dof + 3) = 0.5 * (n.Dxd_a[A] * n.N_a[B] + n.Dxd_a[B] * n.N_a[A]);
@@ -66,24 +83,29 @@ ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes)
           .d_2 = basis.N_eta * nodes.D};
 }
 
-CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes)
+CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes, StrainParts parts)
 {
-  const ShellFrame frame = shell_frame(basis, nodes);
-  const Eigen::Index n_nodes = nodes.x.rows();
-  CovariantStrains strains = zero_strains(basis.N.rows(), 6 * n_nodes);
-  for (Eigen::Index q = 0; q < basis.N.rows(); ++q) {
+  return covariant_strains(basis, shell_frame(basis, nodes), nodes.D, parts);
+}
+
+CovariantStrains covariant_strains(const Basis& field, const ShellFrame& frame,
+                                   const NodeVectors& directors, StrainParts parts)
+{
+  CovariantStrains strains = zero_strains(field.N.rows(), 6 * directors.rows(), parts);
+  for (Eigen::Index q = 0; q < field.N.rows(); ++q) {
     const PointFrame f{.a = {frame.a_1.row(q), frame.a_2.row(q)},
                        .d_a = {frame.d_1.row(q), frame.d_2.row(q)},
                        .d = frame.d.row(q)};
-    for (Eigen::Index i = 0; i < n_nodes; ++i) {
-      const RowVector3d D = nodes.D.row(i);
-      const NodeTerms terms{.N = basis.N(q, i),
-                            .N_a = {basis.N_xi(q, i), basis.N_eta(q, i)},
+    for (Eigen::Index i = 0; i < directors.rows(); ++i) {
+      const RowVector3d D = directors.row(i);
+      const NodeTerms terms{.N = field.N(q, i),
+                            .N_a = {field.N_xi(q, i), field.N_eta(q, i)},
                             .Dxa = {D.cross(f.a[0]), D.cross(f.a[1])},
                             .Dxd_a = {D.cross(f.d_a[0]), D.cross(f.d_a[1])},
                             .Dxd = D.cross(f.d)};
-      add_in_plane(strains, q, 6 * i, f, terms);
-      add_shear(strains, q, 6 * i, f, terms);
+      if (parts != StrainParts::shear) add_membrane(strains, q, 6 * i, f, terms);
+      if (parts != StrainParts::membrane) add_shear(strains, q, 6 * i, f, terms);
+      if (parts == StrainParts::all) add_bending(strains, q, 6 * i, f, terms);
     }
   }
   return strains;

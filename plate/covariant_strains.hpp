@@ -34,7 +34,18 @@ struct CovariantStrains {
 
 ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes);
 
+/// Which strains to compute: the rows of the others stay empty.
+enum class StrainParts { all, membrane, shear };
+
 /// Compatible (displacement-based) strains at the points of `basis`.
-CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes);
+CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes,
+                                   StrainParts parts = StrainParts::all);
+
+/// The same for a field that has other shape functions than the surface.
+/// @param frame      of the surface, at the points of `field`
+/// @param directors  [n_field_nodes x 3] half-thickness directors that the rotations turn, m
+CovariantStrains covariant_strains(const Basis& field, const ShellFrame& frame,
+                                   const NodeVectors& directors,
+                                   StrainParts parts = StrainParts::all);
 
 }  // namespace chladni::plate

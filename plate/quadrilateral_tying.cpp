@@ -48,23 +48,27 @@ const Tying& quadrilateral_tying(int order)
 }
 
 CovariantStrains assume_quadrilateral_strains(int order, const Points& integration,
-                                              const ShellNodes& nodes,
+                                              const ShellNodes& nodes, const ShellFrame& frame,
                                               const CovariantStrains& compatible)
 {
   const Tying& tying = quadrilateral_tying(order);
   CovariantStrains assumed = compatible;
   for (std::size_t A = 0; A < 2; ++A) {
-    const CovariantStrains tied = covariant_strains(tying.shear[A].basis, nodes);
+    const CovariantStrains tied =
+        covariant_strains(tying.shear[A].basis, nodes, StrainParts::shear);
     assumed.g0[A].noalias() = tying.shear[A].weights * tied.g0[A];
     assumed.g1[A].noalias() = tying.shear[A].weights * tied.g1[A];
   }
-  if (order == 1) return assumed;  // tying at one point would fail the membrane patch test
+  if (order == 1) {  // tying at one point would fail the membrane patch test
+    assumed.m = assume_bilinear_membrane(integration, nodes);
+    return assumed;
+  }
   for (std::size_t r = 0; r < 3; ++r) {
-    const CovariantStrains tied = covariant_strains(tying.membrane[r].basis, nodes);
+    const CovariantStrains tied =
+        covariant_strains(tying.membrane[r].basis, nodes, StrainParts::membrane);
     assumed.m[r].noalias() = tying.membrane[r].weights * tied.m[r];
   }
-  const Basis basis = lagrange_basis(mesh::Shape::quadrilateral, order, integration);
-  assumed.m = correct_mean(assumed.m, compatible.m, shell_frame(basis, nodes), integration.weight);
+  assumed.m = correct_mean(assumed.m, compatible.m, frame, integration.weight);
   return assumed;
 }
 

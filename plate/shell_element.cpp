@@ -5,10 +5,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "common/error.hpp"
 #include "plate/assumed_strains.hpp"
+#include "plate/rotation_bubbles.hpp"
+#include "plate/strain_energy.hpp"
 
 namespace chladni::plate {
 
@@ -19,92 +23,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-using Matrix5d = Eigen::Matrix<double, 5, 5>;
-
-constexpr double kappa = 5.0 / 6.0;
 constexpr double drilling_factor = 1e-3;
-/// Two Gauss points through the thickness, weights 1.
-const std::array<double, 2> thickness_points{-1.0 / std::sqrt(3.0), 1.0 / std::sqrt(3.0)};
-
-enum class Strains { all, without_shear, shear };
-
-/// Plane stress with shear correction for (e_11, e_22, 2 e_12, 2 e_13, 2 e_23), Pa.
-Matrix5d elasticity(const Material& material, Strains which)
-{
-  const double nu = material.poisson;
-  const double plane = material.young / (1.0 - nu * nu);
-  const double G = 0.5 * material.young / (1.0 + nu);
-  Matrix5d C = Matrix5d::Zero();
-  if (which != Strains::shear) {
-    C.topLeftCorner<2, 2>() << plane, nu * plane, nu * plane, plane;
-    C(2, 2) = G;
-  }
-  if (which != Strains::without_shear) C(3, 3) = C(4, 4) = kappa * G;
-  return C;
-}
-
-/// Transformation of the covariant components (e_11, e_22, e_12, 2 e_13, 2 e_23) into Cartesian
-/// ones (e_11, e_22, 2 e_12, 2 e_13, 2 e_23) of a frame whose third axis is the director, and
-/// det(g).
-struct LocalFrame {
-  Matrix5d T;
-  double det;
-};
-
-LocalFrame local_frame(const ShellFrame& frame, Index q, double zeta)
-{
-  const Vector3d g_1 = frame.a_1.row(q) + zeta * frame.d_1.row(q);
-  const Vector3d g_2 = frame.a_2.row(q) + zeta * frame.d_2.row(q);
-  const Vector3d g_3 = frame.d.row(q);
-  const double det = g_1.cross(g_2).dot(g_3);
-  const Vector3d e_3 = g_3.normalized();
-  const Vector3d e_1 = g_2.cross(e_3).normalized();
-  Matrix3d e, contravariant;
-  e << e_1, e_3.cross(e_1), e_3;
-  contravariant << g_2.cross(g_3) / det, g_3.cross(g_1) / det, g_1.cross(g_2) / det;
-  const Matrix3d p = e.transpose() * contravariant;  // p_ik = e_i . g^k
-  constexpr std::array<std::pair<int, int>, 5> cartesian{{{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}}};
-  Matrix5d T;
-  for (int row = 0; row < 5; ++row) {
-    const auto [i, j] = cartesian[row];
-    const double engineering = i == j ? 1.0 : 2.0;
-    T.row(row) << p(i, 0) * p(j, 0), p(i, 1) * p(j, 1), p(i, 0) * p(j, 1) + p(i, 1) * p(j, 0),
-        0.5 * (p(i, 0) * p(j, 2) + p(i, 2) * p(j, 0)),
-        0.5 * (p(i, 1) * p(j, 2) + p(i, 2) * p(j, 1));
-    T.row(row) *= engineering;
-  }
-  return {.T = T, .det = det};
-}
-
-/// The five covariant strain rows at one point and height.
-Eigen::Matrix<double, 5, Eigen::Dynamic> strain_rows(const CovariantStrains& s, Index q,
-                                                     double zeta)
-{
-  Eigen::Matrix<double, 5, Eigen::Dynamic> rows(5, s.m[0].cols());
-  for (int r = 0; r < 3; ++r) {
-    rows.row(r) = s.m[r].row(q) + zeta * s.b[r].row(q) + zeta * zeta * s.c[r].row(q);
-  }
-  for (int r = 0; r < 2; ++r) rows.row(3 + r) = s.g0[r].row(q) + zeta * s.g1[r].row(q);
-  return rows;
-}
-
-/// K = sum over points of B^T C B det(g) w.
-MatrixXd stiffness(const CovariantStrains& strains, const ShellFrame& frame, const Points& points,
-                   const Matrix5d& C)
-{
-  const Index n_rows = 5 * 2 * points.size();
-  StrainRows B(n_rows, strains.m[0].cols());
-  StrainRows CB(n_rows, strains.m[0].cols());
-  Index row = 0;
-  for (const double zeta : thickness_points) {
-    for (Index q = 0; q < points.size(); ++q, row += 5) {
-      const LocalFrame local = local_frame(frame, q, zeta);
-      B.middleRows<5>(row).noalias() = local.T * strain_rows(strains, q, zeta);
-      CB.middleRows<5>(row).noalias() = (local.det * points.weight[q] * C) * B.middleRows<5>(row);
-    }
-  }
-  return B.transpose() * CB;
-}
 
 struct ElementSize {
   double thickness_squared;
@@ -130,42 +49,66 @@ double blend(const ElementSize& size, double c)
   return size.thickness_squared / (size.thickness_squared + c * size.h_squared);
 }
 
+/// Integration points with their bases, made once for each element of the library.
+struct Rule {
+  Points points;
+  Basis basis;
+};
+
+struct Rules {
+  Rule full, reduced;   ///< Gauss p+1 and p
+  BubbleBasis bubbles;  ///< of triangles of order 2 and 3, at the points of `full`
+};
+
+Rules make_rules(mesh::Shape shape, int order)
+{
+  Rules rules;
+  for (auto [rule, n] : {std::pair{&rules.full, order + 1}, {&rules.reduced, order}}) {
+    rule->points = gauss_points(shape, n);
+    rule->basis = lagrange_basis(shape, order, rule->points);
+  }
+  if (shape == mesh::Shape::triangle) rules.bubbles = basis_with_bubbles(order, rules.full.points);
+  return rules;
+}
+
+const Rules& rules_of(mesh::Shape shape, int order)
+{
+  static std::map<std::pair<mesh::Shape, int>, Rules> cache;
+  const std::pair key{shape, order};
+  const auto it = cache.find(key);
+  return it != cache.end() ? it->second
+                           : cache.emplace(key, make_rules(shape, order)).first->second;
+}
+
 MatrixXd quadrilateral_stiffness(int order, const ShellNodes& nodes, const Material& material)
 {
-  const Matrix5d C = elasticity(material, Strains::all);
-  const Points full = gauss_points(mesh::Shape::quadrilateral, order + 1);
-  const Basis basis = lagrange_basis(mesh::Shape::quadrilateral, order, full);
-  const CovariantStrains compatible = covariant_strains(basis, nodes);
-  const MatrixXd K = stiffness(assume_quadrilateral_strains(order, full, nodes, compatible),
-                               shell_frame(basis, nodes), full, C);
+  const auto root = elasticity_root(material, Strains::all);
+  const auto& [full, reduced, none] = rules_of(mesh::Shape::quadrilateral, order);
+  const ShellFrame frame = shell_frame(full.basis, nodes);
+  const MatrixXd K =
+      stiffness(assume_quadrilateral_strains(order, full.points, nodes, frame,
+                                             covariant_strains(full.basis, frame, nodes.D)),
+                frame, full.points, root);
   if (order != 2 && order != 3) return K;
-  const Points reduced = gauss_points(mesh::Shape::quadrilateral, order);
-  const Basis reduced_basis = lagrange_basis(mesh::Shape::quadrilateral, order, reduced);
-  const MatrixXd K_reduced = stiffness(covariant_strains(reduced_basis, nodes),
-                                       shell_frame(reduced_basis, nodes), reduced, C);
+  const MatrixXd K_reduced = stiffness(covariant_strains(reduced.basis, nodes),
+                                       shell_frame(reduced.basis, nodes), reduced.points, root);
   const double beta = std::min(
       0.95, blend(element_size(mesh::Shape::quadrilateral, order, nodes), order == 2 ? 0.5 : 0.1));
   return beta * K_reduced + (1.0 - beta) * K;
 }
 
-MatrixXd triangle_stiffness(int order, const ShellNodes& nodes, const Material& material)
+/// The bubble makes cubic strains: three Gauss points each way, one more than else.
+MatrixXd linear_triangle_stiffness(const ShellNodes& nodes, const Material& material)
 {
-  const Points points = gauss_points(mesh::Shape::triangle, order + 1);
-  const Basis basis = lagrange_basis(mesh::Shape::triangle, order, points);
-  const ShellFrame frame = shell_frame(basis, nodes);
-  const CovariantStrains compatible = covariant_strains(basis, nodes);
-  const Matrix5d C_shear = elasticity(material, Strains::shear);
-  const double alpha = blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
-  return stiffness(assume_triangle_membrane(order, points, nodes, compatible), frame, points,
-                   elasticity(material, Strains::without_shear)) +
-         (1.0 - alpha) * stiffness(assume_triangle_shear(order, points, nodes, compatible), frame,
-                                   points, C_shear) +
-         alpha * stiffness(compatible, frame, points, C_shear);
+  static const Points points = gauss_points(mesh::Shape::triangle, 3);
+  static const BubbleBasis basis = basis_with_bubbles(1, points);
+  return stiffness(linear_triangle_strains(nodes, basis, points), shell_frame(basis.surface, nodes),
+                   points, elasticity_root(material, Strains::all));
 }
 
-MatrixXd drilling_stiffness(const Basis& basis, const ShellNodes& nodes, const Points& points,
-                            const Material& material)
+MatrixXd drilling_stiffness(const Rule& rule, const ShellNodes& nodes, const Material& material)
 {
+  const auto& [points, basis] = rule;
   const ShellFrame frame = shell_frame(basis, nodes);
   const double G = 0.5 * material.young / (1.0 + material.poisson);
   StrainRows B(points.size(), 6 * nodes.x.rows());
@@ -182,7 +125,7 @@ MatrixXd drilling_stiffness(const Basis& basis, const ShellNodes& nodes, const P
     const double thickness = 2.0 * frame.d.row(q).norm();
     B.row(q) *= std::sqrt(drilling_factor * G * thickness * J * points.weight[q]);
   }
-  return B.transpose() * B;
+  return gram_matrix(B);
 }
 
 /// theta x D = S theta.
@@ -193,38 +136,67 @@ Matrix3d rotation_to_displacement(const Vector3d& D)
   return S;
 }
 
-/// M = int rho H^T H dV with u = H (u_i, theta_i).
-MatrixXd mass(const Basis& basis, const ShellNodes& nodes, const Points& points, double density)
+/// M = int rho u . u dV of u = sum N_i (u_i + zeta theta_i x D_i): the moments
+/// m_k = int rho zeta^k N_i N_j dV give the blocks of each pair of nodes.
+MatrixXd mass(const Rule& rule, const ShellNodes& nodes, double density)
 {
-  const ShellFrame frame = shell_frame(basis, nodes);
+  const ShellFrame frame = shell_frame(rule.basis, nodes);
   const Index n = nodes.x.rows();
-  StrainRows H(3, 6 * n);
-  StrainRows scaled(2 * points.size() * 3, 6 * n);
-  Index row = 0;
+  Eigen::MatrixX3d moment = Eigen::MatrixX3d::Zero(rule.points.size(), 3);
   for (const double zeta : thickness_points) {
-    for (Index q = 0; q < points.size(); ++q, row += 3) {
-      const double det = local_frame(frame, q, zeta).det;
-      for (Index i = 0; i < n; ++i) {
-        H.middleCols<3>(6 * i) = basis.N(q, i) * Matrix3d::Identity();
-        H.middleCols<3>(6 * i + 3) =
-            zeta * basis.N(q, i) * rotation_to_displacement(nodes.D.row(i).transpose());
-      }
-      scaled.middleRows<3>(row) = std::sqrt(density * det * points.weight[q]) * H;
+    for (Index q = 0; q < rule.points.size(); ++q) {
+      const double m = density * rule.points.weight[q] * volume_element(frame, q, zeta);
+      moment.row(q) += m * Eigen::RowVector3d(1.0, zeta, zeta * zeta);
     }
   }
-  return scaled.transpose() * scaled;
+  const MatrixXd& N = rule.basis.N;
+  const auto weighted = [&](int k) {
+    return MatrixXd(N.transpose() * moment.col(k).asDiagonal() * N);
+  };
+  const MatrixXd m_0 = weighted(0), m_1 = weighted(1), m_2 = weighted(2);
+  MatrixXd M(6 * n, 6 * n);
+  for (Index i = 0; i < n; ++i) {
+    const Matrix3d S_i = rotation_to_displacement(nodes.D.row(i).transpose());
+    for (Index j = 0; j < n; ++j) {
+      const Matrix3d S_j = rotation_to_displacement(nodes.D.row(j).transpose());
+      M.block<3, 3>(6 * i, 6 * j) = m_0(i, j) * Matrix3d::Identity();
+      M.block<3, 3>(6 * i, 6 * j + 3) = m_1(i, j) * S_j;
+      M.block<3, 3>(6 * i + 3, 6 * j) = m_1(i, j) * S_i.transpose();
+      M.block<3, 3>(6 * i + 3, 6 * j + 3) = m_2(i, j) * S_i.transpose() * S_j;
+    }
+  }
+  return M;
 }
 
 }  // namespace
 
+MatrixXd triangle_stiffness_with_bubbles(int order, const ShellNodes& nodes,
+                                         const Material& material)
+{
+  if (order == 1) return linear_triangle_stiffness(nodes, material);
+  const Rules& rules = rules_of(mesh::Shape::triangle, order);
+  const Points& points = rules.full.points;
+  const ShellFrame frame = shell_frame(rules.full.basis, nodes);
+  const CovariantStrains compatible = strains_with_bubbles(rules.bubbles, nodes);
+  const auto shear_root = elasticity_root(material, Strains::shear);
+  const double alpha =
+      order == 2 ? 0.0 : blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
+  MatrixXd K = stiffness(assume_triangle_membrane(order, nodes, compatible), frame, points,
+                         elasticity_root(material, Strains::without_shear)) +
+               (1.0 - alpha) * stiffness(assume_triangle_shear(order, nodes, compatible), frame,
+                                         points, shear_root);
+  if (alpha > 0.0) K += alpha * stiffness(compatible, frame, points, shear_root);
+  return K;
+}
+
 void check_element_exists(mesh::Shape shape, int order)
 {
   const bool quadrilateral = shape == mesh::Shape::quadrilateral && order >= 1 && order <= 4;
-  const bool triangle = shape == mesh::Shape::triangle && (order == 2 || order == 3);
+  const bool triangle = shape == mesh::Shape::triangle && order >= 1 && order <= 3;
   if (quadrilateral || triangle) return;
   throw Error(fmt::format(
       "no shell element of order {} for {}; use quadrilaterals of order 1 to 4 or triangles of "
-      "order 2 or 3",
+      "order 1 to 3",
       order, shape == mesh::Shape::triangle ? "triangles" : "this shape"));
 }
 
@@ -232,13 +204,13 @@ ElementMatrices shell_matrices(mesh::Shape shape, int order, const ShellNodes& n
                                const Material& material)
 {
   check_element_exists(shape, order);
-  const Points points = gauss_points(shape, order + 1);
-  const Basis basis = lagrange_basis(shape, order, points);
-  const MatrixXd K = shape == mesh::Shape::triangle
-                         ? triangle_stiffness(order, nodes, material)
-                         : quadrilateral_stiffness(order, nodes, material);
-  return {.K = K + drilling_stiffness(basis, nodes, points, material),
-          .M = mass(basis, nodes, points, material.density)};
+  const Rule& rule = rules_of(shape, order).full;
+  const MatrixXd K =
+      shape == mesh::Shape::triangle
+          ? eliminate_bubbles(triangle_stiffness_with_bubbles(order, nodes, material), nodes)
+          : quadrilateral_stiffness(order, nodes, material);
+  return {.K = K + drilling_stiffness(rule, nodes, material),
+          .M = mass(rule, nodes, material.density)};
 }
 
 }  // namespace chladni::plate

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plate/assumed_strains.hpp"
+#include "plate/rotation_bubbles.hpp"
 #include "plate/shell_element.hpp"
 
 namespace chladni::plate {
@@ -60,33 +61,55 @@ MatrixXd tensor_interpolation(const VectorXd& from, const Points& to)
   return weights;
 }
 
+/// Values at some points of the polynomial nearest to the values at others.
+MatrixXd polynomial_fit(int degree, const Points& from, const Points& to)
+{
+  return monomials(degree, to) *
+         monomials(degree, from).completeOrthogonalDecomposition().pseudoInverse();
+}
+
 /// Assumed strains are known at the integration points and polynomials of order p between them;
 /// compatible ones are known everywhere.
 StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const VectorXd& u_e)
 {
   const Points full = gauss_points(Shape::quadrilateral, order + 1);
   const Points points = resultant_points(Shape::quadrilateral, order);
-  const CovariantStrains at_full =
-      covariant_strains(lagrange_basis(Shape::quadrilateral, order, full), nodes);
-  StrainValues values = values_of(assume_quadrilateral_strains(order, full, nodes, at_full), u_e,
-                                  tensor_interpolation(gauss_legendre(order + 1).x, points));
+  const Basis basis = lagrange_basis(Shape::quadrilateral, order, full);
+  StrainValues values =
+      values_of(assume_quadrilateral_strains(order, full, nodes, shell_frame(basis, nodes),
+                                             covariant_strains(basis, nodes)),
+                u_e, tensor_interpolation(gauss_legendre(order + 1).x, points));
   const StrainValues compatible =
       values_of(covariant_strains(lagrange_basis(Shape::quadrilateral, order, points), nodes), u_e,
                 MatrixXd::Identity(points.size(), points.size()));
   values.b = compatible.b;
   values.c = compatible.c;
-  if (order == 1) values.m = compatible.m;
+  if (order == 1) {  // of degree 2, beyond two points, but known everywhere
+    values.m = at_points(assume_bilinear_membrane(points, nodes), u_e,
+                         MatrixXd::Identity(points.size(), points.size()));
+  }
   return values;
 }
 
-StrainValues triangle_strains(int order, const ShellNodes& nodes, const VectorXd& u_e)
+/// As those of quadrilaterals, of the nodes and the bubbles that they turn.
+StrainValues triangle_strains(int order, const ShellNodes& nodes, const Material& material,
+                              const VectorXd& u_e)
 {
+  const MatrixXd K = triangle_stiffness_with_bubbles(order, nodes, material);
+  const VectorXd u = motion_with_bubbles(K, nodes) * u_e;
   const Points points = resultant_points(Shape::triangle, order);
-  const CovariantStrains compatible =
-      covariant_strains(lagrange_basis(Shape::triangle, order, points), nodes);
-  CovariantStrains assumed = assume_triangle_shear(order, points, nodes, compatible);
-  assumed.m = assume_triangle_membrane(order, points, nodes, compatible).m;
-  return values_of(assumed, u_e, MatrixXd::Identity(points.size(), points.size()));
+  const BubbleBasis basis = basis_with_bubbles(order, points);
+  const MatrixXd identity = MatrixXd::Identity(points.size(), points.size());
+  if (order == 1) return values_of(linear_triangle_strains(nodes, basis, points), u, identity);
+  const Points full = gauss_points(Shape::triangle, order + 1);
+  const CovariantStrains at_full = strains_with_bubbles(basis_with_bubbles(order, full), nodes);
+  CovariantStrains assumed = assume_triangle_shear(order, nodes, at_full);
+  assumed.m = assume_triangle_membrane(order, nodes, at_full).m;
+  StrainValues values = values_of(assumed, u, polynomial_fit(order, full, points));
+  const StrainValues compatible = values_of(strains_with_bubbles(basis, nodes), u, identity);
+  values.b = compatible.b;
+  values.c = compatible.c;
+  return values;
 }
 
 /// Plane stress normal to e_3, with the shear correction, of a strain tensor.
@@ -167,8 +190,9 @@ ShellResultants shell_resultants(Shape shape, int order, const ShellNodes& nodes
   check_element_exists(shape, order);
   const Points points = resultant_points(shape, order);
   const ShellFrame frame = shell_frame(lagrange_basis(shape, order, points), nodes);
-  const StrainValues strains = shape == Shape::triangle ? triangle_strains(order, nodes, u_e)
-                                                        : quadrilateral_strains(order, nodes, u_e);
+  const StrainValues strains = shape == Shape::triangle
+                                   ? triangle_strains(order, nodes, material, u_e)
+                                   : quadrilateral_strains(order, nodes, u_e);
   const Index n = points.size();
   ShellResultants result{
       .N = MatrixXd::Zero(n, 6), .M = MatrixXd::Zero(n, 6), .Q = MatrixXd::Zero(n, 3)};
@@ -192,8 +216,7 @@ MatrixXd extrapolation_to_nodes(Shape shape, int order)
   if (shape == Shape::quadrilateral) {
     return tensor_interpolation(gauss_legendre(order).x, nodes);
   }
-  const MatrixXd at_points = monomials(order - 1, resultant_points(shape, order));
-  return monomials(order - 1, nodes) * at_points.completeOrthogonalDecomposition().pseudoInverse();
+  return polynomial_fit(order - 1, resultant_points(shape, order), nodes);
 }
 
 }  // namespace chladni::plate

@@ -1,10 +1,9 @@
 #include <Eigen/Dense>
-#include <cmath>
 #include <map>
 #include <vector>
 
-#include "common/error.hpp"
 #include "plate/assumed_strains.hpp"
+#include "plate/rotation_bubbles.hpp"
 
 namespace chladni::plate {
 
@@ -13,7 +12,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Points points_of(const std::vector<std::pair<double, double>>& list)
+using PointList = std::vector<std::pair<double, double>>;
+
+Points points_of(const PointList& list)
 {
   const auto n = static_cast<Eigen::Index>(list.size());
   Points points{.xi = VectorXd(n), .eta = VectorXd(n), .weight = VectorXd::Ones(n)};
@@ -24,122 +25,161 @@ Points points_of(const std::vector<std::pair<double, double>>& list)
   return points;
 }
 
-/// Both components of the Nedelec basis of the first kind, order p: P_(p-1)^2 + (s, -r) times the
-/// homogeneous polynomials of degree p-1. [n_points x p (p + 2)]
-struct NedelecBasis {
+/// p Gauss points on each edge: s = 0, r = 0, r + s = 1.
+Points edge_points(int p)
+{
+  const VectorXd gauss = (gauss_legendre(p).x.array() + 1.0) / 2.0;
+  PointList list;
+  for (const double g : gauss) list.emplace_back(g, 0.0);
+  for (const double g : gauss) list.emplace_back(0.0, g);
+  for (const double g : gauss) list.emplace_back(g, 1.0 - g);
+  return points_of(list);
+}
+
+/// Two components at points, of shear strains or of a basis.
+struct Components {
   MatrixXd first, second;
 };
 
-NedelecBasis nedelec_basis(int p, const Points& points)
+/// The Nedelec basis of the first kind, order p: P_(p-1)^2 + (s, -r) times the homogeneous
+/// polynomials of degree p-1. [n_points x p (p + 2)]
+Components nedelec_basis(int p, const Points& points)
 {
   const MatrixXd P = monomials(p - 1, points);
   const MatrixXd top = P.rightCols(p);
   const MatrixXd zero = MatrixXd::Zero(P.rows(), P.cols());
-  NedelecBasis basis{.first = MatrixXd(P.rows(), 2 * P.cols() + p),
-                     .second = MatrixXd(P.rows(), 2 * P.cols() + p)};
+  Components basis{.first = MatrixXd(P.rows(), 2 * P.cols() + p),
+                   .second = MatrixXd(P.rows(), 2 * P.cols() + p)};
   basis.first << P, zero, points.eta.asDiagonal() * top;
   basis.second << zero, P, -(points.xi.asDiagonal() * top);
   return basis;
 }
 
-/// Shear tying points: p on each edge (s = 0, r = 0, r + s = 1), then the inner ones.
-Points shear_points(int p)
+/// The degrees of freedom of the Nedelec space: the tangential component at the p Gauss points of
+/// each edge, and `inner` applied to each component at inner points.
+MatrixXd nedelec_values(int p, const Components& on_edges, const MatrixXd& inner,
+                        const Components& inside)
 {
-  const VectorXd gauss = (gauss_legendre(p).x.array() + 1.0) / 2.0;
-  std::vector<std::pair<double, double>> list;
-  for (const double g : gauss) list.emplace_back(g, 0.0);
-  for (const double g : gauss) list.emplace_back(0.0, g);
-  for (const double g : gauss) list.emplace_back(g, 1.0 - g);
-  if (p == 2) list.emplace_back(1.0 / 3.0, 1.0 / 3.0);
-  if (p == 3) {
-    list.emplace_back(1.0 / 6.0, 1.0 / 6.0);
-    list.emplace_back(2.0 / 3.0, 1.0 / 6.0);
-    list.emplace_back(1.0 / 6.0, 2.0 / 3.0);
-  }
-  return points_of(list);
-}
-
-/// The degrees of freedom of the Nedelec space applied to fields given by their two components at
-/// `shear_points`.
-MatrixXd nedelec_values(int p, const MatrixXd& first, const MatrixXd& second)
-{
-  const Eigen::Index n_inner = first.rows() - 3 * p;
-  MatrixXd values(3 * p + 2 * n_inner, first.cols());
-  values << first.topRows(p), second.middleRows(p, p),
-      first.middleRows(2 * p, p) - second.middleRows(2 * p, p), first.bottomRows(n_inner),
-      second.bottomRows(n_inner);
+  MatrixXd values(3 * p + 2 * inner.rows(), inside.first.cols());
+  values << on_edges.first.topRows(p), on_edges.second.middleRows(p, p),
+      on_edges.first.bottomRows(p) - on_edges.second.bottomRows(p), inner * inside.first,
+      inner * inside.second;
   return values;
 }
 
-/// p (p + 1) / 2 points along r, on lines of constant s, at which a polynomial of degree p-1 is
-/// determined; Gauss points along each line.
-Points line_points(int p)
+/// Shear at the integration points = weights times the values of `nedelec_values`.
+struct ShearTying {
+  BubbleBasis edges, inside;  ///< at the points of `nedelec_values`
+  MatrixXd inner;             ///< [n x n_inner_points]
+  Components weights;
+};
+
+/// Inner conditions: the mean at order 2, the values at three points at order 3. Means at order 3
+/// make a thick plate stiffer, values at order 2 a thin one softer than it is.
+ShearTying make_shear_tying(int order)
 {
-  if (p == 2) {
-    const double g = (1.0 - 1.0 / std::sqrt(3.0)) / 2.0;
-    return points_of({{g, 0.0}, {1.0 - g, 0.0}, {g, 1.0 / std::sqrt(3.0)}});
-  }
-  // Lines near the Gauss-Radau heights that leave room for 3, 2 and 1 Gauss points.
-  const std::vector<double> heights{0.0, 0.8 / std::sqrt(5.0), 0.8165};
-  std::vector<std::pair<double, double>> list;
-  for (int j = 0; j < p; ++j) {
-    for (const double x : gauss_legendre(p - j).x) {
-      list.emplace_back((x + 1.0) / 2.0 * (1.0 - heights[j]), heights[j]);
-    }
-  }
-  return points_of(list);
+  constexpr double near = 1.0 / 6.0, far = 4.0 / 6.0;
+  const Points integration = gauss_points(mesh::Shape::triangle, order + 1);
+  const Points inside =
+      order == 2 ? integration : points_of({{near, near}, {far, near}, {near, far}});
+  const MatrixXd inner =
+      order == 2 ? MatrixXd(integration.weight.transpose()) : MatrixXd(MatrixXd::Identity(3, 3));
+  const MatrixXd inverse = nedelec_values(order, nedelec_basis(order, edge_points(order)), inner,
+                                          nedelec_basis(order, inside))
+                               .inverse();
+  const Components at_gauss = nedelec_basis(order, integration);
+  return {.edges = basis_with_bubbles(order, edge_points(order)),
+          .inside = basis_with_bubbles(order, inside),
+          .inner = inner,
+          .weights = {.first = at_gauss.first * inverse, .second = at_gauss.second * inverse}};
 }
 
-/// Tied strain along one edge direction at the integration points, from its values at `tying`.
-MatrixXd polynomial_fit(int p, const Points& tying, const Points& integration)
+/// Membrane strains at the integration points = weights times the values of `regge_values`.
+struct MembraneTying {
+  BubbleBasis edges;  ///< at their Gauss points
+  MatrixXd moments;   ///< [n x n_integration_points] against the polynomials of degree p-2
+  std::array<MatrixXd, 3> weights;
+};
+
+/// Strain along each edge at its p Gauss points, then the moments of the three components.
+MatrixXd regge_values(int p, const std::array<MatrixXd, 3>& on_edges,
+                      const std::array<MatrixXd, 3>& moments)
 {
-  return monomials(p - 1, integration) * monomials(p - 1, tying).inverse();
+  const auto& [e_11, e_22, e_12] = on_edges;
+  const Eigen::Index n = moments[0].rows();
+  MatrixXd values(3 * p + 3 * n, e_11.cols());
+  values << e_11.topRows(p), e_22.middleRows(p, p),
+      e_11.bottomRows(p) + e_22.bottomRows(p) - 2.0 * e_12.bottomRows(p), moments[0], moments[1],
+      moments[2];
+  return values;
+}
+
+/// P for one component, zero for the two others.
+std::array<MatrixXd, 3> three_components(const MatrixXd& P)
+{
+  const MatrixXd zero = MatrixXd::Zero(P.rows(), P.cols());
+  std::array<MatrixXd, 3> components;
+  for (MatrixXd& component : components) component.resize(P.rows(), 3 * P.cols());
+  components[0] << P, zero, zero;
+  components[1] << zero, P, zero;
+  components[2] << zero, zero, P;
+  return components;
+}
+
+MembraneTying make_membrane_tying(int p)
+{
+  const Points integration = gauss_points(mesh::Shape::triangle, p + 1);
+  const Points edges = edge_points(p);
+  const MatrixXd moments =
+      monomials(p - 2, integration).transpose() * integration.weight.asDiagonal();
+  const MatrixXd P = monomials(p - 1, integration);
+  const MatrixXd inverse =
+      regge_values(p, three_components(monomials(p - 1, edges)), three_components(moments * P))
+          .inverse();
+  MembraneTying tying{.edges = basis_with_bubbles(p, edges), .moments = moments, .weights = {}};
+  for (std::size_t r = 0; r < 3; ++r) tying.weights[r] = three_components(P)[r] * inverse;
+  return tying;
+}
+
+/// `make(order)`, made once for each order.
+template <typename TyingOf>
+const auto& made_once(int order, TyingOf make)
+{
+  static std::map<int, decltype(make(order))> cache;
+  const auto it = cache.find(order);
+  return it != cache.end() ? it->second : cache.emplace(order, make(order)).first->second;
 }
 
 }  // namespace
 
-CovariantStrains assume_triangle_shear(int order, const Points& integration,
-                                       const ShellNodes& nodes, const CovariantStrains& compatible)
+CovariantStrains assume_triangle_shear(int order, const ShellNodes& nodes,
+                                       const CovariantStrains& compatible)
 {
-  const Points tying = shear_points(order);
-  const NedelecBasis at_tying = nedelec_basis(order, tying);
-  const MatrixXd inverse = nedelec_values(order, at_tying.first, at_tying.second).inverse();
-  const NedelecBasis at_gauss = nedelec_basis(order, integration);
-  const CovariantStrains tied =
-      covariant_strains(lagrange_basis(mesh::Shape::triangle, order, tying), nodes);
-  const auto interpolate = [&](std::array<StrainRows, 2>& assumed,
-                               const std::array<StrainRows, 2>& values) {
-    const MatrixXd coefficients = inverse * nedelec_values(order, values[0], values[1]);
-    assumed[0].noalias() = at_gauss.first * coefficients;
-    assumed[1].noalias() = at_gauss.second * coefficients;
+  const ShearTying& tying = made_once(order, make_shear_tying);
+  const CovariantStrains on_edges = strains_with_bubbles(tying.edges, nodes, StrainParts::shear);
+  const CovariantStrains inside = strains_with_bubbles(tying.inside, nodes, StrainParts::shear);
+  const auto interpolate = [&](const auto& edge_values, const auto& inner_values) {
+    const MatrixXd dofs = nedelec_values(order, {edge_values[0], edge_values[1]}, tying.inner,
+                                         {inner_values[0], inner_values[1]});
+    return std::array<StrainRows, 2>{tying.weights.first * dofs, tying.weights.second * dofs};
   };
   CovariantStrains assumed = compatible;
-  interpolate(assumed.g0, tied.g0);
-  interpolate(assumed.g1, tied.g1);
+  assumed.g0 = interpolate(on_edges.g0, inside.g0);
+  assumed.g1 = interpolate(on_edges.g1, inside.g1);
   return assumed;
 }
 
-CovariantStrains assume_triangle_membrane(int order, const Points& integration,
-                                          const ShellNodes& nodes,
+CovariantStrains assume_triangle_membrane(int order, const ShellNodes& nodes,
                                           const CovariantStrains& compatible)
 {
-  const Points along_r = line_points(order);
-  const Points along_s{.xi = along_r.eta, .eta = along_r.xi, .weight = along_r.weight};
-  const Points along_third{.xi = along_r.xi,
-                           .eta = 1.0 - along_r.xi.array() - along_r.eta.array(),
-                           .weight = along_r.weight};
-  const auto strains_at = [&](const Points& points) {
-    return covariant_strains(lagrange_basis(mesh::Shape::triangle, order, points), nodes).m;
-  };
-  const auto third = strains_at(along_third);
-  const StrainRows e_r = polynomial_fit(order, along_r, integration) * strains_at(along_r)[0];
-  const StrainRows e_s = polynomial_fit(order, along_s, integration) * strains_at(along_s)[1];
-  const StrainRows e_third =
-      polynomial_fit(order, along_third, integration) * (0.5 * (third[0] + third[1]) - third[2]);
+  const MembraneTying& tying = made_once(order, make_membrane_tying);
+  const CovariantStrains tied = strains_with_bubbles(tying.edges, nodes, StrainParts::membrane);
+  const MatrixXd values =
+      regge_values(order, {tied.m[0], tied.m[1], tied.m[2]},
+                   {tying.moments * compatible.m[0], tying.moments * compatible.m[1],
+                    tying.moments * compatible.m[2]});
   CovariantStrains assumed = compatible;
-  const Basis basis = lagrange_basis(mesh::Shape::triangle, order, integration);
-  assumed.m = correct_mean({e_r, e_s, 0.5 * (e_r + e_s) - e_third}, compatible.m,
-                           shell_frame(basis, nodes), integration.weight);
+  for (std::size_t r = 0; r < 3; ++r) assumed.m[r].noalias() = tying.weights[r] * values;
   return assumed;
 }
 

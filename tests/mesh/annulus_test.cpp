@@ -82,7 +82,7 @@ TEST_P(AnnulusOfOrder, PutsAllNodesOfTheEdgesOnTheirCircles)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, AnnulusOfOrder, ::testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(Orders, AnnulusOfOrder, ::testing::Values(1, 2, 3));
 
 TEST(Annulus, RefusesARingOutsideTheDisc)
 {

@@ -76,6 +76,8 @@ TEST_F(ReadGmsh, MeshesAGeometryAtTheOrderAsked)
   const Mesh mesh = generate(options);
   EXPECT_EQ(mesh.blocks.at(0).order, 3);
   EXPECT_EQ(mesh.n_nodes(), 10 * 7);
+  options.element_order = 1;
+  EXPECT_EQ(generate(options).n_nodes(), 4 * 3);
 }
 
 TEST_F(ReadGmsh, KeepsTheLinesOfLineGroupsOnly)

@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(
     ShapesAndOrders, BasisOf,
     ::testing::Values(std::pair{Shape::quadrilateral, 1}, std::pair{Shape::quadrilateral, 2},
                       std::pair{Shape::quadrilateral, 3}, std::pair{Shape::quadrilateral, 4},
-                      std::pair{Shape::triangle, 2}, std::pair{Shape::triangle, 3}));
+                      std::pair{Shape::triangle, 1}, std::pair{Shape::triangle, 2},
+                      std::pair{Shape::triangle, 3}));
 
 }  // namespace
 }  // namespace chladni::plate

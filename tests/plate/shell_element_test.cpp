@@ -80,11 +80,12 @@ INSTANTIATE_TEST_SUITE_P(
     ShapesAndOrders, ShellElement,
     ::testing::Values(std::pair{Shape::quadrilateral, 1}, std::pair{Shape::quadrilateral, 2},
                       std::pair{Shape::quadrilateral, 3}, std::pair{Shape::quadrilateral, 4},
-                      std::pair{Shape::triangle, 2}, std::pair{Shape::triangle, 3}));
+                      std::pair{Shape::triangle, 1}, std::pair{Shape::triangle, 2},
+                      std::pair{Shape::triangle, 3}));
 
 TEST(ShellElement, RefusesAnOrderThatDoesNotExist)
 {
-  EXPECT_THROW(check_element_exists(Shape::triangle, 1), Error);
+  EXPECT_THROW(check_element_exists(Shape::triangle, 4), Error);
   EXPECT_THROW(check_element_exists(Shape::quadrilateral, 5), Error);
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "common/petsc.hpp"
+
+namespace chladni::plate {
+
+/// The n x n blocks in the rows of the nodes first, first + 1, ... of a square matrix, in CSR form.
+struct BlockPattern {
+  int n = 6;  ///< DOFs of each node
+  PetscInt first = 0;
+  std::vector<std::ptrdiff_t> start;  ///< [n_rows + 1] of each row in `column`
+  std::vector<PetscInt> column;       ///< node numbers, ascending in each row
+
+  PetscInt n_rows() const { return static_cast<PetscInt>(start.size()) - 1; }
+};
+
+/// @param n           DOFs of each node
+/// @param neighbours  [n_rows] for each row the nodes that share an element with it, in any order
+BlockPattern block_pattern(int n, PetscInt first, std::vector<std::vector<PetscInt>> neighbours);
+
+/// Sums of element matrices over a pattern. Each entry adds in the order of the calls, whatever
+/// rank the row is on.
+class BlockRows {
+ public:
+  explicit BlockRows(const BlockPattern& pattern);
+
+  /// Adds the rows of `A_e` whose nodes are in the pattern.
+  /// @param A_e    symmetric, n rows for each of its nodes
+  /// @param nodes  their numbers; the same may stand there twice
+  void add(const Eigen::MatrixXd& A_e, std::span<const PetscInt> nodes);
+
+  /// The matrix without its zeros off the diagonal, of block size n; empties this one.
+  /// @note   Collective on `comm`.
+  petsc::Matrix to_matrix(MPI_Comm comm);
+
+ private:
+  const BlockPattern& pattern_;
+  std::vector<double> values_;  ///< [n_blocks x n^2] each block by rows
+};
+
+}  // namespace chladni::plate
