@@ -4,6 +4,7 @@
 
 #include "mbs_export/hdf5.hpp"
 #include "squeal/cycle_file.hpp"
+#include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -13,23 +14,6 @@ using mbs_export::hdf5::Writer;
 
 constexpr const char* file_format = "chladni-squeal";
 constexpr std::int64_t file_version = 1;
-
-void write_optional(Writer& file, const std::string& name, const std::optional<double>& x,
-                    const std::string& unit)
-{
-  if (x) file.write(name, *x, unit);
-}
-
-std::optional<double> read_optional(const Reader& file, const std::string& name)
-{
-  return file.contains(name) ? std::optional(file.real(name)) : std::nullopt;
-}
-
-std::vector<double> read_series(const Reader& file, const std::string& name, Eigen::Index size = -1)
-{
-  const Eigen::VectorXd x = file.vector(name, size);
-  return {x.begin(), x.end()};
-}
 
 Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
 {
@@ -84,37 +68,6 @@ StabilityMap read_map(const Reader& file)
           .frequency_Hz = file.matrix("stability_map/frequency", {values.size(), speeds.size()})};
 }
 
-void write_envelope(Writer& file, const std::string& group, const Envelope& envelope)
-{
-  file.write(group + "/t", envelope.t, "s");
-  file.write(group + "/pad_velocity", envelope.pad_velocity, "m/s");
-  file.write(group + "/pad_displacement", envelope.pad_displacement, "m");
-}
-
-Envelope read_envelope(const Reader& file, const std::string& group)
-{
-  const std::vector<double> t = read_series(file, group + "/t");
-  const auto n = static_cast<Eigen::Index>(t.size());
-  return {t, read_series(file, group + "/pad_velocity", n),
-          read_series(file, group + "/pad_displacement", n)};
-}
-
-void write_history(Writer& file, const std::string& group, const History& history)
-{
-  file.write(group + "/t", history.t, "s");
-  file.write(group + "/pad_velocity", history.pad_velocity, "m/s");
-  file.write(group + "/pad_displacement", history.pad_displacement, "m");
-  file.write(group + "/N_up", history.N_up, "N");
-}
-
-History read_history(const Reader& file, const std::string& group)
-{
-  const std::vector<double> t = read_series(file, group + "/t");
-  const auto n = static_cast<Eigen::Index>(t.size());
-  return {t, read_series(file, group + "/pad_velocity", n),
-          read_series(file, group + "/pad_displacement", n), read_series(file, group + "/N_up", n)};
-}
-
 void write_growth(Writer& file, const std::string& group, const Growth& growth)
 {
   file.write(group + "/speed", growth.speed, "rad/s");
@@ -127,37 +80,6 @@ Growth read_growth(const Reader& file, const std::string& group)
 {
   return {file.real(group + "/speed"), read_envelope(file, group + "/envelope"),
           file.real(group + "/rate"), read_optional(file, group + "/eigenvalue_rate")};
-}
-
-void write_transient(Writer& file, const Transient& run)
-{
-  file.write("transient/speed", run.speed, "rad/s");
-  file.write("transient/step", run.step, "s");
-  file.write("transient/finished", std::int64_t{run.finished}, "1");
-  file.write("transient/N_min", run.N_min, "N");
-  file.write("transient/N_max", run.N_max, "N");
-  file.write("transient/slip_speed_min", run.slip_speed_min, "m/s");
-  write_optional(file, "transient/t_zero_force", run.t_zero_force, "s");
-  write_optional(file, "transient/growth_rate", run.growth_rate, "1/s");
-  write_envelope(file, "transient/envelope", run.envelope);
-  write_history(file, "transient/history", run.history);
-  write_history(file, "transient/tail", run.tail);
-}
-
-Transient read_transient(const Reader& file)
-{
-  return {.speed = file.real("transient/speed"),
-          .step = file.real("transient/step"),
-          .finished = file.integer("transient/finished") != 0,
-          .envelope = read_envelope(file, "transient/envelope"),
-          .history = read_history(file, "transient/history"),
-          .tail = read_history(file, "transient/tail"),
-          .tail_a = {},
-          .N_min = file.real("transient/N_min"),
-          .N_max = file.real("transient/N_max"),
-          .slip_speed_min = file.real("transient/slip_speed_min"),
-          .t_zero_force = read_optional(file, "transient/t_zero_force"),
-          .growth_rate = read_optional(file, "transient/growth_rate")};
 }
 
 void write_limit_cycle(Writer& file, const LimitCycle& cycle)

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <complex>
 #include <span>
 #include <utility>
 
 #include "common/error.hpp"
+#include "squeal/contact_branch.hpp"
 #include "squeal/dop853.hpp"
 #include "squeal/pads.hpp"
 #include "squeal/root.hpp"
@@ -22,47 +21,6 @@ constexpr int changes_max = 64;
 /// its square and the derivative by its first power.
 constexpr double change_error = 1e-8;
 
-/// The branch g of the contact law for one pad: the signed law with the friction g mu, or nothing.
-template <class Scalar>
-PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, double speed,
-                               const std::array<double, 2>& sigma_and_g)
-{
-  const auto [sigma, g] = sigma_and_g;
-  pad.law = ContactLaw::signed_force;
-  pad.friction *= g;
-  PadState<Scalar> state = pad_state(pad, m, speed, sigma);
-  if (g == 0.0) state.S = state.f_r = state.f_t = Scalar(0.0);
-  return state;
-}
-
-template <class Scalar>
-Eigen::Vector3<Scalar> force_on_branch(const PadContact& pad, const RingMotion<Scalar>& m,
-                                       double speed, std::span<const double> branches)
-{
-  const RingForce<Scalar> F = pair_force(pad, m, pad_on_branch(pad, m, speed, {1.0, branches[0]}),
-                                         pad_on_branch(pad, m, speed, {-1.0, branches[1]}));
-  return {F.F_w, F.F_r, F.F_t};
-}
-
-/// Derivatives of the force by (w, g_r, g_t, w', g_r', g_t'), by complex steps.
-Eigen::Matrix<double, 3, 6> force_derivative(const PadContact& pad, const RingMotion<double>& m,
-                                             double speed, std::span<const double> branches)
-{
-  using Complex = std::complex<double>;
-  constexpr double step = 1e-30;  // f(x + i h) / h has no difference in it
-  const std::array<double, 6> at{m.w, m.g_r, m.g_t, m.w_dot, m.g_r_dot, m.g_t_dot};
-  Eigen::Matrix<double, 3, 6> D;
-  for (int j = 0; j < 6; ++j) {
-    std::array<Complex, 6> x{};
-    for (std::size_t i = 0; i < 6; ++i) x[i] = at[i];
-    x[static_cast<std::size_t>(j)] += Complex(0.0, step);
-    D.col(j) = force_on_branch<Complex>(pad, {x[0], x[1], x[2], x[3], x[4], x[5]}, speed, branches)
-                   .imag() /
-               step;
-  }
-  return D;
-}
-
 SquealOptions without_pads(SquealOptions options)
 {
   options.pads.clear();
@@ -73,7 +31,7 @@ SquealOptions without_pads(SquealOptions options)
 
 SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
-      pulled_(options.contact == ContactLaw::unilateral ? 0.0 : -1.0),
+      pulled_(pulled_branch(options.contact)),
       by_omega_(disc.omega.cwiseInverse()),
       A_(state_matrix(disc, without_pads(options), speed))
 {

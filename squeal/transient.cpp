@@ -8,19 +8,18 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "squeal/contact_kick.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"
-#include "squeal/oscillator_flow.hpp"
+#include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/transient_steps.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using std::numbers::pi;
 
-constexpr int steps_per_period_min = 8;
 constexpr double steps_max = 1e10;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
 constexpr int periods_per_window = 4;
@@ -45,16 +44,24 @@ void check(const Disc& disc, const SquealOptions& options, const TransientCase& 
   if (!(run.initial_pad_displacement > 0.0))
     throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
                             run.initial_pad_displacement));
-  if (run.steps_per_period < steps_per_period_min)
+  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
     throw Error(fmt::format(
-        "transient: {} steps per period do not resolve the highest mode "
-        "({:.0f} Hz); take at least {}, better 40",
-        run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
+        "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
+        "{}, better leave steps_per_period out",
+        *run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
 }
 
-RecordingPlan plan_of(const Disc& disc, const TransientCase& run)
+/// Samples of one period of the highest mode.
+int sampling_of(const IntegratorChoice& choice)
 {
-  const double step = 2.0 * pi / (disc.omega.maxCoeff() * run.steps_per_period);
+  const bool fixed =
+      choice.kind == IntegratorKind::splitting || choice.kind == IntegratorKind::exponential;
+  return fixed ? choice.steps_per_period : samples_per_period;
+}
+
+RecordingPlan plan_of(const Disc& disc, const TransientCase& run, int samples)
+{
+  const double step = 2.0 * pi / (disc.omega.maxCoeff() * samples);
   const double n_steps = std::ceil(run.duration / step);
   if (!(n_steps < steps_max))
     throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
@@ -100,15 +107,63 @@ double rest_compression(const SquealOptions& options)
   return options.pads.front().preload / options.pads.front().stiffness;
 }
 
-/// q of the tail, column by column, in the inertial frame but along the modes of the body.
-Eigen::MatrixXd in_inertial_frame(const InertialDisc& inertial, const Eigen::MatrixXd& q,
-                                  const std::vector<double>& t, double speed)
+/// q in the inertial frame but along the modes of the body.
+Eigen::VectorXd in_inertial_frame(const InertialDisc& inertial, const Eigen::VectorXd& q,
+                                  double angle)
 {
-  Eigen::MatrixXd a(q.rows(), static_cast<Eigen::Index>(t.size()));
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    a.col(j) = inertial.R * turned(inertial, inertial.R.transpose() * q.col(j),
-                                   speed * t[static_cast<std::size_t>(j)]);
-  return a;
+  return inertial.R * turned(inertial, inertial.R.transpose() * q, angle);
+}
+
+/// The states that a run keeps, by sample.
+class StateRecorder {
+ public:
+  StateRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                const RecordingPlan& plan, double speed)
+      : omega_(disc.omega), inertial_(inertial), plan_(plan), speed_(speed)
+  {
+    const auto n_kept = static_cast<Eigen::Index>((plan.n_steps - 1) / plan.every + 1);
+    modes_.q.resize(disc.n_modes(), n_kept);
+    modes_.v.resize(disc.n_modes(), n_kept);
+    if (inertial) tail_a_.resize(disc.n_modes(), static_cast<Eigen::Index>(plan.n_tail));
+  }
+
+  void add(std::int64_t i, double t, const TransientSteps& steps)
+  {
+    const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
+    if (!in_tail && i % plan_.every != 0) return;
+    const ModalState x = steps.state();
+    if (in_tail) tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, speed_ * t);
+    if (i % plan_.every != 0) return;
+    const auto column = static_cast<Eigen::Index>(modes_.energy.size());
+    modes_.q.col(column) = x.q;
+    modes_.v.col(column) = x.v;
+    modes_.energy.push_back(0.5 * (x.v.squaredNorm() + omega_.cwiseProduct(x.q).squaredNorm()));
+  }
+
+  /// What was collected.
+  ModalHistory modes() const
+  {
+    const auto n = static_cast<Eigen::Index>(modes_.energy.size());
+    return {modes_.q.leftCols(n), modes_.v.leftCols(n), modes_.energy};
+  }
+  Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
+
+ private:
+  Eigen::VectorXd omega_;
+  const std::optional<InertialDisc>& inertial_;
+  RecordingPlan plan_;
+  double speed_;
+  ModalHistory modes_;
+  Eigen::MatrixXd tail_a_;
+  Eigen::Index n_tail_ = 0;
+};
+
+bool is_finite(const std::vector<ContactResult<double>>& contacts)
+{
+  return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
+    return std::isfinite(pair.upper.z) && std::isfinite(pair.upper.z_dot) &&
+           std::isfinite(pair.upper.N) && std::isfinite(pair.lower.N);
+  });
 }
 
 }  // namespace
@@ -117,33 +172,37 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
                     const Progress& progress)
 {
   check(disc, options, run);
-  const RecordingPlan plan = plan_of(disc, run);
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
-  const OscillatorFlow whole_step(disc.omega, disc.C, plan.step);
-  ContactKick kick(disc, options, run.speed);
+  const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
+  const RecordingPlan plan = plan_of(disc, run, sampling_of(choice));
+  const auto steps =
+      transient_steps(disc, options, run.speed, choice, plan.step,
+                      initial_state(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
-  Eigen::MatrixXd tail_q(disc.n_modes(), plan.n_tail);
-
-  ModalState x = initial_state(disc, inertial, run, options.pads.front().angle);
-  OscillatorFlow(disc.omega, disc.C, 0.5 * plan.step).advance(x);
+  StateRecorder states(disc, inertial, plan, run.speed);
   bool finite = true;
   for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
-    // The two half flows between two kicks are one; all results are those of the kick, which
-    // the splitting leaves symmetric in time.
     const double t = (double(i) + 0.5) * plan.step;
-    if (recorder.in_tail(i)) tail_q.col(i - (plan.n_steps - plan.n_tail)) = x.q;
-    const auto& contacts = kick.apply(x, t, plan.step);
-    finite = x.v.allFinite();
-    if (finite) recorder.add(i, t, contacts);
-    whole_step.advance(x);
+    const auto& contacts = steps->next();
+    finite = is_finite(contacts);
+    if (finite) {
+      recorder.add(i, t, contacts);
+      states.add(i, t, *steps);
+    }
     if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
   }
 
   Transient result = recorder.transient();
   result.speed = run.speed;
   result.finished = finite;
+  result.integrator = name_of(choice.kind);
+  result.integrator_reason = choice.reason;
+  result.n_steps = steps->n_steps();
+  result.n_contact_evaluations = steps->n_contact_evaluations();
+  result.events = steps->events();
   result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
-  if (inertial) result.tail_a = in_inertial_frame(*inertial, tail_q, result.tail.t, run.speed);
+  result.modes = states.modes();
+  result.tail_a = states.tail_a();
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/error.hpp"
+#include "squeal/transient.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -77,9 +78,13 @@ void validate_transient(const SquealOptions& options)
   require_positive(options.transient->duration, "transient.duration_s");
   require_positive(options.transient->initial_pad_displacement,
                    "transient.initial_pad_displacement");
-  if (options.transient->steps_per_period < 8)
-    throw Error(fmt::format("[squeal] transient.steps_per_period = {}; it must be 8 or more",
-                            options.transient->steps_per_period));
+  require_positive(options.transient->growth_error, "transient.growth_error");
+  const std::optional<int>& steps = options.transient->steps_per_period;
+  if (steps && *steps < steps_per_period_min)
+    throw Error(fmt::format(
+        "[squeal] transient.steps_per_period = {}; it must be {} or more to resolve the highest "
+        "mode",
+        *steps, steps_per_period_min));
 }
 
 void validate_growth(const SquealOptions& options)

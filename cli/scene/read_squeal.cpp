@@ -10,6 +10,7 @@ namespace chladni::cli {
 namespace {
 
 using squeal::ContactLaw;
+using squeal::IntegratorKind;
 using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
@@ -127,6 +128,17 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
           table.number("initial_pad_displacement", {.above = 0.0, .unit = "m"})};
   if (table.has("steps_per_period")) {
     transient.steps_per_period = table.integer("steps_per_period", {.at_least = 8});
+  }
+  if (table.has("integrator")) {
+    transient.integrator = table.choice<IntegratorKind>(
+        "integrator", {{"auto", IntegratorKind::automatic},
+                       {"splitting", IntegratorKind::splitting},
+                       {"exponential", IntegratorKind::exponential},
+                       {"dormand-prince", IntegratorKind::dormand_prince},
+                       {"generalised-alpha", IntegratorKind::generalised_alpha}});
+  }
+  if (table.has("growth_error_1_s")) {
+    transient.growth_error = table.number("growth_error_1_s", {.above = 0.0, .unit = "1/s"});
   }
   return transient;
 }

@@ -161,7 +161,8 @@ TEST(Scene, HoldsTheSquealStudyInRadians)
   ASSERT_TRUE(scene.squeal->growth);
   EXPECT_EQ(scene.squeal->growth->speeds, (std::vector<double>{12.0, 13.0}));
   ASSERT_TRUE(scene.squeal->transient);
-  EXPECT_EQ(scene.squeal->transient->steps_per_period, 40);
+  EXPECT_EQ(scene.squeal->transient->steps_per_period, std::nullopt);
+  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::automatic);
 }
 
 TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
@@ -206,7 +207,9 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   text = replaced(text, "{ modes = 40 }", "{ list = [7, 8] }");
   text = replaced(text, "{ type = \"none\" }", "{ type = \"modal\", ratio = 0.001 }");
   text = replaced(text, "\"nodal-diameters 3\"", "[1, 2]");
-  text = replaced(text, "7e-8 }", "7e-8, steps_per_period = 80 }");
+  text = replaced(text, "7e-8 }",
+                  "7e-8, steps_per_period = 80, "
+                  "integrator = \"dormand-prince\", growth_error_1_s = 1e-4 }");
   text = replaced(text, "contact = \"bilateral\"\n", "");
   const Scene scene = parse_scene(text, "scene.toml");
   EXPECT_EQ(scene.name, "rotor_1");
@@ -218,6 +221,8 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
   EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));
   EXPECT_EQ(scene.squeal->transient->steps_per_period, 80);
+  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::dormand_prince);
+  EXPECT_EQ(scene.squeal->transient->growth_error, 1e-4);
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
 }
 
