@@ -47,9 +47,9 @@ class Integrator {
   IntegrationCost cost_;
 };
 
-/// Steps below this part of the largest one are taken for a divergence, and so is a state beyond
-/// this norm, whose square and whose derivatives would soon be no numbers.
+/// Steps below this part of the largest one are taken for a divergence, and so is a velocity beyond
+/// 1000 km/s, long after which no step would be small enough.
 inline constexpr double step_underflow = 1e-10;
-inline constexpr double state_max = 1e100;
+inline constexpr double state_max = 1e6;
 
 }  // namespace chladni::squeal
