@@ -27,7 +27,7 @@ LAWS = {
     "0.1, rising to 0.3 at rest": "{ kinetic = 0.1, static = 0.3, decay_speed = 0.5, "
     f"regularisation = {EPS} }}",
 }
-LOW, HIGH = 3.0, 60.0  # rad/s
+LOW, HIGH = 1.0, 60.0  # rad/s
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 
 
@@ -75,7 +75,7 @@ def final_motion(program, folder, i, case):
         "friction": law,
         "contact": '"unilateral"',
         "analyses": '["transient"]',
-        "transient": f"{{ speed_rad_s = {speed}, duration_s = 8.0, "
+        "transient": f"{{ speed_rad_s = {speed}, duration_s = 12.0, "
         "initial_pad_displacement = 3e-4, steps_per_period = 40 }",
     }
     _, file = run(program, folder, f"motion_{i}_{speed:.0f}", changes)
