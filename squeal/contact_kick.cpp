@@ -4,6 +4,7 @@ namespace chladni::squeal {
 
 ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
+      G_(disc.G.isZero(0.0) ? Eigen::MatrixXd() : disc.G),
       ring_(disc),
       pads_(pad_system(options, disc.radius)),
       position_(pads_.points.size()),
@@ -17,10 +18,12 @@ ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double 
   }
 }
 
-const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, double t, double step)
+const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, const Turn& turn,
+                                                             double step)
 {
+  speed_ = turn.speed;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - speed_ * t);
+    const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - turn.angle);
     shapes_[i].topLeftCorner(S.rows(), 3) = S;
     position_[i].noalias() = shapes_[i].transpose() * x.q;
   }
@@ -44,6 +47,7 @@ Eigen::MatrixXd ContactKick::contact_stiffness() const
 const Eigen::VectorXd& ContactKick::force(const Eigen::VectorXd& v)
 {
   Q_.setZero();
+  if (G_.size() > 0) Q_.head(G_.rows()).noalias() -= 2.0 * speed_ * (G_ * v.head(G_.rows()));
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const PointPair& point = pads_.points[i];
     const PairVector<double> rate = shapes_[i].transpose() * v;

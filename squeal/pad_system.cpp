@@ -200,6 +200,7 @@ InertialDisc with_pads(InertialDisc disc, const PadSystem& pads)
     return sum;
   };
   disc.C = extended(disc.C, pads.C);
+  disc.G = extended(disc.G, Eigen::MatrixXd::Zero(m, m));
   disc.D = extended(disc.D, Eigen::MatrixXd::Zero(m, m));
   disc.R = extended(disc.R, Eigen::MatrixXd::Identity(m, m));
   for (Eigen::VectorXd* amplitude : {&disc.U, &disc.U_r, &disc.U_t})
@@ -217,6 +218,26 @@ PairShapes pair_shapes(const Eigen::MatrixX3d& S, const PadSystem& pads, const P
   shapes.topLeftCorner(S.rows(), 3) = S;
   if (m > 0) shapes.bottomRightCorner(m, 6) << point.upper, point.lower;
   return shapes;
+}
+
+BrakePoint brake_point(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point,
+                       double speed)
+{
+  return {.contact = point.contact,
+          .S = pair_shapes(S, pads, point),
+          .at_rest = pad_state(point.contact, RingMotion<double>{}, speed, 1.0)};
+}
+
+FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
+{
+  const Eigen::Index n = disc.n_modes(), m = pads.n_modes();
+  FreeBrake brake{Eigen::VectorXd(n + m), Eigen::MatrixXd::Zero(n + m, n + m)};
+  brake.omega.head(n) = disc.omega;
+  brake.C.topLeftCorner(n, n) = disc.C + 2.0 * speed * disc.G;
+  if (m == 0) return brake;
+  brake.omega.tail(m) = pads.omega;
+  brake.C.bottomRightCorner(m, m) = pads.C;
+  return brake;
 }
 
 PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)

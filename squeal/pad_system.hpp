@@ -51,6 +51,25 @@ using PairShapes =
 /// @param S  [n_disc_modes x 3] of the disc at the point: W, W_r, W_t
 PairShapes pair_shapes(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point);
 
+/// All that the force at a point pair depends on but the motion.
+struct BrakePoint {
+  PadContact contact;
+  PairShapes S;
+  PadState<double> at_rest;  ///< of its upper pad, on the undisturbed disc
+};
+
+/// @param S  as in `pair_shapes`
+BrakePoint brake_point(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point,
+                       double speed);
+
+/// The modes of a disc, then those of the pads, without contact:
+/// q'' + C q' + diag(omega^2) q = 0 in the frame that rotates with the disc.
+struct FreeBrake {
+  Eigen::VectorXd omega;  ///< rad/s
+  Eigen::MatrixXd C;      ///< 1/s, with the Coriolis terms of the disc at this speed
+};
+FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed);
+
 template <class Scalar>
 RingMotion<Scalar> pair_motion(const PairVector<Scalar>& g, const PairVector<Scalar>& g_dot)
 {

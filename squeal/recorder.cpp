@@ -41,7 +41,7 @@ void Recorder::add(std::int64_t i, double t, const std::vector<ContactResult<dou
     add_extremes(t, contact.upper);
     add_extremes(t, contact.lower);
   }
-  const PadState<double>& up = contacts.front().upper;
+  const PadState<double>&up = contacts.front().upper, &lo = contacts.front().lower;
   velocity_.add(t, up.z_dot, plan_.step);
   displacement_.add(t, up.z - rest_, plan_.step);
   if ((i + 1) % plan_.window == 0) close_window();
@@ -51,6 +51,7 @@ void Recorder::add(std::int64_t i, double t, const std::vector<ContactResult<dou
     history.pad_velocity.push_back(up.z_dot);
     history.pad_displacement.push_back(up.z - rest_);
     history.N_up.push_back(up.N);
+    history.N_lo.push_back(lo.N);
   };
   if (i % plan_.every == 0) append(transient_.history);
   if (in_tail(i)) append(transient_.tail);

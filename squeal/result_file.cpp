@@ -4,6 +4,8 @@
 
 #include "mbs_export/hdf5.hpp"
 #include "squeal/cycle_file.hpp"
+#include "squeal/sensitivity_file.hpp"
+#include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -13,23 +15,6 @@ using mbs_export::hdf5::Writer;
 
 constexpr const char* file_format = "chladni-squeal";
 constexpr std::int64_t file_version = 1;
-
-void write_optional(Writer& file, const std::string& name, const std::optional<double>& x,
-                    const std::string& unit)
-{
-  if (x) file.write(name, *x, unit);
-}
-
-std::optional<double> read_optional(const Reader& file, const std::string& name)
-{
-  return file.contains(name) ? std::optional(file.real(name)) : std::nullopt;
-}
-
-std::vector<double> read_series(const Reader& file, const std::string& name, Eigen::Index size = -1)
-{
-  const Eigen::VectorXd x = file.vector(name, size);
-  return {x.begin(), x.end()};
-}
 
 Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
 {
@@ -84,37 +69,6 @@ StabilityMap read_map(const Reader& file)
           .frequency_Hz = file.matrix("stability_map/frequency", {values.size(), speeds.size()})};
 }
 
-void write_envelope(Writer& file, const std::string& group, const Envelope& envelope)
-{
-  file.write(group + "/t", envelope.t, "s");
-  file.write(group + "/pad_velocity", envelope.pad_velocity, "m/s");
-  file.write(group + "/pad_displacement", envelope.pad_displacement, "m");
-}
-
-Envelope read_envelope(const Reader& file, const std::string& group)
-{
-  const std::vector<double> t = read_series(file, group + "/t");
-  const auto n = static_cast<Eigen::Index>(t.size());
-  return {t, read_series(file, group + "/pad_velocity", n),
-          read_series(file, group + "/pad_displacement", n)};
-}
-
-void write_history(Writer& file, const std::string& group, const History& history)
-{
-  file.write(group + "/t", history.t, "s");
-  file.write(group + "/pad_velocity", history.pad_velocity, "m/s");
-  file.write(group + "/pad_displacement", history.pad_displacement, "m");
-  file.write(group + "/N_up", history.N_up, "N");
-}
-
-History read_history(const Reader& file, const std::string& group)
-{
-  const std::vector<double> t = read_series(file, group + "/t");
-  const auto n = static_cast<Eigen::Index>(t.size());
-  return {t, read_series(file, group + "/pad_velocity", n),
-          read_series(file, group + "/pad_displacement", n), read_series(file, group + "/N_up", n)};
-}
-
 void write_growth(Writer& file, const std::string& group, const Growth& growth)
 {
   file.write(group + "/speed", growth.speed, "rad/s");
@@ -127,37 +81,6 @@ Growth read_growth(const Reader& file, const std::string& group)
 {
   return {file.real(group + "/speed"), read_envelope(file, group + "/envelope"),
           file.real(group + "/rate"), read_optional(file, group + "/eigenvalue_rate")};
-}
-
-void write_transient(Writer& file, const Transient& run)
-{
-  file.write("transient/speed", run.speed, "rad/s");
-  file.write("transient/step", run.step, "s");
-  file.write("transient/finished", std::int64_t{run.finished}, "1");
-  file.write("transient/N_min", run.N_min, "N");
-  file.write("transient/N_max", run.N_max, "N");
-  file.write("transient/slip_speed_min", run.slip_speed_min, "m/s");
-  write_optional(file, "transient/t_zero_force", run.t_zero_force, "s");
-  write_optional(file, "transient/growth_rate", run.growth_rate, "1/s");
-  write_envelope(file, "transient/envelope", run.envelope);
-  write_history(file, "transient/history", run.history);
-  write_history(file, "transient/tail", run.tail);
-}
-
-Transient read_transient(const Reader& file)
-{
-  return {.speed = file.real("transient/speed"),
-          .step = file.real("transient/step"),
-          .finished = file.integer("transient/finished") != 0,
-          .envelope = read_envelope(file, "transient/envelope"),
-          .history = read_history(file, "transient/history"),
-          .tail = read_history(file, "transient/tail"),
-          .tail_a = {},
-          .N_min = file.real("transient/N_min"),
-          .N_max = file.real("transient/N_max"),
-          .slip_speed_min = file.real("transient/slip_speed_min"),
-          .t_zero_force = read_optional(file, "transient/t_zero_force"),
-          .growth_rate = read_optional(file, "transient/growth_rate")};
 }
 
 void write_limit_cycle(Writer& file, const LimitCycle& cycle)
@@ -220,6 +143,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
   if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
   if (results.map) write_map(file, *results.map);
+  if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
   for (std::size_t i = 0; i < results.growth.size(); ++i)
     write_growth(file, fmt::format("growth/{}", i + 1), results.growth[i]);
   if (results.transient) write_transient(file, *results.transient);
@@ -241,6 +165,7 @@ SquealResults read_results(const std::filesystem::path& path)
     results.critical_speed =
         CriticalSpeed{file.real("critical/speed"), file.real("critical/frequency")};
   if (file.contains("stability_map")) results.map = read_map(file);
+  if (file.contains("mode_sensitivity")) results.mode_sensitivity = read_sensitivity(file);
   for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)
     results.growth.push_back(read_growth(file, fmt::format("growth/{}", i)));
   if (file.contains("transient")) results.transient = read_transient(file);

@@ -42,15 +42,36 @@ struct History {
   std::vector<double> pad_velocity;      ///< of the upper pad, m/s
   std::vector<double> pad_displacement;  ///< of the upper pad from its position at rest, m
   std::vector<double> N_up;              ///< normal force on the upper pad, N
+  std::vector<double> N_lo;              ///< normal force on the lower pad, N
+};
+
+/// The modes at the times of a history, in the frame that rotates with the disc.
+struct ModalHistory {
+  Eigen::MatrixXd q;           ///< [n_modes x n_t] m kg^(1/2)
+  Eigen::MatrixXd v;           ///< [n_modes x n_t] m kg^(1/2) / s
+  std::vector<double> energy;  ///< kinetic and elastic energy of the disc in this frame, J
+};
+
+/// A pad loses or regains its disc.
+struct ContactEvent {
+  double t;    ///< s
+  int pad;     ///< upper and lower pad of each pair in turn, from 0
+  bool gains;  ///< false: its axial force falls through zero
 };
 
 /// A transient in the rotating frame.
 struct Transient {
-  double speed;   ///< rad/s
-  double step;    ///< s
-  bool finished;  ///< false: the motion diverged and the run ended early
+  double speed;            ///< rad/s
+  double step;             ///< of the samples, s; the one of the integration when that is fixed
+  bool finished;           ///< false: the motion diverged and the run ended early
+  std::string integrator;  ///< as in the scene
+  std::string integrator_reason;       ///< why, when it was chosen by the program
+  std::int64_t n_steps;                ///< of the integration
+  std::int64_t n_contact_evaluations;  ///< of the forces of all pads, samples included
+  std::vector<ContactEvent> events;    ///< located by "dormand-prince" alone; empty with the others
   Envelope envelope;
   History history;         ///< the whole run, decimated
+  ModalHistory modes;      ///< at the times of `history`
   History tail;            ///< the end of the run, every step
   Eigen::MatrixXd tail_a;  ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
   double N_min;            ///< over all pads, N
@@ -125,6 +146,34 @@ struct LimitCycleBranch {
   std::optional<double> lost_below;
 };
 
+/// What the lowest modes alone would say.
+struct ModeSubset {
+  int n_modes;
+  double highest_Hz;
+  std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
+  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
+  double growth;  ///< largest growth rate at the critical speed of all modes, 1/s
+};
+
+/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
+struct ModeInfluence {
+  int nodal_diameters;
+  double frequency_Hz;   ///< of the mode
+  double participation;  ///< part of the kinetic energy of the critical oscillation
+  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
+  /// absent for the mode that it consists of.
+  std::optional<double> growth_without;
+  std::optional<double> critical_speed_without;  ///< rad/s
+};
+
+/// Which modes move the critical speed.
+struct ModeSensitivity {
+  double critical_speed;  ///< with all modes, rad/s
+  double critical_frequency_Hz;
+  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
+  std::vector<ModeInfluence> influences;  ///< by rising frequency
+};
+
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
@@ -135,6 +184,7 @@ struct SquealResults {
   bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
   std::optional<StabilityMap> map;
+  std::optional<ModeSensitivity> mode_sensitivity;
   std::vector<Growth> growth;
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;

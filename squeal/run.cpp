@@ -6,6 +6,7 @@
 #include "squeal/limit_cycle.hpp"
 #include "squeal/limit_cycle_branch.hpp"
 #include "squeal/limit_cycle_direct.hpp"
+#include "squeal/mode_sensitivity.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
@@ -55,6 +56,10 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgr
   if (asked("stability-map")) {
     progress_of("stability-map")(0.0);
     results.map = stability_map(inertial_disc(disc), options);
+  }
+  if (asked("mode-sensitivity")) {
+    progress_of("mode-sensitivity")(0.0);
+    results.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
   }
   if (asked("growth")) results.growth = growth_over_speeds(disc, options, progress_of("growth"));
   if (asked("transient") || asked("limit-cycle"))

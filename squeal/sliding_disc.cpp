@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <complex>
 #include <span>
 #include <utility>
 
 #include "common/error.hpp"
-#include "squeal/derivative.hpp"
+#include "squeal/contact_branch.hpp"
 #include "squeal/dop853.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
@@ -22,46 +20,6 @@ constexpr int changes_max = 64;
 /// its square and the derivative by its first power.
 constexpr double change_error = 1e-8;
 
-/// The branch g of the contact law for one pad: the signed law with the friction g mu, or nothing.
-template <class Scalar>
-PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, double speed,
-                               const std::array<double, 2>& sigma_and_g)
-{
-  const auto [sigma, g] = sigma_and_g;
-  pad.law = ContactLaw::signed_force;
-  pad.friction = scaled(pad.friction, g);
-  PadState<Scalar> state = pad_state(pad, m, speed, sigma);
-  if (g == 0.0) state.S = state.f_r = state.f_t = Scalar(0.0);
-  return state;
-}
-
-template <class Scalar>
-PairVector<Scalar> force_on_branch(const SlidingDisc::Point& point, const RingMotion<Scalar>& m,
-                                   double speed, std::span<const double> branches)
-{
-  const auto up = pad_on_branch(point.contact, m, speed, {1.0, branches[0]});
-  const auto lo = pad_on_branch(point.contact, m, speed, {-1.0, branches[1]});
-  return pair_forces(pair_force(point.contact, m, up, lo), up, lo, point.at_rest,
-                     static_cast<int>(point.S.cols()));
-}
-
-/// Derivatives of the force by the motion of the point and by its rates, by complex steps.
-Eigen::MatrixXd force_derivative(const SlidingDisc::Point& point, const PairVector<double>& g,
-                                 const PairVector<double>& g_dot,
-                                 const std::pair<double, std::span<const double>>& at)
-{
-  using Complex = std::complex<double>;
-  const Eigen::Index rows = g.size();
-  Eigen::MatrixXd D(rows, 2 * rows);
-  for (Eigen::Index j = 0; j < 2 * rows; ++j) {
-    PairVector<Complex> x = g.cast<Complex>(), v = g_dot.cast<Complex>();
-    (j < rows ? x[j] : v[j - rows]) += Complex(0.0, complex_step);
-    D.col(j) = force_on_branch<Complex>(point, pair_motion(x, v), at.first, at.second).imag() /
-               complex_step;
-  }
-  return D;
-}
-
 SquealOptions without_pads(SquealOptions options)
 {
   options.pads.clear();
@@ -72,18 +30,17 @@ SquealOptions without_pads(SquealOptions options)
 
 SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
-      pulled_(options.contact == ContactLaw::unilateral ? 0.0 : -1.0),
+      pulled_(pulled_branch(options.contact)),
       pads_(pad_system(options, disc.radius)),
       by_omega_(with_pads(disc, pads_).omega.cwiseInverse()),
       A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed))
 {
   for (const PointPair& point : pads_.points)
-    points_.push_back({.contact = point.contact,
-                       .S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads_, point),
-                       .at_rest = pad_state(point.contact, RingMotion<double>{}, speed, 1.0)});
+    points_.push_back(brake_point(matrix_of(shapes_at(disc, point.angle)), pads_, point, speed));
 }
 
-SlidingDisc::PointMotion SlidingDisc::motion_at(const Point& point, const Eigen::VectorXd& x) const
+SlidingDisc::PointMotion SlidingDisc::motion_at(const BrakePoint& point,
+                                                const Eigen::VectorXd& x) const
 {
   const Eigen::Index n = by_omega_.size();
   return {.g = point.S.transpose() * by_omega_.cwiseProduct(x.head(n)),
@@ -93,7 +50,7 @@ SlidingDisc::PointMotion SlidingDisc::motion_at(const Point& point, const Eigen:
 ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
 {
   std::vector<ContactResult<double>> results;
-  for (const Point& point : points_) {
+  for (const BrakePoint& point : points_) {
     const PointMotion at = motion_at(point, x);
     results.push_back(contact(point.contact, pair_motion(at.g, at.g_dot), speed_));
   }
@@ -106,7 +63,7 @@ Eigen::VectorXd SlidingDisc::axial_forces(const Eigen::VectorXd& x)
   ++n_evaluations_;
   Eigen::VectorXd S(static_cast<Eigen::Index>(2 * points_.size()));
   Eigen::Index i = 0;
-  for (const Point& point : points_) {
+  for (const BrakePoint& point : points_) {
     const PointMotion at = motion_at(point, x);
     const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
     for (const double sigma : {1.0, -1.0})
@@ -132,7 +89,7 @@ Eigen::MatrixXd SlidingDisc::field(const Eigen::MatrixXd& Y, const Branches& bra
   n_evaluations_ += n_columns > 0 ? 7 : 1;
   Eigen::MatrixXd rate = A_ * Y;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = points_[i];
+    const BrakePoint& point = points_[i];
     const PointMotion at = motion_at(point, Y.col(0));
     const std::span<const double> of_pad = std::span(branches).subspan(2 * i, 2);
     const Eigen::Index rows = point.S.cols();

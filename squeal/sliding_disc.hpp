@@ -19,13 +19,6 @@ namespace chladni::squeal {
 /// returns within one step is not seen to do so.
 class SlidingDisc {
  public:
-  /// A contact point pair.
-  struct Point {
-    PadContact contact;
-    PairShapes S;
-    PadState<double> at_rest;  ///< of its upper pad
-  };
-
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);
 
   double speed() const { return speed_; }  ///< rad/s
@@ -66,7 +59,7 @@ class SlidingDisc {
     double after;
   };
 
-  PointMotion motion_at(const Point& point, const Eigen::VectorXd& x) const;
+  PointMotion motion_at(const BrakePoint& point, const Eigen::VectorXd& x) const;
   Eigen::VectorXd axial_forces(const Eigen::VectorXd& x);
   Branches branches_at(const Eigen::VectorXd& x);
   Eigen::MatrixXd field(const Eigen::MatrixXd& Y, const Branches& branches);
@@ -80,7 +73,7 @@ class SlidingDisc {
   PadSystem pads_;
   Eigen::VectorXd by_omega_;
   Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
-  std::vector<Point> points_;
+  std::vector<BrakePoint> points_;
   std::int64_t n_evaluations_ = 0;
 };
 

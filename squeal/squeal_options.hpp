@@ -72,12 +72,33 @@ struct ModeChoice {
   std::optional<std::vector<int>> list;  ///< 1-based mode numbers of the body
 };
 
+/// How a transient is integrated; see integrator_choice.hpp.
+enum class IntegratorKind {
+  automatic,
+  splitting,         ///< exact modes, kicks of the pads: any disc
+  exponential,       ///< exact modes and linearised pads, kicks of the rest: axisymmetric discs
+  dormand_prince,    ///< explicit Runge-Kutta of order 8, contact events located
+  generalised_alpha  ///< implicit, for stiff pads
+};
+
+/// A point of a speed program.
+struct SpeedPoint {
+  double time;   ///< s
+  double speed;  ///< rad/s
+};
+
 /// A transient from a small initial displacement of the pads at rest in the inertial frame.
 struct TransientCase {
   double speed;                     ///< rad/s
   double duration;                  ///< s
   double initial_pad_displacement;  ///< m
-  int steps_per_period = 40;        ///< of the highest frequency among the modes used
+  /// Of the highest frequency among the modes used; absent: from `growth_error`. With adaptive
+  /// steps it bounds the step.
+  std::optional<int> steps_per_period = {};
+  IntegratorKind integrator = IntegratorKind::automatic;
+  double growth_error = 1e-3;  ///< that the integration may add to a growth rate, 1/s
+  /// Speeds to follow, linear between points that begin at t = 0 with `speed`; empty: constant.
+  std::vector<SpeedPoint> speed_program = {};
 };
 
 /// Growth of the pad velocity over a short transient at each of several speeds.

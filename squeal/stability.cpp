@@ -63,7 +63,7 @@ Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& opti
   const PadSystem pads = pad_system(options, disc.radius);
   const InertialDisc brake = with_pads(disc, pads);
   const Eigen::Index n = brake.n_modes();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C + 2.0 * speed * brake.G;
   for (const PointPair& point : pads.points) {
     const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads, point);
     const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));

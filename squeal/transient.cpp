@@ -1,21 +1,111 @@
 #include "squeal/transient.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <numbers>
 
 #include "common/error.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"
-#include "squeal/oscillator_flow.hpp"
+#include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
+#include "squeal/speed_program.hpp"
 #include "squeal/stability.hpp"
-#include "squeal/transient_plan.hpp"
+#include "squeal/transient_steps.hpp"
 
 namespace chladni::squeal {
 namespace {
+
+using std::numbers::pi;
+
+constexpr double steps_max = 1e10;
+/// Periods of the lowest mode for one point of the envelope, and in the tail.
+constexpr int periods_per_window = 4;
+constexpr int periods_in_tail = 100;
+constexpr std::int64_t history_points = 20000;
+/// Pad displacement up to which growth is linear, relative to the compression of the pads at rest:
+/// the first nonlinear term is quadratic and reaches about 1 % of the rate at 1.
+constexpr double linear_part = 0.05;
+/// Initial displacement for a growth rate, relative to the same.
+constexpr double growth_start = 1e-4;
+
+void check(const Disc& disc, const SquealOptions& options, const TransientCase& run)
+{
+  if (options.pads.empty()) throw Error("transient: no pads");
+  if (!(run.speed > 0.0))
+    throw Error(
+        fmt::format("transient: speed_rad_s = {}; it must be > 0, since friction at rest has "
+                    "no direction",
+                    run.speed));
+  const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
+                                 [](const SpeedPoint& point) { return !(point.speed > 0.0); });
+  if (stops && !(options.slip_regularisation > 0.0))
+    throw Error(
+        "transient: the speed program comes to rest, where friction has no direction; give "
+        "friction "
+        "a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
+  if (!(run.duration > 0.0))
+    throw Error(fmt::format("transient: duration_s = {}; it must be > 0", run.duration));
+  if (!(run.initial_pad_displacement > 0.0))
+    throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
+                            run.initial_pad_displacement));
+  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
+    throw Error(fmt::format(
+        "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
+        "{}, better leave steps_per_period out",
+        *run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
+}
+
+/// How finely a transient is sampled.
+struct Sampling {
+  double highest;  ///< frequency, rad/s
+  int count;       ///< samples of one period of it
+};
+
+/// Samples of one period of the highest mode.
+int sampling_of(const IntegratorChoice& choice)
+{
+  const bool fixed =
+      choice.kind == IntegratorKind::splitting || choice.kind == IntegratorKind::exponential;
+  return fixed ? choice.steps_per_period : samples_per_period;
+}
+
+/// Of the modes, and of light plates beside the springs of their linings, from the symmetric part
+/// of the stiffness in one position of the disc; rad/s.
+double highest_frequency(const Disc& disc, const SquealOptions& options, double speed)
+{
+  const ContactKick kick(disc, options, speed);
+  const FreeBrake brake = free_brake(disc, kick.pads(), speed);
+  const double highest = brake.omega.maxCoeff();
+  if (kick.pads().n_modes() == 0) return highest;
+  const Eigen::MatrixXd K =
+      brake.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
+                                                             Eigen::EigenvaluesOnly);
+  return std::max(highest, std::sqrt(modes.eigenvalues().maxCoeff()));
+}
+
+RecordingPlan plan_of(const Disc& disc, const TransientCase& run, const Sampling& sampling)
+{
+  const double step = 2.0 * pi / (sampling.highest * sampling.count);
+  const double n_steps = std::ceil(run.duration / step);
+  if (!(n_steps < steps_max))
+    throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
+                            n_steps, steps_max));
+  const double steps_of_period = 2.0 * pi / (disc.omega.minCoeff() * step);
+  const auto n = static_cast<std::int64_t>(n_steps);
+  const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
+  return {.step = step,
+          .n_steps = n,
+          .window = static_cast<std::int64_t>(periods_per_window * steps_of_period),
+          .every = std::max<std::int64_t>(1, n / history_points),
+          .n_tail = std::min(n, tail)};
+}
 
 /// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
 /// in the inertial frame, i.e. a' = 0, p = Omega D a.
@@ -43,58 +133,69 @@ ModalState initial_state(const Disc& disc, const std::optional<InertialDisc>& in
           Eigen::VectorXd::Zero(disc.n_modes())};
 }
 
-/// Modes of the disc, then those of the pads, without contact.
-struct FreeBrake {
-  Eigen::VectorXd omega;  ///< rad/s
-  Eigen::MatrixXd C;      ///< 1/s
-};
-
-FreeBrake free_brake(const Disc& disc, const PadSystem& pads)
-{
-  const Eigen::Index n = disc.n_modes(), m = pads.n_modes();
-  FreeBrake brake{Eigen::VectorXd(n + m), Eigen::MatrixXd::Zero(n + m, n + m)};
-  brake.omega << disc.omega, pads.omega;
-  brake.C.topLeftCorner(n, n) = disc.C;
-  brake.C.bottomRightCorner(m, m) = pads.C;
-  return brake;
-}
-
-/// Beside the springs between disc and plates a light plate is fast: the highest frequency is then
-/// that of the symmetric part of the stiffness, at one position of the disc.
-FrequencyRange frequencies_of(const Disc& disc, const FreeBrake& free, const ContactKick& kick)
-{
-  double highest = free.omega.maxCoeff();
-  if (kick.pads().n_modes() > 0) {
-    const Eigen::MatrixXd K =
-        free.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
-                                                               Eigen::EigenvaluesOnly);
-    highest = std::max(highest, std::sqrt(modes.eigenvalues().maxCoeff()));
-  }
-  return {.lowest = disc.omega.minCoeff(), .highest = highest};
-}
-
-ModalState with_pads_at_rest(ModalState x, Eigen::Index n)
-{
-  x.q.conservativeResizeLike(Eigen::VectorXd::Zero(n));
-  x.v.conservativeResizeLike(Eigen::VectorXd::Zero(n));
-  return x;
-}
-
 double rest_compression(const SquealOptions& options)
 {
   return options.pads.front().preload / options.pads.front().stiffness;
 }
 
-/// q of the tail, column by column, in the inertial frame but along the modes of the body.
-Eigen::MatrixXd in_inertial_frame(const InertialDisc& inertial, const Eigen::MatrixXd& q,
-                                  const std::vector<double>& t, double speed)
+/// q in the inertial frame but along the modes of the body.
+Eigen::VectorXd in_inertial_frame(const InertialDisc& inertial, const Eigen::VectorXd& q,
+                                  double angle)
 {
-  Eigen::MatrixXd a(q.rows(), static_cast<Eigen::Index>(t.size()));
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    a.col(j) = inertial.R * turned(inertial, inertial.R.transpose() * q.col(j),
-                                   speed * t[static_cast<std::size_t>(j)]);
-  return a;
+  return inertial.R * turned(inertial, inertial.R.transpose() * q, angle);
+}
+
+/// The states that a run keeps, by sample.
+class StateRecorder {
+ public:
+  StateRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
+                const RecordingPlan& plan, const TransientCase& run)
+      : omega_(disc.omega), inertial_(inertial), plan_(plan), run_(run)
+  {
+    const auto n_kept = static_cast<Eigen::Index>((plan.n_steps - 1) / plan.every + 1);
+    modes_.q.resize(disc.n_modes(), n_kept);
+    modes_.v.resize(disc.n_modes(), n_kept);
+    if (inertial) tail_a_.resize(disc.n_modes(), static_cast<Eigen::Index>(plan.n_tail));
+  }
+
+  void add(std::int64_t i, double t, const TransientSteps& steps)
+  {
+    const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
+    if (!in_tail && i % plan_.every != 0) return;
+    const ModalState x = steps.state();
+    if (in_tail)
+      tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, turn_at(run_, t).angle);
+    if (i % plan_.every != 0) return;
+    const auto column = static_cast<Eigen::Index>(modes_.energy.size());
+    modes_.q.col(column) = x.q;
+    modes_.v.col(column) = x.v;
+    modes_.energy.push_back(0.5 * (x.v.squaredNorm() + omega_.cwiseProduct(x.q).squaredNorm()));
+  }
+
+  /// What was collected.
+  ModalHistory modes() const
+  {
+    const auto n = static_cast<Eigen::Index>(modes_.energy.size());
+    return {modes_.q.leftCols(n), modes_.v.leftCols(n), modes_.energy};
+  }
+  Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
+
+ private:
+  Eigen::VectorXd omega_;
+  const std::optional<InertialDisc>& inertial_;
+  RecordingPlan plan_;
+  const TransientCase& run_;
+  ModalHistory modes_;
+  Eigen::MatrixXd tail_a_;
+  Eigen::Index n_tail_ = 0;
+};
+
+bool is_finite(const std::vector<ContactResult<double>>& contacts)
+{
+  return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
+    return std::isfinite(pair.upper.z) && std::isfinite(pair.upper.z_dot) &&
+           std::isfinite(pair.upper.N) && std::isfinite(pair.lower.N);
+  });
 }
 
 }  // namespace
@@ -102,46 +203,58 @@ Eigen::MatrixXd in_inertial_frame(const InertialDisc& inertial, const Eigen::Mat
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                     const Progress& progress)
 {
-  if (options.pads.empty()) throw Error("transient: no pads");
+  check(disc, options, run);
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
-  ContactKick kick(disc, options, run.speed);
-  const FreeBrake free = free_brake(disc, kick.pads());
-  const RecordingPlan plan = recording_plan(run, frequencies_of(disc, free, kick));
-  const OscillatorFlow whole_step(free.omega, free.C, plan.step);
+  const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
+  const RecordingPlan plan =
+      plan_of(disc, run, {highest_frequency(disc, options, run.speed), sampling_of(choice)});
+  const auto steps =
+      transient_steps(disc, options, run, choice, plan.step,
+                      initial_state(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
-  Eigen::MatrixXd tail_q(disc.n_modes(), plan.n_tail);
-
-  ModalState x = with_pads_at_rest(initial_state(disc, inertial, run, options.pads.front().angle),
-                                   free.omega.size());
-  OscillatorFlow(free.omega, free.C, 0.5 * plan.step).advance(x);
+  StateRecorder states(disc, inertial, plan, run);
   bool finite = true;
   for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
-    // The two half flows between two kicks are one; all results are those of the kick, which
-    // the splitting leaves symmetric in time.
     const double t = (double(i) + 0.5) * plan.step;
-    if (recorder.in_tail(i))
-      tail_q.col(i - (plan.n_steps - plan.n_tail)) = x.q.head(disc.n_modes());
-    const auto& contacts = kick.apply(x, t, plan.step);
-    finite = x.v.allFinite();
-    if (finite) recorder.add(i, t, contacts);
-    whole_step.advance(x);
+    const auto& contacts = steps->next();
+    finite = is_finite(contacts);
+    if (finite) {
+      recorder.add(i, t, contacts);
+      states.add(i, t, *steps);
+    }
     if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
   }
 
   Transient result = recorder.transient();
   result.speed = run.speed;
   result.finished = finite;
-  result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
-  if (inertial) result.tail_a = in_inertial_frame(*inertial, tail_q, result.tail.t, run.speed);
+  result.integrator = name_of(choice.kind);
+  result.integrator_reason = choice.reason;
+  result.n_steps = steps->n_steps();
+  result.n_contact_evaluations = steps->n_contact_evaluations();
+  result.events = steps->events();
+  if (run.speed_program.empty())
+    result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
+  else
+    result.speed = turn_at(run, run.duration).speed;
+  result.modes = states.modes();
+  result.tail_a = states.tail_a();
   return result;
 }
 
 Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration)
 {
-  const Transient run =
-      transient(disc, options, growth_case(speed, duration, rest_compression(options)));
-  Growth result{speed, run.envelope, required_growth_rate(run, duration, disc.omega.minCoeff()),
-                std::nullopt};
+  const double compression = rest_compression(options);
+  const Transient run = transient(disc, options,
+                                  {.speed = speed,
+                                   .duration = duration,
+                                   .initial_pad_displacement = growth_start * compression});
+  if (!run.growth_rate)
+    throw Error(
+        fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "
+                    "least {:.2g} s",
+                    duration, speed, 200.0 * pi / disc.omega.minCoeff()));
+  Growth result{speed, run.envelope, *run.growth_rate, std::nullopt};
   if (const auto inertial = find_inertial_disc(disc))
     result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
   return result;

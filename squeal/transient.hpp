@@ -11,14 +11,16 @@ namespace chladni::squeal {
 /// Called now and then with the fraction done, 0 to 1.
 using Progress = std::function<void(double)>;
 
-/// The motion after a small displacement of the first pads, at rest in the inertial frame.
-/// Strang splitting in the rotating frame: exact flow of the damped modes over half a step, contact
-/// kick by the explicit midpoint rule, exact flow over half a step. Second order; without contact
-/// it is exact. An axisymmetric disc starts in its first pair of modes with a_cos = a_sin, the
-/// crest of the cosine mode under the first pad; any other disc starts with the smallest modal
-/// displacement that moves the first pad so far, at rest in the disc.
+/// Fewest steps for one period of the highest mode that may be asked for.
+inline constexpr int steps_per_period_min = 8;
+
+/// The motion after a small displacement of the first pads, at rest in the inertial frame, by the
+/// integrator of the scene or the one that integrator_choice.hpp chooses. An axisymmetric disc
+/// starts in its first pair of modes with a_cos = a_sin, the crest of the cosine mode under the
+/// first pad; any other disc starts with the smallest modal displacement that moves the first pad
+/// so far, at rest in the disc. A motion that diverges ends early, with what was recorded so far.
 /// @throws chladni::Error for a speed of zero, a duration or an initial displacement that is not
-///         positive, and too few steps for the highest mode.
+///         positive, too few steps for the highest mode, and from `choose_integrator`.
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                     const Progress& progress = {});
 

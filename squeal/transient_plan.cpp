@@ -13,7 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int steps_per_period_min = 8;
+constexpr int steps_min = 8;
+constexpr int steps_default = 40;
 constexpr double steps_max = 1e10;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
 constexpr int periods_per_window = 4;
@@ -34,11 +35,11 @@ void check(const TransientCase& run, double omega_highest)
   if (!(run.initial_pad_displacement > 0.0))
     throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
                             run.initial_pad_displacement));
-  if (run.steps_per_period < steps_per_period_min)
-    throw Error(
-        fmt::format("transient: {} steps per period do not resolve the highest mode "
-                    "({:.0f} Hz); take at least {}, better 40",
-                    run.steps_per_period, omega_highest / (2.0 * pi), steps_per_period_min));
+  if (run.steps_per_period.value_or(steps_default) < steps_min)
+    throw Error(fmt::format(
+        "transient: {} steps per period do not resolve the highest mode "
+        "({:.0f} Hz); take at least {}, better 40",
+        run.steps_per_period.value_or(steps_default), omega_highest / (2.0 * pi), steps_min));
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ void check(const TransientCase& run, double omega_highest)
 RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega)
 {
   check(run, omega.highest);
-  const double step = 2.0 * pi / (omega.highest * run.steps_per_period);
+  const double step = 2.0 * pi / (omega.highest * run.steps_per_period.value_or(steps_default));
   const double n_steps = std::ceil(run.duration / step);
   if (!(n_steps < steps_max))
     throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,

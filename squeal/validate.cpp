@@ -10,13 +10,14 @@
 #include <string_view>
 
 #include "common/error.hpp"
+#include "squeal/transient.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 8> analyses{
-    "eigenvalues",        "critical-speed",     "growth",       "transient", "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
+constexpr std::array<std::string_view, 9> analyses{
+    "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "mode-sensitivity"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -46,6 +47,10 @@ void validate_pads(const SquealOptions& options)
     require_positive(pad.stiffness, fmt::format("pads[{}].stiffness", i));
     require_not_negative(pad.damping, fmt::format("pads[{}].damping", i));
     require_positive(pad.preload, fmt::format("pads[{}].preload", i));
+    require_not_negative(pad.cubic_stiffness, fmt::format("pads[{}].cubic_stiffness", i));
+    if (pad.grid && pad.grid->points < 1)
+      throw Error(fmt::format("[squeal] pads[{}].grid.points = {}; it must be 1 or more", i,
+                              pad.grid->points));
   }
 }
 
@@ -77,9 +82,13 @@ void validate_transient(const SquealOptions& options)
   require_positive(options.transient->duration, "transient.duration_s");
   require_positive(options.transient->initial_pad_displacement,
                    "transient.initial_pad_displacement");
-  if (options.transient->steps_per_period < 8)
-    throw Error(fmt::format("[squeal] transient.steps_per_period = {}; it must be 8 or more",
-                            options.transient->steps_per_period));
+  require_positive(options.transient->growth_error, "transient.growth_error");
+  const std::optional<int>& steps = options.transient->steps_per_period;
+  if (steps && *steps < steps_per_period_min)
+    throw Error(fmt::format(
+        "[squeal] transient.steps_per_period = {}; it must be {} or more to resolve the highest "
+        "mode",
+        *steps, steps_per_period_min));
 }
 
 void validate_growth(const SquealOptions& options)
@@ -123,6 +132,9 @@ void validate(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
   require_not_negative(options.friction, "friction");
+  require_not_negative(options.friction_rise, "friction.static minus friction.kinetic");
+  require_positive(options.friction_decay_speed, "friction.decay_speed");
+  require_not_negative(options.slip_regularisation, "friction.regularisation");
   validate_modes(options.modes);
   validate_pads(options);
   for (const std::string& analysis : options.analyses)
@@ -130,7 +142,8 @@ void validate(const SquealOptions& options)
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
                               fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
-      asks_for(options, "stability-map") || asks_for(options, "limit-cycle-branch"))
+      asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
+      asks_for(options, "limit-cycle-branch"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))
     validate_transient(options);

@@ -11,8 +11,8 @@ namespace {
 using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
-    "eigenvalues",        "critical-speed",     "growth",       "transient", "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
+    "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "mode-sensitivity"};
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {

@@ -161,7 +161,8 @@ TEST(Scene, HoldsTheSquealStudyInRadians)
   ASSERT_TRUE(scene.squeal->growth);
   EXPECT_EQ(scene.squeal->growth->speeds, (std::vector<double>{12.0, 13.0}));
   ASSERT_TRUE(scene.squeal->transient);
-  EXPECT_EQ(scene.squeal->transient->steps_per_period, 40);
+  EXPECT_EQ(scene.squeal->transient->steps_per_period, std::nullopt);
+  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::automatic);
 }
 
 TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
@@ -206,7 +207,9 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   text = replaced(text, "{ modes = 40 }", "{ list = [7, 8] }");
   text = replaced(text, "{ type = \"none\" }", "{ type = \"modal\", ratio = 0.001 }");
   text = replaced(text, "\"nodal-diameters 3\"", "[1, 2]");
-  text = replaced(text, "7e-8 }", "7e-8, steps_per_period = 80 }");
+  text = replaced(text, "7e-8 }",
+                  "7e-8, steps_per_period = 80, "
+                  "integrator = \"dormand-prince\", growth_error_1_s = 1e-4 }");
   text = replaced(text, "contact = \"bilateral\"\n", "");
   const Scene scene = parse_scene(text, "scene.toml");
   EXPECT_EQ(scene.name, "rotor_1");
@@ -218,6 +221,8 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
   EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));
   EXPECT_EQ(scene.squeal->transient->steps_per_period, 80);
+  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::dormand_prince);
+  EXPECT_EQ(scene.squeal->transient->growth_error, 1e-4);
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
 }
 
@@ -364,6 +369,27 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
                                 replaced(plain, "preload = 2000.0",
                                          "preload = 2000.0, body = { mass = 1.0 }")))
                   .ends_with("about_radial, about_tangential or about_axial"));
+}
+
+TEST(Scene, ReadsASpeedProgramThatBeginsWithTheSpeedOfTheTransient)
+{
+  const auto with = [](const std::string& points) {
+    return replaced(disc, "initial_pad_displacement = 7e-8",
+                    "initial_pad_displacement = 7e-8, speed_program = " + points);
+  };
+  const Scene scene = parse_scene(
+      with("[{ t_s = 1.0, speed_rad_s = 19.0 }, { t_s = 3.0, speed_rad_s = 0.0 }]"), "scene.toml");
+  const auto& program = scene.squeal->transient->speed_program;
+  ASSERT_EQ(program.size(), 3u);
+  EXPECT_EQ(program[0].time, 0.0);
+  EXPECT_EQ(program[0].speed, 19.0);
+  EXPECT_EQ(program[2].speed, 0.0);
+  EXPECT_EQ(error_of(with("[{ t_s = 1.0, speed_rad_s = 5.0 }, { t_s = 1.0, speed_rad_s = 0.0 }]")),
+            "scene.toml:41: squeal.transient.speed_program[2].t_s = 1: must be > 1 (s)");
+  EXPECT_EQ(error_of(with("[{ t_s = 1.0, speed_rad_s = -5.0 }]")),
+            "scene.toml:41: squeal.transient.speed_program.speed_rad_s = -5: must be >= 0 (rad/s)");
+  EXPECT_EQ(error_of(with("[]")),
+            "scene.toml:41: squeal.transient.speed_program = []: must hold at least one point");
 }
 
 TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)

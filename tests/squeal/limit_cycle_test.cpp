@@ -23,7 +23,8 @@ TransientCase reference_run(double duration = 7.7, int steps_per_period = 40)
   return {.speed = 6.0 * pi,
           .duration = duration,
           .initial_pad_displacement = 6.8e-8,
-          .steps_per_period = steps_per_period};
+          .steps_per_period = steps_per_period,
+          .integrator = IntegratorKind::splitting};
 }
 
 LimitCycle cycle_of(ContactLaw law, const TransientCase& run)

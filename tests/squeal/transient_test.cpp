@@ -23,7 +23,10 @@ Disc disc_of(const std::vector<PlatePair>& pairs)
 
 TransientCase short_run(double duration = 0.05)
 {
-  return {.speed = 6.0 * pi, .duration = duration, .initial_pad_displacement = 1e-5};
+  return {.speed = 6.0 * pi,
+          .duration = duration,
+          .initial_pad_displacement = 1e-5,
+          .steps_per_period = 40};
 }
 
 /// Strang steps of a disc with two pads, in whole steps; a state between two steps is exact in

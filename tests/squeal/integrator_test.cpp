@@ -1,0 +1,406 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+#include "kirchhoff_modes.hpp"
+#include "squeal/dormand_prince.hpp"
+#include "squeal/generalised_alpha.hpp"
+#include "squeal/inertial_frame.hpp"
+#include "squeal/integrator_choice.hpp"
+#include "squeal/limit_cycle.hpp"
+#include "squeal/oscillator_flow.hpp"
+#include "squeal/rotating_disc.hpp"
+#include "squeal/sliding_disc.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/transient.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+constexpr IntegratorKind all_kinds[] = {IntegratorKind::splitting, IntegratorKind::exponential,
+                                        IntegratorKind::dormand_prince,
+                                        IntegratorKind::generalised_alpha};
+
+Disc disc_of(const std::vector<PlatePair>& pairs)
+{
+  return make_disc(analytic_body(pairs), "track", {});
+}
+
+/// x'' = -x above x = -c, and -stop x - (stop - 1) c below it: a mass that meets a stop. The motion
+/// is made of two circles, so that everything is known in closed form.
+class MassWithStop final : public Motion {
+ public:
+  MassWithStop(double c, double stop) : c_(c), stop_(stop), omega_(1), s_(1), f_(2)
+  {
+    omega_ << 1.0;
+  }
+  const Eigen::VectorXd& omega() const override { return omega_; }
+  const Eigen::VectorXd& rate(double, const Eigen::VectorXd& y) override
+  {
+    s_[0] = y[0] + c_;
+    f_ << y[1], -y[0] - (side_ < 0.0 ? (stop_ - 1.0) * (y[0] + c_) : 0.0);
+    return f_;
+  }
+  const Eigen::VectorXd& switches() const override { return s_; }
+  double side(Eigen::Index) const override { return side_; }
+  void set_side(Eigen::Index, double side) override { side_ = side; }
+  Tangent tangent(double, const Eigen::VectorXd&) override
+  {
+    return {Eigen::MatrixXd::Constant(1, 1, side_ < 0.0 ? -stop_ : -1.0),
+            Eigen::MatrixXd::Zero(1, 1)};
+  }
+
+ private:
+  double c_, stop_, side_ = 1.0;
+  Eigen::VectorXd omega_, s_, f_;
+};
+
+/// x'' = -sin x, without switches.
+class Pendulum final : public Motion {
+ public:
+  Pendulum() : omega_(Eigen::VectorXd::Ones(1)), f_(2) {}
+  const Eigen::VectorXd& omega() const override { return omega_; }
+  const Eigen::VectorXd& rate(double, const Eigen::VectorXd& y) override
+  {
+    f_ << y[1], -std::sin(y[0]);
+    return f_;
+  }
+  const Eigen::VectorXd& switches() const override { return none_; }
+  double side(Eigen::Index) const override { return 1.0; }
+  void set_side(Eigen::Index, double) override {}
+  Tangent tangent(double, const Eigen::VectorXd& y) override
+  {
+    return {Eigen::MatrixXd::Constant(1, 1, -std::cos(y[0])), Eigen::MatrixXd::Zero(1, 1)};
+  }
+
+ private:
+  Eigen::VectorXd omega_, f_, none_;
+};
+
+double pendulum_energy(const Eigen::VectorXd& y)
+{
+  return 0.5 * y[1] * y[1] - std::cos(y[0]);
+}
+
+TEST(DormandPrince, KeepsItsToleranceBetweenTheStepsToo)
+{
+  // The energy of a pendulum at times that no step knows; 40 s are about 25 steps, each of which
+  // may err by the tolerance, and the interpolation is one order lower than the step.
+  for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
+    Pendulum motion;
+    const Eigen::Vector2d start(2.0, 0.0);
+    DormandPrince integrator(motion, 0.0, start, {tolerance, 10.0, 0.1});
+    double largest = 0.0;
+    for (double t = 0.05; t < 40.0; t += 0.0517)
+      largest =
+          std::max(largest, std::abs(pendulum_energy(integrator.at(t)) - pendulum_energy(start)));
+    EXPECT_LT(largest, 100.0 * tolerance) << tolerance;
+    EXPECT_GT(integrator.cost().n_steps, 5);
+  }
+}
+
+TEST(DormandPrince, EndsAStepWhereASwitchingFunctionIsZero)
+{
+  // From x = 2 at rest: cos t reaches -1 / 2 at t = 2 pi / 3, where x' = -sqrt(3).
+  MassWithStop motion(1.0, 100.0);
+  DormandPrince integrator(motion, 0.0, Eigen::Vector2d(2.0, 0.0), {1e-11, 1.0, 0.1});
+  // Below the stop x = -0.99 + A sin(10 t + phi) goes on from (-1, -sqrt 3) until it is back at -1,
+  // and by symmetry the rest is the way back: period 2 (2 pi / 3 + half the time in contact).
+  const double phase = std::atan2(0.01, std::sqrt(3.0) / 10.0);
+  const double contact = (pi - 2.0 * phase) / 10.0;
+  const double period = 4.0 * pi / 3.0 + contact;
+  const Eigen::VectorXd end = integrator.at(5.0 * period);
+  EXPECT_NEAR(end[0], 2.0,
+              1e-9);  // about 150 steps of 1e-11, times 100 of the stiffness at the stop
+  EXPECT_NEAR(end[1], 0.0, 1e-8);
+  ASSERT_EQ(integrator.events().size(), 10u);
+  EXPECT_NEAR(integrator.events()[0].t, 2.0 * pi / 3.0, 1e-10);
+  EXPECT_EQ(integrator.events()[0].side, -1.0);
+  EXPECT_NEAR(integrator.events()[1].t, 2.0 * pi / 3.0 + contact, 1e-10);
+  EXPECT_EQ(integrator.events()[1].side, 1.0);
+}
+
+TEST(DormandPrince, SeesAPadThatLeavesAndReturnsWithinOneStep)
+{
+  // -cos t is below -0.9995 for 0.063 about t = 0 mod 2 pi; the steps are about 0.6.
+  MassWithStop motion(0.9995, 1.5);
+  DormandPrince integrator(motion, -pi, Eigen::Vector2d(1.0, 0.0), {1e-6, 1.0, 0.6});
+  integrator.at(5.0 * pi);
+  EXPECT_EQ(integrator.events().size(), 6u);
+  EXPECT_LT(integrator.cost().n_steps, 60);
+}
+
+TEST(GeneralisedAlpha, IsOfSecondOrder)
+{
+  const auto error = [](double step) {
+    Pendulum motion, reference;
+    const Eigen::Vector2d start(1.5, 0.0);
+    // A tolerance that never speaks: the largest step is taken throughout.
+    GeneralisedAlpha integrator(motion, 0.0, start, {1.0, step, step});
+    DormandPrince exact(reference, 0.0, start, {1e-13, 1.0, 0.1});
+    return (integrator.at(3.0) - exact.at(3.0)).norm();
+  };
+  EXPECT_NEAR(std::log2(error(0.03) / error(0.015)), 2.0, 0.05);
+}
+
+TEST(GeneralisedAlpha, ChoosesItsStepsByTheTolerance)
+{
+  // An error of second order in the step is of order 2/3 in the tolerance of a step.
+  const auto error = [](double tolerance) {
+    Pendulum motion, reference;
+    const Eigen::Vector2d start(1.5, 0.0);
+    GeneralisedAlpha integrator(motion, 0.0, start, {tolerance, 1.0, 0.01});
+    DormandPrince exact(reference, 0.0, start, {1e-13, 1.0, 0.1});
+    return (integrator.at(30.0) - exact.at(30.0)).norm();
+  };
+  const double ratio = error(1e-4) / error(1e-7);
+  EXPECT_GT(ratio, 30.0);
+  EXPECT_LT(ratio, 300.0);
+}
+
+TEST(GeneralisedAlpha, DampsOnlyWithASpectralRadiusBelowOne)
+{
+  // x'' = -x at 8 steps for a period: with radius 1 the energy stays to the rounding and the Newton
+  // error of 2000 steps, with 0.5 it is lost.
+  const auto energy_after = [](double radius) {
+    MassWithStop motion(1e3, 1.0);
+    const Eigen::Vector2d start(1.0, 0.0);
+    GeneralisedAlpha integrator(motion, 0.0, start, {1.0, 0.25 * pi, 0.25 * pi}, radius);
+    const double end = 2000 * 0.25 * pi;
+    return integrator.at(end).squaredNorm();
+  };
+  EXPECT_NEAR(energy_after(1.0), 1.0, 1e-11);
+  EXPECT_LT(energy_after(0.5), 0.1);
+}
+
+TEST(Integrator, OfAnyKindGrowsAsTheEigenvaluesSay)
+{
+  // growth_error is what each of them promises; the fit of the envelope adds less than 1e-4. Just
+  // above the critical speed the growth is 0.0165 1/s, at 6 pi it is 2.69 1/s.
+  const Disc disc = disc_of({kirchhoff_3()});
+  for (const IntegratorKind kind : all_kinds)
+    for (const double speed : {4.28 * pi, 6.0 * pi}) {
+      const TransientCase run{
+          .speed = speed, .duration = 2.0, .initial_pad_displacement = 1e-8, .integrator = kind};
+      const Transient result = transient(disc, reference_options(), run);
+      const double expected =
+          least_stable_eigenvalue(inertial_disc(disc), reference_options(), speed).real();
+      ASSERT_TRUE(result.growth_rate) << name_of(kind);
+      EXPECT_NEAR(*result.growth_rate, expected, run.growth_error + 1e-4) << name_of(kind);
+      EXPECT_EQ(result.integrator, name_of(kind));
+    }
+}
+
+TEST(Integrator, OfAnyKindReachesTheSameLimitCycle)
+{
+  // Reference values of SQUEAL at 6 pi for 1672.13 Hz: frequency 1696.8533 Hz and pad velocity
+  // 6.727 m/s (bilateral), 1691.1221 Hz and 12.169 m/s (unilateral).
+  const Disc disc = disc_of({kirchhoff_3(1672.13)});
+  struct Expected {
+    ContactLaw law;
+    double f_Hz, velocity, start, duration;
+  };
+  for (const Expected& e : {Expected{ContactLaw::bilateral, 1696.8533, 6.727, 6e-4, 1.6},
+                            Expected{ContactLaw::unilateral, 1691.1221, 12.169, 1.1e-3, 2.0}})
+    for (const IntegratorKind kind : all_kinds) {
+      const Transient run = transient(
+          disc, reference_options(e.law),
+          {.speed = 6.0 * pi,
+           .duration = e.duration,
+           .initial_pad_displacement = e.start,
+           .steps_per_period =
+               kind == IntegratorKind::generalised_alpha ? std::optional(120) : std::nullopt,
+           .integrator = kind});
+      const LimitCycle cycle = limit_cycle(disc, run);
+      // 120 steps of the trapezoidal rule lower a frequency by (2 pi / 120)^2 / 12 = 2.3e-4 of it.
+      const double f_error = kind == IntegratorKind::generalised_alpha ? 3e-4 : 1e-5;
+      EXPECT_NEAR(cycle.frequency_Hz, e.f_Hz, f_error * e.f_Hz) << name_of(kind);
+      // The motion has settled to 1e-3 by then (multiplier 0.998 of a period).
+      EXPECT_NEAR(cycle.pad_velocity, e.velocity, 3e-3 * e.velocity) << name_of(kind);
+    }
+}
+
+/// A state with contact loss within the next period.
+ModalState large_motion(const Disc& disc)
+{
+  return {Eigen::VectorXd::Constant(disc.n_modes(), 4e-4),
+          Eigen::VectorXd::Constant(disc.n_modes(), 4.0)};
+}
+
+/// (diag(omega) q, q') in the rotating frame after `time`, by the inertial description.
+Eigen::VectorXd by_inertial_frame(const Disc& disc, const SquealOptions& options, double speed,
+                                  double time)
+{
+  const InertialDisc inertial = inertial_disc(disc);
+  SlidingDisc motion(inertial, options, speed);
+  const ModalState start = large_motion(disc);
+  const Eigen::Index n = disc.n_modes();
+  Eigen::VectorXd x(2 * n);
+  x << inertial.omega.cwiseProduct(inertial.R.transpose() * start.q),
+      inertial.R.transpose() * start.v;
+  const int n_steps = static_cast<int>(std::ceil(40.0 * time * disc.omega.maxCoeff() / (2.0 * pi)));
+  const Eigen::VectorXd end = motion.advance(x, time, n_steps);
+  Eigen::VectorXd y(2 * n);
+  const double angle = -speed * time;
+  y << disc.omega.cwiseProduct(inertial.R *
+                               turned(inertial, end.head(n).cwiseQuotient(inertial.omega), angle)),
+      inertial.R * turned(inertial, end.tail(n), angle);
+  return y;
+}
+
+TEST(RotatingDisc, MovesAsTheInertialDescriptionSays)
+{
+  // Two independent descriptions, 20 periods with contact loss: 8 significant digits of a motion
+  // that two integrators of order 8 know to about 1e-9.
+  for (const ContactLaw law :
+       {ContactLaw::unilateral, ContactLaw::bilateral, ContactLaw::signed_force}) {
+    const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+    const SquealOptions options = reference_options(law);
+    const double speed = 6.0 * pi, time = 20.0 / 1750.0;
+    const ModalState start = large_motion(disc);
+    Eigen::VectorXd y(8);
+    y << disc.omega.cwiseProduct(start.q), start.v;
+    RotatingDisc motion(disc, options, speed);
+    DormandPrince integrator(motion, 0.0, y, {1e-11, 1e-4, 1e-5});
+    const Eigen::VectorXd expected = by_inertial_frame(disc, options, speed, time);
+    EXPECT_LT((integrator.at(time) - expected).norm(), 1e-8 * expected.norm());
+    EXPECT_EQ(integrator.events().size() > 20, law != ContactLaw::signed_force);
+  }
+}
+
+TEST(RotatingDisc, HasTheTangentOfItsRate)
+{
+  // Central differences of 1e-6 relative: error 1e-9 of the largest entry.
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+  RotatingDisc motion(disc, reference_options(ContactLaw::unilateral), 6.0 * pi);
+  const ModalState at = large_motion(disc);
+  const Eigen::Index n = disc.n_modes();
+  Eigen::VectorXd y(2 * n);
+  y << disc.omega.cwiseProduct(at.q), at.v;
+  motion.take_sides(0.1, y);
+  const Motion::Tangent tangent = motion.tangent(0.1, y);
+  Eigen::MatrixXd by_y(n, 2 * n), expected(n, 2 * n);
+  for (Eigen::Index j = 0; j < 2 * n; ++j) {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(2 * n);
+    step[j] = 1e-6 * y.norm();
+    const Eigen::VectorXd after = motion.rate(0.1, y + step), before = motion.rate(0.1, y - step);
+    by_y.col(j) = (after - before).tail(n) / (2.0 * step[j]);
+  }
+  expected << tangent.by_q * disc.omega.cwiseInverse().asDiagonal(), tangent.by_v;
+  EXPECT_LT((by_y - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(Integrator, KeepsTheEnergyOfAFrictionlessDisc)
+{
+  // Seen from the inertial frame, pads without friction do no net work: H = |v|^2 / 2 + |omega q|^2
+  // / 2
+  // - Omega v' D q + sum over both planes of N_0 h (s - 1) + k (w^2 + h^2 (s - 1)^2 / 4) is
+  // constant. About 2500 steps with errors of 1e-14 that need not cancel.
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+  const InertialDisc inertial = inertial_disc(disc);
+  SquealOptions options = reference_options();
+  options.friction = 0.0;
+  const double speed = 200.0, h = options.thickness;
+  const PadPair& pad = options.pads[0];
+  const auto energy = [&](double t, const Eigen::VectorXd& y) {
+    const Eigen::VectorXd q = y.head(4).cwiseQuotient(disc.omega), v = y.tail(4);
+    const Shapes shapes = shapes_at(disc, pad.angle - speed * t);
+    const double w = shapes.W.dot(q), g_r = shapes.W_r.dot(q), g_t = shapes.W_t.dot(q);
+    const double s = std::sqrt(1.0 + g_r * g_r + g_t * g_t);
+    const Eigen::VectorXd a = inertial.R.transpose() * q, p = inertial.R.transpose() * v;
+    return 0.5 * y.squaredNorm() - speed * p.dot(inertial.D * a) + pad.preload * h * (s - 1.0) +
+           pad.stiffness * (w * w + 0.25 * h * h * (s - 1.0) * (s - 1.0));
+  };
+  RotatingDisc motion(disc, options, speed);
+  Eigen::VectorXd y(8);
+  const ModalState start = large_motion(disc);
+  y << disc.omega.cwiseProduct(start.q), start.v;
+  DormandPrince integrator(motion, 0.0, y, {1e-14, 1e-4, 1e-5});
+  const double before = energy(0.0, y);
+  double largest = 0.0;
+  for (double t = 1e-3; t < 0.05; t += 1e-3)
+    largest = std::max(largest, std::abs(energy(t, integrator.at(t)) - before));
+  EXPECT_LT(largest, 1e-11 * before);
+}
+
+TEST(Integrator, OfAnyKindEndsWhereTheMotionDiverges)
+{
+  auto body = analytic_body({kirchhoff_3()});
+  body.C = -4e4 * Eigen::Matrix2d::Identity();
+  const Disc disc = make_disc(body, "track", {});
+  for (const IntegratorKind kind : all_kinds) {
+    const Transient run = transient(
+        disc, reference_options(),
+        {.speed = 6.0 * pi, .duration = 1.0, .initial_pad_displacement = 1e-5, .integrator = kind});
+    EXPECT_FALSE(run.finished) << name_of(kind);
+    ASSERT_FALSE(run.history.t.empty()) << name_of(kind);
+    EXPECT_EQ(run.modes.energy.size(), run.history.t.size());
+    EXPECT_EQ(run.modes.q.cols(), static_cast<Eigen::Index>(run.history.t.size()));
+    for (const double v : run.history.pad_velocity) EXPECT_TRUE(std::isfinite(v));
+  }
+}
+
+TEST(IntegratorChoice, FollowsTheDiscAndTheErrorAllowed)
+{
+  const auto chosen = [](const std::vector<PlatePair>& pairs, double growth_error,
+                         double pad_damping) {
+    const Disc disc = disc_of(pairs);
+    SquealOptions options = reference_options();
+    options.pads[0].damping = pad_damping;
+    const TransientCase run{.speed = 6.0 * pi,
+                            .duration = 1.0,
+                            .initial_pad_displacement = 1e-6,
+                            .growth_error = growth_error};
+    return choose_integrator(disc, find_inertial_disc(disc), options, run);
+  };
+  PlatePair split = kirchhoff_3();
+  split.split = 0.05;
+  EXPECT_EQ(chosen({kirchhoff_3()}, 1e-3, 0.0).kind, IntegratorKind::exponential);
+  EXPECT_EQ(chosen({split}, 1e-3, 0.0).kind, IntegratorKind::splitting);
+  EXPECT_EQ(chosen({split}, 1e-7, 0.0).kind, IntegratorKind::dormand_prince);
+  EXPECT_EQ(chosen({kirchhoff_3()}, 1e-3, 1e6).kind, IntegratorKind::generalised_alpha);
+  EXPECT_FALSE(chosen({split}, 1e-3, 0.0).reason.empty());
+}
+
+TEST(IntegratorChoice, MeasuresTheErrorThatASplittingStepAdds)
+{
+  // Growth in a simulation with 12 steps for a period is as far from the exact one as the
+  // eigenvalues of the step say. The fit of the envelope adds less than 1e-4.
+  const Disc disc = disc_of({kirchhoff_3()});
+  const InertialDisc inertial = inertial_disc(disc);
+  const double speed = 6.0 * pi;
+  const auto predicted = [&](int steps) {
+    return growth_error_of(IntegratorKind::splitting, inertial, reference_options(), speed, steps);
+  };
+  const Transient run = transient(disc, reference_options(),
+                                  {.speed = speed,
+                                   .duration = 2.0,
+                                   .initial_pad_displacement = 1e-8,
+                                   .steps_per_period = 12,
+                                   .integrator = IntegratorKind::splitting});
+  const double exact = least_stable_eigenvalue(inertial, reference_options(), speed).real();
+  EXPECT_NEAR(std::abs(*run.growth_rate - exact), predicted(12), 1e-4);
+  EXPECT_GT(predicted(12), 5e-4);
+  EXPECT_NEAR(predicted(12) / predicted(24), 4.0, 0.3);
+}
+
+TEST(IntegratorChoice, RefusesTheExponentialIntegratorForADiscThatIsNotAxisymmetric)
+{
+  PlatePair split = kirchhoff_3();
+  split.split = 0.05;
+  EXPECT_THROW(transient(disc_of({split}), reference_options(),
+                         {.speed = 6.0 * pi,
+                          .duration = 0.1,
+                          .initial_pad_displacement = 1e-6,
+                          .integrator = IntegratorKind::exponential}),
+               Error);
+}
+
+}  // namespace
+}  // namespace chladni::squeal
