@@ -92,7 +92,10 @@ std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
           {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
           {"eta2", numbers_json(summary.reduced.certificate.eta2)},
           {"factor_wall_s", summary.factorization.wall_s},
-          {"factor_cpu_s", summary.factorization.cpu_s}};
+          {"factor_cpu_s", summary.factorization.cpu_s},
+          {"modes_residual", summary.modes_residual},
+          {"factor_operations", summary.factor.operations},
+          {"factor_entries", summary.factor.entries}};
 }
 
 Json numbers_json(const Eigen::VectorXd& values)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cli/broadcast_mesh.hpp"
@@ -56,6 +57,19 @@ Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned&
   return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 
+/// Memory of Psi and Phi, or of the eigen-solver's subspace where that is more.
+double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
+{
+  PetscInt n_s = 0;
+  petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
+  constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
+  const double n_modes = wanted.modes.value_or(0);
+  const double n_columns = std::max(static_cast<double>(blocks.masters.size()) + n_modes,
+                                    subspace_of_modes * n_modes);
+  constexpr double bytes_per_MiB = 1048576.0;
+  return 8.0 * static_cast<double>(n_s) * n_columns / bytes_per_MiB;
+}
+
 mbs_export::Picture picture_of(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
                                const Reduced& reduced)
 {
@@ -78,7 +92,9 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
   fe.system.K = {};  // its blocks are enough
   fe.system.M = {};
-  const auto K_ss = phases.run("factorization", [&] { return reduce::factorize(blocks.K.ss); });
+  const auto K_ss = phases.run("factorization", [&] {
+    return reduce::factorize(blocks.K.ss, basis_MiB(blocks, scene.reduce));
+  });
   const PhaseTime factorization = phases.times().back();
   Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
@@ -86,6 +102,11 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
   system.certificate = phases.run(
       "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  const double modes_residual = phases.run("error estimates", [&] {
+    return reduced.Q_CB.modes
+               ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
+               : 0.0;
+  });
   system.picture = phases.run("pictures", [&] { return picture_of(scene, fe, blocks, reduced); });
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),
@@ -98,7 +119,9 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
           .n_nodes = fe.mesh.n_nodes(),
           .n_masters = static_cast<int>(blocks.masters.size()),
           .n_modes = n_modes,
-          .factorization = factorization};
+          .factorization = factorization,
+          .factor = reduce::factor_size(K_ss.factor()),
+          .modes_residual = modes_residual};
 }
 
 }  // namespace chladni::cli

@@ -202,12 +202,18 @@ PetscErrorCode get_infog(Mat F, PetscInt index, PetscInt* value)
   return 0;
 }
 
+/// MUMPS gives a large number of entries in millions, with a minus.
+double n_entries(const MumpsFactor& factor)
+{
+  constexpr int entries_of_factor = 29;  // INFOG
+  const int entries = factor.info(entries_of_factor);
+  return entries < 0 ? -1e6 * entries : entries;
+}
+
 PetscErrorCode get_info(Mat F, MatInfoType, MatInfo* info)
 {
-  constexpr int entries_of_factor = 29;
-  const int entries = factor_of(F).info(entries_of_factor);
   *info = {};
-  info->nz_used = info->nz_allocated = entries < 0 ? -1e6 * entries : entries;
+  info->nz_used = info->nz_allocated = n_entries(factor_of(F));
   return 0;
 }
 
@@ -284,6 +290,14 @@ MumpsFactor* ours(Mat F)
 void set_budget(Mat F, double MiB)
 {
   if (MumpsFactor* factor = ours(F)) factor->budget_MiB = MiB;
+}
+
+FactorSize factor_size(Mat F)
+{
+  const MumpsFactor* factor = ours(F);
+  if (factor == nullptr) return {.operations = 0.0, .entries = 0.0};
+  constexpr int operations = 3;  // RINFOG
+  return {.operations = factor->real_info(operations), .entries = n_entries(*factor)};
 }
 
 double forecast_MiB(Mat F)
