@@ -9,12 +9,16 @@ using Cell = std::array<int, 4>;
 std::vector<Cell> lattice_cells(const mesh::ElementBlock& block, int step)
 {
   const int p = block.order;
+  std::vector<Cell> cells;
+  if (block.shape == mesh::Shape::line) {
+    for (int i = 0; i < p; i += step) cells.push_back({i, i + step, i + step, i + step});
+    return cells;
+  }
   const bool triangle = block.shape == mesh::Shape::triangle;
   // Lattice place of column i and row j; rows of a triangle grow shorter.
   const auto place = [&](int i, int j) {
     return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
   };
-  std::vector<Cell> cells;
   for (int j = 0; j < p; j += step) {
     for (int i = 0; i + (triangle ? j : 0) < p; i += step) {
       const int a = place(i, j), b = place(i + step, j), d = place(i, j + step);
@@ -62,11 +66,7 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, PictureChoice choice)
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
                                  const RowsOf& rows_of)
 {
-  std::vector<int> wanted;  // six DOFs of each node or of its reference
-  for (const int node : chosen.nodes) {
-    for (int c = 0; c < 6; ++c) wanted.push_back(6 * dofs.number[node] + c);
-  }
-  const Eigen::MatrixXd rows = rows_of(wanted);
+  const Eigen::MatrixXd rows = node_rows(chosen.nodes, dofs, rows_of);
   const auto n = static_cast<Eigen::Index>(chosen.nodes.size());
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
@@ -77,11 +77,6 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
     const auto& x = dofs.positions[static_cast<std::size_t>(node)];
     picture.positions.row(k) << x[0], x[1], x[2];
     picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * k);
-    if (!dofs.is_dependent(node)) continue;
-    const auto [a, b, c] = dofs.arm(node);
-    Eigen::Matrix3d R;  // theta x arm = R theta
-    R << 0.0, c, -b, -c, 0.0, a, b, -a, 0.0;
-    picture.transformation.middleRows<3>(3 * k) += R * rows.middleRows<3>(6 * k + 3);
   }
   return picture;
 }

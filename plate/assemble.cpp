@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "plate/directors.hpp"
-#include "plate/shell_element.hpp"
+#include "plate/point_elements.hpp"
+#include "plate/section_map.hpp"
 
 namespace chladni::plate {
 
@@ -38,43 +39,80 @@ std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> no
   return numbers;
 }
 
-/// Numbers of the neighbours of each owned node, in diagonal and off-diagonal block of the row.
+/// Entries of each scalar row, in diagonal and off-diagonal block.
 struct Preallocation {
-  std::vector<PetscInt> diagonal, off_diagonal;  ///< entries of each scalar row
+  std::vector<PetscInt> diagonal, off_diagonal;
 };
 
-Preallocation preallocation(const mesh::Mesh& mesh, const DofMap& dofs, int rank)
-{
-  const int first = dofs.range[rank];
-  const int last = dofs.range[rank + 1];
-  std::vector<std::vector<PetscInt>> neighbours(last - first);
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+/// Active numbers of the neighbours of each node that this rank owns.
+class Neighbours {
+ public:
+  Neighbours(const DofMap& dofs, int rank)
+      : dofs_(dofs), first_(dofs.range[rank]), lists_(dofs.range[rank + 1] - first_)
+  {}
+
+  /// All nodes of an element are neighbours.
+  void connect(std::span<const int> nodes)
+  {
+    const std::vector<PetscInt> numbers = active_numbers(dofs_, nodes);
     for (const PetscInt row : numbers) {
-      if (row < first || row >= last) continue;
-      auto& list = neighbours[row - first];
+      if (row < first_ || row >= first_ + std::ssize(lists_)) continue;
+      auto& list = lists_[row - first_];
       list.insert(list.end(), numbers.begin(), numbers.end());
     }
-  });
-  Preallocation rows;
-  for (auto& list : neighbours) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    const auto own = std::ranges::count_if(list, [&](int c) { return c >= first && c < last; });
-    rows.diagonal.insert(rows.diagonal.end(), 6, PetscInt(6 * own));
-    rows.off_diagonal.insert(rows.off_diagonal.end(), 6, PetscInt(6 * (std::ssize(list) - own)));
   }
-  return rows;
+
+  Preallocation preallocation()
+  {
+    const int n_c = dofs_.n_components();
+    const auto last = first_ + std::ssize(lists_);
+    Preallocation rows;
+    for (auto& list : lists_) {
+      std::ranges::sort(list);
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+      const auto own = std::ranges::count_if(list, [&](int c) { return c >= first_ && c < last; });
+      rows.diagonal.insert(rows.diagonal.end(), n_c, PetscInt(n_c * own));
+      rows.off_diagonal.insert(rows.off_diagonal.end(), n_c,
+                               PetscInt(n_c * (std::ssize(list) - own)));
+    }
+    return rows;
+  }
+
+ private:
+  const DofMap& dofs_;
+  PetscInt first_;
+  std::vector<std::vector<PetscInt>> lists_;
+};
+
+Preallocation preallocation(const mesh::Mesh& mesh, std::span<const PointElement> points,
+                            const DofMap& dofs, int rank)
+{
+  Neighbours neighbours(dofs, rank);
+  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
+    neighbours.connect(block.element_nodes(e));
+  });
+  for (const PointElement& point : points) neighbours.connect(point.nodes);
+  return neighbours.preallocation();
 }
 
-petsc::Matrix empty_matrix(const Preallocation& rows, MPI_Comm comm)
+/// Of C alone, whose few entries are those of the dampers.
+Preallocation preallocation(std::span<const PointElement> points, const DofMap& dofs, int rank)
+{
+  Neighbours neighbours(dofs, rank);
+  for (const PointElement& point : points) {
+    if (point.C.size() > 0) neighbours.connect(point.nodes);
+  }
+  return neighbours.preallocation();
+}
+
+petsc::Matrix empty_matrix(const Preallocation& rows, int block_size, MPI_Comm comm)
 {
   const auto n_rows = static_cast<PetscInt>(rows.diagonal.size());
   petsc::Matrix A;
   petsc::check(MatCreate(comm, A.put()));
   petsc::check(MatSetSizes(A, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE));
   petsc::check(MatSetType(A, MATAIJ));
-  petsc::check(MatSetBlockSize(A, 6));
+  petsc::check(MatSetBlockSize(A, block_size));
   petsc::check(MatSeqAIJSetPreallocation(A, 0, rows.diagonal.data()));
   petsc::check(MatMPIAIJSetPreallocation(A, 0, rows.diagonal.data(), 0, rows.off_diagonal.data()));
   petsc::check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
@@ -99,86 +137,98 @@ MatrixXd eliminate_dependents(MatrixXd A_e, const DofMap& dofs, std::span<const 
   return A_e;
 }
 
-/// Index into `sections` of each group of the mesh, -1 where there is none.
-std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections)
+/// Rows and columns of the components that the system has.
+MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
 {
-  std::vector<int> section(mesh.groups.size(), -1);
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    const mesh::Group& group = mesh::find_group(mesh, sections[s].group);
-    const auto index = static_cast<std::size_t>(&group - mesh.groups.data());
-    const auto in_group = [&](const mesh::ElementBlock& block) {
-      return std::ranges::count(block.group, static_cast<int>(index)) > 0;
-    };
-    if (std::ranges::none_of(mesh.blocks, in_group)) {
-      throw Error(
-          fmt::format("section of group \"{}\": the group has no shell elements", group.name));
+  if (dofs.n_components() == 6) return A_e;
+  std::vector<Index> kept;
+  for (Index node = 0; node < A_e.rows(); node += 6) {
+    for (const int c : dofs.components) kept.push_back(node + c);
+  }
+  return A_e(kept, kept);
+}
+
+/// Adds element matrices of 6 DOFs for each node: those rows that this rank owns.
+class Inserter {
+ public:
+  Inserter(const DofMap& dofs, int rank) : dofs_(dofs), rank_(rank) {}
+
+  void add(Mat A, const MatrixXd& A_e, std::span<const int> nodes) const
+  {
+    const std::vector<PetscInt> columns = active_numbers(dofs_, nodes);
+    std::vector<PetscInt> rows = columns;
+    for (PetscInt& row : rows) {
+      if (row < dofs_.range[rank_] || row >= dofs_.range[rank_ + 1]) row = -1;  // PETSc skips it
     }
-    section[index] = static_cast<int>(s);
+    const MatrixXd in_system = only_components(eliminate_dependents(A_e, dofs_, nodes), dofs_);
+    const auto n = static_cast<PetscInt>(columns.size());
+    // A_e is symmetric: its column-major storage is the row-major one that PETSc reads.
+    petsc::check(
+        MatSetValuesBlocked(A, n, rows.data(), n, columns.data(), in_system.data(), ADD_VALUES));
   }
-  return section;
-}
 
-const ShellSection& section_of(std::span<const ShellSection> sections,
-                               const std::vector<int>& of_group, const mesh::ElementBlock& block,
-                               int element)
-{
-  const int group = block.group[element];
-  if (group < 0 || of_group[group] < 0) {
-    throw Error(fmt::format("element {} has no section: name its physical group in a [[section]]",
-                            block.numbers[element]));
-  }
-  return sections[of_group[group]];
-}
+ private:
+  const DofMap& dofs_;
+  int rank_;
+};
 
-/// Checked before the parallel work, on the whole mesh: every rank throws or none.
-void check_sections(const mesh::Mesh& mesh, std::span<const ShellSection> sections,
-                    const std::vector<int>& of_group)
+void add_points(const System& system, std::span<const PointElement> points,
+                const Inserter& inserter)
 {
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    check_element_exists(block.shape, block.order);
-    for (int e = 0; e < block.n_elements(); ++e) section_of(sections, of_group, block, e);
+  for (const PointElement& point : points) {
+    if (point.K.size() > 0) inserter.add(system.K, point.K, point.nodes);
+    if (point.M.size() > 0) inserter.add(system.M, point.M, point.nodes);
+    if (point.C.size() > 0) inserter.add(system.C, point.C, point.nodes);
   }
 }
 
-void insert(Mat A, const MatrixXd& A_e, const std::vector<PetscInt>& rows,
-            const std::vector<PetscInt>& columns)
+System empty_system(const mesh::Mesh& mesh, std::span<const PointElement> points,
+                    const DofMap& dofs, MPI_Comm comm)
 {
-  const auto n = static_cast<PetscInt>(columns.size());
-  // A_e is symmetric: its column-major storage is the row-major one that PETSc reads.
-  petsc::check(MatSetValuesBlocked(A, n, rows.data(), n, columns.data(), A_e.data(), ADD_VALUES));
+  const int rank = petsc::rank(comm);
+  const int block_size = dofs.n_components();
+  const Preallocation rows = preallocation(mesh, points, dofs, rank);
+  System system{.K = empty_matrix(rows, block_size, comm),
+                .M = empty_matrix(rows, block_size, comm),
+                .C = {},
+                .dofs = {}};
+  const auto is_damper = [](const PointElement& point) { return point.C.size() > 0; };
+  if (std::ranges::any_of(points, is_damper)) {
+    system.C = empty_matrix(preallocation(points, dofs, rank), block_size, comm);
+  }
+  return system;
 }
 
 }  // namespace
 
-System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
-                MPI_Comm comm)
+System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
 {
   const int rank = petsc::rank(comm);
-  const std::vector<int> of_group = section_of_group(mesh, sections);
-  check_sections(mesh, sections, of_group);
+  const SectionMap sections = map_sections(mesh, structure);
+  const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const NodeVectors normals = mean_normals(mesh);
-  const Preallocation rows = preallocation(mesh, dofs, rank);
-  System system{.K = empty_matrix(rows, comm), .M = empty_matrix(rows, comm), .dofs = {}};
+  System system = empty_system(mesh, points, dofs, comm);
+  const Inserter inserter(dofs, rank);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    const ShellSection& section = section_of(sections, of_group, block, e);
     const ElementMatrices matrices =
-        shell_matrices(block.shape, block.order,
-                       shell_nodes(mesh, block, e, normals, section.thickness), section.material);
-    const std::span<const int> nodes = block.element_nodes(e);
-    const std::vector<PetscInt> columns = active_numbers(dofs, nodes);
-    std::vector<PetscInt> own = columns;
-    for (PetscInt& row : own) {
-      if (row < dofs.range[rank] || row >= dofs.range[rank + 1]) row = -1;  // PETSc skips it
-    }
-    insert(system.K, eliminate_dependents(matrices.K, dofs, nodes), own, columns);
-    insert(system.M, eliminate_dependents(matrices.M, dofs, nodes), own, columns);
+        element_matrices(mesh, block, e, {sections, structure, normals});
+    inserter.add(system.K, matrices.K, block.element_nodes(e));
+    inserter.add(system.M, matrices.M, block.element_nodes(e));
   });
-  for (const Mat A : {Mat(system.K), Mat(system.M)}) {
+  add_points(system, points, inserter);
+  for (const Mat A : {Mat(system.K), Mat(system.M), Mat(system.C)}) {
+    if (A == nullptr) continue;
     petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
     petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   }
   system.dofs = std::move(dofs);
   return system;
+}
+
+System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
+                MPI_Comm comm)
+{
+  return assemble(mesh, Structure{.shells = sections}, std::move(dofs), comm);
 }
 
 }  // namespace chladni::plate

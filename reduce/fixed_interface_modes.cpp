@@ -42,6 +42,14 @@ EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
   return pairs;
 }
 
+/// An ST resets its solver when it is destroyed; the factor of K_ss must outlive it.
+void take_back_solver(ST st)
+{
+  petsc::LinearSolver other;
+  petsc::check(KSPCreate(petsc::communicator(st), other.put()));
+  petsc::check(STSetKSP(st, other));
+}
+
 /// By SLEPc's Krylov-Schur, one column at a time.
 EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
@@ -63,7 +71,9 @@ EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
   petsc::check(STSetKSP(st, K_ss.solver()));  // the same matrix object: no second factorisation
   petsc::check(EPSSetFromOptions(eps));
   petsc::check(EPSSolve(eps));
-  return converged_pairs(eps, M_ss, n_modes);
+  EigenPairs pairs = converged_pairs(eps, M_ss, n_modes);
+  take_back_solver(st);
+  return pairs;
 }
 
 /// "block-lanczos" (default) or "krylov-schur".

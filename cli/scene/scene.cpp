@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -23,6 +24,13 @@ std::string read_name(const Table& root)
   return name;
 }
 
+/// A scene for `chladni static` or `chladni modes` alone needs no reduction.
+bool is_reduced(const Table& root, const Scene& scene)
+{
+  if (root.has("interface") || root.has("reduce")) return true;
+  return !scene.static_solution && !scene.natural_modes;
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& path)
@@ -33,14 +41,40 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.title = root.has("title") ? root.text("title") : scene.name;
   scene.text = text;
   scene.path = path;
+  scene.squeal_model = read_squeal_model(root);
+  if (scene.squeal_model) {
+    root.refuse_unknown_keys();
+    return scene;
+  }
   scene.mesh = read_mesh(root, path);
-  scene.sections = read_sections(root, scene.mesh);
+  scene.components = read_model_components(root);
+  const Sections sections = read_sections(root, scene.mesh);
+  scene.sections = sections.shells;
+  scene.beams = sections.beams;
+  for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
   scene.couplings = read_couplings(root, scene.mesh);
-  scene.interface_nodes = read_interface(root, scene);
-  scene.reduce = read_reduce(root);
-  scene.pictures = read_pictures(root);
+  scene.masses = read_masses(root, scene);
+  scene.springs = read_springs(root, scene);
+  scene.supports = read_supports(root, scene);
+  scene.loads = read_loads(root, scene);
+  scene.static_solution = read_static(root, scene);
+  scene.natural_modes = read_natural_modes(root);
+  if (is_reduced(root, scene)) {
+    scene.interface_nodes = read_interface(root, scene);
+    scene.reduce = read_reduce(root);
+    scene.resultants = read_resultants(root, scene);
+    scene.pictures = read_pictures(root);
+  }
   scene.body = read_body(root, scene.interface_nodes);
   scene.squeal = read_squeal(root, scene);
+  // Dampers of the model are not lost when the body says nothing of damping.
+  const auto damps = [](const plate::Spring& spring) {
+    return spring.damping != std::array<double, 6>{};
+  };
+  const bool said = root.has("body") && root.table("body").has("damping");
+  if (!said && std::any_of(scene.springs.begin(), scene.springs.end(), damps)) {
+    scene.body.damping.type = mbs_export::Damping::Type::matrix;
+  }
   root.refuse_unknown_keys();
   return scene;
 }
@@ -52,6 +86,14 @@ Scene read_scene(const std::string& path)
   if (file) text << file.rdbuf();
   if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
   return parse_scene(text.str(), path);
+}
+
+Scene read_meshed_scene(const std::string& path)
+{
+  Scene scene = read_scene(path);
+  if (!scene.squeal_model) return scene;
+  throw Error(
+      fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));
 }
 
 }  // namespace chladni::cli
