@@ -11,6 +11,7 @@
 #include "cli/reduce_steps.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
+#include "reduce/condition_estimate.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -78,6 +79,12 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
   system.certificate = phases.run(
       "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  system.certificate.condition =
+      phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
+  if (scene.sylvester) {
+    system.certificate =
+        phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
+  }
   system.picture = phases.run("pictures", [&] { return picture_of(scene, fe, blocks, reduced); });
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),

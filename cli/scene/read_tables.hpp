@@ -22,11 +22,14 @@ std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
-/// [reduce] without its key `pictures`.
+/// [reduce] without its keys `pictures` and `sylvester`.
 reduce::ReduceOptions read_reduce(const Table& root);
 
 /// [reduce] pictures
 PictureChoice read_pictures(const Table& root);
+
+/// [reduce] sylvester
+bool read_sylvester(const Table& root);
 
 /// [body]; without the table the body is free and keeps all modes.
 mbs_export::BodyOptions read_body(const Table& root,

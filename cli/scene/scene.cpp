@@ -39,6 +39,7 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.interface_nodes = read_interface(root, scene);
   scene.reduce = read_reduce(root);
   scene.pictures = read_pictures(root);
+  scene.sylvester = read_sylvester(root);
   scene.body = read_body(root, scene.interface_nodes);
   scene.squeal = read_squeal(root, scene);
   root.refuse_unknown_keys();

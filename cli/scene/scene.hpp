@@ -28,6 +28,7 @@ struct Scene {
       interface_nodes;  ///< rings, couplings or groups; all six DOFs of each node
   PictureChoice pictures = PictureChoice::vertices;
   reduce::ReduceOptions reduce;
+  bool sylvester = false;  ///< count eigenvalues of the FE model, for the certificate
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
 };
