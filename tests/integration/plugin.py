@@ -142,6 +142,29 @@ def class_of_the_compiled_example(plugin):
         yield expect(f"help and log name {words}", words in helped)
 
 
+# `chladni body` reads the reduced file and [body]; the mesh it does not open.
+BODY_SCENE = """
+name = "chain"
+[mesh]
+file = "somebodys.msh"
+[material.unknown]
+young = 1.0
+poisson = 0.0
+density = 1.0
+[[section]]
+group = "all"
+type = "shell"
+material = "unknown"
+thickness = 1.0
+[interface]
+nodes = ["interface"]
+[reduce]
+method = "guyan"
+[body]
+fixed = ["interface"]
+"""
+
+
 def write_matrix_market(path, matrix):
     lower = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))]
     lower = [entry for entry in lower if entry[2] != 0.0]
@@ -161,6 +184,11 @@ def somebodys_matrices(folder, n=60):
     return omega / (2.0 * math.pi)
 
 
+def held_chain(n):
+    """Angular frequencies of n of its masses between held ones."""
+    return 200.0 * np.sin(0.5 * math.pi * np.arange(1, n + 1) / (n + 1))
+
+
 def matrix_market(plugin):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -178,6 +206,13 @@ def matrix_market(plugin):
             for words in ("condition of K_ss", "12 expected, 12 found, 0 missing", "bound"):
                 yield expect(f"chladni info says '{words}'", words in info)
             plugin.run([plugin.chladni, "check", "chain.reduced.h5"], folder=folder)
+            (folder / "scene.toml").write_text(BODY_SCENE)
+            plugin.run([plugin.chladni, "body", "scene.toml", "--output", "."], folder=folder)
+            with h5py.File(folder / "chain.body.h5") as file:
+                # Held at both masters, the parts of the chain between them remain.
+                held = np.sort(np.concatenate([held_chain(19), held_chain(39)]))
+                body = file["modes/frequencies"][:]
+                yield expect("a body from them", np.allclose(body, held[: body.size], rtol=1e-9))
             with h5py.File(folder / "chain.reduced.h5") as file:
                 masters = file["attachment/node_numbers"][file["masters/node"][:]]
                 yield expect("masters in the order given", list(masters) == [59, 19])
