@@ -126,6 +126,12 @@ TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
   for (PetscInt i = 0; i < 3; ++i) {
     for (PetscInt j = 0; j < rows.n_cols; ++j) EXPECT_EQ(rows(i, j), i == j ? 1.0 : 0.0);
   }
+  Mat K_r = nullptr;
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
+  const SmallMatrix K = replicate(K_r);
+  EXPECT_NEAR(K(0, 1), 0.0, round_off);  // the middle stands between the ends
+  EXPECT_NEAR(K(0, 2), -1.0 / (n - 1 - n / 2), round_off);
+  EXPECT_NEAR(K(1, 2), -1.0 / (n / 2), round_off);
 }
 
 TEST(CMS, ReducesDampingWithTheSameTransformation)
@@ -216,6 +222,10 @@ TEST(CMS, ObeysTheOptionsOfItsPrefix)
     petsc::check(CMSGetDimensions(solver.cms, nullptr, &n_found));
     EXPECT_EQ(n_found, n_modes) << prefix;
   }
+  const Options wrong("-wrong_cms_modes_solver by-magic");
+  Solver solver;
+  petsc::check(CMSSetOptionsPrefix(solver.cms, "wrong_"));
+  expect_refused(solver, "by-magic");
   PetscBool left_behind = PETSC_FALSE;  // what reduce/ saw as its own option
   petsc::check(PetscOptionsHasName(nullptr, nullptr, "-cms_modes_solver", &left_behind));
   EXPECT_FALSE(left_behind);
@@ -229,6 +239,19 @@ TEST(CMS, IsFreedWithTheLastReference)
   petsc::check(CMSDestroy(&other));
   EXPECT_EQ(other, nullptr);
   petsc::check(solver.solve());  // still there
+  bool freed = false;
+  PetscContainer witness = nullptr;
+  petsc::check(PetscContainerCreate(PETSC_COMM_WORLD, &witness));
+  petsc::check(PetscContainerSetPointer(witness, &freed));
+  petsc::check(PetscContainerSetUserDestroy(witness, [](void* pointer) -> PetscErrorCode {
+    *static_cast<bool*>(pointer) = true;
+    return 0;
+  }));
+  petsc::check(PetscObjectCompose(reinterpret_cast<PetscObject>(solver.cms), "witness",
+                                  reinterpret_cast<PetscObject>(witness)));
+  petsc::check(PetscContainerDestroy(&witness));
+  petsc::check(CMSDestroy(&solver.cms));
+  EXPECT_TRUE(freed);
 }
 
 TEST(CMS, SolvesAgainAfterReset)
