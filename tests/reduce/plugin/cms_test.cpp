@@ -1,5 +1,6 @@
 #include <chladni_cms.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "../chain.hpp"
+#include "mbs_export/reduced_file.hpp"
 #include "reduce/dense.hpp"
 
 namespace chladni::reduce {
@@ -405,6 +407,64 @@ TEST(CMS, SaysWhatIsToBeCalledFirst)
   Mat K = nullptr;
   const PetscErrorCode not_solved = CMSGetReducedOperators(solver.cms, &K, nullptr, nullptr);
   EXPECT_NE(message(not_solved).find("Call CMSSolve() first"), std::string::npos);
+}
+
+/// A name for a file, the same on all ranks.
+std::string common_path()
+{
+  int process = getpid();
+  MPI_Bcast(&process, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  return std::filesystem::temp_directory_path() / fmt::format("cms_{}.reduced.h5", process);
+}
+
+TEST(CMS, WritesTheReducedFileThroughAViewer)
+{
+  const std::string path = common_path();
+  Solver solver;
+  petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "chain"));
+  petsc::check(solver.solve());
+  PetscViewer viewer = nullptr;
+  petsc::check(PetscViewerCreate(PETSC_COMM_WORLD, &viewer));
+  petsc::check(PetscViewerSetType(viewer, PETSCVIEWERHDF5));
+  petsc::check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
+  petsc::check(PetscViewerFileSetName(viewer, path.c_str()));
+  petsc::check(CMSView(solver.cms, viewer));
+  petsc::check(PetscViewerDestroy(&viewer));
+  const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  EXPECT_EQ(file.title, "chain");
+  EXPECT_EQ(file.n_masters(), 2);
+  EXPECT_EQ(file.attachment_nodes[1].number, n - 1);
+  EXPECT_GT(file.certificate.eta2.size(), 0);
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
+}
+
+TEST(CMS, KeepsTheGeometryOfItsInterfaceForTheFile)
+{
+  Solver solver;
+  petsc::check(CMSSetInterface(solver.cms, solver.masters));
+  PetscInt n_own = 0;
+  const PetscInt* own = nullptr;
+  petsc::check(ISGetLocalSize(solver.masters, &n_own));
+  petsc::check(ISGetIndices(solver.masters, &own));
+  std::vector<PetscInt> nodes(own, own + n_own), components(n_own, 2);
+  std::vector<PetscReal> positions;
+  for (const PetscInt node : nodes) positions.insert(positions.end(), {0.1 * node, 0.0, 1.0});
+  petsc::check(ISRestoreIndices(solver.masters, &own));
+  EXPECT_NE(CMSSetInterfaceGeometry(solver.cms, n_own + 1, nodes.data(), components.data(),
+                                    positions.data()),
+            0);
+  petsc::check(CMSSetInterfaceGeometry(solver.cms, n_own, nodes.data(), components.data(),
+                                       positions.data()));
+  petsc::check(CMSSetOperators(solver.cms, solver.chain.K, solver.chain.M, nullptr));
+  petsc::check(CMSSolve(solver.cms));
+  const std::string path = common_path();
+  petsc::check(CMSWrite(solver.cms, path.c_str()));
+  const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  EXPECT_EQ(file.masters[1].component, 2);
+  EXPECT_EQ(file.attachment_nodes[1].position, Eigen::Vector3d(0.1 * (n - 1), 0.0, 1.0));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
 }
 
 TEST(CMS, LeavesTheOldFileWhereItCannotWriteANewOne)
