@@ -33,6 +33,12 @@ void mesh_command(const ChladniArguments& arguments);
 /// Meshes, assembles and reduces; writes NAME.reduced.h5.
 void reduce_command(const ChladniArguments& arguments);
 
+/// Displacements and section forces of the scene under its supports and loads: NAME.static.vtu.
+void static_command(const ChladniArguments& arguments);
+
+/// Natural modes of the scene under its supports: NAME.modes.vtu.
+void modes_command(const ChladniArguments& arguments);
+
 /// Makes the modal body of NAME.reduced.h5; writes NAME.body.h5. Needs no PETSc.
 void body_command(const ChladniArguments& arguments);
 

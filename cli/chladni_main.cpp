@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/arguments.hpp"
+#include "cli/blas_kernels.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/version.hpp"
@@ -27,6 +28,14 @@ struct Subcommand {
 constexpr Subcommand on_scenes[] = {
     {"mesh", "meshes the scene and says what the mesh is like",
      "Example:\n  chladni mesh scene.toml", cli::mesh_command},
+    {"static", "displacements and section forces under supports and loads: NAME.static.vtu",
+     "Examples:\n  chladni static scene.toml --output out\n"
+     "  mpirun -n 2 chladni static scene.toml --json static.json",
+     cli::static_command},
+    {"modes", "natural modes under supports: NAME.modes.vtu",
+     "Examples:\n  chladni modes scene.toml --output out\n"
+     "  mpirun -n 2 chladni modes scene.toml --json modes.json",
+     cli::modes_command},
     {"reduce", "meshes, assembles and reduces: NAME.reduced.h5",
      "Examples:\n  chladni reduce scene.toml --output out\n"
      "  mpirun -n 2 chladni reduce scene.toml -- -log_view",
@@ -113,6 +122,7 @@ int perform_with_petsc(const CLI::App& app, const cli::ChladniArguments& argumen
 
 int main(int argc, char** argv)
 {
+  cli::restart_with_fitting_blas_kernels(argv);
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
   cli::ChladniArguments arguments;

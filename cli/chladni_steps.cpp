@@ -23,6 +23,10 @@ std::filesystem::path body_file(const Scene& scene, const SceneArguments& argume
 
 ReduceSummary reduce_with_progress(const Scene& scene, const ChladniArguments& arguments)
 {
+  if (scene.interface_nodes.empty()) {
+    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
+                            scene.path));
+  }
   const std::string options = fmt::format("{}", fmt::join(arguments.petsc_options, " "));
   if (rank() != 0) return reduce_scene(scene, options, [](const std::string&, double) {});
   ProgressLine line;

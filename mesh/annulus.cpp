@@ -2,79 +2,51 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "common/error.hpp"
+#include "mesh/circles.hpp"
 #include "mesh/generate.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
+#include "mesh/structured_disc.hpp"
+#include "mesh/sweep.hpp"
 
 namespace chladni::mesh {
 
 namespace {
 
-/// A circle about the origin, split into equal arcs that begin on the x axis.
-struct Circle {
-  double radius;
-  int n_arcs;
-  std::vector<int> arcs;  ///< tags of Gmsh curves
-};
-
-Circle add_circle(double radius, int n_arcs, double element_size)
+std::vector<Circle> add_circles(const AnnulusOptions& o)
 {
-  namespace geo = gmsh::model::geo;
-  const int centre = geo::addPoint(0.0, 0.0, 0.0);
-  std::vector<int> points;
-  for (int i = 0; i < n_arcs; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / n_arcs;
-    points.push_back(geo::addPoint(radius * std::cos(angle), radius * std::sin(angle), 0.0));
+  const double h = o.element_size;
+  std::vector<Circle> circles{add_circle({.radius = o.inner_radius}, h)};
+  for (const RingOptions& ring : o.rings) {
+    circles.push_back(add_circle({.radius = ring.radius, .n_arcs = ring.nodes}, h));
   }
-  Circle circle{.radius = radius, .n_arcs = n_arcs, .arcs = {}};
-  const double arc_length = 2.0 * std::numbers::pi * radius / n_arcs;
-  // At least 12 elements on a circle: a cubic edge of 90 degrees folds the element over.
-  const int n_least = (12 + n_arcs - 1) / n_arcs;
-  const int n_elements =
-      std::max(n_least, static_cast<int>(std::lround(arc_length / element_size)));
-  for (int i = 0; i < n_arcs; ++i) {
-    const int arc = geo::addCircleArc(points[i], centre, points[(i + 1) % n_arcs]);
-    geo::mesh::setTransfiniteCurve(arc, n_elements + 1);
-    circle.arcs.push_back(arc);
+  circles.push_back(add_circle({.radius = o.outer_radius}, h));
+  if (o.edge_row) {
+    const Circle inner = circles.front();
+    const Circle outer = circles.back();
+    circles.push_back(add_circle({.radius = o.inner_radius + *o.edge_row}, inner));
+    circles.push_back(add_circle({.radius = o.outer_radius - *o.edge_row}, outer));
   }
-  return circle;
-}
-
-std::vector<Circle> add_circles(const AnnulusOptions& options)
-{
-  constexpr int n_arcs_of_edge = 4;
-  const double h = options.element_size;
-  std::vector<Circle> circles{add_circle(options.inner_radius, n_arcs_of_edge, h)};
-  for (const RingOptions& ring : options.rings) {
-    circles.push_back(add_circle(ring.radius, ring.nodes, h));
-  }
-  circles.push_back(add_circle(options.outer_radius, n_arcs_of_edge, h));
   std::ranges::sort(circles, {}, &Circle::radius);
   return circles;
 }
 
-/// Annular surfaces between neighbouring circles.
-std::vector<int> add_surfaces(const std::vector<Circle>& circles)
+Mesh unstructured_annulus(const AnnulusOptions& options)
 {
-  namespace geo = gmsh::model::geo;
-  std::vector<int> loops;
-  loops.reserve(circles.size());
-  for (const Circle& circle : circles) loops.push_back(geo::addCurveLoop(circle.arcs));
-  std::vector<int> surfaces;
-  for (std::size_t i = 0; i + 1 < circles.size(); ++i) {
-    surfaces.push_back(geo::addPlaneSurface({loops[i + 1], loops[i]}));
-  }
-  return surfaces;
-}
-
-void add_physical_group(int dimension, const std::vector<int>& entities, const std::string& name)
-{
-  const int tag = gmsh::model::addPhysicalGroup(dimension, entities);
-  gmsh::model::setPhysicalName(dimension, tag, name);
+  const auto build = [&] {
+    gmsh::model::add("annulus");
+    set_element_size(options.element_size, options.pattern);
+    const std::vector<Circle> circles = add_circles(options);
+    const std::vector<int> surfaces =
+        add_rings_of_elements(circles, options.element_size, options.edge_row.value_or(0.0));
+    gmsh::model::geo::synchronize();
+    add_physical_group(1, circles.front().arcs, "inner_edge");
+    add_physical_group(1, circles.back().arcs, "outer_edge");
+    add_physical_group(2, surfaces, "disc");
+  };
+  return mesh_with_gmsh(build, options.element_order);
 }
 
 void check_radii(const AnnulusOptions& o)
@@ -83,10 +55,13 @@ void check_radii(const AnnulusOptions& o)
     throw Error(fmt::format("annulus: 0 < inner_radius < outer_radius must hold, not {} and {} m",
                             o.inner_radius, o.outer_radius));
   }
+  if (o.edge_row) check_edge_rows(*o.edge_row, o.outer_radius - o.inner_radius);
+  const double row = o.edge_row.value_or(0.0);
   for (const RingOptions& ring : o.rings) {
-    if (!(ring.radius > o.inner_radius && ring.radius < o.outer_radius)) {
-      throw Error(fmt::format("annulus: ring \"{}\" of radius {} m is not between {} and {} m",
-                              ring.name, ring.radius, o.inner_radius, o.outer_radius));
+    if (!(ring.radius > o.inner_radius + row && ring.radius < o.outer_radius - row)) {
+      throw Error(fmt::format("annulus: ring \"{}\" of radius {} m is not between {:.6g} and "
+                              "{:.6g} m, the edges with their rows of elements",
+                              ring.name, ring.radius, o.inner_radius + row, o.outer_radius - row));
     }
   }
 }
@@ -96,21 +71,8 @@ void check_radii(const AnnulusOptions& o)
 Mesh annulus(const AnnulusOptions& options)
 {
   check_radii(options);
-  const auto build = [&] {
-    gmsh::model::add("annulus");
-    const double h = options.element_size;
-    gmsh::option::setNumber("Mesh.MeshSizeMin", h);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", h);
-    // The size holds inside too, not the length of the ring's arcs.
-    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-    const std::vector<Circle> circles = add_circles(options);
-    const std::vector<int> surfaces = add_surfaces(circles);
-    gmsh::model::geo::synchronize();
-    add_physical_group(1, circles.front().arcs, "inner_edge");
-    add_physical_group(1, circles.back().arcs, "outer_edge");
-    add_physical_group(2, surfaces, "disc");
-  };
-  Mesh mesh = mesh_with_gmsh(build, options.element_order);
+  Mesh mesh = options.pattern == Pattern::structured ? structured_annulus(options)
+                                                     : unstructured_annulus(options);
   add_rings(mesh, options.rings);
   return mesh;
 }

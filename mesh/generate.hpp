@@ -5,9 +5,12 @@
 
 namespace chladni::mesh {
 
-/// Quadrilateral-dominated mesh of a plane annular disc, by Gmsh.
-/// @throws chladni::Error when Gmsh fails or the radii are not ordered.
+/// Meshes of the generators, with the groups that their options tell.
+/// @throws chladni::Error when Gmsh fails or the lengths do not fit together.
 Mesh annulus(const AnnulusOptions& options);
+Mesh hat_disc(const HatDiscOptions& options);
+Mesh pad(const PadOptions& options);
+Mesh rectangle(const RectangleOptions& options);
 
 /// Reads a .msh (formats 2.2 and 4.1) or meshes a .geo. Only elements of dimension 2 and the
 /// physical groups are kept. Triangles and quadrilaterals of order 2 and 3.
@@ -15,7 +18,7 @@ Mesh annulus(const AnnulusOptions& options);
 /// @throws chladni::Error when the file is missing, unreadable or has no surface elements.
 Mesh read_gmsh(const MeshOptions& options);
 
-/// The mesh of the scene: `annulus` or `read_gmsh`.
+/// The mesh of the scene: of the generator that is set, or of the file.
 Mesh generate(const MeshOptions& options);
 
 }  // namespace chladni::mesh

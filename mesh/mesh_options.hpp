@@ -11,6 +11,14 @@ struct RingOptions {
   std::string name;
   double radius;  ///< m
   int nodes;
+  std::optional<double> z = {};  ///< m; needed where several surfaces meet the cylinder
+};
+
+/// How a generator lays out its elements.
+enum class Pattern {
+  structured,    ///< rows and columns of quadrilaterals; every row of a disc is a circle
+  unstructured,  ///< quadrilaterals by Gmsh, with triangles where they would be flat
+  triangles      ///< by Gmsh
 };
 
 /// Plane annular disc about the z axis. Groups: "disc" (surface), "inner_edge", "outer_edge" and
@@ -21,14 +29,70 @@ struct AnnulusOptions {
   double element_size;  ///< m
   int element_order = 3;
   std::vector<RingOptions> rings;
+  Pattern pattern = Pattern::unstructured;
+  std::optional<double> edge_row = {};  ///< m, width of one row of elements along both edges
 };
 
-/// The scene's [mesh]: exactly one of the two.
+/// Round holes at equal angles on a circle of the flange, the first on the x axis.
+struct BoltOptions {
+  int count;
+  double circle_radius;  ///< m
+  double hole_radius;    ///< m
+};
+
+/// Disc with hat: a plane ring at z = 0, a wall (cylinder or cone) that rises from it, and a flange
+/// that closes it to the hub. Groups: surfaces "disc", "wall", "flange"; circles "outer_edge",
+/// "hub_edge", "wall_seat" (of the disc), "inner_edge" where the disc reaches inside the wall,
+/// "wall_foot" where the wall ends above the disc; "bolt_edges" and "bolt_1", ...; the rings.
+struct HatDiscOptions {
+  double inner_radius;  ///< m, of the ring; at most wall_radius
+  double outer_radius;  ///< m
+  double wall_radius;   ///< m, where the wall meets the ring
+  double top_radius;    ///< m, where it meets the flange
+  double hub_radius;    ///< m, inner edge of the flange
+  double height;        ///< m, of the flange above the ring
+  double foot;          ///< m, of the wall's lower edge above the ring; 0 = joined to it
+  double element_size;  ///< m
+  int element_order = 3;
+  std::vector<RingOptions> rings;  ///< on the ring-shaped disc
+  Pattern pattern = Pattern::structured;
+  std::optional<double> edge_row = {};  ///< m, along the edges of disc and hub
+  std::optional<BoltOptions> bolts = {};
+};
+
+/// Plane sector of an annulus about the z axis, symmetric to `centre_angle`: a pad. Groups: "pad"
+/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge", "corners".
+struct PadOptions {
+  double inner_radius;      ///< m
+  double outer_radius;      ///< m
+  double angle;             ///< rad, < pi
+  double centre_angle = 0;  ///< rad
+  double element_size;      ///< m
+  int element_order = 3;
+  Pattern pattern = Pattern::structured;
+  std::optional<double> edge_row = {};  ///< m, along all four edges
+};
+
+/// Plane rectangle from the origin along x and y. Groups: "plate" (surface), "left", "right",
+/// "bottom", "top", "corners".
+struct RectangleOptions {
+  double length;        ///< m, along x
+  double width;         ///< m, along y
+  double element_size;  ///< m
+  int element_order = 3;
+  Pattern pattern = Pattern::structured;
+  std::optional<double> edge_row = {};  ///< m, along all four edges
+};
+
+/// The scene's [mesh]: exactly one generator or a file.
 struct MeshOptions {
-  std::optional<AnnulusOptions> annulus;
-  std::optional<std::string> file;   ///< .msh or .geo, resolved against the scene file's folder
-  std::optional<int> element_order;  ///< for .geo; a .msh has its own
-  std::vector<RingOptions> rings;    ///< of a file: nodes that must lie on a circle; checked
+  std::optional<AnnulusOptions> annulus = {};
+  std::optional<HatDiscOptions> hat_disc = {};
+  std::optional<PadOptions> pad = {};
+  std::optional<RectangleOptions> rectangle = {};
+  std::optional<std::string> file = {};   ///< .msh or .geo, resolved against the scene file's folder
+  std::optional<int> element_order = {};  ///< for .geo; a .msh has its own
+  std::vector<RingOptions> rings = {};    ///< of a file: nodes that must lie on a circle; checked
 };
 
 }  // namespace chladni::mesh

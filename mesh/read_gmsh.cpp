@@ -27,8 +27,8 @@ void check_readable(const std::string& file)
 void check_orders(const Mesh& mesh, const std::string& file)
 {
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.order == 2 || block.order == 3) continue;
-    throw Error(fmt::format("mesh file {} has elements of order {}; use 2 or 3 (Mesh.ElementOrder)",
+    if (block.order >= 1 && block.order <= 4) continue;
+    throw Error(fmt::format("mesh file {} has elements of order {}; use 1 to 4 (Mesh.ElementOrder)",
                             file, block.order));
   }
 }
@@ -55,7 +55,11 @@ Mesh read_gmsh(const MeshOptions& options)
 
 Mesh generate(const MeshOptions& options)
 {
-  return options.annulus ? annulus(*options.annulus) : read_gmsh(options);
+  if (options.annulus) return annulus(*options.annulus);
+  if (options.hat_disc) return hat_disc(*options.hat_disc);
+  if (options.pad) return pad(*options.pad);
+  if (options.rectangle) return rectangle(*options.rectangle);
+  return read_gmsh(options);
 }
 
 }  // namespace chladni::mesh

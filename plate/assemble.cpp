@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "plate/directors.hpp"
+#include "plate/sections.hpp"
 #include "plate/shell_element.hpp"
 
 namespace chladni::plate {
@@ -97,37 +98,6 @@ MatrixXd eliminate_dependents(MatrixXd A_e, const DofMap& dofs, std::span<const 
     A_e.middleRows<3>(u + 3) += R.transpose() * A_e.middleRows<3>(u);
   }
   return A_e;
-}
-
-/// Index into `sections` of each group of the mesh, -1 where there is none.
-std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections)
-{
-  std::vector<int> section(mesh.groups.size(), -1);
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    const mesh::Group& group = mesh::find_group(mesh, sections[s].group);
-    const auto index = static_cast<std::size_t>(&group - mesh.groups.data());
-    const auto in_group = [&](const mesh::ElementBlock& block) {
-      return std::ranges::count(block.group, static_cast<int>(index)) > 0;
-    };
-    if (std::ranges::none_of(mesh.blocks, in_group)) {
-      throw Error(
-          fmt::format("section of group \"{}\": the group has no shell elements", group.name));
-    }
-    section[index] = static_cast<int>(s);
-  }
-  return section;
-}
-
-const ShellSection& section_of(std::span<const ShellSection> sections,
-                               const std::vector<int>& of_group, const mesh::ElementBlock& block,
-                               int element)
-{
-  const int group = block.group[element];
-  if (group < 0 || of_group[group] < 0) {
-    throw Error(fmt::format("element {} has no section: name its physical group in a [[section]]",
-                            block.numbers[element]));
-  }
-  return sections[of_group[group]];
 }
 
 /// Checked before the parallel work, on the whole mesh: every rank throws or none.

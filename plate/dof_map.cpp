@@ -1,6 +1,7 @@
 #include "plate/dof_map.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -79,6 +80,36 @@ std::optional<int> DofMap::reference_node(const std::string& name) const
   const auto it = std::ranges::find(reference_names, name);
   if (it == reference_names.end()) return std::nullopt;
   return n_mesh_nodes + static_cast<int>(it - reference_names.begin());
+}
+
+std::vector<MotionTerm> DofMap::motion(int node) const
+{
+  MotionTerm term{.number = number[node], .T = Eigen::Matrix<double, 6, 6>::Identity()};
+  if (is_dependent(node)) {
+    const auto [x, y, z] = arm(node);
+    term.T.topRightCorner<3, 3>() << 0.0, z, -y, -z, 0.0, x, y, -x, 0.0;  // theta x arm
+  }
+  return {term};
+}
+
+std::optional<int> DofMap::dof(int node, int component) const
+{
+  if (is_dependent(node)) return std::nullopt;
+  return 6 * number[node] + component;
+}
+
+const std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
+
+std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& name)
+{
+  if (const auto reference = dofs.reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = dofs.reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("\"{}\" is neither a group or ring of the mesh nor a coupling; there are: {}",
+                  name, fmt::join(names, ", ")));
 }
 
 DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const RigidCoupling> couplings,

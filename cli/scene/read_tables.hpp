@@ -19,6 +19,18 @@ std::vector<plate::ShellSection> read_sections(const Table& root, const mesh::Me
 /// [[coupling]]
 std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
 
+/// [[support]]; needs the mesh and the couplings of `scene`.
+std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);
+
+/// [[load]]; as the supports.
+std::vector<plate::Load> read_loads(const Table& root, const Scene& scene);
+
+/// [static]; as the supports.
+std::optional<StaticOptions> read_static(const Table& root, const Scene& scene);
+
+/// [modes]
+std::optional<ModesOptions> read_natural_modes(const Table& root);
+
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
@@ -37,6 +49,10 @@ mbs_export::BodyOptions read_body(const Table& root,
 
 /// [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
+
+/// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
+/// body; absent for any other scene.
+std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 
 /// The names of the rings of a mesh.
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);

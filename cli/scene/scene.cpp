@@ -23,6 +23,13 @@ std::string read_name(const Table& root)
   return name;
 }
 
+/// A scene for `chladni static` or `chladni modes` alone needs no reduction.
+bool is_reduced(const Table& root, const Scene& scene)
+{
+  if (root.has("interface") || root.has("reduce")) return true;
+  return !scene.static_solution && !scene.natural_modes;
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& path)
@@ -33,13 +40,24 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.title = root.has("title") ? root.text("title") : scene.name;
   scene.text = text;
   scene.path = path;
+  scene.squeal_model = read_squeal_model(root);
+  if (scene.squeal_model) {
+    root.refuse_unknown_keys();
+    return scene;
+  }
   scene.mesh = read_mesh(root, path);
   scene.sections = read_sections(root, scene.mesh);
   scene.couplings = read_couplings(root, scene.mesh);
-  scene.interface_nodes = read_interface(root, scene);
-  scene.reduce = read_reduce(root);
-  scene.pictures = read_pictures(root);
-  scene.sylvester = read_sylvester(root);
+  scene.supports = read_supports(root, scene);
+  scene.loads = read_loads(root, scene);
+  scene.static_solution = read_static(root, scene);
+  scene.natural_modes = read_natural_modes(root);
+  if (is_reduced(root, scene)) {
+    scene.interface_nodes = read_interface(root, scene);
+    scene.reduce = read_reduce(root);
+    scene.pictures = read_pictures(root);
+    scene.sylvester = read_sylvester(root);
+  }
   scene.body = read_body(root, scene.interface_nodes);
   scene.squeal = read_squeal(root, scene);
   root.refuse_unknown_keys();
@@ -53,6 +71,14 @@ Scene read_scene(const std::string& path)
   if (file) text << file.rdbuf();
   if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
   return parse_scene(text.str(), path);
+}
+
+Scene read_meshed_scene(const std::string& path)
+{
+  Scene scene = read_scene(path);
+  if (!scene.squeal_model) return scene;
+  throw Error(
+      fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));
 }
 
 }  // namespace chladni::cli

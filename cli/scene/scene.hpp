@@ -6,14 +6,26 @@
 
 #include "mbs_export/body_options.hpp"
 #include "mesh/mesh_options.hpp"
+#include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 #include "reduce/reduce_options.hpp"
+#include "squeal/model_options.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::cli {
 
 /// Of which nodes the reduced file keeps the displacements, for pictures.
 enum class PictureChoice { none, vertices, all };
+
+/// `chladni static`: whose displacements the summary lists.
+struct StaticOptions {
+  std::vector<std::string> report;  ///< groups, rings or couplings
+};
+
+/// `chladni modes`
+struct ModesOptions {
+  int count = 10;  ///< natural modes, rigid-body motions included
+};
 
 /// A scene file, read and checked: one case from the mesh to the squeal.
 struct Scene {
@@ -24,13 +36,19 @@ struct Scene {
   mesh::MeshOptions mesh;
   std::vector<plate::ShellSection> sections;
   std::vector<plate::RigidCoupling> couplings;
+  std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
+  std::vector<plate::Load> loads;        ///< of `static`
+  std::optional<StaticOptions> static_solution;
+  std::optional<ModesOptions> natural_modes;
   std::vector<std::string>
-      interface_nodes;  ///< rings, couplings or groups; all six DOFs of each node
+      interface_nodes;  ///< rings, couplings or groups, all six DOFs of each node; empty in a scene
+                        ///< for `static` or `modes` alone
   PictureChoice pictures = PictureChoice::vertices;
   reduce::ReduceOptions reduce;
   bool sylvester = false;  ///< count eigenvalues of the FE model, for the certificate
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
+  std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
 };
 
 /// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
@@ -40,5 +58,9 @@ Scene parse_scene(const std::string& text, const std::string& path);
 /// The scene of a file.
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path);
+
+/// The scene of a file, for a program that needs its mesh or its body.
+/// @throws chladni::Error as read_scene, and when the scene's model has neither.
+Scene read_meshed_scene(const std::string& path);
 
 }  // namespace chladni::cli

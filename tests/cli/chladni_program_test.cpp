@@ -148,7 +148,8 @@ TEST(ChladniProgram, TellsWrongUsageFromAFailedJob)
 TEST(ChladniProgram, HelpsWithExamples)
 {
   const Folder folder;
-  for (const std::string subcommand : {"", " mesh", " reduce", " body", " run", " info"}) {
+  for (const std::string subcommand :
+       {"", " mesh", " static", " modes", " reduce", " body", " run", " info"}) {
     const Ending ending = run(folder, chladni_program + subcommand + " --help");
     EXPECT_EQ(ending.exit_code, 0) << subcommand;
     EXPECT_NE(ending.out.find("Example"), std::string::npos) << subcommand;

@@ -56,6 +56,21 @@ SCENES = [
     ("value without sense", changed("poisson = 0.3", "poisson = 0.6"), ["poisson", "0.6"]),
     ("negative thickness", changed("thickness = 0.02", "thickness = -0.02"), ["thickness"]),
 ]
+HELD = '[[support]]\ngroup = "outer_edge"\ntype = "clamped"\n'
+LOADED = '[[load]]\ntype = "pressure"\ngroup = "disc"\npressure = 1e3\n[static]\n'
+# mistake, scene, words of the message of `chladni static`
+STATIC_SCENES = [
+    ("nothing to hold the body", GOOD + LOADED, ["move freely", "6 ways", "[[support]]"]),
+    ("held in one direction", GOOD + LOADED + HELD.replace('type = "clamped"', 'dofs = ["z"]'),
+     ["3 ways", "translation along x", "rotation about z"]),
+    ("no load", GOOD + HELD + "[static]\n", ["load", "missing"]),
+    ("support of an unknown group", GOOD + LOADED + HELD.replace("outer_edge", "outer_egde"),
+     ["outer_egde", "outer_edge"]),
+    ("support of dependent nodes", GOOD + LOADED + HELD.replace("outer_edge", "inner_edge"),
+     ["inner_edge", "hub"]),
+    ("unknown group of a mesh file", with_mesh_file("plate.geo").replace('"disc"', '"plate"').replace("inner_edge", "plate")
+     + '[static]\n[[load]]\ntype = "line"\ngroup = "rim"\nline_force = [0.0, 0.0, 1.0]\n', ["rim", "plate"]),
+]  # fmt: skip
 # program, arguments, exit code, words of the message
 CALLS = [
     ("chladni", ["polish"], 2, ["subcommand"]),
@@ -96,6 +111,10 @@ def main(programs):
     results = [
         passes(name, scene, [programs / "chladni", "run", "scene.toml", "--output", "out"], 1, words)
         for name, scene, words in SCENES
+    ]
+    results += [
+        passes(name, scene, [programs / "chladni", "static", "scene.toml", "--output", "out"], 1, words)
+        for name, scene, words in STATIC_SCENES
     ]
     results += [
         passes(f"{program} {' '.join(arguments)}", GOOD + SQUEAL,

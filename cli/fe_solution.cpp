@@ -1,0 +1,53 @@
+#include "cli/fe_solution.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/mesh_scene.hpp"
+#include "cli/petsc_session.hpp"
+#include "mesh/partition.hpp"
+#include "plate/supports.hpp"
+
+namespace chladni::cli {
+namespace {
+
+SupportedModel assemble_supported(const Scene& scene, mesh::Mesh mesh)
+{
+  std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
+  plate::DofMap dofs = plate::make_dof_map(mesh, scene.couplings, owners, n_ranks());
+  plate::check_stiffness_of_all_nodes(mesh, dofs);
+  std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
+  plate::System system = plate::assemble(mesh, scene.sections, std::move(dofs), PETSC_COMM_WORLD);
+  std::vector<plate::FreePart> free = plate::free_parts(mesh, system, held);
+  return {.mesh = std::move(mesh),
+          .system = std::move(system),
+          .owners = std::move(owners),
+          .held = std::move(held),
+          .free = std::move(free)};
+}
+
+}  // namespace
+
+SupportedModel supported_model(const Scene& scene, Phases& phases)
+{
+  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
+  return phases.run("assembly", [&] { return assemble_supported(scene, std::move(mesh)); });
+}
+
+TextTable model_table(const SupportedModel& model)
+{
+  TextTable table{.header = {"model", "value"}, .rows = {}};
+  table.rows.push_back({"nodes of the mesh", fmt::format("{}", model.mesh.n_nodes())});
+  table.rows.push_back({"DOFs", fmt::format("{}", 6 * model.system.dofs.n_active())});
+  table.rows.push_back({"DOFs held by supports", fmt::format("{}", model.held.size())});
+  return table;
+}
+
+std::vector<Json::Member> model_json(const SupportedModel& model)
+{
+  return {{"n_nodes", model.mesh.n_nodes()},
+          {"n_dofs", 6 * model.system.dofs.n_active()},
+          {"n_held", model.held.size()},
+          {"n_rigid", plate::n_free_motions(model.free)}};
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "plate/plate_options.hpp"
+
+namespace chladni::plate {
+
+/// Index into `sections` of each group of the mesh, -1 where there is none.
+/// @throws chladni::Error when the group of a section is unknown or has no elements.
+std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections);
+
+/// @param of_group  as section_of_group gives it.
+/// @throws chladni::Error when the element has no section.
+const ShellSection& section_of(std::span<const ShellSection> sections,
+                               const std::vector<int>& of_group, const mesh::ElementBlock& block,
+                               int element);
+
+}  // namespace chladni::plate

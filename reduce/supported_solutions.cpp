@@ -1,0 +1,170 @@
+#include "reduce/supported_solutions.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "reduce/block_lanczos.hpp"
+#include "reduce/dense.hpp"
+#include "reduce/factorization.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+petsc::Matrix free_block(Mat A, const FreeDofs& free)
+{
+  petsc::Matrix block;
+  petsc::check(MatCreateSubMatrix(A, free.indices, free.indices, MAT_INITIAL_MATRIX, block.put()));
+  return block;
+}
+
+/// K + mu M
+petsc::Matrix shifted(Mat K, Mat M, double mu)
+{
+  petsc::Matrix A;
+  petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
+  petsc::check(MatAXPY(A, mu, M, DIFFERENT_NONZERO_PATTERN));
+  return A;
+}
+
+/// The least K_ii / M_ii of the rows with mass: about the square of the wave speed over the
+/// distance of the nodes.
+double least_diagonal_ratio(Mat K, Mat M)
+{
+  petsc::Vector k, m;
+  petsc::check(MatCreateVecs(K, k.put(), nullptr));
+  petsc::check(VecDuplicate(k, m.put()));
+  petsc::check(MatGetDiagonal(K, k));
+  petsc::check(MatGetDiagonal(M, m));
+  PetscInt n = 0;
+  petsc::check(VecGetLocalSize(k, &n));
+  const PetscScalar *k_values = nullptr, *m_values = nullptr;
+  petsc::check(VecGetArrayRead(k, &k_values));
+  petsc::check(VecGetArrayRead(m, &m_values));
+  double least = std::numeric_limits<double>::max();
+  for (PetscInt i = 0; i < n; ++i) {
+    if (m_values[i] > 0.0 && k_values[i] > 0.0) least = std::min(least, k_values[i] / m_values[i]);
+  }
+  petsc::check(VecRestoreArrayRead(k, &k_values));
+  petsc::check(VecRestoreArrayRead(m, &m_values));
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, petsc::communicator(K));
+  return least;
+}
+
+/// Eigenvalues of this size against mu keep their digits and converge fast.
+bool suits(double mu, double first_elastic)
+{
+  return first_elastic > 1e-3 * mu && first_elastic < 1e5 * mu;
+}
+
+/// The pairs of a body with rigid-body motions.
+EigenPairs free_pairs(Mat K, Mat M, const NaturalModesOptions& options)
+{
+  // The waves between neighbouring nodes lie about ten decades above the first elastic mode.
+  double mu = 1e-10 * least_diagonal_ratio(K, M);
+  const int n_asked = std::max(options.n_modes, options.n_rigid + 1);
+  for (int attempt = 0;; ++attempt) {
+    const petsc::Matrix A = shifted(K, M, mu);
+    const Factorization factor = factorize(A);
+    EigenPairs pairs = block_lanczos(factor.factor(), M, {.n_pairs = n_asked});
+    for (double& lambda : pairs.lambda) lambda -= mu;
+    const bool has_elastic = std::ssize(pairs.lambda) > options.n_rigid;
+    const double elastic = has_elastic ? pairs.lambda[options.n_rigid] : mu;
+    if (suits(mu, elastic) || attempt == 2) return pairs;
+    mu = std::max(elastic, 1e-6 * mu);
+  }
+}
+
+EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options)
+{
+  if (options.n_rigid > 0) return free_pairs(K, M, options);
+  const Factorization factor = factorize(K);
+  return block_lanczos(factor.factor(), M, {.n_pairs = options.n_modes});
+}
+
+/// The first n columns of X in the rows of all DOFs.
+petsc::Matrix expand(Mat X, const FreeDofs& free, Mat K, PetscInt n)
+{
+  PetscInt n_local = 0, n_global = 0, first = 0, n_free = 0;
+  petsc::check(MatGetLocalSize(K, &n_local, nullptr));
+  petsc::check(MatGetSize(K, &n_global, nullptr));
+  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
+  petsc::Matrix all;
+  petsc::check(MatCreateDense(petsc::communicator(K), n_local, PETSC_DECIDE, n_global, n, nullptr,
+                              all.put()));
+  petsc::check(ISGetLocalSize(free.indices, &n_free));
+  const PetscInt* rows = nullptr;
+  petsc::check(ISGetIndices(free.indices, &rows));
+  const LocalRows from(X);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(all, &values));
+  std::fill_n(values, std::size_t(n_local) * n, 0.0);
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i < n_free; ++i) {
+      values[rows[i] - first + std::size_t(j) * n_local] = from(i, j);
+    }
+  }
+  petsc::check(MatDenseRestoreArrayWrite(all, &values));
+  petsc::check(ISRestoreIndices(free.indices, &rows));
+  petsc::check(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
+  return all;
+}
+
+}  // namespace
+
+FreeDofs free_dofs(Mat K, const std::vector<int>& held)
+{
+  PetscInt first = 0, last = 0, n = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  petsc::check(MatGetSize(K, &n, nullptr));
+  if (std::ssize(held) >= n) throw Error("free_dofs: the supports hold all DOFs; nothing can move");
+  std::vector<PetscInt> own;
+  for (PetscInt i = first; i < last; ++i) {
+    if (!std::ranges::binary_search(held, i)) own.push_back(i);
+  }
+  FreeDofs free;
+  petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(own.size()),
+                               own.data(), PETSC_COPY_VALUES, free.indices.put()));
+  return free;
+}
+
+StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free)
+{
+  const petsc::Matrix K_ff = free_block(K, free);
+  const Factorization factor = factorize(K_ff);
+  StaticSolution solution;
+  petsc::check(VecDuplicate(f, solution.u.put()));
+  petsc::check(VecSet(solution.u, 0.0));
+  Vec f_f = nullptr, u_f = nullptr;
+  petsc::check(VecGetSubVector(f, free.indices, &f_f));
+  petsc::check(VecGetSubVector(solution.u, free.indices, &u_f));
+  petsc::check(KSPSolve(factor.solver(), f_f, u_f));
+  petsc::check(VecRestoreSubVector(solution.u, free.indices, &u_f));
+  petsc::check(VecRestoreSubVector(f, free.indices, &f_f));
+  petsc::check(VecDuplicate(f, solution.reaction.put()));
+  petsc::check(MatMult(K, solution.u, solution.reaction));
+  petsc::check(VecAXPY(solution.reaction, -1.0, f));
+  return solution;
+}
+
+NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalModesOptions& options)
+{
+  const petsc::Matrix K_ff = free_block(K, free);
+  const petsc::Matrix M_ff = free_block(M, free);
+  PetscInt n_free = 0;
+  petsc::check(MatGetSize(K_ff, &n_free, nullptr));
+  if (options.n_modes < 1 || options.n_modes > n_free) {
+    throw Error(fmt::format("natural_modes: {} modes asked of {} free DOFs; give 1 to {}",
+                            options.n_modes, n_free, n_free));
+  }
+  EigenPairs pairs = lowest_pairs(K_ff, M_ff, options);
+  if (std::ssize(pairs.lambda) < options.n_modes) {
+    throw Error(fmt::format("natural_modes: {} of {} modes found; the mass allows no more",
+                            pairs.lambda.size(), options.n_modes));
+  }
+  pairs.lambda.resize(options.n_modes);
+  return {.lambda = std::move(pairs.lambda), .X = expand(pairs.X, free, K, options.n_modes)};
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "common/petsc.hpp"
+
+namespace chladni::reduce {
+
+/// The DOFs of a system that supports leave free; each rank holds those that it owns, ascending.
+struct FreeDofs {
+  petsc::IndexSet indices;  ///< rows of K
+};
+
+/// All rows of `K` but the held ones.
+/// @param held  global DOFs, ascending, each once; may be empty; the same list on every rank.
+/// @note   Collective on the communicator of `K`.
+/// @throws chladni::Error when nothing is left free.
+FreeDofs free_dofs(Mat K, const std::vector<int>& held);
+
+/// K u = f with u = 0 at the held DOFs.
+struct StaticSolution {
+  petsc::Vector u;         ///< of all DOFs
+  petsc::Vector reaction;  ///< K u - f, zero up to round-off where the DOFs are free
+};
+
+/// One factorisation by Cholesky, one solution.
+/// @note   Collective on the communicator of `K`.
+/// @throws chladni::Error when K of the free DOFs is not positive definite.
+StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free);
+
+/// K x = lambda M x on the free DOFs, X^T M X = I, lambda ascending.
+struct NaturalModes {
+  std::vector<double> lambda;  ///< [n] rad^2/s^2; rigid-body motions first, with round-off's lambda
+  petsc::Matrix X;             ///< [n_DOFs x n] dense, zero at the held DOFs; 1/sqrt(kg)
+};
+
+struct NaturalModesOptions {
+  int n_modes;      ///< as many as are wanted, rigid-body motions included
+  int n_rigid = 0;  ///< rigid-body motions among them
+};
+
+/// The lowest natural modes by block Lanczos. A free body is factorised as K + mu M: mu > 0 is near
+/// its lowest elastic eigenvalue, found by a second factorisation where the first guess of mu was
+/// far off it.
+/// @note   Collective on the communicator of `K`.
+/// @throws chladni::Error when more modes are asked than there are or they do not converge.
+NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalModesOptions& options);
+
+}  // namespace chladni::reduce

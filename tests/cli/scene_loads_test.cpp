@@ -1,0 +1,140 @@
+// Supports, loads and what `chladni static` and `chladni modes` read of a scene.
+#include <gtest/gtest.h>
+
+#include "cli/scene/scene.hpp"
+#include "common/error.hpp"
+
+namespace chladni::cli {
+namespace {
+
+const std::string plate = R"([mesh]
+generator = "annulus"
+inner_radius = 0.025
+outer_radius = 0.162
+element_size = 0.03
+[material.iron]
+young = 9e10
+poisson = 0.3
+density = 6300.0
+[[section]]
+group = "disc"
+type = "shell"
+material = "iron"
+thickness = 0.02
+)";
+
+std::string error_of(const std::string& text)
+{
+  try {
+    parse_scene(text, "scene.toml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneOfLoads, NeedsNoReduction)
+{
+  const Scene scene = parse_scene(plate + "[modes]\ncount = 7\n", "scene.toml");
+  ASSERT_TRUE(scene.natural_modes);
+  EXPECT_EQ(scene.natural_modes->count, 7);
+  EXPECT_FALSE(scene.static_solution);
+  EXPECT_TRUE(scene.interface_nodes.empty());
+  EXPECT_NE(error_of(plate).find("interface is missing"), std::string::npos);
+  EXPECT_NE(error_of(plate + "[modes]\n[interface]\nnodes = [\"outer_edge\"]\n").find("reduce"),
+            std::string::npos);
+}
+
+TEST(SceneOfLoads, ReadsEachSupport)
+{
+  const Scene scene = parse_scene(plate + R"([static]
+[[support]]
+group = "inner_edge"
+type = "clamped"
+[[support]]
+group = "outer_edge"
+type = "simply-supported"
+[[support]]
+group = "outer_edge"
+type = "symmetry"
+normal = "y"
+[[support]]
+group = "disc"
+dofs = ["z", "rx"]
+)",
+                                  "scene.toml");
+  ASSERT_EQ(scene.supports.size(), 4u);
+  EXPECT_EQ(scene.supports[0].components, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(scene.supports[1].components, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(scene.supports[2].components, (std::vector<int>{1, 5, 3}));  // u_y, theta_z, theta_x
+  EXPECT_EQ(scene.supports[3].components, (std::vector<int>{2, 3}));
+  EXPECT_EQ(scene.supports[3].group, "disc");
+}
+
+TEST(SceneOfLoads, ReadsEachLoad)
+{
+  const Scene scene = parse_scene(plate + R"([static]
+report = ["outer_edge"]
+[[load]]
+type = "force"
+group = "outer_edge"
+moment = [0.0, 0.0, 3.0]
+[[load]]
+type = "line"
+group = "outer_edge"
+line_force = [1.0, 2.0, 3.0]
+[[load]]
+type = "pressure"
+group = "disc"
+pressure = -5e3
+[[load]]
+type = "gravity"
+acceleration = [0.0, 0.0, -9.81]
+)",
+                                  "scene.toml");
+  ASSERT_EQ(scene.loads.size(), 4u);
+  EXPECT_EQ(std::get<plate::NodalLoad>(scene.loads[0]).moment[2], 3.0);
+  EXPECT_EQ(std::get<plate::NodalLoad>(scene.loads[0]).force[2], 0.0);
+  EXPECT_EQ(std::get<plate::EdgeLoad>(scene.loads[1]).line_force[1], 2.0);
+  EXPECT_EQ(std::get<plate::PressureLoad>(scene.loads[2]).pressure, -5e3);
+  EXPECT_EQ(std::get<plate::GravityLoad>(scene.loads[3]).acceleration[2], -9.81);
+  EXPECT_EQ(scene.static_solution->report, std::vector<std::string>{"outer_edge"});
+}
+
+TEST(SceneOfLoadsError, NamesWhatASupportCannotBe)
+{
+  const std::string support = plate + "[static]\n[[support]]\n";
+  EXPECT_EQ(error_of(support + "group = \"inner_egde\"\ntype = \"clamped\"\n"),
+            "scene.toml:17: support.group = \"inner_egde\": no such group, ring or coupling in the "
+            "scene; did you mean \"inner_edge\"? there are: \"disc\", \"inner_edge\", "
+            "\"outer_edge\"");
+  EXPECT_EQ(error_of(support + "group = \"disc\"\ntype = \"hinged\"\n"),
+            "scene.toml:18: support.type = \"hinged\": must be one of \"clamped\", "
+            "\"simply-supported\", \"symmetry\"");
+  EXPECT_EQ(error_of(support + "group = \"disc\"\ndofs = [\"x\", \"w\"]\n"),
+            "scene.toml:18: support.dofs[2] = \"w\": must be one of x, y, z, rx, ry, rz");
+  EXPECT_EQ(error_of(support + "group = \"disc\"\ntype = \"clamped\"\ndofs = [\"x\"]\n"),
+            "scene.toml:19: support.dofs = [ 'x' ]: give exactly one of type, dofs");
+  EXPECT_EQ(error_of(support + "group = \"disc\"\ntype = \"symmetry\"\n"),
+            "scene.toml:16: support.normal is missing: must be a text in quotes");
+}
+
+TEST(SceneOfLoadsError, NamesWhatALoadCannotBe)
+{
+  const std::string load = plate + "[static]\n[[load]]\n";
+  EXPECT_EQ(error_of(load + "type = \"force\"\ngroup = \"disc\"\nforce = [1.0, 2.0]\n"),
+            "scene.toml:19: load.force = [ 1.0, 2.0 ]: must be the three numbers [x, y, z]");
+  EXPECT_NE(error_of(load + "type = \"force\"\ngroup = \"disc\"\n").find("load.force is missing"),
+            std::string::npos);
+  EXPECT_EQ(error_of(load + "type = \"weight\"\n"),
+            "scene.toml:17: load.type = \"weight\": must be one of \"force\", \"line\", "
+            "\"pressure\", \"gravity\"");
+  EXPECT_EQ(error_of(plate + "[static]\nreport = [\"rim\"]\n"),
+            "scene.toml:16: static.report[1] = \"rim\": no such group, ring or coupling in the "
+            "scene; there are: \"disc\", \"inner_edge\", \"outer_edge\"");
+  EXPECT_EQ(error_of(plate + "[modes]\ncount = 0\n"),
+            "scene.toml:16: modes.count = 0: must be >= 1");
+}
+
+}  // namespace
+}  // namespace chladni::cli

@@ -1,0 +1,153 @@
+"""`chladni static` and `chladni modes` against closed forms, and their pictures against the summary.
+
+Usage: static_and_modes.py PROGRAM_DIR MPIRUN
+"""
+
+import base64
+import json
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+
+# A strip without Poisson's effect is a Timoshenko beam, whatever its width.
+LENGTH, WIDTH, THICKNESS, YOUNG, DENSITY = 2.0, 0.5, 0.1, 2e11, 8000.0
+STRIP_GEO = f"""
+SetFactory("OpenCASCADE");
+Rectangle(1) = {{0, 0, 0, {LENGTH}, {WIDTH}}};
+Mesh.MeshSizeMin = 0.25;
+Mesh.MeshSizeMax = 0.25;
+Physical Surface("strip") = {{1}};
+Physical Curve("tip") = {{2}};
+Physical Curve("root") = {{4}};
+"""
+STRIP = f"""
+name = "strip"
+[mesh]
+file = "strip.geo"
+element_order = 2
+[material.steel]
+young = {YOUNG}
+poisson = 0.0
+density = {DENSITY}
+[[section]]
+group = "strip"
+type = "shell"
+material = "steel"
+thickness = {THICKNESS}
+[[support]]
+group = "root"
+type = "clamped"
+[static]
+report = ["tip"]
+[modes]
+count = 5
+"""
+LINE = '[[load]]\ntype = "line"\ngroup = "tip"\nline_force = [0.0, 0.0, 30.0]\n'
+GRAVITY = '[[load]]\ntype = "gravity"\nacceleration = [0.0, 0.0, -9.81]\n'
+PRESSURE = '[[load]]\ntype = "pressure"\ngroup = "strip"\npressure = -1e3\n'
+TENSION = '[[load]]\ntype = "line"\ngroup = "tip"\nline_force = [14e3, 0.0, 0.0]\n'
+
+# Exact Mindlin and plane-stress frequencies of the disc of tests/data, held at its inner edge, Hz.
+DISC_Hz = [542.5079495233] * 2 + [638.0761173813] + [794.519920463] * 2 + [1045.85339702]
+
+
+def run(program, mpirun, ranks, folder, scene, command):
+    (folder / "scene.toml").write_text(scene)
+    (folder / "strip.geo").write_text(STRIP_GEO)
+    subprocess.run(
+        [mpirun, "--oversubscribe", "-n", str(ranks), program / "chladni", command, "scene.toml",
+         "--json", "summary.json"],
+        cwd=folder, check=True, stdout=subprocess.DEVNULL,
+    )  # fmt: skip
+    return json.loads((folder / "summary.json").read_text())
+
+
+def arrays(file):
+    """The arrays of a .vtu file by their names."""
+    found = {}
+    for array in ElementTree.parse(file).getroot().iter("DataArray"):
+        data = base64.b64decode(array.text.strip())
+        size = int(np.frombuffer(data[:8], dtype=np.uint64)[0])
+        assert size == len(data) - 8, f"{array.get('Name')}: {size} bytes, has {len(data) - 8}"
+        kind = {"Float64": np.float64, "Int64": np.int64}[array.get("type")]
+        values = np.frombuffer(data[8:], dtype=kind)
+        found[array.get("Name")] = values.reshape(-1, int(array.get("NumberOfComponents", 1)))
+    return found
+
+
+def expect(name, value, exact, within):
+    error = abs(value / exact - 1)
+    print(f"{'ok' if error < within else 'FAILED':8}{name}: {value:.8g}, exact {exact:.8g}, error {error:.1e}")
+    return error < within
+
+
+def deflections():
+    """Of the tip under each load, by Timoshenko's beam."""
+    stiffness = YOUNG * WIDTH * THICKNESS**3 / 12
+    shear = 5 / 6 * YOUNG / 2 * WIDTH * THICKNESS
+    area = WIDTH * THICKNESS
+    tip = 30.0 * WIDTH
+    q = -DENSITY * area * 9.81
+    p = -1e3 * WIDTH
+    uniform = LENGTH**4 / (8 * stiffness) + LENGTH**2 / (2 * shear)
+    return {
+        LINE: (2, tip * (LENGTH**3 / (3 * stiffness) + LENGTH / shear)),
+        GRAVITY: (2, q * uniform),
+        PRESSURE: (2, p * uniform),
+        TENSION: (0, 7e3 * LENGTH / (YOUNG * area)),
+    }
+
+
+def check_static(program, mpirun, ranks, folder):
+    good = True
+    for load, (component, exact) in deflections().items():
+        summary = run(program, mpirun, ranks, folder, STRIP + load, "static")
+        motions = np.array([node["motion"] for node in summary["motions"]["tip"]])
+        # The strip's own solution for a beam's loads is a polynomial of degree 4 at most, which
+        # elements of order 2 meet in their nodes up to the term of degree 4.
+        name = f"{ranks} rank(s), {', '.join(load.splitlines()[1:3])}"
+        good &= expect(name, motions[:, component].mean(), exact, 1e-3)
+        picture = arrays(folder / "strip.static.vtu")
+        largest = np.linalg.norm(picture["displacement"], axis=1).max()
+        good &= expect("  the same in the picture", largest, summary["largest_displacement_m"], 1e-12)
+        if load == PRESSURE:
+            good &= expect("  reaction", summary["reaction_N"][2], 1e3 * WIDTH * LENGTH, 1e-9)
+    return good
+
+
+def check_modes(program, mpirun, ranks, folder):
+    scene = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
+    begin, end = scene.index("[[coupling]]"), scene.index("[interface]")
+    held = scene[:begin] + '[[support]]\ngroup = "inner_edge"\ntype = "clamped"\n[modes]\ncount = 6\n'
+    summary = run(program, mpirun, ranks, folder, held, "modes")
+    # 12 elements around and 4 across, of order 3: 1e-4 was measured on meshes of that density.
+    good = all([
+        expect(f"{ranks} rank(s), mode {i + 1}", f, exact, 5e-4)
+        for i, (f, exact) in enumerate(zip(summary["frequencies_Hz"], DISC_Hz))
+    ])  # fmt: skip
+    picture = arrays(folder / "disc.modes.vtu")
+    inner = np.linalg.norm(picture["points"][:, :2], axis=1) < 0.0251
+    still = np.abs(picture["mode 001 displacement"][inner]).max()
+    print(f"{'ok' if still == 0 else 'FAILED':8}  motion of the clamped edge: {still}")
+    free = run(program, mpirun, ranks, folder, scene[:begin] + scene[begin:end] + "[modes]\ncount = 8\n", "modes")
+    rigid = free["n_rigid"] == 6 and free["frequencies_Hz"][5] == 0 and free["frequencies_Hz"][6] > 500
+    print(f"{'ok' if rigid else 'FAILED':8}  the free disc: {free['frequencies_Hz']}")
+    return good and still == 0 and rigid
+
+
+def main(program, mpirun):
+    results = []
+    for ranks in (1, 2):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            results.append(check_static(program, mpirun, ranks, folder))
+            results.append(check_modes(program, mpirun, ranks, folder))
+    return all(results)
+
+
+if __name__ == "__main__":
+    sys.exit(not main(Path(sys.argv[1]), sys.argv[2]))
