@@ -12,6 +12,7 @@
 #include "cli/section_forces.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
+#include "reduce/condition_estimate.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -59,8 +60,8 @@ double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
   petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
   constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
   const double n_modes = wanted.modes.value_or(0);
-  const double n_columns = std::max(static_cast<double>(blocks.masters.size()) + n_modes,
-                                    subspace_of_modes * n_modes);
+  const double n_columns =
+      std::max(static_cast<double>(blocks.masters.size()) + n_modes, subspace_of_modes * n_modes);
   constexpr double bytes_per_MiB = 1048576.0;
   return 8.0 * static_cast<double>(n_s) * n_columns / bytes_per_MiB;
 }
@@ -84,8 +85,10 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  fe.system.K = {};  // its blocks are enough
-  fe.system.M = {};
+  if (!scene.sylvester) {  // the blocks are enough
+    fe.system.K = {};
+    fe.system.M = {};
+  }
   const auto K_ss = phases.run("factorization", [&] {
     return reduce::factorize(blocks.K.ss, basis_MiB(blocks, scene.reduce));
   });
@@ -96,11 +99,17 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
   system.certificate = phases.run(
       "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
-  const double modes_residual = phases.run("error estimates", [&] {
+  const double modes_residual = phases.run("residuals", [&] {
     return reduced.Q_CB.modes
                ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
                : 0.0;
   });
+  system.certificate.condition =
+      phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
+  if (scene.sylvester) {
+    system.certificate =
+        phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
+  }
   const RowsOf rows = rows_of(blocks, reduced);
   system.picture = phases.run("pictures", [&] {
     return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);

@@ -183,10 +183,10 @@ PetscErrorCode destroy(Mat F)
 {
   delete static_cast<MumpsFactor*>(F->data);
   F->data = nullptr;
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F),
-                                       "MatFactorGetSolverType_C", nullptr));
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatMumpsGetInfog_C",
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
                                        nullptr));
+  PetscCall(
+      PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatMumpsGetInfog_C", nullptr));
   return 0;
 }
 
@@ -221,10 +221,10 @@ PetscErrorCode view(Mat F, PetscViewer viewer)
 {
   const MumpsFactor& factor = factor_of(F);
   constexpr int ordering_used = 7;
-  PetscCall(PetscViewerASCIIPrintf(
-      viewer, "MUMPS, ordering %s: %.3g operations, %d MiB on all ranks\n",
-      factor.control(ordering_used) == 1 ? "by METIS" : "by MUMPS", factor.real_info(3),
-      factor.info(19)));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+                                   "MUMPS, ordering %s: %.3g operations, %d MiB on all ranks\n",
+                                   factor.control(ordering_used) == 1 ? "by METIS" : "by MUMPS",
+                                   factor.real_info(3), factor.info(19)));
   return 0;
 }
 
@@ -256,8 +256,8 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   PetscCall(MatSetUp(B));
   const PetscErrorCode code = guarded([&] {
     auto factor = std::make_unique<MumpsFactor>(petsc::communicator(A));
-    set_from_options(*factor, A->factorprefix ? A->factorprefix
-                                              : reinterpret_cast<PetscObject>(A)->prefix);
+    set_from_options(*factor,
+                     A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix);
     B->data = factor.release();
   });
   PetscCall(code);
@@ -267,8 +267,8 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   B->ops->getinfo = get_info;
   B->factortype = type;
   B->canuseordering = PETSC_FALSE;
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B),
-                                       "MatFactorGetSolverType_C", solver_type));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatFactorGetSolverType_C",
+                                       solver_type));
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatMumpsGetInfog_C",
                                        get_infog));
   PetscCall(PetscFree(B->solvertype));
