@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/petsc_session.hpp"
+#include "mbs_export/held_dofs.hpp"
 #include "mbs_export/held_modes.hpp"
 
 namespace chladni::cli {
@@ -31,6 +32,16 @@ reduce::ReducedPairs to_model_order(const mbs_export::HeldModeShapes& held,
     }
   }
   return pairs;
+}
+
+/// The values of the first rank on all ranks.
+template <typename Value>
+void broadcast(std::vector<Value>& values)
+{
+  auto n = static_cast<int>(values.size());
+  MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  values.resize(static_cast<std::size_t>(n));
+  MPI_Bcast(values.data(), n * static_cast<int>(sizeof(Value)), MPI_BYTE, 0, PETSC_COMM_WORLD);
 }
 
 /// The pairs of the first rank on all ranks.
@@ -64,17 +75,38 @@ mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const R
                                 double omega_max)
 {
   reduce::ReducedPairs pairs{.X = {0, 0}, .lambda = {}};
+  mbs_export::Certificate certificate;
+  certificate.fixed = fixed;
   on_first_rank([&] {
-    pairs = to_model_order(mbs_export::held_mode_shapes(with_modes(system, n_modes), fixed),
-                           reduction, omega_max);
+    const mbs_export::HeldModeShapes held =
+        mbs_export::held_mode_shapes(with_modes(system, n_modes), fixed);
+    pairs = to_model_order(held, reduction, omega_max);
+    certificate.n_rigid = held.n_free_rigid;
+    certificate.rigid_residual = held.rigid_residual;
   });
   pairs = broadcast(std::move(pairs));
   const std::vector<double> eta2 =
       reduce::error_estimates(reduction.K_ss, reduction.Q_CB, reduction.M, pairs);
   const auto k = static_cast<Index>(eta2.size());
-  return {.fixed = fixed,
-          .frequencies = Eigen::Map<const Eigen::VectorXd>(pairs.lambda.data(), k).cwiseSqrt(),
-          .eta2 = Eigen::Map<const Eigen::VectorXd>(eta2.data(), k)};
+  certificate.frequencies = Eigen::Map<const Eigen::VectorXd>(pairs.lambda.data(), k).cwiseSqrt();
+  certificate.eta2 = Eigen::Map<const Eigen::VectorXd>(eta2.data(), k);
+  return certificate;
+}
+
+HeldSpectrum held_spectrum(const mbs_export::ReducedSystem& system)
+{
+  HeldSpectrum spectrum{.lambda = {}, .n_rigid = 0, .held_rows = {}};
+  on_first_rank([&] {
+    const std::vector<std::string>& fixed = system.certificate.fixed;
+    const mbs_export::HeldModeShapes held = mbs_export::held_mode_shapes(system, fixed);
+    for (const double omega : held.omega) spectrum.lambda.push_back(omega * omega);
+    spectrum.n_rigid = held.n_rigid;
+    spectrum.held_rows = mbs_export::held_dofs(system, fixed).rows;
+  });
+  broadcast(spectrum.lambda);
+  broadcast(spectrum.held_rows);
+  MPI_Bcast(&spectrum.n_rigid, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  return spectrum;
 }
 
 }  // namespace chladni::cli

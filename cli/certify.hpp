@@ -27,6 +27,18 @@ mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const R
                                 const std::vector<std::string>& fixed, int n_modes,
                                 double omega_max);
 
+/// A spectrum under a support.
+struct HeldSpectrum {
+  std::vector<double> lambda;  ///< all positive eigenvalues, ascending; rad^2/s^2
+  int n_rigid;                 ///< zero ones
+  std::vector<int> held_rows;  ///< of K_r
+};
+
+/// Of the reduced system under the support of its certificate; the same on all ranks.
+/// @param system  [first rank]
+/// @note   Collective on all ranks.
+HeldSpectrum held_spectrum(const mbs_export::ReducedSystem& system);
+
 /// The system with the first `n_modes` fixed-interface modes only.
 mbs_export::ReducedSystem with_modes(const mbs_export::ReducedSystem& system, int n_modes);
 

@@ -82,6 +82,12 @@ TextTable reduction_table(const ReduceSummary& summary)
                                       certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
                           fmt::format("{:.1e}", 0.5 * certificate.eta2.maxCoeff())});
   }
+  if (const mbs_export::ModeCount& count = certificate.range; count.up_to > 0.0) {
+    table.rows.push_back(
+        {fmt::format("modes up to {:.0f} Hz", count.up_to / (2.0 * std::numbers::pi)),
+         fmt::format("{} of {}{}", count.found, count.expected,
+                     count.missing() > 0 ? ": take more fixed-interface modes" : "")});
+  }
   table.rows.push_back(
       {"CPU of the factorisation, s", fmt::format("{:.3f}", summary.factorization.cpu_s)});
   return table;
@@ -95,8 +101,15 @@ std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
           {"n_modes", summary.n_modes},
           {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
           {"eta2", numbers_json(summary.reduced.certificate.eta2)},
+          {"bounds", numbers_json(summary.reduced.certificate.bounds)},
+          {"modes_expected", summary.reduced.certificate.range.expected},
+          {"modes_found", summary.reduced.certificate.range.found},
+          {"condition_K_ss", summary.reduced.certificate.condition},
           {"factor_wall_s", summary.factorization.wall_s},
-          {"factor_cpu_s", summary.factorization.cpu_s}};
+          {"factor_cpu_s", summary.factorization.cpu_s},
+          {"modes_residual", summary.modes_residual},
+          {"factor_operations", summary.factor.operations},
+          {"factor_entries", summary.factor.entries}};
 }
 
 Json numbers_json(const Eigen::VectorXd& values)

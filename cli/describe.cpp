@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "cli/describe_certificate.hpp"
 #include "common/error.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/hdf5.hpp"
@@ -279,7 +280,11 @@ std::string describe_selection(const mbs_export::ModalBody& body)
 std::string describe_file(const std::filesystem::path& file)
 {
   const std::string format = mbs_export::hdf5::Reader(file.string()).text_attribute("/", "format");
-  if (format == "chladni-reduced") return titled(mbs_export::read_reduced(file));
+  if (format == "chladni-reduced") {
+    const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
+    const std::string certificate = describe_certificate(reduced.certificate);
+    return titled(reduced) + (certificate.empty() ? "" : "\n" + certificate);
+  }
   if (format == "chladni-body") {
     const mbs_export::ModalBody body = mbs_export::read_body(file);
     const std::string selection = describe_selection(body);

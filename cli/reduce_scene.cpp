@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cli/mesh_scene.hpp"
@@ -11,6 +12,7 @@
 #include "cli/section_forces.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
+#include "reduce/condition_estimate.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -51,6 +53,19 @@ Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned&
   return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 
+/// Memory of Psi and Phi, or of the eigen-solver's subspace where that is more.
+double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
+{
+  PetscInt n_s = 0;
+  petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
+  constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
+  const double n_modes = wanted.modes.value_or(0);
+  const double n_columns =
+      std::max(static_cast<double>(blocks.masters.size()) + n_modes, subspace_of_modes * n_modes);
+  constexpr double bytes_per_MiB = 1048576.0;
+  return 8.0 * static_cast<double>(n_s) * n_columns / bytes_per_MiB;
+}
+
 /// Of the transformation, with the columns in the order of the file.
 RowsOf rows_of(const Partitioned& blocks, const Reduced& reduced)
 {
@@ -70,9 +85,13 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  fe.system.K = {};  // its blocks are enough
-  fe.system.M = {};
-  const auto K_ss = phases.run("factorization", [&] { return reduce::factorize(blocks.K.ss); });
+  if (!scene.sylvester) {  // the blocks are enough
+    fe.system.K = {};
+    fe.system.M = {};
+  }
+  const auto K_ss = phases.run("factorization", [&] {
+    return reduce::factorize(blocks.K.ss, basis_MiB(blocks, scene.reduce));
+  });
   const PhaseTime factorization = phases.times().back();
   Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
@@ -80,6 +99,17 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
   system.certificate = phases.run(
       "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  const double modes_residual = phases.run("residuals", [&] {
+    return reduced.Q_CB.modes
+               ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
+               : 0.0;
+  });
+  system.certificate.condition =
+      phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
+  if (scene.sylvester) {
+    system.certificate =
+        phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
+  }
   const RowsOf rows = rows_of(blocks, reduced);
   system.picture = phases.run("pictures", [&] {
     return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
@@ -99,7 +129,9 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
           .n_nodes = fe.mesh.n_nodes(),
           .n_masters = static_cast<int>(blocks.masters.size()),
           .n_modes = n_modes,
-          .factorization = factorization};
+          .factorization = factorization,
+          .factor = reduce::factor_size(K_ss.factor()),
+          .modes_residual = modes_residual};
 }
 
 }  // namespace chladni::cli

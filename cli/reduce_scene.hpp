@@ -8,6 +8,7 @@
 #include "cli/scene/scene.hpp"
 #include "cli/timing.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "reduce/mumps_metis.hpp"
 
 namespace chladni::cli {
 
@@ -20,6 +21,8 @@ struct ReduceSummary {
   int n_masters;
   int n_modes;              ///< fixed-interface modes
   PhaseTime factorization;  ///< of K_ss, on this rank; part of one of the phases
+  reduce::FactorSize factor;
+  double modes_residual;  ///< largest of the fixed-interface modes; 0 without any
 };
 
 /// Called with the name of the phase under way and the fraction of it that is done, 0 to 1.

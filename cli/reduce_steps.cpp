@@ -79,6 +79,15 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
   return reduced;
 }
 
+/// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
+/// what else PETSc's viewers know.
+void view_from_options(const FeModel& fe, IS masters)
+{
+  petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
+  petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
+  petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
+}
+
 }  // namespace
 
 plate::Structure structure_of(const Scene& scene)
@@ -92,7 +101,9 @@ plate::Structure structure_of(const Scene& scene)
 Partitioned partition_scene(const FeModel& fe)
 {
   std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
-  reduce::DofPartition rows = reduce::partition(fe.system.K, own_masters(fe.system.K, masters));
+  const petsc::IndexSet own = own_masters(fe.system.K, masters);
+  view_from_options(fe, own);
+  reduce::DofPartition rows = reduce::partition(fe.system.K, own);
   reduce::Blocks K = reduce::split(fe.system.K, rows);
   reduce::Blocks M = reduce::split(fe.system.M, rows);
   std::optional<reduce::Blocks> C;

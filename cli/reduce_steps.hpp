@@ -80,6 +80,11 @@ mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blo
                                       const reduce::Factorization& K_ss, const Reduced& reduced,
                                       int n_modes);
 
+/// Counts the eigenvalues of the FE model and bounds the errors, for the certificate of `system`.
+/// @param system  [first rank]
+mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
+                                    const mbs_export::ReducedSystem& system);
+
 /// As few modes as keep the tolerance of the scene.
 Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
                             const reduce::Factorization& K_ss, Phases& phases);

@@ -14,7 +14,10 @@ HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<
   const ConstrainedModes modes = constrained_modes(shift);
   const Eigen::Index n_elastic = modes.omega.size() - modes.n_rigid;
   return {.omega = modes.omega.tail(n_elastic),
-          .X = free.Q_e * (shift.Q_c * modes.X.rightCols(n_elastic))};
+          .X = free.Q_e * (shift.Q_c * modes.X.rightCols(n_elastic)),
+          .n_rigid = modes.n_rigid,
+          .n_free_rigid = free.n_rigid,
+          .rigid_residual = free.rigid_residual};
 }
 
 }  // namespace chladni::mbs_export

@@ -12,6 +12,9 @@ namespace chladni::mbs_export {
 struct HeldModeShapes {
   Eigen::VectorXd omega;  ///< [k] rad/s, ascending, positive
   Eigen::MatrixXd X;      ///< [n_FE x k] in the reduced coordinates, X^T M_r X = I
+  int n_rigid;            ///< rigid-body motions that the support leaves free
+  int n_free_rigid;       ///< rigid-body motions without the support
+  double rigid_residual;  ///< of these, as FreeModes::rigid_residual
 };
 
 /// @param fixed  as BodyOptions::fixed.

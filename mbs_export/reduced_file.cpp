@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "mbs_export/certificate_file.hpp"
 #include "mbs_export/file_parts.hpp"
 
 namespace chladni::mbs_export {
@@ -53,16 +54,6 @@ std::vector<MasterDof> read_masters(const hdf5::Reader& file, Index n_nodes)
   return masters;
 }
 
-Certificate read_certificate(const hdf5::Reader& file)
-{
-  if (!file.contains("certificate")) return {};
-  Certificate certificate{.fixed = file.texts("certificate/fixed"),
-                          .frequencies = file.vector("certificate/frequencies"),
-                          .eta2 = {}};
-  certificate.eta2 = file.vector("certificate/eta2", certificate.frequencies.size());
-  return certificate;
-}
-
 }  // namespace
 
 void write_reduced(const std::string& path, const ReducedSystem& reduced)
@@ -84,11 +75,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   if (reduced.C.size() > 0)
     file.write("matrices/damping", reduced.C, "N s/m, N s, N m s; 1/s of fixed-interface modes");
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
-  if (reduced.certificate.eta2.size() > 0) {
-    file.write("certificate/fixed", reduced.certificate.fixed);
-    file.write("certificate/frequencies", reduced.certificate.frequencies, "rad/s");
-    file.write("certificate/eta2", reduced.certificate.eta2, "1");
-  }
+  write_certificate(file, reduced.certificate);
   file_parts::write_picture(file, reduced.picture);
   file_parts::write_resultants(file, reduced.resultants);
   file_parts::write_provenance(file, reduced.provenance);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mbs_export/certificate.hpp"
+
 namespace chladni::mbs_export {
 
 /// A node at which loads, supports and contacts may act (all of its DOFs are masters).
@@ -56,14 +58,6 @@ struct Provenance {
   std::string versions;       ///< of Chladni and its libraries
   std::string options;        ///< options of the solvers
   int ranks = 1;
-};
-
-/// Estimated errors of the reduced system's frequencies under one support, made at the time of the
-/// reduction, when the FE model is at hand. Empty when there is none.
-struct Certificate {
-  std::vector<std::string> fixed;  ///< the support, as BodyOptions::fixed
-  Eigen::VectorXd frequencies;     ///< [k] rad/s, of the elastic modes, ascending
-  Eigen::VectorXd eta2;            ///< [k] estimated relative error of omega^2 against the FE model
 };
 
 /// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates

@@ -52,8 +52,8 @@ class BlockBasis {
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;      ///< M times the last block
-  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
+  petsc::Matrix newest_M_;            ///< M times the last block
+  petsc::Matrix second_last_M_;       ///< M times the block before; empty after compress
   std::unique_ptr<double[]> values_;  ///< [n_local x capacity] column-major, touched when used
 };
 

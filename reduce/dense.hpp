@@ -64,6 +64,23 @@ void for_local_entries(Mat A, const Visit& visit)
 /// @note   Collective.
 petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns);
 
+/// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
+class ColumnRange {
+ public:
+  ColumnRange(Mat dense, PetscInt first, PetscInt last) : dense_(dense)
+  {
+    petsc::check(MatDenseGetSubMatrix(dense, PETSC_DECIDE, PETSC_DECIDE, first, last, &columns_));
+  }
+  ~ColumnRange() { MatDenseRestoreSubMatrix(dense_, &columns_); }
+  ColumnRange(const ColumnRange&) = delete;
+  ColumnRange& operator=(const ColumnRange&) = delete;
+  operator Mat() const { return columns_; }  // NOLINT(google-explicit-constructor): as PETSc's
+
+ private:
+  Mat dense_;
+  Mat columns_ = nullptr;
+};
+
 /// X^T Y of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.
 SmallMatrix inner_product(Mat X, Mat Y);

@@ -112,7 +112,8 @@ EigenPairs lowest_pairs(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
              ? krylov_schur(K_ss, M_ss, n_modes)
              : block_lanczos(K_ss.factor(), M_ss,
                              {.n_pairs = n_modes,
-                              .block_size = integer_option("-cms_lanczos_block_size", fastest_block_size(M_ss)),
+                              .block_size = integer_option("-cms_lanczos_block_size",
+                                                           fastest_block_size(M_ss)),
                               .max_subspace = integer_option("-cms_lanczos_subspace", 0),
                               .tolerance = tolerance});
 }

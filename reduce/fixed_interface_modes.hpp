@@ -19,8 +19,14 @@ struct FixedInterfaceModes {
 /// comes too.
 /// @note   Collective on the communicator of `M_ss`.
 /// @throws chladni::Error when the solver does not converge or more modes are asked than exist.
-/// Options: `-cms_modes_solver block-lanczos|krylov-schur`, `-cms_eps_...` for the latter
+/// Options: `-cms_modes_solver block-lanczos|krylov-schur`, `-cms_lanczos_block_size`,
+/// `-cms_lanczos_subspace` (basis vectors before a restart), `-cms_eps_...` for the latter
 FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
                                           const ReduceOptions& wanted);
+
+/// The worst of |K phi - lambda M phi| / |lambda M phi| over the modes: what the eigen-solver left,
+/// by the matrices themselves.
+/// @note   Collective.
+double largest_residual(const FixedInterfaceModes& modes, Mat K_ss, Mat M_ss);
 
 }  // namespace chladni::reduce

@@ -121,8 +121,9 @@ void MumpsFactor::call_solve()
   const LogEvent event(Event::solution);
   call(job_solve);
   if (info(1) >= 0) return;
-  throw Error(fmt::format("MUMPS: the solution of {} columns failed with INFOG(1) = {}, INFOG(2) = {}",
-                          mumps_.nrhs, info(1), info(2)));
+  throw Error(
+      fmt::format("MUMPS: the solution of {} columns failed with INFOG(1) = {}, INFOG(2) = {}",
+                  mumps_.nrhs, info(1), info(2)));
 }
 
 /// The upper triangle of the rows of this rank.

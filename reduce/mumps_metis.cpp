@@ -183,10 +183,10 @@ PetscErrorCode destroy(Mat F)
 {
   delete static_cast<MumpsFactor*>(F->data);
   F->data = nullptr;
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F),
-                                       "MatFactorGetSolverType_C", nullptr));
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatMumpsGetInfog_C",
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
                                        nullptr));
+  PetscCall(
+      PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatMumpsGetInfog_C", nullptr));
   return 0;
 }
 
@@ -202,12 +202,18 @@ PetscErrorCode get_infog(Mat F, PetscInt index, PetscInt* value)
   return 0;
 }
 
+/// MUMPS gives a large number of entries in millions, with a minus.
+double n_entries(const MumpsFactor& factor)
+{
+  constexpr int entries_of_factor = 29;  // INFOG
+  const int entries = factor.info(entries_of_factor);
+  return entries < 0 ? -1e6 * entries : entries;
+}
+
 PetscErrorCode get_info(Mat F, MatInfoType, MatInfo* info)
 {
-  constexpr int entries_of_factor = 29;
-  const int entries = factor_of(F).info(entries_of_factor);
   *info = {};
-  info->nz_used = info->nz_allocated = entries < 0 ? -1e6 * entries : entries;
+  info->nz_used = info->nz_allocated = n_entries(factor_of(F));
   return 0;
 }
 
@@ -215,10 +221,10 @@ PetscErrorCode view(Mat F, PetscViewer viewer)
 {
   const MumpsFactor& factor = factor_of(F);
   constexpr int ordering_used = 7;
-  PetscCall(PetscViewerASCIIPrintf(
-      viewer, "MUMPS, ordering %s: %.3g operations, %d MiB on all ranks\n",
-      factor.control(ordering_used) == 1 ? "by METIS" : "by MUMPS", factor.real_info(3),
-      factor.info(19)));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+                                   "MUMPS, ordering %s: %.3g operations, %d MiB on all ranks\n",
+                                   factor.control(ordering_used) == 1 ? "by METIS" : "by MUMPS",
+                                   factor.real_info(3), factor.info(19)));
   return 0;
 }
 
@@ -250,8 +256,8 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   PetscCall(MatSetUp(B));
   const PetscErrorCode code = guarded([&] {
     auto factor = std::make_unique<MumpsFactor>(petsc::communicator(A));
-    set_from_options(*factor, A->factorprefix ? A->factorprefix
-                                              : reinterpret_cast<PetscObject>(A)->prefix);
+    set_from_options(*factor,
+                     A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix);
     B->data = factor.release();
   });
   PetscCall(code);
@@ -261,8 +267,8 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   B->ops->getinfo = get_info;
   B->factortype = type;
   B->canuseordering = PETSC_FALSE;
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B),
-                                       "MatFactorGetSolverType_C", solver_type));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatFactorGetSolverType_C",
+                                       solver_type));
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatMumpsGetInfog_C",
                                        get_infog));
   PetscCall(PetscFree(B->solvertype));
@@ -284,6 +290,14 @@ MumpsFactor* ours(Mat F)
 void set_budget(Mat F, double MiB)
 {
   if (MumpsFactor* factor = ours(F)) factor->budget_MiB = MiB;
+}
+
+FactorSize factor_size(Mat F)
+{
+  const MumpsFactor* factor = ours(F);
+  if (factor == nullptr) return {.operations = 0.0, .entries = 0.0};
+  constexpr int operations = 3;  // RINFOG
+  return {.operations = factor->real_info(operations), .entries = n_entries(*factor)};
 }
 
 double forecast_MiB(Mat F)

@@ -18,6 +18,13 @@ void register_mumps_metis();
 /// with MAT_FACTOR_OUTMEMORY. Without effect on factors of other types.
 void set_budget(Mat F, double MiB);
 
+/// Size of a factor by MUMPS; zero for other types.
+struct FactorSize {
+  double operations;  ///< floating-point, of the factorisation
+  double entries;     ///< of the triangle
+};
+FactorSize factor_size(Mat F);
+
 /// What the numerical factorisation needs on the fullest machine, by the symbolic one; 0 for other
 /// types.
 /// @note   Collective.

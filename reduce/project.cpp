@@ -10,23 +10,6 @@ namespace {
 constexpr PetscInt block_columns =
     64;  // of M_ss Psi at a time: bounds the memory, enough for dgemm
 
-/// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
-class ColumnRange {
- public:
-  ColumnRange(Mat dense, PetscInt first, PetscInt last) : dense_(dense)
-  {
-    petsc::check(MatDenseGetSubMatrix(dense, PETSC_DECIDE, PETSC_DECIDE, first, last, &columns_));
-  }
-  ~ColumnRange() { MatDenseRestoreSubMatrix(dense_, &columns_); }
-  ColumnRange(const ColumnRange&) = delete;
-  ColumnRange& operator=(const ColumnRange&) = delete;
-  operator Mat() const { return columns_; }  // NOLINT(google-explicit-constructor): as PETSc's
-
- private:
-  Mat dense_;
-  Mat columns_ = nullptr;
-};
-
 /// From above in the columns of `to` from first_column on.
 void copy_columns(SmallMatrix& to, PetscInt first_column, const SmallMatrix& from)
 {

@@ -78,7 +78,8 @@ void unpack(const double* panel, PetscInt width, PetscInt n_rows, PetscInt n, do
             PetscInt ldy)
 {
   for (PetscInt i = 0; i < n_rows; ++i) {
-    for (PetscInt c = 0; c < n; ++c) Y[i + std::size_t(c) * ldy] = panel[std::size_t(i) * width + c];
+    for (PetscInt c = 0; c < n; ++c)
+      Y[i + std::size_t(c) * ldy] = panel[std::size_t(i) * width + c];
   }
 }
 
@@ -89,9 +90,10 @@ SparseProduct::Rows SparseProduct::borrow(Mat sequential)
   Rows rows{.matrix = sequential};
   PetscInt n = 0;
   PetscBool done = PETSC_FALSE;
-  petsc::check(MatGetRowIJ(sequential, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows.starts, &rows.columns,
-                           &done));
-  if (!done) throw Error("SparseProduct: the matrix is not of type AIJ; convert it with MatConvert");
+  petsc::check(
+      MatGetRowIJ(sequential, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows.starts, &rows.columns, &done));
+  if (!done)
+    throw Error("SparseProduct: the matrix is not of type AIJ; convert it with MatConvert");
   petsc::check(MatSeqAIJGetArrayRead(sequential, &rows.values));
   return rows;
 }
@@ -109,7 +111,8 @@ SparseProduct::SparseProduct(Mat A) : comm_(petsc::communicator(A))
 {
   petsc::check(MatGetLocalSize(A, &n_rows_, nullptr));
   PetscBool is_distributed = PETSC_FALSE;
-  petsc::check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(A), MATMPIAIJ, &is_distributed));
+  petsc::check(
+      PetscObjectTypeCompare(reinterpret_cast<PetscObject>(A), MATMPIAIJ, &is_distributed));
   if (is_distributed) {
     Mat own = nullptr, other = nullptr;
     const PetscInt* ghosts = nullptr;

@@ -100,6 +100,11 @@ Objection objection_to_integer(const Admissible& admissible)
   };
 }
 
+std::string objection_to_truth(const toml::node& value)
+{
+  return value.is_boolean() ? "" : "must be true or false";
+}
+
 std::string objection_to_text(const toml::node& value)
 {
   if (!value.is_string()) return "must be a text in quotes";
@@ -214,6 +219,11 @@ int Table::integer(std::string_view key, const Admissible& admissible) const
 std::string Table::text(std::string_view key) const
 {
   return node_->value<std::string>(key, "a text in quotes", objection_to_text);
+}
+
+bool Table::truth(std::string_view key) const
+{
+  return node_->value<bool>(key, "true or false", objection_to_truth);
 }
 
 std::vector<double> Table::numbers(std::string_view key, const Admissible& admissible) const

@@ -33,6 +33,7 @@ class Table {
   double number(std::string_view key, const Admissible& admissible) const;
   int integer(std::string_view key, const Admissible& admissible) const;
   std::string text(std::string_view key) const;
+  bool truth(std::string_view key) const;
   std::vector<double> numbers(std::string_view key, const Admissible& admissible) const;
   std::vector<int> integers(std::string_view key, const Admissible& admissible) const;
   std::vector<std::string> texts(std::string_view key) const;

@@ -110,4 +110,10 @@ PictureChoice read_pictures(const Table& root)
                                                   {"none", PictureChoice::none}});
 }
 
+bool read_sylvester(const Table& root)
+{
+  const Table table = root.table("reduce");
+  return table.has("sylvester") && table.truth("sylvester");
+}
+
 }  // namespace chladni::cli

@@ -48,7 +48,7 @@ std::optional<ModesOptions> read_natural_modes(const Table& root);
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
-/// [reduce] without its keys `pictures` and `resultants`.
+/// [reduce] without its keys `pictures`, `resultants` and `sylvester`.
 reduce::ReduceOptions read_reduce(const Table& root);
 
 /// [reduce] resultants: groups of beams; needs the sections of `scene`.
@@ -56,6 +56,9 @@ std::vector<std::string> read_resultants(const Table& root, const Scene& scene);
 
 /// [reduce] pictures
 PictureChoice read_pictures(const Table& root);
+
+/// [reduce] sylvester
+bool read_sylvester(const Table& root);
 
 /// [body]; without the table the body is free and keeps all modes.
 mbs_export::BodyOptions read_body(const Table& root,

@@ -50,6 +50,7 @@ struct Scene {
   PictureChoice pictures = PictureChoice::vertices;
   std::vector<std::string> resultants;  ///< groups whose elements give their section forces
   reduce::ReduceOptions reduce;
+  bool sylvester = false;  ///< count eigenvalues of the FE model, for the certificate
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
   std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty

@@ -1,6 +1,5 @@
 // CMSView: ascii with the certificate, or the reduced file.
 #include <petscviewer.h>
-#include <petscviewerhdf5.h>
 
 #include <algorithm>
 #include <array>

@@ -73,6 +73,27 @@ VectorXd as_vector(const std::vector<double>& x, double factor)
   return factor * Map<const VectorXd>(x.data(), std::ssize(x));
 }
 
+mbs_export::ModeCount as_mode_count(const CMSCount& count)
+{
+  return {.up_to = 2.0 * std::numbers::pi * count.upto,
+          .expected = static_cast<int>(count.expected),
+          .found = static_cast<int>(count.found)};
+}
+
+mbs_export::Certificate certificate_of(const Result& result)
+{
+  return {.fixed = {},
+          .frequencies = as_vector(result.f_Hz, 2.0 * std::numbers::pi),
+          .eta2 = as_vector(result.eta2, 1.0),
+          .bounds = as_vector(result.bounds, 1.0),
+          .fixed_interface = as_mode_count(result.quality.modes),
+          .range = as_mode_count(result.quality.model),
+          .complete = as_mode_count(result.quality.complete),
+          .n_rigid = static_cast<int>(result.quality.n_zero),
+          .rigid_residual = result.quality.rigid_residual,
+          .condition = result.quality.condition};
+}
+
 mbs_export::Provenance provenance(MPI_Comm comm)
 {
   std::array<char, 256> petsc_version{};
@@ -112,8 +133,7 @@ void write_file(CMS cms, const std::string& path)
   system.M = gathered(M_r);
   if (C_r) system.C = gathered(C_r);
   system.fixed_interface_frequencies = as_vector(in.result->model.omega, 1.0);
-  system.certificate.frequencies = as_vector(in.result->f_Hz, 2.0 * std::numbers::pi);
-  system.certificate.eta2 = as_vector(in.result->eta2, 1.0);
+  system.certificate = certificate_of(*in.result);
   system.provenance = provenance(comm);
   std::optional<std::string> complaint;
   if (petsc::rank(comm) == 0) {

@@ -8,6 +8,7 @@
 
 #include "reduce/block_iteration.hpp"
 #include "reduce/plugin/chladni_cms.h"
+#include "reduce/plugin/eps_operator.hpp"
 #include "reduce/plugin/guard.hpp"
 
 using namespace chladni;                  // NOLINT(google-build-using-namespace)
@@ -101,54 +102,6 @@ PetscErrorCode set_up(EPS eps)
   PetscCall(BVResize(eps->V, eps->nev, PETSC_FALSE));
   PetscCall(set_up_sort(eps));
   PetscFunctionReturn(0);
-}
-
-/// B of the inner product; the identity for a standard problem.
-petsc::Matrix inner_product_matrix(EPS eps)
-{
-  petsc::Matrix B;
-  petsc::check(STGetBilinearForm(eps->st, B.put()));
-  if (B) return B;
-  PetscInt first = 0, last = 0;
-  petsc::check(MatCreateAIJ(PetscObjectComm((PetscObject)eps), eps->nloc, eps->nloc, eps->n, eps->n,
-                            1, nullptr, 0, nullptr, B.put()));
-  petsc::check(MatGetOwnershipRange(B, &first, &last));
-  for (PetscInt i = first; i < last; ++i) petsc::check(MatSetValue(B, i, i, 1.0, INSERT_VALUES));
-  petsc::check(MatAssemblyBegin(B, MAT_FINAL_ASSEMBLY));
-  petsc::check(MatAssemblyEnd(B, MAT_FINAL_ASSEMBLY));
-  return B;
-}
-
-/// Y <- Op Q column by column: SLEPc 3.18 has no STApplyMat for the transformation "shift".
-void apply_by_columns(ST st, Mat Q, Mat Y)
-{
-  PetscInt n = 0;
-  petsc::check(MatGetSize(Q, nullptr, &n));
-  for (PetscInt j = 0; j < n; ++j) {
-    Vec q = nullptr, y = nullptr;
-    petsc::check(MatDenseGetColumnVecRead(Q, j, &q));
-    petsc::check(MatDenseGetColumnVecWrite(Y, j, &y));
-    petsc::check(STApply(st, q, y));
-    petsc::check(MatDenseRestoreColumnVecWrite(Y, j, &y));
-    petsc::check(MatDenseRestoreColumnVecRead(Q, j, &q));
-  }
-}
-
-bool inverts(EPS eps)
-{
-  PetscBool sinvert = PETSC_FALSE;
-  petsc::check(PetscObjectTypeCompare((PetscObject)eps->st, STSINVERT, &sinvert));
-  return sinvert == PETSC_TRUE;
-}
-
-/// (A - sigma B)^-1 B by block solves with the solver of the spectral transformation, or what the
-/// transformation is.
-BlockOperator operator_of(EPS eps)
-{
-  if (!inverts(eps)) {
-    return [eps](Mat Q, Mat, Mat Y) { apply_by_columns(eps->st, Q, Y); };
-  }
-  return [eps](Mat, Mat BQ, Mat Y) { petsc::check(STMatMatSolve(eps->st, BQ, Y)); };
 }
 
 /// Order of the back-transformed eigenvalues as the user wants them.

@@ -203,7 +203,7 @@ TEST(SceneError, NamesWhatAStabilityMapCannotBe)
 TEST(Scene, TakesValuesInsteadOfDefaults)
 {
   std::string text = replaced(disc, "title = \"Disc\"", "name = \"rotor_1\"");
-  text = replaced(text, "modes = 100", "cutoff_Hz = 16e3\npictures = \"none\"");
+  text = replaced(text, "modes = 100", "cutoff_Hz = 16e3\npictures = \"none\"\nsylvester = true");
   text = replaced(text, "{ modes = 40 }", "{ list = [7, 8] }");
   text = replaced(text, "{ type = \"none\" }", "{ type = \"modal\", ratio = 0.001 }");
   text = replaced(text, "\"nodal-diameters 3\"", "[1, 2]");
@@ -217,6 +217,7 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.reduce.cutoff_Hz, 16e3);
   EXPECT_FALSE(scene.reduce.modes);
   EXPECT_EQ(scene.pictures, PictureChoice::none);
+  EXPECT_TRUE(scene.sylvester);
   EXPECT_EQ(scene.body.keep.list, (std::vector<int>{7, 8}));
   EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
   EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));
@@ -435,6 +436,8 @@ TEST(SceneError, NamesPlaceAndTypeOfAValue)
       {"nodes = [\"track\", \"hub\"]", "nodes = \"track\"",
        "scene.toml:23: interface.nodes = \"track\": must be a list of texts in quotes in [ ]"},
       {"keep = { modes = 40 }", "keep = 40", "scene.toml:29: body.keep = 40: must be a table"},
+      {"modes = 100", "modes = 100\nsylvester = 1",
+       "scene.toml:27: reduce.sylvester = 1: must be true or false"},
       {"use_modes = \"nodal-diameters 3\"", "use_modes = \"nodal-diameters three\"",
        "scene.toml:35: squeal.use_modes = \"nodal-diameters three\": must be \"all\", "
        "\"nodal-diameters N\" with N >= 1, or a list of mode numbers"},

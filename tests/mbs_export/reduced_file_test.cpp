@@ -43,6 +43,16 @@ ReducedSystem complete_system()
   system.picture.cells = {{0, 1, 2, 2}};
   system.picture.transformation = Eigen::MatrixXd::Random(9, system.K.cols());
   system.resultants = {two_points(system.K.cols())};
+  system.certificate = {.fixed = {"hub"},
+                        .frequencies = Eigen::Vector3d(10.0, 20.0, 30.0),
+                        .eta2 = Eigen::Vector3d(1e-6, 1e-5, 1e-4),
+                        .bounds = Eigen::Vector2d(2e-6, 3e-5),
+                        .fixed_interface = {.up_to = 40.0, .expected = 4, .found = 4},
+                        .range = {.up_to = 31.0, .expected = 4, .found = 3},
+                        .complete = {.up_to = 25.0, .expected = 2, .found = 2},
+                        .n_rigid = 6,
+                        .rigid_residual = 1e-12,
+                        .condition = 1e9};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",
@@ -51,8 +61,30 @@ ReducedSystem complete_system()
   return system;
 }
 
+void expect_equal(const ModeCount& a, const ModeCount& b)
+{
+  EXPECT_EQ(a.up_to, b.up_to);
+  EXPECT_EQ(a.expected, b.expected);
+  EXPECT_EQ(a.found, b.found);
+}
+
+void expect_equal(const Certificate& a, const Certificate& b)
+{
+  EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.frequencies, b.frequencies);
+  EXPECT_EQ(a.eta2, b.eta2);
+  EXPECT_EQ(a.bounds, b.bounds);
+  expect_equal(a.fixed_interface, b.fixed_interface);
+  expect_equal(a.range, b.range);
+  expect_equal(a.complete, b.complete);
+  EXPECT_EQ(a.n_rigid, b.n_rigid);
+  EXPECT_EQ(a.rigid_residual, b.rigid_residual);
+  EXPECT_EQ(a.condition, b.condition);
+}
+
 void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
 {
+  expect_equal(a.certificate, b.certificate);
   EXPECT_EQ(a.title, b.title);
   ASSERT_EQ(a.attachment_nodes.size(), b.attachment_nodes.size());
   for (std::size_t i = 0; i < a.attachment_nodes.size(); ++i) {
@@ -149,6 +181,10 @@ TEST(ReducedFile, IsRefusedWhenItsContentMakesNoSense)
   expect_mention(error_after(folder, [](System& s) { s.resultants[0].S.resize(4, 5); }),
                  "resultants/spoke/modes: has shape [4 x 5], expected [4 x 78]");
   expect_mention(error_after(folder, [](System& s) { s.provenance.ranks = -1; }), "ranks");
+  expect_mention(error_after(folder, [](System& s) { s.certificate.bounds.setOnes(4); }),
+                 "certificate/bounds: has 4 values for 3 modes");
+  expect_mention(error_after(folder, [](System& s) { s.certificate.range.found = -1; }),
+                 "certificate/counts/found");
   expect_mention(
       error_after(folder, [](System& s) { s.fixed_interface_frequencies.setConstant(1, -1.0); }),
       "fixed_interface_frequencies");

@@ -1,5 +1,6 @@
 #include <chladni_cms.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "../chain.hpp"
+#include "mbs_export/reduced_file.hpp"
 #include "reduce/dense.hpp"
 
 namespace chladni::reduce {
@@ -126,6 +128,12 @@ TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
   for (PetscInt i = 0; i < 3; ++i) {
     for (PetscInt j = 0; j < rows.n_cols; ++j) EXPECT_EQ(rows(i, j), i == j ? 1.0 : 0.0);
   }
+  Mat K_r = nullptr;
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
+  const SmallMatrix K = replicate(K_r);
+  EXPECT_NEAR(K(0, 1), 0.0, round_off);  // the middle stands between the ends
+  EXPECT_NEAR(K(0, 2), -1.0 / (n - 1 - n / 2), round_off);
+  EXPECT_NEAR(K(1, 2), -1.0 / (n / 2), round_off);
 }
 
 TEST(CMS, ReducesDampingWithTheSameTransformation)
@@ -216,6 +224,10 @@ TEST(CMS, ObeysTheOptionsOfItsPrefix)
     petsc::check(CMSGetDimensions(solver.cms, nullptr, &n_found));
     EXPECT_EQ(n_found, n_modes) << prefix;
   }
+  const Options wrong("-wrong_cms_modes_solver by-magic");
+  Solver solver;
+  petsc::check(CMSSetOptionsPrefix(solver.cms, "wrong_"));
+  expect_refused(solver, "by-magic");
   PetscBool left_behind = PETSC_FALSE;  // what reduce/ saw as its own option
   petsc::check(PetscOptionsHasName(nullptr, nullptr, "-cms_modes_solver", &left_behind));
   EXPECT_FALSE(left_behind);
@@ -229,6 +241,19 @@ TEST(CMS, IsFreedWithTheLastReference)
   petsc::check(CMSDestroy(&other));
   EXPECT_EQ(other, nullptr);
   petsc::check(solver.solve());  // still there
+  bool freed = false;
+  PetscContainer witness = nullptr;
+  petsc::check(PetscContainerCreate(PETSC_COMM_WORLD, &witness));
+  petsc::check(PetscContainerSetPointer(witness, &freed));
+  petsc::check(PetscContainerSetUserDestroy(witness, [](void* pointer) -> PetscErrorCode {
+    *static_cast<bool*>(pointer) = true;
+    return 0;
+  }));
+  petsc::check(PetscObjectCompose(reinterpret_cast<PetscObject>(solver.cms), "witness",
+                                  reinterpret_cast<PetscObject>(witness)));
+  petsc::check(PetscContainerDestroy(&witness));
+  petsc::check(CMSDestroy(&solver.cms));
+  EXPECT_TRUE(freed);
 }
 
 TEST(CMS, SolvesAgainAfterReset)
@@ -382,6 +407,64 @@ TEST(CMS, SaysWhatIsToBeCalledFirst)
   Mat K = nullptr;
   const PetscErrorCode not_solved = CMSGetReducedOperators(solver.cms, &K, nullptr, nullptr);
   EXPECT_NE(message(not_solved).find("Call CMSSolve() first"), std::string::npos);
+}
+
+/// A name for a file, the same on all ranks.
+std::string common_path()
+{
+  int process = getpid();
+  MPI_Bcast(&process, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  return std::filesystem::temp_directory_path() / fmt::format("cms_{}.reduced.h5", process);
+}
+
+TEST(CMS, WritesTheReducedFileThroughAViewer)
+{
+  const std::string path = common_path();
+  Solver solver;
+  petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "chain"));
+  petsc::check(solver.solve());
+  PetscViewer viewer = nullptr;
+  petsc::check(PetscViewerCreate(PETSC_COMM_WORLD, &viewer));
+  petsc::check(PetscViewerSetType(viewer, PETSCVIEWERHDF5));
+  petsc::check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
+  petsc::check(PetscViewerFileSetName(viewer, path.c_str()));
+  petsc::check(CMSView(solver.cms, viewer));
+  petsc::check(PetscViewerDestroy(&viewer));
+  const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  EXPECT_EQ(file.title, "chain");
+  EXPECT_EQ(file.n_masters(), 2);
+  EXPECT_EQ(file.attachment_nodes[1].number, n - 1);
+  EXPECT_GT(file.certificate.eta2.size(), 0);
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
+}
+
+TEST(CMS, KeepsTheGeometryOfItsInterfaceForTheFile)
+{
+  Solver solver;
+  petsc::check(CMSSetInterface(solver.cms, solver.masters));
+  PetscInt n_own = 0;
+  const PetscInt* own = nullptr;
+  petsc::check(ISGetLocalSize(solver.masters, &n_own));
+  petsc::check(ISGetIndices(solver.masters, &own));
+  std::vector<PetscInt> nodes(own, own + n_own), components(n_own, 2);
+  std::vector<PetscReal> positions;
+  for (const PetscInt node : nodes) positions.insert(positions.end(), {0.1 * node, 0.0, 1.0});
+  petsc::check(ISRestoreIndices(solver.masters, &own));
+  EXPECT_NE(CMSSetInterfaceGeometry(solver.cms, n_own + 1, nodes.data(), components.data(),
+                                    positions.data()),
+            0);
+  petsc::check(CMSSetInterfaceGeometry(solver.cms, n_own, nodes.data(), components.data(),
+                                       positions.data()));
+  petsc::check(CMSSetOperators(solver.cms, solver.chain.K, solver.chain.M, nullptr));
+  petsc::check(CMSSolve(solver.cms));
+  const std::string path = common_path();
+  petsc::check(CMSWrite(solver.cms, path.c_str()));
+  const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  EXPECT_EQ(file.masters[1].component, 2);
+  EXPECT_EQ(file.attachment_nodes[1].position, Eigen::Vector3d(0.1 * (n - 1), 0.0, 1.0));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
 }
 
 TEST(CMS, LeavesTheOldFileWhereItCannotWriteANewOne)

@@ -1,0 +1,55 @@
+"""Runs chladni on the benchmark disc; shared by scale.py and peers.py."""
+import json
+import os
+import pathlib
+import platform
+import subprocess
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+CHLADNI = ROOT / "build/release/bin/chladni"
+ENVIRONMENT = dict(
+    os.environ,
+    OMP_NUM_THREADS="1",
+    OPENBLAS_NUM_THREADS="1",
+    OMPI_ALLOW_RUN_AS_ROOT="1",
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+    OMPI_MCA_btl_vader_single_copy_mechanism="none",
+)
+
+
+def scene(folder, size, order=3, modes=100):
+    """Writes the scene into the folder and returns its path."""
+    text = (HERE / "disc.toml").read_text()
+    for word, value in [("ELEMENT_ORDER", order), ("ELEMENT_SIZE", size), ("MODES", modes)]:
+        text = text.replace(word, str(value))
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "disc.toml"
+    path.write_text(text)
+    return path
+
+
+def reduce(folder, path, ranks=1, options=()):
+    """One reduction; returns the summary that the program writes, and its -log_view events."""
+    launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    command = [*launcher, str(CHLADNI), "reduce", str(path), "--output", str(folder),
+               "--json", str(folder / "summary.json"), "--", "-log_view", *options]
+    done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+    events = {}
+    for line in done.stdout.splitlines():
+        if line.startswith("CMS"):
+            name, count, _, seconds, *_ = line.split()
+            events[name] = {"count": int(count), "wall_s": float(seconds)}
+    summary = json.loads((folder / "summary.json").read_text())
+    return {**summary, "events": events}
+
+
+def machine():
+    """What the figures were measured on."""
+    model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
+                  if line.startswith("model name")), platform.machine())
+    commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"],
+                            capture_output=True, text=True, check=False).stdout.strip()
+    return {"processor": model, "cores": os.cpu_count(), "commit": commit}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace chladni::mbs_export {
+
+/// Eigenvalues of omega^2 below a frequency: of the FE model by Sylvester's law, of the reduced
+/// one by looking.
+struct ModeCount {
+  double up_to = 0.0;  ///< rad/s; 0 where nothing was counted
+  int expected = 0;
+  int found = 0;
+
+  int missing() const { return expected - found; }
+};
+
+/// How good a reduced system is, made at the time of the reduction, when the FE model is at hand.
+/// Empty when nobody looked.
+struct Certificate {
+  std::vector<std::string> fixed;  ///< the support, as BodyOptions::fixed
+  Eigen::VectorXd frequencies;     ///< [k] rad/s, of the elastic modes, ascending
+  Eigen::VectorXd eta2;            ///< [k] estimated relative error of omega^2 against the FE model
+  Eigen::VectorXd bounds;          ///< [<= k] rigorous ones, below `complete.up_to`; may be empty
+  ModeCount fixed_interface;       ///< modes with all masters held, up to the last one kept
+  ModeCount range;                 ///< modes under the support, up to the last frequency
+  ModeCount complete;              ///< the largest range looked at in which none is missing
+  int n_rigid = 0;                 ///< zero-energy motions of the free body
+  double rigid_residual = 0.0;     ///< their energy over the first elastic omega^2; 0 is perfect
+  double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
+};
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,257 @@
+"""The plugin in programs that are not recompiled, in the compiled examples, and in Python.
+
+Usage: plugin.py BUILD_DIR MPIRUN
+"""
+
+import math
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(__file__).parents[2]
+PYTHON = sys.executable
+
+
+class Plugin:
+    """The programs of a build, and what they should say."""
+
+    def __init__(self, build, mpirun):
+        self.examples = build / "examples"
+        self.library = build / "lib/libchladni_petsc.so"
+        self.chladni = build / "bin/chladni"
+        self.mpirun = mpirun
+
+    def run(self, command, ranks=1, options="", code=0, folder=None):
+        """Output and errors of a run; words in `options` go the way of PETSC_OPTIONS."""
+        launcher = [self.mpirun, "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+        run = subprocess.run(
+            [*launcher, *map(str, command)],
+            capture_output=True,
+            text=True,
+            timeout=100,
+            cwd=folder,
+            env={**os.environ, "PETSC_OPTIONS": options},
+        )
+        if (run.returncode == 0) != (code == 0):
+            sys.exit(f"FAILED: {command} ended with {run.returncode}\n{run.stdout}\n{run.stderr}")
+        return run.stdout + run.stderr
+
+    def load(self):
+        return f"-dll_append {self.library}"
+
+
+def numbers(text):
+    """The rows of numbers that the examples print, as an array."""
+    rows = [line.split() for line in text.splitlines() if re.match(r"\s*\d+ +[\d.e+-]+ ", line)]
+    return np.array([[float(word) for word in row[1:3]] for row in rows])
+
+
+def square_laplacian(n, count):
+    """The lowest eigenvalues of the five-point Laplacian, exactly."""
+    s = 4.0 * np.sin(0.5 * math.pi * np.arange(1, n + 1) / (n + 1)) ** 2
+    return np.sort(np.add.outer(s, s).ravel())[:count]
+
+
+def expect(what, condition, *told):
+    print(f"{'ok' if condition else 'FAILED':8}{what}", *told)
+    return bool(condition)
+
+
+def solver_type_of_an_alien_program(plugin):
+    """`laplacian` is not linked against Chladni."""
+    linked = subprocess.run(["ldd", plugin.examples / "laplacian"], capture_output=True, text=True)
+    yield expect("laplacian knows nothing of chladni", "chladni" not in linked.stdout)
+    exact = square_laplacian(30, 6)
+    options = f"{plugin.load()} -eps_type blocklanczos -eps_nev 6 -eps_tol 1e-10"
+    inner = "-st_type sinvert -eps_target 0"
+    for ranks in (1, 2):
+        found = numbers(plugin.run([plugin.examples / "laplacian"], ranks, f"{options} {inner}"))
+        error = np.max(np.abs(found[:6, 0] / exact - 1))
+        # The error of an eigenvalue is the square of the residual's: round-off times the condition.
+        yield expect(f"six eigenvalues, {ranks} ranks", error < 1e-11, f"error {error:.1e}")
+        yield expect("their residuals", np.max(found[:, 1]) < 1e-7, f"{np.max(found[:, 1]):.1e}")
+    between = 0.5 * (exact[2] + exact[3])
+    found = numbers(plugin.run([plugin.examples / "laplacian"], 1,
+                               f"{options} -eps_target {between} -st_type sinvert"))  # fmt: skip
+    nearest = np.sort(np.abs(square_laplacian(30, 40) - between))[:6]
+    yield expect("from an indefinite factor",
+                 np.allclose(np.sort(np.abs(found[:6, 0] - between)), nearest, rtol=1e-9))  # fmt: skip
+    massless = plugin.run([plugin.examples / "laplacian", "-generalised", "-massless"], 1,
+                          f"{options} {inner}")  # fmt: skip
+    yield expect("with a singular mass", np.max(numbers(massless)[:, 1]) < 1e-7)
+    largest = plugin.run([plugin.examples / "laplacian"], 1, f"{options} -eps_max_it 500")
+    yield expect("the largest without a factor",
+                 np.allclose(numbers(largest)[:6, 0], 8.0 - exact, rtol=1e-10))  # fmt: skip
+    restarted = plugin.run([plugin.examples / "laplacian"], 1,
+                           f"{options} {inner} -eps_blocklanczos_blocksize 4 -eps_ncv 16")  # fmt: skip
+    yield expect("with restarts", np.allclose(numbers(restarted)[:6, 0], exact, rtol=1e-11))
+
+
+def answers_of_the_solver_type(plugin):
+    view = plugin.run([plugin.examples / "laplacian"], 1,
+                      f"{plugin.load()} -eps_type blocklanczos -eps_view -eps_monitor "
+                      "-st_type sinvert -eps_target 0 -log_view -help")  # fmt: skip
+    for words in ("type: blocklanczos", "block size 8", "EPS nconv=", "-eps_blocklanczos_blocksize"):
+        yield expect(f"prints '{words}'", words in view)
+    for options, words in (
+        ("-eps_interval 0,1 -st_type sinvert", "use -eps_type krylovschur"),
+        ("-st_type cayley -eps_target 0.1", "-st_type sinvert"),
+        ("-eps_nev 20 -eps_ncv 24", "-eps_ncv 24 is too small: give at least nev + 2 blocks = 36"),
+        ("-eps_blocklanczos_restart 2", "give 0 to 0.9"),
+    ):
+        for ranks in (1, 2):
+            text = plugin.run([plugin.examples / "laplacian"], ranks,
+                              f"{plugin.load()} -eps_type blocklanczos {options}", code=1)  # fmt: skip
+            yield expect(f"{options}: '{words}', {ranks} ranks", words in text)
+
+
+def python(plugin):
+    exact = 4.0 * np.sin(0.5 * math.pi * np.arange(1, 6) / 101) ** 2
+    for ranks in (1, 2):
+        found = numbers(plugin.run([PYTHON, SOURCE / "examples/plugin/laplacian.py"], ranks,
+                                   plugin.load()))  # fmt: skip
+        error = np.max(np.abs(found[:5, 0] / exact - 1))
+        yield expect(f"slepc4py, {ranks} ranks", error < 1e-10, f"error {error:.1e}")
+
+
+def class_of_the_compiled_example(plugin):
+    tables = []
+    for ranks in (1, 2):
+        text = plugin.run([plugin.examples / "membrane", "-cms_view", "-cms_sylvester",
+                           "-cms_monitor"], ranks)  # fmt: skip
+        yield expect(f"membrane, {ranks} ranks: no mode is missing",
+                     "20 expected (Sylvester), 20 found, 0 missing" in text)  # fmt: skip
+        table = text[text.index("true error") :].splitlines()[1:]
+        rows = np.array([[float(word) for word in line.split()] for line in table])
+        tables.append(rows)
+        effectivity = rows[:, 3] / rows[:, 2]  # eta^2 over the true error
+        yield expect("eta^2 estimates the true errors",
+                     np.all((effectivity > 0.7) & (effectivity < 1.01)), effectivity.round(2))  # fmt: skip
+    yield expect("equal on 1 and 2 ranks", np.allclose(tables[0][:, 1], tables[1][:, 1], rtol=1e-6))
+    helped = plugin.run([plugin.examples / "membrane", "-help", "-log_view"])
+    for words in ("-cms_type", "-cms_nmodes", "-cms_cutoff", "-cms_tol", "-cms_view",
+                  "-cms_monitor", "CMSConstraint", "CMS solve"):  # fmt: skip
+        yield expect(f"help and log name {words}", words in helped)
+
+
+# `chladni body` reads the reduced file and [body]; the mesh it does not open.
+BODY_SCENE = """
+name = "chain"
+[mesh]
+file = "somebodys.msh"
+[material.unknown]
+young = 1.0
+poisson = 0.0
+density = 1.0
+[[section]]
+group = "all"
+type = "shell"
+material = "unknown"
+thickness = 1.0
+[interface]
+nodes = ["interface"]
+[reduce]
+method = "guyan"
+[body]
+fixed = ["interface"]
+"""
+
+
+def write_matrix_market(path, matrix):
+    lower = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))]
+    lower = [entry for entry in lower if entry[2] != 0.0]
+    with open(path, "w", encoding="ascii") as file:
+        file.write("%%MatrixMarket matrix coordinate real symmetric\n% lower triangle\n")
+        file.write(f"{len(matrix)} {len(matrix)} {len(lower)}\n")
+        file.writelines(f"{i + 1} {j + 1} {float(value)!r}\n" for i, j, value in lower)
+
+
+def somebodys_matrices(folder, n=60):
+    """A chain that is held at its left end: eigenvalues are known."""
+    K = 2.0 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)
+    K[-1, -1] = 1.0
+    write_matrix_market(folder / "K.mtx", 1e4 * K)
+    write_matrix_market(folder / "M.mtx", np.eye(n))
+    omega = 200.0 * np.sin((np.arange(1, n + 1) - 0.5) * math.pi / (2 * n + 1))
+    return omega / (2.0 * math.pi)
+
+
+def held_chain(n):
+    """Angular frequencies of n of its masses between held ones."""
+    return 200.0 * np.sin(0.5 * math.pi * np.arange(1, n + 1) / (n + 1))
+
+
+def matrix_market(plugin):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        exact = somebodys_matrices(folder)
+        command = [plugin.examples / "matrix_market", "-K", "K.mtx", "-M", "M.mtx", "-masters"]
+        for ranks in (1, 2):
+            text = plugin.run([*command, "60,20", "-cms_nmodes", "12", "-cms_sylvester",
+                               "-cms_view", "hdf5:chain.reduced.h5"], ranks, folder=folder)  # fmt: skip
+            found = numbers(text.replace("Hz  eta^2", ""))
+            error = 2.0 * (found[:5, 0] / exact[:5] - 1.0)  # of lambda
+            effectivity = found[:5, 1] / error
+            yield expect(f"matrices of a file, {ranks} ranks, eta^2 against the exact error",
+                         np.all((effectivity > 0.7) & (effectivity < 1.01)), effectivity)  # fmt: skip
+            info = plugin.run([plugin.chladni, "info", "chain.reduced.h5"], folder=folder)
+            for words in ("condition of K_ss", "12 expected, 12 found, 0 missing", "bound"):
+                yield expect(f"chladni info says '{words}'", words in info)
+            plugin.run([plugin.chladni, "check", "chain.reduced.h5"], folder=folder)
+            (folder / "scene.toml").write_text(BODY_SCENE)
+            plugin.run([plugin.chladni, "body", "scene.toml", "--output", "."], folder=folder)
+            with h5py.File(folder / "chain.body.h5") as file:
+                # Held at both masters, the parts of the chain between them remain.
+                held = np.sort(np.concatenate([held_chain(19), held_chain(39)]))
+                body = file["modes/frequencies"][:]
+                yield expect("a body from them", np.allclose(body, held[: body.size], rtol=1e-9))
+            with h5py.File(folder / "chain.reduced.h5") as file:
+                masters = file["attachment/node_numbers"][file["masters/node"][:]]
+                yield expect("masters in the order given", list(masters) == [59, 19])
+        for change, words in (
+            (["60,61"], "master 60 is out of range; rows are 0 to 59"),
+            (["60,60"], "master 59 is given twice"),
+            (["60", "-cms_nmodes", "60"], "60 modes asked of 59 slaves"),
+            (["60", "-cms_type", "rubin"], "rubin"),
+        ):
+            for ranks in (1, 2):
+                text = plugin.run([*command, *change], ranks, code=1, folder=folder)
+                yield expect(f"{' '.join(change)}: '{words}', {ranks} ranks", words in text)
+
+
+def interrupted_run(plugin):
+    """Killed between the factorisation and the end: the old file stays, bit by bit."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        view = ["-cms_view", "hdf5:membrane.reduced.h5", "-cms_monitor"]
+        plugin.run([plugin.examples / "membrane", "-n", "8", *view], folder=folder)
+        old = (folder / "membrane.reduced.h5").read_bytes()
+        run = subprocess.Popen([plugin.examples / "membrane", "-n", "120", "-cms_nmodes", "200", *view],
+                               cwd=folder, stdout=subprocess.PIPE)  # fmt: skip
+        time.sleep(0.5)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        yield expect("killed before its end", run.returncode == -signal.SIGKILL)
+        left = sorted(path.name for path in folder.iterdir())
+        yield expect("nothing new", left == ["membrane.reduced.h5"], left)
+        yield expect("the old file as it was", (folder / left[0]).read_bytes() == old)
+
+
+def main(build, mpirun):
+    plugin = Plugin(build, mpirun)
+    parts = (solver_type_of_an_alien_program, answers_of_the_solver_type, python,
+             class_of_the_compiled_example, matrix_market, interrupted_run)  # fmt: skip
+    results = [result for part in parts for result in part(plugin)]
+    return all(results)
+
+
+if __name__ == "__main__":
+    sys.exit(not main(Path(sys.argv[1]), sys.argv[2]))
