@@ -14,8 +14,10 @@
 #include "common/error.hpp"
 #include "mbs_export/body_file.hpp"
 #include "squeal/disc.hpp"
+#include "squeal/model_run.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
+#include "squeal/wav_file.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -32,20 +34,41 @@ mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
   return mbs_export::read_body(file);
 }
 
-squeal::SquealResults perform(const squeal::Disc& disc, const squeal::SquealOptions& options)
+/// What the analyses found, and where the numbers come from.
+struct Performed {
+  squeal::SquealResults results;
+  mbs_export::Provenance origin;
+};
+
+/// The analyses of a disc that is this body.
+Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body, PhaseClock& clock)
 {
+  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
+  clock.end_phase("read");
   ProgressLine line;
-  return squeal::run(disc, options, [&](const std::string& analysis, double fraction) {
-    line.show(analysis, fraction);
-  });
+  Performed performed{squeal::run(disc, *scene.squeal,
+                                  [&](const std::string& analysis, double fraction) {
+                                    line.show(analysis, fraction);
+                                  }),
+                      body.provenance};
+  performed.origin.scene = scene.text;
+  performed.origin.versions =
+      fmt::format("squeal {}; body: {}", version, performed.origin.versions);
+  return performed;
 }
 
-mbs_export::Provenance provenance(const Scene& scene, const mbs_export::ModalBody& body)
+/// The analyses of a model that needs no body.
+Performed perform_on_model(const Scene& scene)
 {
-  mbs_export::Provenance origin = body.provenance;
-  origin.scene = scene.text;
-  origin.versions = fmt::format("squeal {}; body: {}", version, origin.versions);
-  return origin;
+  ProgressLine line;
+  Performed performed{
+      squeal::run(*scene.squeal_model, [&](const std::string& analysis,
+                                           double fraction) { line.show(analysis, fraction); }),
+      {}};
+  performed.origin.scene = scene.text;
+  performed.origin.versions = fmt::format("squeal {}", version);
+  performed.origin.ranks = 1;
+  return performed;
 }
 
 Json eigenvalues_json(const squeal::EigenvalueMap& map)
@@ -94,6 +117,9 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"frequency_Hz", cycle.frequency_Hz},
                        {"pad_velocity_m_s", cycle.pad_velocity},
                        {"pad_displacement_m", cycle.pad_displacement},
+                       {"friction_work_J", cycle.energy.friction.sum()},
+                       {"normal_work_J", cycle.energy.normal.sum()},
+                       {"damping_work_J", cycle.energy.damping},
                        {"multipliers", Json::array(multipliers)},
                        {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
 }
@@ -111,6 +137,29 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
   return Json::array(points);
 }
 
+Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
+{
+  std::vector<Json> searches;
+  for (const squeal::CriticalValue& value : values) {
+    searches.push_back(
+        Json::object({{"parameter", value.parameter},
+                      {"speed_rad_s", value.speed},
+                      {"value", value.value ? Json(*value.value) : Json()},
+                      {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}}));
+  }
+  return Json::array(searches);
+}
+
+Json peaks_json(const squeal::Spectrum& spectrum)
+{
+  std::vector<Json> peaks;
+  for (const squeal::Spectrum::Peak& peak : spectrum.peaks) {
+    peaks.push_back(
+        Json::object({{"frequency_Hz", peak.frequency_Hz}, {"pad_velocity_m_s", peak.amplitude}}));
+  }
+  return Json::array(peaks);
+}
+
 /// Only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
 {
@@ -123,10 +172,15 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
     members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
   }
+  if (!results.critical_values.empty()) {
+    members.emplace_back("critical_values", critical_values_json(results.critical_values));
+  }
+  if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;
     members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+    members.emplace_back("integrator", results.transient->integrator);
   }
   if (results.limit_cycle) {
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
@@ -138,6 +192,17 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
   }
   return members;
+}
+
+/// NAME.wav beside the results, when the scene asks for it.
+void write_sound(const Scene& scene, const std::filesystem::path& folder,
+                 const squeal::SquealResults& results)
+{
+  if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
+  const std::filesystem::path file = folder / (scene.name + ".wav");
+  const double scale =
+      squeal::write_wav(file, results.transient->sound, scene.squeal->sound->rate_Hz);
+  fmt::print("wrote {}, full scale {:.6g} m/s\n", file.string(), scale);
 }
 
 void write_json(const std::string& file, const squeal::SquealResults& results, const Cost& cost)
@@ -154,28 +219,34 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
 {
   PhaseClock clock;
   const Scene scene = read_scene(arguments.scene);
-  if (!scene.squeal) {
+  if (!scene.squeal && !scene.squeal_model) {
     throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
   }
   const std::filesystem::path folder = arguments.output;
-  const mbs_export::ModalBody body = read_body_of(
-      body_file.empty() ? folder / (scene.name + ".body.h5") : std::filesystem::path(body_file),
-      arguments);
-  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
-  clock.end_phase("read");
-
-  const squeal::SquealResults results = perform(disc, *scene.squeal);
+  if (scene.squeal_model && !body_file.empty()) {
+    throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
+  }
+  const auto [results, origin] =
+      scene.squeal_model
+          ? perform_on_model(scene)
+          : perform_on_body(scene,
+                            read_body_of(body_file.empty() ? folder / (scene.name + ".body.h5")
+                                                           : std::filesystem::path(body_file),
+                                         arguments),
+                            clock);
   clock.end_phase("analyses");
 
   const std::filesystem::path file = folder / (scene.name + ".squeal.h5");
   make_folder(folder);
-  squeal::write_results(file, results, provenance(scene, body));
+  squeal::write_results(file, results, origin);
   clock.end_phase("write");
   const Cost cost = cost_so_far(clock.phases());
 
   fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, format_table(describe(results)),
              format_table(cost_table(cost)), file.string());
+  write_sound(scene, folder, results);
   if (!arguments.json.empty()) write_json(arguments.json, results, cost);
+  if (results.failure) throw Error(*results.failure);
 }
 
 }  // namespace chladni::cli

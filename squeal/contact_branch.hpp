@@ -23,7 +23,7 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
 {
   const auto [sigma, g] = sigma_and_g;
   pad.law = ContactLaw::signed_force;
-  pad.friction *= g;
+  pad.friction = scaled(pad.friction, g);
   PadState<Scalar> state = pad_state(pad, m, speed, sigma);
   if (g == 0.0) state.S = state.f_r = state.f_t = Scalar(0.0);
   return state;

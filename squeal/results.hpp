@@ -12,12 +12,25 @@ namespace chladni::squeal {
 struct EigenvalueMap {
   Eigen::VectorXd speeds;   ///< [m] rad/s
   Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
+  /// For each speed [n_modes of the body x n_modes]: column j is the complex shape of the
+  /// eigenvalue j, displacements of the modes of the body as in `LimitCycle::amplitude`, of norm 1.
+  /// Empty for models without a body.
+  std::vector<Eigen::MatrixXcd> shapes = {};
 };
 
 /// The speed at which the sliding disc loses its stability.
 struct CriticalSpeed {
   double speed;         ///< rad/s
   double frequency_Hz;  ///< of the undamped oscillation there
+};
+
+/// Where the sliding disc loses or regains its stability over one parameter.
+struct CriticalValue {
+  std::string parameter;        ///< "friction", "preload" or "stiffness"
+  double speed;                 ///< rad/s
+  std::optional<double> value;  ///< 1, N or N/m; absent when there is none in the range
+  double frequency_Hz;          ///< of the undamped oscillation there
+  int n_newton_steps;
 };
 
 /// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
@@ -70,13 +83,14 @@ struct Transient {
   std::int64_t n_contact_evaluations;  ///< of the forces of all pads, samples included
   std::vector<ContactEvent> events;    ///< located by "dormand-prince" alone; empty with the others
   Envelope envelope;
-  History history;         ///< the whole run, decimated
-  ModalHistory modes;      ///< at the times of `history`
-  History tail;            ///< the end of the run, every step
-  Eigen::MatrixXd tail_a;  ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
-  double N_min;            ///< over all pads, N
-  double N_max;            ///< over all pads, N
-  double slip_speed_min;   ///< over all pads, m/s
+  History history;           ///< the whole run, decimated
+  ModalHistory modes;        ///< at the times of `history`
+  History tail;              ///< the end of the run, every step
+  std::vector<float> sound;  ///< pad velocity at the rate asked for, m/s; empty when not asked for
+  Eigen::MatrixXd tail_a;    ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
+  double N_min;              ///< over all pads, N
+  double N_max;              ///< over all pads, N
+  double slip_speed_min;     ///< over all pads, m/s
   std::optional<double> t_zero_force;  ///< when a normal force first reaches zero, s
   std::optional<double> growth_rate;   ///< of the linear phase, 1/s, when there is one
 };
@@ -108,6 +122,30 @@ struct LimitCycle {
   Eigen::VectorXcd amplitude;
 };
 
+/// Amplitudes of an oscillation over the frequency.
+struct Spectrum {
+  Eigen::VectorXd frequency_Hz;
+  Eigen::VectorXd
+      amplitude;  ///< of the pad velocity, m/s; a sine of amplitude 1 m/s has a peak of 1
+
+  struct Peak {
+    double frequency_Hz;  ///< between the lines of the spectrum
+    double amplitude;     ///< m/s
+  };
+  std::vector<Peak> peaks;  ///< by falling amplitude
+};
+
+/// What a periodic motion gains and loses in one period, J: the sum of all is zero. Works are those
+/// on the vibration of the disc, i.e. forces times the velocities of the disc in its own frame; the
+/// drive does the rest of the work of friction.
+struct CycleEnergy {
+  Eigen::VectorXd friction;  ///< [n_pads] of the friction of each pad pair
+  Eigen::VectorXd normal;    ///< [n_pads] of its normal forces
+  double damping;            ///< of the modes, < 0
+  Eigen::VectorXd heat;      ///< [n_pads] what friction turns into heat, > 0; not part of the sum
+  double stored;             ///< kinetic and elastic energy of the disc, mean of the period
+};
+
 /// A periodic motion found as such: x(T) = x(0) in the inertial frame.
 struct DirectLimitCycle {
   double speed;             ///< rad/s
@@ -126,6 +164,7 @@ struct DirectLimitCycle {
   Eigen::VectorXd x;                   ///< [2 n_modes] a point of the cycle; see SlidingDisc
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
   Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
+  CycleEnergy energy;
 };
 
 /// What is kept of each limit cycle of a branch; see DirectLimitCycle.
@@ -155,12 +194,16 @@ struct SquealResults {
   std::optional<EigenvalueMap> eigenvalues;
   bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
+  std::vector<CriticalValue> critical_values;
   std::optional<StabilityMap> map;
   std::vector<Growth> growth;
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;
   std::optional<DirectLimitCycle> limit_cycle_direct;
   std::optional<LimitCycleBranch> limit_cycle_branch;
+  std::optional<Spectrum> spectrum;
+  /// Why an analysis failed after others had succeeded; nothing was done after it.
+  std::optional<std::string> failure;
 };
 
 }  // namespace chladni::squeal

@@ -57,7 +57,7 @@ const Eigen::VectorXd& RotatingDisc::rate(double t, const Eigen::VectorXd& y)
       const PadContact& pad = pads_[i];
       const auto pressed = [&](const PadState<double>& state, double sigma) {
         const double lift = state.z - sigma * 0.5 * pad.thickness;
-        return 1.0 + sigma * (pad.stiffness * lift + pad.damping * state.z_dot) / pad.preload;
+        return 1.0 + sigma * (force(pad.spring, lift) + pad.damping * state.z_dot) / pad.preload;
       };
       S_[at] = pressed(up, 1.0);
       S_[at + 1] = pressed(lo, -1.0);

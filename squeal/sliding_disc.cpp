@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -54,6 +55,43 @@ RingMotion<double> SlidingDisc::motion_at(const Pad& pad, const Eigen::VectorXd&
 ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
 {
   return contact(pads_.front().contact, motion_at(pads_.front(), x), speed_);
+}
+
+/// The normal force alone acts with N / s along the axis and sigma N g / s in the plane; the rest
+/// of the force is friction.
+SlidingDisc::Power SlidingDisc::power(const Eigen::VectorXd& x) const
+{
+  const auto n_pads = static_cast<Eigen::Index>(pads_.size());
+  const Eigen::Index n = by_omega_.size();
+  const auto p = x.tail(n);
+  Power power{Eigen::VectorXd(n_pads), Eigen::VectorXd(n_pads), Eigen::VectorXd(n_pads),
+              p.dot(A_.bottomRightCorner(n, n) * p)};
+  for (Eigen::Index i = 0; i < n_pads; ++i) {
+    const Pad& pad = pads_[static_cast<std::size_t>(i)];
+    const RingMotion<double> m = motion_at(pad, x);
+    const ContactResult<double> all = contact(pad.contact, m, speed_);
+    const double s = std::sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+    const auto normal_of = [&](PadState<double> state, double sigma) {
+      state.S = state.N / s;
+      state.f_r = sigma * state.N * m.g_r / s;
+      state.f_t = sigma * state.N * m.g_t / s;
+      return state;
+    };
+    const auto power_of = [&](const RingForce<double>& F) {
+      return F.F_w * m.w_dot + F.F_r * m.g_r_dot + F.F_t * m.g_t_dot;
+    };
+    const auto heat_of = [&](const PadState<double>& state) {
+      const FrictionLaw& law = pad.contact.friction;
+      const double v = regularised_speed(law, state.slip_speed * state.slip_speed);
+      const double g = pad.contact.law == ContactLaw::signed_force ? state.N : std::abs(state.N);
+      return friction_coefficient(law, v) * g * state.slip_speed * state.slip_speed / v;
+    };
+    power.normal[i] =
+        power_of(pair_force(pad.contact, m, normal_of(all.upper, 1.0), normal_of(all.lower, -1.0)));
+    power.friction[i] = power_of(all.force) - power.normal[i];
+    power.heat[i] = heat_of(all.upper) + heat_of(all.lower);
+  }
+  return power;
 }
 
 /// S of each pad, of either sign.

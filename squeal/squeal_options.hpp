@@ -15,10 +15,11 @@ enum class ContactLaw {
 
 /// One pad pair: an upper and a lower massless pad on one vertical axis.
 struct PadPair {
-  double angle;      ///< inertial angle of the axis, rad
-  double stiffness;  ///< of each pad spring, N/m
-  double damping;    ///< N s/m
-  double preload;    ///< N_0 of each pad, N
+  double angle;                  ///< inertial angle of the axis, rad
+  double stiffness;              ///< of each pad spring, N/m
+  double damping;                ///< N s/m
+  double preload;                ///< N_0 of each pad, N
+  double cubic_stiffness = 0.0;  ///< k_3 of each pad spring, N/m^3
 };
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -81,22 +82,41 @@ struct MapCase {
   int count;
 };
 
+/// A critical value of a parameter at one speed.
+struct CriticalCase {
+  MapParameter parameter;
+  double from;
+  double to;
+  double speed;  ///< rad/s
+};
+
+/// The pad velocity of the transient as sound.
+struct SoundCase {
+  int rate_Hz;  ///< of the samples
+};
+
 /// The scene's [squeal].
 struct SquealOptions {
   std::string ring;
   double thickness;  ///< distance h of the two contact planes, m
   ModeChoice modes;
   SpeedRange speeds;
-  double friction;  ///< Coulomb coefficient mu
+  double friction;  ///< Coulomb coefficient mu; beside the next three that of fast sliding
+  double friction_rise = 0.0;         ///< static minus kinetic coefficient
+  double friction_decay_speed = 1.0;  ///< of the rise, m/s; see FrictionLaw
+  double slip_regularisation = 0.0;   ///< m/s
   ContactLaw contact = ContactLaw::unilateral;
   std::vector<PadPair> pads;
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
                                       ///< "limit-cycle", "limit-cycle-direct",
-                                      ///< "limit-cycle-branch", "stability-map"
+                                      ///< "limit-cycle-branch", "stability-map", "critical-values",
+                                      ///< "spectrum"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
   std::optional<DirectCase> limit_cycle_direct;
   std::optional<MapCase> map;
+  std::vector<CriticalCase> critical;
+  std::optional<SoundCase> sound;
 };
 
 }  // namespace chladni::squeal

@@ -1,54 +1,24 @@
 #include "squeal/transient.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "common/error.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
+#include "squeal/resampler.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/transient_plan.hpp"
 #include "squeal/transient_steps.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-using std::numbers::pi;
-
-constexpr double steps_max = 1e10;
-/// Periods of the lowest mode for one point of the envelope, and in the tail.
-constexpr int periods_per_window = 4;
-constexpr int periods_in_tail = 100;
-constexpr std::int64_t history_points = 20000;
-/// Pad displacement up to which growth is linear, relative to the compression of the pads at rest:
-/// the first nonlinear term is quadratic and reaches about 1 % of the rate at 1.
-constexpr double linear_part = 0.05;
-/// Initial displacement for a growth rate, relative to the same.
-constexpr double growth_start = 1e-4;
-
-void check(const Disc& disc, const SquealOptions& options, const TransientCase& run)
+FrequencyRange frequencies_of(const Disc& disc)
 {
-  if (options.pads.empty()) throw Error("transient: no pads");
-  if (!(run.speed > 0.0))
-    throw Error(
-        fmt::format("transient: speed_rad_s = {}; it must be > 0, since friction at rest has "
-                    "no direction",
-                    run.speed));
-  if (!(run.duration > 0.0))
-    throw Error(fmt::format("transient: duration_s = {}; it must be > 0", run.duration));
-  if (!(run.initial_pad_displacement > 0.0))
-    throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
-                            run.initial_pad_displacement));
-  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
-    throw Error(fmt::format(
-        "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
-        "{}, better leave steps_per_period out",
-        *run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
+  return {.lowest = disc.omega.minCoeff(), .highest = disc.omega.maxCoeff()};
 }
 
 /// Samples of one period of the highest mode.
@@ -57,23 +27,6 @@ int sampling_of(const IntegratorChoice& choice)
   const bool fixed =
       choice.kind == IntegratorKind::splitting || choice.kind == IntegratorKind::exponential;
   return fixed ? choice.steps_per_period : samples_per_period;
-}
-
-RecordingPlan plan_of(const Disc& disc, const TransientCase& run, int samples)
-{
-  const double step = 2.0 * pi / (disc.omega.maxCoeff() * samples);
-  const double n_steps = std::ceil(run.duration / step);
-  if (!(n_steps < steps_max))
-    throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
-                            n_steps, steps_max));
-  const double steps_of_period = 2.0 * pi / (disc.omega.minCoeff() * step);
-  const auto n = static_cast<std::int64_t>(n_steps);
-  const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
-  return {.step = step,
-          .n_steps = n,
-          .window = static_cast<std::int64_t>(periods_per_window * steps_of_period),
-          .every = std::max<std::int64_t>(1, n / history_points),
-          .n_tail = std::min(n, tail)};
 }
 
 /// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
@@ -171,15 +124,18 @@ bool is_finite(const std::vector<ContactResult<double>>& contacts)
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                     const Progress& progress)
 {
-  check(disc, options, run);
+  if (options.pads.empty()) throw Error("transient: no pads");
+  check_transient(run, frequencies_of(disc).highest);
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
   const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
-  const RecordingPlan plan = plan_of(disc, run, sampling_of(choice));
+  const RecordingPlan plan = recording_plan(run, frequencies_of(disc), sampling_of(choice));
   const auto steps =
       transient_steps(disc, options, run.speed, choice, plan.step,
                       initial_state(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
   StateRecorder states(disc, inertial, plan, run.speed);
+  std::optional<Resampler> sound;
+  if (options.sound) sound.emplace(plan.step, options.sound->rate_Hz);
   bool finite = true;
   for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
     const double t = (double(i) + 0.5) * plan.step;
@@ -188,6 +144,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
     if (finite) {
       recorder.add(i, t, contacts);
       states.add(i, t, *steps);
+      if (sound) sound->add(contacts.front().upper.z_dot);
     }
     if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
   }
@@ -203,22 +160,19 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
   result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
   result.modes = states.modes();
   result.tail_a = states.tail_a();
+  if (sound) {
+    sound->finish();
+    result.sound = sound->samples();
+  }
   return result;
 }
 
 Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration)
 {
-  const double compression = rest_compression(options);
-  const Transient run = transient(disc, options,
-                                  {.speed = speed,
-                                   .duration = duration,
-                                   .initial_pad_displacement = growth_start * compression});
-  if (!run.growth_rate)
-    throw Error(
-        fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "
-                    "least {:.2g} s",
-                    duration, speed, 200.0 * pi / disc.omega.minCoeff()));
-  Growth result{speed, run.envelope, *run.growth_rate, std::nullopt};
+  const Transient run =
+      transient(disc, options, growth_case(speed, duration, rest_compression(options)));
+  Growth result{speed, run.envelope,
+                required_growth_rate(run, duration, frequencies_of(disc).lowest), std::nullopt};
   if (const auto inertial = find_inertial_disc(disc))
     result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
   return result;

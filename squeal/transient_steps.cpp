@@ -13,8 +13,8 @@ namespace chladni::squeal {
 namespace {
 
 /// Exact flow of the damped modes over half a step, kick of the pads, exact flow over half a step.
-/// The two half flows between two kicks are one; a sample is at the kick, which the splitting
-/// leaves symmetric in time.
+/// The two half flows between two kicks are one; a sample is in the middle of a kick, to which the
+/// splitting is symmetric in time.
 class SplittingSteps final : public TransientSteps {
  public:
   SplittingSteps(const Disc& disc, const SquealOptions& options, double speed, double step,
@@ -27,11 +27,12 @@ class SplittingSteps final : public TransientSteps {
   const std::vector<ContactResult<double>>& next() override
   {
     if (n_ > 0) flow_.advance(x_);
+    v_before_ = x_.v;
     const auto& contacts = kick_.apply(x_, (double(n_) + 0.5) * step_, step_);
     ++n_;
     return contacts;
   }
-  ModalState state() const override { return x_; }
+  ModalState state() const override { return {x_.q, 0.5 * (v_before_ + x_.v)}; }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
 
@@ -40,6 +41,7 @@ class SplittingSteps final : public TransientSteps {
   ContactKick kick_;
   double step_;
   ModalState x_;
+  Eigen::VectorXd v_before_;  ///< the last kick
   std::int64_t n_ = 0;
 };
 
@@ -60,13 +62,15 @@ class ExponentialSteps final : public TransientSteps {
   const std::vector<ContactResult<double>>& next() override
   {
     if (n_++ > 0) flow_.advance(x_);
+    p_before_ = x_.tail(inertial_.n_modes());
     return flow_.kick(x_);
   }
   ModalState state() const override
   {
     const Eigen::Index n = inertial_.n_modes();
     const double angle = -angle_step_ * (double(n_) - 0.5);
-    const Eigen::VectorXd a = x_.head(n).cwiseQuotient(inertial_.omega), p = x_.tail(n);
+    const Eigen::VectorXd a = x_.head(n).cwiseQuotient(inertial_.omega);
+    const Eigen::VectorXd p = 0.5 * (p_before_ + x_.tail(n));
     return {inertial_.R * turned(inertial_, a, angle), inertial_.R * turned(inertial_, p, angle)};
   }
   std::int64_t n_steps() const override { return n_; }
@@ -77,6 +81,7 @@ class ExponentialSteps final : public TransientSteps {
   ExponentialFlow flow_;
   double angle_step_;
   Eigen::VectorXd x_;
+  Eigen::VectorXd p_before_;  ///< the last kick
   std::int64_t n_ = 0;
 };
 

@@ -180,6 +180,8 @@ TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
   const Scene scene = parse_scene(disc + map, "scene.toml");
   ASSERT_TRUE(scene.squeal->map);
+  EXPECT_TRUE(scene.squeal->critical.empty());
+  EXPECT_FALSE(scene.squeal->sound);
   EXPECT_EQ(scene.squeal->map->parameter, squeal::MapParameter::stiffness);
   EXPECT_EQ(scene.squeal->map->from, 1e6);
   EXPECT_EQ(scene.squeal->map->to, 9e6);
@@ -255,6 +257,22 @@ TEST(Scene, OfTheExampleIsReadable)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
 }
 
+TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)
+{
+  const auto with = [](const std::string& lines) { return error_of(disc + lines + "\n"); };
+  EXPECT_EQ(error_of(replaced(disc, "7e-8 }", "7e-8, integrator = \"euler\" }")),
+            "scene.toml:41: squeal.transient.integrator = \"euler\": must be one of \"auto\", "
+            "\"splitting\", \"exponential\", \"dormand-prince\", \"generalised-alpha\"");
+  EXPECT_EQ(with("wav = { rate_Hz = 100 }"),
+            "scene.toml:43: squeal.wav.rate_Hz = 100: must be >= 8000 and <= 192000 (Hz)");
+  EXPECT_EQ(
+      with("critical = [{ parameter = \"preload\", from = 2.0, to = 1.0, speed_rad_s = 19.0 }]"),
+      "scene.toml:43: squeal.critical.to = 1: must be > 2 (from)");
+  EXPECT_EQ(error_of(replaced(disc, "\"growth\", \"transient\"]", "\"critical-values\"]")),
+            "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'critical-values' ]: "
+            "\"critical-values\" needs the key critical");
+}
+
 TEST(SceneError, NamesPlaceAndRangeOfANumber)
 {
   expect_messages({
@@ -279,9 +297,91 @@ TEST(SceneError, NamesPlaceAndRangeOfANumber)
        "scene.toml:39: squeal.pads.angle_deg = inf: must be finite (degrees)"},
       {"[12.0, 13.0]", "[12.0, -1.0]",
        "scene.toml:42: squeal.growth.speeds_rad_s[2] = -1: must be > 0 (rad/s)"},
+      {"7e-8 }", "7e-8, steps_per_period = 5 }",
+       "scene.toml:41: squeal.transient.steps_per_period = 5: must be >= 8"},
+      {"7e-8 }", "7e-8, growth_error_1_s = 0.0 }",
+       "scene.toml:41: squeal.transient.growth_error_1_s = 0: must be > 0 (1/s)"},
       {"modes = 100", "modes = 3000000000",
        "scene.toml:26: reduce.modes = 3000000000: is too large"},
   });
+}
+
+const std::string rigid_disc = R"(name = "rigid"
+[squeal]
+model = "rigid disc"
+rigid_disc = { diametral_inertia = 0.16, axial_inertia = 0.32, stiffness = 1.88e7, damping = 0.1, pad_radius = 0.13 }
+thickness = 0.02
+friction = { kinetic = 0.4, static = 0.6, decay_speed = 0.5 }
+pads = [{ stiffness = 6e6, cubic_stiffness = 1e13, damping = 5.0, preload = 3000.0 }]
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["eigenvalues", "growth"]
+growth = { speeds_rad_s = [12.0], duration_s = 3.0 }
+)";
+
+const std::string oscillator = R"([squeal]
+model = "oscillator"
+oscillator = { mass = 1.0, stiffness_along = 1.2e7, stiffness_normal = 4e6, stiffness_coupling = 1e6, damping_along = 5.0, damping_normal = 6.0, contact_stiffness = 7e6, preload = 500.0, radius = 0.13 }
+friction = 0.3
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["critical-speed"]
+)";
+
+TEST(Scene, ReadsARigidDiscWithoutMeshAndBody)
+{
+  const Scene scene = parse_scene(rigid_disc, "scene.toml");
+  EXPECT_FALSE(scene.squeal);
+  ASSERT_TRUE(scene.squeal_model);
+  const auto& study = std::get<squeal::RigidDiscStudy>(scene.squeal_model->model);
+  EXPECT_EQ(study.disc.Theta, 0.16);
+  EXPECT_EQ(study.disc.spring.cubic, 1e13);
+  EXPECT_EQ(study.disc.friction.kinetic, 0.4);
+  EXPECT_DOUBLE_EQ(study.disc.friction.rise, 0.2);
+  EXPECT_EQ(study.disc.friction.decay_speed, 0.5);
+  EXPECT_EQ(study.drive, squeal::Drive::speed);
+  EXPECT_EQ(study.equations, squeal::RigidEquations::nonlinear);
+  EXPECT_EQ(study.disc.law, squeal::ContactLaw::unilateral);
+  EXPECT_EQ(scene.squeal_model->growth->duration, 3.0);
+}
+
+TEST(Scene, ReadsAnOscillator)
+{
+  const Scene scene = parse_scene(oscillator, "scene.toml");
+  const auto& study = std::get<squeal::Oscillator>(scene.squeal_model->model);
+  EXPECT_EQ(study.k_xy, 1e6);
+  EXPECT_EQ(study.d_y, 6.0);
+  EXPECT_EQ(study.friction.kinetic, 0.3);
+}
+
+TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
+{
+  const auto error_after = [](const std::string& scene, const std::string& from,
+                              const std::string& to) {
+    return error_of(replaced(scene, from, to));
+  };
+  EXPECT_EQ(error_after(rigid_disc, "\"rigid disc\"", "\"rigid disk\""),
+            "scene.toml:3: squeal.model = \"rigid disk\": must be one of \"flexible disc\", "
+            "\"rigid disc\", \"oscillator\"");
+  EXPECT_EQ(error_after(rigid_disc, "axial_inertia = 0.32", "axial_inertia = 0.0"),
+            "scene.toml:4: squeal.rigid_disc.axial_inertia = 0: must be > 0 (kg m^2)");
+  EXPECT_EQ(error_after(rigid_disc, "static = 0.6", "static = 0.3"),
+            "scene.toml:6: squeal.friction.static = 0.3: must be >= 0.4 (kinetic)");
+  EXPECT_EQ(error_after(rigid_disc, ", decay_speed = 0.5", ""),
+            "scene.toml:6: squeal.friction.decay_speed is missing: must be a number > 0 (m/s)");
+  EXPECT_EQ(error_after(rigid_disc, "pad_radius = 0.13", "pad_radius = 0.13, drive = \"moment\""),
+            "scene.toml:4: squeal.rigid_disc.drive = \"moment\": the constant moment 2 mu r_0 N_0 "
+            "needs a constant friction coefficient");
+  EXPECT_EQ(error_after(rigid_disc, "cubic_stiffness = 1e13", "cubic_stiffness = -1.0"),
+            "scene.toml:7: squeal.pads.cubic_stiffness = -1: must be >= 0 (N/m^3)");
+  EXPECT_TRUE(error_after(rigid_disc, "[{ stiffness", "[{ angle_deg = 3.0, stiffness")
+                  .starts_with("scene.toml:7: squeal.pads.angle_deg is not a key here;"));
+  EXPECT_TRUE(
+      error_after(rigid_disc, "[\"eigenvalues\"", "[\"stability-map\"")
+          .starts_with("scene.toml:9: squeal.analyses[1] = \"stability-map\": must be one "));
+  EXPECT_TRUE(error_after(rigid_disc, "[squeal]", "[mesh]\nfile = \"a.msh\"\n[squeal]")
+                  .starts_with("scene.toml:2: mesh is not a key here;"));
+  EXPECT_EQ(error_after(oscillator, "stiffness_coupling = 1e6", "stiffness_coupling = 1e8"),
+            "scene.toml:3: squeal.oscillator.stiffness_coupling = 100000000: its square must be "
+            "below stiffness_along times stiffness_normal, or the springs do not hold the mass");
 }
 
 TEST(SceneError, NamesPlaceAndTypeOfAValue)
