@@ -104,6 +104,34 @@ void add_map(TextTable& table, const squeal::StabilityMap& map)
   add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
 }
 
+void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivity)
+{
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
+    const std::string name = fmt::format("critical speed / pi, {} modes to {:.0f} Hz",
+                                         subset.n_modes, subset.highest_Hz);
+    if (!subset.critical_speed) {
+      table.rows.push_back({name, "none in the range", ""});
+      continue;
+    }
+    lowest = std::min(lowest, *subset.critical_speed);
+    highest = std::max(highest, *subset.critical_speed);
+    add(table, name, *subset.critical_speed / pi, "rad/s");
+  }
+  if (highest > 0.0) add(table, "spread of them", 100.0 * (highest - lowest) / highest, "%");
+  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
+    const std::string name =
+        fmt::format("{:.1f} Hz, {} nodal diameters", mode.frequency_Hz, mode.nodal_diameters);
+    if (!mode.growth_without) {
+      add(table, "critical mode: " + name, 100.0 * mode.participation, "% of its energy");
+    } else if (mode.critical_speed_without) {
+      add(table, "critical speed / pi without " + name, *mode.critical_speed_without / pi, "rad/s");
+    } else {
+      add(table, "growth without " + name, *mode.growth_without, "1/s");
+    }
+  }
+}
+
 void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
 {
   add(table, "limit cycle: speed", cycle.speed, "rad/s");
@@ -230,6 +258,7 @@ TextTable describe(const squeal::SquealResults& results)
   add_critical_speed(table, results);
   for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
   if (results.map) add_map(table, *results.map);
+  if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
   for (const squeal::Growth& growth : results.growth) {
     add(table, fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi), growth.rate, "1/s");
   }

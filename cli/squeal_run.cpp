@@ -160,6 +160,36 @@ Json peaks_json(const squeal::Spectrum& spectrum)
   return Json::array(peaks);
 }
 
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
+Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
+{
+  std::vector<Json> subsets, modes;
+  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
+    subsets.push_back(
+        Json::object({{"n_modes", double(subset.n_modes)},
+                      {"highest_Hz", subset.highest_Hz},
+                      {"critical_speed_rad_s", optional_json(subset.critical_speed)},
+                      {"critical_frequency_Hz", optional_json(subset.critical_frequency_Hz)},
+                      {"growth_1_s", subset.growth}}));
+  }
+  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
+    modes.push_back(Json::object(
+        {{"frequency_Hz", mode.frequency_Hz},
+         {"nodal_diameters", double(mode.nodal_diameters)},
+         {"participation", mode.participation},
+         {"growth_without_1_s", optional_json(mode.growth_without)},
+         {"critical_speed_without_rad_s", optional_json(mode.critical_speed_without)}}));
+  }
+  return Json::object({{"critical_speed_rad_s", sensitivity.critical_speed},
+                       {"critical_frequency_Hz", sensitivity.critical_frequency_Hz},
+                       {"subsets", Json::array(subsets)},
+                       {"modes", Json::array(modes)}});
+}
+
 /// Only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
 {
@@ -176,6 +206,9 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("critical_values", critical_values_json(results.critical_values));
   }
   if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
+  if (results.mode_sensitivity) {
+    members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
+  }
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;

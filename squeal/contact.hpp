@@ -19,7 +19,17 @@ struct PadContact {
   double preload;    ///< N_0, N
 };
 
-/// Motion of the disc under a pad: displacement, slopes and their material rates.
+/// Motion of the plate of a pad at a contact point, for a pad with a mass; zero for any other one.
+template <class Scalar>
+struct PlateMotion {
+  Scalar z = Scalar(0.0);      ///< along the axis, m
+  Scalar r_dot = Scalar(0.0);  ///< radial, m/s
+  Scalar t_dot = Scalar(0.0);  ///< circumferential, m/s
+  Scalar z_dot = Scalar(0.0);  ///< along the axis, m/s
+};
+
+/// Motion of the disc under a pad: displacement, slopes and their material rates; and that of the
+/// two plates.
 template <class Scalar>
 struct RingMotion {
   Scalar w;        ///< m
@@ -28,6 +38,8 @@ struct RingMotion {
   Scalar w_dot;    ///< m/s
   Scalar g_r_dot;  ///< rad/s
   Scalar g_t_dot;  ///< rad/s
+  PlateMotion<Scalar> upper = {};
+  PlateMotion<Scalar> lower = {};
 };
 
 /// Generalised contact force: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
@@ -87,9 +99,12 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 /// the middle surface; massless and laterally guided, so its vertical equilibrium gives the normal
 /// force.
 ///   z = w + sigma h s / 2,   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
-///   S = N_0 + sigma (k x + k_3 x^3 + d z'),   x = z - sigma h / 2,   N = S / (1 / s + sigma g mu
-///   t_z) f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y),   t = v_r / |v_r|, with mu(v) and its
-/// regularised |v_r| as FrictionLaw has it
+///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   x = z - sigma h / 2
+///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
+///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
+/// with mu(v) and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
+/// and v_r are relative to it; that the point then moves on the disc, a term of second order, is
+/// neglected.
 template <class Scalar>
 PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
                            double sigma)
@@ -97,8 +112,9 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
   using std::sqrt;
   const Scalar s = sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
   const Scalar lever = sigma * 0.5 * pad.thickness / s;
-  const Scalar v_x = -lever * m.g_r_dot;
-  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot;
+  const PlateMotion<Scalar>& plate = sigma > 0.0 ? m.upper : m.lower;
+  const Scalar v_x = -lever * m.g_r_dot - plate.r_dot;
+  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot - plate.t_dot;
   const Scalar v_z = m.g_r * v_x + m.g_t * v_y;
   const Scalar slip_squared = v_x * v_x + v_y * v_y + v_z * v_z;
   const Scalar v = regularised_speed(pad.friction, slip_squared);
@@ -106,7 +122,8 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
   const Scalar lift = m.w + sigma * 0.5 * pad.thickness * (s - 1.0);
   const Scalar z_dot = m.w_dot - v_z;
   const auto [S, g] = axial_force<Scalar>(
-      pad.law, pad.preload + sigma * (force(pad.spring, lift) + pad.damping * z_dot));
+      pad.law, pad.preload + sigma * (force(pad.spring, Scalar(lift - plate.z)) +
+                                      pad.damping * (z_dot - plate.z_dot)));
   const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v) / v;
   const Scalar N = S / (1.0 / s + sigma * g_mu_by_v * v_z);
   return {lift + sigma * 0.5 * pad.thickness,

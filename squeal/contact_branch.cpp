@@ -2,22 +2,22 @@
 
 #include <complex>
 
+#include "squeal/derivative.hpp"
+
 namespace chladni::squeal {
 
-Eigen::Matrix<double, 3, 6> force_derivative(const PadContact& pad, const RingMotion<double>& m,
-                                             double speed, std::span<const double> branches)
+Eigen::MatrixXd force_derivative(const BrakePoint& point, const PairVector<double>& g,
+                                 const PairVector<double>& g_dot,
+                                 const std::pair<double, std::span<const double>>& at)
 {
   using Complex = std::complex<double>;
-  constexpr double step = 1e-30;  // f(x + i h) / h has no difference in it
-  const std::array<double, 6> at{m.w, m.g_r, m.g_t, m.w_dot, m.g_r_dot, m.g_t_dot};
-  Eigen::Matrix<double, 3, 6> D;
-  for (int j = 0; j < 6; ++j) {
-    std::array<Complex, 6> x{};
-    for (std::size_t i = 0; i < 6; ++i) x[i] = at[i];
-    x[static_cast<std::size_t>(j)] += Complex(0.0, step);
-    D.col(j) = force_on_branch<Complex>(pad, {x[0], x[1], x[2], x[3], x[4], x[5]}, speed, branches)
-                   .imag() /
-               step;
+  const Eigen::Index rows = g.size();
+  Eigen::MatrixXd D(rows, 2 * rows);
+  for (Eigen::Index j = 0; j < 2 * rows; ++j) {
+    PairVector<Complex> x = g.cast<Complex>(), v = g_dot.cast<Complex>();
+    (j < rows ? x[j] : v[j - rows]) += Complex(0.0, complex_step);
+    D.col(j) = force_on_branch<Complex>(point, pair_motion(x, v), at.first, at.second).imag() /
+               complex_step;
   }
   return D;
 }

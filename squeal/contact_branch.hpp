@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "squeal/contact.hpp"
+#include "squeal/pad_system.hpp"
 
 namespace chladni::squeal {
 
@@ -29,18 +31,22 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
   return state;
 }
 
-/// (F_w, F_r, F_t) of a pair, each pad on its branch: upper, lower.
+/// The force at a point pair, each pad on its branch: upper, lower.
 template <class Scalar>
-Eigen::Vector3<Scalar> force_on_branch(const PadContact& pad, const RingMotion<Scalar>& m,
-                                       double speed, std::span<const double> branches)
+PairVector<Scalar> force_on_branch(const BrakePoint& point, const RingMotion<Scalar>& m,
+                                   double speed, std::span<const double> branches)
 {
-  const RingForce<Scalar> F = pair_force(pad, m, pad_on_branch(pad, m, speed, {1.0, branches[0]}),
-                                         pad_on_branch(pad, m, speed, {-1.0, branches[1]}));
-  return {F.F_w, F.F_r, F.F_t};
+  const auto up = pad_on_branch(point.contact, m, speed, {1.0, branches[0]});
+  const auto lo = pad_on_branch(point.contact, m, speed, {-1.0, branches[1]});
+  return pair_forces(pair_force(point.contact, m, up, lo), up, lo, point.at_rest,
+                     static_cast<int>(point.S.cols()));
 }
 
-/// Derivatives of `force_on_branch` by (w, g_r, g_t, w', g_r', g_t'), exact to rounding.
-Eigen::Matrix<double, 3, 6> force_derivative(const PadContact& pad, const RingMotion<double>& m,
-                                             double speed, std::span<const double> branches);
+/// Derivatives of `force_on_branch` by the motion of the point and by its rates, exact to rounding.
+/// @param at  speed and branches
+/// @return [rows x 2 rows]
+Eigen::MatrixXd force_derivative(const BrakePoint& point, const PairVector<double>& g,
+                                 const PairVector<double>& g_dot,
+                                 const std::pair<double, std::span<const double>>& at);
 
 }  // namespace chladni::squeal

@@ -27,14 +27,14 @@ struct LimitCycle {
 };
 
 /// What a periodic motion gains and loses in one period, J: the sum of all is zero. Works are those
-/// on the vibration of the disc, i.e. forces times the velocities of the disc in its own frame; the
-/// drive does the rest of the work of friction.
+/// on the vibration of disc and plates, i.e. forces times the velocities of the disc in its own
+/// frame and of pads with a mass; the drive does the rest of the work of friction.
 struct CycleEnergy {
   Eigen::VectorXd friction;  ///< [n_pads] of the friction of each pad pair
   Eigen::VectorXd normal;    ///< [n_pads] of its normal forces
-  double damping;            ///< of the modes, < 0
+  double damping;            ///< of the modes and of the suspensions of the pads, < 0
   Eigen::VectorXd heat;      ///< [n_pads] what friction turns into heat, > 0; not part of the sum
-  double stored;             ///< kinetic and elastic energy of the disc, mean of the period
+  double stored;             ///< kinetic and elastic energy of disc, plates and suspensions, mean
 };
 
 /// A periodic motion found as such: x(T) = x(0) in the inertial frame.
@@ -52,7 +52,7 @@ struct DirectLimitCycle {
   bool stable;                         ///< all but the first are below 1
   int n_newton_steps;                  ///< of the successful search
   std::int64_t n_contact_evaluations;  ///< in all; see SlidingDisc
-  Eigen::VectorXd x;                   ///< [2 n_modes] a point of the cycle; see SlidingDisc
+  Eigen::VectorXd x;                   ///< a point of the cycle; see SlidingDisc
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
   Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
   CycleEnergy energy;

@@ -49,6 +49,7 @@ Disc disc_of_all_modes(const ModalBody& body, const ContactRing& ring)
           .mode_numbers = numbers,
           .omega = body.omega,
           .C = C,
+          .G = Eigen::MatrixXd::Zero(body.n_modes(), body.n_modes()),
           .W = harmonics_of(ring.angles, ring.W),
           .W_r = harmonics_of(ring.angles, ring.W_r),
           .W_t = harmonics_of(ring.angles, ring.W_t)};
@@ -145,6 +146,7 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
           .mode_numbers = numbers,
           .omega = all.omega(modes),
           .C = all.C(modes, modes),
+          .G = all.G(modes, modes),
           .W = columns(all.W, modes),
           .W_r = columns(all.W_r, modes),
           .W_t = columns(all.W_t, modes)};

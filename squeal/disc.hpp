@@ -16,6 +16,14 @@ struct Shapes {
   Eigen::VectorXd W_t;  ///< [n_modes] circumferential slope, rad per unit of q
 };
 
+/// [n_modes x 3] W, W_r, W_t side by side.
+inline Eigen::MatrixX3d matrix_of(const Shapes& shapes)
+{
+  Eigen::MatrixX3d S(shapes.W.size(), 3);
+  S << shapes.W, shapes.W_r, shapes.W_t;
+  return S;
+}
+
 /// A function of the ring angle for each mode, f_i(theta) = sum_k cosine_ki cos(k theta)
 /// + sine_ki sin(k theta): the trigonometric interpolation of values at n equally spaced nodes.
 struct Harmonics {
@@ -24,15 +32,18 @@ struct Harmonics {
 };
 
 /// The disc of a squeal study, in the frame that rotates with it:
-/// q'' + C q' + diag(omega^2) q = Q, with the mode shapes along one contact ring.
+/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes along one contact ring.
 struct Disc {
   double radius;                  ///< of the contact ring, m
   std::vector<int> mode_numbers;  ///< [n_modes] 1-based in the body
   Eigen::VectorXd omega;          ///< [n_modes] rad/s
   Eigen::MatrixXd C;              ///< [n_modes x n_modes] 1/s, zero when undamped
-  Harmonics W;                    ///< m per unit of q
-  Harmonics W_r;                  ///< rad per unit of q
-  Harmonics W_t;                  ///< rad per unit of q
+  /// [n_modes x n_modes] 1, skew: G_ij = int rho phi_i . (e_z x phi_j) dV, by which Coriolis forces
+  /// add 2 Omega G q'. `make_disc` leaves it zero, since a modal body does not hold it.
+  Eigen::MatrixXd G;
+  Harmonics W;    ///< m per unit of q
+  Harmonics W_r;  ///< rad per unit of q
+  Harmonics W_t;  ///< rad per unit of q
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

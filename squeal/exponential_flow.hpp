@@ -4,6 +4,7 @@
 
 #include "squeal/contact.hpp"
 #include "squeal/inertial_frame.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {
@@ -18,6 +19,8 @@ class ExponentialFlow {
   ExponentialFlow(const InertialDisc& disc, const SquealOptions& options, double speed,
                   double step);
 
+  Eigen::Index size() const { return half_.rows(); }  ///< of x, with the modes of the pads
+
   /// Half a flow, for the first step and the last.
   void advance_half(Eigen::VectorXd& x) const { x = (half_ * x).eval(); }
   void advance(Eigen::VectorXd& x);
@@ -27,21 +30,22 @@ class ExponentialFlow {
   const std::vector<ContactResult<double>>& kick(Eigen::VectorXd& x);
 
  private:
-  struct Pad {
-    PadContact contact;
-    Eigen::MatrixX3d S;  ///< W, W_r, W_t of the modes at the pad
-    Eigen::MatrixX3d S_by_omega;
-    Eigen::Matrix3d D_a, D_p;  ///< the linear part of the force
+  struct Point {
+    BrakePoint at;
+    PairShapes S_by_omega;
+    PairDerivatives D;  ///< the linear part of the force
   };
 
-  Eigen::Vector3d remainder(std::size_t i, const Eigen::VectorXd& p);
+  PairVector<double> remainder(std::size_t i, const Eigen::VectorXd& p);
 
   double speed_;
   double step_;
   Eigen::MatrixXd half_, whole_;
-  std::vector<Pad> pads_;
-  std::vector<Eigen::Vector3d> position_;
-  std::vector<ContactResult<double>> contacts_;
+  PadSystem pads_;
+  std::vector<Point> points_;
+  std::vector<PairVector<double>> position_;
+  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last remainder
+  std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
   Eigen::VectorXd next_, p_mid_;
 };
 

@@ -121,6 +121,7 @@ InertialDisc empty_inertial_disc(const Disc& disc)
           .nodal_diameters = std::vector<int>(static_cast<std::size_t>(n), 0),
           .omega = zero,
           .C = zeros,
+          .G = zeros,
           .D = zeros,
           .R = zeros,
           .U = zero,
@@ -153,9 +154,9 @@ InertialDisc with_group(InertialDisc inertial, const Disc& disc, const Group& gr
   return inertial;
 }
 
-/// Mean over the circumference of exp(-phi D) C exp(phi D), exact with more than 2 n_max + 1
-/// angles.
-Eigen::MatrixXd averaged_damping(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+/// Mean over the circumference of exp(-phi D) C exp(phi D), of damping or Coriolis terms, exact
+/// with more than 2 n_max + 1 angles.
+Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::MatrixXd& C)
 {
   const int n_max =
       *std::max_element(inertial.nodal_diameters.begin(), inertial.nodal_diameters.end());
@@ -191,7 +192,8 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
                                  inertial.largest_split, split_limit)};
   const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
-  inertial.C = averaged_damping(inertial, C);
+  inertial.C = averaged_over_angles(inertial, C);
+  inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
   const double deviation = (C - inertial.C).norm();
   if (deviation > impurity_limit * C.norm())
     return Complaint{

@@ -9,13 +9,14 @@
 namespace chladni::squeal {
 
 /// An axisymmetric disc seen from the inertial frame, where its equations do not depend on time:
-/// a' = -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - C p + Q.
+/// a' = -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - (C + 2 Omega G) p + Q.
 /// Modes come as pairs U cos(n theta), U sin(n theta), or alone for n = 0.
 struct InertialDisc {
   double radius;                     ///< of the contact ring, m
   std::vector<int> nodal_diameters;  ///< [n_modes] n of each coordinate; pairs are neighbours
   Eigen::VectorXd omega;             ///< [n_modes] rad/s, averaged over each pair
   Eigen::MatrixXd C;                 ///< [n_modes x n_modes] 1/s, averaged over the circumference
+  Eigen::MatrixXd G;                 ///< [n_modes x n_modes] 1, averaged likewise; see Disc
   Eigen::MatrixXd D;                 ///< d/dtheta in the coordinates: [0 n; -n 0] for each pair
   Eigen::MatrixXd R;                 ///< orthogonal: q = R a when the two frames coincide
   Eigen::VectorXd U;                 ///< [n_modes] amplitude of W, m per unit of a

@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 #include "squeal/oscillator_flow.hpp"
-#include "squeal/pads.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {
@@ -40,13 +40,12 @@ struct LinearPads {
 template <class AnyDisc>
 LinearPads linear_pads(const AnyDisc& disc, const SquealOptions& options, double speed)
 {
-  const Eigen::Index n = disc.n_modes();
+  const PadSystem system = pad_system(options, disc.radius);
+  const Eigen::Index n = disc.n_modes() + system.n_modes();
   LinearPads pads{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
-  for (const PadPair& pad : options.pads) {
-    const ContactDerivatives d = contact_derivatives(pad_contact(options, pad, disc.radius), speed);
-    const Shapes shapes = shapes_at(disc, pad.angle);
-    Eigen::MatrixX3d S(n, 3);
-    S << shapes.W, shapes.W_r, shapes.W_t;
+  for (const PointPair& point : system.points) {
+    const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), system, point);
+    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     pads.K -= S * d.D_a * S.transpose();
     pads.C -= S * d.D_p * S.transpose();
   }
@@ -55,11 +54,13 @@ LinearPads linear_pads(const AnyDisc& disc, const SquealOptions& options, double
 
 /// Columns: where a step of the splitting takes the unit vectors of (diag(omega) a, p), as seen
 /// from the inertial frame. Flow of the modes and rotation commute.
-Eigen::MatrixXd splitting_step(const InertialDisc& disc, const SquealOptions& options, double speed,
-                               double step)
+Eigen::MatrixXd splitting_step(const InertialDisc& without_pads, const SquealOptions& options,
+                               double speed, double step)
 {
+  LinearPads pads = linear_pads(without_pads, options, speed);
+  const InertialDisc disc = with_pads(without_pads, pad_system(options, without_pads.radius));
   const Eigen::Index n = disc.n_modes();
-  const LinearPads pads = linear_pads(disc, options, speed);
+  pads.C += 2.0 * speed * disc.G;
   const OscillatorFlow flow(disc.omega, disc.C, 0.5 * step);
   const auto half = [&](ModalState x) -> ModalState {
     flow.advance(x);
@@ -116,19 +117,23 @@ int steps_for(IntegratorKind kind, const std::optional<InertialDisc>& disc,
 /// Whether something decays faster than the highest mode oscillates, the rotation frozen.
 bool is_stiff(const Disc& disc, const SquealOptions& options, double speed)
 {
-  const Eigen::Index n = disc.n_modes();
   const LinearPads pads = linear_pads(disc, options, speed);
-  const Eigen::MatrixXd omega = disc.omega.asDiagonal();
+  const FreeBrake brake = free_brake(disc, pad_system(options, disc.radius), speed);
+  const Eigen::Index n = brake.omega.size();
+  const Eigen::MatrixXd omega = brake.omega.asDiagonal();
   Eigen::MatrixXd A(2 * n, 2 * n);
-  A << Eigen::MatrixXd::Zero(n, n), omega, -omega - pads.K * disc.omega.cwiseInverse().asDiagonal(),
-      -disc.C - pads.C;
-  return -A.eigenvalues().real().minCoeff() > disc.omega.maxCoeff();
+  A << Eigen::MatrixXd::Zero(n, n), omega,
+      -omega - pads.K * brake.omega.cwiseInverse().asDiagonal(), -brake.C - pads.C;
+  return -A.eigenvalues().real().minCoeff() > brake.omega.maxCoeff();
 }
 
 /// Kind and steps of "auto".
 IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& inertial,
                           const SquealOptions& options, const TransientCase& run)
 {
+  if (!run.speed_program.empty())
+    return {IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
+            0.0, "it follows a speed program"};
   if (is_stiff(disc, options, run.speed))
     return {IntegratorKind::generalised_alpha, 0, 0.0,
             "the pads damp faster than the highest mode oscillates"};
@@ -193,6 +198,12 @@ IntegratorChoice choose_integrator(const Disc& disc, const std::optional<Inertia
     throw Error(
         "transient: the integrator \"exponential\" needs an axisymmetric disc with both modes of "
         "each pair; take \"auto\" or \"splitting\"");
+  if (!run.speed_program.empty() && run.integrator != IntegratorKind::automatic &&
+      run.integrator != IntegratorKind::splitting)
+    throw Error(
+        fmt::format("transient: the integrator \"{}\" needs a constant speed; a speed_program "
+                    "needs \"splitting\"",
+                    name_of(run.integrator)));
   IntegratorChoice choice{run.integrator, 0, 0.0, ""};
   if (run.integrator == IntegratorKind::automatic) choice = cheapest(disc, inertial, options, run);
   if (run.steps_per_period)

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <complex>
 
+#include "squeal/pad_system.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/stability.hpp"
 
@@ -22,7 +23,8 @@ Eigen::VectorXcd normalised(const Eigen::VectorXcd& shape)
 std::vector<Eigen::MatrixXcd> mode_shapes(const InertialDisc& disc, const SquealOptions& options,
                                           const EigenvalueMap& map)
 {
-  const Eigen::Index n = disc.n_modes();
+  const InertialDisc brake = with_pads(disc, pad_system(options, disc.radius));
+  const Eigen::Index n = brake.n_modes();
   std::vector<Eigen::MatrixXcd> shapes(static_cast<std::size_t>(map.speeds.size()));
   for_each_index(static_cast<int>(map.speeds.size()), [&](int i) {
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(disc, options, map.speeds[i]));
@@ -31,8 +33,8 @@ std::vector<Eigen::MatrixXcd> mode_shapes(const InertialDisc& disc, const Squeal
       Eigen::Index nearest = 0;
       (solver.eigenvalues().array() - map.lambda(i, j)).abs().minCoeff(&nearest);
       const Eigen::VectorXcd a = solver.eigenvectors().col(nearest).head(n).cwiseQuotient(
-          disc.omega.cast<std::complex<double>>());
-      at_speed.col(j) = normalised(disc.R.cast<std::complex<double>>() * a);
+          brake.omega.cast<std::complex<double>>());
+      at_speed.col(j) = normalised(brake.R.cast<std::complex<double>>() * a);
     }
     shapes[static_cast<std::size_t>(i)] = at_speed;
   });

@@ -5,6 +5,7 @@
 #include "mbs_export/hdf5.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
+#include "squeal/sensitivity_file.hpp"
 #include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -124,6 +125,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
   write_critical_values(file, results.critical_values);
   if (results.map) write_map(file, *results.map);
+  if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
   for (std::size_t i = 0; i < results.growth.size(); ++i)
     write_growth(file, fmt::format("growth/{}", i + 1), results.growth[i]);
   if (results.transient) write_transient(file, *results.transient);
@@ -150,6 +152,7 @@ SquealResults read_results(const std::filesystem::path& path)
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
   if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("stability_map")) results.map = read_map(file);
+  if (file.contains("mode_sensitivity")) results.mode_sensitivity = read_sensitivity(file);
   for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)
     results.growth.push_back(read_growth(file, fmt::format("growth/{}", i)));
   if (file.contains("transient")) results.transient = read_transient(file);

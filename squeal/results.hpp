@@ -14,8 +14,9 @@ namespace chladni::squeal {
 struct EigenvalueMap {
   Eigen::VectorXd speeds;   ///< [m] rad/s
   Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
-  /// For each speed [n_modes of the body x n_modes]: column j is the complex shape of the
-  /// eigenvalue j, displacements of the modes of the body as in `LimitCycle::amplitude`, of norm 1.
+  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
+  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
+  /// with a mass, of norm 1.
   /// Empty for models without a body.
   std::vector<Eigen::MatrixXcd> shapes = {};
 };
@@ -67,7 +68,7 @@ struct ModalHistory {
   std::vector<double> energy;  ///< kinetic and elastic energy of the disc in this frame, J
 };
 
-/// A pad loses or regains its disc.
+/// A contact point of a pad loses or regains its disc.
 struct ContactEvent {
   double t;    ///< s
   int pad;     ///< upper and lower pad of each pair in turn, from 0
@@ -118,6 +119,34 @@ struct Spectrum {
   std::vector<Peak> peaks;  ///< by falling amplitude
 };
 
+/// What the lowest modes alone would say.
+struct ModeSubset {
+  int n_modes;
+  double highest_Hz;
+  std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
+  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
+  double growth;  ///< largest growth rate at the critical speed of all modes, 1/s
+};
+
+/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
+struct ModeInfluence {
+  int nodal_diameters;
+  double frequency_Hz;   ///< of the mode
+  double participation;  ///< part of the kinetic energy of the critical oscillation
+  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
+  /// absent for the mode that it consists of.
+  std::optional<double> growth_without;
+  std::optional<double> critical_speed_without;  ///< rad/s
+};
+
+/// Which modes move the critical speed.
+struct ModeSensitivity {
+  double critical_speed;  ///< with all modes, rad/s
+  double critical_frequency_Hz;
+  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
+  std::vector<ModeInfluence> influences;  ///< by rising frequency
+};
+
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
@@ -129,6 +158,7 @@ struct SquealResults {
   std::optional<CriticalSpeed> critical_speed;
   std::vector<CriticalValue> critical_values;
   std::optional<StabilityMap> map;
+  std::optional<ModeSensitivity> mode_sensitivity;
   std::vector<Growth> growth;
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;

@@ -1,44 +1,59 @@
 #include "squeal/rotating_disc.hpp"
 
+#include <span>
+#include <utility>
+
 #include "squeal/contact_branch.hpp"
-#include "squeal/pads.hpp"
 
 namespace chladni::squeal {
+namespace {
+
+/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
+double pressure(const PadContact& pad, const PadState<double>& state,
+                const PlateMotion<double>& plate, double sigma)
+{
+  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
+  return 1.0 +
+         sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
+}
+
+}  // namespace
 
 RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       pulled_(pulled_branch(options.contact)),
-      omega_(disc.omega),
-      C_(disc.C),
-      damped_(!disc.C.isZero(0.0)),
       ring_(disc),
-      branches_(2 * options.pads.size(), 1.0),
+      pads_(pad_system(options, disc.radius)),
+      branches_(2 * pads_.points.size(), 1.0),
       S_(options.contact == ContactLaw::signed_force
              ? Eigen::VectorXd()
-             : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(branches_.size()))),
-      f_(2 * disc.n_modes()),
-      q_(disc.n_modes())
+             : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(branches_.size())))
 {
-  for (const PadPair& pad : options.pads) {
-    pads_.push_back(pad_contact(options, pad, disc.radius));
-    angles_.push_back(pad.angle);
-  }
+  FreeBrake brake = free_brake(disc, pads_, speed);
+  omega_ = std::move(brake.omega);
+  C_ = std::move(brake.C);
+  damped_ = !C_.isZero(0.0);
+  f_.resize(2 * omega_.size());
+  q_.resize(omega_.size());
+  for (const PointPair& point : pads_.points)
+    points_.push_back(brake_point(ring_.at(point.angle), pads_, point, speed));
 }
 
-const Eigen::MatrixX3d& RotatingDisc::shapes(std::size_t i, double t)
+const PairShapes& RotatingDisc::shapes(std::size_t i, double t)
 {
-  return ring_.at(angles_[i] - speed_ * t);
+  const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - speed_ * t);
+  points_[i].S.topLeftCorner(S.rows(), 3) = S;
+  return points_[i].S;
 }
 
-RingMotion<double> RotatingDisc::ring_motion(const Eigen::MatrixX3d& S, const Eigen::VectorXd& y)
+RotatingDisc::PointMotion RotatingDisc::point_motion(const PairShapes& S, const Eigen::VectorXd& y)
 {
   const Eigen::Index n = omega_.size();
   q_ = y.head(n).cwiseQuotient(omega_);
-  const Eigen::Vector3d g = S.transpose() * q_, g_dot = S.transpose() * y.tail(n);
-  return {g[0], g[1], g[2], g_dot[0], g_dot[1], g_dot[2]};
+  return {.g = S.transpose() * q_, .g_dot = S.transpose() * y.tail(n)};
 }
 
-/// f = (diag(omega) v, -diag(omega) (omega q) - C v + sum_pads S F)
+/// f = (diag(omega) v, -diag(omega) (omega q) - C v + sum_points S F)
 const Eigen::VectorXd& RotatingDisc::rate(double t, const Eigen::VectorXd& y)
 {
   const Eigen::Index n = omega_.size();
@@ -46,24 +61,20 @@ const Eigen::VectorXd& RotatingDisc::rate(double t, const Eigen::VectorXd& y)
   f_.head(n) = omega_.cwiseProduct(y.tail(n));
   f_.tail(n) = -omega_.cwiseProduct(y.head(n));
   if (damped_) f_.tail(n).noalias() -= C_ * y.tail(n);
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    const Eigen::MatrixX3d& S = shapes(i, t);
-    const RingMotion<double> motion = ring_motion(S, y);
-    // Off its contact a pad has no force; its switching function is what it would press with.
-    const auto up = pad_on_branch(pads_[i], motion, speed_, {1.0, branches_[2 * i]});
-    const auto lo = pad_on_branch(pads_[i], motion, speed_, {-1.0, branches_[2 * i + 1]});
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PairShapes& S = shapes(i, t);
+    const PointMotion at = point_motion(S, y);
+    const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
+    const PadContact& pad = points_[i].contact;
+    const auto up = pad_on_branch(pad, motion, speed_, {1.0, branches_[2 * i]});
+    const auto lo = pad_on_branch(pad, motion, speed_, {-1.0, branches_[2 * i + 1]});
     if (S_.size() > 0) {
-      const auto at = static_cast<Eigen::Index>(2 * i);
-      const PadContact& pad = pads_[i];
-      const auto pressed = [&](const PadState<double>& state, double sigma) {
-        const double lift = state.z - sigma * 0.5 * pad.thickness;
-        return 1.0 + sigma * (force(pad.spring, lift) + pad.damping * state.z_dot) / pad.preload;
-      };
-      S_[at] = pressed(up, 1.0);
-      S_[at + 1] = pressed(lo, -1.0);
+      const auto first = static_cast<Eigen::Index>(2 * i);
+      S_[first] = pressure(pad, up, motion.upper, 1.0);
+      S_[first + 1] = pressure(pad, lo, motion.lower, -1.0);
     }
-    const RingForce<double> F = pair_force(pads_[i], motion, up, lo);
-    f_.tail(n).noalias() += S * Eigen::Vector3d{F.F_w, F.F_r, F.F_t};
+    f_.tail(n).noalias() += S * pair_forces(pair_force(pad, motion, up, lo), up, lo,
+                                            points_[i].at_rest, static_cast<int>(S.cols()));
   }
   return f_;
 }
@@ -78,17 +89,24 @@ void RotatingDisc::set_side(Eigen::Index i, double side)
   branches_[static_cast<std::size_t>(i)] = side > 0.0 ? 1.0 : pulled_;
 }
 
+int RotatingDisc::pad_of(Eigen::Index i) const
+{
+  const std::size_t pair = pads_.points[static_cast<std::size_t>(i / 2)].pad;
+  return 2 * static_cast<int>(pair) + static_cast<int>(i % 2);
+}
+
 Motion::Tangent RotatingDisc::tangent(double t, const Eigen::VectorXd& y)
 {
   const Eigen::VectorXd squares = omega_.cwiseAbs2();
   n_evaluations_ += 6;
   Tangent d{-squares.asDiagonal().toDenseMatrix(), -C_};
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    const Eigen::MatrixX3d S = shapes(i, t);
-    const Eigen::Matrix<double, 3, 6> D = force_derivative(pads_[i], ring_motion(S, y), speed_,
-                                                           std::span(branches_).subspan(2 * i, 2));
-    d.by_q += S * D.leftCols<3>() * S.transpose();
-    d.by_v += S * D.rightCols<3>() * S.transpose();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PairShapes& S = shapes(i, t);
+    const PointMotion at = point_motion(S, y);
+    const Eigen::MatrixXd D = force_derivative(points_[i], at.g, at.g_dot,
+                                               {speed_, std::span(branches_).subspan(2 * i, 2)});
+    d.by_q += S * D.leftCols(S.cols()) * S.transpose();
+    d.by_v += S * D.rightCols(S.cols()) * S.transpose();
   }
   return d;
 }
@@ -96,9 +114,11 @@ Motion::Tangent RotatingDisc::tangent(double t, const Eigen::VectorXd& y)
 std::vector<ContactResult<double>> RotatingDisc::contacts(double t, const Eigen::VectorXd& y)
 {
   std::vector<ContactResult<double>> results;
-  for (std::size_t i = 0; i < pads_.size(); ++i)
-    results.push_back(contact(pads_[i], ring_motion(shapes(i, t), y), speed_));
-  return results;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointMotion at = point_motion(shapes(i, t), y);
+    results.push_back(contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_));
+  }
+  return by_pad(pads_, results);
 }
 
 }  // namespace chladni::squeal

@@ -5,13 +5,15 @@
 #include "squeal/contact.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/motion.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/ring_shapes.hpp"
 
 namespace chladni::squeal {
 
 /// The motion of any disc between pads in the frame that rotates with it:
-/// q'' + C q' + diag(omega^2) q = Q(t, q, q'). Switching functions are the axial forces S of the
-/// pads over their preloads, upper and lower pad of each pair in turn.
+/// q'' + C q' + diag(omega^2) q = Q(t, q, q'), the modes of pads with a mass after those of the
+/// disc. Switching functions are the axial forces S of the contact points over their preloads,
+/// upper and lower one of each pair in turn.
 class RotatingDisc final : public Motion {
  public:
   RotatingDisc(const Disc& disc, const SquealOptions& options, double speed);
@@ -26,13 +28,21 @@ class RotatingDisc final : public Motion {
   /// The contacts at (t, y) as the contact law has them, one for each pair.
   std::vector<ContactResult<double>> contacts(double t, const Eigen::VectorXd& y);
 
+  /// To which of the pads, upper and lower one of each pair in turn, the switching function i
+  /// belongs.
+  int pad_of(Eigen::Index i) const;
+
   /// Evaluations of the contact forces of all pads so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
 
  private:
-  /// Shapes of the pair i at time t.
-  const Eigen::MatrixX3d& shapes(std::size_t i, double t);
-  RingMotion<double> ring_motion(const Eigen::MatrixX3d& S, const Eigen::VectorXd& y);
+  struct PointMotion {
+    PairVector<double> g, g_dot;  ///< see PairShapes
+  };
+
+  /// Shapes of the point pair i at time t.
+  const PairShapes& shapes(std::size_t i, double t);
+  PointMotion point_motion(const PairShapes& S, const Eigen::VectorXd& y);
 
   double speed_;
   double pulled_;  ///< branch of a pad whose axial force is negative
@@ -40,9 +50,9 @@ class RotatingDisc final : public Motion {
   Eigen::MatrixXd C_;
   bool damped_;
   RingShapes ring_;
-  std::vector<PadContact> pads_;
-  std::vector<double> angles_;
-  std::vector<double> branches_;  ///< of each pad; see contact_branch.hpp
+  PadSystem pads_;
+  std::vector<BrakePoint> points_;  ///< with the shapes where the disc stood last
+  std::vector<double> branches_;    ///< of each point; see contact_branch.hpp
   Eigen::VectorXd S_;
   Eigen::VectorXd f_;
   Eigen::VectorXd q_;

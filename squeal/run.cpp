@@ -10,6 +10,7 @@
 #include "squeal/limit_cycle.hpp"
 #include "squeal/limit_cycle_branch.hpp"
 #include "squeal/limit_cycle_direct.hpp"
+#include "squeal/mode_sensitivity.hpp"
 #include "squeal/mode_shapes.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/spectrum.hpp"
@@ -70,6 +71,10 @@ std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
        [&](auto& r, auto&) { r.critical_values = critical_values(disc, options); }},
       {{"stability-map"},
        [&](auto& r, auto&) { r.map = stability_map(inertial_disc(disc), options); }},
+      {{"mode-sensitivity"},
+       [&](auto& r, auto&) {
+         r.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
+       }},
       {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
       {{"transient", "limit-cycle", "spectrum"},
        [&](auto& r, auto& progress) {

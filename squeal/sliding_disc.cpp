@@ -9,7 +9,6 @@
 #include "common/error.hpp"
 #include "squeal/contact_branch.hpp"
 #include "squeal/dop853.hpp"
-#include "squeal/pads.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
 
@@ -28,68 +27,92 @@ SquealOptions without_pads(SquealOptions options)
   return options;
 }
 
+/// What the normal force alone does of a state: N / s along the axis, sigma N g / s in the plane.
+PadState<double> without_friction(PadState<double> state, const RingMotion<double>& m, double sigma)
+{
+  const double s = std::sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  state.S = state.N / s;
+  state.f_r = sigma * state.N * m.g_r / s;
+  state.f_t = sigma * state.N * m.g_t / s;
+  return state;
+}
+
+/// What the friction of one pad turns into heat, W.
+double heat(const PadContact& pad, const PadState<double>& state)
+{
+  const double v = regularised_speed(pad.friction, state.slip_speed * state.slip_speed);
+  const double N = pad.law == ContactLaw::signed_force ? state.N : std::abs(state.N);
+  return friction_coefficient(pad.friction, v) * N * state.slip_speed * state.slip_speed / v;
+}
+
+/// Powers of a point pair on disc and plates, W; see SlidingDisc::Power.
+struct PointPower {
+  double friction, normal, heat;
+};
+
+/// Friction is what the normal forces are not; so is the friction at rest that plates are held
+/// against.
+PointPower point_power(const BrakePoint& point, const PairVector<double>& g,
+                       const PairVector<double>& g_dot, double speed)
+{
+  const PadContact& pad = point.contact;
+  const auto rows = static_cast<int>(g.size());
+  const RingMotion<double> m = pair_motion(g, g_dot);
+  const ContactResult<double> all = contact(pad, m, speed);
+  const PadState<double> up = without_friction(all.upper, m, 1.0);
+  const PadState<double> lo = without_friction(all.lower, m, -1.0);
+  PadState<double> at_rest = point.at_rest;
+  at_rest.f_t = 0.0;
+  const double total = g_dot.dot(pair_forces(all.force, all.upper, all.lower, point.at_rest, rows));
+  const double normal = g_dot.dot(pair_forces(pair_force(pad, m, up, lo), up, lo, at_rest, rows));
+  return {total - normal, normal, heat(pad, all.upper) + heat(pad, all.lower)};
+}
+
 }  // namespace
 
 SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       pulled_(pulled_branch(options.contact)),
-      by_omega_(disc.omega.cwiseInverse()),
-      A_(state_matrix(disc, without_pads(options), speed))
+      pads_(pad_system(options, disc.radius)),
+      by_omega_(with_pads(disc, pads_).omega.cwiseInverse()),
+      A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed))
 {
-  for (const PadPair& pad : options.pads) {
-    const Shapes shapes = shapes_at(disc, pad.angle);
-    Eigen::MatrixX3d S(disc.n_modes(), 3);
-    S << shapes.W, shapes.W_r, shapes.W_t;
-    pads_.push_back({pad_contact(options, pad, disc.radius), S});
-  }
+  for (const PointPair& point : pads_.points)
+    points_.push_back(brake_point(matrix_of(shapes_at(disc, point.angle)), pads_, point, speed));
 }
 
-RingMotion<double> SlidingDisc::motion_at(const Pad& pad, const Eigen::VectorXd& x) const
+SlidingDisc::PointMotion SlidingDisc::motion_at(const BrakePoint& point,
+                                                const Eigen::VectorXd& x) const
 {
   const Eigen::Index n = by_omega_.size();
-  const Eigen::Vector3d g = pad.S.transpose() * by_omega_.cwiseProduct(x.head(n));
-  const Eigen::Vector3d g_dot = pad.S.transpose() * x.tail(n);
-  return {g[0], g[1], g[2], g_dot[0], g_dot[1], g_dot[2]};
+  return {.g = point.S.transpose() * by_omega_.cwiseProduct(x.head(n)),
+          .g_dot = point.S.transpose() * x.tail(n)};
 }
 
 ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
 {
-  return contact(pads_.front().contact, motion_at(pads_.front(), x), speed_);
+  std::vector<ContactResult<double>> results;
+  for (const BrakePoint& point : points_) {
+    const PointMotion at = motion_at(point, x);
+    results.push_back(contact(point.contact, pair_motion(at.g, at.g_dot), speed_));
+  }
+  return by_pad(pads_, results).front();
 }
 
-/// The normal force alone acts with N / s along the axis and sigma N g / s in the plane; the rest
-/// of the force is friction.
 SlidingDisc::Power SlidingDisc::power(const Eigen::VectorXd& x) const
 {
-  const auto n_pads = static_cast<Eigen::Index>(pads_.size());
+  const auto n_pads = static_cast<Eigen::Index>(pads_.n_pads());
   const Eigen::Index n = by_omega_.size();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_pads);
   const auto p = x.tail(n);
-  Power power{Eigen::VectorXd(n_pads), Eigen::VectorXd(n_pads), Eigen::VectorXd(n_pads),
-              p.dot(A_.bottomRightCorner(n, n) * p)};
-  for (Eigen::Index i = 0; i < n_pads; ++i) {
-    const Pad& pad = pads_[static_cast<std::size_t>(i)];
-    const RingMotion<double> m = motion_at(pad, x);
-    const ContactResult<double> all = contact(pad.contact, m, speed_);
-    const double s = std::sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
-    const auto normal_of = [&](PadState<double> state, double sigma) {
-      state.S = state.N / s;
-      state.f_r = sigma * state.N * m.g_r / s;
-      state.f_t = sigma * state.N * m.g_t / s;
-      return state;
-    };
-    const auto power_of = [&](const RingForce<double>& F) {
-      return F.F_w * m.w_dot + F.F_r * m.g_r_dot + F.F_t * m.g_t_dot;
-    };
-    const auto heat_of = [&](const PadState<double>& state) {
-      const FrictionLaw& law = pad.contact.friction;
-      const double v = regularised_speed(law, state.slip_speed * state.slip_speed);
-      const double g = pad.contact.law == ContactLaw::signed_force ? state.N : std::abs(state.N);
-      return friction_coefficient(law, v) * g * state.slip_speed * state.slip_speed / v;
-    };
-    power.normal[i] =
-        power_of(pair_force(pad.contact, m, normal_of(all.upper, 1.0), normal_of(all.lower, -1.0)));
-    power.friction[i] = power_of(all.force) - power.normal[i];
-    power.heat[i] = heat_of(all.upper) + heat_of(all.lower);
+  Power power{zero, zero, zero, p.dot(A_.bottomRightCorner(n, n) * p)};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointMotion at = motion_at(points_[i], x);
+    const PointPower of_point = point_power(points_[i], at.g, at.g_dot, speed_);
+    const auto pad = static_cast<Eigen::Index>(pads_.points[i].pad);
+    power.friction[pad] += of_point.friction;
+    power.normal[pad] += of_point.normal;
+    power.heat[pad] += of_point.heat;
   }
   return power;
 }
@@ -98,20 +121,21 @@ SlidingDisc::Power SlidingDisc::power(const Eigen::VectorXd& x) const
 Eigen::VectorXd SlidingDisc::axial_forces(const Eigen::VectorXd& x)
 {
   ++n_evaluations_;
-  Eigen::VectorXd S(static_cast<Eigen::Index>(2 * pads_.size()));
+  Eigen::VectorXd S(static_cast<Eigen::Index>(2 * points_.size()));
   Eigen::Index i = 0;
-  for (const Pad& pad : pads_) {
-    const RingMotion<double> motion = motion_at(pad, x);
+  for (const BrakePoint& point : points_) {
+    const PointMotion at = motion_at(point, x);
+    const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
     for (const double sigma : {1.0, -1.0})
-      S[i++] = pad_on_branch(pad.contact, motion, speed_, {sigma, 1.0}).S;
+      S[i++] = pad_on_branch(point.contact, motion, speed_, {sigma, 1.0}).S;
   }
   return S;
 }
 
 SlidingDisc::Branches SlidingDisc::branches_at(const Eigen::VectorXd& x)
 {
-  Branches branches(2 * pads_.size(), 1.0);
-  if (pads_.empty() || pads_.front().contact.law == ContactLaw::signed_force) return branches;
+  Branches branches(2 * points_.size(), 1.0);
+  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return branches;
   const Eigen::VectorXd S = axial_forces(x);
   for (std::size_t i = 0; i < branches.size(); ++i)
     if (S[static_cast<Eigen::Index>(i)] < 0.0) branches[i] = pulled_;
@@ -124,19 +148,20 @@ Eigen::MatrixXd SlidingDisc::field(const Eigen::MatrixXd& Y, const Branches& bra
   const Eigen::Index n = by_omega_.size(), n_columns = Y.cols() - 1;
   n_evaluations_ += n_columns > 0 ? 7 : 1;
   Eigen::MatrixXd rate = A_ * Y;
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    const Pad& pad = pads_[i];
-    const RingMotion<double> motion = motion_at(pad, Y.col(0));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const BrakePoint& point = points_[i];
+    const PointMotion at = motion_at(point, Y.col(0));
     const std::span<const double> of_pad = std::span(branches).subspan(2 * i, 2);
-    Eigen::Matrix3Xd F(3, Y.cols());
-    F.col(0) = force_on_branch(pad.contact, motion, speed_, of_pad);
+    const Eigen::Index rows = point.S.cols();
+    Eigen::MatrixXd F(rows, Y.cols());
+    F.col(0) = force_on_branch(point, pair_motion(at.g, at.g_dot), speed_, of_pad);
     if (n_columns > 0) {
-      Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n_columns);
-      G << pad.S.transpose() * by_omega_.asDiagonal() * Y.topRightCorner(n, n_columns),
-          pad.S.transpose() * Y.bottomRightCorner(n, n_columns);
-      F.rightCols(n_columns) = force_derivative(pad.contact, motion, speed_, of_pad) * G;
+      Eigen::MatrixXd G(2 * rows, n_columns);
+      G << point.S.transpose() * by_omega_.asDiagonal() * Y.topRightCorner(n, n_columns),
+          point.S.transpose() * Y.bottomRightCorner(n, n_columns);
+      F.rightCols(n_columns) = force_derivative(point, at.g, at.g_dot, {speed_, of_pad}) * G;
     }
-    rate.bottomRows(n) += pad.S * F;
+    rate.bottomRows(n) += point.S * F;
   }
   return rate;
 }
@@ -147,7 +172,7 @@ std::optional<SlidingDisc::Change> SlidingDisc::first_change(const Eigen::Vector
                                                              double step, const Branches& branches)
 {
   std::optional<Change> first;
-  if (pads_.empty() || pads_.front().contact.law == ContactLaw::signed_force) return first;
+  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return first;
   const Eigen::VectorXd S_end = axial_forces(end);
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

@@ -13,13 +13,50 @@ enum class ContactLaw {
   signed_force  ///< the pad also pulls; friction changes sign with N
 };
 
-/// One pad pair: an upper and a lower massless pad on one vertical axis.
+/// A spring and a damper side by side.
+struct Suspension {
+  double stiffness;  ///< N/m, or N m for a rotation; > 0
+  double damping;    ///< N s/m, or N m s
+};
+
+/// A rotation of a pad on a spring and a damper.
+struct RotarySuspension {
+  double inertia;  ///< kg m^2
+  Suspension suspension;
+};
+
+/// The plate of a pad as a rigid body with those of its six degrees of freedom that have a
+/// suspension. Its lining, between plate and disc, has the stiffness of the pad.
+struct PadBody {
+  double mass;          ///< kg
+  double height = 0.0;  ///< of its centre of mass above the contact plane, m
+  std::optional<Suspension> radial = {}, tangential = {}, axial = {};
+  std::optional<RotarySuspension> about_radial = {}, about_tangential = {}, about_axial = {};
+};
+
+/// A rigid body between the axial suspensions of the two plates of a pair and the ground.
+struct Caliper {
+  double mass;  ///< kg
+  Suspension axial;
+};
+
+/// Point contacts in the middle of equal parts of a sector, which share stiffness, damping and
+/// preload of the pad.
+struct PadGrid {
+  double sector;  ///< rad
+  int points;
+};
+
+/// One pad pair: an upper and a lower pad on one vertical axis; massless unless it has a body.
 struct PadPair {
   double angle;                  ///< inertial angle of the axis, rad
   double stiffness;              ///< of each pad spring, N/m
   double damping;                ///< N s/m
   double preload;                ///< N_0 of each pad, N
   double cubic_stiffness = 0.0;  ///< k_3 of each pad spring, N/m^3
+  std::optional<PadGrid> grid = {};
+  std::optional<PadBody> body = {};
+  std::optional<Caliper> caliper = {};  ///< needs a body with an axial suspension
 };
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -44,6 +81,12 @@ enum class IntegratorKind {
   generalised_alpha  ///< implicit, for stiff pads
 };
 
+/// A point of a speed program.
+struct SpeedPoint {
+  double time;   ///< s
+  double speed;  ///< rad/s
+};
+
 /// A transient from a small initial displacement of the pads at rest in the inertial frame.
 struct TransientCase {
   double speed;                     ///< rad/s
@@ -54,6 +97,8 @@ struct TransientCase {
   std::optional<int> steps_per_period = {};
   IntegratorKind integrator = IntegratorKind::automatic;
   double growth_error = 1e-3;  ///< that the integration may add to a growth rate, 1/s
+  /// Speeds to follow, linear between points that begin at t = 0 with `speed`; empty: constant.
+  std::vector<SpeedPoint> speed_program = {};
 };
 
 /// Growth of the pad velocity over a short transient at each of several speeds.

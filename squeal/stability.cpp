@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "squeal/pads.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/root.hpp"
 
 namespace chladni::squeal {
@@ -60,20 +60,20 @@ constexpr double rounding = 1e-12;
 
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed)
 {
-  const Eigen::Index n = disc.n_modes();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = disc.C;
-  for (const PadPair& pad : options.pads) {
-    const ContactDerivatives d = contact_derivatives(pad_contact(options, pad, disc.radius), speed);
-    const Shapes shapes = shapes_at(disc, pad.angle);
-    Eigen::MatrixX3d S(n, 3);
-    S << shapes.W, shapes.W_r, shapes.W_t;
+  const PadSystem pads = pad_system(options, disc.radius);
+  const InertialDisc brake = with_pads(disc, pads);
+  const Eigen::Index n = brake.n_modes();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C + 2.0 * speed * brake.G;
+  for (const PointPair& point : pads.points) {
+    const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads, point);
+    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     K -= S * d.D_a * S.transpose();
     C -= S * d.D_p * S.transpose();
   }
-  const Eigen::MatrixXd omega = disc.omega.asDiagonal();
-  const Eigen::MatrixXd by_omega = disc.omega.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd omega = brake.omega.asDiagonal();
+  const Eigen::MatrixXd by_omega = brake.omega.cwiseInverse().asDiagonal();
   Eigen::MatrixXd A(2 * n, 2 * n);
-  A << -speed * disc.D, omega, -omega - K * by_omega, -speed * disc.D - C;
+  A << -speed * brake.D, omega, -omega - K * by_omega, -speed * brake.D - C;
   return A;
 }
 

@@ -1,14 +1,17 @@
 #include "squeal/transient.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "squeal/contact_kick.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
 #include "squeal/resampler.hpp"
+#include "squeal/speed_program.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient_plan.hpp"
 #include "squeal/transient_steps.hpp"
@@ -16,9 +19,14 @@
 namespace chladni::squeal {
 namespace {
 
-FrequencyRange frequencies_of(const Disc& disc)
+void check_speed_program(const SquealOptions& options, const TransientCase& run)
 {
-  return {.lowest = disc.omega.minCoeff(), .highest = disc.omega.maxCoeff()};
+  const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
+                                 [](const SpeedPoint& point) { return !(point.speed > 0.0); });
+  if (stops && !(options.slip_regularisation > 0.0))
+    throw Error(
+        "transient: the speed program comes to rest, where friction has no direction; give "
+        "friction a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
 }
 
 /// Samples of one period of the highest mode.
@@ -27,6 +35,22 @@ int sampling_of(const IntegratorChoice& choice)
   const bool fixed =
       choice.kind == IntegratorKind::splitting || choice.kind == IntegratorKind::exponential;
   return fixed ? choice.steps_per_period : samples_per_period;
+}
+
+/// Of the modes; the highest also of light plates beside the springs of their linings, from the
+/// symmetric part of the stiffness in one position of the disc.
+FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, double speed)
+{
+  const ContactKick kick(disc, options, speed);
+  const FreeBrake brake = free_brake(disc, kick.pads(), speed);
+  FrequencyRange range{.lowest = disc.omega.minCoeff(), .highest = brake.omega.maxCoeff()};
+  if (kick.pads().n_modes() == 0) return range;
+  const Eigen::MatrixXd K =
+      brake.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
+                                                             Eigen::EigenvaluesOnly);
+  range.highest = std::max(range.highest, std::sqrt(modes.eigenvalues().maxCoeff()));
+  return range;
 }
 
 /// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
@@ -71,8 +95,8 @@ Eigen::VectorXd in_inertial_frame(const InertialDisc& inertial, const Eigen::Vec
 class StateRecorder {
  public:
   StateRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
-                const RecordingPlan& plan, double speed)
-      : omega_(disc.omega), inertial_(inertial), plan_(plan), speed_(speed)
+                const RecordingPlan& plan, const TransientCase& run)
+      : omega_(disc.omega), inertial_(inertial), plan_(plan), run_(run)
   {
     const auto n_kept = static_cast<Eigen::Index>((plan.n_steps - 1) / plan.every + 1);
     modes_.q.resize(disc.n_modes(), n_kept);
@@ -85,7 +109,8 @@ class StateRecorder {
     const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
     if (!in_tail && i % plan_.every != 0) return;
     const ModalState x = steps.state();
-    if (in_tail) tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, speed_ * t);
+    if (in_tail)
+      tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, turn_at(run_, t).angle);
     if (i % plan_.every != 0) return;
     const auto column = static_cast<Eigen::Index>(modes_.energy.size());
     modes_.q.col(column) = x.q;
@@ -105,7 +130,7 @@ class StateRecorder {
   Eigen::VectorXd omega_;
   const std::optional<InertialDisc>& inertial_;
   RecordingPlan plan_;
-  double speed_;
+  const TransientCase& run_;
   ModalHistory modes_;
   Eigen::MatrixXd tail_a_;
   Eigen::Index n_tail_ = 0;
@@ -125,15 +150,17 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
                     const Progress& progress)
 {
   if (options.pads.empty()) throw Error("transient: no pads");
-  check_transient(run, frequencies_of(disc).highest);
+  check_transient(run, disc.omega.maxCoeff());
+  check_speed_program(options, run);
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
   const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
-  const RecordingPlan plan = recording_plan(run, frequencies_of(disc), sampling_of(choice));
+  const RecordingPlan plan =
+      recording_plan(run, frequencies_of(disc, options, run.speed), sampling_of(choice));
   const auto steps =
-      transient_steps(disc, options, run.speed, choice, plan.step,
+      transient_steps(disc, options, run, choice, plan.step,
                       initial_state(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
-  StateRecorder states(disc, inertial, plan, run.speed);
+  StateRecorder states(disc, inertial, plan, run);
   std::optional<Resampler> sound;
   if (options.sound) sound.emplace(plan.step, options.sound->rate_Hz);
   bool finite = true;
@@ -157,7 +184,10 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
   result.n_steps = steps->n_steps();
   result.n_contact_evaluations = steps->n_contact_evaluations();
   result.events = steps->events();
-  result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
+  if (run.speed_program.empty())
+    result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
+  else
+    result.speed = turn_at(run, run.duration).speed;
   result.modes = states.modes();
   result.tail_a = states.tail_a();
   if (sound) {
@@ -171,8 +201,8 @@ Growth growth(const Disc& disc, const SquealOptions& options, double speed, doub
 {
   const Transient run =
       transient(disc, options, growth_case(speed, duration, rest_compression(options)));
-  Growth result{speed, run.envelope,
-                required_growth_rate(run, duration, frequencies_of(disc).lowest), std::nullopt};
+  Growth result{speed, run.envelope, required_growth_rate(run, duration, disc.omega.minCoeff()),
+                std::nullopt};
   if (const auto inertial = find_inertial_disc(disc))
     result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
   return result;

@@ -2,43 +2,60 @@
 
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "squeal/contact_kick.hpp"
 #include "squeal/dormand_prince.hpp"
 #include "squeal/exponential_flow.hpp"
 #include "squeal/generalised_alpha.hpp"
 #include "squeal/rotating_disc.hpp"
+#include "squeal/speed_program.hpp"
 
 namespace chladni::squeal {
 namespace {
+
+ModalState with_plates_at_rest(ModalState x, Eigen::Index n)
+{
+  x.q.conservativeResizeLike(Eigen::VectorXd::Zero(n));
+  x.v.conservativeResizeLike(Eigen::VectorXd::Zero(n));
+  return x;
+}
 
 /// Exact flow of the damped modes over half a step, kick of the pads, exact flow over half a step.
 /// The two half flows between two kicks are one; a sample is in the middle of a kick, to which the
 /// splitting is symmetric in time.
 class SplittingSteps final : public TransientSteps {
  public:
-  SplittingSteps(const Disc& disc, const SquealOptions& options, double speed, double step,
-                 const ModalState& start)
-      : flow_(disc.omega, disc.C, step), kick_(disc, options, speed), step_(step), x_(start)
+  SplittingSteps(const Disc& disc, const SquealOptions& options, const TransientCase& run,
+                 double step, const ModalState& start)
+      : kick_(disc, options, run.speed), n_modes_(disc.n_modes()), run_(run), step_(step)
   {
-    OscillatorFlow(disc.omega, disc.C, 0.5 * step).advance(x_);
+    const FreeBrake brake = free_brake(disc, kick_.pads(), 0.0);  // Coriolis terms are in the kick
+    flow_.emplace(brake.omega, brake.C, step);
+    x_ = with_plates_at_rest(start, brake.omega.size());
+    OscillatorFlow(brake.omega, brake.C, 0.5 * step).advance(x_);
   }
 
   const std::vector<ContactResult<double>>& next() override
   {
-    if (n_ > 0) flow_.advance(x_);
+    if (n_ > 0) flow_->advance(x_);
     v_before_ = x_.v;
-    const auto& contacts = kick_.apply(x_, (double(n_) + 0.5) * step_, step_);
+    const auto& contacts = kick_.apply(x_, turn_at(run_, (double(n_) + 0.5) * step_), step_);
     ++n_;
     return contacts;
   }
-  ModalState state() const override { return {x_.q, 0.5 * (v_before_ + x_.v)}; }
+  ModalState state() const override
+  {
+    return {x_.q.head(n_modes_), 0.5 * (v_before_ + x_.v).head(n_modes_)};
+  }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
 
  private:
-  OscillatorFlow flow_;
   ContactKick kick_;
+  std::optional<OscillatorFlow> flow_;
+  Eigen::Index n_modes_;
+  TransientCase run_;
   double step_;
   ModalState x_;
   Eigen::VectorXd v_before_;  ///< the last kick
@@ -52,17 +69,19 @@ class ExponentialSteps final : public TransientSteps {
       : inertial_(inertial_disc(disc)),
         flow_(inertial_, options, speed, step),
         angle_step_(speed * step),
-        x_(2 * disc.n_modes())
+        x_(Eigen::VectorXd::Zero(flow_.size()))
   {
     const Eigen::MatrixXd& R = inertial_.R;
-    x_ << inertial_.omega.cwiseProduct(R.transpose() * start.q), R.transpose() * start.v;
+    const Eigen::Index n = disc.n_modes();
+    x_.head(n) = inertial_.omega.cwiseProduct(R.transpose() * start.q);
+    x_.segment(flow_.size() / 2, n) = R.transpose() * start.v;
     flow_.advance_half(x_);
   }
 
   const std::vector<ContactResult<double>>& next() override
   {
     if (n_++ > 0) flow_.advance(x_);
-    p_before_ = x_.tail(inertial_.n_modes());
+    p_before_ = x_.segment(x_.size() / 2, inertial_.n_modes());
     return flow_.kick(x_);
   }
   ModalState state() const override
@@ -70,7 +89,7 @@ class ExponentialSteps final : public TransientSteps {
     const Eigen::Index n = inertial_.n_modes();
     const double angle = -angle_step_ * (double(n_) - 0.5);
     const Eigen::VectorXd a = x_.head(n).cwiseQuotient(inertial_.omega);
-    const Eigen::VectorXd p = 0.5 * (p_before_ + x_.tail(n));
+    const Eigen::VectorXd p = 0.5 * (p_before_ + x_.segment(x_.size() / 2, n));
     return {inertial_.R * turned(inertial_, a, angle), inertial_.R * turned(inertial_, p, angle)};
   }
   std::int64_t n_steps() const override { return n_; }
@@ -99,7 +118,10 @@ class AdaptiveSteps final : public TransientSteps {
   AdaptiveSteps(const Disc& disc, const SquealOptions& options, double speed,
                 const IntegratorChoice& choice, double step, const ModalState& start)
       : motion_(disc, options, speed),
-        method_(motion_, 0.0, scaled(disc.omega, start), control_of(disc, choice)),
+        method_(motion_, 0.0,
+                scaled(motion_.omega(), with_plates_at_rest(start, motion_.omega().size())),
+                control_of(motion_, choice)),
+        n_modes_(disc.n_modes()),
         step_(step)
   {}
 
@@ -113,7 +135,7 @@ class AdaptiveSteps final : public TransientSteps {
   ModalState state() const override
   {
     const Eigen::Index n = motion_.omega().size();
-    return {y_.head(n).cwiseQuotient(motion_.omega()), y_.tail(n)};
+    return {y_.head(n).cwiseQuotient(motion_.omega()).head(n_modes_), y_.segment(n, n_modes_)};
   }
   std::int64_t n_steps() const override { return method_.cost().n_steps; }
   std::int64_t n_contact_evaluations() const override { return motion_.n_evaluations() + n_; }
@@ -122,21 +144,22 @@ class AdaptiveSteps final : public TransientSteps {
     std::vector<ContactEvent> events;
     if constexpr (requires { method_.events(); }) {
       for (const SwitchEvent& event : method_.events())
-        events.push_back({event.t, static_cast<int>(event.i), event.side > 0.0});
+        events.push_back({event.t, motion_.pad_of(event.i), event.side > 0.0});
     }
     return events;
   }
 
  private:
-  static StepControl control_of(const Disc& disc, const IntegratorChoice& choice)
+  static StepControl control_of(const Motion& motion, const IntegratorChoice& choice)
   {
-    const double period = 2.0 * std::numbers::pi / disc.omega.maxCoeff();
+    const double period = 2.0 * std::numbers::pi / motion.omega().maxCoeff();
     const double largest = period / choice.steps_per_period;
     return {choice.tolerance, largest, 0.5 * largest};
   }
 
   RotatingDisc motion_;
   Method method_;
+  Eigen::Index n_modes_;
   double step_;
   Eigen::VectorXd y_;
   std::vector<ContactResult<double>> contacts_;
@@ -146,9 +169,11 @@ class AdaptiveSteps final : public TransientSteps {
 }  // namespace
 
 std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOptions& options,
-                                                double speed, const IntegratorChoice& choice,
-                                                double step, const ModalState& start)
+                                                const TransientCase& run,
+                                                const IntegratorChoice& choice, double step,
+                                                const ModalState& start)
 {
+  const double speed = run.speed;
   switch (choice.kind) {
     case IntegratorKind::exponential:
       return std::make_unique<ExponentialSteps>(disc, options, speed, step, start);
@@ -162,7 +187,7 @@ std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOp
     case IntegratorKind::splitting:
       break;
   }
-  return std::make_unique<SplittingSteps>(disc, options, speed, step, start);
+  return std::make_unique<SplittingSteps>(disc, options, run, step, start);
 }
 
 }  // namespace chladni::squeal

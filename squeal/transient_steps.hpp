@@ -24,7 +24,7 @@ class TransientSteps {
   ///         until the next call
   virtual const std::vector<ContactResult<double>>& next() = 0;
 
-  /// The modes at the sample, in the frame that rotates with the disc.
+  /// The modes of the disc at the sample, in the frame that rotates with the disc.
   virtual ModalState state() const = 0;
 
   virtual std::int64_t n_steps() const = 0;
@@ -38,7 +38,8 @@ inline constexpr int samples_per_period = 20;
 /// The steps of `choice.kind` from the state `start` at t = 0.
 /// @param step  of the samples, s; with "splitting" and "exponential" also of the integration
 std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOptions& options,
-                                                double speed, const IntegratorChoice& choice,
-                                                double step, const ModalState& start);
+                                                const TransientCase& run,
+                                                const IntegratorChoice& choice, double step,
+                                                const ModalState& start);
 
 }  // namespace chladni::squeal

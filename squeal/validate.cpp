@@ -15,9 +15,10 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 10> analyses{
+constexpr std::array<std::string_view, 11> analyses{
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum"};
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
+    "mode-sensitivity"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -47,6 +48,10 @@ void validate_pads(const SquealOptions& options)
     require_positive(pad.stiffness, fmt::format("pads[{}].stiffness", i));
     require_not_negative(pad.damping, fmt::format("pads[{}].damping", i));
     require_positive(pad.preload, fmt::format("pads[{}].preload", i));
+    require_not_negative(pad.cubic_stiffness, fmt::format("pads[{}].cubic_stiffness", i));
+    if (pad.grid && pad.grid->points < 1)
+      throw Error(fmt::format("[squeal] pads[{}].grid.points = {}; it must be 1 or more", i,
+                              pad.grid->points));
   }
 }
 
@@ -155,6 +160,9 @@ void validate(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
   require_not_negative(options.friction, "friction");
+  require_not_negative(options.friction_rise, "friction.static minus friction.kinetic");
+  require_positive(options.friction_decay_speed, "friction.decay_speed");
+  require_not_negative(options.slip_regularisation, "friction.regularisation");
   validate_modes(options.modes);
   validate_pads(options);
   for (const std::string& analysis : options.analyses)
@@ -162,7 +170,8 @@ void validate(const SquealOptions& options)
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
                               fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
-      asks_for(options, "stability-map") || asks_for(options, "limit-cycle-branch"))
+      asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
+      asks_for(options, "limit-cycle-branch"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle") ||
       asks_for(options, "spectrum"))

@@ -97,10 +97,12 @@ Point motion_point(const Case& study, IntegratorKind kind, double setting)
                                 by_tolerance ? setting : omega_h * omega_h * omega_h / 12.0, ""};
   const auto n = fixed ? static_cast<std::int64_t>(study.duration * steps / study.period()) : 1;
   const double step = fixed ? study.period() / steps : 2.0 * study.duration;
+  const TransientCase constant_speed{
+      .speed = study.speed, .duration = study.duration, .initial_pad_displacement = 0.0};
   std::int64_t evaluations = 0;
   ModalState end;
   const double time = seconds_of([&] {
-    const auto run = transient_steps(study.disc, study.options, study.speed, choice, step,
+    const auto run = transient_steps(study.disc, study.options, constant_speed, choice, step,
                                      large_motion(study.disc));
     for (std::int64_t i = 0; i < n; ++i) run->next();
     end = run->state();

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <numbers>
 
 #include "cli/scene/read_tables.hpp"
 #include "cli/scene/squeal_tables.hpp"
@@ -13,7 +12,8 @@ using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum"};
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
+    "mode-sensitivity"};
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {
@@ -53,25 +53,6 @@ squeal::ModeChoice read_modes(const Table& squeal)
                   "must be \"all\", \"nodal-diameters N\" with N >= 1, or a list of mode numbers");
   }
   return modes;
-}
-
-squeal::PadPair read_pad(const Table& pad)
-{
-  constexpr double degree = std::numbers::pi / 180.0;
-  const squeal::PadSpring spring = read_pad_spring(pad);
-  return {.angle = degree * pad.number("angle_deg", {.unit = "degrees"}),
-          .stiffness = spring.linear,
-          .damping = pad.number("damping", {.at_least = 0.0, .unit = "N s/m"}),
-          .preload = pad.number("preload", {.above = 0.0, .unit = "N"}),
-          .cubic_stiffness = spring.cubic};
-}
-
-std::vector<squeal::PadPair> read_pads(const Table& squeal)
-{
-  std::vector<squeal::PadPair> pads;
-  for (const Table& pad : squeal.tables("pads")) pads.push_back(read_pad(pad));
-  if (pads.empty()) squeal.refuse("pads", "must hold at least one pad pair");
-  return pads;
 }
 
 /// At the speed of the transient unless the scene gives another one.

@@ -114,6 +114,12 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
   options.speeds = read_speeds(squeal);
   options.analyses = read_analyses(squeal, analysis_names);
   options.transient = read_transient(squeal);
+  if (options.transient && (options.transient->integrator != squeal::IntegratorKind::automatic ||
+                            !options.transient->speed_program.empty())) {
+    squeal.refuse("transient",
+                  "integrator and speed_program are for a flexible disc; this model takes steps of "
+                  "order 8 at a constant speed");
+  }
   options.growth = read_growth(squeal);
   return options;
 }

@@ -6,6 +6,7 @@ namespace chladni::cli {
 namespace {
 
 using squeal::ContactLaw;
+using squeal::IntegratorKind;
 
 /// Needs of the analyses beyond the key of the same name.
 void check_needs(const Table& squeal, const std::vector<std::string>& analyses)
@@ -37,6 +38,18 @@ void check_needs(const Table& squeal, const std::vector<std::string>& analyses)
       squeal.refuse("analyses", fmt::format("\"{0}\" needs the key {0}", needed));
     }
   }
+}
+
+/// Times rise; the first speed is that at which the transient begins.
+std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, double first_speed)
+{
+  std::vector<squeal::SpeedPoint> points{{.time = 0.0, .speed = first_speed}};
+  for (const Table& row : transient.tables("speed_program")) {
+    points.push_back({.time = row.number("t_s", {.above = points.back().time, .unit = "s"}),
+                      .speed = row.number("speed_rad_s", {.at_least = 0.0, .unit = "rad/s"})});
+  }
+  if (points.size() == 1) transient.refuse("speed_program", "must hold at least one point");
+  return points;
 }
 
 }  // namespace
@@ -113,7 +126,6 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
     transient.steps_per_period = table.integer("steps_per_period", {.at_least = 8});
   }
   if (table.has("integrator")) {
-    using squeal::IntegratorKind;
     transient.integrator = table.choice<IntegratorKind>(
         "integrator", {{"auto", IntegratorKind::automatic},
                        {"splitting", IntegratorKind::splitting},
@@ -123,6 +135,9 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
   }
   if (table.has("growth_error_1_s")) {
     transient.growth_error = table.number("growth_error_1_s", {.above = 0.0, .unit = "1/s"});
+  }
+  if (table.has("speed_program")) {
+    transient.speed_program = read_speed_program(table, transient.speed);
   }
   return transient;
 }

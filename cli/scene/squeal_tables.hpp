@@ -23,6 +23,9 @@ squeal::ContactLaw read_contact(const Table& squeal);
 /// The spring of a pad from its keys `stiffness` and `cubic_stiffness`.
 squeal::PadSpring read_pad_spring(const Table& pad);
 
+/// squeal.pads of a flexible disc
+std::vector<squeal::PadPair> read_pads(const Table& squeal);
+
 /// squeal.analyses, each of which must be one of `known` and have the key that it needs.
 std::vector<std::string> read_analyses(const Table& squeal, const std::vector<std::string>& known);
 

@@ -352,6 +352,68 @@ TEST(Scene, ReadsAnOscillator)
   EXPECT_EQ(study.friction.kinetic, 0.3);
 }
 
+TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
+{
+  const std::string pads =
+      "pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0, "
+      "grid = { sector_deg = 40.0, points = 5 }, "
+      "body = { mass = 0.4, height = 0.01, axial = { stiffness = 1e7, damping = 3.0 }, "
+      "about_radial = { inertia = 2e-4, stiffness = 2e3, damping = 0.1 } }, "
+      "caliper = { mass = 3.0, axial = 1 } }]";
+  const std::string plain =
+      "pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0 }]";
+  const std::string good = replaced(pads, "axial = 1 }", "stiffness = 1e6, damping = 0.0 }");
+  const Scene scene = parse_scene(replaced(disc, plain, good), "scene.toml");
+  const squeal::PadPair& pad = scene.squeal->pads.at(0);
+  EXPECT_DOUBLE_EQ(pad.grid->sector, std::numbers::pi * 2.0 / 9.0);
+  EXPECT_EQ(pad.grid->points, 5);
+  EXPECT_EQ(pad.body->axial->stiffness, 1e7);
+  EXPECT_EQ(pad.body->about_radial->inertia, 2e-4);
+  EXPECT_FALSE(pad.body->tangential);
+  EXPECT_EQ(pad.caliper->axial.stiffness, 1e6);
+  const auto error_after = [&](const std::string& from, const std::string& to) {
+    return error_of(replaced(disc, plain, replaced(good, from, to)));
+  };
+  EXPECT_EQ(error_after("points = 5", "points = 0"),
+            "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1");
+  EXPECT_EQ(error_after("sector_deg = 40.0", "sector_deg = 400.0"),
+            "scene.toml:39: squeal.pads.grid.sector_deg = 400: must be > 0 and <= 360 (degrees)");
+  EXPECT_EQ(error_after("mass = 0.4", "mass = 0.0"),
+            "scene.toml:39: squeal.pads.body.mass = 0: must be > 0 (kg)");
+  EXPECT_EQ(error_after("axial = { stiffness = 1e7", "axial = { stiffness = 0.0"),
+            "scene.toml:39: squeal.pads.body.axial.stiffness = 0: must be > 0 (N/m)");
+  EXPECT_EQ(error_after("inertia = 2e-4, ", ""),
+            "scene.toml:39: squeal.pads.body.about_radial.inertia is missing: must be a number > 0 "
+            "(kg m^2)");
+  EXPECT_TRUE(error_after(", axial = { stiffness = 1e7, damping = 3.0 }", "")
+                  .ends_with("carries the pads by their axial suspension: give body.axial"));
+  EXPECT_TRUE(error_of(replaced(disc, plain,
+                                replaced(plain, "preload = 2000.0",
+                                         "preload = 2000.0, body = { mass = 1.0 }")))
+                  .ends_with("about_radial, about_tangential or about_axial"));
+}
+
+TEST(Scene, ReadsASpeedProgramThatBeginsWithTheSpeedOfTheTransient)
+{
+  const auto with = [](const std::string& points) {
+    return replaced(disc, "initial_pad_displacement = 7e-8",
+                    "initial_pad_displacement = 7e-8, speed_program = " + points);
+  };
+  const Scene scene = parse_scene(
+      with("[{ t_s = 1.0, speed_rad_s = 19.0 }, { t_s = 3.0, speed_rad_s = 0.0 }]"), "scene.toml");
+  const auto& program = scene.squeal->transient->speed_program;
+  ASSERT_EQ(program.size(), 3u);
+  EXPECT_EQ(program[0].time, 0.0);
+  EXPECT_EQ(program[0].speed, 19.0);
+  EXPECT_EQ(program[2].speed, 0.0);
+  EXPECT_EQ(error_of(with("[{ t_s = 1.0, speed_rad_s = 5.0 }, { t_s = 1.0, speed_rad_s = 0.0 }]")),
+            "scene.toml:41: squeal.transient.speed_program[2].t_s = 1: must be > 1 (s)");
+  EXPECT_EQ(error_of(with("[{ t_s = 1.0, speed_rad_s = -5.0 }]")),
+            "scene.toml:41: squeal.transient.speed_program.speed_rad_s = -5: must be >= 0 (rad/s)");
+  EXPECT_EQ(error_of(with("[]")),
+            "scene.toml:41: squeal.transient.speed_program = []: must hold at least one point");
+}
+
 TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
 {
   const auto error_after = [](const std::string& scene, const std::string& from,

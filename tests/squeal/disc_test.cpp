@@ -62,6 +62,7 @@ TEST(Harmonics, ReturnAnyValuesAtTheNodes)
                   .mode_numbers = {1},
                   .omega = Eigen::VectorXd::Ones(1),
                   .C = Eigen::MatrixXd::Zero(1, 1),
+                  .G = Eigen::MatrixXd::Zero(1, 1),
                   .W = f,
                   .W_r = f,
                   .W_t = f};

@@ -285,8 +285,9 @@ TEST(Integrator, WithFixedStepsIsOfSecondOrderInTheStep)
   for (const IntegratorKind kind : {IntegratorKind::splitting, IntegratorKind::exponential}) {
     const auto error = [&](int n_steps) {
       const double step = period / n_steps;
+      const TransientCase run{.speed = speed, .duration = 1.0, .initial_pad_displacement = 0.0};
       const auto steps =
-          transient_steps(disc, options, speed, {kind, n_steps, 0.0, ""}, step, large_motion(disc));
+          transient_steps(disc, options, run, {kind, n_steps, 0.0, ""}, step, large_motion(disc));
       for (int i = 0; i < 5 * n_steps; ++i) steps->next();
       const ModalState end = steps->state();
       Eigen::VectorXd y(8);

@@ -84,6 +84,40 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   EXPECT_EQ(direct.amplitude, original.amplitude);
 }
 
+TEST(ResultFile, KeepsTheSensitivityToModes)
+{
+  const TemporaryFile file;
+  SquealResults results;
+  results.mode_sensitivity = ModeSensitivity{.critical_speed = 13.0,
+                                             .critical_frequency_Hz = 1700.0,
+                                             .subsets = {{.n_modes = 2,
+                                                          .highest_Hz = 600.0,
+                                                          .critical_speed = {},
+                                                          .critical_frequency_Hz = {},
+                                                          .growth = -0.5}},
+                                             .influences = {{.nodal_diameters = 3,
+                                                             .frequency_Hz = 1672.0,
+                                                             .participation = 0.9,
+                                                             .growth_without = {},
+                                                             .critical_speed_without = {}},
+                                                            {.nodal_diameters = 0,
+                                                             .frequency_Hz = 700.0,
+                                                             .participation = 0.1,
+                                                             .growth_without = 0.25,
+                                                             .critical_speed_without = 12.0}}};
+  write_results(file.path, results, {});
+  const auto read = read_results(file.path).mode_sensitivity;
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->critical_speed, 13.0);
+  ASSERT_EQ(read->subsets.size(), 1u);
+  EXPECT_FALSE(read->subsets[0].critical_speed);
+  EXPECT_EQ(read->subsets[0].growth, -0.5);
+  ASSERT_EQ(read->influences.size(), 2u);
+  EXPECT_FALSE(read->influences[0].growth_without);
+  EXPECT_EQ(read->influences[1].critical_speed_without, 12.0);
+  EXPECT_EQ(read->influences[1].nodal_diameters, 0);
+}
+
 TEST(ResultFile, TellsNoCriticalSpeedFromNoSearch)
 {
   const TemporaryFile file;
