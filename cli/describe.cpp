@@ -73,6 +73,30 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
   }
 }
 
+void add_critical(TextTable& table, const squeal::CriticalValue& value)
+{
+  const std::string name =
+      fmt::format("critical {} at {:.4f} pi rad/s", value.parameter, value.speed / pi);
+  if (!value.value) {
+    table.rows.push_back({name, "none", ""});
+    return;
+  }
+  add(table, name, *value.value,
+      value.parameter == "preload"     ? "N"
+      : value.parameter == "stiffness" ? "N/m"
+                                       : "");
+  add(table, "its frequency", value.frequency_Hz, "Hz");
+}
+
+/// The four largest.
+void add_peaks(TextTable& table, const squeal::Spectrum& spectrum)
+{
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, spectrum.peaks.size()); ++i) {
+    add(table, fmt::format("pad velocity at {:.2f} Hz", spectrum.peaks[i].frequency_Hz),
+        spectrum.peaks[i].amplitude, "m/s");
+  }
+}
+
 void add_map(TextTable& table, const squeal::StabilityMap& map)
 {
   add_count(table, fmt::format("points of the map of speed and {}", map.parameter),
@@ -233,10 +257,14 @@ TextTable describe(const squeal::SquealResults& results)
     add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
   }
   add_critical_speed(table, results);
+  for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
   if (results.map) add_map(table, *results.map);
   if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
   for (const squeal::Growth& growth : results.growth) {
     add(table, fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi), growth.rate, "1/s");
+  }
+  if (results.transient) {
+    table.rows.push_back({"integrator of the transient", results.transient->integrator, ""});
   }
   if (results.transient && results.transient->growth_rate) {
     add(table, "growth in the transient", *results.transient->growth_rate, "1/s");
@@ -247,6 +275,7 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
   if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);
+  if (results.spectrum) add_peaks(table, *results.spectrum);
   return table;
 }
 

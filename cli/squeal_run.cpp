@@ -17,6 +17,7 @@
 #include "squeal/model_run.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
+#include "squeal/wav_file.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -116,6 +117,9 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"frequency_Hz", cycle.frequency_Hz},
                        {"pad_velocity_m_s", cycle.pad_velocity},
                        {"pad_displacement_m", cycle.pad_displacement},
+                       {"friction_work_J", cycle.energy.friction.sum()},
+                       {"normal_work_J", cycle.energy.normal.sum()},
+                       {"damping_work_J", cycle.energy.damping},
                        {"multipliers", Json::array(multipliers)},
                        {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
 }
@@ -131,6 +135,29 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
                                    {"largest_multiplier", point.largest_multiplier}}));
   }
   return Json::array(points);
+}
+
+Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
+{
+  std::vector<Json> searches;
+  for (const squeal::CriticalValue& value : values) {
+    searches.push_back(
+        Json::object({{"parameter", value.parameter},
+                      {"speed_rad_s", value.speed},
+                      {"value", value.value ? Json(*value.value) : Json()},
+                      {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}}));
+  }
+  return Json::array(searches);
+}
+
+Json peaks_json(const squeal::Spectrum& spectrum)
+{
+  std::vector<Json> peaks;
+  for (const squeal::Spectrum::Peak& peak : spectrum.peaks) {
+    peaks.push_back(
+        Json::object({{"frequency_Hz", peak.frequency_Hz}, {"pad_velocity_m_s", peak.amplitude}}));
+  }
+  return Json::array(peaks);
 }
 
 Json optional_json(const std::optional<double>& x)
@@ -175,6 +202,10 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
     members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
   }
+  if (!results.critical_values.empty()) {
+    members.emplace_back("critical_values", critical_values_json(results.critical_values));
+  }
+  if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
   if (results.mode_sensitivity) {
     members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
   }
@@ -182,6 +213,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;
     members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+    members.emplace_back("integrator", results.transient->integrator);
   }
   if (results.limit_cycle) {
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
@@ -193,6 +225,17 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
   }
   return members;
+}
+
+/// NAME.wav beside the results, when the scene asks for it.
+void write_sound(const Scene& scene, const std::filesystem::path& folder,
+                 const squeal::SquealResults& results)
+{
+  if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
+  const std::filesystem::path file = folder / (scene.name + ".wav");
+  const double scale =
+      squeal::write_wav(file, results.transient->sound, scene.squeal->sound->rate_Hz);
+  fmt::print("wrote {}, full scale {:.6g} m/s\n", file.string(), scale);
 }
 
 void write_json(const std::string& file, const squeal::SquealResults& results, const Cost& cost)
@@ -234,7 +277,9 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
 
   fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, format_table(describe(results)),
              format_table(cost_table(cost)), file.string());
+  write_sound(scene, folder, results);
   if (!arguments.json.empty()) write_json(arguments.json, results, cost);
+  if (results.failure) throw Error(*results.failure);
 }
 
 }  // namespace chladni::cli

@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "squeal/analysis_file.hpp"
+
 namespace chladni::squeal {
 namespace {
 
@@ -55,6 +57,7 @@ void write_direct(Writer& file, const DirectLimitCycle& cycle)
   file.write("limit_cycle_direct/mode_numbers", std::span<const int>(cycle.mode_numbers), "1");
   file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
   file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
+  write_energy(file, cycle.energy);
 }
 
 DirectLimitCycle read_direct(const Reader& file)
@@ -76,7 +79,8 @@ DirectLimitCycle read_direct(const Reader& file)
           .x = file.vector("limit_cycle_direct/x", 2 * n),
           .mode_numbers = {numbers.begin(), numbers.end()},
           .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
-                                      file.vector("limit_cycle_direct/amplitude_im", n))};
+                                      file.vector("limit_cycle_direct/amplitude_im", n)),
+          .energy = read_energy(file)};
 }
 
 void write_branch(Writer& file, const LimitCycleBranch& branch)

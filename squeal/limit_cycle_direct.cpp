@@ -27,8 +27,8 @@ constexpr int steps_per_period_min = 16;
 constexpr int steps_per_period_max = 1024;
 constexpr double multiplier_error = 1e-6;
 /// Points of the cycle from which peaks and amplitudes are taken: a parabola through three of them
-/// misses the peak of a sine by 1e-7.
-constexpr int n_samples = 128;
+/// misses the peak of a sine by 1e-8.
+constexpr int n_samples = 256;
 constexpr int newton_steps_max = 25;
 /// Change of x_0, relative, at which Newton's method has converged; the next step would be its
 /// square.
@@ -133,12 +133,18 @@ double peak(const Eigen::VectorXd& x)
 struct Orbit {
   Eigen::VectorXd z, z_dot, N, slip_speed;  ///< [n_samples]
   Eigen::VectorXcd fundamental;             ///< [n_modes] of a
+  CycleEnergy energy;
 };
 
 Orbit orbit(SlidingDisc& motion, const InertialDisc& disc, const Cycle& cycle)
 {
-  Orbit samples{Eigen::VectorXd(n_samples), Eigen::VectorXd(n_samples), Eigen::VectorXd(n_samples),
-                Eigen::VectorXd(n_samples), Eigen::VectorXcd::Zero(disc.n_modes())};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(motion.power(cycle.at.x).heat.size());
+  Orbit samples{Eigen::VectorXd(n_samples),
+                Eigen::VectorXd(n_samples),
+                Eigen::VectorXd(n_samples),
+                Eigen::VectorXd(n_samples),
+                Eigen::VectorXcd::Zero(disc.n_modes()),
+                {zero, zero, 0.0, zero, 0.0}};
   const double step = cycle.at.period / n_samples;
   const int n_steps = steps_over(disc, step, cycle.steps_per_period);
   Eigen::VectorXd x = cycle.at.x;
@@ -150,6 +156,12 @@ Orbit orbit(SlidingDisc& motion, const InertialDisc& disc, const Cycle& cycle)
     samples.slip_speed[i] = std::min(pads.upper.slip_speed, pads.lower.slip_speed);
     samples.fundamental += std::polar(2.0 / n_samples, -2.0 * pi * i / n_samples) *
                            x.head(disc.n_modes()).cwiseQuotient(disc.omega);
+    const SlidingDisc::Power power = motion.power(x);
+    samples.energy.friction += step * power.friction;
+    samples.energy.normal += step * power.normal;
+    samples.energy.heat += step * power.heat;
+    samples.energy.damping += step * power.damping;
+    samples.energy.stored += 0.5 * x.squaredNorm() / n_samples;
     x = motion.advance(x, step, n_steps);
   }
   return samples;
@@ -181,7 +193,8 @@ DirectLimitCycle measured(SlidingDisc& motion, const InertialDisc& inertial, con
           .n_contact_evaluations = motion.n_evaluations(),
           .x = cycle.at.x,
           .mode_numbers = {},
-          .amplitude = body_amplitude(inertial, samples.fundamental)};
+          .amplitude = body_amplitude(inertial, samples.fundamental),
+          .energy = samples.energy};
 }
 
 std::optional<DirectLimitCycle> find_and_measure(SlidingDisc& motion, const InertialDisc& inertial,

@@ -29,6 +29,7 @@ struct PadSystem {
   Eigen::MatrixXd C;      ///< [n_pad_modes x n_pad_modes] 1/s
 
   Eigen::Index n_modes() const { return omega.size(); }
+  std::size_t n_pads() const { return points.empty() ? 0 : points.back().pad + 1; }
 };
 
 /// @param radius  of the contact ring, m

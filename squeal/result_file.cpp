@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mbs_export/hdf5.hpp"
+#include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
 #include "squeal/sensitivity_file.hpp"
 #include "squeal/transient_file.hpp"
@@ -21,32 +22,12 @@ Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd
   return re + std::complex<double>(0.0, 1.0) * im;
 }
 
-void write_eigenvalues(Writer& file, const EigenvalueMap& map)
-{
-  file.write("eigenvalues/speeds", map.speeds, "rad/s");
-  file.write("eigenvalues/lambda_re", map.lambda.real(), "1/s");
-  file.write("eigenvalues/lambda_im", map.lambda.imag(), "rad/s");
-}
-
-EigenvalueMap read_eigenvalues(const Reader& file)
-{
-  const Eigen::VectorXd speeds = file.vector("eigenvalues/speeds");
-  const Eigen::MatrixXd re = file.matrix("eigenvalues/lambda_re", {speeds.size()});
-  const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
-  return {speeds, complex_matrix(re, im)};
-}
-
 void write_critical_speed(Writer& file, const std::optional<CriticalSpeed>& critical)
 {
   file.group("critical");
   if (!critical) return;
   file.write("critical/speed", critical->speed, "rad/s");
   file.write("critical/frequency", critical->frequency_Hz, "Hz");
-}
-
-std::string unit_of(const std::string& parameter)
-{
-  return parameter == "preload" ? "N" : parameter == "stiffness" ? "N/m" : "1";
 }
 
 void write_map(Writer& file, const StabilityMap& map)
@@ -142,6 +123,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   write_optional(file, "largest_split", results.largest_split, "1");
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
   if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
+  write_critical_values(file, results.critical_values);
   if (results.map) write_map(file, *results.map);
   if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
   for (std::size_t i = 0; i < results.growth.size(); ++i)
@@ -150,6 +132,8 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.limit_cycle) write_limit_cycle(file, *results.limit_cycle);
   if (results.limit_cycle_direct) write_direct(file, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) write_branch(file, *results.limit_cycle_branch);
+  if (results.spectrum) write_spectrum(file, *results.spectrum);
+  if (results.failure) file.write("failure", *results.failure);
   file.commit();
 }
 
@@ -164,6 +148,9 @@ SquealResults read_results(const std::filesystem::path& path)
   if (file.contains("critical/speed"))
     results.critical_speed =
         CriticalSpeed{file.real("critical/speed"), file.real("critical/frequency")};
+  results.critical_values = read_critical_values(file);
+  if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
+  if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("stability_map")) results.map = read_map(file);
   if (file.contains("mode_sensitivity")) results.mode_sensitivity = read_sensitivity(file);
   for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)

@@ -6,18 +6,34 @@
 #include <string>
 #include <vector>
 
+#include "squeal/cycle_results.hpp"
+
 namespace chladni::squeal {
 
 /// Eigenvalues with Im >= 0 of the sliding disc, each column followed over the speed.
 struct EigenvalueMap {
   Eigen::VectorXd speeds;   ///< [m] rad/s
   Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
+  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
+  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
+  /// with a mass, of norm 1.
+  /// Empty for models without a body.
+  std::vector<Eigen::MatrixXcd> shapes = {};
 };
 
 /// The speed at which the sliding disc loses its stability.
 struct CriticalSpeed {
   double speed;         ///< rad/s
   double frequency_Hz;  ///< of the undamped oscillation there
+};
+
+/// Where the sliding disc loses or regains its stability over one parameter.
+struct CriticalValue {
+  std::string parameter;        ///< "friction", "preload" or "stiffness"
+  double speed;                 ///< rad/s
+  std::optional<double> value;  ///< 1, N or N/m; absent when there is none in the range
+  double frequency_Hz;          ///< of the undamped oscillation there
+  int n_newton_steps;
 };
 
 /// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
@@ -52,7 +68,7 @@ struct ModalHistory {
   std::vector<double> energy;  ///< kinetic and elastic energy of the disc in this frame, J
 };
 
-/// A pad loses or regains its disc.
+/// A contact point of a pad loses or regains its disc.
 struct ContactEvent {
   double t;    ///< s
   int pad;     ///< upper and lower pad of each pair in turn, from 0
@@ -70,13 +86,14 @@ struct Transient {
   std::int64_t n_contact_evaluations;  ///< of the forces of all pads, samples included
   std::vector<ContactEvent> events;    ///< located by "dormand-prince" alone; empty with the others
   Envelope envelope;
-  History history;         ///< the whole run, decimated
-  ModalHistory modes;      ///< at the times of `history`
-  History tail;            ///< the end of the run, every step
-  Eigen::MatrixXd tail_a;  ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
-  double N_min;            ///< over all pads, N
-  double N_max;            ///< over all pads, N
-  double slip_speed_min;   ///< over all pads, m/s
+  History history;           ///< the whole run, decimated
+  ModalHistory modes;        ///< at the times of `history`
+  History tail;              ///< the end of the run, every step
+  std::vector<float> sound;  ///< pad velocity at the rate asked for, m/s; empty when not asked for
+  Eigen::MatrixXd tail_a;    ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
+  double N_min;              ///< over all pads, N
+  double N_max;              ///< over all pads, N
+  double slip_speed_min;     ///< over all pads, m/s
   std::optional<double> t_zero_force;  ///< when a normal force first reaches zero, s
   std::optional<double> growth_rate;   ///< of the linear phase, 1/s, when there is one
 };
@@ -89,61 +106,17 @@ struct Growth {
   std::optional<double> eigenvalue_rate;  ///< largest Re lambda, 1/s; absent if not axisymmetric
 };
 
-/// The periodic motion at the end of a transient.
-struct LimitCycle {
-  double speed;             ///< rad/s
-  double frequency_Hz;      ///< in the inertial frame
-  double pad_velocity;      ///< amplitude of the first upper pad, m/s
-  double pad_displacement;  ///< half the travel of the first upper pad, m
-  double N_min;             ///< smallest normal force on the first upper pad, N
-  double N_max;             ///< largest normal force on the first upper pad, N
-  double drift;             ///< relative change of the envelope over the last tenth of the run
-  bool settled;             ///< drift below settled_drift
-  std::optional<double> t_zero_force;  ///< when a normal force first reached zero, s
-  double t_99;                         ///< when the envelope first reached 99 % of its end, s
-  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
-  /// [n_modes] complex amplitude of the fundamental: displacement at the inertial angle phi and
-  /// time t is Re(exp(i omega t) sum_i amplitude_i shape_i(phi)), with the shapes of the body's
-  /// modes. Empty when the disc is not axisymmetric.
-  Eigen::VectorXcd amplitude;
-};
+/// Amplitudes of an oscillation over the frequency.
+struct Spectrum {
+  Eigen::VectorXd frequency_Hz;
+  Eigen::VectorXd
+      amplitude;  ///< of the pad velocity, m/s; a sine of amplitude 1 m/s has a peak of 1
 
-/// A periodic motion found as such: x(T) = x(0) in the inertial frame.
-struct DirectLimitCycle {
-  double speed;             ///< rad/s
-  double frequency_Hz;      ///< 1 / T
-  double pad_velocity;      ///< largest of the first upper pad, m/s
-  double pad_displacement;  ///< half the travel of the first upper pad, m
-  double N_min;             ///< smallest normal force on the first upper pad, N
-  double N_max;             ///< largest normal force on the first upper pad, N
-  double slip_speed_min;    ///< of the first pad pair, m/s
-  /// [2 n_modes] Floquet multipliers, factors of a disturbance over one period: first the one along
-  /// the cycle, which is 1, then the others by falling modulus.
-  Eigen::VectorXcd multipliers;
-  bool stable;                         ///< all but the first are below 1
-  int n_newton_steps;                  ///< of the successful search
-  std::int64_t n_contact_evaluations;  ///< in all; see SlidingDisc
-  Eigen::VectorXd x;                   ///< [2 n_modes] a point of the cycle; see SlidingDisc
-  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
-  Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
-};
-
-/// What is kept of each limit cycle of a branch; see DirectLimitCycle.
-struct BranchPoint {
-  double speed;  ///< rad/s
-  double frequency_Hz;
-  double pad_velocity;        ///< m/s
-  double pad_displacement;    ///< m
-  double N_min;               ///< N
-  double N_max;               ///< N
-  double largest_multiplier;  ///< modulus, without the one along the cycle
-};
-
-/// Limit cycles over the speed, by rising speed.
-struct LimitCycleBranch {
-  std::vector<BranchPoint> points;
-  /// The cycle could not be followed below this speed, rad/s, though the disc is unstable there.
-  std::optional<double> lost_below;
+  struct Peak {
+    double frequency_Hz;  ///< between the lines of the spectrum
+    double amplitude;     ///< m/s
+  };
+  std::vector<Peak> peaks;  ///< by falling amplitude
 };
 
 /// What the lowest modes alone would say.
@@ -183,6 +156,7 @@ struct SquealResults {
   std::optional<EigenvalueMap> eigenvalues;
   bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
+  std::vector<CriticalValue> critical_values;
   std::optional<StabilityMap> map;
   std::optional<ModeSensitivity> mode_sensitivity;
   std::vector<Growth> growth;
@@ -190,6 +164,9 @@ struct SquealResults {
   std::optional<LimitCycle> limit_cycle;
   std::optional<DirectLimitCycle> limit_cycle_direct;
   std::optional<LimitCycleBranch> limit_cycle_branch;
+  std::optional<Spectrum> spectrum;
+  /// Why an analysis failed after others had succeeded; nothing was done after it.
+  std::optional<std::string> failure;
 };
 
 }  // namespace chladni::squeal

@@ -6,6 +6,18 @@
 #include "squeal/contact_branch.hpp"
 
 namespace chladni::squeal {
+namespace {
+
+/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
+double pressure(const PadContact& pad, const PadState<double>& state,
+                const PlateMotion<double>& plate, double sigma)
+{
+  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
+  return 1.0 +
+         sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
+}
+
+}  // namespace
 
 RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
@@ -53,15 +65,16 @@ const Eigen::VectorXd& RotatingDisc::rate(double t, const Eigen::VectorXd& y)
     const PairShapes& S = shapes(i, t);
     const PointMotion at = point_motion(S, y);
     const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
-    // Off its contact a pad has no force; its switching function is what it would press with.
+    const PadContact& pad = points_[i].contact;
+    const auto up = pad_on_branch(pad, motion, speed_, {1.0, branches_[2 * i]});
+    const auto lo = pad_on_branch(pad, motion, speed_, {-1.0, branches_[2 * i + 1]});
     if (S_.size() > 0) {
       const auto first = static_cast<Eigen::Index>(2 * i);
-      const PadContact& pad = points_[i].contact;
-      S_[first] = pad_on_branch(pad, motion, speed_, {1.0, 1.0}).S / pad.preload;
-      S_[first + 1] = pad_on_branch(pad, motion, speed_, {-1.0, 1.0}).S / pad.preload;
+      S_[first] = pressure(pad, up, motion.upper, 1.0);
+      S_[first + 1] = pressure(pad, lo, motion.lower, -1.0);
     }
-    f_.tail(n).noalias() +=
-        S * force_on_branch(points_[i], motion, speed_, std::span(branches_).subspan(2 * i, 2));
+    f_.tail(n).noalias() += S * pair_forces(pair_force(pad, motion, up, lo), up, lo,
+                                            points_[i].at_rest, static_cast<int>(S.cols()));
   }
   return f_;
 }
@@ -74,6 +87,12 @@ double RotatingDisc::side(Eigen::Index i) const
 void RotatingDisc::set_side(Eigen::Index i, double side)
 {
   branches_[static_cast<std::size_t>(i)] = side > 0.0 ? 1.0 : pulled_;
+}
+
+int RotatingDisc::pad_of(Eigen::Index i) const
+{
+  const std::size_t pair = pads_.points[static_cast<std::size_t>(i / 2)].pad;
+  return 2 * static_cast<int>(pair) + static_cast<int>(i % 2);
 }
 
 Motion::Tangent RotatingDisc::tangent(double t, const Eigen::VectorXd& y)

@@ -28,6 +28,10 @@ class RotatingDisc final : public Motion {
   /// The contacts at (t, y) as the contact law has them, one for each pair.
   std::vector<ContactResult<double>> contacts(double t, const Eigen::VectorXd& y);
 
+  /// To which of the pads, upper and lower one of each pair in turn, the switching function i
+  /// belongs.
+  int pad_of(Eigen::Index i) const;
+
   /// Evaluations of the contact forces of all pads so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
 

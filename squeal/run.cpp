@@ -1,12 +1,19 @@
 #include "squeal/run.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
+#include "common/error.hpp"
+#include "squeal/hopf.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle.hpp"
 #include "squeal/limit_cycle_branch.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/mode_sensitivity.hpp"
+#include "squeal/mode_shapes.hpp"
+#include "squeal/parallel.hpp"
+#include "squeal/spectrum.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
@@ -15,16 +22,77 @@
 namespace chladni::squeal {
 namespace {
 
-std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& options,
-                                       const Progress& progress)
+std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& options)
 {
   const GrowthCase& runs = *options.growth;
-  std::vector<Growth> results;
-  for (const double speed : runs.speeds) {
-    progress(double(results.size()) / double(runs.speeds.size()));
-    results.push_back(growth(disc, options, speed, runs.duration));
-  }
+  std::vector<Growth> results(runs.speeds.size());
+  for_each_index(static_cast<int>(runs.speeds.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    results[at] = growth(disc, options, runs.speeds[at], runs.duration);
+  });
   return results;
+}
+
+EigenvalueMap eigenvalues_with_shapes(const Disc& disc, const SquealOptions& options)
+{
+  const InertialDisc inertial = inertial_disc(disc);
+  EigenvalueMap map = eigenvalues(inertial, options);
+  map.shapes = mode_shapes(inertial, options, map);
+  return map;
+}
+
+std::vector<CriticalValue> critical_values(const Disc& disc, const SquealOptions& options)
+{
+  const InertialDisc inertial = inertial_disc(disc);
+  std::vector<CriticalValue> values;
+  for (const CriticalCase& search : options.critical)
+    values.push_back(critical_value(inertial, options, search));
+  return values;
+}
+
+/// An analysis and the names in the scene of all that need it.
+struct Step {
+  std::vector<std::string> names;
+  std::function<void(SquealResults&, const Progress&)> perform;
+};
+
+/// In the order in which they are done.
+std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
+{
+  return {
+      {{"eigenvalues"},
+       [&](auto& r, auto&) { r.eigenvalues = eigenvalues_with_shapes(disc, options); }},
+      {{"critical-speed"},
+       [&](auto& r, auto&) {
+         r.critical_speed = critical_speed(inertial_disc(disc), options);
+         r.searched_critical_speed = true;
+       }},
+      {{"critical-values"},
+       [&](auto& r, auto&) { r.critical_values = critical_values(disc, options); }},
+      {{"stability-map"},
+       [&](auto& r, auto&) { r.map = stability_map(inertial_disc(disc), options); }},
+      {{"mode-sensitivity"},
+       [&](auto& r, auto&) {
+         r.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
+       }},
+      {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
+      {{"transient", "limit-cycle", "spectrum"},
+       [&](auto& r, auto& progress) {
+         r.transient = transient(disc, options, *options.transient, progress);
+       }},
+      {{"spectrum"},
+       [&](auto& r, auto&) {
+         r.spectrum = spectrum(r.transient->tail.pad_velocity, r.transient->step);
+       }},
+      {{"limit-cycle"}, [&](auto& r, auto&) { r.limit_cycle = limit_cycle(disc, *r.transient); }},
+      {{"limit-cycle-direct"},
+       [&](auto& r, auto&) {
+         r.limit_cycle_direct =
+             limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
+       }},
+      {{"limit-cycle-branch"}, [&](auto& r, auto& progress) {
+         r.limit_cycle_branch = limit_cycle_branch(disc, options, progress);
+       }}};
 }
 
 }  // namespace
@@ -32,47 +100,28 @@ std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& op
 SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgress& progress)
 {
   validate(options);
-  const auto asked = [&](const char* analysis) {
-    return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
-           options.analyses.end();
-  };
-  const auto progress_of = [&](const std::string& analysis) -> Progress {
-    return [&progress, analysis](double fraction) {
-      if (progress) progress(analysis, fraction);
-    };
-  };
   SquealResults results;
   if (const auto inertial = find_inertial_disc(disc))
     results.largest_split = inertial->largest_split;
-  if (asked("eigenvalues")) {
-    progress_of("eigenvalues")(0.0);
-    results.eigenvalues = eigenvalues(inertial_disc(disc), options);
+  bool any_done = false;
+  for (const Step& step : steps_of(disc, options)) {
+    const auto wanted = std::find_first_of(options.analyses.begin(), options.analyses.end(),
+                                           step.names.begin(), step.names.end());
+    if (wanted == options.analyses.end()) continue;
+    const std::string& name = step.names.front();
+    const auto report = [&](double fraction) {
+      if (progress) progress(name, fraction);
+    };
+    report(0.0);
+    try {
+      step.perform(results, report);
+    } catch (const Error& error) {
+      if (!any_done) throw;
+      results.failure = error.what();
+      return results;
+    }
+    any_done = true;
   }
-  if (asked("critical-speed")) {
-    progress_of("critical-speed")(0.0);
-    results.critical_speed = critical_speed(inertial_disc(disc), options);
-    results.searched_critical_speed = true;
-  }
-  if (asked("stability-map")) {
-    progress_of("stability-map")(0.0);
-    results.map = stability_map(inertial_disc(disc), options);
-  }
-  if (asked("mode-sensitivity")) {
-    progress_of("mode-sensitivity")(0.0);
-    results.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
-  }
-  if (asked("growth")) results.growth = growth_over_speeds(disc, options, progress_of("growth"));
-  if (asked("transient") || asked("limit-cycle"))
-    results.transient = transient(disc, options, *options.transient, progress_of("transient"));
-  if (asked("limit-cycle")) results.limit_cycle = limit_cycle(disc, *results.transient);
-  if (asked("limit-cycle-direct")) {
-    progress_of("limit-cycle-direct")(0.0);
-    results.limit_cycle_direct =
-        limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
-  }
-  if (asked("limit-cycle-branch"))
-    results.limit_cycle_branch =
-        limit_cycle_branch(disc, options, progress_of("limit-cycle-branch"));
   return results;
 }
 

@@ -13,7 +13,8 @@ namespace chladni::squeal {
 using RunProgress = std::function<void(const std::string& analysis, double fraction)>;
 
 /// Performs `options.analyses` on the disc. "limit-cycle" runs the transient that it needs.
-/// @throws chladni::Error from `validate` and from the analyses.
+/// What was found stays when a later analysis fails; SquealResults::failure then says why.
+/// @throws chladni::Error from `validate` and from the first analysis.
 SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgress& progress = {});
 
 }  // namespace chladni::squeal

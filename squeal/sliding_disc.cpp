@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -24,6 +25,47 @@ SquealOptions without_pads(SquealOptions options)
 {
   options.pads.clear();
   return options;
+}
+
+/// What the normal force alone does of a state: N / s along the axis, sigma N g / s in the plane.
+PadState<double> without_friction(PadState<double> state, const RingMotion<double>& m, double sigma)
+{
+  const double s = std::sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  state.S = state.N / s;
+  state.f_r = sigma * state.N * m.g_r / s;
+  state.f_t = sigma * state.N * m.g_t / s;
+  return state;
+}
+
+/// What the friction of one pad turns into heat, W.
+double heat(const PadContact& pad, const PadState<double>& state)
+{
+  const double v = regularised_speed(pad.friction, state.slip_speed * state.slip_speed);
+  const double N = pad.law == ContactLaw::signed_force ? state.N : std::abs(state.N);
+  return friction_coefficient(pad.friction, v) * N * state.slip_speed * state.slip_speed / v;
+}
+
+/// Powers of a point pair on disc and plates, W; see SlidingDisc::Power.
+struct PointPower {
+  double friction, normal, heat;
+};
+
+/// Friction is what the normal forces are not; so is the friction at rest that plates are held
+/// against.
+PointPower point_power(const BrakePoint& point, const PairVector<double>& g,
+                       const PairVector<double>& g_dot, double speed)
+{
+  const PadContact& pad = point.contact;
+  const auto rows = static_cast<int>(g.size());
+  const RingMotion<double> m = pair_motion(g, g_dot);
+  const ContactResult<double> all = contact(pad, m, speed);
+  const PadState<double> up = without_friction(all.upper, m, 1.0);
+  const PadState<double> lo = without_friction(all.lower, m, -1.0);
+  PadState<double> at_rest = point.at_rest;
+  at_rest.f_t = 0.0;
+  const double total = g_dot.dot(pair_forces(all.force, all.upper, all.lower, point.at_rest, rows));
+  const double normal = g_dot.dot(pair_forces(pair_force(pad, m, up, lo), up, lo, at_rest, rows));
+  return {total - normal, normal, heat(pad, all.upper) + heat(pad, all.lower)};
 }
 
 }  // namespace
@@ -55,6 +97,24 @@ ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
     results.push_back(contact(point.contact, pair_motion(at.g, at.g_dot), speed_));
   }
   return by_pad(pads_, results).front();
+}
+
+SlidingDisc::Power SlidingDisc::power(const Eigen::VectorXd& x) const
+{
+  const auto n_pads = static_cast<Eigen::Index>(pads_.n_pads());
+  const Eigen::Index n = by_omega_.size();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_pads);
+  const auto p = x.tail(n);
+  Power power{zero, zero, zero, p.dot(A_.bottomRightCorner(n, n) * p)};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointMotion at = motion_at(points_[i], x);
+    const PointPower of_point = point_power(points_[i], at.g, at.g_dot, speed_);
+    const auto pad = static_cast<Eigen::Index>(pads_.points[i].pad);
+    power.friction[pad] += of_point.friction;
+    power.normal[pad] += of_point.normal;
+    power.heat[pad] += of_point.heat;
+  }
+  return power;
 }
 
 /// S of each pad, of either sign.

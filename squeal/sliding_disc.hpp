@@ -40,6 +40,15 @@ class SlidingDisc {
   /// The first pad pair at x.
   ContactResult<double> first_contact(const Eigen::VectorXd& x) const;
 
+  /// Power (W) of each source on the vibration; see CycleEnergy.
+  struct Power {
+    Eigen::VectorXd friction;  ///< [n_pads]
+    Eigen::VectorXd normal;    ///< [n_pads]
+    Eigen::VectorXd heat;      ///< [n_pads]
+    double damping;
+  };
+  Power power(const Eigen::VectorXd& x) const;
+
   /// Evaluations of the contact forces of all pads so far; one with derivatives counts as seven,
   /// since a derivative in each of six directions costs as much as the force.
   std::int64_t n_evaluations() const { return n_evaluations_; }

@@ -127,6 +127,19 @@ struct MapCase {
   int count;
 };
 
+/// A critical value of a parameter at one speed.
+struct CriticalCase {
+  MapParameter parameter;
+  double from;
+  double to;
+  double speed;  ///< rad/s
+};
+
+/// The pad velocity of the transient as sound.
+struct SoundCase {
+  int rate_Hz;  ///< of the samples
+};
+
 /// The scene's [squeal].
 struct SquealOptions {
   std::string ring;
@@ -141,11 +154,14 @@ struct SquealOptions {
   std::vector<PadPair> pads;
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
                                       ///< "limit-cycle", "limit-cycle-direct",
-                                      ///< "limit-cycle-branch", "stability-map"
+                                      ///< "limit-cycle-branch", "stability-map", "critical-values",
+                                      ///< "spectrum"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
   std::optional<DirectCase> limit_cycle_direct;
   std::optional<MapCase> map;
+  std::vector<CriticalCase> critical;
+  std::optional<SoundCase> sound;
 };
 
 }  // namespace chladni::squeal

@@ -1,12 +1,9 @@
 #include "squeal/stability_map.hpp"
 
-#include <algorithm>
-#include <future>
 #include <numbers>
-#include <thread>
-#include <vector>
 
 #include "common/error.hpp"
+#include "squeal/parallel.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {
@@ -14,17 +11,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// Every `stride`-th row of the map, from `first` on.
-void fill_rows(StabilityMap& map, const InertialDisc& disc, const SquealOptions& options,
-               Eigen::Index first, Eigen::Index stride)
+void fill_row(StabilityMap& map, const InertialDisc& disc, const SquealOptions& options,
+              Eigen::Index i)
 {
-  for (Eigen::Index i = first; i < map.values.size(); i += stride) {
-    const SquealOptions changed = with_parameter(options, options.map->parameter, map.values[i]);
-    for (Eigen::Index j = 0; j < map.speeds.size(); ++j) {
-      const std::complex<double> lambda = least_stable_eigenvalue(disc, changed, map.speeds[j]);
-      map.growth(i, j) = lambda.real();
-      map.frequency_Hz(i, j) = lambda.imag() / (2.0 * pi);
-    }
+  const SquealOptions changed = with_parameter(options, options.map->parameter, map.values[i]);
+  for (Eigen::Index j = 0; j < map.speeds.size(); ++j) {
+    const std::complex<double> lambda = least_stable_eigenvalue(disc, changed, map.speeds[j]);
+    map.growth(i, j) = lambda.real();
+    map.frequency_Hz(i, j) = lambda.imag() / (2.0 * pi);
   }
 }
 
@@ -53,7 +47,8 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
   return options;
 }
 
-StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options)
+StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options,
+                           unsigned n_threads)
 {
   if (!options.map) throw Error("stability map: no second parameter is given");
   const MapCase& range = *options.map;
@@ -63,12 +58,8 @@ StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& option
                    .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
                    .growth = Eigen::MatrixXd(range.count, speeds.count),
                    .frequency_Hz = Eigen::MatrixXd(range.count, speeds.count)};
-  const Eigen::Index n_threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::future<void>> rows;
-  for (Eigen::Index first = 0; first < n_threads; ++first)
-    rows.push_back(std::async(std::launch::async,
-                              [&, first] { fill_rows(map, disc, options, first, n_threads); }));
-  for (std::future<void>& done : rows) done.get();
+  for_each_index(
+      range.count, [&](int i) { fill_row(map, disc, options, i); }, n_threads);
   return map;
 }
 

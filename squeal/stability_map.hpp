@@ -12,9 +12,10 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
 /// "friction", "preload" or "stiffness", as in the scene.
 const char* name_of(MapParameter parameter);
 
-/// The least stable eigenvalues over `options.speeds` and `options.map`, on all processors. Each
-/// point is computed alone, so that the result does not depend on their number.
+/// The least stable eigenvalues over `options.speeds` and `options.map`, on `n_threads`
+/// threads (0: as many as processors). The result does not depend on their number.
 /// @throws chladni::Error when `options.map` is absent.
-StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options);
+StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options,
+                           unsigned n_threads = 0);
 
 }  // namespace chladni::squeal

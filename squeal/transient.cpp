@@ -1,12 +1,8 @@
 #include "squeal/transient.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "common/error.hpp"
 #include "squeal/contact_kick.hpp"
@@ -14,58 +10,24 @@
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
+#include "squeal/resampler.hpp"
 #include "squeal/speed_program.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/transient_plan.hpp"
 #include "squeal/transient_steps.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-using std::numbers::pi;
-
-constexpr double steps_max = 1e10;
-/// Periods of the lowest mode for one point of the envelope, and in the tail.
-constexpr int periods_per_window = 4;
-constexpr int periods_in_tail = 100;
-constexpr std::int64_t history_points = 20000;
-/// Pad displacement up to which growth is linear, relative to the compression of the pads at rest:
-/// the first nonlinear term is quadratic and reaches about 1 % of the rate at 1.
-constexpr double linear_part = 0.05;
-/// Initial displacement for a growth rate, relative to the same.
-constexpr double growth_start = 1e-4;
-
-void check(const Disc& disc, const SquealOptions& options, const TransientCase& run)
+void check_speed_program(const SquealOptions& options, const TransientCase& run)
 {
-  if (options.pads.empty()) throw Error("transient: no pads");
-  if (!(run.speed > 0.0))
-    throw Error(
-        fmt::format("transient: speed_rad_s = {}; it must be > 0, since friction at rest has "
-                    "no direction",
-                    run.speed));
   const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
                                  [](const SpeedPoint& point) { return !(point.speed > 0.0); });
   if (stops && !(options.slip_regularisation > 0.0))
     throw Error(
         "transient: the speed program comes to rest, where friction has no direction; give "
-        "friction "
-        "a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
-  if (!(run.duration > 0.0))
-    throw Error(fmt::format("transient: duration_s = {}; it must be > 0", run.duration));
-  if (!(run.initial_pad_displacement > 0.0))
-    throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
-                            run.initial_pad_displacement));
-  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
-    throw Error(fmt::format(
-        "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
-        "{}, better leave steps_per_period out",
-        *run.steps_per_period, disc.omega.maxCoeff() / (2.0 * pi), steps_per_period_min));
+        "friction a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
 }
-
-/// How finely a transient is sampled.
-struct Sampling {
-  double highest;  ///< frequency, rad/s
-  int count;       ///< samples of one period of it
-};
 
 /// Samples of one period of the highest mode.
 int sampling_of(const IntegratorChoice& choice)
@@ -75,36 +37,20 @@ int sampling_of(const IntegratorChoice& choice)
   return fixed ? choice.steps_per_period : samples_per_period;
 }
 
-/// Of the modes, and of light plates beside the springs of their linings, from the symmetric part
-/// of the stiffness in one position of the disc; rad/s.
-double highest_frequency(const Disc& disc, const SquealOptions& options, double speed)
+/// Of the modes; the highest also of light plates beside the springs of their linings, from the
+/// symmetric part of the stiffness in one position of the disc.
+FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, double speed)
 {
   const ContactKick kick(disc, options, speed);
   const FreeBrake brake = free_brake(disc, kick.pads(), speed);
-  const double highest = brake.omega.maxCoeff();
-  if (kick.pads().n_modes() == 0) return highest;
+  FrequencyRange range{.lowest = disc.omega.minCoeff(), .highest = brake.omega.maxCoeff()};
+  if (kick.pads().n_modes() == 0) return range;
   const Eigen::MatrixXd K =
       brake.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
                                                              Eigen::EigenvaluesOnly);
-  return std::max(highest, std::sqrt(modes.eigenvalues().maxCoeff()));
-}
-
-RecordingPlan plan_of(const Disc& disc, const TransientCase& run, const Sampling& sampling)
-{
-  const double step = 2.0 * pi / (sampling.highest * sampling.count);
-  const double n_steps = std::ceil(run.duration / step);
-  if (!(n_steps < steps_max))
-    throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
-                            n_steps, steps_max));
-  const double steps_of_period = 2.0 * pi / (disc.omega.minCoeff() * step);
-  const auto n = static_cast<std::int64_t>(n_steps);
-  const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
-  return {.step = step,
-          .n_steps = n,
-          .window = static_cast<std::int64_t>(periods_per_window * steps_of_period),
-          .every = std::max<std::int64_t>(1, n / history_points),
-          .n_tail = std::min(n, tail)};
+  range.highest = std::max(range.highest, std::sqrt(modes.eigenvalues().maxCoeff()));
+  return range;
 }
 
 /// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
@@ -203,16 +149,20 @@ bool is_finite(const std::vector<ContactResult<double>>& contacts)
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                     const Progress& progress)
 {
-  check(disc, options, run);
+  if (options.pads.empty()) throw Error("transient: no pads");
+  check_transient(run, disc.omega.maxCoeff());
+  check_speed_program(options, run);
   const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
   const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
   const RecordingPlan plan =
-      plan_of(disc, run, {highest_frequency(disc, options, run.speed), sampling_of(choice)});
+      recording_plan(run, frequencies_of(disc, options, run.speed), sampling_of(choice));
   const auto steps =
       transient_steps(disc, options, run, choice, plan.step,
                       initial_state(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
   StateRecorder states(disc, inertial, plan, run);
+  std::optional<Resampler> sound;
+  if (options.sound) sound.emplace(plan.step, options.sound->rate_Hz);
   bool finite = true;
   for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
     const double t = (double(i) + 0.5) * plan.step;
@@ -221,6 +171,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
     if (finite) {
       recorder.add(i, t, contacts);
       states.add(i, t, *steps);
+      if (sound) sound->add(contacts.front().upper.z_dot);
     }
     if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
   }
@@ -239,22 +190,19 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
     result.speed = turn_at(run, run.duration).speed;
   result.modes = states.modes();
   result.tail_a = states.tail_a();
+  if (sound) {
+    sound->finish();
+    result.sound = sound->samples();
+  }
   return result;
 }
 
 Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration)
 {
-  const double compression = rest_compression(options);
-  const Transient run = transient(disc, options,
-                                  {.speed = speed,
-                                   .duration = duration,
-                                   .initial_pad_displacement = growth_start * compression});
-  if (!run.growth_rate)
-    throw Error(
-        fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "
-                    "least {:.2g} s",
-                    duration, speed, 200.0 * pi / disc.omega.minCoeff()));
-  Growth result{speed, run.envelope, *run.growth_rate, std::nullopt};
+  const Transient run =
+      transient(disc, options, growth_case(speed, duration, rest_compression(options)));
+  Growth result{speed, run.envelope, required_growth_rate(run, duration, disc.omega.minCoeff()),
+                std::nullopt};
   if (const auto inertial = find_inertial_disc(disc))
     result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
   return result;

@@ -11,9 +11,6 @@ namespace chladni::squeal {
 /// Called now and then with the fraction done, 0 to 1.
 using Progress = std::function<void(double)>;
 
-/// Fewest steps for one period of the highest mode that may be asked for.
-inline constexpr int steps_per_period_min = 8;
-
 /// The motion after a small displacement of the first pads, at rest in the inertial frame, by the
 /// integrator of the scene or the one that integrator_choice.hpp chooses. An axisymmetric disc
 /// starts in its first pair of modes with a_cos = a_sin, the crest of the cosine mode under the

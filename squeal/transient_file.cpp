@@ -137,6 +137,7 @@ Transient read_transient(const Reader& file)
           .history = read_history(file, "transient/history"),
           .modes = read_modes(file, "transient/history"),
           .tail = read_history(file, "transient/tail"),
+          .sound = {},
           .tail_a = {},
           .N_min = file.real("transient/N_min"),
           .N_max = file.real("transient/N_max"),

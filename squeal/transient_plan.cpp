@@ -13,8 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int steps_min = 8;
-constexpr int steps_default = 40;
 constexpr double steps_max = 1e10;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
 constexpr int periods_per_window = 4;
@@ -23,7 +21,9 @@ constexpr std::int64_t history_points = 20000;
 /// Initial displacement for a growth rate, relative to the compression of the pads at rest.
 constexpr double growth_start = 1e-4;
 
-void check(const TransientCase& run, double omega_highest)
+}  // namespace
+
+void check_transient(const TransientCase& run, double omega_highest)
 {
   if (!(run.speed > 0.0))
     throw Error(
@@ -35,19 +35,17 @@ void check(const TransientCase& run, double omega_highest)
   if (!(run.initial_pad_displacement > 0.0))
     throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
                             run.initial_pad_displacement));
-  if (run.steps_per_period.value_or(steps_default) < steps_min)
+  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
     throw Error(fmt::format(
-        "transient: {} steps per period do not resolve the highest mode "
-        "({:.0f} Hz); take at least {}, better 40",
-        run.steps_per_period.value_or(steps_default), omega_highest / (2.0 * pi), steps_min));
+        "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
+        "{}, better leave steps_per_period out",
+        *run.steps_per_period, omega_highest / (2.0 * pi), steps_per_period_min));
 }
 
-}  // namespace
-
-RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega)
+RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega, int samples)
 {
-  check(run, omega.highest);
-  const double step = 2.0 * pi / (omega.highest * run.steps_per_period.value_or(steps_default));
+  check_transient(run, omega.highest);
+  const double step = 2.0 * pi / (omega.highest * samples);
   const double n_steps = std::ceil(run.duration / step);
   if (!(n_steps < steps_max))
     throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,

@@ -16,10 +16,17 @@ struct FrequencyRange {
   double highest;
 };
 
+/// Fewest steps for one period of the highest mode that may be asked for.
+inline constexpr int steps_per_period_min = 8;
+
+/// @throws chladni::Error as `recording_plan`, but for the number of steps.
+void check_transient(const TransientCase& run, double omega_highest);
+
 /// What to record of a transient of these frequencies.
+/// @param samples  for one period of the highest
 /// @throws chladni::Error for a speed of zero, a duration or an initial displacement that is not
 ///         positive, and too few or too many steps.
-RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega);
+RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega, int samples);
 
 /// The transient from which a growth rate is read, far below contact loss.
 /// @param compression  of the pads at rest, m

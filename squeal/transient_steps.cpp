@@ -22,8 +22,8 @@ ModalState with_plates_at_rest(ModalState x, Eigen::Index n)
 }
 
 /// Exact flow of the damped modes over half a step, kick of the pads, exact flow over half a step.
-/// The two half flows between two kicks are one; a sample is at the kick, which the splitting
-/// leaves symmetric in time.
+/// The two half flows between two kicks are one; a sample is in the middle of a kick, to which the
+/// splitting is symmetric in time.
 class SplittingSteps final : public TransientSteps {
  public:
   SplittingSteps(const Disc& disc, const SquealOptions& options, const TransientCase& run,
@@ -39,11 +39,15 @@ class SplittingSteps final : public TransientSteps {
   const std::vector<ContactResult<double>>& next() override
   {
     if (n_ > 0) flow_->advance(x_);
+    v_before_ = x_.v;
     const auto& contacts = kick_.apply(x_, turn_at(run_, (double(n_) + 0.5) * step_), step_);
     ++n_;
     return contacts;
   }
-  ModalState state() const override { return {x_.q.head(n_modes_), x_.v.head(n_modes_)}; }
+  ModalState state() const override
+  {
+    return {x_.q.head(n_modes_), 0.5 * (v_before_ + x_.v).head(n_modes_)};
+  }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
 
@@ -54,6 +58,7 @@ class SplittingSteps final : public TransientSteps {
   TransientCase run_;
   double step_;
   ModalState x_;
+  Eigen::VectorXd v_before_;  ///< the last kick
   std::int64_t n_ = 0;
 };
 
@@ -76,14 +81,15 @@ class ExponentialSteps final : public TransientSteps {
   const std::vector<ContactResult<double>>& next() override
   {
     if (n_++ > 0) flow_.advance(x_);
+    p_before_ = x_.segment(x_.size() / 2, inertial_.n_modes());
     return flow_.kick(x_);
   }
   ModalState state() const override
   {
     const Eigen::Index n = inertial_.n_modes();
     const double angle = -angle_step_ * (double(n_) - 0.5);
-    const Eigen::VectorXd a = x_.head(n).cwiseQuotient(inertial_.omega),
-                          p = x_.segment(x_.size() / 2, n);
+    const Eigen::VectorXd a = x_.head(n).cwiseQuotient(inertial_.omega);
+    const Eigen::VectorXd p = 0.5 * (p_before_ + x_.segment(x_.size() / 2, n));
     return {inertial_.R * turned(inertial_, a, angle), inertial_.R * turned(inertial_, p, angle)};
   }
   std::int64_t n_steps() const override { return n_; }
@@ -94,6 +100,7 @@ class ExponentialSteps final : public TransientSteps {
   ExponentialFlow flow_;
   double angle_step_;
   Eigen::VectorXd x_;
+  Eigen::VectorXd p_before_;  ///< the last kick
   std::int64_t n_ = 0;
 };
 
@@ -137,7 +144,7 @@ class AdaptiveSteps final : public TransientSteps {
     std::vector<ContactEvent> events;
     if constexpr (requires { method_.events(); }) {
       for (const SwitchEvent& event : method_.events())
-        events.push_back({event.t, static_cast<int>(event.i), event.side > 0.0});
+        events.push_back({event.t, motion_.pad_of(event.i), event.side > 0.0});
     }
     return events;
   }

@@ -10,14 +10,15 @@
 #include <string_view>
 
 #include "common/error.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/transient_plan.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 9> analyses{
+constexpr std::array<std::string_view, 11> analyses{
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "mode-sensitivity"};
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
+    "mode-sensitivity"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -77,7 +78,9 @@ void validate_speeds(const SpeedRange& speeds)
 void validate_transient(const SquealOptions& options)
 {
   if (!options.transient)
-    throw Error("[squeal] analyses: \"transient\" and \"limit-cycle\" need `transient = { ... }`");
+    throw Error(
+        "[squeal] analyses: \"transient\", \"limit-cycle\" and \"spectrum\" need `transient = { "
+        "... }`");
   require_positive(options.transient->speed, "transient.speed_rad_s");
   require_positive(options.transient->duration, "transient.duration_s");
   require_positive(options.transient->initial_pad_displacement,
@@ -126,6 +129,31 @@ void validate_map(const SquealOptions& options)
     throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", options.map->count));
 }
 
+void validate_critical(const SquealOptions& options)
+{
+  if (options.critical.empty())
+    throw Error(
+        "[squeal] analyses: \"critical-values\" needs `critical = [{ parameter = ..., from = ..., "
+        "to "
+        "= ..., speed_rad_s = ... }]`");
+  for (const CriticalCase& search : options.critical) {
+    require_positive(search.from, "critical.from");
+    require_positive(search.speed, "critical.speed_rad_s");
+    if (!(search.to > search.from) || !std::isfinite(search.to))
+      throw Error(fmt::format("[squeal] critical.to = {}; it must be above from = {}", search.to,
+                              search.from));
+  }
+}
+
+void validate_sound(const SquealOptions& options)
+{
+  if (!options.sound) return;
+  const int rate = options.sound->rate_Hz;
+  if (rate < 8000 || rate > 192000)
+    throw Error(
+        fmt::format("[squeal] wav.rate_Hz = {}; it must be 8000 to 192000, e.g. 48000", rate));
+}
+
 }  // namespace
 
 void validate(const SquealOptions& options)
@@ -145,8 +173,11 @@ void validate(const SquealOptions& options)
       asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
       asks_for(options, "limit-cycle-branch"))
     validate_speeds(options.speeds);
-  if (asks_for(options, "transient") || asks_for(options, "limit-cycle"))
+  if (asks_for(options, "transient") || asks_for(options, "limit-cycle") ||
+      asks_for(options, "spectrum"))
     validate_transient(options);
+  if (asks_for(options, "critical-values")) validate_critical(options);
+  validate_sound(options);
   if (asks_for(options, "growth")) validate_growth(options);
   if (asks_for(options, "limit-cycle-direct")) validate_direct(options);
   if (asks_for(options, "stability-map")) validate_map(options);

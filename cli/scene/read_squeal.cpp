@@ -12,7 +12,8 @@ using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "mode-sensitivity"};
+    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
+    "mode-sensitivity"};
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {
@@ -66,14 +67,40 @@ std::optional<squeal::DirectCase> read_direct(const Table& squeal,
   return std::nullopt;
 }
 
+MapParameter read_parameter(const Table& table)
+{
+  return table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
+                                                  {"preload", MapParameter::preload},
+                                                  {"stiffness", MapParameter::stiffness}});
+}
+
+std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
+{
+  std::vector<squeal::CriticalCase> searches;
+  if (!squeal.has("critical")) return searches;
+  for (const Table& table : squeal.tables("critical")) {
+    const double from = table.number("from", {.above = 0.0});
+    searches.push_back({.parameter = read_parameter(table),
+                        .from = from,
+                        .to = table.number("to", {.above = from, .unit = "from"}),
+                        .speed = table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"})});
+  }
+  return searches;
+}
+
+std::optional<squeal::SoundCase> read_sound(const Table& squeal)
+{
+  if (!squeal.has("wav")) return std::nullopt;
+  const Table table = squeal.table("wav");
+  return squeal::SoundCase{
+      table.integer("rate_Hz", {.at_least = 8000.0, .at_most = 192000.0, .unit = "Hz"})};
+}
+
 std::optional<squeal::MapCase> read_map(const Table& squeal)
 {
   if (!squeal.has("map")) return std::nullopt;
   const Table table = squeal.table("map");
-  const auto parameter =
-      table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
-                                               {"preload", MapParameter::preload},
-                                               {"stiffness", MapParameter::stiffness}});
+  const MapParameter parameter = read_parameter(table);
   const double from = parameter == MapParameter::friction ? table.number("from", {.at_least = 0.0})
                                                           : table.number("from", {.above = 0.0});
   return squeal::MapCase{.parameter = parameter,
@@ -105,6 +132,8 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.growth = read_growth(squeal);
   options.limit_cycle_direct = read_direct(squeal, options.transient);
   options.map = read_map(squeal);
+  options.critical = read_critical(squeal);
+  options.sound = read_sound(squeal);
   return options;
 }
 

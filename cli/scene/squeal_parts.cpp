@@ -24,6 +24,15 @@ void check_needs(const Table& squeal, const std::vector<std::string>& analyses)
   if (contains(analyses, "stability-map") && !squeal.has("map")) {
     squeal.refuse("analyses", "\"stability-map\" needs the key map");
   }
+  if (contains(analyses, "critical-values") && !squeal.has("critical")) {
+    squeal.refuse("analyses", "\"critical-values\" needs the key critical");
+  }
+  if (contains(analyses, "spectrum") && !squeal.has("transient")) {
+    squeal.refuse("analyses", "\"spectrum\" needs the key transient");
+  }
+  if (squeal.has("wav") && !squeal.has("transient")) {
+    squeal.refuse("wav", "needs the key transient");
+  }
   for (const char* needed : {"transient", "growth"}) {
     if (contains(analyses, needed) && !squeal.has(needed)) {
       squeal.refuse("analyses", fmt::format("\"{0}\" needs the key {0}", needed));

@@ -180,6 +180,8 @@ TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
   const Scene scene = parse_scene(disc + map, "scene.toml");
   ASSERT_TRUE(scene.squeal->map);
+  EXPECT_TRUE(scene.squeal->critical.empty());
+  EXPECT_FALSE(scene.squeal->sound);
   EXPECT_EQ(scene.squeal->map->parameter, squeal::MapParameter::stiffness);
   EXPECT_EQ(scene.squeal->map->from, 1e6);
   EXPECT_EQ(scene.squeal->map->to, 9e6);
@@ -256,6 +258,22 @@ TEST(Scene, OfTheExampleIsReadable)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
 }
 
+TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)
+{
+  const auto with = [](const std::string& lines) { return error_of(disc + lines + "\n"); };
+  EXPECT_EQ(error_of(replaced(disc, "7e-8 }", "7e-8, integrator = \"euler\" }")),
+            "scene.toml:41: squeal.transient.integrator = \"euler\": must be one of \"auto\", "
+            "\"splitting\", \"exponential\", \"dormand-prince\", \"generalised-alpha\"");
+  EXPECT_EQ(with("wav = { rate_Hz = 100 }"),
+            "scene.toml:43: squeal.wav.rate_Hz = 100: must be >= 8000 and <= 192000 (Hz)");
+  EXPECT_EQ(
+      with("critical = [{ parameter = \"preload\", from = 2.0, to = 1.0, speed_rad_s = 19.0 }]"),
+      "scene.toml:43: squeal.critical.to = 1: must be > 2 (from)");
+  EXPECT_EQ(error_of(replaced(disc, "\"growth\", \"transient\"]", "\"critical-values\"]")),
+            "scene.toml:40: squeal.analyses = [ 'eigenvalues', 'critical-values' ]: "
+            "\"critical-values\" needs the key critical");
+}
+
 TEST(SceneError, NamesPlaceAndRangeOfANumber)
 {
   expect_messages({
@@ -280,6 +298,10 @@ TEST(SceneError, NamesPlaceAndRangeOfANumber)
        "scene.toml:39: squeal.pads.angle_deg = inf: must be finite (degrees)"},
       {"[12.0, 13.0]", "[12.0, -1.0]",
        "scene.toml:42: squeal.growth.speeds_rad_s[2] = -1: must be > 0 (rad/s)"},
+      {"7e-8 }", "7e-8, steps_per_period = 5 }",
+       "scene.toml:41: squeal.transient.steps_per_period = 5: must be >= 8"},
+      {"7e-8 }", "7e-8, growth_error_1_s = 0.0 }",
+       "scene.toml:41: squeal.transient.growth_error_1_s = 0: must be > 0 (1/s)"},
       {"modes = 100", "modes = 3000000000",
        "scene.toml:26: reduce.modes = 3000000000: is too large"},
   });

@@ -133,6 +133,38 @@ TEST(SquealProgram, FindsTheLimitCycleWithoutATransient)
   EXPECT_EQ(results.limit_cycle_branch->points.size(), 49u);
 }
 
+TEST(SquealProgram, WritesSpectrumSoundAndCriticalValues)
+{
+  const Folder folder;
+  const std::string scene = example_scene();
+  const std::size_t analyses = scene.find("analyses = ");
+  write_text(folder.path() / "scene.toml",
+             replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+                      "analyses = [\"spectrum\", \"critical-values\"]\n"
+                      "wav = { rate_Hz = 44100 }\n"
+                      "critical = [{ parameter = \"friction\", from = 0.1, to = 1.0, "
+                      "speed_rad_s = 18.8495559 }]"));
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_NE(ending.out.find("full scale"), std::string::npos);
+  // 6 s of 16-bit samples and their headers.
+  EXPECT_NEAR(double(std::filesystem::file_size(folder.path() / "disc.wav")), 2.0 * 6.0 * 44100.0,
+              200.0);
+  const auto results = squeal::read_results(folder.path() / "disc.squeal.h5");
+  ASSERT_TRUE(results.spectrum && !results.spectrum->peaks.empty());
+  // Lines of 17 Hz, refined between them.
+  EXPECT_NEAR(results.spectrum->peaks[0].frequency_Hz, 1696.85, 0.2);
+  EXPECT_NEAR(results.spectrum->peaks[0].amplitude, 6.727, 0.02);
+  // Without damping of the disc, friction does not decide.
+  ASSERT_EQ(results.critical_values.size(), 1u);
+  EXPECT_FALSE(results.critical_values[0].value);
+  EXPECT_NE(ending.out.find("critical friction at 6.0000 pi rad/s"), std::string::npos);
+  EXPECT_EQ(results.transient->integrator, "exponential");
+  EXPECT_EQ(results.transient->modes.q.cols(),
+            static_cast<Eigen::Index>(results.transient->history.t.size()));
+}
+
 TEST(SquealProgram, DescribesBodiesAndResults)
 {
   const Folder folder;

@@ -4,11 +4,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include "analytic_body.hpp"
 #include "common/error.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/limit_cycle_direct.hpp"
+#include "squeal/mode_shapes.hpp"
 #include "squeal/sliding_disc.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
@@ -249,6 +252,79 @@ TEST(PadBody, HasALimitCycleWithContactLoss)
   EXPECT_EQ(cycle.N_min, 0.0);
   EXPECT_EQ(cycle.multipliers.size(), 2 * (2 + 2));
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
+  // 256 samples of powers with kinks leave about 1e-4 of the largest.
+  const CycleEnergy& energy = cycle.energy;
+  const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
+  EXPECT_LT(std::abs(sum), 2e-3 * energy.friction.cwiseAbs().maxCoeff());
+  EXPECT_LT(energy.damping, 0.0);
+}
+
+TEST(PadBody, GainsTheEnergyThatTheSourcesPutIn)
+{
+  // d/dt |x|^2 / 2 = x^T f(x) at any state, also where pads are off.
+  const InertialDisc inertial = inertial_disc(pair_disc());
+  PadPair pad = grid_pad(0.6, 4);
+  pad.body = full_body();
+  pad.caliper = Caliper{.mass = 2.0, .axial = {4e6, 10.0}};
+  pad.damping = 12.0;
+  SquealOptions options = options_with(pad, ContactLaw::unilateral);
+  options.pads.push_back(grid_pad(0.3, 2));
+  options.pads[1].angle = 2.0;
+  SlidingDisc motion(inertial, options, 6.0 * pi);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(motion.size(), -4.0, 3.0);
+  const SlidingDisc::Power power = motion.power(x);
+  ASSERT_EQ(power.friction.size(), 2);
+  const double expected = x.dot(motion.rate(x));
+  const double sum = power.friction.sum() + power.normal.sum() + power.damping;
+  EXPECT_NEAR(sum, expected, 1e-9 * power.normal.cwiseAbs().maxCoeff());
+  // Each pad by itself: the disc alone with the second one.
+  options.pads.erase(options.pads.begin());
+  SlidingDisc second(inertial, options, 6.0 * pi);
+  Eigen::Vector4d of_disc;
+  of_disc << x.head(2), x.segment(x.size() / 2, 2);
+  EXPECT_NEAR(second.power(of_disc).normal[0], power.normal[1], 1e-9 * std::abs(power.normal[1]));
+  EXPECT_NEAR(second.power(of_disc).friction[0], power.friction[1],
+              1e-9 * std::abs(power.normal[1]));
+}
+
+TEST(PadBody, HasItsPartInTheModeShapes)
+{
+  const InertialDisc inertial = inertial_disc(pair_disc());
+  PadPair pad = grid_pad(0.6, 4);
+  pad.body = full_body();
+  SquealOptions options = options_with(pad);
+  options.speeds = {.from = 18.0, .to = 18.0, .count = 1};
+  const EigenvalueMap map = eigenvalues(inertial, options);
+  const Eigen::MatrixXcd shapes = mode_shapes(inertial, options, map).at(0);
+  ASSERT_EQ(shapes.rows(), 2 + 12);
+  const InertialDisc brake = with_pads(inertial, pad_system(options, inertial.radius));
+  const Eigen::MatrixXcd A = state_matrix(inertial, options, 18.0).cast<std::complex<double>>();
+  for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
+    // p = (lambda + Omega D) a; rounding of A, whose fastest modes have 3e4 rad/s.
+    const Eigen::VectorXcd a = brake.R.transpose().cast<std::complex<double>>() * shapes.col(j);
+    Eigen::VectorXcd x(28);
+    x << brake.omega.cast<std::complex<double>>().cwiseProduct(a),
+        map.lambda(0, j) * a + 18.0 * (brake.D.cast<std::complex<double>>() * a);
+    EXPECT_LT((A * x - map.lambda(0, j) * x).norm(), 1e-9 * A.norm() * x.norm()) << j;
+    EXPECT_NEAR(shapes.col(j).norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(PadGrid, HasEventsOfEveryPointUnderItsPad)
+{
+  const Disc disc = pair_disc();
+  SquealOptions options = options_with(grid_pad(0.6, 3), ContactLaw::unilateral);
+  options.pads.push_back(grid_pad(0.6, 3));
+  options.pads[1].angle = 2.0;
+  // Three times the compression of the pads at rest, so that every pad leaves.
+  const TransientCase run{.speed = 6.0 * pi,
+                          .duration = 3e-3,
+                          .initial_pad_displacement = 1e-3,
+                          .integrator = IntegratorKind::dormand_prince};
+  std::vector<int> n_events(4, 0);
+  for (const ContactEvent& event : transient(disc, options, run).events)
+    ++n_events.at(static_cast<std::size_t>(event.pad));
+  for (const int n : n_events) EXPECT_GE(n, 3);  // one for each point
 }
 
 TEST(PadBody, LosesEnergyOnlyToItsDampersWithoutFriction)

@@ -41,7 +41,7 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
   EXPECT_FALSE(results.searched_critical_speed);
-  EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "transient"}));
+  EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "limit-cycle", "transient"}));
 }
 
 TEST(Run, FindsALimitCycleWithoutATransient)

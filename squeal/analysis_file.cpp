@@ -1,0 +1,130 @@
+#include "squeal/analysis_file.hpp"
+
+#include <fmt/format.h>
+
+#include <complex>
+
+namespace chladni::squeal {
+namespace {
+
+using mbs_export::hdf5::Reader;
+using mbs_export::hdf5::Writer;
+
+Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
+{
+  return re + std::complex<double>(0.0, 1.0) * im;
+}
+
+std::string shape_group(std::size_t i)
+{
+  return fmt::format("eigenvalues/shapes/{}", i + 1);
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& parameter)
+{
+  return parameter == "preload" ? "N" : parameter == "stiffness" ? "N/m" : "1";
+}
+
+void write_eigenvalues(Writer& file, const EigenvalueMap& map)
+{
+  file.write("eigenvalues/speeds", map.speeds, "rad/s");
+  file.write("eigenvalues/lambda_re", map.lambda.real(), "1/s");
+  file.write("eigenvalues/lambda_im", map.lambda.imag(), "rad/s");
+  for (std::size_t i = 0; i < map.shapes.size(); ++i) {
+    file.write(shape_group(i) + "/re", map.shapes[i].real(), "1");
+    file.write(shape_group(i) + "/im", map.shapes[i].imag(), "1");
+  }
+}
+
+EigenvalueMap read_eigenvalues(const Reader& file)
+{
+  const Eigen::VectorXd speeds = file.vector("eigenvalues/speeds");
+  const Eigen::MatrixXd re = file.matrix("eigenvalues/lambda_re", {speeds.size()});
+  const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
+  EigenvalueMap map{speeds, complex_matrix(re, im)};
+  for (std::size_t i = 0; file.contains(shape_group(i)); ++i) {
+    const Eigen::MatrixXd shape = file.matrix(shape_group(i) + "/re", {-1, re.cols()});
+    map.shapes.push_back(
+        complex_matrix(shape, file.matrix(shape_group(i) + "/im", {shape.rows(), shape.cols()})));
+  }
+  return map;
+}
+
+void write_critical_values(Writer& file, const std::vector<CriticalValue>& values)
+{
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string group = fmt::format("critical_values/{}", i + 1);
+    const CriticalValue& value = values[i];
+    file.write(group + "/parameter", value.parameter);
+    file.write(group + "/speed", value.speed, "rad/s");
+    if (!value.value) continue;
+    file.write(group + "/value", *value.value, unit_of(value.parameter));
+    file.write(group + "/frequency", value.frequency_Hz, "Hz");
+    file.write(group + "/newton_steps", std::int64_t{value.n_newton_steps}, "1");
+  }
+}
+
+std::vector<CriticalValue> read_critical_values(const Reader& file)
+{
+  std::vector<CriticalValue> values;
+  for (int i = 1; file.contains(fmt::format("critical_values/{}", i)); ++i) {
+    const std::string group = fmt::format("critical_values/{}", i);
+    CriticalValue value{.parameter = file.text(group + "/parameter"),
+                        .speed = file.real(group + "/speed"),
+                        .value = {},
+                        .frequency_Hz = 0.0,
+                        .n_newton_steps = 0};
+    if (file.contains(group + "/value")) {
+      value.value = file.real(group + "/value");
+      value.frequency_Hz = file.real(group + "/frequency");
+      value.n_newton_steps = static_cast<int>(file.integer(group + "/newton_steps"));
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+void write_spectrum(Writer& file, const Spectrum& spectrum)
+{
+  file.write("spectrum/frequency", spectrum.frequency_Hz, "Hz");
+  file.write("spectrum/amplitude", spectrum.amplitude, "m/s");
+  std::vector<double> frequencies, amplitudes;
+  for (const Spectrum::Peak& peak : spectrum.peaks) {
+    frequencies.push_back(peak.frequency_Hz);
+    amplitudes.push_back(peak.amplitude);
+  }
+  file.write("spectrum/peaks/frequency", frequencies, "Hz");
+  file.write("spectrum/peaks/amplitude", amplitudes, "m/s");
+}
+
+Spectrum read_spectrum(const Reader& file)
+{
+  const Eigen::VectorXd frequency = file.vector("spectrum/frequency");
+  Spectrum spectrum{frequency, file.vector("spectrum/amplitude", frequency.size()), {}};
+  const Eigen::VectorXd at = file.vector("spectrum/peaks/frequency");
+  const Eigen::VectorXd amplitude = file.vector("spectrum/peaks/amplitude", at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) spectrum.peaks.push_back({at[i], amplitude[i]});
+  return spectrum;
+}
+
+void write_energy(Writer& file, const CycleEnergy& energy)
+{
+  file.write("limit_cycle_direct/energy/friction", energy.friction, "J");
+  file.write("limit_cycle_direct/energy/normal", energy.normal, "J");
+  file.write("limit_cycle_direct/energy/damping", energy.damping, "J");
+  file.write("limit_cycle_direct/energy/heat", energy.heat, "J");
+  file.write("limit_cycle_direct/energy/stored", energy.stored, "J");
+}
+
+CycleEnergy read_energy(const Reader& file)
+{
+  const Eigen::VectorXd friction = file.vector("limit_cycle_direct/energy/friction");
+  return {friction, file.vector("limit_cycle_direct/energy/normal", friction.size()),
+          file.real("limit_cycle_direct/energy/damping"),
+          file.vector("limit_cycle_direct/energy/heat", friction.size()),
+          file.real("limit_cycle_direct/energy/stored")};
+}
+
+}  // namespace chladni::squeal

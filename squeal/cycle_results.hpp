@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// The periodic motion at the end of a transient.
+struct LimitCycle {
+  double speed;             ///< rad/s
+  double frequency_Hz;      ///< in the inertial frame
+  double pad_velocity;      ///< amplitude of the first upper pad, m/s
+  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double N_min;             ///< smallest normal force on the first upper pad, N
+  double N_max;             ///< largest normal force on the first upper pad, N
+  double drift;             ///< relative change of the envelope over the last tenth of the run
+  bool settled;             ///< drift below settled_drift
+  std::optional<double> t_zero_force;  ///< when a normal force first reached zero, s
+  double t_99;                         ///< when the envelope first reached 99 % of its end, s
+  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
+  /// [n_modes] complex amplitude of the fundamental: displacement at the inertial angle phi and
+  /// time t is Re(exp(i omega t) sum_i amplitude_i shape_i(phi)), with the shapes of the body's
+  /// modes. Empty when the disc is not axisymmetric.
+  Eigen::VectorXcd amplitude;
+};
+
+/// What a periodic motion gains and loses in one period, J: the sum of all is zero. Works are those
+/// on the vibration of disc and plates, i.e. forces times the velocities of the disc in its own
+/// frame and of pads with a mass; the drive does the rest of the work of friction.
+struct CycleEnergy {
+  Eigen::VectorXd friction;  ///< [n_pads] of the friction of each pad pair
+  Eigen::VectorXd normal;    ///< [n_pads] of its normal forces
+  double damping;            ///< of the modes and of the suspensions of the pads, < 0
+  Eigen::VectorXd heat;      ///< [n_pads] what friction turns into heat, > 0; not part of the sum
+  double stored;             ///< kinetic and elastic energy of disc, plates and suspensions, mean
+};
+
+/// A periodic motion found as such: x(T) = x(0) in the inertial frame.
+struct DirectLimitCycle {
+  double speed;             ///< rad/s
+  double frequency_Hz;      ///< 1 / T
+  double pad_velocity;      ///< largest of the first upper pad, m/s
+  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double N_min;             ///< smallest normal force on the first upper pad, N
+  double N_max;             ///< largest normal force on the first upper pad, N
+  double slip_speed_min;    ///< of the first pad pair, m/s
+  /// [2 n_modes] Floquet multipliers, factors of a disturbance over one period: first the one along
+  /// the cycle, which is 1, then the others by falling modulus.
+  Eigen::VectorXcd multipliers;
+  bool stable;                         ///< all but the first are below 1
+  int n_newton_steps;                  ///< of the successful search
+  std::int64_t n_contact_evaluations;  ///< in all; see SlidingDisc
+  Eigen::VectorXd x;                   ///< a point of the cycle; see SlidingDisc
+  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
+  Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
+  CycleEnergy energy;
+};
+
+/// What is kept of each limit cycle of a branch; see DirectLimitCycle.
+struct BranchPoint {
+  double speed;  ///< rad/s
+  double frequency_Hz;
+  double pad_velocity;        ///< m/s
+  double pad_displacement;    ///< m
+  double N_min;               ///< N
+  double N_max;               ///< N
+  double largest_multiplier;  ///< modulus, without the one along the cycle
+};
+
+/// Limit cycles over the speed, by rising speed.
+struct LimitCycleBranch {
+  std::vector<BranchPoint> points;
+  /// The cycle could not be followed below this speed, rad/s, though the disc is unstable there.
+  std::optional<double> lost_below;
+};
+
+}  // namespace chladni::squeal

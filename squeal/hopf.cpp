@@ -1,0 +1,138 @@
+#include "squeal/hopf.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/stability_map.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+constexpr int newton_steps_max = 30;
+constexpr int n_scanned = 64;
+/// Change of omega and value, relative, at which Newton's method has converged.
+constexpr double converged = 1e-13;
+/// Step of the central difference of A, relative to the value: A is smooth in it, and rounding and
+/// truncation both stay below 1e-9, which slows the last steps of Newton's method only.
+constexpr double difference = 1e-5;
+/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
+constexpr double rounding = 1e-12;
+
+/// The eigenvalue with the largest real part among those with Im >= 0, and its eigenvector.
+struct LeastStable {
+  Complex lambda;
+  Eigen::VectorXcd u;
+};
+
+LeastStable least_stable(const Eigen::MatrixXd& A)
+{
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  if (solver.info() != Eigen::Success)
+    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
+  const Complex expected = least_stable_eigenvalue(A);
+  Eigen::Index i = 0;
+  (solver.eigenvalues().array() - expected).abs().minCoeff(&i);
+  return {solver.eigenvalues()[i], solver.eigenvectors().col(i).normalized()};
+}
+
+/// g and its derivatives at (value, omega).
+struct Bordered {
+  Complex g, g_omega, g_value;
+  Eigen::VectorXcd u;
+};
+
+Bordered bordered(const StateMatrixOf& A, double value, double omega,
+                  const Eigen::VectorXcd& border)
+{
+  const Eigen::Index n = border.size();
+  const Complex i(0.0, 1.0);
+  Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(n + 1, n + 1);
+  B.topLeftCorner(n, n) = A(value).cast<Complex>();
+  // Scaled to the size of A, for the system to be well scaled.
+  const double scale = B.topLeftCorner(n, n).cwiseAbs().maxCoeff();
+  B.topLeftCorner(n, n).diagonal().array() -= i * omega;
+  B.col(n).head(n) = scale * border;
+  B.row(n).head(n) = scale * border.adjoint();
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(B), adjoint(B.adjoint());
+  const Eigen::VectorXcd unit = scale * Eigen::VectorXcd::Unit(n + 1, n);
+  const Eigen::VectorXcd x = lu.solve(unit), y = adjoint.solve(unit);
+  const Eigen::VectorXcd u = x.head(n), w = y.head(n);
+  const double step = difference * std::abs(value);
+  const Eigen::MatrixXd A_value = (A(value + step) - A(value - step)) / (2.0 * step);
+  return {x[n], w.dot(i * u) / scale, -w.dot(A_value * u) / scale, u};
+}
+
+StateMatrixOf matrix_over(const InertialDisc& disc, const SquealOptions& options,
+                          const CriticalCase& search)
+{
+  return [&disc, &options, search](double value) {
+    return state_matrix(disc, with_parameter(options, search.parameter, value), search.speed);
+  };
+}
+
+}  // namespace
+
+std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
+                                    const Eigen::VectorXcd& u)
+{
+  Eigen::VectorXcd border = u.normalized();
+  for (int k = 1; k <= newton_steps_max; ++k) {
+    const Bordered at = bordered(A, value, omega, border);
+    Eigen::Matrix2d J;
+    J << at.g_omega.real(), at.g_value.real(), at.g_omega.imag(), at.g_value.imag();
+    const Eigen::Vector2d change =
+        -J.partialPivLu().solve(Eigen::Vector2d(at.g.real(), at.g.imag()));
+    omega += change[0];
+    value += change[1];
+    border = at.u.normalized();
+    if (!std::isfinite(omega) || !std::isfinite(value)) return std::nullopt;
+    if (std::abs(change[0]) <= converged * std::abs(omega) &&
+        std::abs(change[1]) <= converged * 1e2 * std::abs(value))
+      return HopfPoint{value, omega, border, k};
+  }
+  return std::nullopt;
+}
+
+CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
+                             const CriticalCase& search)
+{
+  const StateMatrixOf A = matrix_over(disc, options, search);
+  CriticalValue result{.parameter = name_of(search.parameter),
+                       .speed = search.speed,
+                       .value = {},
+                       .frequency_Hz = 0.0,
+                       .n_newton_steps = 0};
+  std::optional<bool> was_stable;
+  for (const double value : Eigen::VectorXd::LinSpaced(n_scanned, search.from, search.to)) {
+    const LeastStable now = least_stable(A(value));
+    if (std::abs(now.lambda.real()) <= rounding * std::abs(now.lambda)) continue;
+    const bool stable = now.lambda.real() < 0.0;
+    const bool lost = was_stable && *was_stable != stable;
+    was_stable = stable;
+    if (!lost) continue;
+    const auto point = hopf_point(A, value, now.lambda.imag(), now.u);
+    if (!point || !(point->value >= search.from && point->value <= search.to))
+      throw Error(
+          fmt::format("critical values: Newton's method does not converge to the {} at which the "
+                      "disc loses its stability, near {:.6g}; narrow the range",
+                      result.parameter, value));
+    result.value = point->value;
+    result.frequency_Hz = point->omega / (2.0 * pi);
+    result.n_newton_steps = point->n_newton_steps;
+    break;
+  }
+  return result;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "squeal/inertial_frame.hpp"
+#include "squeal/results.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// A of x' = A x over the parameter that is sought.
+using StateMatrixOf = std::function<Eigen::MatrixXd(double value)>;
+
+/// A value at which A has the eigenvalues +-i omega.
+struct HopfPoint {
+  double value;        ///< of the parameter
+  double omega;        ///< rad/s
+  Eigen::VectorXcd u;  ///< eigenvector of i omega, of norm 1
+  int n_newton_steps;
+};
+
+/// Newton's method on g(omega, value) = 0, the last component of the bordered system
+///   [A(value) - i omega I, b; c^H, 0] (u; g) = (0; 1),
+/// which stays regular where A - i omega I is singular; derivatives of g from the adjoint system,
+/// that of A by central differences. Quadratic: about four steps to rounding.
+/// @param value, omega  where it begins
+/// @param u             [n] an estimate of the eigenvector; b and c are made of it
+/// @return absent when it does not converge within 30 steps
+std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
+                                    const Eigen::VectorXcd& u);
+
+/// The first value of the range at which the sliding disc loses its stability, at the speed of the
+/// search: its eigenvalues are looked at for 64 values, and Newton's method starts from the first
+/// pair of neighbours of which only one is stable. Searching the speed itself is `critical_speed`.
+/// @return without `value` when there is none in the range
+/// @throws chladni::Error when Newton's method does not converge from there.
+CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
+                             const CriticalCase& search);
+
+}  // namespace chladni::squeal

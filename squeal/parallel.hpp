@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <future>
+#include <thread>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// f(i) for i = 0 ... n - 1 on `n_threads` threads, 0 for as many as there are processors. Each
+/// index is computed alone, so that a result that is stored by index does not depend on their
+/// number. Rethrows the first exception of the lowest thread.
+template <class Function>
+void for_each_index(int n, const Function& f, unsigned n_threads = 0)
+{
+  if (n_threads == 0) n_threads = std::max(1U, std::thread::hardware_concurrency());
+  const int stride = std::min(std::max(n, 1), static_cast<int>(n_threads));
+  std::vector<std::future<void>> parts;
+  for (int first = 0; first < stride; ++first)
+    parts.push_back(std::async(std::launch::async, [&f, n, first, stride] {
+      for (int i = first; i < n; i += stride) f(i);
+    }));
+  for (std::future<void>& part : parts) part.wait();
+  for (std::future<void>& part : parts) part.get();
+}
+
+}  // namespace chladni::squeal

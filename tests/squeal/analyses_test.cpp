@@ -1,0 +1,315 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <sstream>
+
+#include "analytic_body.hpp"
+#include "common/error.hpp"
+#include "squeal/hopf.hpp"
+#include "squeal/inertial_frame.hpp"
+#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/mode_shapes.hpp"
+#include "squeal/parallel.hpp"
+#include "squeal/resampler.hpp"
+#include "squeal/run.hpp"
+#include "squeal/spectrum.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/stability_map.hpp"
+#include "squeal/transient.hpp"
+#include "squeal/wav_file.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc disc_of(const std::vector<PlatePair>& pairs)
+{
+  return make_disc(analytic_body(pairs), "track", {});
+}
+
+/// Two pairs whose free vibrations decay by 1 1/s.
+Disc damped_disc()
+{
+  auto body = analytic_body({kirchhoff_2(), kirchhoff_3()});
+  body.C = 2.0 * Eigen::Matrix4d::Identity();
+  return make_disc(body, "track", {});
+}
+
+TEST(HopfPoint, IsTheCriticalSpeedOfTheReference)
+{
+  // SQUEAL reference values, 10 digits: 4.2718984074 pi at 1772.09545757 Hz.
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
+  const SquealOptions options = reference_options();
+  const auto A = [&](double speed) { return state_matrix(disc, options, speed); };
+  const Eigen::VectorXcd rough = Eigen::Vector4cd(1.0, {0.0, 0.5}, {0.0, 1.0}, -0.5);
+  const auto point = hopf_point(A, 4.5 * pi, 2.0 * pi * 1773.0, rough);
+  ASSERT_TRUE(point);
+  EXPECT_NEAR(point->value, 4.271898407362968 * pi, 1e-10 * pi);
+  EXPECT_NEAR(point->omega, 2.0 * pi * 1772.0954575721983, 1e-6);
+  EXPECT_LE(point->n_newton_steps, 8);
+  const std::complex<double> i_omega(0.0, point->omega);
+  EXPECT_LT((A(point->value) * point->u - i_omega * point->u).norm(), 1e-9 * point->omega);
+}
+
+TEST(CriticalValue, DividesStableFromUnstable)
+{
+  // Without damping both what drives the pair and what brakes it are proportional to friction; with
+  // damping of the modes friction and stiffness decide. Newton's value is a border of the sign of
+  // the growth, to rounding.
+  const InertialDisc disc = inertial_disc(damped_disc());
+  const SquealOptions options = reference_options();
+  const double speed = 6.0 * pi;
+  for (const auto& [parameter, from, to] :
+       {std::tuple{MapParameter::friction, 0.05, 1.0}, {MapParameter::stiffness, 1e5, 6e6}}) {
+    const CriticalValue found = critical_value(
+        disc, options, {.parameter = parameter, .from = from, .to = to, .speed = speed});
+    ASSERT_TRUE(found.value) << found.parameter;
+    const auto growth = [&](double value) {
+      return least_stable_eigenvalue(disc, with_parameter(options, parameter, value), speed).real();
+    };
+    EXPECT_LT(growth(*found.value * (1.0 - 1e-7)) * growth(*found.value * (1.0 + 1e-7)), 0.0);
+    EXPECT_NEAR(growth(*found.value), 0.0, 1e-8);  // 1e-12 of omega
+    EXPECT_GT(found.frequency_Hz, 500.0);
+  }
+}
+
+TEST(CriticalValue, IsAbsentWhereStabilityDoesNotChange)
+{
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
+  const CriticalValue found = critical_value(
+      disc, reference_options(),
+      {.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .speed = 8.0 * pi});
+  EXPECT_FALSE(found.value);
+}
+
+TEST(ModeShapes, AreEigenvectorsOfTheSlidingDisc)
+{
+  // The rates follow from the shape, p = (lambda + Omega D) a; the residual of the second half of
+  // A x = lambda x is that of an eigenvector, rounding times the size of A.
+  const Disc body = disc_of({kirchhoff_2(), kirchhoff_3()});
+  const InertialDisc disc = inertial_disc(body);
+  SquealOptions options = reference_options();
+  options.speeds.count = 3;
+  const EigenvalueMap map = eigenvalues(disc, options);
+  const auto shapes = mode_shapes(disc, options, map);
+  ASSERT_EQ(shapes.size(), 3u);
+  const Eigen::MatrixXd A = state_matrix(disc, options, map.speeds[2]);
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    const Eigen::VectorXcd a = disc.R.transpose() * shapes[2].col(j);
+    Eigen::VectorXcd x(8);
+    x << disc.omega.cwiseProduct(a.real()) +
+             std::complex<double>(0, 1) * disc.omega.cwiseProduct(a.imag()),
+        map.lambda(2, j) * a + map.speeds[2] * (disc.D * a);
+    EXPECT_LT((A * x - map.lambda(2, j) * x).norm(), 1e-10 * std::abs(map.lambda(2, j)) * x.norm());
+    EXPECT_NEAR(shapes[2].col(j).norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(LimitCycleDirect, BalancesItsEnergy)
+{
+  // Work of all sources over a period sums to zero. 128 samples of powers with kinks leave about
+  // 1e-4 of the largest; friction puts in what the modes' damping takes.
+  for (const ContactLaw law : {ContactLaw::bilateral, ContactLaw::unilateral}) {
+    auto body = analytic_body({kirchhoff_3()});
+    body.C = 0.5 * Eigen::Matrix2d::Identity();
+    SquealOptions options = reference_options(law);
+    options.pads.push_back({.angle = 2.0, .stiffness = 3e6, .damping = 0.2, .preload = 1000.0});
+    const CycleEnergy energy =
+        limit_cycle_direct(make_disc(body, "track", {}), options, 10.0 * pi).energy;
+    ASSERT_EQ(energy.friction.size(), 2);
+    const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
+    const double largest =
+        std::max(energy.friction.cwiseAbs().maxCoeff(), energy.normal.cwiseAbs().maxCoeff());
+    EXPECT_LT(std::abs(sum), 2e-3 * largest);
+    EXPECT_LT(energy.damping, 0.0);
+    // Damping of 0.5 1/s takes c T of twice the kinetic energy, half of what is stored twice.
+    const double period = 1.0 / 1774.0;
+    EXPECT_NEAR(energy.damping, -0.5 * period * energy.stored, 0.03 * 0.5 * period * energy.stored);
+    EXPECT_GT(energy.heat.minCoeff(), 0.0);
+  }
+}
+
+TEST(Spectrum, FindsFrequencyAndAmplitudeBetweenTheLines)
+{
+  std::vector<double> x;
+  const double step = 1.0 / 44100.0;
+  for (int i = 0; i < 4410; ++i) {
+    const double t = i * step;
+    x.push_back(3.0 * std::sin(2.0 * pi * 1696.853 * t + 0.3) +
+                0.01 * std::cos(2.0 * pi * 5090.4 * t) + 0.5);
+  }
+  const Spectrum result = spectrum(x, step);
+  ASSERT_GE(result.peaks.size(), 2u);
+  // Lines are 10 Hz apart; the side lobes of other lines disturb by 1e-4 of a line.
+  EXPECT_NEAR(result.peaks[0].frequency_Hz, 1696.853, 0.01);
+  EXPECT_NEAR(result.peaks[0].amplitude, 3.0, 3e-3);
+  EXPECT_NEAR(result.peaks[1].frequency_Hz, 5090.4, 0.1);
+  EXPECT_NEAR(result.peaks[1].amplitude, 0.01, 3e-4);
+  EXPECT_THROW(spectrum(std::vector<double>(10, 0.0), step), Error);
+}
+
+/// A sine of this frequency and of amplitude 1 through a resampler from 70 kHz to 44.1 kHz.
+std::vector<float> resampled_sine(double f_Hz)
+{
+  Resampler resampler(1.0 / 70000.0, 44100);
+  for (int i = 0; i < 7000; ++i) resampler.add(std::sin(2.0 * pi * f_Hz * (i + 0.5) / 70000.0));
+  resampler.finish();
+  return resampler.samples();
+}
+
+/// The body with its ring at 960 nodes, whose shapes are interpolated linearly between `n_coarse`
+/// of them.
+mbs_export::ModalBody linearly_interpolated(mbs_export::ModalBody body, Eigen::Index n_coarse)
+{
+  constexpr Eigen::Index n_fine = 960;
+  mbs_export::ContactRing& ring = body.rings[0];
+  const Disc exact = make_disc(body, "track", {});
+  const Eigen::Index part = n_fine / n_coarse;
+  ring.angles = Eigen::VectorXd::LinSpaced(n_fine, 0.0, 2.0 * pi * (1.0 - 1.0 / n_fine));
+  Eigen::MatrixXd W(n_fine, exact.n_modes()), W_r = W, W_t = W;
+  for (Eigen::Index i = 0; i < n_fine; ++i) {
+    const double x = double(i % part) / double(part);
+    const Shapes left = shapes_at(exact, ring.angles[i - i % part]);
+    const Shapes right = shapes_at(exact, ring.angles[(i - i % part + part) % n_fine]);
+    W.row(i) = ((1.0 - x) * left.W + x * right.W).transpose();
+    W_r.row(i) = ((1.0 - x) * left.W_r + x * right.W_r).transpose();
+    W_t.row(i) = ((1.0 - x) * left.W_t + x * right.W_t).transpose();
+  }
+  ring.W = W;
+  ring.W_r = W_r;
+  ring.W_t = W_t;
+  return body;
+}
+
+TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
+{
+  // At 6 pi the eigenvalue is 2.77597 1/s, which trigonometric interpolation keeps to the error of
+  // the step. What linear interpolation adds falls with the square of the distance of the nodes.
+  const auto rate = [](const mbs_export::ModalBody& body) {
+    const TransientCase run{.speed = 6.0 * pi,
+                            .duration = 2.0,
+                            .initial_pad_displacement = 1e-8,
+                            .steps_per_period = 40,
+                            .integrator = IntegratorKind::splitting};
+    return transient(make_disc(body, "track", {}), reference_options(), run).growth_rate.value();
+  };
+  const mbs_export::ModalBody body = analytic_body({kirchhoff_3(1672.13)});
+  const double exact = rate(body);
+  const double coarse = rate(linearly_interpolated(body, 60)) - exact;
+  const double fine = rate(linearly_interpolated(body, 120)) - exact;
+  EXPECT_NEAR(exact, 2.77597, 3e-4);
+  EXPECT_GT(coarse, 0.015);
+  EXPECT_NEAR(coarse / fine, 4.0, 0.8);
+}
+
+TEST(Resampler, KeepsWhatTheNewRateCanHoldAndDropsTheRest)
+{
+  const std::vector<float> low = resampled_sine(1700.0), high = resampled_sine(30000.0);
+  ASSERT_EQ(low.size(), 4410u);
+  // Away from both ends: ripple of the Blackman window 2e-4; 30 kHz would fold down to 14.1 kHz.
+  for (std::size_t i = 100; i + 100 < low.size(); ++i) {
+    EXPECT_NEAR(low[i], std::sin(2.0 * pi * 1700.0 * double(i) / 44100.0), 5e-4) << i;
+    EXPECT_NEAR(high[i], 0.0, 5e-4) << i;
+  }
+}
+
+std::uint32_t number(const std::string& bytes, std::size_t at, int n)
+{
+  std::uint32_t x = 0;
+  for (int i = n - 1; i >= 0; --i) x = 256 * x + static_cast<unsigned char>(bytes[at + i]);
+  return x;
+}
+
+TEST(WavFile, HoldsTheSamplesAndWhatFullScaleMeans)
+{
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("analyses_test-" + std::to_string(getpid()) + ".wav");
+  const std::vector<float> x{0.0F, 1.5F, -3.0F, 0.75F};
+  EXPECT_EQ(write_wav(path, x, 48000), 3.0);
+  std::stringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  std::filesystem::remove(path);
+  const std::string bytes = content.str();
+  EXPECT_EQ(bytes.substr(0, 4) + bytes.substr(8, 8), "RIFFWAVEfmt ");
+  EXPECT_EQ(number(bytes, 4, 4), bytes.size() - 8);
+  EXPECT_EQ(number(bytes, 20, 2), 1u);
+  EXPECT_EQ(number(bytes, 24, 4), 48000u);
+  EXPECT_NE(bytes.find("full scale = 3 m/s"), std::string::npos);
+  const std::size_t data = bytes.find("data");
+  ASSERT_EQ(number(bytes, data + 4, 4), 8u);
+  const int expected[] = {0, 16384, -32767, 8192};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(static_cast<std::int16_t>(number(bytes, data + 8 + 2 * i, 2)), expected[i]);
+  EXPECT_THROW(write_wav("/nowhere/at/all.wav", x, 48000), Error);
+}
+
+TEST(StabilityMap, DoesNotDependOnTheNumberOfThreads)
+{
+  SquealOptions options = reference_options();
+  options.speeds.count = 7;
+  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_2(), kirchhoff_3()}));
+  const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
+  EXPECT_EQ(one.growth, three.growth);
+  EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
+}
+
+TEST(ForEachIndex, VisitsEachOnceAndRethrows)
+{
+  for (const unsigned n_threads : {1U, 2U, 5U}) {
+    std::vector<int> visits(17, 0);
+    for_each_index(
+        17, [&](int i) { ++visits[static_cast<std::size_t>(i)]; }, n_threads);
+    EXPECT_EQ(visits, std::vector<int>(17, 1));
+    EXPECT_THROW(for_each_index(
+                     3,
+                     [](int i) {
+                       if (i == 2) throw Error("two");
+                     },
+                     n_threads),
+                 Error);
+  }
+}
+
+TEST(Run, KeepsWhatItHasWhenALaterAnalysisFails)
+{
+  // The transient is too short for a limit cycle.
+  SquealOptions options = reference_options();
+  options.speeds.count = 2;
+  options.analyses = {"eigenvalues", "limit-cycle"};
+  options.transient =
+      TransientCase{.speed = 6.0 * pi, .duration = 0.001, .initial_pad_displacement = 1e-6};
+  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  EXPECT_TRUE(results.eigenvalues);
+  EXPECT_TRUE(results.transient);
+  EXPECT_FALSE(results.limit_cycle);
+  ASSERT_TRUE(results.failure);
+  EXPECT_NE(results.failure->find("too short"), std::string::npos);
+}
+
+TEST(Run, YieldsSpectrumSoundAndCriticalValues)
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"spectrum", "critical-values"};
+  options.transient =
+      TransientCase{.speed = 6.0 * pi, .duration = 1.2, .initial_pad_displacement = 6e-4};
+  options.sound = SoundCase{.rate_Hz = 44100};
+  options.critical = {
+      {.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .speed = 5.0 * pi}};
+  auto body = analytic_body({kirchhoff_3(1672.13)});
+  body.C = 0.5 * Eigen::Matrix2d::Identity();
+  const SquealResults results = run(make_disc(body, "track", {}), options);
+  ASSERT_TRUE(results.spectrum && !results.spectrum->peaks.empty());
+  EXPECT_NEAR(results.spectrum->peaks[0].frequency_Hz, 1696.85, 0.3);
+  EXPECT_NEAR(double(results.transient->sound.size()), 52920.0, 3.0);
+  ASSERT_EQ(results.critical_values.size(), 1u);
+  EXPECT_TRUE(results.critical_values[0].value);
+}
+
+}  // namespace
+}  // namespace chladni::squeal
