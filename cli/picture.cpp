@@ -1,5 +1,7 @@
 #include "cli/picture.hpp"
 
+#include <algorithm>
+
 namespace chladni::cli {
 namespace {
 
@@ -62,26 +64,31 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, PictureChoice choice)
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
                                  const RowsOf& rows_of)
 {
-  std::vector<int> wanted;  // six DOFs of each node or of its reference
+  std::vector<int> numbers;  // on which the nodes depend, each once
   for (const int node : chosen.nodes) {
-    for (int c = 0; c < 6; ++c) wanted.push_back(6 * dofs.number[node] + c);
+    for (const plate::MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<int> wanted;
+  for (const int number : numbers) {
+    for (int c = 0; c < 6; ++c) wanted.push_back(6 * number + c);
   }
   const Eigen::MatrixXd rows = rows_of(wanted);
   const auto n = static_cast<Eigen::Index>(chosen.nodes.size());
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
   picture.cells = chosen.cells;
-  picture.transformation.resize(3 * n, rows.cols());
+  picture.transformation = Eigen::MatrixXd::Zero(3 * n, rows.cols());
   for (Eigen::Index k = 0; k < n; ++k) {
     const int node = chosen.nodes[static_cast<std::size_t>(k)];
     const auto& x = dofs.positions[static_cast<std::size_t>(node)];
     picture.positions.row(k) << x[0], x[1], x[2];
-    picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * k);
-    if (!dofs.is_dependent(node)) continue;
-    const auto [a, b, c] = dofs.arm(node);
-    Eigen::Matrix3d R;  // theta x arm = R theta
-    R << 0.0, c, -b, -c, 0.0, a, b, -a, 0.0;
-    picture.transformation.middleRows<3>(3 * k) += R * rows.middleRows<3>(6 * k + 3);
+    for (const plate::MotionTerm& term : dofs.motion(node)) {
+      const auto place = std::ranges::lower_bound(numbers, term.number) - numbers.begin();
+      picture.transformation.middleRows<3>(3 * k) +=
+          term.T.topRows<3>() * rows.middleRows<6>(6 * place);
+    }
   }
   return picture;
 }

@@ -16,7 +16,7 @@ std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::D
 {
   std::vector<PetscInt> masters;
   for (const int node : attachments.nodes) {
-    for (int c = 0; c < 6; ++c) masters.push_back(6 * dofs.number[node] + c);
+    for (int c = 0; c < 6; ++c) masters.push_back(dofs.dof(node, c).value());
   }
   return masters;
 }

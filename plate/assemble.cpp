@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "plate/directors.hpp"
@@ -16,27 +15,36 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Calls visit(block, element) for each element with a node that `first <= number < last` owns.
+/// The active numbers on which the motion of some nodes depends, ascending.
+std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
+{
+  std::vector<PetscInt> numbers;
+  for (const int node : nodes) {
+    if (dofs.is_plain(node)) {
+      numbers.push_back(dofs.number[node]);
+      continue;
+    }
+    for (const MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// Calls visit(block, element, its active numbers) for each element that depends on a number that
+/// this rank owns.
 template <typename Visit>
 void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, const Visit& visit)
 {
   const int first = dofs.range[rank];
   const int last = dofs.range[rank + 1];
-  const auto owned = [&](int node) {
-    return dofs.number[node] >= first && dofs.number[node] < last;
-  };
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
-      if (std::ranges::any_of(block.element_nodes(e), owned)) visit(block, e);
+      const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+      const auto owned = std::ranges::lower_bound(numbers, first);
+      if (owned != numbers.end() && *owned < last) visit(block, e, numbers);
     }
   }
-}
-
-std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
-{
-  std::vector<PetscInt> numbers;
-  for (const int node : nodes) numbers.push_back(dofs.number[node]);
-  return numbers;
 }
 
 /// Numbers of the neighbours of each owned node, in diagonal and off-diagonal block of the row.
@@ -49,8 +57,7 @@ Preallocation preallocation(const mesh::Mesh& mesh, const DofMap& dofs, int rank
   const int first = dofs.range[rank];
   const int last = dofs.range[rank + 1];
   std::vector<std::vector<PetscInt>> neighbours(last - first);
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+  for_owned_elements(mesh, dofs, rank, [&](const auto&, int, const auto& numbers) {
     for (const PetscInt row : numbers) {
       if (row < first || row >= last) continue;
       auto& list = neighbours[row - first];
@@ -85,19 +92,22 @@ petsc::Matrix empty_matrix(const Preallocation& rows, MPI_Comm comm)
   return A;
 }
 
-/// A_e <- T_e^T A_e T_e with u = u_ref + theta_ref x arm, theta = theta_ref of dependent nodes.
-MatrixXd eliminate_dependents(MatrixXd A_e, const DofMap& dofs, std::span<const int> nodes)
+/// T_e of the motion u_e = T_e q of the mid-surface at the nodes of an element, with q at
+/// `numbers`: through the couplings to the nodes of the mesh, and over the offset from these to the
+/// mid-surface.
+MatrixXd element_motion(const DofMap& dofs, std::span<const int> nodes, const NodeVectors& x,
+                        const std::vector<PetscInt>& numbers)
 {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!dofs.is_dependent(nodes[i])) continue;
-    const auto [x, y, z] = dofs.arm(nodes[i]);
-    Eigen::Matrix3d R;  // theta x arm = R theta
-    R << 0.0, z, -y, -z, 0.0, x, y, -x, 0.0;
-    const auto u = static_cast<Index>(6 * i);
-    A_e.middleCols<3>(u + 3) += A_e.middleCols<3>(u) * R;
-    A_e.middleRows<3>(u + 3) += R.transpose() * A_e.middleRows<3>(u);
+  MatrixXd T_e = MatrixXd::Zero(6 * std::ssize(nodes), 6 * std::ssize(numbers));
+  for (Index i = 0; i < std::ssize(nodes); ++i) {
+    const auto [x_0, x_1, x_2] = dofs.positions[nodes[i]];
+    const Matrix6d arm = rigid_arm(x.row(i).transpose() - Eigen::Vector3d(x_0, x_1, x_2));
+    for (const MotionTerm& term : dofs.motion(nodes[i])) {
+      const auto column = std::ranges::lower_bound(numbers, term.number) - numbers.begin();
+      T_e.block<6, 6>(6 * i, 6 * column) += arm * term.T;
+    }
   }
-  return A_e;
+  return T_e;
 }
 
 /// Checked before the parallel work, on the whole mesh: every rank throws or none.
@@ -118,6 +128,30 @@ void insert(Mat A, const MatrixXd& A_e, const std::vector<PetscInt>& rows,
   petsc::check(MatSetValuesBlocked(A, n, rows.data(), n, columns.data(), A_e.data(), ADD_VALUES));
 }
 
+/// An element in the coordinates of the system.
+struct ActiveElement {
+  ElementMatrices matrices;
+  std::vector<PetscInt> numbers;
+};
+
+ActiveElement active_element(const DofMap& dofs, std::span<const int> nodes,
+                             const ShellNodes& shell, const ShellSection& section,
+                             const mesh::ElementBlock& block)
+{
+  ElementMatrices matrices = shell_matrices(block.shape, block.order, shell, section.material);
+  const bool plain = std::ranges::all_of(nodes, [&](int node) { return dofs.is_plain(node); });
+  if (plain && section.offset == Profile(0.0)) {
+    ActiveElement element{.matrices = std::move(matrices), .numbers = {}};
+    for (const int node : nodes) element.numbers.push_back(dofs.number[node]);
+    return element;
+  }
+  std::vector<PetscInt> numbers = active_numbers(dofs, nodes);
+  const MatrixXd T_e = element_motion(dofs, nodes, shell.x, numbers);
+  return {.matrices = {.K = T_e.transpose() * matrices.K * T_e,
+                       .M = T_e.transpose() * matrices.M * T_e},
+          .numbers = std::move(numbers)};
+}
+
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
@@ -129,19 +163,17 @@ System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, 
   const NodeVectors normals = mean_normals(mesh);
   const Preallocation rows = preallocation(mesh, dofs, rank);
   System system{.K = empty_matrix(rows, comm), .M = empty_matrix(rows, comm), .dofs = {}};
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
+  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
     const ShellSection& section = section_of(sections, of_group, block, e);
-    const ElementMatrices matrices =
-        shell_matrices(block.shape, block.order,
-                       shell_nodes(mesh, block, e, normals, section.thickness), section.material);
-    const std::span<const int> nodes = block.element_nodes(e);
-    const std::vector<PetscInt> columns = active_numbers(dofs, nodes);
+    const auto [matrices, columns] =
+        active_element(dofs, block.element_nodes(e), shell_nodes(mesh, block, e, normals, section),
+                       section, block);
     std::vector<PetscInt> own = columns;
     for (PetscInt& row : own) {
       if (row < dofs.range[rank] || row >= dofs.range[rank + 1]) row = -1;  // PETSc skips it
     }
-    insert(system.K, eliminate_dependents(matrices.K, dofs, nodes), own, columns);
-    insert(system.M, eliminate_dependents(matrices.M, dofs, nodes), own, columns);
+    insert(system.K, matrices.K, own, columns);
+    insert(system.M, matrices.M, own, columns);
   });
   for (const Mat A : {Mat(system.K), Mat(system.M)}) {
     petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));

@@ -18,7 +18,8 @@ struct System {
 
 /// Assembles K and M. Every rank computes all elements that touch a node of its own and inserts its
 /// own rows only: no communication, and K and M are the same to the last bit for any number of
-/// ranks. Dependent nodes are eliminated element by element, K_e <- T_e^T K_e T_e and M_e likewise.
+/// ranks. Couplings and offsets are eliminated element by element, K_e <- T_e^T K_e T_e and M_e
+/// likewise, with u_e = T_e q.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error when an element has no section, or a section has no elements.
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,

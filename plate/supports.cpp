@@ -13,10 +13,9 @@ namespace {
 [[noreturn]] void refuse_dependent(const mesh::Mesh& mesh, const DofMap& dofs,
                                    const Support& support, int node)
 {
-  const std::string& coupling = dofs.reference_names[dofs.reference[node] - dofs.n_mesh_nodes];
-  throw Error(
-      fmt::format("support of \"{}\": node {} follows the coupling \"{}\"; support \"{}\" instead",
-                  support.group, mesh.node_numbers[node], coupling, coupling));
+  const std::string& followed = dofs.followed[node];
+  throw Error(fmt::format("support of \"{}\": node {} follows \"{}\"; support \"{}\" instead",
+                          support.group, mesh.node_numbers[node], followed, followed));
 }
 
 }  // namespace

@@ -194,6 +194,11 @@ bool Table::is_list(std::string_view key) const
   return node_->require(key, "a value").is_array();
 }
 
+bool Table::is_table(std::string_view key) const
+{
+  return node_->require(key, "a value").is_table();
+}
+
 double Table::number(std::string_view key, const Admissible& admissible) const
 {
   return node_->value<double>(key, requirement(admissible, "a number"),

@@ -17,7 +17,7 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
 std::vector<plate::ShellSection> read_sections(const Table& root, const mesh::MeshOptions& mesh);
 
 /// [[coupling]]
-std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
+std::vector<plate::Coupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
 
 /// [[support]]; needs the mesh and the couplings of `scene`.
 std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);

@@ -34,7 +34,7 @@ struct Scene {
   std::string path;  ///< of the file
   mesh::MeshOptions mesh;
   std::vector<plate::ShellSection> sections;
-  std::vector<plate::RigidCoupling> couplings;
+  std::vector<plate::Coupling> couplings;
   std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
   std::vector<plate::Load> loads;        ///< of `static`
   std::optional<StaticOptions> static_solution;
