@@ -24,7 +24,7 @@ mbs_export::ReducedSystem read_reduced_of(const Scene& scene, const SceneArgumen
 void make_and_write_body(const SceneArguments& arguments)
 {
   PhaseClock clock;
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = read_meshed_scene(arguments.scene);
   const mbs_export::ReducedSystem reduced = read_reduced_of(scene, arguments);
   clock.end_phase("read");
   const mbs_export::ModalBody body = make_body_of(scene, reduced);

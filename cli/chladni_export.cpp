@@ -33,7 +33,7 @@ Source source_of(const ExportArguments& arguments)
     while (stem.has_extension()) stem.replace_extension();
     return {.scene = std::nullopt, .reduced_file = given, .stem = stem};
   }
-  Scene scene = read_scene(given);
+  Scene scene = read_meshed_scene(given);
   const path file = path(arguments.from) / (scene.name + ".reduced.h5");
   if (!std::filesystem::exists(file))
     throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",

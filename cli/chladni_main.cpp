@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/arguments.hpp"
+#include "cli/blas_kernels.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/version.hpp"
@@ -121,6 +122,7 @@ int perform_with_petsc(const CLI::App& app, const cli::ChladniArguments& argumen
 
 int main(int argc, char** argv)
 {
+  cli::restart_with_fitting_blas_kernels(argv);
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
   cli::ChladniArguments arguments;

@@ -48,7 +48,7 @@ std::vector<Json::Member> mesh_json(const mesh::Mesh& mesh)
 void mesh_and_print(const SceneArguments& arguments)
 {
   PhaseClock clock;
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = read_meshed_scene(arguments.scene);
   clock.end_phase("read");
   const mesh::Mesh mesh = mesh_scene(scene);
   clock.end_phase("mesh");

@@ -24,7 +24,7 @@ void print_and_write_summary(const SceneArguments& arguments, const ReduceSummar
 
 void reduce_command(const ChladniArguments& arguments)
 {
-  const Scene scene = read_scene(arguments.scene.scene);
+  const Scene scene = read_meshed_scene(arguments.scene.scene);
   ReduceSummary summary = reduce_with_progress(scene, arguments);
   const std::filesystem::path file = reduced_file(scene, arguments.scene);
   PhaseClock clock;

@@ -35,7 +35,7 @@ void print_and_write_summary(const SceneArguments& arguments, const ReduceSummar
 
 void run_command(const ChladniArguments& arguments)
 {
-  const Scene scene = read_scene(arguments.scene.scene);
+  const Scene scene = read_meshed_scene(arguments.scene.scene);
   ReduceSummary summary = reduce_with_progress(scene, arguments);
   // Both files are written at the end: a scene whose body cannot be made leaves none.
   PhaseClock clock;

@@ -38,8 +38,14 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
                        const reduce::Factorization& K_ss, Phases& phases)
 {
-  return reduce_blocks(scene, fe, blocks, K_ss, constraint_basis(blocks, K_ss, phases),
-                       scene.reduce, phases);
+  // The modes first: the subspace of the eigen-solver is as large as the constraint modes.
+  std::optional<reduce::FixedInterfaceModes> modes;
+  if (scene.reduce.method == reduce::Method::craig_bampton) {
+    modes = fixed_interface_modes(blocks, K_ss, scene.reduce, phases);
+  }
+  reduce::CraigBamptonBasis Q_CB = constraint_basis(blocks, K_ss, phases);
+  Q_CB.modes = std::move(modes);
+  return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 
 mbs_export::Picture picture_of(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
@@ -60,8 +66,10 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
 {
   Phases phases(progress);
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
-  const FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
+  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
+  fe.system.K = {};  // its blocks are enough
+  fe.system.M = {};
   const auto K_ss = phases.run("factorization", [&] { return reduce::factorize(blocks.K.ss); });
   const PhaseTime factorization = phases.times().back();
   Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)

@@ -99,15 +99,19 @@ reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
           .modes = std::nullopt};
 }
 
-Reduced reduce_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                      const reduce::Factorization& K_ss, reduce::CraigBamptonBasis Q_CB,
-                      const reduce::ReduceOptions& wanted, Phases& phases)
+reduce::FixedInterfaceModes fixed_interface_modes(const Partitioned& blocks,
+                                                  const reduce::Factorization& K_ss,
+                                                  const reduce::ReduceOptions& wanted,
+                                                  Phases& phases)
 {
-  if (scene.reduce.method == reduce::Method::craig_bampton) {
-    Q_CB.modes = phases.run("fixed-interface modes", [&] {
-      return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted);
-    });
-  }
+  return phases.run("fixed-interface modes", [&] {
+    return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted);
+  });
+}
+
+Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                       reduce::CraigBamptonBasis Q_CB, Phases& phases)
+{
   reduce::ReducedModel model =
       phases.run("projection", [&] { return reduce::project(Q_CB, blocks.K, blocks.M); });
   std::vector<int> places = coordinate_places(blocks.masters, Q_CB.n_modes());

@@ -62,10 +62,13 @@ Partitioned partition_scene(const FeModel& fe);
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
                                            const reduce::Factorization& K_ss, Phases& phases);
 
-/// Adds the modes that are asked for to the constraint modes, and projects.
-Reduced reduce_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                      const reduce::Factorization& K_ss, reduce::CraigBamptonBasis Q_CB,
-                      const reduce::ReduceOptions& wanted, Phases& phases);
+reduce::FixedInterfaceModes fixed_interface_modes(const Partitioned& blocks,
+                                                  const reduce::Factorization& K_ss,
+                                                  const reduce::ReduceOptions& wanted,
+                                                  Phases& phases);
+
+Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                       reduce::CraigBamptonBasis Q_CB, Phases& phases);
 
 /// Estimates with the first n_modes, up to the frequency that the scene promises.
 mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,

@@ -44,9 +44,11 @@ Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partiti
   const double tolerance = scene.reduce.tolerance->tolerance;
   petsc::Matrix Psi = constraint_basis(blocks, K_ss, phases).Psi;
   for (int n_asked = 48;;) {
-    Reduced reduced =
-        reduce_blocks(scene, fe, blocks, K_ss, {.Psi = std::move(Psi), .modes = std::nullopt},
-                      {.modes = n_asked}, phases);
+    Reduced reduced = project_blocks(
+        scene, fe, blocks,
+        {.Psi = std::move(Psi),
+         .modes = fixed_interface_modes(blocks, K_ss, {.modes = n_asked}, phases)},
+        phases);
     const int n_all = static_cast<int>(reduced.model.omega.size());
     const auto error = [&](int n) {
       return largest_error(certify_scene(scene, blocks, K_ss, reduced, n));

@@ -14,6 +14,7 @@
 #include "common/error.hpp"
 #include "mbs_export/body_file.hpp"
 #include "squeal/disc.hpp"
+#include "squeal/model_run.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
 
@@ -32,20 +33,41 @@ mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
   return mbs_export::read_body(file);
 }
 
-squeal::SquealResults perform(const squeal::Disc& disc, const squeal::SquealOptions& options)
+/// What the analyses found, and where the numbers come from.
+struct Performed {
+  squeal::SquealResults results;
+  mbs_export::Provenance origin;
+};
+
+/// The analyses of a disc that is this body.
+Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body, PhaseClock& clock)
 {
+  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
+  clock.end_phase("read");
   ProgressLine line;
-  return squeal::run(disc, options, [&](const std::string& analysis, double fraction) {
-    line.show(analysis, fraction);
-  });
+  Performed performed{squeal::run(disc, *scene.squeal,
+                                  [&](const std::string& analysis, double fraction) {
+                                    line.show(analysis, fraction);
+                                  }),
+                      body.provenance};
+  performed.origin.scene = scene.text;
+  performed.origin.versions =
+      fmt::format("squeal {}; body: {}", version, performed.origin.versions);
+  return performed;
 }
 
-mbs_export::Provenance provenance(const Scene& scene, const mbs_export::ModalBody& body)
+/// The analyses of a model that needs no body.
+Performed perform_on_model(const Scene& scene)
 {
-  mbs_export::Provenance origin = body.provenance;
-  origin.scene = scene.text;
-  origin.versions = fmt::format("squeal {}; body: {}", version, origin.versions);
-  return origin;
+  ProgressLine line;
+  Performed performed{
+      squeal::run(*scene.squeal_model, [&](const std::string& analysis,
+                                           double fraction) { line.show(analysis, fraction); }),
+      {}};
+  performed.origin.scene = scene.text;
+  performed.origin.versions = fmt::format("squeal {}", version);
+  performed.origin.ranks = 1;
+  return performed;
 }
 
 Json eigenvalues_json(const squeal::EigenvalueMap& map)
@@ -154,22 +176,26 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
 {
   PhaseClock clock;
   const Scene scene = read_scene(arguments.scene);
-  if (!scene.squeal) {
+  if (!scene.squeal && !scene.squeal_model) {
     throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
   }
   const std::filesystem::path folder = arguments.output;
-  const mbs_export::ModalBody body = read_body_of(
-      body_file.empty() ? folder / (scene.name + ".body.h5") : std::filesystem::path(body_file),
-      arguments);
-  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
-  clock.end_phase("read");
-
-  const squeal::SquealResults results = perform(disc, *scene.squeal);
+  if (scene.squeal_model && !body_file.empty()) {
+    throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
+  }
+  const auto [results, origin] =
+      scene.squeal_model
+          ? perform_on_model(scene)
+          : perform_on_body(scene,
+                            read_body_of(body_file.empty() ? folder / (scene.name + ".body.h5")
+                                                           : std::filesystem::path(body_file),
+                                         arguments),
+                            clock);
   clock.end_phase("analyses");
 
   const std::filesystem::path file = folder / (scene.name + ".squeal.h5");
   make_folder(folder);
-  squeal::write_results(file, results, provenance(scene, body));
+  squeal::write_results(file, results, origin);
   clock.end_phase("write");
   const Cost cost = cost_so_far(clock.phases());
 

@@ -13,6 +13,8 @@ if(CHLADNI_FE)
   pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18)
   find_library(GMSH_LIBRARY gmsh REQUIRED)
   find_library(METIS_LIBRARY metis REQUIRED)
+  # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
+  find_library(MUMPS_LIBRARY dmumps REQUIRED)
   # dgemm and dsyrk of the projection; OpenBLAS, since the reference BLAS is five times slower.
   find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 endif()

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reduce/log_event.hpp"
+
 // LAPACK's symbol: PETSc declares dsyev only, which is several times slower with vectors.
 extern "C" void dsyevd_(const char* jobz,
                         const char* uplo,  // NOLINT(readability-identifier-naming)
@@ -89,46 +91,83 @@ double trace(const SmallMatrix& G)
   return t;
 }
 
+/// Y <- Y - X S for local rows of X, Y.
+void subtract_product(Mat X, const SmallMatrix& S, Mat Y)
+{
+  const LocalRows x(X);
+  PetscScalar* y = nullptr;
+  petsc::check(MatDenseGetArray(Y, &y));
+  add_product(-1.0, x.values(), x.n_rows(), S, 1.0, y);
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+/// Whether a projection took more from some column than it left, G being the Gram matrix of what is
+/// left (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30 (1976) 772).
+bool is_large(const SmallMatrix& h, const SmallMatrix& G)
+{
+  for (PetscInt j = 0; j < h.n_cols; ++j) {
+    double taken = 0.0;
+    for (PetscInt i = 0; i < h.n_rows; ++i) taken += h(i, j) * h(i, j);
+    if (taken > G(j, j)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), capacity_(capacity)
+BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M), capacity_(capacity)
 {
   petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
   petsc::check(MatGetSize(M, &n_global_, nullptr));
-  values_.resize(std::size_t(n_local_) * capacity_);
+  values_ = std::make_unique_for_overwrite<double[]>(std::size_t(n_local_) * capacity_);
 }
 
 petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const
 {
-  return dense(petsc::communicator(M_), n_local_, n_global_, n_columns, nullptr);
+  return uninitialized_dense(M_, n_columns);
 }
 
 petsc::Matrix BlockBasis::columns(PetscInt first, PetscInt n_columns)
 {
   return dense(petsc::communicator(M_), n_local_, n_global_, n_columns,
-               values_.data() + std::size_t(first) * n_local_);
+               values_.get() + std::size_t(first) * n_local_);
 }
 
 petsc::Matrix BlockBasis::times_mass(Mat X) const
 {
-  petsc::Matrix MX;
-  petsc::check(MatMatMult(M_, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, MX.put()));
+  petsc::Matrix MX = new_block(LocalRows(X).n_cols());
+  product_with_M_.apply(X, MX);
   return MX;
 }
 
-/// block <- block - V V^T M block; returns V^T M block.
-SmallMatrix BlockBasis::project_out(Mat block)
+/// block <- block - V_k V_k^T M block for the last two blocks V_k, the only large components in a
+/// Lanczos recurrence; M_block follows without a product. Returns V^T M block, zero elsewhere.
+SmallMatrix BlockBasis::project_out_newest(Mat block, Mat M_block)
 {
-  if (n_columns_ == 0) {
+  const LocalRows sizes(block);
+  SmallMatrix h(n_columns_, sizes.n_cols());
+  PetscInt end = n_columns_;
+  for (const petsc::Matrix* M_V : {&newest_M_, &second_last_M_}) {
+    if (*M_V == nullptr || end == 0) break;
     PetscInt n = 0;
-    petsc::check(MatGetSize(block, nullptr, &n));
-    return {0, n};
+    petsc::check(MatGetSize(*M_V, nullptr, &n));
+    end -= n;
+    const SmallMatrix h_k = inner_product(*M_V, block);
+    subtract_product(columns(end, n), h_k, block);
+    subtract_product(*M_V, h_k, M_block);
+    for (PetscInt j = 0; j < h.n_cols; ++j) {
+      for (PetscInt i = 0; i < n; ++i) h(end + i, j) = h_k(i, j);
+    }
   }
-  const SmallMatrix h = inner_product(columns(0, n_columns_), times_mass(block));
-  PetscScalar* values = nullptr;
-  petsc::check(MatDenseGetArray(block, &values));
-  add_product(-1.0, values_.data(), n_local_, h, 1.0, values);
-  petsc::check(MatDenseRestoreArray(block, &values));
+  return h;
+}
+
+/// block <- block - V V^T M block; returns V^T M block.
+SmallMatrix BlockBasis::project_out(Mat block, Mat M_block)
+{
+  if (n_columns_ == 0) return {0, LocalRows(block).n_cols()};
+  const SmallMatrix h = inner_product(columns(0, n_columns_), M_block);
+  subtract_product(columns(0, n_columns_), h, block);
   return h;
 }
 
@@ -141,20 +180,31 @@ void BlockBasis::store(Mat X, Mat MX, const SmallMatrix& to_Q)
   const LocalRows x(X);
   const LocalRows mx(MX);
   add_product(1.0, x.values(), n_local_, to_Q, 0.0,
-              values_.data() + std::size_t(n_columns_) * n_local_);
+              values_.get() + std::size_t(n_columns_) * n_local_);
   add_product(1.0, mx.values(), n_local_, to_Q, 0.0, M_values);
   petsc::check(MatDenseRestoreArrayWrite(newest_M_, &M_values));
 }
 
 BlockBasis::Appended BlockBasis::append(Mat block)
 {
-  SmallMatrix h = project_out(block);
-  h = sum(h, project_out(block));  // twice is enough
+  const LogEvent event(Event::orthogonalization);
   petsc::Matrix M_block = times_mass(block);
-  const SmallMatrix G = inner_product(block, M_block);
+  SmallMatrix h = project_out_newest(block, M_block);
+  // What the other blocks still take away is round-off, and once is enough; where it is not, as
+  // after a restart, twice is enough.
+  SmallMatrix correction = project_out(block, M_block);
+  M_block = times_mass(block);
+  SmallMatrix G = inner_product(block, M_block);
+  h = sum(h, correction);
+  if (is_large(correction, G)) {
+    h = sum(h, project_out(block, M_block));
+    M_block = times_mass(block);
+    G = inner_product(block, M_block);
+  }
   constexpr double dependent = 1e-26;  // of squared lengths: (round-off)^2 with room
   const Orthonormalisation o = orthonormalisation(G, dependent * (trace(G) + squared_norm(h)));
   SmallMatrix R = o.R;
+  second_last_M_ = std::move(newest_M_);
   store(block, M_block, o.to_Q);
   // Short directions were amplified together with their round-off: clean them once more.
   // One that loses most of its length then was round-off only.
@@ -163,7 +213,7 @@ BlockBasis::Appended BlockBasis::append(Mat block)
   if (o.condition > harmless) {
     petsc::Matrix Q;
     petsc::check(MatDuplicate(columns(n_columns_, R.n_rows), MAT_COPY_VALUES, Q.put()));
-    h = sum(h, product(project_out(Q), R));
+    h = sum(h, product(project_out(Q, newest_M_), R));
     petsc::Matrix MQ = times_mass(Q);
     const Orthonormalisation again = orthonormalisation(inner_product(Q, MQ), genuine);
     store(Q, MQ, again.to_Q);
@@ -180,18 +230,19 @@ void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)
   for (PetscInt at = 0; at < n_local_; at += piece) {
     const PetscInt n = std::min(piece, n_local_ - at);
     for (PetscInt j = 0; j < n_first; ++j) {
-      std::copy_n(values_.data() + at + std::size_t(j) * n_local_, n,
+      std::copy_n(values_.get() + at + std::size_t(j) * n_local_, n,
                   rows.data() + std::size_t(j) * n);
     }
     const PetscBLASInt m = n, columns = S.n_cols, k = n_first, ld = n_local_;
     const PetscScalar one = 1.0, zero = 0.0;
     BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.values.data(), &k, &zero,
-              values_.data() + at, &ld);
+              values_.get() + at, &ld);
   }
   const PetscInt n_behind = n_columns_ - n_first;
-  std::copy_n(values_.begin() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
-              values_.begin() + std::size_t(S.n_cols) * n_local_);
+  std::copy_n(values_.get() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
+              values_.get() + std::size_t(S.n_cols) * n_local_);
   n_columns_ = S.n_cols + n_behind;
+  second_last_M_ = {};
 }
 
 petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
@@ -199,7 +250,7 @@ petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
   petsc::Matrix X = new_block(S.n_cols);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X, &values));
-  add_product(1.0, values_.data(), n_local_, S, 0.0, values);
+  add_product(1.0, values_.get(), n_local_, S, 0.0, values);
   petsc::check(MatDenseRestoreArrayWrite(X, &values));
   return X;
 }

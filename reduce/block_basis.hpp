@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "common/petsc.hpp"
 #include "reduce/dense.hpp"
+#include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
@@ -41,15 +43,18 @@ class BlockBasis {
   petsc::Matrix combine(const SmallMatrix& S) const;
 
  private:
-  SmallMatrix project_out(Mat block);
+  SmallMatrix project_out_newest(Mat block, Mat M_block);
+  SmallMatrix project_out(Mat block, Mat M_block);
   void store(Mat X, Mat MX, const SmallMatrix& to_Q);
 
   Mat M_;
+  SparseProduct product_with_M_;
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;
-  std::vector<double> values_;  ///< [n_local x capacity] column-major
+  petsc::Matrix newest_M_;      ///< M times the last block
+  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
+  std::unique_ptr<double[]> values_;  ///< [n_local x capacity] column-major, touched when used
 };
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix (LAPACK

@@ -1,28 +1,16 @@
 #include "reduce/constraint_modes.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "reduce/dense.hpp"
+#include "reduce/mumps_metis.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
 constexpr PetscInt block_columns = 64;  // right-hand sides at a time: bounds the memory
-
-petsc::Matrix dense_like(Mat sparse)
-{
-  PetscInt n_rows_local = 0;
-  PetscInt n_columns_local = 0;
-  PetscInt n_rows = 0;
-  PetscInt n_columns = 0;
-  petsc::check(MatGetLocalSize(sparse, &n_rows_local, &n_columns_local));
-  petsc::check(MatGetSize(sparse, &n_rows, &n_columns));
-  petsc::Matrix dense;
-  petsc::check(MatCreateDense(petsc::communicator(sparse), n_rows_local, n_columns_local, n_rows,
-                              n_columns, nullptr, dense.put()));
-  return dense;
-}
 
 /// Columns first to last of the sparse A, copied into the zeroed dense B.
 void copy_columns(Mat A, PetscInt first, PetscInt last, Mat B)
@@ -55,17 +43,30 @@ void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
   }
 }
 
+/// Whether the factor keeps right-hand sides and solutions distributed.
+bool takes_distributed(Mat factor)
+{
+  MatSolverType package = nullptr;
+  petsc::check(MatFactorGetSolverType(factor, &package));
+  return std::string_view(package) == mumps_metis;
+}
+
 }  // namespace
 
 petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
 {
-  petsc::Matrix Psi = dense_like(K.sm);
-  if (petsc::size(petsc::communicator(K.ms)) == 1) {
-    petsc::check(MatMatTransposeSolve(K_ss.factor(), K.ms, Psi));
+  PetscInt n_m = 0;
+  petsc::check(MatGetSize(K.ms, &n_m, nullptr));
+  petsc::Matrix Psi = uninitialized_dense(K.ss, n_m);
+  if (petsc::size(petsc::communicator(K.ms)) == 1 || takes_distributed(K_ss.factor())) {
+    petsc::Matrix minus_K_ms;
+    petsc::check(MatDuplicate(K.ms, MAT_COPY_VALUES, minus_K_ms.put()));
+    petsc::check(MatScale(minus_K_ms, -1.0));
+    petsc::check(MatMatTransposeSolve(K_ss.factor(), minus_K_ms, Psi));
   } else {
     solve_by_blocks(K_ss.factor(), K.sm, Psi);
+    petsc::check(MatScale(Psi, -1.0));
   }
-  petsc::check(MatScale(Psi, -1.0));
   return Psi;
 }
 

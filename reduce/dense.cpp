@@ -40,6 +40,21 @@ LocalRows::~LocalRows()
   MatDenseRestoreArrayRead(dense_, &values_);
 }
 
+petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns)
+{
+  PetscInt n_local = 0, n = 0;
+  petsc::check(MatGetLocalSize(A, &n_local, nullptr));
+  petsc::check(MatGetSize(A, &n, nullptr));
+  petsc::Matrix dense;
+  PetscScalar placeholder = 0.0;  // keeps PETSc from allocating
+  petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n, n_columns,
+                              &placeholder, dense.put()));
+  PetscScalar* values = nullptr;
+  petsc::check(PetscMalloc1(std::max<std::size_t>(std::size_t(n_local) * n_columns, 1), &values));
+  petsc::check(MatDenseReplaceArray(dense, values));  // which owns them now
+  return dense;
+}
+
 SmallMatrix inner_product(Mat X, Mat Y)
 {
   const LocalRows x(X);

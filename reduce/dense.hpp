@@ -59,6 +59,11 @@ void for_local_entries(Mat A, const Visit& visit)
   }
 }
 
+/// A dense matrix with the rows of A, its values not set: PETSc would zero them, which touches the
+/// memory once more than needed.
+/// @note   Collective.
+petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns);
+
 /// X^T Y of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.
 SmallMatrix inner_product(Mat X, Mat Y);

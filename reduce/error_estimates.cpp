@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "reduce/sparse_product.hpp"
+
 namespace chladni::reduce {
 
 namespace {
@@ -78,11 +80,11 @@ petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Bloc
   const SmallMatrix x_q = rows_of(pairs.X, n_m, Q_CB.n_modes());
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
   if (Q_CB.modes) add_product(Q_CB.modes->Phi, x_q, elastic);
-  petsc::Matrix r;
-  petsc::check(MatMatMult(K_ss, elastic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, r.put()));
+  petsc::Matrix r = uninitialized_dense(K_ss, pairs.X.n_cols);
+  SparseProduct(K_ss).apply(elastic, r);
   add_product(Q_CB.Psi, x_m, elastic);  // now u_s
-  petsc::Matrix inertia;
-  petsc::check(MatMatMult(M.ss, elastic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, inertia.put()));
+  petsc::Matrix inertia = uninitialized_dense(K_ss, pairs.X.n_cols);
+  SparseProduct(M.ss).apply(elastic, inertia);
   add_sparse_product(M.sm, x_m, inertia);
   SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
   for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
@@ -90,18 +92,34 @@ petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Bloc
   return r;
 }
 
+ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
+{
+  ReducedPairs some{.X = {pairs.X.n_rows, last - first}, .lambda = {}};
+  const auto column = [&](PetscInt j) {
+    return pairs.X.values.begin() + std::size_t(j) * pairs.X.n_rows;
+  };
+  std::copy(column(first), column(last), some.X.values.begin());
+  some.lambda.assign(pairs.lambda.begin() + first, pairs.lambda.begin() + last);
+  return some;
+}
+
 }  // namespace
 
 std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
                                     const Blocks& M, const ReducedPairs& pairs)
 {
-  const petsc::Matrix r = slave_residual(K_ss.matrix(), Q_CB, M, pairs);
-  const petsc::Matrix z = zero_block(r, pairs.X.n_cols);
-  petsc::check(MatMatSolve(K_ss.factor(), r, z));
-  const SmallMatrix r_z = inner_product(r, z);
+  constexpr PetscInt most = 32;  // pairs at a time: bounds the memory
+  const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   std::vector<double> eta2;
-  for (PetscInt i = 0; i < r_z.n_rows; ++i) {
-    eta2.push_back(std::max(0.0, r_z(i, i)) / pairs.lambda[i]);
+  for (PetscInt first = 0; first < n_pairs; first += most) {
+    const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
+    const petsc::Matrix r = slave_residual(K_ss.matrix(), Q_CB, M, some);
+    const petsc::Matrix z = uninitialized_dense(K_ss.matrix(), some.X.n_cols);
+    petsc::check(MatMatSolve(K_ss.factor(), r, z));
+    const SmallMatrix r_z = inner_product(r, z);
+    for (PetscInt i = 0; i < r_z.n_rows; ++i) {
+      eta2.push_back(std::max(0.0, r_z(i, i)) / some.lambda[i]);
+    }
   }
   return eta2;
 }

@@ -1,26 +1,33 @@
 #include "reduce/factorization.hpp"
 
+#include <fstream>
+#include <limits>
+#include <string>
 #include <string_view>
+
+#include "reduce/mumps_metis.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
 /// K_ss is singular or indefinite exactly when a part of the body can move with all masters held.
-void check_definite(Mat factor)
+void check_definite(Mat factor, double budget_MiB)
 {
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
   PetscInt negative = 0;
   MatSolverType package = nullptr;
   petsc::check(MatFactorGetSolverType(factor, &package));
-  if (error == MAT_FACTOR_NOERROR && std::string_view(package) == MATSOLVERMUMPS) {
+  if (error == MAT_FACTOR_NOERROR &&
+      (std::string_view(package) == MATSOLVERMUMPS || std::string_view(package) == mumps_metis)) {
     petsc::check(MatMumpsGetInfog(factor, 12, &negative));
   }
   if (error == MAT_FACTOR_OUTMEMORY) {
-    throw Error(
-        "factorize: not enough memory for the factor of K_ss; use more ranks on more "
-        "machines or a coarser mesh");
+    throw Error(fmt::format(
+        "factorize: the factor of K_ss needs {:.0f} MiB, and {:.0f} MiB are free for it; use more "
+        "machines, a coarser mesh, fewer masters or modes, or raise -cms_memory",
+        forecast_MiB(factor), budget_MiB));
   }
   if (error != MAT_FACTOR_NOERROR || negative > 0) {
     throw Error(fmt::format(
@@ -39,9 +46,33 @@ void set_default_option(const char* name, const char* value)
   if (!given) petsc::check(PetscOptionsSetValue(nullptr, name, value));
 }
 
+/// MiB that a process may still take on this machine, by the kernel's estimate.
+double free_MiB()
+{
+  std::ifstream meminfo("/proc/meminfo");
+  std::string name, unit;
+  double KiB = 0.0;
+  while (meminfo >> name >> KiB) {
+    if (name == "MemAvailable:") return KiB / 1024.0;
+    std::getline(meminfo, unit);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// What the factor may take: -cms_memory, or else what the emptiest machine has free.
+double budget(MPI_Comm comm, double beside_MiB)
+{
+  PetscReal allowed = 0.0;
+  PetscBool given = PETSC_FALSE;
+  petsc::check(PetscOptionsGetReal(nullptr, nullptr, "-cms_memory", &allowed, &given));
+  double MiB = given ? allowed : free_MiB();
+  MPI_Allreduce(MPI_IN_PLACE, &MiB, 1, MPI_DOUBLE, MPI_MIN, comm);
+  return MiB - beside_MiB;
+}
+
 }  // namespace
 
-Factorization::Factorization(Mat A)
+Factorization::Factorization(Mat A, double beside_MiB)
 {
   petsc::check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
   set_default_option("-cms_mat_mumps_icntl_27", "64");
@@ -52,10 +83,14 @@ Factorization::Factorization(Mat A)
   PC pc = nullptr;
   petsc::check(KSPGetPC(solver_, &pc));
   petsc::check(PCSetType(pc, PCCHOLESKY));
-  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  register_mumps_metis();
+  petsc::check(PCFactorSetMatSolverType(pc, mumps_metis));
   petsc::check(KSPSetFromOptions(solver_));
+  petsc::check(PCFactorSetUpMatSolverType(pc));
+  const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
+  set_budget(factor(), budget_MiB);
   petsc::check(KSPSetUp(solver_));
-  check_definite(factor());
+  check_definite(factor(), budget_MiB);
 }
 
 Mat Factorization::factor() const
@@ -74,9 +109,9 @@ Mat Factorization::matrix() const
   return A;
 }
 
-Factorization factorize(Mat K_ss)
+Factorization factorize(Mat K_ss, double beside_MiB)
 {
-  return Factorization(K_ss);
+  return Factorization(K_ss, beside_MiB);
 }
 
 }  // namespace chladni::reduce

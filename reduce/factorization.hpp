@@ -8,10 +8,13 @@ namespace chladni::reduce {
 /// modes and eigen-solver. By MUMPS unless the options say otherwise.
 class Factorization {
  public:
+  /// @param beside_MiB  memory of this machine that must remain for what comes after.
   /// @note   Collective on the communicator of `A`.
-  /// @throws chladni::Error when `A` is not positive definite.
-  /// Options: `-cms_pc_...`, `-cms_mat_mumps_...`
-  explicit Factorization(Mat A);
+  /// @throws chladni::Error when `A` is not positive definite, or, before any arithmetic, when the
+  ///         factor does not fit into the memory that is free or that -cms_memory allows.
+  /// Options: `-cms_memory <MiB>`, `-cms_pc_factor_mat_solver_type mumps-metis|mumps|...`,
+  /// `-cms_pc_...`, `-cms_mat_mumps_...`
+  explicit Factorization(Mat A, double beside_MiB = 0.0);
 
   /// Solves with the factor only; for SLEPc's spectral transformation at shift 0.
   KSP solver() const { return solver_; }
@@ -25,6 +28,6 @@ class Factorization {
 };
 
 /// The factor of K_ss.
-Factorization factorize(Mat K_ss);
+Factorization factorize(Mat K_ss, double beside_MiB = 0.0);
 
 }  // namespace chladni::reduce

@@ -13,7 +13,7 @@ namespace chladni::reduce {
 namespace {
 
 constexpr double pair_gap = 1e-4;   // relative distance of frequencies of one cluster
-constexpr double tolerance = 1e-9;  // of the vectors; the error of lambda is its square
+constexpr double tolerance = 1e-7;  // of the vectors; the error of lambda is its square
 
 EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
 {
@@ -42,6 +42,14 @@ EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
   return pairs;
 }
 
+/// An ST resets its solver when it is destroyed; the factor of K_ss must outlive it.
+void take_back_solver(ST st)
+{
+  petsc::LinearSolver other;
+  petsc::check(KSPCreate(petsc::communicator(st), other.put()));
+  petsc::check(STSetKSP(st, other));
+}
+
 /// By SLEPc's Krylov-Schur, one column at a time.
 EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
@@ -63,7 +71,9 @@ EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
   petsc::check(STSetKSP(st, K_ss.solver()));  // the same matrix object: no second factorisation
   petsc::check(EPSSetFromOptions(eps));
   petsc::check(EPSSolve(eps));
-  return converged_pairs(eps, M_ss, n_modes);
+  EigenPairs pairs = converged_pairs(eps, M_ss, n_modes);
+  take_back_solver(st);
+  return pairs;
 }
 
 /// "block-lanczos" (default) or "krylov-schur".
@@ -80,11 +90,31 @@ bool uses_krylov_schur()
   return solver == "krylov-schur";
 }
 
+/// The value of an integer option, or what stands there without it.
+PetscInt integer_option(const char* name, PetscInt otherwise)
+{
+  petsc::check(PetscOptionsGetInt(nullptr, nullptr, name, &otherwise, nullptr));
+  return otherwise;
+}
+
+/// Larger blocks solve a column faster and need more columns: measured optima, flat ones.
+PetscInt fastest_block_size(Mat M_ss)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(M_ss, &n, nullptr));
+  constexpr PetscInt large = 100000;
+  return n < large ? 8 : 12;
+}
+
 EigenPairs lowest_pairs(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
   return uses_krylov_schur()
              ? krylov_schur(K_ss, M_ss, n_modes)
-             : block_lanczos(K_ss.factor(), M_ss, {.n_pairs = n_modes, .tolerance = tolerance});
+             : block_lanczos(K_ss.factor(), M_ss,
+                             {.n_pairs = n_modes,
+                              .block_size = integer_option("-cms_lanczos_block_size", fastest_block_size(M_ss)),
+                              .max_subspace = integer_option("-cms_lanczos_subspace", 0),
+                              .tolerance = tolerance});
 }
 
 /// sqrt(lambda) where all are there and positive.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "reduce/craig_bampton.hpp"
+#include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
@@ -9,19 +10,36 @@ namespace {
 constexpr PetscInt block_columns =
     64;  // of M_ss Psi at a time: bounds the memory, enough for dgemm
 
-petsc::Matrix column_block(Mat dense, PetscInt first, PetscInt last)
-{
-  Mat view = nullptr;
-  petsc::Matrix block;
-  petsc::check(MatDenseGetSubMatrix(dense, PETSC_DECIDE, PETSC_DECIDE, first, last, &view));
-  petsc::check(MatDuplicate(view, MAT_COPY_VALUES, block.put()));
-  petsc::check(MatDenseRestoreSubMatrix(dense, &view));
-  return block;
-}
+/// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
+class ColumnRange {
+ public:
+  ColumnRange(Mat dense, PetscInt first, PetscInt last) : dense_(dense)
+  {
+    petsc::check(MatDenseGetSubMatrix(dense, PETSC_DECIDE, PETSC_DECIDE, first, last, &columns_));
+  }
+  ~ColumnRange() { MatDenseRestoreSubMatrix(dense_, &columns_); }
+  ColumnRange(const ColumnRange&) = delete;
+  ColumnRange& operator=(const ColumnRange&) = delete;
+  operator Mat() const { return columns_; }  // NOLINT(google-explicit-constructor): as PETSc's
 
+ private:
+  Mat dense_;
+  Mat columns_ = nullptr;
+};
+
+/// From above in the columns of `to` from first_column on.
 void copy_columns(SmallMatrix& to, PetscInt first_column, const SmallMatrix& from)
 {
-  std::ranges::copy(from.values, to.values.begin() + std::size_t(first_column) * to.n_rows);
+  for (PetscInt j = 0; j < from.n_cols; ++j) {
+    for (PetscInt i = 0; i < from.n_rows; ++i) to(i, first_column + j) = from(i, j);
+  }
+}
+
+void mirror_upper_triangle(SmallMatrix& A)
+{
+  for (PetscInt j = 0; j < A.n_cols; ++j) {
+    for (PetscInt i = 0; i < j; ++i) A(j, i) = A(i, j);
+  }
 }
 
 /// X^T M_ss Psi, block by block, for X = Psi and X = Phi.
@@ -35,16 +53,18 @@ MassProducts mass_products(const CraigBamptonBasis& Q_CB, Mat M_ss)
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
   MassProducts products{.Psi_M_Psi = {n_m, n_m}, .Phi_M_Psi = {Q_CB.n_modes(), n_m}};
+  const SparseProduct product(M_ss);
   for (PetscInt first = 0; first < n_m; first += block_columns) {
-    const petsc::Matrix Psi_block =
-        column_block(Q_CB.Psi, first, std::min(first + block_columns, n_m));
-    petsc::Matrix M_Psi;
-    petsc::check(MatMatMult(M_ss, Psi_block, MAT_INITIAL_MATRIX, PETSC_DEFAULT, M_Psi.put()));
-    copy_columns(products.Psi_M_Psi, first, inner_product(Q_CB.Psi, M_Psi));
+    const PetscInt last = std::min(first + block_columns, n_m);
+    const petsc::Matrix M_Psi = uninitialized_dense(M_ss, last - first);
+    product.apply(ColumnRange(Q_CB.Psi, first, last), M_Psi);
+    // The upper triangle of Psi^T M Psi is enough.
+    copy_columns(products.Psi_M_Psi, first, inner_product(ColumnRange(Q_CB.Psi, 0, last), M_Psi));
     if (Q_CB.modes) {
       copy_columns(products.Phi_M_Psi, first, inner_product(Q_CB.modes->Phi, M_Psi));
     }
   }
+  mirror_upper_triangle(products.Psi_M_Psi);
   return products;
 }
 

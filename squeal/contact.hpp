@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include "squeal/friction.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {
@@ -11,14 +12,24 @@ namespace chladni::squeal {
 struct PadContact {
   double radius;     ///< of the contact ring, m
   double thickness;  ///< distance h of the two contact planes, m
-  double friction;   ///< mu
+  FrictionLaw friction;
   ContactLaw law;
-  double stiffness;  ///< k of each pad spring, N/m
+  PadSpring spring;  ///< of each pad
   double damping;    ///< d, N s/m
   double preload;    ///< N_0, N
 };
 
-/// Motion of the disc under a pad: displacement, slopes and their material rates.
+/// Motion of the plate of a pad at a contact point, for a pad with a mass; zero for any other one.
+template <class Scalar>
+struct PlateMotion {
+  Scalar z = Scalar(0.0);      ///< along the axis, m
+  Scalar r_dot = Scalar(0.0);  ///< radial, m/s
+  Scalar t_dot = Scalar(0.0);  ///< circumferential, m/s
+  Scalar z_dot = Scalar(0.0);  ///< along the axis, m/s
+};
+
+/// Motion of the disc under a pad: displacement, slopes and their material rates; and that of the
+/// two plates.
 template <class Scalar>
 struct RingMotion {
   Scalar w;        ///< m
@@ -27,6 +38,8 @@ struct RingMotion {
   Scalar w_dot;    ///< m/s
   Scalar g_r_dot;  ///< rad/s
   Scalar g_t_dot;  ///< rad/s
+  PlateMotion<Scalar> upper = {};
+  PlateMotion<Scalar> lower = {};
 };
 
 /// Generalised contact force: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
@@ -86,8 +99,12 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 /// the middle surface; massless and laterally guided, so its vertical equilibrium gives the normal
 /// force.
 ///   z = w + sigma h s / 2,   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
-///   S = N_0 + sigma (k (z - sigma h / 2) + d z'),   N = S / (1 / s + sigma g mu t_z)
-///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y),   t = v_r / |v_r|
+///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   x = z - sigma h / 2
+///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
+///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
+/// with mu(v) and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
+/// and v_r are relative to it; that the point then moves on the disc, a term of second order, is
+/// neglected.
 template <class Scalar>
 PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
                            double sigma)
@@ -95,24 +112,27 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
   using std::sqrt;
   const Scalar s = sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
   const Scalar lever = sigma * 0.5 * pad.thickness / s;
-  const Scalar v_x = -lever * m.g_r_dot;
-  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot;
+  const PlateMotion<Scalar>& plate = sigma > 0.0 ? m.upper : m.lower;
+  const Scalar v_x = -lever * m.g_r_dot - plate.r_dot;
+  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot - plate.t_dot;
   const Scalar v_z = m.g_r * v_x + m.g_t * v_y;
-  const Scalar slip = sqrt(v_x * v_x + v_y * v_y + v_z * v_z);
+  const Scalar slip_squared = v_x * v_x + v_y * v_y + v_z * v_z;
+  const Scalar v = regularised_speed(pad.friction, slip_squared);
 
   const Scalar lift = m.w + sigma * 0.5 * pad.thickness * (s - 1.0);
   const Scalar z_dot = m.w_dot - v_z;
   const auto [S, g] = axial_force<Scalar>(
-      pad.law, pad.preload + sigma * (pad.stiffness * lift + pad.damping * z_dot));
-  const Scalar N = S / (1.0 / s + sigma * g * pad.friction * v_z / slip);
-  const Scalar friction_per_slip = pad.friction * g * N / slip;
+      pad.law, pad.preload + sigma * (force(pad.spring, Scalar(lift - plate.z)) +
+                                      pad.damping * (z_dot - plate.z_dot)));
+  const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v) / v;
+  const Scalar N = S / (1.0 / s + sigma * g_mu_by_v * v_z);
   return {lift + sigma * 0.5 * pad.thickness,
           z_dot,
           N,
-          slip,
+          sqrt(slip_squared),
           S,
-          sigma * N * m.g_r / s - friction_per_slip * v_x,
-          sigma * N * m.g_t / s - friction_per_slip * v_y};
+          sigma * N * m.g_r / s - g_mu_by_v * N * v_x,
+          sigma * N * m.g_t / s - g_mu_by_v * N * v_y};
 }
 
 /// Generalised force of the two pads of a pair.
@@ -126,7 +146,8 @@ RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
   return {lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)};
 }
 
-/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest.
+/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest,
+/// unless friction is regularised.
 /// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
 template <class Scalar>
 ContactResult<Scalar> contact(const PadContact& pad, const RingMotion<Scalar>& m, double speed)

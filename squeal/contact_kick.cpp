@@ -1,45 +1,56 @@
 #include "squeal/contact_kick.hpp"
 
-#include "squeal/pads.hpp"
-
 namespace chladni::squeal {
 
 ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       ring_(disc),
-      shapes_(options.pads.size()),
-      position_(options.pads.size()),
-      contacts_(options.pads.size()),
-      Q_(disc.n_modes()),
-      v_mid_(disc.n_modes())
+      pads_(pad_system(options, disc.radius)),
+      position_(pads_.points.size()),
+      contacts_(pads_.points.size()),
+      Q_(disc.n_modes() + pads_.n_modes()),
+      v_mid_(Q_.size())
 {
-  for (const PadPair& pad : options.pads) {
-    pads_.push_back(pad_contact(options, pad, disc.radius));
-    angles_.push_back(pad.angle);
+  for (const PointPair& point : pads_.points) {
+    shapes_.push_back(pair_shapes(ring_.at(point.angle), pads_, point));
+    at_rest_.push_back(pad_state(point.contact, RingMotion<double>{}, speed, 1.0));
   }
 }
 
 const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, double t, double step)
 {
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    shapes_[i] = ring_.at(angles_[i] - speed_ * t);
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - speed_ * t);
+    shapes_[i].topLeftCorner(S.rows(), 3) = S;
     position_[i].noalias() = shapes_[i].transpose() * x.q;
   }
   v_mid_ = x.v + 0.5 * step * force(x.v);
   x.v += step * force(v_mid_);
-  return contacts_;
+  of_pads_ = by_pad(pads_, contacts_);
+  return of_pads_;
+}
+
+Eigen::MatrixXd ContactKick::contact_stiffness() const
+{
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(Q_.size(), Q_.size());
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const PairShapes& S = shapes_[i];
+    K -= S * pair_derivatives(pads_.points[i].contact, speed_, static_cast<int>(S.cols())).D_a *
+         S.transpose();
+  }
+  return K;
 }
 
 const Eigen::VectorXd& ContactKick::force(const Eigen::VectorXd& v)
 {
   Q_.setZero();
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    const Eigen::Vector3d& g = position_[i];
-    const Eigen::Vector3d rate = shapes_[i].transpose() * v;
-    contacts_[i] =
-        contact(pads_[i], RingMotion<double>{g[0], g[1], g[2], rate[0], rate[1], rate[2]}, speed_);
-    const RingForce<double>& F = contacts_[i].force;
-    Q_.noalias() += shapes_[i] * Eigen::Vector3d{F.F_w, F.F_r, F.F_t};
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const PointPair& point = pads_.points[i];
+    const PairVector<double> rate = shapes_[i].transpose() * v;
+    contacts_[i] = contact(point.contact, pair_motion(position_[i], rate), speed_);
+    Q_.noalias() +=
+        shapes_[i] * pair_forces(contacts_[i].force, contacts_[i].upper, contacts_[i].lower,
+                                 at_rest_[i], static_cast<int>(shapes_[i].cols()));
   }
   return Q_;
 }

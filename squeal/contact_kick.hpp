@@ -6,11 +6,13 @@
 #include "squeal/contact.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/oscillator_flow.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/ring_shapes.hpp"
 
 namespace chladni::squeal {
 
-/// The contact forces of all pads on a rotating disc, and their kick in the Strang splitting.
+/// The contact forces of all pads on a rotating disc and on plates with a mass, and their kick in
+/// the Strang splitting. Coordinates are the modes of the disc, then those of the pads.
 class ContactKick {
  public:
   ContactKick(const Disc& disc, const SquealOptions& options, double speed);
@@ -19,17 +21,23 @@ class ContactKick {
   /// @return the contacts at the midpoint, one for each pad pair; valid until the next call
   const std::vector<ContactResult<double>>& apply(ModalState& x, double t, double step);
 
+  const PadSystem& pads() const { return pads_; }
+
+  /// [n x n] 1/s^2, of the contacts in small motions, where the disc stands in the last kick.
+  Eigen::MatrixXd contact_stiffness() const;
+
  private:
   /// Q at the rates `v` with the shapes of this instant.
   const Eigen::VectorXd& force(const Eigen::VectorXd& v);
 
   double speed_;
   RingShapes ring_;
-  std::vector<PadContact> pads_;
-  std::vector<double> angles_;
-  std::vector<Eigen::MatrixX3d> shapes_;         ///< of each pad at this instant
-  std::vector<Eigen::Vector3d> position_;        ///< (w, g_r, g_t) of each pad at this instant
-  std::vector<ContactResult<double>> contacts_;  ///< of each pad at the last force
+  PadSystem pads_;
+  std::vector<PairShapes> shapes_;               ///< of each point at this instant
+  std::vector<PairVector<double>> position_;     ///< of each point at this instant
+  std::vector<PadState<double>> at_rest_;        ///< of each point
+  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last force
+  std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
   Eigen::VectorXd Q_;
   Eigen::VectorXd v_mid_;
 };

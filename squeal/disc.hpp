@@ -16,6 +16,14 @@ struct Shapes {
   Eigen::VectorXd W_t;  ///< [n_modes] circumferential slope, rad per unit of q
 };
 
+/// [n_modes x 3] W, W_r, W_t side by side.
+inline Eigen::MatrixX3d matrix_of(const Shapes& shapes)
+{
+  Eigen::MatrixX3d S(shapes.W.size(), 3);
+  S << shapes.W, shapes.W_r, shapes.W_t;
+  return S;
+}
+
 /// A function of the ring angle for each mode, f_i(theta) = sum_k cosine_ki cos(k theta)
 /// + sine_ki sin(k theta): the trigonometric interpolation of values at n equally spaced nodes.
 struct Harmonics {

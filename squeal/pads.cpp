@@ -5,13 +5,21 @@
 
 namespace chladni::squeal {
 
+FrictionLaw friction_law(const SquealOptions& options)
+{
+  return {.kinetic = options.friction,
+          .rise = options.friction_rise,
+          .decay_speed = options.friction_decay_speed,
+          .regularisation = options.slip_regularisation};
+}
+
 PadContact pad_contact(const SquealOptions& options, const PadPair& pad, double radius)
 {
   return {.radius = radius,
           .thickness = options.thickness,
-          .friction = options.friction,
+          .friction = friction_law(options),
           .law = options.contact,
-          .stiffness = pad.stiffness,
+          .spring = {.linear = pad.stiffness, .cubic = pad.cubic_stiffness},
           .damping = pad.damping,
           .preload = pad.preload};
 }

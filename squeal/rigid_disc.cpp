@@ -51,7 +51,8 @@ Eigen::Vector3<Scalar> cross(const Eigen::Vector3<Scalar>& a, const Eigen::Vecto
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// z = (sigma h / 2 - b_3x x_p - b_3y y_p) / b_3z,   S = N_0 + sigma (k (z - sigma h / 2) + d z'),
+/// z = (sigma h / 2 - b_3x x_p - b_3y y_p) / b_3z,   S = N_0 + sigma (k x + k_3 x^3 + d z'),
+/// x = z - sigma h / 2,
 /// N = S / (b_3z + sigma g mu t_z),   F = -sigma N b_3 - mu g N t
 template <class Scalar>
 RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, double sigma)
@@ -63,14 +64,16 @@ RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, doubl
   const Eigen::Vector3<Scalar> v = cross<Scalar>(frame.omega, r);
   const Scalar z_dot = dot<Scalar>(frame.b_3, v) / frame.b_3[2];
   const Eigen::Vector3<Scalar> v_r = v - z_dot * Eigen::Vector3<Scalar>::UnitZ();
-  const Scalar slip = sqrt(dot<Scalar>(v_r, v_r));
+  const Scalar slip_squared = dot<Scalar>(v_r, v_r);
+  const Scalar v_reg = regularised_speed(disc.friction, slip_squared);
 
   const Scalar pad_force =
-      disc.preload + sigma * (disc.stiffness * (z - half) + disc.damping * z_dot);
+      disc.preload + sigma * (force(disc.spring, Scalar(z - half)) + disc.damping * z_dot);
   const auto [S, g] = axial_force<Scalar>(disc.law, pad_force);
-  const Scalar N = S / (frame.b_3[2] + sigma * g * disc.friction * v_r[2] / slip);
-  const Eigen::Vector3<Scalar> F = (-sigma * N) * frame.b_3 - (disc.friction * g * N / slip) * v_r;
-  return {z, z_dot, S, N, slip, F};
+  const Scalar g_mu_by_v = g * friction_coefficient(disc.friction, v_reg) / v_reg;
+  const Scalar N = S / (frame.b_3[2] + sigma * g_mu_by_v * v_r[2]);
+  const Eigen::Vector3<Scalar> F = (-sigma * N) * frame.b_3 - (g_mu_by_v * N) * v_r;
+  return {z, z_dot, S, N, sqrt(slip_squared), F};
 }
 
 /// Moment of the force of a pad about the centre of the disc.
@@ -113,7 +116,7 @@ RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Sc
   A(0, 0) = disc.Theta * frame.c_2;
   A(1, 1) = disc.Theta;
   A(2, 0) = disc.Phi * frame.s_2;
-  const Scalar constant_moment(2.0 * disc.friction * disc.radius * disc.preload);
+  const Scalar constant_moment(2.0 * disc.friction.kinetic * disc.radius * disc.preload);
   const bool by_speed = drive == Drive::speed;
   if (by_speed) {
     A.col(2) = -e_z;
@@ -132,8 +135,9 @@ template RigidAcceleration<std::complex<double>> accelerate(
 
 RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed)
 {
-  const double mu = disc.friction, N_0 = disc.preload, h = disc.thickness, r_0 = disc.radius;
-  const double k = disc.stiffness, d = disc.damping;
+  const double mu = disc.friction.kinetic, N_0 = disc.preload, h = disc.thickness,
+               r_0 = disc.radius;
+  const double k = disc.spring.linear, d = disc.damping;
   const double slip = 0.5 * mu * N_0 * h * h / r_0;
   RigidMatrices matrices;
   matrices.M = disc.Theta * Eigen::Matrix2d::Identity();

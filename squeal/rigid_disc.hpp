@@ -5,31 +5,9 @@
 #include <functional>
 #include <optional>
 
-#include "squeal/squeal_options.hpp"
+#include "squeal/model_options.hpp"
 
 namespace chladni::squeal {
-
-/// A rigid disc on a spherical joint at its centre, held by rotational springs and dampers, between
-/// two pads on the vertical axis through (0, -r_0).
-struct RigidDisc {
-  double Theta;      ///< moment of inertia about a diameter, kg m^2
-  double Phi;        ///< moment of inertia about the axis, kg m^2
-  double k_t;        ///< rotational spring, N m
-  double d_t;        ///< rotational damper, N m s
-  double radius;     ///< r_0 of the pads, m
-  double thickness;  ///< distance h of the two contact planes, m
-  double stiffness;  ///< k of each pad, N/m
-  double damping;    ///< d of each pad, N s/m
-  double preload;    ///< N_0 of each pad, N
-  double friction;   ///< mu
-  ContactLaw law = ContactLaw::unilateral;
-};
-
-/// What turns the disc, along the inertial vertical.
-enum class Drive {
-  speed,  ///< a moment that keeps the spin constant
-  moment  ///< the constant moment 2 mu r_0 N_0
-};
 
 /// Cardan angles q_1 (about the inertial x axis) and q_2 (about the tilted y axis), their rates,
 /// and the rate of the spin about the axis of the disc.
@@ -73,6 +51,7 @@ struct RigidMatrices {
 };
 
 /// The linearised equations at `speed` (rad/s, > 0) in closed form; the same for both drives.
+/// For a constant friction coefficient.
 RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed);
 
 /// The derivatives of `accelerate` at rest by complex steps, exact to rounding.

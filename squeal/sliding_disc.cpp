@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "squeal/derivative.hpp"
 #include "squeal/dop853.hpp"
-#include "squeal/pads.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
 
@@ -29,36 +29,35 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
 {
   const auto [sigma, g] = sigma_and_g;
   pad.law = ContactLaw::signed_force;
-  pad.friction *= g;
+  pad.friction = scaled(pad.friction, g);
   PadState<Scalar> state = pad_state(pad, m, speed, sigma);
   if (g == 0.0) state.S = state.f_r = state.f_t = Scalar(0.0);
   return state;
 }
 
 template <class Scalar>
-Eigen::Vector3<Scalar> force_on_branch(const PadContact& pad, const RingMotion<Scalar>& m,
-                                       double speed, std::span<const double> branches)
+PairVector<Scalar> force_on_branch(const SlidingDisc::Point& point, const RingMotion<Scalar>& m,
+                                   double speed, std::span<const double> branches)
 {
-  const RingForce<Scalar> F = pair_force(pad, m, pad_on_branch(pad, m, speed, {1.0, branches[0]}),
-                                         pad_on_branch(pad, m, speed, {-1.0, branches[1]}));
-  return {F.F_w, F.F_r, F.F_t};
+  const auto up = pad_on_branch(point.contact, m, speed, {1.0, branches[0]});
+  const auto lo = pad_on_branch(point.contact, m, speed, {-1.0, branches[1]});
+  return pair_forces(pair_force(point.contact, m, up, lo), up, lo, point.at_rest,
+                     static_cast<int>(point.S.cols()));
 }
 
-/// Derivatives of the force by (w, g_r, g_t, w', g_r', g_t'), by complex steps.
-Eigen::Matrix<double, 3, 6> force_derivative(const PadContact& pad, const RingMotion<double>& m,
-                                             double speed, std::span<const double> branches)
+/// Derivatives of the force by the motion of the point and by its rates, by complex steps.
+Eigen::MatrixXd force_derivative(const SlidingDisc::Point& point, const PairVector<double>& g,
+                                 const PairVector<double>& g_dot,
+                                 const std::pair<double, std::span<const double>>& at)
 {
   using Complex = std::complex<double>;
-  constexpr double step = 1e-30;  // f(x + i h) / h has no difference in it
-  const std::array<double, 6> at{m.w, m.g_r, m.g_t, m.w_dot, m.g_r_dot, m.g_t_dot};
-  Eigen::Matrix<double, 3, 6> D;
-  for (int j = 0; j < 6; ++j) {
-    std::array<Complex, 6> x{};
-    for (std::size_t i = 0; i < 6; ++i) x[i] = at[i];
-    x[static_cast<std::size_t>(j)] += Complex(0.0, step);
-    D.col(j) = force_on_branch<Complex>(pad, {x[0], x[1], x[2], x[3], x[4], x[5]}, speed, branches)
-                   .imag() /
-               step;
+  const Eigen::Index rows = g.size();
+  Eigen::MatrixXd D(rows, 2 * rows);
+  for (Eigen::Index j = 0; j < 2 * rows; ++j) {
+    PairVector<Complex> x = g.cast<Complex>(), v = g_dot.cast<Complex>();
+    (j < rows ? x[j] : v[j - rows]) += Complex(0.0, complex_step);
+    D.col(j) = force_on_branch<Complex>(point, pair_motion(x, v), at.first, at.second).imag() /
+               complex_step;
   }
   return D;
 }
@@ -74,48 +73,52 @@ SquealOptions without_pads(SquealOptions options)
 SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       pulled_(options.contact == ContactLaw::unilateral ? 0.0 : -1.0),
-      by_omega_(disc.omega.cwiseInverse()),
-      A_(state_matrix(disc, without_pads(options), speed))
+      pads_(pad_system(options, disc.radius)),
+      by_omega_(with_pads(disc, pads_).omega.cwiseInverse()),
+      A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed))
 {
-  for (const PadPair& pad : options.pads) {
-    const Shapes shapes = shapes_at(disc, pad.angle);
-    Eigen::MatrixX3d S(disc.n_modes(), 3);
-    S << shapes.W, shapes.W_r, shapes.W_t;
-    pads_.push_back({pad_contact(options, pad, disc.radius), S});
-  }
+  for (const PointPair& point : pads_.points)
+    points_.push_back({.contact = point.contact,
+                       .S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads_, point),
+                       .at_rest = pad_state(point.contact, RingMotion<double>{}, speed, 1.0)});
 }
 
-RingMotion<double> SlidingDisc::motion_at(const Pad& pad, const Eigen::VectorXd& x) const
+SlidingDisc::PointMotion SlidingDisc::motion_at(const Point& point, const Eigen::VectorXd& x) const
 {
   const Eigen::Index n = by_omega_.size();
-  const Eigen::Vector3d g = pad.S.transpose() * by_omega_.cwiseProduct(x.head(n));
-  const Eigen::Vector3d g_dot = pad.S.transpose() * x.tail(n);
-  return {g[0], g[1], g[2], g_dot[0], g_dot[1], g_dot[2]};
+  return {.g = point.S.transpose() * by_omega_.cwiseProduct(x.head(n)),
+          .g_dot = point.S.transpose() * x.tail(n)};
 }
 
 ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
 {
-  return contact(pads_.front().contact, motion_at(pads_.front(), x), speed_);
+  std::vector<ContactResult<double>> results;
+  for (const Point& point : points_) {
+    const PointMotion at = motion_at(point, x);
+    results.push_back(contact(point.contact, pair_motion(at.g, at.g_dot), speed_));
+  }
+  return by_pad(pads_, results).front();
 }
 
 /// S of each pad, of either sign.
 Eigen::VectorXd SlidingDisc::axial_forces(const Eigen::VectorXd& x)
 {
   ++n_evaluations_;
-  Eigen::VectorXd S(static_cast<Eigen::Index>(2 * pads_.size()));
+  Eigen::VectorXd S(static_cast<Eigen::Index>(2 * points_.size()));
   Eigen::Index i = 0;
-  for (const Pad& pad : pads_) {
-    const RingMotion<double> motion = motion_at(pad, x);
+  for (const Point& point : points_) {
+    const PointMotion at = motion_at(point, x);
+    const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
     for (const double sigma : {1.0, -1.0})
-      S[i++] = pad_on_branch(pad.contact, motion, speed_, {sigma, 1.0}).S;
+      S[i++] = pad_on_branch(point.contact, motion, speed_, {sigma, 1.0}).S;
   }
   return S;
 }
 
 SlidingDisc::Branches SlidingDisc::branches_at(const Eigen::VectorXd& x)
 {
-  Branches branches(2 * pads_.size(), 1.0);
-  if (pads_.empty() || pads_.front().contact.law == ContactLaw::signed_force) return branches;
+  Branches branches(2 * points_.size(), 1.0);
+  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return branches;
   const Eigen::VectorXd S = axial_forces(x);
   for (std::size_t i = 0; i < branches.size(); ++i)
     if (S[static_cast<Eigen::Index>(i)] < 0.0) branches[i] = pulled_;
@@ -128,19 +131,20 @@ Eigen::MatrixXd SlidingDisc::field(const Eigen::MatrixXd& Y, const Branches& bra
   const Eigen::Index n = by_omega_.size(), n_columns = Y.cols() - 1;
   n_evaluations_ += n_columns > 0 ? 7 : 1;
   Eigen::MatrixXd rate = A_ * Y;
-  for (std::size_t i = 0; i < pads_.size(); ++i) {
-    const Pad& pad = pads_[i];
-    const RingMotion<double> motion = motion_at(pad, Y.col(0));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    const PointMotion at = motion_at(point, Y.col(0));
     const std::span<const double> of_pad = std::span(branches).subspan(2 * i, 2);
-    Eigen::Matrix3Xd F(3, Y.cols());
-    F.col(0) = force_on_branch(pad.contact, motion, speed_, of_pad);
+    const Eigen::Index rows = point.S.cols();
+    Eigen::MatrixXd F(rows, Y.cols());
+    F.col(0) = force_on_branch(point, pair_motion(at.g, at.g_dot), speed_, of_pad);
     if (n_columns > 0) {
-      Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, n_columns);
-      G << pad.S.transpose() * by_omega_.asDiagonal() * Y.topRightCorner(n, n_columns),
-          pad.S.transpose() * Y.bottomRightCorner(n, n_columns);
-      F.rightCols(n_columns) = force_derivative(pad.contact, motion, speed_, of_pad) * G;
+      Eigen::MatrixXd G(2 * rows, n_columns);
+      G << point.S.transpose() * by_omega_.asDiagonal() * Y.topRightCorner(n, n_columns),
+          point.S.transpose() * Y.bottomRightCorner(n, n_columns);
+      F.rightCols(n_columns) = force_derivative(point, at.g, at.g_dot, {speed_, of_pad}) * G;
     }
-    rate.bottomRows(n) += pad.S * F;
+    rate.bottomRows(n) += point.S * F;
   }
   return rate;
 }
@@ -151,7 +155,7 @@ std::optional<SlidingDisc::Change> SlidingDisc::first_change(const Eigen::Vector
                                                              double step, const Branches& branches)
 {
   std::optional<Change> first;
-  if (pads_.empty() || pads_.front().contact.law == ContactLaw::signed_force) return first;
+  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return first;
   const Eigen::VectorXd S_end = axial_forces(end);
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

@@ -7,17 +7,25 @@
 
 #include "squeal/contact.hpp"
 #include "squeal/inertial_frame.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {
 
 /// The motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with
-/// x = (diag(omega) a, p), all of the unit m kg^(1/2) / s. f is smooth but where the axial
-/// force of a pad passes zero; there the integration stops and goes on with the other branch of the
-/// contact law, so that it keeps its order. A pad that leaves and returns within one step is not
-/// seen to do so.
+/// x = (diag(omega) a, p), pads with a mass at the end of a and p, all of the unit m kg^(1/2) / s.
+/// f is smooth but where the axial force of a pad passes zero; there the integration stops and goes
+/// on with the other branch of the contact law, so that it keeps its order. A pad that leaves and
+/// returns within one step is not seen to do so.
 class SlidingDisc {
  public:
+  /// A contact point pair.
+  struct Point {
+    PadContact contact;
+    PairShapes S;
+    PadState<double> at_rest;  ///< of its upper pad
+  };
+
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);
 
   double speed() const { return speed_; }  ///< rad/s
@@ -44,13 +52,12 @@ class SlidingDisc {
   std::int64_t n_evaluations() const { return n_evaluations_; }
 
  private:
-  /// Friction factor of each pad, upper and lower pad of each pair in turn: 1 in contact, -1 where
-  /// a bilateral pad pulls, 0 where a unilateral pad is off.
+  /// Friction factor of each point, upper and lower one of each pair in turn: 1 in contact, -1
+  /// where a bilateral pad pulls, 0 where a unilateral pad is off.
   using Branches = std::vector<double>;
 
-  struct Pad {
-    PadContact contact;
-    Eigen::MatrixX3d S;  ///< W, W_r, W_t of the modes at the pad
+  struct PointMotion {
+    PairVector<double> g, g_dot;  ///< see PairShapes
   };
 
   /// When the force of a pad passes zero, s after the begin of a step.
@@ -59,7 +66,7 @@ class SlidingDisc {
     double after;
   };
 
-  RingMotion<double> motion_at(const Pad& pad, const Eigen::VectorXd& x) const;
+  PointMotion motion_at(const Point& point, const Eigen::VectorXd& x) const;
   Eigen::VectorXd axial_forces(const Eigen::VectorXd& x);
   Branches branches_at(const Eigen::VectorXd& x);
   Eigen::MatrixXd field(const Eigen::MatrixXd& Y, const Branches& branches);
@@ -70,9 +77,10 @@ class SlidingDisc {
 
   double speed_;
   double pulled_;  ///< branch of a pad whose axial force is negative
+  PadSystem pads_;
   Eigen::VectorXd by_omega_;
-  Eigen::MatrixXd A_;  ///< of the disc without pads, 1/s
-  std::vector<Pad> pads_;
+  Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
+  std::vector<Point> points_;
   std::int64_t n_evaluations_ = 0;
 };
 

@@ -13,12 +13,50 @@ enum class ContactLaw {
   signed_force  ///< the pad also pulls; friction changes sign with N
 };
 
-/// One pad pair: an upper and a lower massless pad on one vertical axis.
+/// A spring and a damper side by side.
+struct Suspension {
+  double stiffness;  ///< N/m, or N m for a rotation; > 0
+  double damping;    ///< N s/m, or N m s
+};
+
+/// A rotation of a pad on a spring and a damper.
+struct RotarySuspension {
+  double inertia;  ///< kg m^2
+  Suspension suspension;
+};
+
+/// The plate of a pad as a rigid body with those of its six degrees of freedom that have a
+/// suspension. Its lining, between plate and disc, has the stiffness of the pad.
+struct PadBody {
+  double mass;          ///< kg
+  double height = 0.0;  ///< of its centre of mass above the contact plane, m
+  std::optional<Suspension> radial = {}, tangential = {}, axial = {};
+  std::optional<RotarySuspension> about_radial = {}, about_tangential = {}, about_axial = {};
+};
+
+/// A rigid body between the axial suspensions of the two plates of a pair and the ground.
+struct Caliper {
+  double mass;  ///< kg
+  Suspension axial;
+};
+
+/// Point contacts in the middle of equal parts of a sector, which share stiffness, damping and
+/// preload of the pad.
+struct PadGrid {
+  double sector;  ///< rad
+  int points;
+};
+
+/// One pad pair: an upper and a lower pad on one vertical axis; massless unless it has a body.
 struct PadPair {
-  double angle;      ///< inertial angle of the axis, rad
-  double stiffness;  ///< of each pad spring, N/m
-  double damping;    ///< N s/m
-  double preload;    ///< N_0 of each pad, N
+  double angle;                  ///< inertial angle of the axis, rad
+  double stiffness;              ///< of each pad spring, N/m
+  double damping;                ///< N s/m
+  double preload;                ///< N_0 of each pad, N
+  double cubic_stiffness = 0.0;  ///< k_3 of each pad spring, N/m^3
+  std::optional<PadGrid> grid = {};
+  std::optional<PadBody> body = {};
+  std::optional<Caliper> caliper = {};  ///< needs a body with an axial suspension
 };
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -74,7 +112,10 @@ struct SquealOptions {
   double thickness;  ///< distance h of the two contact planes, m
   ModeChoice modes;
   SpeedRange speeds;
-  double friction;  ///< Coulomb coefficient mu
+  double friction;  ///< Coulomb coefficient mu; beside the next three that of fast sliding
+  double friction_rise = 0.0;         ///< static minus kinetic coefficient
+  double friction_decay_speed = 1.0;  ///< of the rise, m/s; see FrictionLaw
+  double slip_regularisation = 0.0;   ///< m/s
   ContactLaw contact = ContactLaw::unilateral;
   std::vector<PadPair> pads;
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",

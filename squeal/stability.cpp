@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "squeal/pads.hpp"
+#include "squeal/pad_system.hpp"
 #include "squeal/root.hpp"
 
 namespace chladni::squeal {
@@ -60,39 +60,50 @@ constexpr double rounding = 1e-12;
 
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed)
 {
-  const Eigen::Index n = disc.n_modes();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = disc.C;
-  for (const PadPair& pad : options.pads) {
-    const ContactDerivatives d = contact_derivatives(pad_contact(options, pad, disc.radius), speed);
-    const Shapes shapes = shapes_at(disc, pad.angle);
-    Eigen::MatrixX3d S(n, 3);
-    S << shapes.W, shapes.W_r, shapes.W_t;
+  const PadSystem pads = pad_system(options, disc.radius);
+  const InertialDisc brake = with_pads(disc, pads);
+  const Eigen::Index n = brake.n_modes();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C;
+  for (const PointPair& point : pads.points) {
+    const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads, point);
+    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     K -= S * d.D_a * S.transpose();
     C -= S * d.D_p * S.transpose();
   }
-  const Eigen::MatrixXd omega = disc.omega.asDiagonal();
-  const Eigen::MatrixXd by_omega = disc.omega.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd omega = brake.omega.asDiagonal();
+  const Eigen::MatrixXd by_omega = brake.omega.cwiseInverse().asDiagonal();
   Eigen::MatrixXd A(2 * n, 2 * n);
-  A << -speed * disc.D, omega, -omega - K * by_omega, -speed * disc.D - C;
+  A << -speed * brake.D, omega, -omega - K * by_omega, -speed * brake.D - C;
   return A;
 }
 
-Complex least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
-                                double speed)
+StateMatrixAt state_matrix_at(const InertialDisc& disc, const SquealOptions& options)
 {
-  const Eigen::VectorXcd lambda = oscillating_eigenvalues(state_matrix(disc, options, speed));
+  return [&](double speed) { return state_matrix(disc, options, speed); };
+}
+
+Complex least_stable_eigenvalue(const Eigen::MatrixXd& A)
+{
+  const Eigen::VectorXcd lambda = oscillating_eigenvalues(A);
   Eigen::Index worst = 0;
   lambda.real().maxCoeff(&worst);
   return lambda[worst];
 }
 
-EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options)
+Complex least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
+                                double speed)
 {
-  const Eigen::VectorXd speeds = speeds_of(options.speeds, options.speeds.count);
-  Eigen::MatrixXcd lambda(speeds.size(), disc.n_modes());
+  return least_stable_eigenvalue(state_matrix(disc, options, speed));
+}
+
+EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range)
+{
+  const Eigen::VectorXd speeds = speeds_of(range, range.count);
+  Eigen::MatrixXcd lambda;
   for (Eigen::Index i = 0; i < speeds.size(); ++i) {
-    const Eigen::VectorXcd now = oscillating_eigenvalues(state_matrix(disc, options, speeds[i]));
+    const Eigen::VectorXcd now = oscillating_eigenvalues(A(speeds[i]));
     if (i == 0) {
+      lambda.resize(speeds.size(), now.size());
       lambda.row(i) = now.reverse().transpose();
       continue;
     }
@@ -103,10 +114,15 @@ EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options
   return {speeds, lambda};
 }
 
-std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)
+EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options)
 {
-  const auto worst = [&](double speed) { return least_stable_eigenvalue(disc, options, speed); };
-  const Eigen::VectorXd speeds = speeds_of(options.speeds, std::max(128, options.speeds.count));
+  return eigenvalues(state_matrix_at(disc, options), options.speeds);
+}
+
+std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range)
+{
+  const auto worst = [&](double speed) { return least_stable_eigenvalue(A(speed)); };
+  const Eigen::VectorXd speeds = speeds_of(range, std::max(128, range.count));
   std::optional<double> last_stable;
   for (const double speed : speeds) {
     const Complex now = worst(speed);
@@ -117,6 +133,11 @@ std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const Sque
     return CriticalSpeed{critical, worst(critical).imag() / (2.0 * std::numbers::pi)};
   }
   return std::nullopt;
+}
+
+std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)
+{
+  return critical_speed(state_matrix_at(disc, options), options.speeds);
 }
 
 }  // namespace chladni::squeal

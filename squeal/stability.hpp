@@ -5,27 +5,35 @@
 #include <optional>
 
 #include "squeal/inertial_frame.hpp"
+#include "squeal/model.hpp"
 #include "squeal/results.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {
 
 /// A of x' = A x about the sliding equilibrium a = 0, with x = (diag(omega) a, p): all entries have
-/// the unit 1/s, which keeps the eigenvalue problem well scaled.
+/// the unit 1/s, which keeps the eigenvalue problem well scaled. Pads with a mass add their modes
+/// at the end of a.
 /// @param speed  rad/s, > 0
-/// @return [2 n_modes x 2 n_modes], 1/s
+/// @return [2 n x 2 n], n = n_modes + modes of the pads, 1/s
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed);
 
-/// The eigenvalue with the largest real part and Im >= 0.
+/// `state_matrix` over the speed; keeps references to its arguments.
+StateMatrixAt state_matrix_at(const InertialDisc& disc, const SquealOptions& options);
+
+/// The eigenvalue of A with the largest real part and Im >= 0.
+std::complex<double> least_stable_eigenvalue(const Eigen::MatrixXd& A);
 std::complex<double> least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
                                              double speed);
 
-/// Eigenvalues over `options.speeds`, followed from speed to speed by extrapolation.
+/// Eigenvalues over the speeds, followed from speed to speed by extrapolation.
+EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range);
 EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options);
 
-/// The smallest speed within `options.speeds` at which max Re(lambda) turns from negative to
-/// positive, found to 1e-12 relative by bracketing; absent when it does not within the range.
-/// The range is scanned at 128 speeds or `options.speeds.count`, whichever is more.
+/// The smallest speed of the range at which max Re(lambda) turns from negative to positive, found
+/// to 1e-12 relative by bracketing; absent when it does not within the range. The range is scanned
+/// at 128 speeds or `range.count`, whichever is more.
+std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range);
 std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options);
 
 }  // namespace chladni::squeal

@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <numbers>
 
 #include "cli/scene/read_tables.hpp"
+#include "cli/scene/squeal_tables.hpp"
 
 namespace chladni::cli {
 namespace {
 
-using squeal::ContactLaw;
 using squeal::MapParameter;
 
 const std::vector<std::string> analysis_names = {
@@ -56,92 +54,6 @@ squeal::ModeChoice read_modes(const Table& squeal)
   return modes;
 }
 
-squeal::SpeedRange read_speeds(const Table& squeal)
-{
-  const Table speeds = squeal.table("speeds");
-  const double from = speeds.number("from_rad_s", {.above = 0.0, .unit = "rad/s"});
-  const double to = speeds.number("to_rad_s", {.at_least = from, .unit = "rad/s, from_rad_s"});
-  const int least = to > from ? 2 : 1;
-  return {.from = from,
-          .to = to,
-          .count = speeds.integer("count", {.at_least = static_cast<double>(least)})};
-}
-
-squeal::PadPair read_pad(const Table& pad)
-{
-  constexpr double degree = std::numbers::pi / 180.0;
-  return {.angle = degree * pad.number("angle_deg", {.unit = "degrees"}),
-          .stiffness = pad.number("stiffness", {.above = 0.0, .unit = "N/m"}),
-          .damping = pad.number("damping", {.at_least = 0.0, .unit = "N s/m"}),
-          .preload = pad.number("preload", {.at_least = 0.0, .unit = "N"})};
-}
-
-std::vector<squeal::PadPair> read_pads(const Table& squeal)
-{
-  std::vector<squeal::PadPair> pads;
-  for (const Table& pad : squeal.tables("pads")) pads.push_back(read_pad(pad));
-  if (pads.empty()) squeal.refuse("pads", "must hold at least one pad pair");
-  return pads;
-}
-
-std::vector<std::string> read_analyses(const Table& squeal)
-{
-  std::vector<std::string> analyses = squeal.texts("analyses");
-  if (analyses.empty()) {
-    squeal.refuse("analyses", "must name at least one of " + quoted_list(analysis_names));
-  }
-  for (std::size_t i = 0; i < analyses.size(); ++i) {
-    if (!contains(analysis_names, analyses[i])) {
-      squeal.refuse_element("analyses", i, "must be one of " + quoted_list(analysis_names));
-    }
-  }
-  // The limit cycle is looked for at the speed of the transient.
-  if (contains(analyses, "limit-cycle") && !squeal.has("transient")) {
-    squeal.refuse("analyses", "\"limit-cycle\" needs the speed in the key transient");
-  }
-  if (contains(analyses, "limit-cycle-direct") && !squeal.has("limit_cycle_direct") &&
-      !squeal.has("transient")) {
-    squeal.refuse("analyses",
-                  "\"limit-cycle-direct\" needs the key limit_cycle_direct, or else the speed in "
-                  "the key transient");
-  }
-  if (contains(analyses, "stability-map") && !squeal.has("map")) {
-    squeal.refuse("analyses", "\"stability-map\" needs the key map");
-  }
-  for (const char* needed : {"transient", "growth"}) {
-    if (contains(analyses, needed) && !squeal.has(needed)) {
-      squeal.refuse("analyses", fmt::format("\"{0}\" needs the key {0}", needed));
-    }
-  }
-  return analyses;
-}
-
-std::optional<squeal::TransientCase> read_transient(const Table& squeal)
-{
-  if (!squeal.has("transient")) return std::nullopt;
-  const Table table = squeal.table("transient");
-  squeal::TransientCase transient{
-      .speed = table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"}),
-      .duration = table.number("duration_s", {.above = 0.0, .unit = "s"}),
-      .initial_pad_displacement =
-          table.number("initial_pad_displacement", {.above = 0.0, .unit = "m"})};
-  if (table.has("steps_per_period")) {
-    transient.steps_per_period = table.integer("steps_per_period", {.at_least = 8});
-  }
-  return transient;
-}
-
-std::optional<squeal::GrowthCase> read_growth(const Table& squeal)
-{
-  if (!squeal.has("growth")) return std::nullopt;
-  const Table table = squeal.table("growth");
-  squeal::GrowthCase growth{
-      .speeds = table.numbers("speeds_rad_s", {.above = 0.0, .unit = "rad/s"}),
-      .duration = table.number("duration_s", {.above = 0.0, .unit = "s"})};
-  if (growth.speeds.empty()) table.refuse("speeds_rad_s", "must hold at least one speed");
-  return growth;
-}
-
 /// At the speed of the transient unless the scene gives another one.
 std::optional<squeal::DirectCase> read_direct(const Table& squeal,
                                               const std::optional<squeal::TransientCase>& transient)
@@ -181,14 +93,14 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.thickness = squeal.number("thickness", {.above = 0.0, .unit = "m"});
   options.modes = read_modes(squeal);
   options.speeds = read_speeds(squeal);
-  options.friction = squeal.number("friction", {.at_least = 0.0});
-  if (squeal.has("contact")) {
-    options.contact = squeal.choice<ContactLaw>("contact", {{"unilateral", ContactLaw::unilateral},
-                                                            {"bilateral", ContactLaw::bilateral},
-                                                            {"signed", ContactLaw::signed_force}});
-  }
+  const squeal::FrictionLaw friction = read_friction(squeal);
+  options.friction = friction.kinetic;
+  options.friction_rise = friction.rise;
+  options.friction_decay_speed = friction.decay_speed;
+  options.slip_regularisation = friction.regularisation;
+  options.contact = read_contact(squeal);
   options.pads = read_pads(squeal);
-  options.analyses = read_analyses(squeal);
+  options.analyses = read_analyses(squeal, analysis_names);
   options.transient = read_transient(squeal);
   options.growth = read_growth(squeal);
   options.limit_cycle_direct = read_direct(squeal, options.transient);

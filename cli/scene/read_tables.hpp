@@ -47,6 +47,10 @@ mbs_export::BodyOptions read_body(const Table& root,
 /// [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
 
+/// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
+/// body; absent for any other scene.
+std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
+
 /// The names of the rings of a mesh.
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 

@@ -40,6 +40,11 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.title = root.has("title") ? root.text("title") : scene.name;
   scene.text = text;
   scene.path = path;
+  scene.squeal_model = read_squeal_model(root);
+  if (scene.squeal_model) {
+    root.refuse_unknown_keys();
+    return scene;
+  }
   scene.mesh = read_mesh(root, path);
   scene.sections = read_sections(root, scene.mesh);
   scene.couplings = read_couplings(root, scene.mesh);
@@ -65,6 +70,14 @@ Scene read_scene(const std::string& path)
   if (file) text << file.rdbuf();
   if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
   return parse_scene(text.str(), path);
+}
+
+Scene read_meshed_scene(const std::string& path)
+{
+  Scene scene = read_scene(path);
+  if (!scene.squeal_model) return scene;
+  throw Error(
+      fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));
 }
 
 }  // namespace chladni::cli

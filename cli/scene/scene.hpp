@@ -9,6 +9,7 @@
 #include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 #include "reduce/reduce_options.hpp"
+#include "squeal/model_options.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::cli {
@@ -46,6 +47,7 @@ struct Scene {
   reduce::ReduceOptions reduce;
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
+  std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
 };
 
 /// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
@@ -55,5 +57,9 @@ Scene parse_scene(const std::string& text, const std::string& path);
 /// The scene of a file.
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path);
+
+/// The scene of a file, for a program that needs its mesh or its body.
+/// @throws chladni::Error as read_scene, and when the scene's model has neither.
+Scene read_meshed_scene(const std::string& path);
 
 }  // namespace chladni::cli

@@ -279,6 +279,125 @@ TEST(SceneError, NamesPlaceAndRangeOfANumber)
   });
 }
 
+const std::string rigid_disc = R"(name = "rigid"
+[squeal]
+model = "rigid disc"
+rigid_disc = { diametral_inertia = 0.16, axial_inertia = 0.32, stiffness = 1.88e7, damping = 0.1, pad_radius = 0.13 }
+thickness = 0.02
+friction = { kinetic = 0.4, static = 0.6, decay_speed = 0.5 }
+pads = [{ stiffness = 6e6, cubic_stiffness = 1e13, damping = 5.0, preload = 3000.0 }]
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["eigenvalues", "growth"]
+growth = { speeds_rad_s = [12.0], duration_s = 3.0 }
+)";
+
+const std::string oscillator = R"([squeal]
+model = "oscillator"
+oscillator = { mass = 1.0, stiffness_along = 1.2e7, stiffness_normal = 4e6, stiffness_coupling = 1e6, damping_along = 5.0, damping_normal = 6.0, contact_stiffness = 7e6, preload = 500.0, radius = 0.13 }
+friction = 0.3
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["critical-speed"]
+)";
+
+TEST(Scene, ReadsARigidDiscWithoutMeshAndBody)
+{
+  const Scene scene = parse_scene(rigid_disc, "scene.toml");
+  EXPECT_FALSE(scene.squeal);
+  ASSERT_TRUE(scene.squeal_model);
+  const auto& study = std::get<squeal::RigidDiscStudy>(scene.squeal_model->model);
+  EXPECT_EQ(study.disc.Theta, 0.16);
+  EXPECT_EQ(study.disc.spring.cubic, 1e13);
+  EXPECT_EQ(study.disc.friction.kinetic, 0.4);
+  EXPECT_DOUBLE_EQ(study.disc.friction.rise, 0.2);
+  EXPECT_EQ(study.disc.friction.decay_speed, 0.5);
+  EXPECT_EQ(study.drive, squeal::Drive::speed);
+  EXPECT_EQ(study.equations, squeal::RigidEquations::nonlinear);
+  EXPECT_EQ(study.disc.law, squeal::ContactLaw::unilateral);
+  EXPECT_EQ(scene.squeal_model->growth->duration, 3.0);
+}
+
+TEST(Scene, ReadsAnOscillator)
+{
+  const Scene scene = parse_scene(oscillator, "scene.toml");
+  const auto& study = std::get<squeal::Oscillator>(scene.squeal_model->model);
+  EXPECT_EQ(study.k_xy, 1e6);
+  EXPECT_EQ(study.d_y, 6.0);
+  EXPECT_EQ(study.friction.kinetic, 0.3);
+}
+
+TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
+{
+  const std::string pads =
+      "pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0, "
+      "grid = { sector_deg = 40.0, points = 5 }, "
+      "body = { mass = 0.4, height = 0.01, axial = { stiffness = 1e7, damping = 3.0 }, "
+      "about_radial = { inertia = 2e-4, stiffness = 2e3, damping = 0.1 } }, "
+      "caliper = { mass = 3.0, axial = 1 } }]";
+  const std::string plain =
+      "pads = [{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0 }]";
+  const std::string good = replaced(pads, "axial = 1 }", "stiffness = 1e6, damping = 0.0 }");
+  const Scene scene = parse_scene(replaced(disc, plain, good), "scene.toml");
+  const squeal::PadPair& pad = scene.squeal->pads.at(0);
+  EXPECT_DOUBLE_EQ(pad.grid->sector, std::numbers::pi * 2.0 / 9.0);
+  EXPECT_EQ(pad.grid->points, 5);
+  EXPECT_EQ(pad.body->axial->stiffness, 1e7);
+  EXPECT_EQ(pad.body->about_radial->inertia, 2e-4);
+  EXPECT_FALSE(pad.body->tangential);
+  EXPECT_EQ(pad.caliper->axial.stiffness, 1e6);
+  const auto error_after = [&](const std::string& from, const std::string& to) {
+    return error_of(replaced(disc, plain, replaced(good, from, to)));
+  };
+  EXPECT_EQ(error_after("points = 5", "points = 0"),
+            "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1");
+  EXPECT_EQ(error_after("sector_deg = 40.0", "sector_deg = 400.0"),
+            "scene.toml:39: squeal.pads.grid.sector_deg = 400: must be > 0 and <= 360 (degrees)");
+  EXPECT_EQ(error_after("mass = 0.4", "mass = 0.0"),
+            "scene.toml:39: squeal.pads.body.mass = 0: must be > 0 (kg)");
+  EXPECT_EQ(error_after("axial = { stiffness = 1e7", "axial = { stiffness = 0.0"),
+            "scene.toml:39: squeal.pads.body.axial.stiffness = 0: must be > 0 (N/m)");
+  EXPECT_EQ(error_after("inertia = 2e-4, ", ""),
+            "scene.toml:39: squeal.pads.body.about_radial.inertia is missing: must be a number > 0 "
+            "(kg m^2)");
+  EXPECT_TRUE(error_after(", axial = { stiffness = 1e7, damping = 3.0 }", "")
+                  .ends_with("carries the pads by their axial suspension: give body.axial"));
+  EXPECT_TRUE(error_of(replaced(disc, plain,
+                                replaced(plain, "preload = 2000.0",
+                                         "preload = 2000.0, body = { mass = 1.0 }")))
+                  .ends_with("about_radial, about_tangential or about_axial"));
+}
+
+TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
+{
+  const auto error_after = [](const std::string& scene, const std::string& from,
+                              const std::string& to) {
+    return error_of(replaced(scene, from, to));
+  };
+  EXPECT_EQ(error_after(rigid_disc, "\"rigid disc\"", "\"rigid disk\""),
+            "scene.toml:3: squeal.model = \"rigid disk\": must be one of \"flexible disc\", "
+            "\"rigid disc\", \"oscillator\"");
+  EXPECT_EQ(error_after(rigid_disc, "axial_inertia = 0.32", "axial_inertia = 0.0"),
+            "scene.toml:4: squeal.rigid_disc.axial_inertia = 0: must be > 0 (kg m^2)");
+  EXPECT_EQ(error_after(rigid_disc, "static = 0.6", "static = 0.3"),
+            "scene.toml:6: squeal.friction.static = 0.3: must be >= 0.4 (kinetic)");
+  EXPECT_EQ(error_after(rigid_disc, ", decay_speed = 0.5", ""),
+            "scene.toml:6: squeal.friction.decay_speed is missing: must be a number > 0 (m/s)");
+  EXPECT_EQ(error_after(rigid_disc, "pad_radius = 0.13", "pad_radius = 0.13, drive = \"moment\""),
+            "scene.toml:4: squeal.rigid_disc.drive = \"moment\": the constant moment 2 mu r_0 N_0 "
+            "needs a constant friction coefficient");
+  EXPECT_EQ(error_after(rigid_disc, "cubic_stiffness = 1e13", "cubic_stiffness = -1.0"),
+            "scene.toml:7: squeal.pads.cubic_stiffness = -1: must be >= 0 (N/m^3)");
+  EXPECT_TRUE(error_after(rigid_disc, "[{ stiffness", "[{ angle_deg = 3.0, stiffness")
+                  .starts_with("scene.toml:7: squeal.pads.angle_deg is not a key here;"));
+  EXPECT_TRUE(
+      error_after(rigid_disc, "[\"eigenvalues\"", "[\"stability-map\"")
+          .starts_with("scene.toml:9: squeal.analyses[1] = \"stability-map\": must be one "));
+  EXPECT_TRUE(error_after(rigid_disc, "[squeal]", "[mesh]\nfile = \"a.msh\"\n[squeal]")
+                  .starts_with("scene.toml:2: mesh is not a key here;"));
+  EXPECT_EQ(error_after(oscillator, "stiffness_coupling = 1e6", "stiffness_coupling = 1e8"),
+            "scene.toml:3: squeal.oscillator.stiffness_coupling = 100000000: its square must be "
+            "below stiffness_along times stiffness_normal, or the springs do not hold the mass");
+}
+
 TEST(SceneError, NamesPlaceAndTypeOfAValue)
 {
   expect_messages({

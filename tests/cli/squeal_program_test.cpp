@@ -147,6 +147,31 @@ TEST(SquealProgram, DescribesBodiesAndResults)
   EXPECT_NE(body.out.find("1672.1300"), std::string::npos);
 }
 
+TEST(SquealProgram, RunsTheModelsThatNeedNoBody)
+{
+  const Folder folder;
+  write_text(folder.path() / "rigid.toml",
+             read_text(CHLADNI_SOURCE_DIR "/examples/rigid_disc/scene.toml"));
+  const Ending rigid = run(folder, squeal_program + " run rigid.toml --json summary.json");
+  ASSERT_EQ(rigid.exit_code, 0) << rigid.err;
+  EXPECT_EQ(rigid.err, "");
+  const std::string json = read_text(folder.path() / "summary.json");
+  // Reference value with 40 digits; the growth rate is known to 1e-9 and rises by 0.03 per rad/s.
+  EXPECT_NEAR(number_at(json, "critical_speed_rad_s") / pi, 9.478465586019481, 1e-7);
+  // The limit cycle at 20 pi, approached by exp(-0.6 t) over 10 s.
+  EXPECT_NEAR(number_at(json, "pad_velocity_m_s"), 11.52144, 2e-2);
+  const auto results = squeal::read_results(folder.path() / "rigid.squeal.h5");
+  ASSERT_TRUE(results.eigenvalues && results.limit_cycle);
+  // At 10.4 pi, where the source has its critical speed, it already grows.
+  EXPECT_NEAR(results.growth.at(1).rate, 0.0797, 5e-4);
+
+  write_text(folder.path() / "mass.toml",
+             read_text(CHLADNI_SOURCE_DIR "/examples/oscillator/scene.toml"));
+  const Ending mass = run(folder, squeal_program + " run mass.toml");
+  ASSERT_EQ(mass.exit_code, 0) << mass.err;
+  EXPECT_NE(run(folder, squeal_program + " run mass.toml --body rigid.toml").exit_code, 0);
+}
+
 TEST(SquealProgram, TellsWrongUsageFromAFailedJob)
 {
   const Folder folder;

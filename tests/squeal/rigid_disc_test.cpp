@@ -18,10 +18,10 @@ RigidDisc source_disc(ContactLaw law = ContactLaw::bilateral)
           .d_t = 0.1,
           .radius = 0.13,
           .thickness = 0.02,
-          .stiffness = 6e6,
+          .spring = {6e6},
           .damping = 5.0,
           .preload = 3000.0,
-          .friction = 0.6,
+          .friction = {0.6},
           .law = law};
 }
 
@@ -131,7 +131,7 @@ TEST(RigidDisc, BecomesUnstableAtTheCriticalSpeedOfTheReference)
 TEST(RigidDisc, HasNoCriticalSpeedWithoutFriction)
 {
   RigidDisc disc = source_disc();
-  disc.friction = 0.0;
+  disc.friction = {0.0};
   EXPECT_FALSE(
       critical_speed([&](double speed) { return rigid_disc_matrices(disc, speed); }, speeds));
 }
@@ -140,7 +140,7 @@ TEST(RigidDisc, HasNoCriticalSpeedWithoutFriction)
 TEST(RigidDiscNote, NoReadingOfTheSourceGivesItsCriticalSpeed)
 {
   const RigidDisc disc = source_disc();
-  const double M_A = 2.0 * disc.friction * disc.radius * disc.preload;
+  const double M_A = 2.0 * disc.friction.kinetic * disc.radius * disc.preload;
   const double printed = critical_by_pi([&](RigidMatrices& m) { m.C(0, 0) -= disc.d_t; });
   const double along_axis = critical_by_pi([&](RigidMatrices& m) {
     m.K(0, 1) -= M_A;

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace chladni::cli {
+
+/// OpenBLAS 0.3.21 takes its slowest kernels (SSE3) on processors younger than itself, which costs
+/// a third of a reduction. Where that happens, starts this program anew with OPENBLAS_CORETYPE set
+/// to kernels that the processor has; otherwise, and where the variable is set already, returns.
+/// @note   To be called first in main, before MPI starts.
+void restart_with_fitting_blas_kernels(char** argv);
+
+}  // namespace chladni::cli

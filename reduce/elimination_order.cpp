@@ -1,0 +1,151 @@
+#include "reduce/elimination_order.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace chladni::reduce {
+
+namespace {
+
+/// The columns of one local row.
+std::vector<PetscInt> pattern(Mat A, PetscInt row)
+{
+  PetscInt n = 0;
+  const PetscInt* columns = nullptr;
+  petsc::check(MatGetRow(A, row, &n, &columns, nullptr));
+  std::vector<PetscInt> copy(columns, columns + n);
+  petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
+  return copy;
+}
+
+/// The first rows of the blocks of this rank, and behind them the end.
+std::vector<PetscInt> block_starts(Mat A)
+{
+  PetscInt first = 0, last = 0, block_size = 1;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  petsc::check(MatGetBlockSize(A, &block_size));
+  std::vector<PetscInt> starts;
+  if (block_size > 1) {
+    for (PetscInt row = first; row < last; row += block_size) starts.push_back(row);
+  } else {
+    std::vector<PetscInt> before;
+    for (PetscInt row = first; row < last; ++row) {
+      std::vector<PetscInt> now = pattern(A, row);
+      if (row == first || now != before) starts.push_back(row);
+      before = std::move(now);
+    }
+  }
+  starts.push_back(last);
+  return starts;
+}
+
+/// Concatenation of what the ranks have, in their order; on rank 0 only.
+std::vector<int> gather(const std::vector<int>& own, MPI_Comm comm)
+{
+  const auto n = static_cast<int>(own.size());
+  std::vector<int> counts(petsc::size(comm)), offsets(petsc::size(comm));
+  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  std::vector<int> all(petsc::rank(comm) == 0 ? offsets.back() + counts.back() : 0);
+  MPI_Gatherv(own.data(), n, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, 0, comm);
+  return all;
+}
+
+/// Number of the block of each row of A, on all ranks.
+std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, MPI_Comm comm)
+{
+  const auto n_own = static_cast<int>(starts.size()) - 1;
+  int first = 0;
+  MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
+  if (petsc::rank(comm) == 0) first = 0;
+  std::vector<int> own;
+  for (int b = 0; b < n_own; ++b) own.insert(own.end(), starts[b + 1] - starts[b], first + b);
+  std::vector<int> all = gather(own, comm);
+  all.resize(n);
+  MPI_Bcast(all.data(), n, MPI_INT, 0, comm);
+  return all;
+}
+
+/// Adjacency of the blocks of this rank without themselves: length of each list, then the lists.
+struct BlockGraph {
+  std::vector<int> degrees;
+  std::vector<int> neighbours;
+};
+
+BlockGraph own_graph(Mat A, const std::vector<PetscInt>& starts, const std::vector<int>& block_of)
+{
+  BlockGraph graph;
+  std::vector<int> seen_by(block_of.empty() ? 0 : block_of.back() + 1, -1);
+  for (std::size_t b = 0; b + 1 < starts.size(); ++b) {
+    const std::size_t before = graph.neighbours.size();
+    const int self = block_of[starts[b]];
+    seen_by[self] = self;
+    for (PetscInt row = starts[b]; row < starts[b + 1]; ++row) {
+      PetscInt n = 0;
+      const PetscInt* columns = nullptr;
+      petsc::check(MatGetRow(A, row, &n, &columns, nullptr));
+      for (PetscInt k = 0; k < n; ++k) {
+        const int other = block_of[columns[k]];
+        if (seen_by[other] == self) continue;
+        seen_by[other] = self;
+        graph.neighbours.push_back(other);
+      }
+      petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
+    }
+    graph.degrees.push_back(static_cast<int>(graph.neighbours.size() - before));
+  }
+  return graph;
+}
+
+/// Place of each block in the elimination.
+std::vector<idx_t> dissect(const BlockGraph& graph, std::vector<idx_t> weights)
+{
+  auto n = static_cast<idx_t>(graph.degrees.size());
+  std::vector<idx_t> starts(graph.degrees.size() + 1, 0);
+  std::inclusive_scan(graph.degrees.begin(), graph.degrees.end(), starts.begin() + 1);
+  std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
+  std::vector<idx_t> order(graph.degrees.size()), place(graph.degrees.size());
+  if (neighbours.empty()) {  // METIS rejects a graph without edges
+    std::iota(place.begin(), place.end(), idx_t{0});
+    return place;
+  }
+  const int status = METIS_NodeND(&n, starts.data(), neighbours.data(), weights.data(), nullptr,
+                                  order.data(), place.data());
+  if (status != METIS_OK) throw Error(fmt::format("elimination_order: METIS error {}", status));
+  return place;
+}
+
+/// From places of blocks to places of rows, from 1.
+std::vector<int> row_places(const std::vector<idx_t>& place, const std::vector<int>& block_of,
+                            const std::vector<idx_t>& sizes)
+{
+  std::vector<int> size_at(place.size() + 1, 0), next(place.size());
+  for (std::size_t b = 0; b < place.size(); ++b) size_at[place[b] + 1] = sizes[b];
+  std::inclusive_scan(size_at.begin(), size_at.end(), size_at.begin());
+  for (std::size_t b = 0; b < place.size(); ++b) next[b] = size_at[place[b]] + 1;
+  std::vector<int> places;
+  places.reserve(block_of.size());
+  for (const int block : block_of) places.push_back(next[block]++);
+  return places;
+}
+
+}  // namespace
+
+std::vector<int> elimination_order(Mat A)
+{
+  const MPI_Comm comm = petsc::communicator(A);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  const std::vector<PetscInt> starts = block_starts(A);
+  const std::vector<int> block_of = block_of_rows(starts, n, comm);
+  BlockGraph graph = own_graph(A, starts, block_of);
+  graph = {.degrees = gather(graph.degrees, comm), .neighbours = gather(graph.neighbours, comm)};
+  if (petsc::rank(comm) != 0) return {};
+  std::vector<idx_t> sizes(graph.degrees.size(), 0);
+  for (const int block : block_of) ++sizes[block];
+  return row_places(dissect(graph, sizes), block_of, sizes);
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <petsc/private/petscimpl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reduce/condition_estimate.hpp"
+#include "reduce/craig_bampton.hpp"
+#include "reduce/error_estimates.hpp"
+#include "reduce/plugin/chladni_cms.h"
+#include "reduce/reduce_options.hpp"
+
+/// Inside of the PETSc class CMS; nothing of it crosses the C header.
+namespace chladni::reduce::plugin {
+
+/// Where a master stands, for the file.
+struct MasterPlace {
+  PetscInt node;
+  PetscInt component;
+  double x[3];
+};
+
+/// What CMSSetUp makes.
+struct SetUp {
+  petsc::Matrix K, M, C;          ///< references, or AIJ copies of other types
+  std::vector<PetscInt> masters;  ///< global DOFs in the order of the user, on every rank
+  std::vector<int> places;        ///< for each master its place among the ascending ones
+  DofPartition rows;
+  Blocks K_blocks, M_blocks;
+  Factorization K_ss;
+};
+
+/// Masters in the user's order, then the modes.
+struct Result {
+  CraigBamptonBasis Q_CB;
+  ReducedModel model;             ///< masters ascending by DOF
+  std::vector<PetscReal> lambda;  ///< all elastic eigenvalues of the reduced model, ascending
+  std::vector<PetscReal> f_Hz;    ///< [k] of the certified modes
+  std::vector<PetscReal> eta2;    ///< [k]
+  std::vector<PetscReal> bounds;  ///< [k] rigorous, where the count is complete; else empty
+  CMSQuality quality;
+  petsc::Matrix K_r, M_r, C_r, T;  ///< made when asked for; C_r only with damping
+};
+
+/// What the user has said.
+struct Settings {
+  ReduceOptions options{.method = Method::craig_bampton, .modes = 20};
+  bool sylvester = false;
+  CMSMonitorFunction monitor = nullptr;
+  void* monitor_context = nullptr;
+  bool prints_phases = false;
+};
+
+/// All that a CMS holds.
+struct Inside {
+  petsc::Matrix K, M, C;              ///< as given
+  petsc::IndexSet interface, output;  ///< as given
+  std::vector<MasterPlace> geometry;  ///< of this rank's part of the interface, or empty
+  Settings settings;
+  std::optional<SetUp> set_up;
+  std::optional<Result> result;
+};
+
+struct Events {
+  PetscLogEvent set_up, solve, factor, constraint, modes, project, errors, count, view;
+  PetscLogStage stage_set_up, stage_solve;
+};
+extern Events events;
+
+/// Another reference to a PETSc object; empty for null.
+template <class Handle, class Object>
+Handle reference(Object object)
+{
+  if (object) petsc::check(PetscObjectReference(reinterpret_cast<PetscObject>(object)));
+  return Handle(object);
+}
+
+/// Brackets a phase: log event, wall time, monitor.
+class Phase {
+ public:
+  Phase(CMS cms, PetscLogEvent event, const char* name);
+  ~Phase();
+  Phase(const Phase&) = delete;
+  Phase& operator=(const Phase&) = delete;
+  /// Calls the monitor; left out when an exception ends the phase.
+  void done();
+
+ private:
+  CMS cms_;
+  PetscLogEvent event_;
+  const char* name_;
+  PetscLogDouble started_ = 0.0;
+};
+
+/// While it lives, reduce/ finds the options `-PREFIXcms_...` of the object as `-cms_...`.
+class OptionsOf {
+ public:
+  explicit OptionsOf(CMS cms);
+  ~OptionsOf();
+  OptionsOf(const OptionsOf&) = delete;
+  OptionsOf& operator=(const OptionsOf&) = delete;
+
+ private:
+  struct Hidden {
+    std::string name;
+    std::optional<std::string> value;  ///< that it had before
+  };
+  std::vector<Hidden> hidden_;
+};
+
+/// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
+SetUp make_set_up(CMS cms);
+Result make_result(CMS cms);
+petsc::Matrix make_transformation(CMS cms);
+void write_file(CMS cms, const std::string& path);
+
+}  // namespace chladni::reduce::plugin
+
+struct _CMSOps {};
+
+/// The object that the C header hides.
+struct _p_CMS {
+  PETSCHEADER(struct _CMSOps);
+  chladni::reduce::plugin::Inside* inside;
+};

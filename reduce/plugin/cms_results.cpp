@@ -1,0 +1,248 @@
+// What a solved CMS hands out.
+#include <algorithm>
+#include <numeric>
+
+#include "reduce/plugin/cms_impl.hpp"
+#include "reduce/plugin/guard.hpp"
+
+namespace chladni::reduce::plugin {
+
+namespace {
+
+/// For each reduced coordinate of the user its place in the model.
+std::vector<int> coordinate_places(const Inside& in)
+{
+  std::vector<int> places = in.set_up->places;
+  const auto n_masters = static_cast<int>(places.size());
+  places.resize(places.size() + in.result->model.omega.size());
+  std::iota(places.begin() + n_masters, places.end(), n_masters);
+  return places;
+}
+
+/// A replicated matrix as dense one of the communicator, in the order of the user.
+petsc::Matrix distributed(const SmallMatrix& A, const std::vector<int>& places, MPI_Comm comm)
+{
+  petsc::Matrix B;
+  PetscInt first = 0, last = 0;
+  const auto n = static_cast<PetscInt>(places.size());
+  petsc::check(MatCreateDense(comm, PETSC_DECIDE, PETSC_DECIDE, n, n, nullptr, B.put()));
+  petsc::check(MatGetOwnershipRange(B, &first, &last));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(B, &values));
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = first; i < last; ++i) {
+      values[i - first + std::size_t(j) * (last - first)] = A(places[i], places[j]);
+    }
+  }
+  petsc::check(MatDenseRestoreArrayWrite(B, &values));
+  petsc::check(MatSetOption(B, MAT_SYMMETRIC, PETSC_TRUE));
+  return B;
+}
+
+petsc::Matrix dense_rows(MPI_Comm comm, PetscInt n_local, PetscInt n_columns)
+{
+  petsc::Matrix T;
+  petsc::check(
+      MatCreateDense(comm, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, nullptr, T.put()));
+  return T;
+}
+
+/// Own indices of a set.
+std::vector<PetscInt> own_indices(IS set)
+{
+  PetscInt n = 0;
+  const PetscInt* indices = nullptr;
+  petsc::check(ISGetLocalSize(set, &n));
+  petsc::check(ISGetIndices(set, &indices));
+  std::vector<PetscInt> own(indices, indices + n);
+  petsc::check(ISRestoreIndices(set, &indices));
+  return own;
+}
+
+/// How many indices the ranks before this one have.
+PetscInt before(const std::vector<PetscInt>& own, MPI_Comm comm)
+{
+  const auto n = static_cast<PetscInt>(own.size());
+  PetscInt sum = 0;
+  MPI_Exscan(&n, &sum, 1, MPIU_INT, MPI_SUM, comm);
+  return petsc::rank(comm) == 0 ? 0 : sum;
+}
+
+/// All rows, each rank its own: no communication.
+petsc::Matrix whole_transformation(const SetUp& set_up, const CraigBamptonBasis& Q_CB,
+                                   const std::vector<int>& places)
+{
+  const MPI_Comm comm = petsc::communicator(set_up.K);
+  PetscInt first = 0, n_local = 0;
+  petsc::check(MatGetOwnershipRange(set_up.K, &first, nullptr));
+  petsc::check(MatGetLocalSize(set_up.K, &n_local, nullptr));
+  petsc::Matrix T = dense_rows(comm, n_local, static_cast<PetscInt>(places.size()));
+  const LocalRows Psi(Q_CB.Psi);
+  std::optional<LocalRows> Phi;
+  if (Q_CB.modes) Phi.emplace(Q_CB.modes->Phi);
+  const std::vector<PetscInt> masters = own_indices(set_up.rows.masters);
+  const std::vector<PetscInt> slaves = own_indices(set_up.rows.slaves);
+  const PetscInt first_master = before(masters, comm);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(T, &values));
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    PetscScalar* column = values + j * n_local;
+    for (std::size_t m = 0; m < masters.size(); ++m) {
+      column[masters[m] - first] = places[j] == first_master + static_cast<int>(m) ? 1.0 : 0.0;
+    }
+    for (std::size_t s = 0; s < slaves.size(); ++s) {
+      const auto row = static_cast<PetscInt>(s);
+      column[slaves[s] - first] =
+          places[j] < Psi.n_cols() ? Psi(row, places[j]) : (*Phi)(row, places[j] - Psi.n_cols());
+    }
+  }
+  petsc::check(MatDenseRestoreArray(T, &values));
+  return T;
+}
+
+/// The rows of `output`, each rank those of its part.
+petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
+{
+  const MPI_Comm comm = petsc::communicator(in.set_up->K);
+  petsc::IndexSet gathered;
+  petsc::check(ISAllGather(in.output, gathered.put()));
+  const std::vector<PetscInt> dofs = own_indices(gathered);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(in.set_up->K, &n, nullptr));
+  for (const PetscInt dof : dofs) {
+    if (dof < 0 || dof >= n) {
+      throw Error(
+          fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", dof, n - 1));
+    }
+  }
+  const SmallMatrix rows = basis_rows(in.result->Q_CB, in.set_up->rows, dofs);
+  const std::vector<PetscInt> own = own_indices(in.output);
+  const PetscInt first = before(own, comm);
+  petsc::Matrix T =
+      dense_rows(comm, static_cast<PetscInt>(own.size()), static_cast<PetscInt>(places.size()));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(T, &values));
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      values[i + j * own.size()] = rows(first + static_cast<PetscInt>(i), places[j]);
+    }
+  }
+  petsc::check(MatDenseRestoreArray(T, &values));
+  return T;
+}
+
+/// T^T C T.
+petsc::Matrix reduced_damping(const Inside& in, const std::vector<int>& places)
+{
+  const petsc::Matrix T = whole_transformation(*in.set_up, in.result->Q_CB, places);
+  petsc::Matrix CT;
+  petsc::check(MatMatMult(in.set_up->C, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, CT.put()));
+  SmallMatrix C_r = inner_product(T, CT);
+  for (PetscInt j = 0; j < C_r.n_cols; ++j) {
+    for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
+  }
+  std::vector<int> as_it_is(places.size());
+  std::iota(as_it_is.begin(), as_it_is.end(), 0);
+  return distributed(C_r, as_it_is, petsc::communicator(in.set_up->K));
+}
+
+void make_reduced_operators(Inside& in)
+{
+  Result& result = *in.result;
+  if (result.K_r) return;
+  const MPI_Comm comm = petsc::communicator(in.set_up->K);
+  const std::vector<int> places = coordinate_places(in);
+  result.M_r = distributed(result.model.M, places, comm);
+  if (in.set_up->C) result.C_r = reduced_damping(in, places);
+  result.K_r = distributed(result.model.K, places, comm);
+}
+
+}  // namespace
+}  // namespace chladni::reduce::plugin
+
+using namespace chladni::reduce::plugin;  // NOLINT(google-build-using-namespace)
+
+// After CMSSolve only.
+#define CMSCheckSolved(cms)                                                               \
+  PetscCheck((cms)->inside->result, PetscObjectComm((PetscObject)(cms)), PETSC_ERR_ORDER, \
+             "Call CMSSolve() first")
+
+PetscErrorCode CMSGetReducedOperators(CMS cms, Mat* K, Mat* M, Mat* C)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  PetscCall(guarded((PetscObject)cms, __func__, [&] { make_reduced_operators(*cms->inside); }));
+  const Result& result = *cms->inside->result;
+  if (K) *K = result.K_r;
+  if (M) *M = result.M_r;
+  if (C) *C = result.C_r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetTransformation(CMS cms, Mat* T)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(T, 2);
+  CMSCheckSolved(cms);
+  PetscCall(guarded((PetscObject)cms, __func__, [&] {
+    Inside& in = *cms->inside;
+    if (in.result->T) return;
+    in.result->T = in.output
+                       ? chosen_rows(in, coordinate_places(in))
+                       : whole_transformation(*in.set_up, in.result->Q_CB, coordinate_places(in));
+  }));
+  *T = cms->inside->result->T;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetDimensions(CMS cms, PetscInt* nmasters, PetscInt* nmodes)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  const Inside& in = *cms->inside;
+  if (nmasters) *nmasters = in.set_up ? static_cast<PetscInt>(in.set_up->masters.size()) : 0;
+  if (nmodes) *nmodes = in.result ? static_cast<PetscInt>(in.result->model.omega.size()) : 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt* n, const PetscReal* f[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->f_Hz.size());
+  if (f) *f = cms->inside->result->f_Hz.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->eta2.size());
+  if (eta2) *eta2 = cms->inside->result->eta2.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt* n, const PetscReal* bounds[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->bounds.size());
+  if (bounds) *bounds = cms->inside->result->bounds.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetQuality(CMS cms, CMSQuality* quality)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(quality, 2);
+  CMSCheckSolved(cms);
+  *quality = cms->inside->result->quality;
+  PetscFunctionReturn(0);
+}

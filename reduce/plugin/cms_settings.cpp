@@ -1,0 +1,250 @@
+// What may be chosen, by calls and by options.
+#include <petscviewer.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+
+#include "reduce/plugin/cms_impl.hpp"
+#include "reduce/plugin/guard.hpp"
+
+namespace chladni::reduce::plugin {
+
+namespace {
+
+constexpr std::array<const char*, 2> type_names{CMSGUYAN, CMSCRAIGBAMPTON};
+constexpr std::array types{Method::guyan, Method::craig_bampton};
+
+PetscErrorCode print_phase(CMS cms, const char phase[], PetscReal seconds)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)cms), "  CMS %-24s %10.3f s\n", phase,
+                        (double)seconds));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+Phase::Phase(CMS cms, PetscLogEvent event, const char* name) : cms_(cms), event_(event), name_(name)
+{
+  petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
+  petsc::check(PetscTime(&started_));
+}
+
+Phase::~Phase()
+{
+  static_cast<void>(PetscLogEventEnd(event_, cms_, 0, 0, 0));
+}
+
+void Phase::done()
+{
+  PetscLogDouble now = 0.0;
+  petsc::check(PetscTime(&now));
+  const Settings& settings = cms_->inside->settings;
+  if (settings.prints_phases) petsc::check(print_phase(cms_, name_, now - started_));
+  if (settings.monitor) {
+    petsc::check(settings.monitor(cms_, name_, now - started_, settings.monitor_context));
+  }
+}
+
+OptionsOf::OptionsOf(CMS cms)
+{
+  const char* prefix = reinterpret_cast<PetscObject>(cms)->prefix;
+  if (prefix == nullptr || *prefix == '\0') return;
+  char* all = nullptr;
+  petsc::check(PetscOptionsGetAll(nullptr, &all));
+  std::istringstream words(all);
+  petsc::check(PetscFree(all));
+  const std::string own = std::string("-") + prefix + "cms_";
+  for (std::string word; words >> word;) {
+    if (!word.starts_with(own)) continue;
+    const std::string name = "-cms_" + word.substr(own.size());
+    const char* value = nullptr;
+    const char* before = nullptr;
+    PetscBool given = PETSC_FALSE;
+    PetscBool there = PETSC_FALSE;
+    petsc::check(PetscOptionsFindPair(nullptr, nullptr, word.c_str(), &value, &given));
+    petsc::check(PetscOptionsFindPair(nullptr, nullptr, name.c_str(), &before, &there));
+    hidden_.push_back({.name = name, .value = {}});
+    if (there) hidden_.back().value = before ? before : "";
+    petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value));
+  }
+}
+
+OptionsOf::~OptionsOf()
+{
+  for (const Hidden& hidden : hidden_) {
+    if (hidden.value) {
+      PetscOptionsSetValue(nullptr, hidden.name.c_str(), hidden.value->c_str());
+    } else {
+      PetscOptionsClearValue(nullptr, hidden.name.c_str());
+    }
+  }
+}
+
+}  // namespace chladni::reduce::plugin
+
+using namespace chladni::reduce;          // NOLINT(google-build-using-namespace)
+using namespace chladni::reduce::plugin;  // NOLINT(google-build-using-namespace)
+
+PetscErrorCode CMSSetType(CMS cms, CMSType type)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    if (std::strcmp(type, type_names[i]) != 0) continue;
+    if (cms->inside->settings.options.method != types[i]) cms->inside->result.reset();
+    cms->inside->settings.options.method = types[i];
+    PetscCall(PetscObjectChangeTypeName((PetscObject)cms, type_names[i]));
+    PetscFunctionReturn(0);
+  }
+  SETERRQ(PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_UNKNOWN_TYPE,
+          "Unknown CMS type \"%s\"; give -cms_type %s or %s", type, CMSGUYAN, CMSCRAIGBAMPTON);
+}
+
+PetscErrorCode CMSGetType(CMS cms, CMSType* type)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(type, 2);
+  *type = ((PetscObject)cms)->type_name;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidLogicalCollectiveInt(cms, nmodes, 2);
+  PetscCheck(nmodes > 0, PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_OUTOFRANGE,
+             "%" PetscInt_FMT " modes; give at least one, or -cms_type guyan for none", nmodes);
+  cms->inside->settings.options = {.method = cms->inside->settings.options.method,
+                                   .modes = static_cast<int>(nmodes)};
+  cms->inside->result.reset();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidLogicalCollectiveReal(cms, f, 2);
+  PetscCheck(f > 0.0 && std::isfinite(f), PetscObjectComm((PetscObject)cms),
+             PETSC_ERR_ARG_OUTOFRANGE, "Cut-off %g Hz; give a positive -cms_cutoff", (double)f);
+  cms->inside->settings.options = {.method = cms->inside->settings.options.method, .cutoff_Hz = f};
+  cms->inside->result.reset();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidLogicalCollectiveReal(cms, tol, 2);
+  PetscValidLogicalCollectiveReal(cms, upto, 3);
+  PetscCheck(tol > 0.0 && tol < 1.0 && upto > 0.0 && std::isfinite(upto),
+             PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_OUTOFRANGE,
+             "Tolerance %g up to %g Hz; give -cms_tol between 0 and 1 and a positive -cms_tol_upto",
+             (double)tol, (double)upto);
+  cms->inside->settings.options = {
+      .method = cms->inside->settings.options.method,
+      .tolerance = ModesByTolerance{.tolerance = tol, .up_to_Hz = upto}};
+  cms->inside->result.reset();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetSylvester(CMS cms, PetscBool count)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidLogicalCollectiveBool(cms, count, 2);
+  cms->inside->settings.sylvester = count == PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetOptionsPrefix(CMS cms, const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(PetscObjectSetOptionsPrefix((PetscObject)cms, prefix));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSAppendOptionsPrefix(CMS cms, const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscCall(PetscObjectAppendOptionsPrefix((PetscObject)cms, prefix));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetOptionsPrefix(CMS cms, const char* prefix[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(prefix, 2);
+  PetscCall(PetscObjectGetOptionsPrefix((PetscObject)cms, prefix));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSMonitorSet(CMS cms, CMSMonitorFunction monitor, void* ctx)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  cms->inside->settings.monitor = monitor;
+  cms->inside->settings.monitor_context = ctx;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSSetFromOptions(CMS cms)
+{
+  PetscInt n_modes = 20;
+  PetscInt type = 1;
+  PetscReal cutoff = 0.0;
+  PetscReal tolerance = 0.0;
+  PetscReal up_to = 0.0;
+  std::array<char, PETSC_MAX_PATH_LEN> view{};
+  PetscBool type_given = PETSC_FALSE;
+  PetscBool modes_given = PETSC_FALSE;
+  PetscBool cutoff_given = PETSC_FALSE;
+  PetscBool tolerance_given = PETSC_FALSE;
+  PetscBool up_to_given = PETSC_FALSE;
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  Settings& settings = cms->inside->settings;
+  PetscBool sylvester = settings.sylvester ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool monitor = settings.prints_phases ? PETSC_TRUE : PETSC_FALSE;
+  PetscObjectOptionsBegin((PetscObject)cms);
+  PetscCall(PetscOptionsEList("-cms_type", "Method of reduction", "CMSSetType", type_names.data(),
+                              2, type_names[type], &type, &type_given));
+  PetscCall(PetscOptionsInt("-cms_nmodes", "Number of fixed-interface modes", "CMSSetDimensions",
+                            n_modes, &n_modes, &modes_given));
+  PetscCall(PetscOptionsReal("-cms_cutoff", "All fixed-interface modes below this, Hz",
+                             "CMSSetCutoff", cutoff, &cutoff, &cutoff_given));
+  PetscCall(PetscOptionsReal("-cms_tol", "As many modes as keep eta^2 below this",
+                             "CMSSetTolerance", tolerance, &tolerance, &tolerance_given));
+  PetscCall(PetscOptionsReal("-cms_tol_upto", "Range of -cms_tol, Hz", "CMSSetTolerance", up_to,
+                             &up_to, &up_to_given));
+  PetscCall(PetscOptionsBool("-cms_sylvester", "Count eigenvalues by one more factorisation",
+                             "CMSSetSylvester", sylvester, &sylvester, nullptr));
+  PetscCall(PetscOptionsBool("-cms_monitor", "Print each phase with its time", "CMSMonitorSet",
+                             monitor, &monitor, nullptr));
+  // As text: PETSc's own would create, and so empty, the file before there is a result.
+  PetscCall(PetscOptionsString("-cms_view", "View the result: ascii, or hdf5:FILE", "CMSView", "",
+                               view.data(), view.size(), nullptr));
+  PetscCall(PetscObjectProcessOptionsHandlers((PetscObject)cms, PetscOptionsObject));
+  PetscOptionsEnd();
+  const int n_given = modes_given + cutoff_given + tolerance_given;
+  PetscCheck(n_given <= 1 && tolerance_given == up_to_given, PetscObjectComm((PetscObject)cms),
+             PETSC_ERR_USER_INPUT,
+             "Give one of -cms_nmodes N, -cms_cutoff F and -cms_tol T -cms_tol_upto F");
+  if (type_given) PetscCall(CMSSetType(cms, type_names[type]));
+  if (modes_given) PetscCall(CMSSetDimensions(cms, n_modes));
+  if (cutoff_given) PetscCall(CMSSetCutoff(cms, cutoff));
+  if (tolerance_given) PetscCall(CMSSetTolerance(cms, tolerance, up_to));
+  settings.sylvester = sylvester == PETSC_TRUE;
+  settings.prints_phases = monitor == PETSC_TRUE;
+  PetscFunctionReturn(0);
+}

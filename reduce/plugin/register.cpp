@@ -1,0 +1,13 @@
+// What -dll_append finds in libchladni_petsc.so.
+#include "reduce/plugin/chladni_cms.h"
+
+extern "C" PETSC_VISIBILITY_PUBLIC PetscErrorCode PetscDLLibraryRegister_chladni_petsc();
+
+/// Called by PETSc when a library is loaded; a wrong name would be passed over in silence.
+PetscErrorCode PetscDLLibraryRegister_chladni_petsc()
+{
+  PetscFunctionBegin;
+  PetscCall(CMSInitializePackage());
+  PetscCall(CMSRegisterEPS());
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "common/petsc.hpp"
+
+namespace chladni::reduce {
+
+/// Number of eigenvalues of K x = lambda M x below sigma: by Sylvester's law of inertia the number
+/// of negative pivots of L D L^T = K - sigma M, by MUMPS. M positive semidefinite.
+/// @param sigma  rad^2/s^2; no eigenvalue itself: put it into a gap.
+/// @note   Collective; one factorisation, which is not kept.
+/// @throws chladni::Error when the factorisation fails: sigma is an eigenvalue to round-off.
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma);
+
+/// The same without the rows and columns of `held` DOFs.
+/// @param held  global indices, the same list on every rank.
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held);
+
+}  // namespace chladni::reduce

@@ -1,0 +1,397 @@
+#include <chladni_cms.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "../chain.hpp"
+#include "reduce/dense.hpp"
+
+namespace chladni::reduce {
+namespace {
+
+using testing::free_chain;
+using testing::master_set;
+
+constexpr PetscInt n = 40;  // masses
+constexpr double round_off = 1e-12;
+
+/// A CMS of the free chain, or of what is made of it.
+struct Solver {
+  testing::Chain chain = free_chain(n);
+  petsc::IndexSet masters = master_set(chain.K, {0, n - 1});
+  CMS cms = nullptr;
+
+  Solver() { petsc::check(CMSCreate(PETSC_COMM_WORLD, &cms)); }
+  ~Solver() { CMSDestroy(&cms); }
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// The code of the first step that fails; all ranks must come back.
+  PetscErrorCode solve()
+  {
+    if (const PetscErrorCode code = CMSSetOperators(cms, chain.K, chain.M, nullptr)) return code;
+    if (const PetscErrorCode code = CMSSetInterface(cms, masters)) return code;
+    return CMSSolve(cms);
+  }
+};
+
+/// What PETSc says of the error just returned.
+std::string message(PetscErrorCode code)
+{
+  const char* text = nullptr;
+  char* specific = nullptr;
+  PetscErrorMessage(code, &text, &specific);
+  return specific != nullptr ? specific : "";
+}
+
+void expect_refused(Solver& solver, const std::string& words)
+{
+  const PetscErrorCode code = solver.solve();
+  ASSERT_NE(code, 0);
+  EXPECT_NE(message(code).find(words), std::string::npos) << message(code);
+}
+
+/// A(i, j) = value, set by the rank that owns row i.
+void set_value(Mat A, PetscInt i, PetscInt j, double value)
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  if (i >= first && i < last) petsc::check(MatSetValue(A, i, j, value, INSERT_VALUES));
+  testing::finish(A);
+}
+
+class Options {
+ public:
+  explicit Options(const char* text) { petsc::check(PetscOptionsInsertString(nullptr, text)); }
+  ~Options() { PetscOptionsClear(nullptr); }
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+};
+
+TEST(CMS, KeepsTheChainBetweenItsEnds)
+{
+  Solver solver;
+  petsc::check(CMSSetType(solver.cms, CMSGUYAN));
+  petsc::check(solver.solve());
+  Mat K_r = nullptr, M_r = nullptr, C_r = nullptr;
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, &M_r, &C_r));
+  EXPECT_EQ(C_r, nullptr);
+  const SmallMatrix K = replicate(K_r), M = replicate(M_r);
+  ASSERT_EQ(K.n_rows, 2);
+  EXPECT_NEAR(K(0, 1), -1.0 / (n - 1), round_off);  // springs in series
+  EXPECT_NEAR(M(0, 0) + 2.0 * M(0, 1) + M(1, 1), n, 100 * round_off);
+}
+
+TEST(CMS, GivesTheTransformationThatItProjectsWith)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, 5));
+  petsc::check(solver.solve());
+  Mat T = nullptr, K_r = nullptr, M_r = nullptr;
+  petsc::check(CMSGetTransformation(solver.cms, &T));
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, &M_r, nullptr));
+  const auto expect_projection = [&](Mat A, Mat A_r) {
+    petsc::Matrix AT;
+    petsc::check(MatMatMult(A, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AT.put()));
+    const SmallMatrix projected = inner_product(T, AT), reduced = replicate(A_r);
+    for (PetscInt i = 0; i < reduced.n_rows; ++i) {
+      for (PetscInt j = 0; j < reduced.n_cols; ++j) {
+        EXPECT_NEAR(projected(i, j), reduced(i, j), 1e-10);  // tolerance of the modes
+      }
+    }
+  };
+  expect_projection(solver.chain.K, K_r);
+  expect_projection(solver.chain.M, M_r);
+}
+
+TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
+{
+  Solver solver;
+  const bool first_rank = petsc::rank(PETSC_COMM_WORLD) == 0;
+  const std::vector<PetscInt> order = {n - 1, 0, n / 2};
+  petsc::IndexSet masters;
+  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, first_rank ? 3 : 0, order.data(),
+                               PETSC_COPY_VALUES, masters.put()));
+  solver.masters = std::move(masters);
+  petsc::check(CMSSetOutput(solver.cms, solver.masters));
+  petsc::check(solver.solve());
+  Mat T = nullptr;
+  petsc::check(CMSGetTransformation(solver.cms, &T));
+  const SmallMatrix rows = replicate(T);
+  ASSERT_EQ(rows.n_rows, 3);
+  for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt j = 0; j < rows.n_cols; ++j) EXPECT_EQ(rows(i, j), i == j ? 1.0 : 0.0);
+  }
+}
+
+TEST(CMS, ReducesDampingWithTheSameTransformation)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, 4));
+  petsc::check(CMSSetOperators(solver.cms, solver.chain.K, solver.chain.M, solver.chain.K));
+  petsc::check(CMSSetInterface(solver.cms, solver.masters));
+  petsc::check(CMSSolve(solver.cms));
+  Mat K_r = nullptr, C_r = nullptr;
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, &C_r));
+  const SmallMatrix K = replicate(K_r), C = replicate(C_r);
+  for (std::size_t i = 0; i < K.values.size(); ++i) EXPECT_NEAR(C.values[i], K.values[i], 1e-10);
+}
+
+/// The frequencies of the free chain, mode k = 1, 2, ...
+double free_lambda(int k)
+{
+  return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / n), 2);
+}
+
+TEST(CMS, BoundsTheErrorsOfItsFrequencies)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, 8));
+  petsc::check(CMSSetSylvester(solver.cms, PETSC_TRUE));
+  petsc::check(solver.solve());
+  PetscInt n_modes = 0, n_bounds = 0;
+  const PetscReal *f = nullptr, *eta2 = nullptr, *bounds = nullptr;
+  petsc::check(CMSGetFrequencies(solver.cms, &n_modes, &f));
+  petsc::check(CMSGetErrors(solver.cms, &n_modes, &eta2));
+  petsc::check(CMSGetErrorBounds(solver.cms, &n_bounds, &bounds));
+  ASSERT_GE(n_bounds, 3);
+  for (PetscInt i = 0; i < n_bounds; ++i) {
+    const double lambda = std::pow(2.0 * std::numbers::pi * f[i], 2);
+    const double error = lambda / free_lambda(i + 1) - 1.0;
+    EXPECT_GE(bounds[i], error - 1e-11);        // round-off of the frequencies
+    EXPECT_LT(eta2[i], 1.001 * error + 1e-11);  // a lower estimate ...
+    if (i < 4) {
+      EXPECT_GT(eta2[i], 0.5 * error - 1e-11);  // ... and far from the cut-off a good one
+    }
+  }
+}
+
+TEST(CMS, CountsRigidMotionAndAllEigenvaluesBelow)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, 8));
+  petsc::check(CMSSetSylvester(solver.cms, PETSC_TRUE));
+  petsc::check(solver.solve());
+  CMSQuality quality{};
+  petsc::check(CMSGetQuality(solver.cms, &quality));
+  EXPECT_EQ(quality.n_zero, 1);
+  EXPECT_LT(quality.rigid_residual, 1e-9);
+  EXPECT_EQ(quality.modes.expected, 8);
+  EXPECT_EQ(quality.modes.missing, 0);
+  EXPECT_EQ(quality.complete.missing, 0);
+  const double lambda = std::pow(2.0 * std::numbers::pi * quality.complete.upto, 2);
+  int below = 0;
+  while (free_lambda(below) < lambda) ++below;
+  EXPECT_EQ(quality.complete.expected, below);
+}
+
+TEST(CMS, TakesAsManyModesAsTheToleranceNeeds)
+{
+  Solver solver;
+  const double up_to = std::sqrt(free_lambda(10)) / (2.0 * std::numbers::pi);
+  petsc::check(CMSSetTolerance(solver.cms, 1e-4, up_to));
+  petsc::check(solver.solve());
+  PetscInt n_modes = 0;
+  const PetscReal* eta2 = nullptr;
+  petsc::check(CMSGetErrors(solver.cms, &n_modes, &eta2));
+  ASSERT_GE(n_modes, 9);
+  for (PetscInt i = 0; i < n_modes; ++i) EXPECT_LE(eta2[i], 1e-4);
+}
+
+TEST(CMS, ObeysTheOptionsOfItsPrefix)
+{
+  const Options options(
+      "-left_cms_type guyan -cms_nmodes 3 -right_cms_nmodes 6 "
+      "-right_cms_modes_solver krylov-schur");
+  for (const auto& [prefix, n_modes] : {std::pair{"left_", 0}, {"", 3}, {"right_", 6}}) {
+    Solver solver;
+    petsc::check(CMSSetOptionsPrefix(solver.cms, prefix));
+    petsc::check(CMSSetFromOptions(solver.cms));
+    petsc::check(solver.solve());
+    PetscInt n_found = 0;
+    petsc::check(CMSGetDimensions(solver.cms, nullptr, &n_found));
+    EXPECT_EQ(n_found, n_modes) << prefix;
+  }
+  PetscBool left_behind = PETSC_FALSE;  // what reduce/ saw as its own option
+  petsc::check(PetscOptionsHasName(nullptr, nullptr, "-cms_modes_solver", &left_behind));
+  EXPECT_FALSE(left_behind);
+}
+
+TEST(CMS, IsFreedWithTheLastReference)
+{
+  Solver solver;
+  CMS other = solver.cms;
+  petsc::check(PetscObjectReference(reinterpret_cast<PetscObject>(solver.cms)));
+  petsc::check(CMSDestroy(&other));
+  EXPECT_EQ(other, nullptr);
+  petsc::check(solver.solve());  // still there
+}
+
+TEST(CMS, SolvesAgainAfterReset)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, 3));
+  petsc::check(solver.solve());
+  petsc::check(CMSReset(solver.cms));
+  petsc::check(CMSSetDimensions(solver.cms, 6));
+  petsc::check(CMSSolve(solver.cms));
+  PetscInt n_modes = 0;
+  petsc::check(CMSGetDimensions(solver.cms, nullptr, &n_modes));
+  EXPECT_EQ(n_modes, 6);
+}
+
+TEST(CMS, TellsTheMonitorOfEachPhase)
+{
+  Solver solver;
+  std::vector<std::string> phases;
+  petsc::check(CMSMonitorSet(
+      solver.cms,
+      [](CMS, const char phase[], PetscReal, void* context) -> PetscErrorCode {
+        static_cast<std::vector<std::string>*>(context)->emplace_back(phase);
+        return 0;
+      },
+      &phases));
+  petsc::check(solver.solve());
+  EXPECT_EQ(phases,
+            (std::vector<std::string>{"checks of the input", "factorization", "constraint modes",
+                                      "fixed-interface modes", "projection", "error estimates"}));
+}
+
+TEST(CMS, TakesOtherTypesOfMatrices)
+{
+  Solver solver;
+  petsc::Matrix K;
+  petsc::check(MatConvert(solver.chain.K, MATDENSE, MAT_INITIAL_MATRIX, K.put()));
+  petsc::check(MatSetOption(solver.chain.M, MAT_SYMMETRIC, PETSC_TRUE));
+  petsc::check(MatConvert(solver.chain.M, MATSBAIJ, MAT_INPLACE_MATRIX, solver.chain.M.put()));
+  solver.chain.K = std::move(K);
+  petsc::check(CMSSetType(solver.cms, CMSGUYAN));
+  petsc::check(solver.solve());
+  Mat K_r = nullptr;
+  petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
+  EXPECT_NEAR(replicate(K_r)(0, 1), -1.0 / (n - 1), round_off);
+}
+
+TEST(CMS, RefusesAnUnsymmetricOperator)
+{
+  Solver solver;
+  set_value(solver.chain.K, 17, 18, -1.1);
+  expect_refused(solver, "K is not symmetric: row and column 17");
+}
+
+TEST(CMS, RefusesAValueThatIsNotFinite)
+{
+  Solver solver;
+  set_value(solver.chain.M, n - 2, n - 2, std::numeric_limits<double>::quiet_NaN());
+  expect_refused(solver, "M[38, 38] = nan is not finite");
+}
+
+TEST(CMS, RefusesANegativeDiagonal)
+{
+  Solver solver;
+  set_value(solver.chain.K, 3, 3, -2.0);
+  expect_refused(solver, "K[3, 3] = -2 is negative");
+}
+
+TEST(CMS, RefusesAnIndefiniteStiffness)
+{
+  Solver solver;
+  set_value(solver.chain.K, 0, 0, 0.0);  // the end spring pushes: K_ss is as it was
+  expect_refused(solver, "K is indefinite");
+}
+
+TEST(CMS, RefusesAnIndefiniteMass)
+{
+  Solver solver;
+  petsc::check(MatSetOption(solver.chain.M, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  set_value(solver.chain.M, 0, n - 1, -30.0);
+  set_value(solver.chain.M, n - 1, 0, -30.0);
+  expect_refused(solver, "M is indefinite");
+}
+
+TEST(CMS, RefusesAPartThatNoMasterHolds)
+{
+  Solver solver;
+  set_value(solver.chain.K, 20, 21, 0.0);
+  set_value(solver.chain.K, 21, 20, 0.0);
+  set_value(solver.chain.K, 20, 20, 1.0);
+  set_value(solver.chain.K, 21, 21, 1.0);
+  solver.masters = master_set(solver.chain.K, {0, 1});
+  expect_refused(solver, "K_ss is not positive definite");
+}
+
+TEST(CMS, RefusesMastersWithoutSense)
+{
+  struct Mistake {
+    std::vector<PetscInt> masters;
+    const char* words;
+  };
+  for (const Mistake& mistake : {Mistake{{0, n}, "master 40 is out of range; rows are 0 to 39"},
+                                 {{-1, 3}, "master -1"},
+                                 {{5, 7, 5}, "master 5 is given twice"},
+                                 {{}, "0 masters"}}) {
+    Solver solver;
+    const bool last_rank = petsc::rank(PETSC_COMM_WORLD) == petsc::size(PETSC_COMM_WORLD) - 1;
+    petsc::IndexSet masters;
+    petsc::check(ISCreateGeneral(PETSC_COMM_WORLD,
+                                 last_rank ? static_cast<PetscInt>(mistake.masters.size()) : 0,
+                                 mistake.masters.data(), PETSC_COPY_VALUES, masters.put()));
+    solver.masters = std::move(masters);
+    expect_refused(solver, mistake.words);
+  }
+}
+
+TEST(CMS, RefusesMoreModesThanExist)
+{
+  Solver solver;
+  petsc::check(CMSSetDimensions(solver.cms, n));
+  expect_refused(solver, "40 modes asked of 38 slaves");
+}
+
+TEST(CMS, RefusesOperatorsOfDifferentSizes)
+{
+  Solver solver;
+  solver.chain.M = std::move(free_chain(n + 1).M);
+  expect_refused(solver, "M is 41 x 41, but K has 40 rows");
+}
+
+TEST(CMS, RefusesSettingsWithoutSense)
+{
+  const Solver solver;
+  EXPECT_NE(CMSSetDimensions(solver.cms, 0), 0);
+  EXPECT_NE(CMSSetCutoff(solver.cms, -1.0), 0);
+  EXPECT_NE(CMSSetTolerance(solver.cms, 2.0, 10.0), 0);
+  const PetscErrorCode code = CMSSetType(solver.cms, "rubin");
+  EXPECT_NE(message(code).find("-cms_type guyan or craig-bampton"), std::string::npos);
+  const Options options("-cms_nmodes 3 -cms_cutoff 5");
+  EXPECT_NE(CMSSetFromOptions(solver.cms), 0);
+}
+
+TEST(CMS, SaysWhatIsToBeCalledFirst)
+{
+  const Solver solver;
+  const PetscErrorCode nothing_set = CMSSolve(solver.cms);
+  EXPECT_NE(message(nothing_set).find("call CMSSetOperators() first"), std::string::npos);
+  petsc::check(CMSSetOperators(solver.cms, solver.chain.K, solver.chain.M, nullptr));
+  const PetscErrorCode no_interface = CMSSolve(solver.cms);
+  EXPECT_NE(message(no_interface).find("call CMSSetInterface() first"), std::string::npos);
+  Mat K = nullptr;
+  const PetscErrorCode not_solved = CMSGetReducedOperators(solver.cms, &K, nullptr, nullptr);
+  EXPECT_NE(message(not_solved).find("Call CMSSolve() first"), std::string::npos);
+}
+
+TEST(CMS, LeavesTheOldFileWhereItCannotWriteANewOne)
+{
+  Solver solver;
+  petsc::check(solver.solve());
+  const PetscErrorCode code = CMSWrite(solver.cms, "/no/such/folder/chain.reduced.h5");
+  ASSERT_NE(code, 0);
+  EXPECT_NE(message(code).find("/no/such/folder/chain.reduced.h5"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::reduce
