@@ -60,6 +60,13 @@ MatrixXd tensor_interpolation(const VectorXd& from, const Points& to)
   return weights;
 }
 
+/// Values at some points of the polynomial nearest to the values at others.
+MatrixXd polynomial_fit(int degree, const Points& from, const Points& to)
+{
+  return monomials(degree, to) *
+         monomials(degree, from).completeOrthogonalDecomposition().pseudoInverse();
+}
+
 /// Assumed strains are known at the integration points and polynomials of order p between them;
 /// compatible ones are known everywhere.
 StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const VectorXd& u_e)
@@ -79,14 +86,22 @@ StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const Vec
   return values;
 }
 
+/// As those of quadrilaterals.
 StrainValues triangle_strains(int order, const ShellNodes& nodes, const VectorXd& u_e)
 {
+  const Points full = gauss_points(Shape::triangle, order + 1);
   const Points points = resultant_points(Shape::triangle, order);
-  const CovariantStrains compatible =
-      covariant_strains(lagrange_basis(Shape::triangle, order, points), nodes);
-  CovariantStrains assumed = assume_triangle_shear(order, points, nodes, compatible);
-  assumed.m = assume_triangle_membrane(order, points, nodes, compatible).m;
-  return values_of(assumed, u_e, MatrixXd::Identity(points.size(), points.size()));
+  const CovariantStrains at_full =
+      covariant_strains(lagrange_basis(Shape::triangle, order, full), nodes);
+  CovariantStrains assumed = assume_triangle_shear(order, full, nodes, at_full);
+  assumed.m = assume_triangle_membrane(order, full, nodes, at_full).m;
+  StrainValues values = values_of(assumed, u_e, polynomial_fit(order, full, points));
+  const StrainValues compatible =
+      values_of(covariant_strains(lagrange_basis(Shape::triangle, order, points), nodes), u_e,
+                MatrixXd::Identity(points.size(), points.size()));
+  values.b = compatible.b;
+  values.c = compatible.c;
+  return values;
 }
 
 /// Plane stress normal to e_3, with the shear correction, of a strain tensor.
@@ -192,8 +207,7 @@ MatrixXd extrapolation_to_nodes(Shape shape, int order)
   if (shape == Shape::quadrilateral) {
     return tensor_interpolation(gauss_legendre(order).x, nodes);
   }
-  const MatrixXd at_points = monomials(order - 1, resultant_points(shape, order));
-  return monomials(order - 1, nodes) * at_points.completeOrthogonalDecomposition().pseudoInverse();
+  return polynomial_fit(order - 1, resultant_points(shape, order), nodes);
 }
 
 }  // namespace chladni::plate
