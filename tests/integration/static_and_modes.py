@@ -85,6 +85,19 @@ def expect(name, value, exact, within):
     return error < within
 
 
+def misplaced(picture):
+    """How far the nodes of VTK's biquadratic cells are from where VTK expects them: on the middles of
+    the edges 01, 12, 32, 03 and in the centre."""
+    points, offsets = picture["points"], picture["offsets"][:, 0]
+    quadrilaterals = np.flatnonzero(picture["types"][:, 0] == 70)
+    assert quadrilaterals.size > 0
+    nodes = picture["connectivity"][:, 0][offsets[quadrilaterals, None] + np.arange(-9, 0)]
+    corners = points[nodes[:, :4]]
+    middles = (corners + corners[:, [1, 2, 3, 0]]) / 2
+    centres = corners.mean(axis=1)
+    return max(np.abs(points[nodes[:, 4:8]] - middles).max(), np.abs(points[nodes[:, 8]] - centres).max())
+
+
 def deflections():
     """Of the tip under each load, by Timoshenko's beam."""
     stiffness = YOUNG * WIDTH * THICKNESS**3 / 12
@@ -114,6 +127,9 @@ def check_static(program, mpirun, ranks, folder):
         picture = arrays(folder / "strip.static.vtu")
         largest = np.linalg.norm(picture["displacement"], axis=1).max()
         good &= expect("  the same in the picture", largest, summary["largest_displacement_m"], 1e-12)
+        distance = misplaced(picture)
+        print(f"{'ok' if distance < 1e-12 else 'FAILED':8}  nodes of the cells: {distance:.1e}")
+        good &= distance < 1e-12
         if load == PRESSURE:
             good &= expect("  reaction", summary["reaction_N"][2], 1e3 * WIDTH * LENGTH, 1e-9)
     return good
