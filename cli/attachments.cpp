@@ -1,7 +1,6 @@
 #include "cli/attachments.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,24 +9,10 @@
 namespace chladni::cli {
 namespace {
 
-std::vector<int> nodes_of(const mesh::Mesh& mesh, const plate::DofMap& dofs,
-                          const std::string& name)
-{
-  if (const auto reference = dofs.reference_node(name)) return {*reference};
-  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
-  if (group != mesh.groups.end()) return group->nodes;
-  std::vector<std::string> names = dofs.reference_names;
-  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
-  throw Error(
-      fmt::format("interface node set \"{}\" is neither a group or ring of the mesh nor a "
-                  "coupling; there are: {}",
-                  name, fmt::join(names, ", ")));
-}
-
 void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const std::string& name,
                        int node)
 {
-  for (int component = 0; component < 6; ++component) {
+  for (const int component : dofs.components) {
     if (dofs.dof(node, component)) continue;
     const std::string& followed = dofs.followed[node];
     throw Error(
@@ -51,7 +36,7 @@ Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
   Attachments attachments;
   for (const std::string& name : names) {
     mbs_export::AttachmentSet set{.name = name, .nodes = {}};
-    for (const int node : nodes_of(mesh, dofs, name)) {
+    for (const int node : plate::named_nodes(mesh, dofs, name)) {
       check_independent(mesh, dofs, name, node);
       const auto it = std::ranges::find(attachments.nodes, node);
       set.nodes.push_back(static_cast<int>(it - attachments.nodes.begin()));

@@ -54,6 +54,7 @@ mbs_export::ReducedSystem with_modes(const mbs_export::ReducedSystem& system, in
   mbs_export::ReducedSystem cut = system;
   cut.K = system.K.topLeftCorner(n, n);
   cut.M = system.M.topLeftCorner(n, n);
+  if (system.C.size() > 0) cut.C = system.C.topLeftCorner(n, n);
   cut.fixed_interface_frequencies = system.fixed_interface_frequencies.head(n_modes);
   return cut;
 }

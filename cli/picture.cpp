@@ -1,7 +1,5 @@
 #include "cli/picture.hpp"
 
-#include <algorithm>
-
 namespace chladni::cli {
 namespace {
 
@@ -11,12 +9,16 @@ using Cell = std::array<int, 4>;
 std::vector<Cell> lattice_cells(const mesh::ElementBlock& block, int step)
 {
   const int p = block.order;
+  std::vector<Cell> cells;
+  if (block.shape == mesh::Shape::line) {
+    for (int i = 0; i < p; i += step) cells.push_back({i, i + step, i + step, i + step});
+    return cells;
+  }
   const bool triangle = block.shape == mesh::Shape::triangle;
   // Lattice place of column i and row j; rows of a triangle grow shorter.
   const auto place = [&](int i, int j) {
     return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
   };
-  std::vector<Cell> cells;
   for (int j = 0; j < p; j += step) {
     for (int i = 0; i + (triangle ? j : 0) < p; i += step) {
       const int a = place(i, j), b = place(i + step, j), d = place(i, j + step);
@@ -64,17 +66,7 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, PictureChoice choice)
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
                                  const RowsOf& rows_of)
 {
-  std::vector<int> numbers;  // on which the nodes depend, each once
-  for (const int node : chosen.nodes) {
-    for (const plate::MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
-  }
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  std::vector<int> wanted;
-  for (const int number : numbers) {
-    for (int c = 0; c < 6; ++c) wanted.push_back(6 * number + c);
-  }
-  const Eigen::MatrixXd rows = rows_of(wanted);
+  const Eigen::MatrixXd rows = node_rows(chosen.nodes, dofs, rows_of);
   const auto n = static_cast<Eigen::Index>(chosen.nodes.size());
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
@@ -84,11 +76,7 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
     const int node = chosen.nodes[static_cast<std::size_t>(k)];
     const auto& x = dofs.positions[static_cast<std::size_t>(node)];
     picture.positions.row(k) << x[0], x[1], x[2];
-    for (const plate::MotionTerm& term : dofs.motion(node)) {
-      const auto place = std::ranges::lower_bound(numbers, term.number) - numbers.begin();
-      picture.transformation.middleRows<3>(3 * k) +=
-          term.T.topRows<3>() * rows.middleRows<6>(6 * place);
-    }
+    picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * k);
   }
   return picture;
 }

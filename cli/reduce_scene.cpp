@@ -8,6 +8,7 @@
 #include "cli/petsc_session.hpp"
 #include "cli/picture.hpp"
 #include "cli/reduce_steps.hpp"
+#include "cli/section_forces.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
 
@@ -29,8 +30,10 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 {
   plate::DofMap dofs =
       plate::make_dof_map(mesh, scene.couplings, mesh::node_owners(mesh, n_ranks()), n_ranks());
+  dofs.components = scene.components;
   Attachments attachments = find_attachments(mesh, dofs, scene.interface_nodes);
-  plate::System system = plate::assemble(mesh, scene.sections, std::move(dofs), PETSC_COMM_WORLD);
+  plate::System system =
+      plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
   return {
       .mesh = std::move(mesh), .system = std::move(system), .attachments = std::move(attachments)};
 }
@@ -48,15 +51,14 @@ Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned&
   return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 
-mbs_export::Picture picture_of(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                               const Reduced& reduced)
+/// Of the transformation, with the columns in the order of the file.
+RowsOf rows_of(const Partitioned& blocks, const Reduced& reduced)
 {
-  const RowsOf rows_of = [&](const std::vector<int>& dofs) -> MatrixXd {
+  return [&](const std::vector<int>& dofs) -> MatrixXd {
     const reduce::SmallMatrix rows = reduce::basis_rows(reduced.Q_CB, blocks.rows, dofs);
     return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(Eigen::all,
                                                                                     reduced.places);
   };
-  return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows_of);
 }
 
 }  // namespace
@@ -78,7 +80,14 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
   system.certificate = phases.run(
       "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
-  system.picture = phases.run("pictures", [&] { return picture_of(scene, fe, blocks, reduced); });
+  const RowsOf rows = rows_of(blocks, reduced);
+  system.picture = phases.run("pictures", [&] {
+    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
+  });
+  if (!scene.resultants.empty()) {
+    system.resultants = phases.run(
+        "section forces", [&] { return section_forces(scene.resultants, scene.beams, fe, rows); });
+  }
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),
                        .versions = library_versions(),
@@ -86,7 +95,7 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
                        .ranks = n_ranks()};
   return {.reduced = std::move(system),
           .phases = phases.times(),
-          .n_dofs = 6 * std::int64_t(fe.system.dofs.n_active()),
+          .n_dofs = fe.system.dofs.n_dofs(),
           .n_nodes = fe.mesh.n_nodes(),
           .n_masters = static_cast<int>(blocks.masters.size()),
           .n_modes = n_modes,

@@ -16,7 +16,7 @@ std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::D
 {
   std::vector<PetscInt> masters;
   for (const int node : attachments.nodes) {
-    for (int c = 0; c < 6; ++c) masters.push_back(dofs.dof(node, c).value());
+    for (const int c : dofs.components) masters.push_back(dofs.dof(node, c).value());
   }
   return masters;
 }
@@ -68,7 +68,7 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
     const auto& x = fe.system.dofs.positions[node];
     reduced.attachment_nodes.push_back(
         {.number = node_number(fe.mesh, fe.system.dofs, node), .position = {x[0], x[1], x[2]}});
-    for (int c = 0; c < 6; ++c) {
+    for (const int c : fe.system.dofs.components) {
       reduced.masters.push_back({.node = static_cast<int>(i), .component = c});
     }
   }
@@ -81,14 +81,27 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
 
 }  // namespace
 
+plate::Structure structure_of(const Scene& scene)
+{
+  return {.shells = scene.sections,
+          .beams = scene.beams,
+          .masses = scene.masses,
+          .springs = scene.springs};
+}
+
 Partitioned partition_scene(const FeModel& fe)
 {
   std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
   reduce::DofPartition rows = reduce::partition(fe.system.K, own_masters(fe.system.K, masters));
   reduce::Blocks K = reduce::split(fe.system.K, rows);
   reduce::Blocks M = reduce::split(fe.system.M, rows);
-  return {
-      .rows = std::move(rows), .K = std::move(K), .M = std::move(M), .masters = std::move(masters)};
+  std::optional<reduce::Blocks> C;
+  if (fe.system.C != nullptr) C = reduce::split(fe.system.C, rows);
+  return {.rows = std::move(rows),
+          .K = std::move(K),
+          .M = std::move(M),
+          .C = std::move(C),
+          .masters = std::move(masters)};
 }
 
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
@@ -104,9 +117,8 @@ reduce::FixedInterfaceModes fixed_interface_modes(const Partitioned& blocks,
                                                   const reduce::ReduceOptions& wanted,
                                                   Phases& phases)
 {
-  return phases.run("fixed-interface modes", [&] {
-    return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted);
-  });
+  return phases.run("fixed-interface modes",
+                    [&] { return reduce::fixed_interface_modes(K_ss, blocks.M.ss, wanted); });
 }
 
 Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
@@ -116,6 +128,7 @@ Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned&
       phases.run("projection", [&] { return reduce::project(Q_CB, blocks.K, blocks.M); });
   std::vector<int> places = coordinate_places(blocks.masters, Q_CB.n_modes());
   mbs_export::ReducedSystem system = to_file_order(scene, fe, model, places);
+  if (blocks.C) system.C = as_eigen(reduce::project_damping(Q_CB, *blocks.C))(places, places);
   return {.Q_CB = std::move(Q_CB),
           .model = std::move(model),
           .places = std::move(places),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Reduced {
 struct Partitioned {
   reduce::DofPartition rows;
   reduce::Blocks K, M;
+  std::optional<reduce::Blocks> C;  ///< where there are dampers
   std::vector<PetscInt> masters;
 };
 
@@ -55,6 +57,9 @@ class Phases {
   const ReduceProgress& progress_;
   PhaseClock clock_;
 };
+
+/// What the body of the scene is made of; refers to the scene.
+plate::Structure structure_of(const Scene& scene);
 
 Partitioned partition_scene(const FeModel& fe);
 

@@ -217,6 +217,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("ring_names", ring_names);
   for (const ContactRing& ring : body.rings) write_ring(file, ring);
   file_parts::write_picture(file, body.picture);
+  file_parts::write_resultants(file, body.resultants);
   file.write("rigid_body/mass", body.mass, "kg");
   file.write("rigid_body/centre_of_mass", body.centre_of_mass, "m");
   file.write("rigid_body/inertia", body.inertia, "kg m^2");
@@ -257,6 +258,7 @@ ModalBody read_body(const std::string& path)
           .condition_Q_dd = file.real("preparation/condition_Q_dd"),
           .n_free_rigid = file_parts::read_count(file, "preparation/free_rigid_modes"),
           .preparation = read_preparation(file),
+          .resultants = file_parts::read_resultants(file, n),
           .selection = read_selection(file),
           .provenance = file_parts::read_provenance(file)};
 }

@@ -143,6 +143,17 @@ void add_mass(std::vector<Check>& checks, const ReducedSystem& reduced, Index n_
   if (n_motions == 6) checks.push_back(check_parts::check_inertia(rigid.inertia));
 }
 
+/// Rigid motions strain nothing: S B against the largest entries of S and of B.
+void add_resultants(std::vector<Check>& checks, const ReducedSystem& reduced, const MatrixXd& B)
+{
+  for (const ResultantModes& resultants : reduced.resultants) {
+    const double scale = resultants.S.cwiseAbs().maxCoeff() * B.cwiseAbs().maxCoeff();
+    const double largest = (resultants.S * B).cwiseAbs().maxCoeff();
+    checks.push_back(bounded("resultants " + resultants.name, scale > 0.0 ? largest / scale : 0.0,
+                             1e-8, "of rigid motions, over the largest of all"));
+  }
+}
+
 void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
 {
   const std::optional<MatrixXd> B = rigid_basis(reduced);
@@ -165,6 +176,7 @@ void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
                             static_cast<double>(B->cols() - n_held), Verdict::fail,
                             "zero-energy motions; more than expected are mechanisms"));
   if (n_held == 0) add_mass(checks, reduced, B->cols());
+  add_resultants(checks, reduced, *B);
 }
 
 /// K_qq = diag(omega^2), M_qq = I, K_mq = 0.

@@ -23,6 +23,12 @@ void write_picture(hdf5::Writer& file, const Picture& picture);
 /// @param n_columns  that `transformation` must have
 Picture read_picture(const hdf5::Reader& file, Eigen::Index n_columns);
 
+/// `resultant_names` and a group `resultants/NAME` for each; nothing is written when there are
+/// none.
+void write_resultants(hdf5::Writer& file, const std::vector<ResultantModes>& resultants);
+/// @param n_columns  that each `modes` must have
+std::vector<ResultantModes> read_resultants(const hdf5::Reader& file, Eigen::Index n_columns);
+
 void write_provenance(hdf5::Writer& file, const Provenance& provenance);
 Provenance read_provenance(const hdf5::Reader& file);
 

@@ -162,6 +162,13 @@ Picture picture_modes(const Picture& picture, const MatrixXd& T)
   return {picture.positions, picture.cells, picture.transformation * T};
 }
 
+std::vector<ResultantModes> resultants_in_modes(std::vector<ResultantModes> resultants,
+                                                const MatrixXd& T)
+{
+  for (ResultantModes& one : resultants) one.S = one.S * T;
+  return resultants;
+}
+
 ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, const BodyModes& modes)
 {
   const RigidInertia rigid = rigid_inertia(reduced);
@@ -181,6 +188,7 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .free_frequencies = {},
                  .n_rigid = 0,
                  .condition_Q_dd = 1.0,
+                 .resultants = resultants_in_modes(reduced.resultants, modes.T),
                  .provenance = reduced.provenance};
   body.rings = contact_rings(reduced, body.attachment_modes);
   return body;

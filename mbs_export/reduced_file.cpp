@@ -90,6 +90,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
     file.write("certificate/eta2", reduced.certificate.eta2, "1");
   }
   file_parts::write_picture(file, reduced.picture);
+  file_parts::write_resultants(file, reduced.resultants);
   file_parts::write_provenance(file, reduced.provenance);
   file.commit();
 }
@@ -118,6 +119,7 @@ ReducedSystem read_reduced(const std::string& path)
           .fixed_interface_frequencies = std::move(frequencies),
           .picture = file_parts::read_picture(file, n),
           .certificate = read_certificate(file),
+          .resultants = file_parts::read_resultants(file, n),
           .provenance = file_parts::read_provenance(file)};
 }
 

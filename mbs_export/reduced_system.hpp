@@ -31,8 +31,22 @@ struct MasterDof {
 /// rows of the Craig-Bampton transformation that give their displacements.
 struct Picture {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;  ///< [n x 3], m
-  std::vector<std::array<int, 4>> cells;  ///< corner indices; a triangle repeats its last one
-  Eigen::MatrixXd transformation;         ///< [3 n x n_FE], rows x, y, z of each node in turn
+  std::vector<std::array<int, 4>>
+      cells;                       ///< corners; a triangle repeats its last one, a line twice
+  Eigen::MatrixXd transformation;  ///< [3 n x n_FE], rows x, y, z of each node in turn
+};
+
+/// Stresses, section forces or other resultants r = S q at points of chosen elements, as linear
+/// forms in the coordinates q: "stress modes".
+struct ResultantModes {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::string name;                    ///< e.g. the group of the elements
+  std::vector<std::string> kinds;      ///< [n_kinds] "N", "Q_z", "M_y", ...; the same at each point
+  std::vector<std::string> units;      ///< [n_kinds] of the kinds, "N", "N m", "N/m", ...
+  std::vector<std::int64_t> elements;  ///< [n_points] element numbers of the mesh
+  Rows positions;                      ///< [n_points x 3], m
+  Rows axes;                           ///< [n_points x 9] unit vectors e_x, e_y, e_z of the kinds
+  Eigen::MatrixXd S;  ///< [n_points n_kinds x n_coordinates] all kinds of each point in turn
 };
 
 /// Where a result comes from; written into every file.
@@ -66,6 +80,7 @@ struct ReducedSystem {
   Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
   Picture picture;                              ///< empty when the scene wants none
   Certificate certificate = {};
+  std::vector<ResultantModes> resultants = {};
   Provenance provenance;
 
   Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }

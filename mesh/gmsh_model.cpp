@@ -49,13 +49,14 @@ std::vector<int> lattice_permutation(int type, Shape shape, int order)
   std::vector<double> local;  // parent coordinates, `dimension` for each node
   gmsh::model::mesh::getElementProperties(type, name, dimension, gmsh_order, n_nodes, local,
                                           n_primary);
-  const bool quadrilateral = shape == Shape::quadrilateral;
+  const bool from_minus_one = shape != Shape::triangle;
   std::map<std::pair<int, int>, int> place;  // (row, column) -> Gmsh's index
   for (int k = 0; k < n_nodes; ++k) {
     const auto column = [&](double x) {
-      return static_cast<int>(std::lround((quadrilateral ? (x + 1.0) / 2.0 : x) * order));
+      return static_cast<int>(std::lround((from_minus_one ? (x + 1.0) / 2.0 : x) * order));
     };
-    place[{column(local[2 * k + 1]), column(local[2 * k])}] = k;
+    const int row = dimension == 2 ? column(local[2 * k + 1]) : 0;
+    place[{row, column(local[dimension * k])}] = k;
   }
   std::vector<int> permutation;
   for (const auto& [lattice_point, k] : place) permutation.push_back(k);
@@ -96,10 +97,14 @@ NodeIndex read_nodes(Mesh& mesh)
   return index;
 }
 
-/// Entity of dimension 2 -> index of its physical group in mesh.groups (the first one counts).
-std::map<int, int> read_groups(Mesh& mesh, const NodeIndex& index)
+/// (dimension, tag) of the entities with elements -> index of their physical group in mesh.groups:
+/// surfaces (the first group counts) and the curves of the line groups.
+using GroupOfEntity = std::map<std::pair<int, int>, int>;
+
+GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index,
+                          const std::vector<std::string>& line_groups)
 {
-  std::map<int, int> group_of_surface;
+  GroupOfEntity group_of_entity;
   for (int dimension = 0; dimension <= 2; ++dimension) {
     for (const auto& [dim, tag] : physical_entities(dimension)) {
       std::vector<std::size_t> tags;
@@ -109,17 +114,19 @@ std::map<int, int> read_groups(Mesh& mesh, const NodeIndex& index)
       for (const std::size_t t : tags) group.nodes.push_back(index.at(t));
       std::ranges::sort(group.nodes);
       group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
-      if (dim == 2) {
+      const bool is_line_group =
+          dim == 1 && std::ranges::find(line_groups, group.name) != line_groups.end();
+      if (dim == 2 || is_line_group) {
         std::vector<int> entities;
         gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
         for (const int e : entities) {
-          group_of_surface.emplace(e, static_cast<int>(mesh.groups.size()));
+          group_of_entity.emplace(std::pair{dim, e}, static_cast<int>(mesh.groups.size()));
         }
       }
       mesh.groups.push_back(std::move(group));
     }
   }
-  return group_of_surface;
+  return group_of_entity;
 }
 
 ElementBlock& block_of(Mesh& mesh, int type)
@@ -131,9 +138,12 @@ ElementBlock& block_of(Mesh& mesh, int type)
   int n_primary = 0;
   std::vector<double> local;
   gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_primary);
-  const Shape shape = n_primary == 3 ? Shape::triangle : Shape::quadrilateral;
-  const int complete =
-      shape == Shape::triangle ? (order + 1) * (order + 2) / 2 : (order + 1) * (order + 1);
+  const Shape shape = dimension == 1   ? Shape::line
+                      : n_primary == 3 ? Shape::triangle
+                                       : Shape::quadrilateral;
+  const int complete = shape == Shape::line       ? order + 1
+                       : shape == Shape::triangle ? (order + 1) * (order + 2) / 2
+                                                  : (order + 1) * (order + 1);
   if (n_nodes != complete) {
     throw Error(
         fmt::format("the mesh has \"{}\" elements; Chladni reads complete elements only: "
@@ -152,12 +162,13 @@ ElementBlock& block_of(Mesh& mesh, int type)
   return mesh.blocks.back();
 }
 
-void read_surface(Mesh& mesh, const NodeIndex& index, int surface, int group)
+/// @param entity  dimension and tag
+void read_elements(Mesh& mesh, const NodeIndex& index, std::pair<int, int> entity, int group)
 {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> numbers;
   std::vector<std::vector<std::size_t>> nodes;
-  gmsh::model::mesh::getElements(types, numbers, nodes, 2, surface);
+  gmsh::model::mesh::getElements(types, numbers, nodes, entity.first, entity.second);
   for (std::size_t t = 0; t < types.size(); ++t) {
     ElementBlock& block = block_of(mesh, types[t]);
     const std::vector<int> permutation = lattice_permutation(types[t], block.shape, block.order);
@@ -196,18 +207,21 @@ void drop_unused_nodes(Mesh& mesh)
   }
 }
 
-Mesh current_model()
+Mesh current_model(const std::vector<std::string>& line_groups)
 {
   Mesh mesh;
   const NodeIndex index = read_nodes(mesh);
-  const std::map<int, int> group_of_surface = read_groups(mesh, index);
+  GroupOfEntity group_of_entity = read_groups(mesh, index, line_groups);
   std::vector<std::pair<int, int>> surfaces;
   gmsh::model::getEntities(surfaces, 2);
-  for (const auto& [dimension, surface] : surfaces) {
-    const auto group = group_of_surface.find(surface);
-    read_surface(mesh, index, surface, group == group_of_surface.end() ? -1 : group->second);
+  for (const auto& surface : surfaces) group_of_entity.emplace(surface, -1);  // in no group
+  for (const auto& [entity, group] : group_of_entity) {
+    read_elements(mesh, index, entity, group);
   }
-  if (mesh.blocks.empty()) throw Error("the mesh has no surface elements (triangles, quads)");
+  if (mesh.blocks.empty()) {
+    throw Error(
+        "the mesh has no elements: neither triangles and quads nor lines of a beam's group");
+  }
   drop_unused_nodes(mesh);
   return mesh;
 }
@@ -215,13 +229,14 @@ Mesh current_model()
 bool has_elements()
 {
   std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 2);
+  gmsh::model::mesh::getElementTypes(types);
   return !types.empty();
 }
 
 }  // namespace
 
-Mesh mesh_with_gmsh(const std::function<void()>& build, int order)
+Mesh mesh_with_gmsh(const std::function<void()>& build, int order,
+                    const std::vector<std::string>& line_groups)
 {
   const Session session;
   try {
@@ -231,7 +246,7 @@ Mesh mesh_with_gmsh(const std::function<void()>& build, int order)
       gmsh::model::mesh::generate(2);
       if (order > 1) gmsh::model::mesh::setOrder(order);
     }
-    return split_flat_corners(current_model());
+    return split_flat_corners(current_model(line_groups));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

@@ -40,7 +40,7 @@ struct Group {
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
   std::vector<std::array<double, 3>> positions;  ///< [n], m
-  std::vector<ElementBlock> blocks;              ///< of dimension 2
+  std::vector<ElementBlock> blocks;              ///< surfaces, and lines that are beams
   std::vector<Group> groups;
 
   int n_nodes() const { return static_cast<int>(positions.size()); }

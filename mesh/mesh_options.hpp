@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,7 +62,8 @@ struct HatDiscOptions {
 };
 
 /// Plane sector of an annulus about the z axis, symmetric to `centre_angle`: a pad. Groups: "pad"
-/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge", "corners".
+/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge",
+/// "corners".
 struct PadOptions {
   double inner_radius;      ///< m
   double outer_radius;      ///< m
@@ -84,15 +86,34 @@ struct RectangleOptions {
   std::optional<double> edge_row = {};  ///< m, along all four edges
 };
 
+/// A named node of a generated beam.
+struct BeamPoint {
+  std::string name;
+  double distance;  ///< from the start, m
+};
+
+/// Straight line of two-node elements from start to end. Groups: "beam" (the line), "start", "end"
+/// and one for each point.
+struct BeamMeshOptions {
+  std::array<double, 3> start;              ///< m
+  std::array<double, 3> end;                ///< m
+  std::optional<int> elements = {};         ///< of equal length; each point must meet a node
+  std::optional<double> element_size = {};  ///< m, largest; each piece between points is divided
+  std::vector<BeamPoint> points = {};
+};
+
 /// The scene's [mesh]: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
-  std::optional<std::string> file = {};   ///< .msh or .geo, resolved against the scene file's folder
+  std::optional<std::string> file = {};  ///< .msh or .geo, resolved against the scene file's folder
   std::optional<int> element_order = {};  ///< for .geo; a .msh has its own
   std::vector<RingOptions> rings = {};    ///< of a file: nodes that must lie on a circle; checked
+  std::optional<BeamMeshOptions> beam = {};
+  /// Of a file: groups of curves whose elements become blocks of lines.
+  std::vector<std::string> line_groups = {};
 };
 
 }  // namespace chladni::mesh

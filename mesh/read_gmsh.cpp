@@ -27,7 +27,7 @@ void check_readable(const std::string& file)
 void check_orders(const Mesh& mesh, const std::string& file)
 {
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.order >= 1 && block.order <= 4) continue;
+    if (block.shape == Shape::line || (block.order >= 1 && block.order <= 4)) continue;
     throw Error(fmt::format("mesh file {} has elements of order {}; use 1 to 4 (Mesh.ElementOrder)",
                             file, block.order));
   }
@@ -42,7 +42,7 @@ Mesh read_gmsh(const MeshOptions& options)
   const bool geometry = std::filesystem::path(file).extension() == ".geo";
   const int order = geometry ? options.element_order.value_or(3) : 0;
   try {
-    Mesh mesh = mesh_with_gmsh([&] { gmsh::open(file); }, order);
+    Mesh mesh = mesh_with_gmsh([&] { gmsh::open(file); }, order, options.line_groups);
     check_orders(mesh, file);
     add_rings(mesh, options.rings);
     return mesh;
@@ -59,6 +59,7 @@ Mesh generate(const MeshOptions& options)
   if (options.hat_disc) return hat_disc(*options.hat_disc);
   if (options.pad) return pad(*options.pad);
   if (options.rectangle) return rectangle(*options.rectangle);
+  if (options.beam) return beam(*options.beam);
   return read_gmsh(options);
 }
 

@@ -9,19 +9,26 @@
 
 namespace chladni::plate {
 
-/// K u = f and M of the whole body after elimination of the couplings.
+/// K u = f, M and C of the whole body after elimination of the couplings; n_c =
+/// dofs.n_components().
 struct System {
-  petsc::Matrix K;  ///< [6 n_active x 6 n_active] AIJ, block size 6; N/m, N, N m
+  petsc::Matrix K;  ///< [n_c n_active x n_c n_active] AIJ, block size n_c; N/m, N, N m
   petsc::Matrix M;  ///< same, zeros dropped; kg, kg m, kg m^2
+  petsc::Matrix C;  ///< of the dampers; null without one; N s/m, N s, N m s
   DofMap dofs;
 };
 
 /// Assembles K and M. Every rank computes all elements that touch a node of its own and inserts its
 /// own rows only: no communication, and K and M are the same to the last bit for any number of
 /// ranks. Couplings and offsets are eliminated element by element, K_e <- T_e^T K_e T_e and M_e
-/// likewise, with u_e = T_e q.
+/// likewise, with u_e = T_e q; so are masses, springs and dampers. Components that `dofs` does not
+/// have are held at zero and are not part of the system.
 /// @note   Collective on `comm`.
-/// @throws chladni::Error when an element has no section, or a section has no elements.
+/// @throws chladni::Error as map_sections and point_elements, and for averaging couplings where
+///         nodes have fewer than six components.
+System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm);
+
+/// Of shells alone.
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,
                 MPI_Comm comm);
 

@@ -37,16 +37,6 @@ Basis nodal_basis(const mesh::ElementBlock& block)
   return lagrange_basis(block.shape, p, points);
 }
 
-NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
-{
-  NodeVectors x(block.nodes_per_element, 3);
-  for (Index i = 0; i < x.rows(); ++i) {
-    const auto& p = mesh.positions[block.element_nodes(element)[i]];
-    x.row(i) << p[0], p[1], p[2];
-  }
-  return x;
-}
-
 /// Unit normals at the nodes of one element.
 NodeVectors element_normals(const Basis& at_nodes, const NodeVectors& x)
 {
@@ -72,6 +62,16 @@ void check_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int 
 
 }  // namespace
 
+NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
+{
+  NodeVectors x(block.nodes_per_element, 3);
+  for (Index i = 0; i < x.rows(); ++i) {
+    const auto& p = mesh.positions[block.element_nodes(element)[i]];
+    x.row(i) << p[0], p[1], p[2];
+  }
+  return x;
+}
+
 double value_at(const Profile& profile, const std::array<double, 3>& position)
 {
   if (profile.at.empty()) return profile.values.front();
@@ -90,6 +90,7 @@ NodeVectors mean_normals(const mesh::Mesh& mesh)
 {
   NodeVectors sum = NodeVectors::Zero(mesh.n_nodes(), 3);
   for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
     const Basis at_nodes = nodal_basis(block);
     for (int e = 0; e < block.n_elements(); ++e) {
       const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));

@@ -6,8 +6,11 @@
 
 namespace chladni::plate {
 
-/// Mean unit normal at every node over the elements that meet there, [n_nodes x 3]. Elements of
-/// opposite orientation count with their normals turned.
+/// Nodes of one element in its order, [n x 3], m.
+NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element);
+
+/// Mean unit normal at every node over the surface elements that meet there, [n_nodes x 3]; zero
+/// where there are none. Elements of opposite orientation count with their normals turned.
 /// @throws chladni::Error naming an element and node where the Jacobian is not positive.
 NodeVectors mean_normals(const mesh::Mesh& mesh);
 

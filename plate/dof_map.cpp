@@ -98,8 +98,11 @@ std::vector<MotionTerm> DofMap::motion(int node) const
 
 std::optional<int> DofMap::dof(int node, int component) const
 {
-  if (is_dependent(node)) return std::nullopt;
-  if (combined[node] < 0) return 6 * number[node] + component;
+  const auto it = std::ranges::find(components, component);
+  if (is_dependent(node) || it == components.end()) return std::nullopt;
+  if (combined[node] < 0) {
+    return n_components() * number[node] + static_cast<int>(it - components.begin());
+  }
   const int dof = combined_motions[combined[node]].dof[static_cast<std::size_t>(component)];
   return dof < 0 ? std::nullopt : std::optional(dof);
 }

@@ -36,7 +36,8 @@ struct CombinedMotion {
 /// An averaging coupling replaces six displacements of nodes of its group by the motion of its
 /// reference node, whose DOFs stand where these were.
 /// Active nodes are numbered so that each rank owns a contiguous range; the map is the same on
-/// every rank. DOF `6 * number + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z).
+/// every rank. DOF `6 * number + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or
+/// correspondingly fewer where the nodes have only some of the components.
 struct DofMap {
   /// [n] active number of the node or, if dependent, of its reference; -1 for the reference node of
   /// an averaging coupling
@@ -49,9 +50,12 @@ struct DofMap {
   std::vector<std::string> followed;  ///< [n] name of what a node depends on; empty for none
   std::vector<int> combined;          ///< [n] index into `combined_motions`, -1 for none
   std::vector<CombinedMotion> combined_motions;
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero
 
   int n_nodes() const { return static_cast<int>(number.size()); }
   int n_active() const { return range.back(); }
+  int n_components() const { return static_cast<int>(components.size()); }
+  int n_dofs() const { return n_components() * n_active(); }
   bool is_dependent(int node) const { return reference[node] >= 0; }
   std::array<double, 3> arm(int node) const;  ///< m, from the reference to a dependent node
   std::optional<int> reference_node(const std::string& name) const;
@@ -61,7 +65,7 @@ struct DofMap {
   /// Whether the motion of a node is that of its own six DOFs.
   bool is_plain(int node) const { return reference[node] < 0 && combined[node] < 0; }
   /// The DOF that is this component (0 to 5) of the node's motion; absent where couplings make it a
-  /// combination of others.
+  /// combination of others, and where the nodes do not have this component.
   std::optional<int> dof(int node, int component) const;
 };
 

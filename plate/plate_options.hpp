@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +38,53 @@ struct ShellSection {
   Material material;
   Profile thickness;     ///< m
   Profile offset = 0.0;  ///< m, from the mesh to the mid-surface along the normals of the elements
+};
+
+enum class BeamTheory { bernoulli_euler, timoshenko };
+
+/// The beam section of one physical group of lines. Local axes: x along the line, z as near to
+/// `orientation` as it can be at a right angle to x, y = z x x. Centroid and shear centre are on
+/// the line.
+struct BeamSection {
+  std::string group;
+  Material material;
+  BeamTheory theory = BeamTheory::timoshenko;
+  double area;                          ///< m^2
+  double I_y;                           ///< int z^2 dA, bending in the x-z plane, m^4
+  double I_z;                           ///< int y^2 dA, bending in the x-y plane, m^4
+  double J;                             ///< torsion constant, m^4
+  double shear_factor_y = 5.0 / 6.0;    ///< kappa of kappa G A for shear along y
+  double shear_factor_z = 5.0 / 6.0;    ///< along z
+  bool has_rotary_inertia = true;       ///< rho I_y and rho I_z of the bending rotations
+  std::optional<std::array<double, 3>>  ///< needed unless y and z are alike
+      orientation = {};
+};
+
+/// A rigid body on each node of a group, or on the reference node of a coupling.
+struct PointMass {
+  std::string at;
+  double mass;  ///< kg
+  /// xx, yy, zz, xy, xz, yz about the centre of mass, kg m^2; xy = -int x y dm and so on
+  std::array<double, 6> inertia = {};
+  std::array<double, 3> offset = {};  ///< of the centre of mass from the node, m
+};
+
+/// A spring and a damper, without mass, between the node of a group or coupling and another one or
+/// the ground: a force for each component of the global axes. Between nodes apart from each other
+/// the forces act at the middle, so that rigid motion feels none.
+struct Spring {
+  std::string at;
+  std::optional<std::string> to = {};  ///< absent: the ground; then each node of the group has one
+  std::array<double, 6> stiffness = {};  ///< N/m, N m/rad
+  std::array<double, 6> damping = {};    ///< N s/m, N m s/rad
+};
+
+/// What a body is made of.
+struct Structure {
+  std::span<const ShellSection> shells = {};
+  std::span<const BeamSection> beams = {};
+  std::span<const PointMass> masses = {};
+  std::span<const Spring> springs = {};
 };
 
 /// - rigid: a reference node at the centre of a group whose nodes follow it as a rigid body;

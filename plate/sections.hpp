@@ -9,8 +9,9 @@
 namespace chladni::plate {
 
 /// Index into `sections` of each group of the mesh, -1 where there is none.
-/// @throws chladni::Error when the group of a section is unknown or has no elements.
+/// @throws chladni::Error when the group of a section is unknown or has no elements of this kind.
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections);
+std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSection> sections);
 
 /// @param of_group  as section_of_group gives it.
 /// @throws chladni::Error when the element has no section.

@@ -1,15 +1,10 @@
 #pragma once
 
 #include "plate/covariant_strains.hpp"
+#include "plate/element_matrices.hpp"
 #include "plate/plate_options.hpp"
 
 namespace chladni::plate {
-
-/// K_e and M_e in the DOFs (u_x, u_y, u_z, theta_x, theta_y, theta_z) of each node in lattice
-/// order.
-struct ElementMatrices {
-  Eigen::MatrixXd K, M;
-};
 
 /// Quadrilaterals of order 1 to 4 and triangles of order 2 and 3 of the degenerated
 /// Reissner-Mindlin shell with kappa = 5/6:

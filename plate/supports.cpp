@@ -32,6 +32,7 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
     for (const int node : nodes) {
       for (const int component : support.components) {
         const auto dof = dofs.dof(node, component);
+        if (!dof && dofs.is_plain(node)) continue;  // the model holds this component
         if (!dof) refuse_dependent(mesh, dofs, support, node);
         held.push_back(*dof);
       }

@@ -31,6 +31,12 @@ struct ReducedModel {
 /// @note   Collective.
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M);
 
+/// C_r = Q_CB^T C Q_CB of a damping matrix; C may be unsymmetric (rotor dynamics), and then so is
+/// C_r.
+/// @return [n_m + n_CB squared], on every rank
+/// @note   Collective.
+SmallMatrix project_damping(const CraigBamptonBasis& Q_CB, const Blocks& C);
+
 /// Rows of Q_CB.
 /// @param dofs     global DOFs of K, the same list on every rank.
 /// @param rows_of  the partition that the basis belongs to.

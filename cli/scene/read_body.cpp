@@ -52,25 +52,6 @@ KeptModes read_kept_modes(const Table& body)
   return kept;
 }
 
-std::vector<int> read_components(const Table& mode)
-{
-  const std::vector<std::string> dofs = mode.texts("dofs");
-  if (dofs.empty()) mode.refuse("dofs", "must name a component: " + quoted_list(component_names));
-  std::vector<int> components;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto found = std::find(component_names.begin(), component_names.end(), dofs[i]);
-    if (found == component_names.end()) {
-      mode.refuse_element("dofs", i, "must be one of " + quoted_list(component_names));
-    }
-    const int component = static_cast<int>(found - component_names.begin());
-    if (std::find(components.begin(), components.end(), component) != components.end()) {
-      mode.refuse_element("dofs", i, "is named twice");
-    }
-    components.push_back(component);
-  }
-  return components;
-}
-
 std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
 {
   if (kind == InterfaceModes::Kind::irm) {
@@ -97,7 +78,7 @@ InterfaceModes read_interface_mode(const Table& mode,
   }
   return {.kind = kind,
           .at = at,
-          .components = read_components(mode),
+          .components = read_component_list(mode, "dofs"),
           .omega0 = read_omega0(mode, kind)};
 }
 
@@ -127,6 +108,46 @@ Damping read_damping(const Table& body)
 }
 
 }  // namespace
+
+std::array<double, 3> read_vector(const Table& table, std::string_view key,
+                                  const Admissible& admissible)
+{
+  const std::vector<double> values = table.numbers(key, admissible);
+  if (values.size() != 3) table.refuse(key, "must be three numbers [x, y, z]");
+  return {values[0], values[1], values[2]};
+}
+
+std::array<double, 6> read_by_component(const Table& table, std::string_view key,
+                                        const Admissible& admissible)
+{
+  const Table values = table.table(key);
+  std::array<double, 6> by_component{};
+  for (std::size_t c = 0; c < component_names.size(); ++c) {
+    if (values.has(component_names[c])) {
+      by_component[c] = values.number(component_names[c], admissible);
+    }
+  }
+  return by_component;
+}
+
+std::vector<int> read_component_list(const Table& table, std::string_view key)
+{
+  const std::vector<std::string> names = table.texts(key);
+  if (names.empty()) table.refuse(key, "must name a component: " + quoted_list(component_names));
+  std::vector<int> components;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = std::find(component_names.begin(), component_names.end(), names[i]);
+    if (found == component_names.end()) {
+      table.refuse_element(key, i, "must be one of " + quoted_list(component_names));
+    }
+    const int component = static_cast<int>(found - component_names.begin());
+    if (std::find(components.begin(), components.end(), component) != components.end()) {
+      table.refuse_element(key, i, "is named twice");
+    }
+    components.push_back(component);
+  }
+  return components;
+}
 
 std::vector<int> read_mode_list(const Table& table, std::string_view key)
 {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <set>
 
 #include "cli/scene/read_mesh_parts.hpp"
 
@@ -128,6 +130,46 @@ mesh::RectangleOptions read_rectangle(const Table& mesh)
   return plate;
 }
 
+std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
+{
+  std::set<std::string> taken{"beam", "start", "end"};
+  std::vector<mesh::BeamPoint> points;
+  if (!mesh.has("points")) return points;
+  const Admissible distances{.at_least = 0.0, .at_most = length, .unit = "m, along the beam"};
+  for (const Table& table : mesh.tables("points")) {
+    points.push_back({.name = table.text("name"), .distance = table.number("distance", distances)});
+    if (!taken.insert(points.back().name).second) {
+      table.refuse("name", "is the name of another point or group of the mesh");
+    }
+  }
+  return points;
+}
+
+mesh::BeamMeshOptions read_beam(const Table& mesh)
+{
+  mesh::BeamMeshOptions beam{.start = read_vector(mesh, "start", {.unit = "m"}),
+                             .end = read_vector(mesh, "end", {.unit = "m"})};
+  const double length = std::hypot(beam.end[0] - beam.start[0], beam.end[1] - beam.start[1],
+                                   beam.end[2] - beam.start[2]);
+  if (!(length > 0.0)) mesh.refuse("end", "is the start of the beam too");
+  if (mesh.only_one_of({"elements", "element_size"}) == "elements") {
+    beam.elements = mesh.integer("elements", {.at_least = 1, .at_most = 1e6});
+  } else {
+    beam.element_size =
+        mesh.number("element_size",
+                    {.at_least = 1e-6 * length, .at_most = length, .unit = "m, up to the length"});
+  }
+  beam.points = read_points(mesh, length);
+  return beam;
+}
+
+std::vector<std::string> beam_groups(const mesh::BeamMeshOptions& beam)
+{
+  std::vector<std::string> names{"beam", "start", "end"};
+  for (const mesh::BeamPoint& point : beam.points) names.push_back(point.name);
+  return names;
+}
+
 std::vector<std::string> hat_disc_groups(const mesh::HatDiscOptions& hat)
 {
   std::vector<std::string> names{"disc", "wall", "flange", "outer_edge", "wall_seat", "hub_edge"};
@@ -150,8 +192,8 @@ mesh::MeshOptions read_generator(const Table& mesh)
       {{"annulus", [](const Table& t, mesh::MeshOptions& o) { o.annulus = read_annulus(t); }},
        {"hat_disc", [](const Table& t, mesh::MeshOptions& o) { o.hat_disc = read_hat_disc(t); }},
        {"pad", [](const Table& t, mesh::MeshOptions& o) { o.pad = read_pad(t); }},
-       {"rectangle",
-        [](const Table& t, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t); }}});
+       {"rectangle", [](const Table& t, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t); }},
+       {"beam", [](const Table& t, mesh::MeshOptions& o) { o.beam = read_beam(t); }}});
   mesh::MeshOptions options;
   read(mesh, options);
   return options;
@@ -163,6 +205,7 @@ std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh)
   if (mesh.hat_disc) return hat_disc_groups(*mesh.hat_disc);
   if (mesh.pad) return {"pad", "inner_edge", "outer_edge", "first_edge", "last_edge", "corners"};
   if (mesh.rectangle) return {"plate", "left", "right", "bottom", "top", "corners"};
+  if (mesh.beam) return beam_groups(*mesh.beam);
   return {};
 }
 
@@ -172,6 +215,7 @@ std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh)
   if (mesh.hat_disc) return {"disc", "wall", "flange"};
   if (mesh.pad) return {"pad"};
   if (mesh.rectangle) return {"plate"};
+  if (mesh.beam) return {"beam"};
   return {};
 }
 

@@ -43,8 +43,9 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
   }
   // The groups of a mesh file are known only once it is read.
   const std::vector<std::string> names = attachable_names(scene);
-  if (scene.mesh.annulus && !contains(names, name)) {
-    interface.refuse_element("nodes", i, no_such_name("ring, edge or coupling", name, names));
+  if (!group_names(scene.mesh).empty() && !contains(names, name)) {
+    const char* kind = scene.mesh.beam ? "point or coupling" : "ring, edge or coupling";
+    interface.refuse_element("nodes", i, no_such_name(kind, name, names));
   }
 }
 
@@ -87,6 +88,24 @@ reduce::ReduceOptions read_reduce(const Table& root)
                          .up_to_Hz = table.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
   }
   return options;
+}
+
+std::vector<std::string> read_resultants(const Table& root, const Scene& scene)
+{
+  const Table table = root.table("reduce");
+  if (!table.has("resultants")) return {};
+  std::vector<std::string> groups = table.texts("resultants");
+  std::vector<std::string> beams;
+  for (const plate::BeamSection& beam : scene.beams) beams.push_back(beam.group);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!contains(beams, groups[i])) {
+      table.refuse_element("resultants", i, no_such_name("group of beams", groups[i], beams));
+    }
+    if (std::find(groups.begin(), groups.begin() + i, groups[i]) != groups.begin() + i) {
+      table.refuse_element("resultants", i, "is named twice");
+    }
+  }
+  return groups;
 }
 
 PictureChoice read_pictures(const Table& root)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,24 @@ namespace chladni::cli {
 /// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene.
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
 
+/// [model] dofs: the components of each node; without the table all six.
+std::vector<int> read_model_components(const Table& root);
+
+/// The sections by type.
+struct Sections {
+  std::vector<plate::ShellSection> shells;
+  std::vector<plate::BeamSection> beams;
+};
+
 /// [[section]] with the [material.NAME] that they name.
-std::vector<plate::ShellSection> read_sections(const Table& root, const mesh::MeshOptions& mesh);
+Sections read_sections(const Table& root, const mesh::MeshOptions& mesh);
 
 /// [[coupling]]
-std::vector<plate::Coupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
+std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene);
+
+/// [[mass]] and [[spring]]; their places may be groups, rings and couplings of `scene`.
+std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene);
+std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene);
 
 /// [[support]]; needs the mesh and the couplings of `scene`.
 std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);
@@ -34,8 +48,11 @@ std::optional<ModesOptions> read_natural_modes(const Table& root);
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
-/// [reduce] without its key `pictures`.
+/// [reduce] without its keys `pictures` and `resultants`.
 reduce::ReduceOptions read_reduce(const Table& root);
+
+/// [reduce] resultants: groups of beams; needs the sections of `scene`.
+std::vector<std::string> read_resultants(const Table& root, const Scene& scene);
 
 /// [reduce] pictures
 PictureChoice read_pictures(const Table& root);
@@ -57,8 +74,19 @@ std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 /// The groups of a mesh, its rings among them; empty for a mesh file, which alone knows them.
 std::vector<std::string> group_names(const mesh::MeshOptions& mesh);
 
-/// Those groups that are surfaces.
+/// Those groups that are surfaces, or lines of a generated beam.
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);
+
+/// One number for each component that the table `key = { z = ..., ry = ... }` names, else 0.
+std::array<double, 6> read_by_component(const Table& table, std::string_view key,
+                                        const Admissible& admissible);
+
+/// A list of three numbers.
+std::array<double, 3> read_vector(const Table& table, std::string_view key,
+                                  const Admissible& admissible);
+
+/// A list of components by name as numbers 0 to 5, in the order of the list.
+std::vector<int> read_component_list(const Table& table, std::string_view key);
 
 /// A list of mode numbers, counted from 1, ascending.
 std::vector<int> read_mode_list(const Table& table, std::string_view key);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -46,8 +47,14 @@ Scene parse_scene(const std::string& text, const std::string& path)
     return scene;
   }
   scene.mesh = read_mesh(root, path);
-  scene.sections = read_sections(root, scene.mesh);
-  scene.couplings = read_couplings(root, scene.mesh);
+  scene.components = read_model_components(root);
+  const Sections sections = read_sections(root, scene.mesh);
+  scene.sections = sections.shells;
+  scene.beams = sections.beams;
+  for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
+  scene.couplings = read_couplings(root, scene);
+  scene.masses = read_masses(root, scene);
+  scene.springs = read_springs(root, scene);
   scene.supports = read_supports(root, scene);
   scene.loads = read_loads(root, scene);
   scene.static_solution = read_static(root, scene);
@@ -55,10 +62,19 @@ Scene parse_scene(const std::string& text, const std::string& path)
   if (is_reduced(root, scene)) {
     scene.interface_nodes = read_interface(root, scene);
     scene.reduce = read_reduce(root);
+    scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);
   }
   scene.body = read_body(root, scene.interface_nodes);
   scene.squeal = read_squeal(root, scene);
+  // Dampers of the model are not lost when the body says nothing of damping.
+  const auto damps = [](const plate::Spring& spring) {
+    return spring.damping != std::array<double, 6>{};
+  };
+  const bool said = root.has("body") && root.table("body").has("damping");
+  if (!said && std::any_of(scene.springs.begin(), scene.springs.end(), damps)) {
+    scene.body.damping.type = mbs_export::Damping::Type::matrix;
+  }
   root.refuse_unknown_keys();
   return scene;
 }

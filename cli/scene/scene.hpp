@@ -34,16 +34,21 @@ struct Scene {
   std::string text;  ///< of the file, for provenance
   std::string path;  ///< of the file
   mesh::MeshOptions mesh;
+  /// Of each node; the others are held at zero and not part of the model.
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};
   std::vector<plate::ShellSection> sections;
+  std::vector<plate::BeamSection> beams;
+  std::vector<plate::PointMass> masses;
+  std::vector<plate::Spring> springs;
   std::vector<plate::Coupling> couplings;
   std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
   std::vector<plate::Load> loads;        ///< of `static`
   std::optional<StaticOptions> static_solution;
   std::optional<ModesOptions> natural_modes;
-  std::vector<std::string>
-      interface_nodes;  ///< rings, couplings or groups, all six DOFs of each node; empty in a scene
-                        ///< for `static` or `modes` alone
+  std::vector<std::string> interface_nodes;  ///< rings, couplings or groups, all DOFs of each node;
+                                             ///< empty in a scene for `static` or `modes` alone
   PictureChoice pictures = PictureChoice::vertices;
+  std::vector<std::string> resultants;  ///< groups whose elements give their section forces
   reduce::ReduceOptions reduce;
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;

@@ -183,6 +183,10 @@ TEST(SceneOfLoads, ReadsLinksAndAverages)
   EXPECT_EQ(scene.couplings[1].kind, plate::CouplingKind::averaging);
   EXPECT_EQ(error_of(plate + "[static]\n" + replaced(link, "inner", "outer")),
             "scene.toml:19: coupling.to = \"outer_edge\": must be another group");
+  EXPECT_EQ(error_of(plate + "[static]\n[model]\ndofs = [\"z\", \"rx\", \"ry\"]\n[[coupling]]\n" +
+                     "type = \"averaging\"\nname = \"pad\"\ngroup = \"disc\"\n"),
+            "scene.toml:19: coupling.type = \"averaging\": an average needs all six DOFs of each "
+            "node; use \"rigid\", or take [model] out");
   EXPECT_NE(
       error_of(plate + "[static]\n" + replaced(link, "inner_edge", "rim")).find("no such group"),
       std::string::npos);

@@ -111,7 +111,7 @@ TEST(SceneMeshError, NamesWhatAGeneratorDoesNotAdmit)
 {
   EXPECT_EQ(error_of("generator = \"sphere\"\n"),
             "scene.toml:2: mesh.generator = \"sphere\": must be one of \"annulus\", \"hat_disc\", "
-            "\"pad\", \"rectangle\"");
+            "\"pad\", \"rectangle\", \"beam\"");
   EXPECT_EQ(error_of(hat + "inner_radius = 0.09\n"),
             "scene.toml:9: mesh.inner_radius = 0.09: must be > 0 and <= 0.08 (m)");
   EXPECT_EQ(error_of(hat + "foot = 0.05\n"),

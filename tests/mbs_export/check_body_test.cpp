@@ -87,6 +87,21 @@ TEST(CheckReduced, FailsEachPropertyThatIsSpoiled)
   });
 }
 
+TEST(CheckReduced, FailsResultantsThatRigidMotionsCause)
+{
+  ReducedSystem wheel = test::wheel();
+  wheel.resultants = {{.name = "rim",
+                       .kinds = {"force"},
+                       .units = {"N"},
+                       .elements = {1, 2},
+                       .positions = {},
+                       .axes = {},
+                       .S = wheel.K.topRows(2)}};  // forces on the first node
+  EXPECT_LT(value_of(check_reduced(wheel), "resultants rim"), 1e-12);
+  expect(wheel, check_reduced, "resultants rim", Verdict::fail,
+         [](ReducedSystem& s) { s.resultants[0].S(1, 1) *= 1.01; });
+}
+
 TEST(CheckReduced, FailsAMechanismBeyondTheRigidMotions)
 {
   const auto cut_free = [](ReducedSystem& s) {  // node 0 may turn about x without resistance

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bending_beam.hpp"
+#include "mbs_export/body_file.hpp"
 #include "scratch_folder.hpp"
 #include "wheel.hpp"
 
@@ -191,6 +192,35 @@ TEST(MakeBody, CarriesThePictureAlong)
   const auto rim = body.attachment_modes.middleRows(18, 3);
   EXPECT_LT((body.picture.transformation.topRows(3) - 0.5 * (hub + rim)).norm(), 1e-12);
   EXPECT_LT((body.picture.transformation.bottomRows(3) - hub).norm(), 1e-12);
+}
+
+TEST(MakeBody, CarriesTheResultantsAlong)
+{
+  const test::ScratchFolder folder;
+  ReducedSystem wheel = test::wheel();
+  wheel.resultants = {{.name = "hub",
+                       .kinds = {"a", "b"},
+                       .units = {"N", "N m"},
+                       .elements = {5},
+                       .positions = ResultantModes::Rows::Zero(1, 3),
+                       .axes = ResultantModes::Rows(1, 9),
+                       .S = MatrixXd::Zero(2, 78)}};
+  wheel.resultants[0].axes << 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  // Displacement along z and rotation about x of the hub, as if they were forces.
+  wheel.resultants[0].S(0, 74) = 2.0;
+  wheel.resultants[0].S(1, 75) = 3.0;
+  BodyOptions options;
+  options.keep.count = 20;
+  const ModalBody body = make_body(wheel, options);
+  ASSERT_EQ(body.resultants.size(), 1u);
+  const MatrixXd& S = body.resultants[0].S;
+  EXPECT_LT((S.row(0) - 2.0 * body.attachment_modes.row(74)).norm(), 1e-12);
+  EXPECT_LT((S.row(1) - 3.0 * body.attachment_modes.row(75)).norm(), 1e-12);
+  write_body(folder.file("a.h5"), body);
+  const ModalBody again = read_body(folder.file("a.h5"));
+  ASSERT_EQ(again.resultants.size(), 1u);
+  EXPECT_EQ(again.resultants[0].S, S);
+  EXPECT_EQ(again.resultants[0].units, body.resultants[0].units);
 }
 
 TEST(MakeBody, DampsAsTheSceneSays)

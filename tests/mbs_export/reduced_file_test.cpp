@@ -18,7 +18,22 @@ namespace {
 
 using test::ScratchFolder, test::error_of;
 
-/// Everything that the format can hold: a wheel with damping, picture and provenance.
+/// Shear and moment at two points, the second one in turned axes.
+ResultantModes two_points(Eigen::Index n_coordinates)
+{
+  ResultantModes resultants{.name = "spoke",
+                            .kinds = {"Q_z", "M_y"},
+                            .units = {"N", "N m"},
+                            .elements = {7, 9},
+                            .positions = ResultantModes::Rows(2, 3),
+                            .axes = ResultantModes::Rows(2, 9),
+                            .S = Eigen::MatrixXd::Random(4, n_coordinates)};
+  resultants.positions << 0, 0, 0, 0.1, 0, 1.0 / 3.0;
+  resultants.axes << 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  return resultants;
+}
+
+/// Everything that the format can hold: a wheel with damping, picture, resultants and provenance.
 ReducedSystem complete_system()
 {
   ReducedSystem system = test::wheel();
@@ -27,6 +42,7 @@ ReducedSystem complete_system()
   system.picture.positions << 0, 0, 0, 1, 0, 0, 0, 1.0 / 3.0, 0;
   system.picture.cells = {{0, 1, 2, 2}};
   system.picture.transformation = Eigen::MatrixXd::Random(9, system.K.cols());
+  system.resultants = {two_points(system.K.cols())};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",
@@ -60,6 +76,16 @@ void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
   EXPECT_EQ(a.picture.positions, b.picture.positions);
   EXPECT_EQ(a.picture.cells, b.picture.cells);
   EXPECT_EQ(a.picture.transformation, b.picture.transformation);
+  ASSERT_EQ(a.resultants.size(), b.resultants.size());
+  for (std::size_t i = 0; i < a.resultants.size(); ++i) {
+    EXPECT_EQ(a.resultants[i].name, b.resultants[i].name);
+    EXPECT_EQ(a.resultants[i].kinds, b.resultants[i].kinds);
+    EXPECT_EQ(a.resultants[i].units, b.resultants[i].units);
+    EXPECT_EQ(a.resultants[i].elements, b.resultants[i].elements);
+    EXPECT_EQ(a.resultants[i].positions, b.resultants[i].positions);
+    EXPECT_EQ(a.resultants[i].axes, b.resultants[i].axes);
+    EXPECT_EQ(a.resultants[i].S, b.resultants[i].S);
+  }
   EXPECT_EQ(a.provenance.scene, b.provenance.scene);
   EXPECT_EQ(a.provenance.mesh_checksum, b.provenance.mesh_checksum);
   EXPECT_EQ(a.provenance.versions, b.provenance.versions);
@@ -114,6 +140,14 @@ TEST(ReducedFile, IsRefusedWhenItsContentMakesNoSense)
                  "picture/cells");
   expect_mention(error_after(folder, [](System& s) { s.picture.transformation.resize(9, 5); }),
                  "picture/displacements");
+  expect_mention(error_after(folder, [](System& s) { s.resultants[0].units.pop_back(); }),
+                 "resultants/spoke/units: has 1 values for 2 kinds");
+  expect_mention(error_after(folder, [](System& s) { s.resultants[0].axes(1, 0) = 0.1; }),
+                 "resultants/spoke/axes: is not orthonormal in row 1");
+  expect_mention(error_after(folder, [](System& s) { s.resultants[0].elements.push_back(3); }),
+                 "resultants/spoke/elements");
+  expect_mention(error_after(folder, [](System& s) { s.resultants[0].S.resize(4, 5); }),
+                 "resultants/spoke/modes: has shape [4 x 5], expected [4 x 78]");
   expect_mention(error_after(folder, [](System& s) { s.provenance.ranks = -1; }), "ranks");
   expect_mention(
       error_after(folder, [](System& s) { s.fixed_interface_frequencies.setConstant(1, -1.0); }),

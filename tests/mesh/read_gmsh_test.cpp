@@ -97,6 +97,43 @@ TEST_F(ReadGmsh, MeshesAGeometryAtTheOrderAsked)
   EXPECT_EQ(mesh.n_nodes(), 10 * 7);
 }
 
+TEST_F(ReadGmsh, KeepsTheLinesOfLineGroupsOnly)
+{
+  MeshOptions options = file_options(write_strip("a.msh", 4.1, false));
+  options.line_groups = {"left"};
+  const Mesh mesh = generate(options);
+  ASSERT_EQ(mesh.blocks.size(), 2u);
+  const ElementBlock& lines = mesh.blocks[0];
+  ASSERT_EQ(lines.shape, Shape::line);
+  ASSERT_EQ(lines.n_elements(), 2);
+  EXPECT_EQ(lines.order, 2);
+  EXPECT_EQ(mesh.groups[lines.group[0]].name, "left");
+  // From end to end: the middle node stands in the middle. Gmsh divides a curve to some 1e-12.
+  for (int e = 0; e < 2; ++e) {
+    const auto y = [&](int i) { return mesh.positions[lines.element_nodes(e)[i]][1]; };
+    EXPECT_NEAR(y(1), 0.5 * (y(0) + y(2)), 1e-11);
+    EXPECT_NEAR(std::abs(y(2) - y(0)), 0.5, 1e-11);
+  }
+  EXPECT_EQ(mesh.n_nodes(), 35);  // shared with the surface
+}
+
+TEST_F(ReadGmsh, MeshesAGeometryOfCurvesAlone)
+{
+  MeshOptions options = file_options(write(
+      "frame.geo",
+      "Point(1) = {0, 0, 0}; Point(2) = {3, 0, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 4;\n"
+      "Physical Curve(\"bar\") = {1}; Physical Curve(\"too\") = {1}; Physical Point(\"tip\") = "
+      "{2};\n"));
+  options.line_groups = {"too"};  // not the first group of its curve
+  const Mesh mesh = generate(options);
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_EQ(mesh.blocks[0].n_elements(), 3);
+  EXPECT_EQ(mesh.n_nodes(), 10);  // order 3 unless told otherwise
+  EXPECT_EQ(find_group(mesh, "tip").nodes.size(), 1u);
+  options.line_groups = {};
+  EXPECT_THROW(generate(options), Error);
+}
+
 TEST_F(ReadGmsh, NamesAFileThatIsMissing)
 {
   try {

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "plate/free_motions.hpp"
+#include "plate/point_elements.hpp"
 #include "plate/recovery.hpp"
 #include "small_disc.hpp"
 #include "square_plate.hpp"
@@ -139,11 +140,22 @@ TEST(Averages, AreTheRigidMotionThatFitsBest)
   EXPECT_LT(moment.norm(), 1e-10);
 }
 
+/// q^T A q
+double energy(Mat A, Vec q)
+{
+  petsc::Vector A_q;
+  petsc::check(VecDuplicate(q, A_q.put()));
+  petsc::check(MatMult(A, q, A_q));
+  double energy = 0.0;
+  petsc::check(VecDot(q, A_q, &energy));
+  return energy;
+}
+
 /// u^T A u for a motion of all nodes that is the same with and without a coupling.
 double rotation_energy(const System& system, Mat A)
 {
-  petsc::Vector q, A_q;
-  petsc::check(MatCreateVecs(system.K, q.put(), A_q.put()));
+  petsc::Vector q;
+  petsc::check(MatCreateVecs(system.K, q.put(), nullptr));
   PetscInt first = 0, last = 0;
   petsc::check(VecGetOwnershipRange(q, &first, &last));
   for (int node = 0; node < system.dofs.n_nodes(); ++node) {
@@ -157,10 +169,7 @@ double rotation_energy(const System& system, Mat A)
   }
   petsc::check(VecAssemblyBegin(q));
   petsc::check(VecAssemblyEnd(q));
-  petsc::check(MatMult(A, q, A_q));
-  double energy = 0.0;
-  petsc::check(VecDot(q, A_q, &energy));
-  return energy;
+  return energy(A, q);
 }
 
 TEST(Averages, ChangeNeitherStiffnessNorMass)
@@ -271,6 +280,111 @@ TEST(Offset, MovesTheMassWithTheMidSurface)
   }
   // The directors are normal to the mesh, the faces of the mid-surface are inclined by 0.05.
   EXPECT_NEAR(rotation_energy(system, system.M) / exact, 1.0, 1e-12);
+}
+
+TEST(PointElements, ActOnTheMotionOfAverages)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  const std::vector<Coupling> couplings{average("pad", "inner_edge"), link("track", "outer_edge")};
+  const std::array<double, 6> k{1e9, 2e9, 3e9, 4e5, 5e5, 6e5}, c{1, 2, 3, 4, 5, 6};
+  const PointMass mass{.at = "pad", .mass = 50.0, .inertia = {1, 2, 3}, .offset = {0, 0.1, 0.2}};
+  const Spring ground{.at = "pad", .stiffness = k, .damping = c};
+  const System plain = disc_system(mesh, couplings);
+  const System with =
+      assemble(mesh, {.shells = testing::section, .masses = {&mass, 1}, .springs = {&ground, 1}},
+               map_of(mesh, couplings), PETSC_COMM_WORLD);
+  const petsc::Vector q = random_motion(with);
+  const int pad = with.dofs.reference_node("pad").value();
+  const Eigen::Vector<double, 6> u = node_motions(with.dofs, q).row(pad);
+  const auto of = [&](const std::array<double, 6>& d) {
+    return u.dot(Eigen::Map<const Eigen::Vector<double, 6>>(d.data()).asDiagonal() * u);
+  };
+  // Differences of sums whose terms are larger: K of the disc has entries of 1e11.
+  EXPECT_NEAR((energy(with.K, q) - energy(plain.K, q)) / of(k), 1.0, 1e-6);
+  EXPECT_NEAR((energy(with.M, q) - energy(plain.M, q)) / u.dot(point_mass_matrix(mass) * u), 1.0,
+              1e-10);
+  EXPECT_NEAR(energy(with.C, q) / of(c), 1.0, 1e-10);
+}
+
+/// The plate with a beam on its lower edge, whose nodes are those of the plate.
+mesh::Mesh stiffened_plate()
+{
+  mesh::Mesh mesh = plate();
+  const mesh::Group& edge = mesh::find_group(mesh, "bottom");
+  mesh::ElementBlock line{.shape = mesh::Shape::line,
+                          .order = static_cast<int>(edge.nodes.size()) - 1,
+                          .nodes_per_element = static_cast<int>(edge.nodes.size()),
+                          .numbers = {1000},
+                          .nodes = edge.nodes,
+                          .group = {static_cast<int>(&edge - mesh.groups.data())}};
+  mesh.blocks.push_back(line);
+  return mesh;
+}
+
+TEST(Offset, IsThatOfTheShellsAndNotOfBeamsAtTheirNodes)
+{
+  const BeamSection beam{
+      .group = "bottom", .material = material, .area = 0.1, .I_y = 1e-3, .I_z = 1e-3, .J = 2e-3};
+  const mesh::Mesh bare = plate(), stiffened = stiffened_plate();
+  const auto energies = [&](double offset) {
+    const ShellSection shell{
+        .group = "plate", .material = material, .thickness = 0.1, .offset = offset};
+    const System without =
+        assemble(bare, {.shells = {&shell, 1}}, map_of(bare, {}), PETSC_COMM_WORLD);
+    const System with = assemble(stiffened, {.shells = {&shell, 1}, .beams = {&beam, 1}},
+                                 map_of(stiffened, {}), PETSC_COMM_WORLD);
+    EXPECT_EQ(n_free_motions(free_parts(stiffened, with, {})), 6);
+    return std::array{rotation_energy(without, without.M), rotation_energy(with, with.M)};
+  };
+  const auto [flat, flat_with] = energies(0.0);
+  const auto [moved, moved_with] = energies(0.2);
+  EXPECT_GT(moved, 1.05 * flat);
+  EXPECT_NEAR((moved_with - moved) / (flat_with - flat), 1.0, 1e-12);  // round-off of sums
+}
+
+TEST(Offset, AndLinksAreThoseOfTheWholeModelWhereComponentsAreHeld)
+{
+  const mesh::Mesh mesh = plate();
+  const ShellSection section{
+      .group = "plate", .material = material, .thickness = 0.1, .offset = 0.03};
+  const std::vector<Coupling> links{link("top", "bottom")};
+  const System whole = assemble(mesh, std::vector{section}, map_of(mesh, links), PETSC_COMM_WORLD);
+  DofMap map = map_of(mesh, links);
+  map.components = {0, 2, 4};
+  const System part = assemble(mesh, std::vector{section}, std::move(map), PETSC_COMM_WORLD);
+  petsc::Vector q_whole, q_part;
+  petsc::check(MatCreateVecs(whole.K, q_whole.put(), nullptr));
+  petsc::check(MatCreateVecs(part.K, q_part.put(), nullptr));
+  PetscInt first = 0, last = 0;
+  petsc::check(VecGetOwnershipRange(q_part, &first, &last));
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    for (const int c : part.dofs.components) {
+      const auto dof = part.dofs.dof(node, c);
+      if (!dof || *dof < first || *dof >= last) continue;
+      const double value = std::sin(double(node + 7 * c));
+      petsc::check(VecSetValue(q_part, *dof, value, INSERT_VALUES));
+      petsc::check(VecSetValue(q_whole, *whole.dofs.dof(node, c), value, INSERT_VALUES));
+    }
+  }
+  for (Vec q : {Vec(q_whole), Vec(q_part)}) {
+    petsc::check(VecAssemblyBegin(q));
+    petsc::check(VecAssemblyEnd(q));
+  }
+  EXPECT_NEAR(energy(part.K, q_part) / energy(whole.K, q_whole), 1.0, 1e-12);  // round-off of sums
+  EXPECT_NEAR(energy(part.M, q_part) / energy(whole.M, q_whole), 1.0, 1e-12);
+}
+
+TEST(Averages, NeedAllComponents)
+{
+  const mesh::Mesh mesh = testing::small_disc();
+  DofMap map = map_of(mesh, {average("pad", "inner_edge")});
+  map.components = {2, 3, 4};
+  try {
+    assemble(mesh, testing::section, std::move(map), PETSC_COMM_WORLD);
+    FAIL() << "an average of three components is accepted";
+  } catch (const Error& error) {
+    expect_words(error.what(), {"averaging", "all six DOFs", "rigid"});
+  }
 }
 
 }  // namespace

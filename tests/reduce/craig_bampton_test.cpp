@@ -155,5 +155,50 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
   }
 }
 
+/// Dampers between some masses and to the ground, not proportional to K or M; unsymmetric by a
+/// gyroscopic pair.
+petsc::Matrix dampers()
+{
+  petsc::Matrix C = testing::empty(n);
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(C, &first, &last));
+  const auto set = [&](PetscInt i, PetscInt j, double value) {
+    if (i >= first && i < last) petsc::check(MatSetValue(C, i, j, value, INSERT_VALUES));
+  };
+  for (PetscInt i = 0; i + 1 < n; i += 3) {  // each pair apart from the next
+    const double c = 0.1 + 0.01 * i;
+    set(i, i, c);
+    set(i + 1, i + 1, c);
+    set(i, i + 1, -c);
+    set(i + 1, i, -c);
+  }
+  set(20, 20, 0.7);
+  set(5, 6, 0.4);
+  set(6, 5, -0.4);
+  testing::finish(C);
+  return C;
+}
+
+TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
+{
+  const Reduction r;
+  const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
+  const petsc::Matrix C = dampers();
+  const SmallMatrix C_r = project_damping(Q_CB, split(C, r.dofs));
+  const SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const SmallMatrix C_all = replicate(C);
+  ASSERT_EQ(C_r.n_rows, 8);
+  for (PetscInt a = 0; a < 8; ++a) {
+    for (PetscInt b = 0; b < 8; ++b) {
+      double exact = 0.0;
+      for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt j = 0; j < n; ++j) exact += Q(i, a) * C_all(i, j) * Q(j, b);
+      }
+      EXPECT_NEAR(C_r(a, b), exact, round_off);
+    }
+  }
+  EXPECT_GT(std::abs(C_r(2, 3) - C_r(3, 2)), 1e-4);  // the gyroscopic part is there
+}
+
 }  // namespace
 }  // namespace chladni::reduce
