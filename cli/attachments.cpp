@@ -12,12 +12,14 @@ namespace {
 void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const std::string& name,
                        int node)
 {
-  if (!dofs.is_dependent(node)) return;
-  const std::string& coupling = dofs.reference_names[dofs.reference[node] - dofs.n_mesh_nodes];
-  throw Error(
-      fmt::format("interface node set \"{}\": node {} follows the coupling \"{}\"; put "
-                  "\"{}\" into interface.nodes instead",
-                  name, mesh.node_numbers[node], coupling, coupling));
+  for (const int component : dofs.components) {
+    if (dofs.dof(node, component)) continue;
+    const std::string& followed = dofs.followed[node];
+    throw Error(
+        fmt::format("interface node set \"{}\": node {} follows \"{}\"; put \"{}\" into "
+                    "interface.nodes instead",
+                    name, mesh.node_numbers[node], followed, followed));
+  }
 }
 
 }  // namespace

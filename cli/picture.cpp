@@ -71,7 +71,7 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
   picture.cells = chosen.cells;
-  picture.transformation.resize(3 * n, rows.cols());
+  picture.transformation = Eigen::MatrixXd::Zero(3 * n, rows.cols());
   for (Eigen::Index k = 0; k < n; ++k) {
     const int node = chosen.nodes[static_cast<std::size_t>(k)];
     const auto& x = dofs.positions[static_cast<std::size_t>(node)];

@@ -16,7 +16,7 @@ std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::D
 {
   std::vector<PetscInt> masters;
   for (const int node : attachments.nodes) {
-    for (const int c : dofs.components) masters.push_back(*dofs.dof(node, c));
+    for (const int c : dofs.components) masters.push_back(dofs.dof(node, c).value());
   }
   return masters;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "plate/directors.hpp"
 #include "plate/sections.hpp"
 
 namespace chladni::cli {
@@ -71,7 +72,9 @@ VtuField thickness(const mesh::Mesh& mesh, std::span<const plate::ShellSection> 
   for (std::size_t i = 0; i < points.nodes.size(); ++i) {
     const int group = points.groups[i];
     const int section = group < 0 ? -1 : of_group[group];
-    if (section >= 0) field.values(static_cast<Index>(i)) = sections[section].thickness;
+    if (section < 0) continue;
+    field.values(static_cast<Index>(i)) =
+        plate::value_at(sections[section].thickness, mesh.positions[points.nodes[i]]);
   }
   return field;
 }

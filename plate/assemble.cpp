@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "common/error.hpp"
 #include "plate/block_rows.hpp"
 #include "plate/directors.hpp"
 #include "plate/point_elements.hpp"
@@ -17,40 +18,48 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Calls visit(block, element) for each element with a node that `first <= number < last` owns.
+/// The active numbers on which the motion of some nodes depends, ascending.
+std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
+{
+  std::vector<PetscInt> numbers;
+  for (const int node : nodes) {
+    if (dofs.is_plain(node)) {
+      numbers.push_back(dofs.number[node]);
+      continue;
+    }
+    for (const MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// Calls visit(block, element, its active numbers) for each element that depends on a number that
+/// this rank owns.
 template <typename Visit>
 void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, const Visit& visit)
 {
   const int first = dofs.range[rank];
   const int last = dofs.range[rank + 1];
-  const auto owned = [&](int node) {
-    return dofs.number[node] >= first && dofs.number[node] < last;
-  };
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
-      if (std::ranges::any_of(block.element_nodes(e), owned)) visit(block, e);
+      const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+      const auto owned = std::ranges::lower_bound(numbers, first);
+      if (owned != numbers.end() && *owned < last) visit(block, e, numbers);
     }
   }
 }
 
-std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
-{
-  std::vector<PetscInt> numbers;
-  for (const int node : nodes) numbers.push_back(dofs.number[node]);
-  return numbers;
-}
-
-/// The nodes that share an element with each node that this rank owns.
+/// Active numbers of the neighbours of each node that this rank owns.
 class Neighbours {
  public:
   Neighbours(const DofMap& dofs, int rank)
       : dofs_(dofs), first_(dofs.range[rank]), lists_(dofs.range[rank + 1] - first_)
   {}
 
-  /// All nodes of an element are neighbours.
-  void connect(std::span<const int> nodes)
+  /// All active numbers of an element are neighbours.
+  void connect(const std::vector<PetscInt>& numbers)
   {
-    const std::vector<PetscInt> numbers = active_numbers(dofs_, nodes);
     for (const PetscInt row : numbers) {
       if (row < first_ || row >= first_ + std::ssize(lists_)) continue;
       auto& list = lists_[row - first_];
@@ -72,26 +81,41 @@ BlockPattern pattern_of(const mesh::Mesh& mesh, std::span<const PointElement> po
                         const DofMap& dofs, int rank)
 {
   Neighbours neighbours(dofs, rank);
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    neighbours.connect(block.element_nodes(e));
-  });
-  for (const PointElement& point : points) neighbours.connect(point.nodes);
+  for_owned_elements(mesh, dofs, rank,
+                     [&](const auto&, int, const auto& numbers) { neighbours.connect(numbers); });
+  for (const PointElement& point : points) neighbours.connect(active_numbers(dofs, point.nodes));
   return std::move(neighbours).pattern();
 }
 
-/// A_e <- T_e^T A_e T_e with u = u_ref + theta_ref x arm, theta = theta_ref of dependent nodes.
-MatrixXd eliminate_dependents(MatrixXd A_e, const DofMap& dofs, std::span<const int> nodes)
+/// u_e = T_e q of the points where the DOFs of an element stand, with q at active numbers.
+struct ElementMotion {
+  std::vector<PetscInt> numbers;
+  MatrixXd T_e;  ///< [6 n_e x 6 n]; empty where u_e = q
+};
+
+/// Through the couplings to the nodes of the mesh, and along the arms from these to the points.
+/// @param arms  [n_e x 3] m; empty for zero
+ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
+                             const NodeVectors& arms)
 {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!dofs.is_dependent(nodes[i])) continue;
-    const auto [x, y, z] = dofs.arm(nodes[i]);
-    Eigen::Matrix3d R;  // theta x arm = R theta
-    R << 0.0, z, -y, -z, 0.0, x, y, -x, 0.0;
-    const auto u = static_cast<Index>(6 * i);
-    A_e.middleCols<3>(u + 3) += A_e.middleCols<3>(u) * R;
-    A_e.middleRows<3>(u + 3) += R.transpose() * A_e.middleRows<3>(u);
+  const bool plain = std::ranges::all_of(nodes, [&](int node) { return dofs.is_plain(node); });
+  ElementMotion motion;
+  if (plain && arms.size() == 0) {
+    for (const int node : nodes) motion.numbers.push_back(dofs.number[node]);
+    return motion;
   }
-  return A_e;
+  motion.numbers = active_numbers(dofs, nodes);
+  motion.T_e = MatrixXd::Zero(6 * std::ssize(nodes), 6 * std::ssize(motion.numbers));
+  for (Index i = 0; i < std::ssize(nodes); ++i) {
+    Matrix6d arm = Matrix6d::Identity();
+    if (arms.size() > 0) arm = rigid_arm(arms.row(i));
+    for (const MotionTerm& term : dofs.motion(nodes[i])) {
+      const auto column =
+          std::ranges::lower_bound(motion.numbers, term.number) - motion.numbers.begin();
+      motion.T_e.block<6, 6>(6 * i, 6 * column) += arm * term.T;
+    }
+  }
+  return motion;
 }
 
 /// Rows and columns of the components that the system has.
@@ -105,11 +129,12 @@ MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
   return A_e(kept, kept);
 }
 
-/// Adds element matrices of 6 DOFs for each node.
-void add(BlockRows& A, MatrixXd A_e, const DofMap& dofs, std::span<const int> nodes)
+/// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
+void add(BlockRows& A, const MatrixXd& A_e, const ElementMotion& motion, const DofMap& dofs)
 {
-  A.add(only_components(eliminate_dependents(std::move(A_e), dofs, nodes), dofs),
-        active_numbers(dofs, nodes));
+  const MatrixXd& T_e = motion.T_e;
+  A.add(only_components(T_e.size() == 0 ? A_e : MatrixXd(T_e.transpose() * A_e * T_e), dofs),
+        motion.numbers);
 }
 
 /// C of the dampers, whose few entries have a pattern of their own; null without one.
@@ -120,14 +145,22 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
   if (std::ranges::none_of(points, is_damper)) return {};
   Neighbours neighbours(dofs, petsc::rank(comm));
   for (const PointElement& point : points) {
-    if (is_damper(point)) neighbours.connect(point.nodes);
+    if (is_damper(point)) neighbours.connect(active_numbers(dofs, point.nodes));
   }
   const BlockPattern pattern = std::move(neighbours).pattern();
   BlockRows C(pattern);
   for (const PointElement& point : points) {
-    if (is_damper(point)) add(C, point.C, dofs, point.nodes);
+    if (is_damper(point)) add(C, point.C, element_motion(dofs, point.nodes, {}), dofs);
   }
   return C.to_matrix(comm);
+}
+
+/// The DOFs of an average stand in those of its group, whatever component these are.
+void check_components(const DofMap& dofs)
+{
+  if (dofs.n_components() == 6 || dofs.combined_motions.empty()) return;
+  throw Error(
+      "an averaging coupling needs all six DOFs of each node; use a rigid one, or all six DOFs");
 }
 
 }  // namespace
@@ -135,19 +168,22 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
 {
   const int rank = petsc::rank(comm);
+  check_components(dofs);
   const SectionMap sections = map_sections(mesh, structure);
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const NodeVectors normals = mean_normals(mesh);
   const BlockPattern pattern = pattern_of(mesh, points, dofs, rank);
   BlockRows K(pattern), M(pattern);
-  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e) {
-    ElementMatrices matrices = element_matrices(mesh, block, e, {sections, structure, normals});
-    add(K, std::move(matrices.K), dofs, block.element_nodes(e));
-    add(M, std::move(matrices.M), dofs, block.element_nodes(e));
+  for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
+    const auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
+    const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
+    add(K, matrices.K, motion, dofs);
+    add(M, matrices.M, motion, dofs);
   });
   for (const PointElement& point : points) {
-    if (point.K.size() > 0) add(K, point.K, dofs, point.nodes);
-    if (point.M.size() > 0) add(M, point.M, dofs, point.nodes);
+    const ElementMotion motion = element_motion(dofs, point.nodes, {});
+    if (point.K.size() > 0) add(K, point.K, motion, dofs);
+    if (point.M.size() > 0) add(M, point.M, motion, dofs);
   }
   System system{.K = K.to_matrix(comm),
                 .M = M.to_matrix(comm),

@@ -20,10 +20,12 @@ struct System {
 
 /// Assembles K and M. Every rank computes all elements that touch a node of its own and inserts its
 /// own rows only: no communication, and K and M are the same to the last bit for any number of
-/// ranks. Dependent nodes are eliminated element by element, K_e <- T_e^T K_e T_e and M_e likewise.
-/// Components that `dofs` does not have are held at zero and are not part of the system.
+/// ranks. Couplings and offsets are eliminated element by element, K_e <- T_e^T K_e T_e and M_e
+/// likewise, with u_e = T_e q; so are masses, springs and dampers. Components that `dofs` does not
+/// have are held at zero and are not part of the system.
 /// @note   Collective on `comm`.
-/// @throws chladni::Error as map_sections and point_elements.
+/// @throws chladni::Error as map_sections and point_elements, and for averaging couplings where
+///         nodes have fewer than six components.
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm);
 
 /// Of shells alone.

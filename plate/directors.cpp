@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,20 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
   return x;
 }
 
+double value_at(const Profile& profile, const std::array<double, 3>& position)
+{
+  if (profile.at.empty()) return profile.values.front();
+  const double s = profile.over == Coordinate::radius
+                       ? std::hypot(position[0], position[1])
+                       : position[static_cast<std::size_t>(profile.over)];
+  const auto above = std::ranges::upper_bound(profile.at, s) - profile.at.begin();
+  if (above == 0) return profile.values.front();
+  if (above == std::ssize(profile.at)) return profile.values.back();
+  const auto i = static_cast<std::size_t>(above);
+  const double share = (s - profile.at[i - 1]) / (profile.at[i] - profile.at[i - 1]);
+  return std::lerp(profile.values[i - 1], profile.values[i], share);
+}
+
 NodeVectors mean_normals(const mesh::Mesh& mesh)
 {
   NodeVectors sum = NodeVectors::Zero(mesh.n_nodes(), 3);
@@ -92,16 +107,19 @@ NodeVectors mean_normals(const mesh::Mesh& mesh)
 }
 
 ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
-                       const NodeVectors& normals, double thickness)
+                       const NodeVectors& normals, const ShellSection& section)
 {
-  const NodeVectors x = element_positions(mesh, block, element);
+  NodeVectors x = element_positions(mesh, block, element);
   NodeVectors D = element_normals(nodal_basis(block), x);
   for (Index i = 0; i < D.rows(); ++i) {
-    const RowVector3d mean = normals.row(block.element_nodes(element)[i]);
+    const int node = block.element_nodes(element)[i];
+    const RowVector3d mean = normals.row(node);
     const double cosine = mean.dot(D.row(i));
     if (std::abs(cosine) > smooth_cosine) D.row(i) = cosine < 0.0 ? RowVector3d(-mean) : mean;
+    x.row(i) += value_at(section.offset, mesh.positions[node]) * D.row(i);
+    D.row(i) *= 0.5 * value_at(section.thickness, mesh.positions[node]);
   }
-  return {.x = x, .D = 0.5 * thickness * D};
+  return {.x = x, .D = D};
 }
 
 }  // namespace chladni::plate

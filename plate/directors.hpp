@@ -2,6 +2,7 @@
 
 #include "mesh/mesh.hpp"
 #include "plate/covariant_strains.hpp"
+#include "plate/plate_options.hpp"
 
 namespace chladni::plate {
 
@@ -13,10 +14,14 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
 /// @throws chladni::Error naming an element and node where the Jacobian is not positive.
 NodeVectors mean_normals(const mesh::Mesh& mesh);
 
-/// Mid-surface points and half-thickness directors of one element. A director is the mean normal
+/// The value of a profile at a place of the model, m.
+double value_at(const Profile& profile, const std::array<double, 3>& position);
+
+/// Mid-surface points, off the mesh by the section's offset, and half-thickness directors of one
+/// element. A director is the mean normal
 /// where the surface is smooth, and the element's own normal at a kink of more than 20 degrees; it
 /// points to the side to which the element is oriented.
 ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
-                       const NodeVectors& normals, double thickness);
+                       const NodeVectors& normals, const ShellSection& section);
 
 }  // namespace chladni::plate

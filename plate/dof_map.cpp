@@ -6,53 +6,12 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "plate/average_motions.hpp"
+#include "plate/follow_references.hpp"
 
 namespace chladni::plate {
 
 namespace {
-
-std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
-{
-  std::array<double, 3> sum{};
-  for (const int node : group.nodes) {
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += mesh.positions[node][c];
-  }
-  for (double& s : sum) s /= static_cast<double>(group.nodes.size());
-  return sum;
-}
-
-void check_coupling(const mesh::Mesh& mesh, const RigidCoupling& coupling, const DofMap& map)
-{
-  const bool used =
-      std::ranges::find(mesh.groups, coupling.name, &mesh::Group::name) != mesh.groups.end();
-  if (used || map.reference_node(coupling.name)) {
-    throw Error(
-        fmt::format("coupling \"{}\": this name is already used; choose another", coupling.name));
-  }
-  if (mesh::find_group(mesh, coupling.group).nodes.empty()) {
-    throw Error(
-        fmt::format("coupling \"{}\": group \"{}\" has no nodes", coupling.name, coupling.group));
-  }
-}
-
-/// Adds the reference node and makes the nodes of the group follow it.
-void add_coupling(const mesh::Mesh& mesh, const RigidCoupling& coupling, DofMap& map)
-{
-  check_coupling(mesh, coupling, map);
-  const mesh::Group& group = mesh::find_group(mesh, coupling.group);
-  const int reference = static_cast<int>(map.positions.size());
-  for (const int node : group.nodes) {
-    if (map.reference[node] >= 0) {
-      throw Error(fmt::format(
-          "node {} depends on both couplings \"{}\" and \"{}\"", mesh.node_numbers[node],
-          map.reference_names[map.reference[node] - map.n_mesh_nodes], coupling.name));
-    }
-    map.reference[node] = reference;
-  }
-  map.positions.push_back(centre(mesh, group));
-  map.reference.push_back(-1);
-  map.reference_names.push_back(coupling.name);
-}
 
 /// A reference node goes to the lowest rank among its dependents.
 std::vector<int> all_owners(const DofMap& map, std::span<const int> owners, int n_ranks)
@@ -60,13 +19,53 @@ std::vector<int> all_owners(const DofMap& map, std::span<const int> owners, int 
   std::vector<int> all(owners.begin(), owners.end());
   all.resize(map.positions.size(), n_ranks - 1);
   for (int node = 0; node < map.n_mesh_nodes; ++node) {
-    if (!map.is_dependent(node)) continue;
-    all[map.reference[node]] = std::min(all[map.reference[node]], owners[node]);
+    const int reference = map.reference[node];
+    if (reference < map.n_mesh_nodes) continue;
+    all[reference] = std::min(all[reference], owners[node]);
   }
   return all;
 }
 
+/// The reference node of an averaging coupling has no number: its DOFs stand at its group.
+std::vector<bool> have_numbers(std::span<const Coupling> couplings, const DofMap& map)
+{
+  std::vector<bool> have(map.positions.size(), true);
+  for (std::size_t node = 0; node < have.size(); ++node) have[node] = map.reference[node] < 0;
+  for (const Coupling& coupling : couplings) {
+    if (coupling.kind == CouplingKind::averaging) have[*map.reference_node(coupling.name)] = false;
+  }
+  return have;
+}
+
+void number_nodes(std::span<const Coupling> couplings, const std::vector<int>& rank_of, int n_ranks,
+                  DofMap& map)
+{
+  const std::vector<bool> have = have_numbers(couplings, map);
+  map.number.assign(map.positions.size(), -1);
+  int next = 0;
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    map.range.push_back(next);
+    for (std::size_t node = 0; node < map.number.size(); ++node) {
+      if (rank_of[node] == rank && have[node]) map.number[node] = next++;
+    }
+  }
+  map.range.push_back(next);
+  for (std::size_t node = 0; node < map.number.size(); ++node) {
+    if (map.reference[node] >= 0) map.number[node] = map.number[map.reference[node]];
+  }
+}
+
 }  // namespace
+
+const std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
+
+Matrix6d rigid_arm(const Eigen::Vector3d& arm)
+{
+  Matrix6d T = Matrix6d::Identity();
+  T.topRightCorner<3, 3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(),
+      0.0;  // theta x arm
+  return T;
+}
 
 std::array<double, 3> DofMap::arm(int node) const
 {
@@ -84,22 +83,29 @@ std::optional<int> DofMap::reference_node(const std::string& name) const
 
 std::vector<MotionTerm> DofMap::motion(int node) const
 {
-  MotionTerm term{.number = number[node], .T = Eigen::Matrix<double, 6, 6>::Identity()};
-  if (is_dependent(node)) {
-    const auto [x, y, z] = arm(node);
-    term.T.topRightCorner<3, 3>() << 0.0, z, -y, -z, 0.0, x, y, -x, 0.0;  // theta x arm
+  const int end = is_dependent(node) ? reference[node] : node;
+  std::vector<MotionTerm> terms;
+  if (combined[end] >= 0) {
+    terms = combined_motions[combined[end]].terms;
+  } else {
+    terms.push_back({.number = number[end], .T = Matrix6d::Identity()});
   }
-  return {term};
+  if (end == node) return terms;
+  const auto [x, y, z] = arm(node);
+  for (MotionTerm& term : terms) term.T = rigid_arm({x, y, z}) * term.T;
+  return terms;
 }
 
 std::optional<int> DofMap::dof(int node, int component) const
 {
   const auto it = std::ranges::find(components, component);
   if (is_dependent(node) || it == components.end()) return std::nullopt;
-  return n_components() * number[node] + static_cast<int>(it - components.begin());
+  if (combined[node] < 0) {
+    return n_components() * number[node] + static_cast<int>(it - components.begin());
+  }
+  const int dof = combined_motions[combined[node]].dof[static_cast<std::size_t>(component)];
+  return dof < 0 ? std::nullopt : std::optional(dof);
 }
-
-const std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
 
 std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& name)
 {
@@ -113,27 +119,18 @@ std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const s
                   name, fmt::join(names, ", ")));
 }
 
-DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const RigidCoupling> couplings,
+DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
                     std::span<const int> owners, int n_ranks)
 {
   DofMap map;
   map.n_mesh_nodes = mesh.n_nodes();
   map.positions = mesh.positions;
   map.reference.assign(mesh.n_nodes(), -1);
-  for (const RigidCoupling& coupling : couplings) add_coupling(mesh, coupling, map);
-  const std::vector<int> rank_of = all_owners(map, owners, n_ranks);
-  map.number.assign(map.positions.size(), -1);
-  int next = 0;
-  for (int rank = 0; rank < n_ranks; ++rank) {
-    map.range.push_back(next);
-    for (std::size_t node = 0; node < map.number.size(); ++node) {
-      if (rank_of[node] == rank && map.reference[node] < 0) map.number[node] = next++;
-    }
-  }
-  map.range.push_back(next);
-  for (std::size_t node = 0; node < map.number.size(); ++node) {
-    if (map.reference[node] >= 0) map.number[node] = map.number[map.reference[node]];
-  }
+  map.followed.resize(mesh.n_nodes());
+  map.combined.assign(mesh.n_nodes(), -1);
+  follow_references(mesh, couplings, map);
+  number_nodes(couplings, all_owners(map, owners, n_ranks), n_ranks, map);
+  average_motions(mesh, couplings, map);
   return map;
 }
 

@@ -12,25 +12,44 @@
 
 namespace chladni::plate {
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// The motion (u + theta x arm, theta) of a point that follows another one as a rigid body.
+Matrix6d rigid_arm(const Eigen::Vector3d& arm);
+
 /// A share T q of the motion (u, theta) of a node, with q the six coordinates of an active number.
 struct MotionTerm {
   int number;
-  Eigen::Matrix<double, 6, 6> T;
+  Matrix6d T;
 };
 
-/// The nodes of the FE system: those of the mesh, then one reference node for each coupling. A
-/// dependent node has no DOFs of its own; it follows its reference node as a rigid body,
+/// The motion of a node that an averaging coupling has made a combination of others.
+struct CombinedMotion {
+  std::vector<MotionTerm> terms;
+  std::array<int, 6> dof;  ///< the DOF that is this component of the motion, -1 where none is
+};
+
+/// The nodes of the FE system: those of the mesh, then a reference node for each rigid and
+/// averaging coupling. A dependent node has no DOFs of its own; it follows its reference, the
+/// reference node of a coupling or the node at the end of its links, as a rigid body,
 ///   u = u_ref + theta_ref x arm,  theta = theta_ref.
+/// An averaging coupling replaces six displacements of nodes of its group by the motion of its
+/// reference node, whose DOFs stand where these were.
 /// Active nodes are numbered so that each rank owns a contiguous range; the map is the same on
-/// every rank. DOF `6 * number[node] + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or
+/// every rank. DOF `6 * number + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or
 /// correspondingly fewer where the nodes have only some of the components.
 struct DofMap {
-  std::vector<int> number;     ///< [n] active number of the node or, if dependent, of its reference
+  /// [n] active number of the node or, if dependent, of its reference; -1 for the reference node of
+  /// an averaging coupling
+  std::vector<int> number;
   std::vector<int> reference;  ///< [n] node index of the reference, -1 for an independent node
   std::vector<std::array<double, 3>> positions;  ///< [n], m, reference nodes included
   std::vector<std::string> reference_names;
   std::vector<int> range;  ///< [n_ranks + 1] first active number of each rank
   int n_mesh_nodes = 0;
+  std::vector<std::string> followed;  ///< [n] name of what a node depends on; empty for none
+  std::vector<int> combined;          ///< [n] index into `combined_motions`, -1 for none
+  std::vector<CombinedMotion> combined_motions;
   std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero
 
   int n_nodes() const { return static_cast<int>(number.size()); }
@@ -43,6 +62,8 @@ struct DofMap {
 
   /// The motion of a node as the sum of its terms.
   std::vector<MotionTerm> motion(int node) const;
+  /// Whether the motion of a node is that of its own six DOFs.
+  bool is_plain(int node) const { return reference[node] < 0 && combined[node] < 0; }
   /// The DOF that is this component (0 to 5) of the node's motion; absent where couplings make it a
   /// combination of others, and where the nodes do not have this component.
   std::optional<int> dof(int node, int component) const;
@@ -55,10 +76,12 @@ extern const std::array<const char*, 6> component_names;
 /// @throws chladni::Error when there is no such name, naming those that exist.
 std::vector<int> named_nodes(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& name);
 
+/// Chains of links and rigid couplings are followed to their end.
 /// @param owners [n_mesh_nodes] rank of each node of the mesh.
-/// @throws chladni::Error for an unknown group, a node that two couplings claim, or a name that the
-///         mesh already uses.
-DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const RigidCoupling> couplings,
+/// @throws chladni::Error for an unknown group, a node that two couplings claim, links in a circle,
+///         groups of a link whose nodes do not pair, averages that overlap or determine no
+///         rotation, or a name that the mesh already uses; each names the couplings.
+DofMap make_dof_map(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
                     std::span<const int> owners, int n_ranks);
 
 }  // namespace chladni::plate

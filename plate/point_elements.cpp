@@ -14,8 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 /// a x b = cross(a) b.
 Matrix3d cross(const Vector3d& a)
 {

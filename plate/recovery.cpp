@@ -37,7 +37,7 @@ void add_element(const ShellOfMesh& shell, const NodeVectors& normals, const Mat
   const MatrixXd E = extrapolation_to_nodes(shell.block.shape, shell.block.order);
   const MatrixXd N = E * at_points.N, M = E * at_points.M, Q = E * at_points.Q;
   const NodeVectors D =
-      shell_nodes(shell.mesh, shell.block, shell.element, normals, shell.section.thickness).D;
+      shell_nodes(shell.mesh, shell.block, shell.element, normals, shell.section).D;
   const std::span<const int> nodes = shell.block.element_nodes(shell.element);
   for (Eigen::Index i = 0; i < E.rows(); ++i) {
     const double side = D.row(i).dot(normals.row(nodes[i])) < 0.0 ? -1.0 : 1.0;
@@ -75,14 +75,15 @@ ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& 
                                    const MatrixXd& motions)
 {
   const auto& [mesh, block, element, section] = shell;
+  const ShellNodes shell_at = shell_nodes(mesh, block, element, normals, section);
   const std::span<const int> nodes = block.element_nodes(element);
   Eigen::VectorXd u_e(6 * std::ssize(nodes));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    u_e.segment<6>(6 * static_cast<Eigen::Index>(i)) = motions.row(nodes[i]).transpose();
+  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
+    const auto& [x, y, z] = mesh.positions[nodes[i]];
+    const Eigen::Vector3d arm = shell_at.x.row(i).transpose() - Eigen::Vector3d(x, y, z);
+    u_e.segment<6>(6 * i) = rigid_arm(arm) * motions.row(nodes[i]).transpose();
   }
-  return shell_resultants(block.shape, block.order,
-                          shell_nodes(mesh, block, element, normals, section.thickness),
-                          section.material, u_e);
+  return shell_resultants(block.shape, block.order, shell_at, section.material, u_e);
 }
 
 ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,

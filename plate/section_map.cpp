@@ -55,17 +55,20 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
   return map;
 }
 
-ElementMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
-                                 int element, const ElementContext& context)
+PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                int element, const ElementContext& context)
 {
   const int index = index_of_section(context.sections, block, element);
+  const NodeVectors x = element_positions(mesh, block, element);
   if (kind_of(block) == Kind::beam) {
-    return beam_matrices(element_positions(mesh, block, element), context.structure.beams[index]);
+    return {.matrices = beam_matrices(x, context.structure.beams[index]), .arms = {}};
   }
   const ShellSection& section = context.structure.shells[index];
-  return shell_matrices(block.shape, block.order,
-                        shell_nodes(mesh, block, element, context.normals, section.thickness),
-                        section.material);
+  const ShellNodes shell = shell_nodes(mesh, block, element, context.normals, section);
+  PlacedMatrices placed{
+      .matrices = shell_matrices(block.shape, block.order, shell, section.material), .arms = {}};
+  if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
+  return placed;
 }
 
 }  // namespace chladni::plate

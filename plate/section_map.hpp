@@ -27,8 +27,15 @@ struct ElementContext {
   const NodeVectors& normals;  ///< [n_nodes x 3] mean_normals
 };
 
-/// K_e and M_e of any element of the mesh.
-ElementMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
-                                 int element, const ElementContext& context);
+/// K_e and M_e of an element, and where their DOFs stand.
+struct PlacedMatrices {
+  ElementMatrices matrices;
+  NodeVectors arms;  ///< [n x 3] from the nodes of the mesh, m; empty where they stand there
+};
+
+/// Of any element of the mesh; those of a shell stand on its mid-surface, off the mesh by the
+/// section's offset.
+PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                int element, const ElementContext& context);
 
 }  // namespace chladni::plate

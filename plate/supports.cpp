@@ -13,10 +13,9 @@ namespace {
 [[noreturn]] void refuse_dependent(const mesh::Mesh& mesh, const DofMap& dofs,
                                    const Support& support, int node)
 {
-  const std::string& coupling = dofs.reference_names[dofs.reference[node] - dofs.n_mesh_nodes];
-  throw Error(
-      fmt::format("support of \"{}\": node {} follows the coupling \"{}\"; support \"{}\" instead",
-                  support.group, mesh.node_numbers[node], coupling, coupling));
+  const std::string& followed = dofs.followed[node];
+  throw Error(fmt::format("support of \"{}\": node {} follows \"{}\"; support \"{}\" instead",
+                          support.group, mesh.node_numbers[node], followed, followed));
 }
 
 }  // namespace
@@ -33,6 +32,7 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
     for (const int node : nodes) {
       for (const int component : support.components) {
         const auto dof = dofs.dof(node, component);
+        if (!dof && dofs.is_plain(node)) continue;  // the model holds this component
         if (!dof) refuse_dependent(mesh, dofs, support, node);
         held.push_back(*dof);
       }

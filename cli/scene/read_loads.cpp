@@ -13,7 +13,9 @@ std::vector<std::string> named_sets(const Scene& scene)
 {
   std::vector<std::string> names = group_names(scene.mesh);
   if (names.empty()) return names;
-  for (const plate::RigidCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (!coupling.name.empty()) names.push_back(coupling.name);
+  }
   return names;
 }
 

@@ -44,6 +44,45 @@ const plate::Material& read_material_of(const Table& section,
   section.refuse("material", no_such_name("material", section.text("material"), names));
 }
 
+/// A constant, or a table over a coordinate or the radius.
+plate::Profile read_profile(const Table& section, std::string_view key, const Admissible& lengths)
+{
+  if (!section.has(key) || !section.is_table(key)) return section.number(key, lengths);
+  using plate::Coordinate;
+  const Table table = section.table(key);
+  const auto over = table.choice<Coordinate>("over", {{"x", Coordinate::x},
+                                                      {"y", Coordinate::y},
+                                                      {"z", Coordinate::z},
+                                                      {"radius", Coordinate::radius}});
+  const std::vector<double> at = table.numbers("at", {.unit = "m"});
+  if (at.size() < 2) table.refuse("at", "must hold at least two places");
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
+  }
+  const std::vector<double> values = table.numbers("values", lengths);
+  if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
+  return {over, at, values};
+}
+
+plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups)
+{
+  using plate::CouplingKind;
+  const auto kind = table.choice<CouplingKind>("type", {{"rigid", CouplingKind::rigid},
+                                                        {"averaging", CouplingKind::averaging},
+                                                        {"link", CouplingKind::link}});
+  plate::Coupling coupling{.name = {}, .group = read_group(table, groups), .kind = kind};
+  if (kind != CouplingKind::link) {
+    coupling.name = table.text("name");
+    return coupling;
+  }
+  coupling.to = table.text("to");
+  if (!groups.empty() && !contains(groups, coupling.to)) {
+    table.refuse("to", no_such_name("group", coupling.to, groups));
+  }
+  if (coupling.to == coupling.group) table.refuse("to", "must be another group");
+  return coupling;
+}
+
 enum class SectionKind { shell, beam };
 
 /// A generated mesh has either surfaces or lines; a file shows when it is read.
@@ -145,27 +184,30 @@ Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
     sections.shells.push_back(
         {.group = group,
          .material = material,
-         .thickness = table.number("thickness", {.above = 0.0, .unit = "m"})});
+         .thickness = read_profile(table, "thickness", {.above = 0.0, .unit = "m"}),
+         .offset = table.has("offset") ? read_profile(table, "offset", {.unit = "m"}) : 0.0});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
   return sections;
 }
 
-std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh)
+std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene)
 {
-  const std::vector<std::string> groups = group_names(mesh);
-  const std::vector<std::string> rings = ring_names(mesh);
+  const std::vector<std::string> groups = group_names(scene.mesh);
+  const std::vector<std::string> rings = ring_names(scene.mesh);
   std::set<std::string> taken(groups.begin(), groups.end());
   taken.insert(rings.begin(), rings.end());
-  std::vector<plate::RigidCoupling> couplings;
+  std::vector<plate::Coupling> couplings;
   if (!root.has("coupling")) return couplings;
   for (const Table& table : root.tables("coupling")) {
-    if (table.text("type") == "averaging") {
-      table.refuse("type", "averaging couplings are not available yet; use \"rigid\"");
+    couplings.push_back(read_coupling(table, groups));
+    if (couplings.back().kind == plate::CouplingKind::averaging && scene.components.size() != 6) {
+      table.refuse("type",
+                   "an average needs all six DOFs of each node; use \"rigid\", or take "
+                   "[model] out");
     }
-    table.choice<int>("type", {{"rigid", 0}});
+    if (couplings.back().kind == plate::CouplingKind::link) continue;
     check_coupling_name(table, taken);
-    couplings.push_back({.name = table.text("name"), .group = read_group(table, groups)});
     taken.insert(couplings.back().name);
   }
   return couplings;

@@ -9,7 +9,9 @@ std::string read_place(const Table& table, std::string_view key, const Scene& sc
   const std::string name = table.text(key);
   std::vector<std::string> names = group_names(scene.mesh);
   if (names.empty()) return name;
-  for (const plate::RigidCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (!coupling.name.empty()) names.push_back(coupling.name);
+  }
   if (!contains(names, name)) table.refuse(key, no_such_name("group or coupling", name, names));
   return name;
 }

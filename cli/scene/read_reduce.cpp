@@ -11,13 +11,17 @@ namespace {
 std::vector<std::string> attachable_names(const Scene& scene)
 {
   std::vector<std::string> names = ring_names(scene.mesh);
-  for (const plate::RigidCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (!coupling.name.empty()) names.push_back(coupling.name);
+  }
   for (const std::string& group : group_names(scene.mesh)) {
     if (!contains(names, group) && !contains(surface_groups(scene.mesh), group)) {
       names.push_back(group);
     }
   }
-  for (const plate::RigidCoupling& coupling : scene.couplings) std::erase(names, coupling.group);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (coupling.kind != plate::CouplingKind::averaging) std::erase(names, coupling.group);
+  }
   return names;
 }
 
@@ -28,11 +32,14 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
   if (std::find(nodes.begin(), nodes.begin() + i, name) != nodes.begin() + i) {
     interface.refuse_element("nodes", i, "is named twice");
   }
-  for (const plate::RigidCoupling& coupling : scene.couplings) {
-    if (coupling.group != name) continue;
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (coupling.group != name || coupling.kind == plate::CouplingKind::averaging) continue;
+    const bool link = coupling.kind == plate::CouplingKind::link;
     interface.refuse_element(
         "nodes", i,
-        fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead", coupling.name));
+        link ? fmt::format("follows \"{0}\"; name \"{0}\" instead", coupling.to)
+             : fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead",
+                           coupling.name));
   }
   // The groups of a mesh file are known only once it is read.
   const std::vector<std::string> names = attachable_names(scene);

@@ -27,7 +27,7 @@ struct Sections {
 Sections read_sections(const Table& root, const mesh::MeshOptions& mesh);
 
 /// [[coupling]]
-std::vector<plate::RigidCoupling> read_couplings(const Table& root, const mesh::MeshOptions& mesh);
+std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene);
 
 /// [[mass]] and [[spring]]; their places may be groups, rings and couplings of `scene`.
 std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene);

@@ -52,7 +52,7 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.sections = sections.shells;
   scene.beams = sections.beams;
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
-  scene.couplings = read_couplings(root, scene.mesh);
+  scene.couplings = read_couplings(root, scene);
   scene.masses = read_masses(root, scene);
   scene.springs = read_springs(root, scene);
   scene.supports = read_supports(root, scene);

@@ -40,7 +40,7 @@ struct Scene {
   std::vector<plate::BeamSection> beams;
   std::vector<plate::PointMass> masses;
   std::vector<plate::Spring> springs;
-  std::vector<plate::RigidCoupling> couplings;
+  std::vector<plate::Coupling> couplings;
   std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
   std::vector<plate::Load> loads;        ///< of `static`
   std::optional<StaticOptions> static_solution;

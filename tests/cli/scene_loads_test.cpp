@@ -23,6 +23,14 @@ material = "iron"
 thickness = 0.02
 )";
 
+std::string replaced(const std::string& text, const std::string& old_part,
+                     const std::string& new_part)
+{
+  const std::size_t at = text.find(old_part);
+  EXPECT_NE(at, std::string::npos) << old_part;
+  return text.substr(0, at) + new_part + text.substr(at + old_part.size());
+}
+
 std::string error_of(const std::string& text)
 {
   try {
@@ -134,6 +142,54 @@ TEST(SceneOfLoadsError, NamesWhatALoadCannotBe)
             "scene; there are: \"disc\", \"inner_edge\", \"outer_edge\"");
   EXPECT_EQ(error_of(plate + "[modes]\ncount = 0\n"),
             "scene.toml:16: modes.count = 0: must be >= 1");
+}
+
+TEST(SceneOfLoads, ReadsProfilesOfSections)
+{
+  const std::string table = "{ over = \"radius\", at = [0.03, 0.1], values = [0.02, 0.015] }";
+  const Scene scene =
+      parse_scene(replaced(plate, "0.02\n", table + "\noffset = -0.01\n") + "[static]\n", "s.toml");
+  const plate::Profile& thickness = scene.sections[0].thickness;
+  EXPECT_EQ(thickness.over, plate::Coordinate::radius);
+  EXPECT_EQ(thickness.values, (std::vector<double>{0.02, 0.015}));
+  EXPECT_EQ(scene.sections[0].offset, -0.01);
+  const auto error = [&](const std::string& part, const std::string& wrong) {
+    return error_of(replaced(plate, "0.02\n", replaced(table, part, wrong) + "\n") + "[static]\n");
+  };
+  EXPECT_EQ(error("0.1]", "0.03]"),
+            "scene.toml:14: section.thickness.at[2] = 0.03: must be larger than the one before");
+  EXPECT_EQ(
+      error("[0.02, 0.015]", "[0.02]"),
+      "scene.toml:14: section.thickness.values = [ 0.02 ]: must be as many as the numbers of at");
+  EXPECT_EQ(error("0.015", "0.0"),
+            "scene.toml:14: section.thickness.values[2] = 0: must be > 0 (m)");
+  EXPECT_EQ(
+      error("radius", "angle"),
+      "scene.toml:14: section.thickness.over = \"angle\": must be one of \"x\", \"y\", \"z\", "
+      "\"radius\"");
+}
+
+TEST(SceneOfLoads, ReadsLinksAndAverages)
+{
+  const std::string link =
+      "[[coupling]]\ntype = \"link\"\ngroup = \"outer_edge\"\nto = \"inner_edge\"\n";
+  const Scene scene =
+      parse_scene(plate + "[static]\n" + link +
+                      "[[coupling]]\ntype = \"averaging\"\nname = \"pad\"\ngroup = \"disc\"\n",
+                  "s.toml");
+  ASSERT_EQ(scene.couplings.size(), 2u);
+  EXPECT_EQ(scene.couplings[0].kind, plate::CouplingKind::link);
+  EXPECT_EQ(scene.couplings[0].to, "inner_edge");
+  EXPECT_EQ(scene.couplings[1].kind, plate::CouplingKind::averaging);
+  EXPECT_EQ(error_of(plate + "[static]\n" + replaced(link, "inner", "outer")),
+            "scene.toml:19: coupling.to = \"outer_edge\": must be another group");
+  EXPECT_EQ(error_of(plate + "[static]\n[model]\ndofs = [\"z\", \"rx\", \"ry\"]\n[[coupling]]\n" +
+                     "type = \"averaging\"\nname = \"pad\"\ngroup = \"disc\"\n"),
+            "scene.toml:19: coupling.type = \"averaging\": an average needs all six DOFs of each "
+            "node; use \"rigid\", or take [model] out");
+  EXPECT_NE(
+      error_of(plate + "[static]\n" + replaced(link, "inner_edge", "rim")).find("no such group"),
+      std::string::npos);
 }
 
 }  // namespace

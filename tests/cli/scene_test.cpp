@@ -556,9 +556,9 @@ TEST(Scene, ReadsATolerancePromisedUpToAFrequency)
 TEST(SceneError, SaysWhatIsNotAvailableYet)
 {
   expect_messages({
-      {"type = \"rigid\"", "type = \"averaging\"",
-       "scene.toml:19: coupling.type = \"averaging\": averaging couplings are not available yet; "
-       "use \"rigid\""},
+      {"type = \"rigid\"", "type = \"spring\"",
+       "scene.toml:19: coupling.type = \"spring\": must be one of \"rigid\", \"averaging\", "
+       "\"link\""},
       {"element_order = 3", "element_order = 5",
        "scene.toml:6: mesh.element_order = 5: must be >= 1 and <= 4"},
   });

@@ -19,7 +19,7 @@ using namespace chladni;
 """
 # What each piece of the README takes as given.
 GIVEN = [
-    "const mesh::AnnulusOptions& annulus_options, std::vector<plate::RigidCoupling> couplings, "
+    "const mesh::AnnulusOptions& annulus_options, std::vector<plate::Coupling> couplings, "
     "std::vector<plate::ShellSection> sections, int n_ranks, IS masters",
     "const squeal::SquealOptions& options",
 ]

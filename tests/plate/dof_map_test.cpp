@@ -40,14 +40,14 @@ TEST(DofMap, PutsTheReferenceNodeInTheCentreOfItsGroup)
 TEST(DofMap, NamesANodeThatTwoCouplingsClaim)
 {
   const mesh::Mesh mesh = testing::small_disc();
-  const std::vector<RigidCoupling> twice{{"hub", "inner_edge"}, {"other", "inner_edge"}};
+  const std::vector<Coupling> twice{{"hub", "inner_edge"}, {"other", "inner_edge"}};
   EXPECT_THROW(make_dof_map(mesh, twice, mesh::node_owners(mesh, 1), 1), Error);
 }
 
 TEST(DofMap, RefusesACouplingNamedAsAGroup)
 {
   const mesh::Mesh mesh = testing::small_disc();
-  const std::vector<RigidCoupling> clash{{"disc", "inner_edge"}};
+  const std::vector<Coupling> clash{{"disc", "inner_edge"}};
   EXPECT_THROW(make_dof_map(mesh, clash, mesh::node_owners(mesh, 1), 1), Error);
 }
 

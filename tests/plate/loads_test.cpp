@@ -24,7 +24,7 @@ struct Model {
 };
 
 Model model_of(mesh::Mesh mesh, const ShellSection& section,
-               const std::vector<RigidCoupling>& couplings = {})
+               const std::vector<Coupling>& couplings = {})
 {
   const int n = petsc::size(PETSC_COMM_WORLD);
   DofMap map = make_dof_map(mesh, couplings, mesh::node_owners(mesh, n), n);

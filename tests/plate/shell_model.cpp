@@ -122,10 +122,11 @@ void assemble(ShellModel& model, const Material& material, double thickness)
 {
   const mesh::ElementBlock& block = model.mesh.blocks[0];
   const NodeVectors normals = mean_normals(model.mesh);
+  const ShellSection section{.group = {}, .material = material, .thickness = thickness};
   std::vector<Eigen::Triplet<double>> K, M;
   for (int e = 0; e < block.n_elements(); ++e) {
     const ElementMatrices matrices = shell_matrices(
-        block.shape, block.order, shell_nodes(model.mesh, block, e, normals, thickness), material);
+        block.shape, block.order, shell_nodes(model.mesh, block, e, normals, section), material);
     const auto nodes = block.element_nodes(e);
     const auto dof = [&](Index i) { return 6 * nodes[i / 6] + static_cast<int>(i % 6); };
     for (Index j = 0; j < matrices.K.cols(); ++j) {

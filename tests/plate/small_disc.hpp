@@ -17,7 +17,7 @@ inline mesh::Mesh small_disc()
                         .rings = {{.name = "track", .radius = 0.13, .nodes = 12}}});
 }
 
-inline const std::vector<RigidCoupling> hub{{.name = "hub", .group = "inner_edge"}};
+inline const std::vector<Coupling> hub{{.name = "hub", .group = "inner_edge"}};
 
 inline const std::vector<ShellSection> section{
     {.group = "disc",

@@ -1,0 +1,187 @@
+#include "plate/average_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+
+#include "common/error.hpp"
+#include "plate/follow_references.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+constexpr double no_rotation = 1e-9;  // of the largest pivot
+
+/// The blocks of a row of six equations, by active number.
+using Blocks = std::map<int, Matrix6d>;
+
+Vector3d position_of(const DofMap& map, int node)
+{
+  const auto& [x, y, z] = map.positions[node];
+  return {x, y, z};
+}
+
+Matrix3d cross_matrix(const Vector3d& r)
+{
+  Matrix3d R;
+  R << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
+  return R;
+}
+
+/// The motion of the reference node as the mean of its group: A q.
+Blocks mean_motion(const DofMap& map, const std::vector<int>& nodes, int reference)
+{
+  const Vector3d centre = position_of(map, reference);
+  const auto n = static_cast<double>(nodes.size());
+  Matrix3d J = Matrix3d::Zero();
+  for (const int node : nodes) {
+    const Matrix3d r = cross_matrix(position_of(map, node) - centre);
+    J -= r * r / n;
+  }
+  const Matrix3d J_inverse = J.completeOrthogonalDecomposition().pseudoInverse();
+  Blocks A;
+  for (const int node : nodes) {
+    Matrix6d share = Matrix6d::Zero();
+    share.topLeftCorner<3, 3>() = Matrix3d::Identity() / n;
+    share.bottomLeftCorner<3, 3>() = J_inverse * cross_matrix(position_of(map, node) - centre) / n;
+    for (const MotionTerm& term : map.motion(node)) {
+      A.try_emplace(term.number, Matrix6d::Zero()).first->second += share * term.T;
+    }
+  }
+  return A;
+}
+
+/// The six columns of A that are solved for: DOFs, ascending by pivoting, and their block inverted.
+struct Pivots {
+  std::array<int, 6> dof;
+  Matrix6d inverse;
+};
+
+/// Rows of rotation are scaled by the size of the group, so that all are lengths.
+Pivots choose_pivots(const Blocks& A, double length, const Coupling& coupling)
+{
+  MatrixXd columns = MatrixXd::Zero(6, 3 * static_cast<Index>(A.size()));
+  std::vector<int> dof;
+  for (const auto& [number, block] : A) {
+    for (int c = 0; c < 3; ++c) {  // displacements only
+      columns.col(std::ssize(dof)) = block.col(c);
+      dof.push_back(6 * number + c);
+    }
+  }
+  columns.bottomRows<3>() *= length;
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  const Eigen::VectorXd pivots = qr.matrixR().diagonal().cwiseAbs();
+  if (pivots.size() < 6 || pivots[5] < no_rotation * pivots[0]) {
+    throw Error(fmt::format(
+        "{}: the nodes of \"{}\" lie on one line or are too few; their mean has no rotation about "
+        "every axis",
+        describe(coupling), coupling.group));
+  }
+  Pivots chosen;
+  Matrix6d P;
+  for (int k = 0; k < 6; ++k) {
+    const Index column = qr.colsPermutation().indices()[k];
+    chosen.dof[k] = dof[column];
+    P.col(k) = columns.col(column);
+  }
+  P.bottomRows<3>() /= length;
+  chosen.inverse = P.inverse();
+  return chosen;
+}
+
+/// The motion of the reference node: its components stand at the pivots.
+CombinedMotion reference_motion(const Pivots& pivots)
+{
+  Blocks T;
+  for (int k = 0; k < 6; ++k) {
+    const auto [number, component] = std::pair(pivots.dof[k] / 6, pivots.dof[k] % 6);
+    T.try_emplace(number, Matrix6d::Zero()).first->second(k, component) = 1.0;
+  }
+  CombinedMotion motion{.terms = {}, .dof = pivots.dof};
+  for (const auto& [number, block] : T) motion.terms.push_back({number, block});
+  return motion;
+}
+
+/// The motion of a node that holds pivots: those displacements are P^-1 (u_ref - A_rest q_rest).
+CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivots)
+{
+  CombinedMotion motion{.terms = {}, .dof = {}};
+  for (int c = 0; c < 6; ++c) motion.dof[c] = 6 * number + c;
+  Blocks T;
+  T[number] = Matrix6d::Identity();
+  for (int k = 0; k < 6; ++k) {
+    if (pivots.dof[k] / 6 != number) continue;
+    const int component = pivots.dof[k] % 6;
+    motion.dof[component] = -1;
+    for (const auto& [other, block] : A) {
+      Eigen::Matrix<double, 1, 6> row = -pivots.inverse.row(k) * block;
+      for (int l = 0; l < 6; ++l) {  // where pivots stood there is now the reference node
+        if (pivots.dof[l] / 6 == other) row[pivots.dof[l] % 6] = pivots.inverse(k, l);
+      }
+      T.try_emplace(other, Matrix6d::Zero()).first->second.row(component) = row;
+    }
+  }
+  for (const auto& [other, block] : T) motion.terms.push_back({other, block});
+  return motion;
+}
+
+double size_of(const DofMap& map, const std::vector<int>& nodes, int reference)
+{
+  double size = 0.0;
+  for (const int node : nodes) {
+    size = std::max(size, (position_of(map, node) - position_of(map, reference)).norm());
+  }
+  return size > 0.0 ? size : 1.0;
+}
+
+/// Numbers of one group must not be in another average.
+void claim(const Blocks& A, std::map<int, int>& claimed, int index,
+           std::span<const Coupling> couplings)
+{
+  for (const auto& [number, block] : A) {
+    const auto [it, is_new] = claimed.emplace(number, index);
+    if (is_new || it->second == index) continue;
+    throw Error(fmt::format("{} and {} average nodes in common; take them out of one group",
+                            describe(couplings[it->second]), describe(couplings[index])));
+  }
+}
+
+}  // namespace
+
+void average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings, DofMap& map)
+{
+  std::map<int, int> claimed;
+  std::vector<int> node_of(map.n_active(), -1);
+  for (int node = 0; node < map.n_nodes(); ++node) {
+    if (map.reference[node] < 0 && map.number[node] >= 0) node_of[map.number[node]] = node;
+  }
+  for (int i = 0; i < std::ssize(couplings); ++i) {
+    if (couplings[i].kind != CouplingKind::averaging) continue;
+    const std::vector<int>& nodes = mesh::find_group(mesh, couplings[i].group).nodes;
+    const int reference = map.reference_node(couplings[i].name).value();
+    const Blocks A = mean_motion(map, nodes, reference);
+    claim(A, claimed, i, couplings);
+    const Pivots pivots = choose_pivots(A, size_of(map, nodes, reference), couplings[i]);
+    const auto combine = [&](int node, CombinedMotion motion) {
+      map.combined[node] = static_cast<int>(map.combined_motions.size());
+      map.combined_motions.push_back(std::move(motion));
+    };
+    combine(reference, reference_motion(pivots));
+    for (const int dof : pivots.dof) {
+      const int node = node_of[dof / 6];
+      if (map.combined[node] >= 0) continue;
+      combine(node, pivot_node_motion(dof / 6, A, pivots));
+      map.followed[node] = couplings[i].name;
+    }
+  }
+}
+
+}  // namespace chladni::plate
