@@ -161,9 +161,11 @@ def main():
     os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
     draw(runs, os.path.join(folder, "figures", "element_convergence.png"))
     write_text(runs, assembly, os.path.join(folder, "elements.md"))
-    kept = [{k: v for k, v in r.items() if k not in ("n", "f_Hz")} for r in runs]
+    # JSON has no infinity: a number of diameters that a run does not show has no error.
+    finite = lambda v: [finite(x) for x in v] if isinstance(v, list) else None if v == np.inf else v
+    kept = [{k: finite(v) for k, v in r.items() if k not in ("n", "f_Hz")} for r in runs]
     with open(os.path.join(folder, "elements.json"), "w") as file:
-        json.dump({"convergence": kept, "assembly": assembly}, file, indent=0, allow_nan=True)
+        json.dump({"convergence": kept, "assembly": assembly}, file, indent=0, allow_nan=False)
 
 
 main()
