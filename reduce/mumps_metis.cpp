@@ -82,24 +82,24 @@ std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm com
   return all;
 }
 
-/// The rows of Bt as columns, on rank 0.
-SparseColumns columns_of_transpose(Mat Bt)
+/// The rows of B_t as columns, on rank 0.
+SparseColumns columns_of_transpose(Mat B_t)
 {
-  const MPI_Comm comm = petsc::communicator(Bt);
+  const MPI_Comm comm = petsc::communicator(B_t);
   PetscInt first = 0, last = 0, n_columns = 0;
-  petsc::check(MatGetOwnershipRange(Bt, &first, &last));
-  petsc::check(MatGetSize(Bt, &n_columns, nullptr));
+  petsc::check(MatGetOwnershipRange(B_t, &first, &last));
+  petsc::check(MatGetSize(B_t, &n_columns, nullptr));
   std::vector<int> lengths, rows;
   std::vector<double> values;
   for (PetscInt j = first; j < last; ++j) {
     PetscInt n = 0;
     const PetscInt* columns = nullptr;
     const PetscScalar* entries = nullptr;
-    petsc::check(MatGetRow(Bt, j, &n, &columns, &entries));
+    petsc::check(MatGetRow(B_t, j, &n, &columns, &entries));
     lengths.push_back(n);
     rows.insert(rows.end(), columns, columns + n);
     values.insert(values.end(), entries, entries + n);
-    petsc::check(MatRestoreRow(Bt, j, &n, &columns, &entries));
+    petsc::check(MatRestoreRow(B_t, j, &n, &columns, &entries));
   }
   lengths = gather(lengths, MPI_INT, comm);
   SparseColumns B{.n_columns = n_columns,
@@ -122,11 +122,11 @@ SparseColumns slice(const SparseColumns& B, int first, int last)
   return part;
 }
 
-PetscErrorCode solve_sparse(Mat F, Mat Bt, Mat X)
+PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X)
 {
   return guarded([&] {
     MumpsFactor& factor = factor_of(F);
-    const SparseColumns B = columns_of_transpose(Bt);
+    const SparseColumns B = columns_of_transpose(B_t);
     const LocalArray array(X);
     const LocalColumns all = array.columns();
     constexpr int columns_at_a_time = 27;
