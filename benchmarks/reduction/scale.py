@@ -19,7 +19,7 @@ import run
 
 SIZES = {"73k": 0.009, "300k": 0.0041, "1M": 0.00225}
 PHASES = ["mesh", "assembly", "partition", "factorization", "fixed-interface modes",
-          "constraint modes", "projection", "error estimates", "pictures", "write"]
+          "constraint modes", "projection", "error estimates", "residuals", "condition", "pictures", "write"]
 
 
 def rates():
@@ -47,7 +47,7 @@ print(2e-9 * 2000**3 / best(lambda: a @ a), 8e-9 * b.size / best(lambda: b.sum()
 def measure(folder, name, ranks):
     path = run.scene(folder / name, SIZES[name])
     summary = run.reduce(folder / name, path, ranks)
-    phases = {phase["name"]: phase["wall_s"] for phase in summary["phases"]}
+    phases = summary["phases"]
     return {"disc": name, "ranks": ranks, "dofs": summary["n_dofs"], "phases_s": phases,
             "factor_operations": summary["factor_operations"],
             "factor_entries": summary["factor_entries"],
