@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "reduce/gather.hpp"
+
 namespace chladni::reduce {
 
 namespace {
@@ -41,18 +43,6 @@ std::vector<PetscInt> block_starts(Mat A)
   return starts;
 }
 
-/// Concatenation of what the ranks have, in their order; on rank 0 only.
-std::vector<int> gather(const std::vector<int>& own, MPI_Comm comm)
-{
-  const auto n = static_cast<int>(own.size());
-  std::vector<int> counts(petsc::size(comm)), offsets(petsc::size(comm));
-  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
-  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-  std::vector<int> all(petsc::rank(comm) == 0 ? offsets.back() + counts.back() : 0);
-  MPI_Gatherv(own.data(), n, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, 0, comm);
-  return all;
-}
-
 /// Number of the block of each row of A, on all ranks.
 std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, MPI_Comm comm)
 {
@@ -62,7 +52,7 @@ std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, 
   if (petsc::rank(comm) == 0) first = 0;
   std::vector<int> own;
   for (int b = 0; b < n_own; ++b) own.insert(own.end(), starts[b + 1] - starts[b], first + b);
-  std::vector<int> all = gather(own, comm);
+  std::vector<int> all = gather(own, MPI_INT, comm);
   all.resize(n);
   MPI_Bcast(all.data(), n, MPI_INT, 0, comm);
   return all;
@@ -141,7 +131,8 @@ std::vector<int> elimination_order(Mat A)
   const std::vector<PetscInt> starts = block_starts(A);
   const std::vector<int> block_of = block_of_rows(starts, n, comm);
   BlockGraph graph = own_graph(A, starts, block_of);
-  graph = {.degrees = gather(graph.degrees, comm), .neighbours = gather(graph.neighbours, comm)};
+  graph = {.degrees = gather(graph.degrees, MPI_INT, comm),
+           .neighbours = gather(graph.neighbours, MPI_INT, comm)};
   if (petsc::rank(comm) != 0) return {};
   std::vector<idx_t> sizes(graph.degrees.size(), 0);
   for (const int block : block_of) ++sizes[block];

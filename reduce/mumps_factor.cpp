@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "reduce/elimination_order.hpp"
+#include "reduce/gather.hpp"
 #include "reduce/log_event.hpp"
 
 namespace chladni::reduce {
@@ -26,14 +27,6 @@ constexpr int entry_format = 18;
 constexpr int right_hand_side_format = 20;
 constexpr int solution_format = 21;
 constexpr int columns_at_a_time = 27;
-
-/// Lists by rank, one behind the other.
-std::vector<int> offsets(const std::vector<int>& counts)
-{
-  std::vector<int> at(counts.size());
-  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
-  return at;
-}
 
 /// @param rows  [n] global rows from 1 of what MUMPS left on this rank.
 RowExchange plan_exchange(const std::vector<int>& rows, const std::vector<PetscInt>& first_rows,

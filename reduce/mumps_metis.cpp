@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "reduce/gather.hpp"
 #include "reduce/mumps_factor.hpp"
 
 namespace chladni::reduce {
@@ -67,19 +68,6 @@ PetscErrorCode solve_block(Mat F, Mat B, Mat X)
     if (B != X) petsc::check(MatCopy(B, X, SAME_NONZERO_PATTERN));
     factor_of(F).solve(LocalArray(X).columns());
   });
-}
-
-/// On rank 0 what all ranks have, in their order.
-template <typename T>
-std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
-{
-  const auto n = static_cast<int>(own.size());
-  std::vector<int> counts(petsc::size(comm)), at(petsc::size(comm));
-  MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
-  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
-  std::vector<T> all(petsc::rank(comm) == 0 ? at.back() + counts.back() : 0);
-  MPI_Gatherv(own.data(), n, type, all.data(), counts.data(), at.data(), type, 0, comm);
-  return all;
 }
 
 /// The rows of B_t as columns, on rank 0.

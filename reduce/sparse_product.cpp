@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "reduce/dense.hpp"
+#include "reduce/gather.hpp"
 #include "reduce/log_event.hpp"
 
 namespace chladni::reduce {
@@ -12,13 +13,6 @@ namespace {
 
 constexpr PetscInt narrow = 8;  // columns of a panel: a cache line
 constexpr PetscInt wide = 16;
-
-std::vector<int> offsets(const std::vector<int>& counts)
-{
-  std::vector<int> at(counts.size());
-  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
-  return at;
-}
 
 struct Csr {
   const PetscInt* starts;

@@ -129,7 +129,7 @@ def draw(runs, path):
     axes.set_xlabel("degrees of freedom")
     axes.set_ylabel("wall time, s")
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend(fontsize=8)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
     figure.savefig(path, dpi=130)
 
 
