@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "analytic_body.hpp"
+#include "kirchhoff_modes.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -38,51 +39,10 @@ void expect_matrix(const Eigen::MatrixXd& actual, const Eigen::Matrix2d& expecte
       EXPECT_NEAR(actual(i, j), expected(i, j), tolerance) << i << ", " << j;
 }
 
-/// SQUEAL reference values: frequencies in Hz, n, modal mass, U and U' at the ring of all modes of
-/// the clamped Kirchhoff disc below 14.3 hz.
-std::vector<PlatePair> all_plate_modes()
-{
-  return {
-      kirchhoff_pair(1, 584.1274135490457, 2.0449275095590247, 0.7248320070108304,
-                     8.680203195628117),
-      kirchhoff_pair(0, 657.1121726737764, 4.177804945356408, 0.7357312069560356,
-                     8.529973232647547),
-      kirchhoff_2(),
-      kirchhoff_3(),
-      kirchhoff_4(),
-      kirchhoff_pair(0, 4024.5406064609842, 4.211422584114879, -0.10936643599756818,
-                     32.50959555677901),
-      kirchhoff_pair(1, 4350.9082266996475, 2.1015608036753566, -0.11741276705777792,
-                     32.65389803098465),
-      kirchhoff_pair(5, 4687.59593689519, 1.2635925970703692, 0.5075668350912677,
-                     12.988463083205652),
-      kirchhoff_pair(2, 5491.256345248209, 2.139300182257225, -0.17034830567857656,
-                     33.687882578752145),
-      kirchhoff_pair(6, 6630.454504216795, 1.154934446871373, 0.46437073860036215,
-                     13.65302874691134),
-      kirchhoff_pair(3, 7554.253416138763, 2.16806905424838, -0.274386342010556, 35.43301134236458),
-      kirchhoff_pair(7, 8880.411176646414, 1.0689218879567595, 0.4264425481759891,
-                     14.1521359863382),
-      kirchhoff_pair(4, 10314.878563444616, 2.1197605451860744, -0.39016950022557995,
-                     36.722237894654924),
-      kirchhoff_pair(8, 11434.343302538642, 0.998570270445781, 0.3926126711090508,
-                     14.519931243214435),
-      kirchhoff_pair(0, 11752.620890375696, 4.326735171680284, -0.5999808193756918,
-                     28.009075911043627),
-      kirchhoff_pair(1, 12196.706935148426, 2.1648242926967844, -0.6108168626482169,
-                     27.737652604938056),
-      kirchhoff_pair(5, 13543.617251678386, 2.0394445024162517, -0.4947771174725778,
-                     37.10319931789488),
-      kirchhoff_pair(2, 13663.950909503083, 2.1901591253588166, -0.6438011299365216,
-                     26.406809307330626),
-      kirchhoff_pair(9, 14289.852206941265, 0.9395927589151871, 0.3620902044029578,
-                     14.777467271115578)};
-}
-
 /// All plate modes with the modal damping ratio `zeta`.
 InertialDisc damped_plate(double zeta)
 {
-  auto body = analytic_body(all_plate_modes());
+  auto body = analytic_body(kirchhoff_modes());
   body.C = (2.0 * zeta * body.omega).asDiagonal();
   return inertial_disc(make_disc(body, "track", {}));
 }
