@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "cli/report/report.hpp"
 
 /// The subcommands of the program `chladni`. Each prints its summary on the first rank, writes the
 /// files at its end, and throws chladni::Error when the job failed, before anything is written.
@@ -30,6 +31,7 @@ struct ChladniArguments {
   std::string info_file;
   std::string check_file;
   ExportArguments exported;
+  ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
 };
 

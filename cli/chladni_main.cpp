@@ -87,6 +87,7 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
+  cli::declare_report(app, arguments.report);
   app.require_subcommand(1);
 }
 
@@ -96,6 +97,8 @@ void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
   }
   if (app.got_subcommand("export")) return cli::export_command(arguments);
+  if (app.got_subcommand("report"))
+    return cli::on_first_rank([&] { cli::write_report(arguments.report); });
   if (app.got_subcommand("check")) return cli::check_command(arguments);
   cli::info_command(arguments);
 }
@@ -140,7 +143,8 @@ int main(int argc, char** argv)
       "Examples:\n"
       "  chladni run scene.toml --output out\n"
       "  mpirun -n 2 chladni reduce scene.toml -- -log_view\n"
-      "  chladni info out/disc.body.h5");
+      "  chladni info out/disc.body.h5\n"
+      "  chladni report scene.toml --output out");
   if (const auto code = cli::parse_arguments(app, {argv + 1, dashes})) return *code;
   try {
     return perform_with_petsc(app, arguments);
