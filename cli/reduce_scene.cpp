@@ -97,8 +97,8 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  system.certificate = phases.run(
-      "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  system.certificate =
+      phases.run("error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced); });
   const double modes_residual = phases.run("residuals", [&] {
     return reduced.Q_CB.modes
                ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)

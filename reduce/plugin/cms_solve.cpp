@@ -11,6 +11,7 @@
 #include "reduce/plugin/cms_impl.hpp"
 #include "reduce/plugin/guard.hpp"
 #include "reduce/sylvester.hpp"
+#include "reduce/tolerance_search.hpp"
 
 namespace chladni::reduce::plugin {
 
@@ -110,7 +111,8 @@ FreeModel free_model_everywhere(const ReducedModel& model, MPI_Comm comm)
   return free;
 }
 
-/// The modes up to lambda_max.
+/// The modes that get an error: up to the range of the tolerance, or else up to the last
+/// fixed-interface mode, not too many.
 ReducedPairs certified_pairs(const FreeModel& free, const Settings& settings,
                              const ReducedModel& model)
 {
@@ -119,7 +121,7 @@ ReducedPairs certified_pairs(const FreeModel& free, const Settings& settings,
     const double omega = settings.options.tolerance ? two_pi * settings.options.tolerance->up_to_Hz
                                                     : model.omega.back();
     k = std::ranges::upper_bound(free.lambda, omega * omega) - free.lambda.begin();
-    k = std::clamp<std::size_t>(k, 1, most_certified);
+    k = std::clamp<std::size_t>(k, 1, settings.options.tolerance ? k + 1 : most_certified);
   }
   k = std::min(k, free.lambda.size());
   ReducedPairs pairs{.X = {free.X.n_rows, static_cast<PetscInt>(k)},
@@ -136,11 +138,47 @@ CMSCount as_count(const EigenvalueCount& count)
           .missing = count.missing()};
 }
 
-/// The basis with the modes that `wanted` says, projected, with errors of its free modes.
-Result reduced(CMS cms, petsc::Matrix Psi, const ReduceOptions& wanted)
+/// The modes that the user wants, with nothing for Guyan.
+std::optional<FixedInterfaceModes> modes_as_told(CMS cms)
 {
   const SetUp& set_up = *cms->inside->set_up;
-  Result result{.Q_CB = {.Psi = std::move(Psi), .modes = {}},
+  const ReduceOptions& wanted = cms->inside->settings.options;
+  if (wanted.method == Method::guyan) return std::nullopt;
+  Phase phase(cms, events.modes, "fixed-interface modes");
+  FixedInterfaceModes modes = fixed_interface_modes(set_up.K_ss, set_up.M_blocks.ss, wanted);
+  phase.done();
+  return modes;
+}
+
+/// As few modes as keep the tolerance.
+FixedInterfaceModes modes_to_tolerance(CMS cms, Mat Psi)
+{
+  const SetUp& set_up = *cms->inside->set_up;
+  const Settings& settings = cms->inside->settings;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(cms));
+  // What the estimates from the small matrices and those from the full ones may differ by.
+  constexpr double margin = 0.99;
+  ToleranceSearch search(
+      {.K_ss = set_up.K_ss, .Psi = Psi, .K = set_up.K_blocks, .M = set_up.M_blocks},
+      margin * settings.options.tolerance->tolerance, [&](const ReducedModel& model) {
+        return certified_pairs(free_model_everywhere(model, comm), settings, model);
+      });
+  for (bool enough = false; !enough;) {
+    Phase finding(cms, events.modes, "fixed-interface modes");
+    search.find_modes();
+    finding.done();
+    Phase choosing(cms, events.errors, "choice of modes");
+    enough = search.is_enough();
+    choosing.done();
+  }
+  return search.modes();
+}
+
+/// The projection on a basis, with errors of its free modes.
+Result reduced(CMS cms, CraigBamptonBasis Q_CB)
+{
+  const SetUp& set_up = *cms->inside->set_up;
+  Result result{.Q_CB = std::move(Q_CB),
                 .model = {.K = {0, 0}, .M = {0, 0}, .n_masters = 0, .omega = {}},
                 .lambda = {},
                 .f_Hz = {},
@@ -151,11 +189,6 @@ Result reduced(CMS cms, petsc::Matrix Psi, const ReduceOptions& wanted)
                 .M_r = {},
                 .C_r = {},
                 .T = {}};
-  if (wanted.method == Method::craig_bampton) {
-    Phase phase(cms, events.modes, "fixed-interface modes");
-    result.Q_CB.modes = fixed_interface_modes(set_up.K_ss, set_up.M_blocks.ss, wanted);
-    phase.done();
-  }
   {
     Phase phase(cms, events.project, "projection");
     result.model = project(result.Q_CB, set_up.K_blocks, set_up.M_blocks);
@@ -174,26 +207,6 @@ Result reduced(CMS cms, petsc::Matrix Psi, const ReduceOptions& wanted)
   result.quality.rigid_residual = free.rigid_residual;
   phase.done();
   return result;
-}
-
-/// Half as many modes more until the errors keep the tolerance.
-Result reduced_to_tolerance(CMS cms, petsc::Matrix Psi)
-{
-  const ModesByTolerance goal = *cms->inside->settings.options.tolerance;
-  PetscInt n_s = 0;
-  petsc::check(MatGetSize(Psi, &n_s, nullptr));
-  for (int n_modes = std::min<int>(32, n_s);; n_modes = std::min<int>(n_modes + n_modes / 2, n_s)) {
-    Result result = reduced(cms, std::move(Psi), {.modes = n_modes});
-    const double error = result.eta2.empty() ? 0.0 : std::ranges::max(result.eta2);
-    if (error <= goal.tolerance) return result;
-    if (n_modes >= n_s) {
-      throw Error(
-          fmt::format("CMSSolve: with all {} modes eta^2 is {:.1e}, above -cms_tol {:.1e}; "
-                      "raise the tolerance",
-                      n_modes, error, goal.tolerance));
-    }
-    Psi = std::move(result.Q_CB.Psi);
-  }
 }
 
 petsc::Matrix timed_constraint_modes(CMS cms)
@@ -231,11 +244,16 @@ void count(CMS cms, Result& result)
 Result make_result(CMS cms)
 {
   const Settings& settings = cms->inside->settings;
-  petsc::Matrix Psi = timed_constraint_modes(cms);
-  const bool by_tolerance =
-      settings.options.tolerance && settings.options.method == Method::craig_bampton;
-  Result result = by_tolerance ? reduced_to_tolerance(cms, std::move(Psi))
-                               : reduced(cms, std::move(Psi), settings.options);
+  CraigBamptonBasis Q_CB{.Psi = {}, .modes = {}};
+  if (settings.options.tolerance && settings.options.method == Method::craig_bampton) {
+    Q_CB.Psi = timed_constraint_modes(cms);
+    Q_CB.modes = modes_to_tolerance(cms, Q_CB.Psi);
+  } else {
+    // The modes first: the subspace of the eigen-solve is as large as the constraint modes.
+    Q_CB.modes = modes_as_told(cms);
+    Q_CB.Psi = timed_constraint_modes(cms);
+  }
+  Result result = reduced(cms, std::move(Q_CB));
   result.quality.condition = condition_estimate(cms->inside->set_up->K_ss);
   if (settings.sylvester) count(cms, result);
   return result;
