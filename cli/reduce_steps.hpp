@@ -68,6 +68,12 @@ plate::Structure structure_of(const Scene& scene);
 
 Partitioned partition_scene(const FeModel& fe);
 
+/// The factor of K_ss.
+/// @param beside_MiB  memory that must remain for what comes after
+/// @throws chladni::Error that names the node that moves most where a part of the body is free.
+reduce::Factorization factorize_slaves(const FeModel& fe, const Partitioned& blocks,
+                                       double beside_MiB);
+
 /// Psi alone.
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
                                            const reduce::Factorization& K_ss, Phases& phases);
@@ -102,6 +108,11 @@ std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscIn
 /// @param system  [first rank]
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
                                     const mbs_export::ReducedSystem& system);
+
+/// Rubin's and MacNeal's methods.
+bool is_free_interface(reduce::Method method);
+Reduced reduce_by_free_modes(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                             const reduce::Factorization& K_ss, Phases& phases);
 
 /// As few modes as keep the tolerance of the scene.
 Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,

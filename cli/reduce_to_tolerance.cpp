@@ -2,22 +2,23 @@
 #include "reduce/tolerance_search.hpp"
 
 namespace chladni::cli {
+namespace {
 
-Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                            const reduce::Factorization& K_ss, Phases& phases)
+reduce::FixedInterfaceModes modes_to_tolerance(const Scene& scene, const FeModel& fe,
+                                               const reduce::GrowingModel::System& system,
+                                               const std::vector<PetscInt>& masters, Phases& phases)
 {
-  reduce::CraigBamptonBasis Q_CB = constraint_basis(blocks, K_ss, phases);
   const auto pairs_in_range = [&](const reduce::ReducedModel& model) {
-    const auto n_modes = static_cast<PetscInt>(model.omega.size());
-    const std::vector<int> places = coordinate_places(blocks.masters, n_modes);
+    const std::vector<int> places =
+        coordinate_places(masters, static_cast<PetscInt>(model.omega.size()));
     return held_pairs(to_file_order(scene, fe, model, places), places, scene.body.fixed,
                       certified_range(scene, 0.0))
         .pairs;
   };
   // What the estimates from the small matrices and those from the FE model may differ by.
   constexpr double margin = 0.99;
-  reduce::ToleranceSearch search({.K_ss = K_ss, .Psi = Q_CB.Psi, .K = blocks.K, .M = blocks.M},
-                                 margin * scene.reduce.tolerance->tolerance, pairs_in_range);
+  reduce::ToleranceSearch search(system, margin * scene.reduce.tolerance->tolerance,
+                                 pairs_in_range);
   const auto find_modes = [&] {
     search.find_modes();
     return 0;
@@ -25,7 +26,18 @@ Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partiti
   do {
     phases.run("fixed-interface modes", find_modes);
   } while (!phases.run("choice of modes", [&] { return search.is_enough(); }));
-  Q_CB.modes = phases.run("fixed-interface modes", [&] { return search.modes(); });
+  return phases.run("fixed-interface modes", [&] { return search.modes(); });
+}
+
+}  // namespace
+
+Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                            const reduce::Factorization& K_ss, Phases& phases)
+{
+  reduce::CraigBamptonBasis Q_CB = constraint_basis(blocks, K_ss, phases);
+  Q_CB.modes =
+      modes_to_tolerance(scene, fe, {.K_ss = K_ss, .Psi = Q_CB.Psi, .K = blocks.K, .M = blocks.M},
+                         blocks.masters, phases);
   return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 

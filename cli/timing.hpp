@@ -28,7 +28,7 @@ class Stopwatch {
 /// Splits the time of a program into phases that follow each other.
 class PhaseClock {
  public:
-  /// Names what happened since the last call, or since the beginning; adds to a phase of that name.
+  /// Names what happened since the last call, or since the beginning.
   void end_phase(std::string name);
   const std::vector<PhaseTime>& phases() const { return phases_; }
 

@@ -94,6 +94,22 @@ void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)
   petsc::check(MatDenseRestoreArray(Y, &y));
 }
 
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
+{
+  PetscInt first = 0;
+  PetscInt ld = 0;
+  PetscScalar* y = nullptr;
+  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
+  petsc::check(MatDenseGetLDA(Y, &ld));
+  petsc::check(MatDenseGetArray(Y, &y));
+  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+    for (PetscInt j = 0; j < S.n_cols; ++j) {
+      y[row - first + std::size_t(j) * ld] += value * S(column, j);
+    }
+  });
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
 SmallMatrix inner_product_sparse(Mat X, Mat A)
 {
   PetscInt n_cols = 0;

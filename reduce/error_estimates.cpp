@@ -31,23 +31,6 @@ petsc::Matrix zero_block(Mat like, PetscInt n_columns)
   return block;
 }
 
-/// Y <- Y + A S for a sparse A [n_s x n_m] and a small S [n_m x k].
-void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
-{
-  PetscInt first = 0;
-  PetscInt ld = 0;
-  PetscScalar* y = nullptr;
-  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
-  petsc::check(MatDenseGetLDA(Y, &ld));
-  petsc::check(MatDenseGetArray(Y, &y));
-  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
-    for (PetscInt j = 0; j < S.n_cols; ++j) {
-      y[row - first + std::size_t(j) * ld] += value * S(column, j);
-    }
-  });
-  petsc::check(MatDenseRestoreArray(Y, &y));
-}
-
 /// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
 /// and leaving them out avoids the difference of two large forces.
 petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Blocks& M,

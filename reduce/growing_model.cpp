@@ -74,8 +74,9 @@ void GrowingModel::start_errors(Mat Phi)
     report_progress(double(first) / n_m);
     const PetscInt last = std::min(first + block_columns, n_m);
     const SmallMatrix P = columns_of(P_, first, last);
-    petsc::Matrix Z = deflated_inertia(system_, Phi, P, first);
-    petsc::check(MatMatSolve(system_.K_ss.factor(), Z, Z));
+    const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
+    const petsc::Matrix Z = uninitialized_dense(system_.M.ss, last - first);
+    petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
     const petsc::Matrix MZ = uninitialized_dense(system_.M.ss, last - first);
     SparseProduct(system_.M.ss).apply(Z, MZ);
     const SmallMatrix Psi_MZ = inner_product(system_.Psi, MZ);

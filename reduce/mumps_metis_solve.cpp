@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reduce/gather.hpp"
+#include "reduce/progress.hpp"
 
 namespace chladni::reduce {
 
@@ -105,10 +106,11 @@ PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X)
     const LocalArray array(X);
     const LocalColumns all = array.columns();
     constexpr int columns_at_a_time = 27;
-    const int most = petsc::size(petsc::communicator(F)) == 1
-                         ? B.n_columns  // MUMPS works in place, block by block
-                         : std::max(factor.control(columns_at_a_time), 1);
+    // On one rank MUMPS works in place, block by block; two of them between reports of progress.
+    const int n_blocks = petsc::size(petsc::communicator(F)) == 1 ? 2 : 1;
+    const int most = n_blocks * std::max(factor.control(columns_at_a_time), 1);
     for (int first = 0; first < B.n_columns; first += most) {
+      report_progress(double(first) / B.n_columns);
       const int last = std::min(first + most, B.n_columns);
       factor.solve(slice(B, first, last),
                    {.values = all.values + std::size_t(first) * all.leading_dimension,
