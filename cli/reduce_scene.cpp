@@ -64,7 +64,7 @@ double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
   PetscInt n_s = 0;
   petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
   constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
-  const double n_modes = wanted.modes.value_or(0);
+  const double n_modes = std::min<double>(wanted.modes.value_or(0), n_s);
   const double n_columns =
       std::max(static_cast<double>(blocks.masters.size()) + n_modes, subspace_of_modes * n_modes);
   constexpr double bytes_per_MiB = 1048576.0;

@@ -17,9 +17,11 @@ void check_memory(Mat factor, MatFactorError error, double budget_MiB)
 {
   if (error != MAT_FACTOR_OUTMEMORY) return;
   throw Error(fmt::format(
-      "factorize: the factor of K_ss needs {:.0f} MiB, and {:.0f} MiB are free for it; use more "
-      "machines, a coarser mesh, fewer masters or modes, or raise -cms_memory",
-      forecast_MiB(factor), budget_MiB));
+      "factorize: the factor of K_ss needs {:.0f} MiB, and {}; use more machines, a coarser mesh, "
+      "fewer masters or modes, or raise -cms_memory",
+      forecast_MiB(factor),
+      budget_MiB > 0.0 ? fmt::format("{:.0f} MiB are free for it", budget_MiB)
+                       : "modes and constraint modes alone need more than there is"));
 }
 
 PetscInt n_negative_pivots(Mat factor)

@@ -4,7 +4,7 @@
 
 namespace chladni::reduce {
 
-/// K_G = K_mm + K_ms Psi, symmetric to the last bit.
+/// K_G = K_mm + K_ms Psi, symmetric to the last bit, without the round-off of rigid-body motions.
 /// @note   Collective, as all of this header.
 SmallMatrix guyan_stiffness(Mat Psi, const Blocks& K);
 

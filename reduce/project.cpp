@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "reduce/block_basis.hpp"
 #include "reduce/guyan.hpp"
 #include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
@@ -48,6 +50,33 @@ PetscInt n_columns(Mat A)
   return n;
 }
 
+/// K_G without what round-off leaves of K_mm where K_G resists nothing: eigenvalues, scaled by the
+/// diagonal of K_mm, below 1e-12 and of either sign. The softest plates keep 1e-10 of it; a body
+/// with a single attachment node has nothing but round-off in K_G.
+SmallMatrix without_round_off(SmallMatrix K_G, const SmallMatrix& K_mm)
+{
+  constexpr double round_off = 1e-12;
+  const auto scale = [&](PetscInt i) { return std::sqrt(std::max(K_mm(i, i), 0.0)); };
+  SmallMatrix scaled = K_G;
+  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+    for (PetscInt i = 0; i < K_G.n_rows; ++i) {
+      const double product = scale(i) * scale(j);
+      scaled(i, j) = product > 0.0 ? K_G(i, j) / product : 0.0;
+    }
+  }
+  const SymmetricEigen eigen = symmetric_eigen(std::move(scaled));
+  for (PetscInt k = 0; k < K_G.n_cols; ++k) {
+    if (std::abs(eigen.values[k]) > round_off) continue;
+    for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+      for (PetscInt i = 0; i < K_G.n_rows; ++i) {
+        K_G(i, j) -=
+            scale(i) * eigen.vectors(i, k) * eigen.values[k] * eigen.vectors(j, k) * scale(j);
+      }
+    }
+  }
+  return K_G;
+}
+
 /// Psi^T M_ss Psi
 SmallMatrix slave_mass(Mat Psi, Mat M_ss)
 {
@@ -77,7 +106,7 @@ SmallMatrix guyan_stiffness(Mat Psi, const Blocks& K)
       K_G(i, j) = K_G(j, i) = mean;
     }
   }
-  return K_G;
+  return without_round_off(std::move(K_G), replicate(K.mm));
 }
 
 SmallMatrix guyan_mass(Mat Psi, const Blocks& M)

@@ -22,9 +22,10 @@ import run
 
 SLICES = """
 import sys, time, json
-import petsc4py; petsc4py.init(["x"])
-import slepc4py; slepc4py.init(["x", "-st_mat_mumps_icntl_13", "1", "-st_mat_mumps_icntl_24", "1",
-                                "-st_mat_mumps_cntl_3", "1e-12"])
+import petsc4py
+import slepc4py; slepc4py.init("x -eps_type krylovschur -st_type sinvert -st_ksp_type preonly -st_pc_type cholesky "
+    "-st_pc_factor_mat_solver_type mumps -st_mat_mumps_icntl_13 1 -st_mat_mumps_icntl_24 1 "
+    "-st_mat_mumps_cntl_3 1e-12".split())
 from petsc4py import PETSc
 from slepc4py import SLEPc
 folder, n_modes, lambda_max = sys.argv[1], int(sys.argv[2]), float(sys.argv[3])
@@ -37,9 +38,6 @@ eps.setOperators(K, M)
 eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
 eps.setWhichEigenpairs(SLEPc.EPS.Which.ALL)
 eps.setInterval(0.0, lambda_max)
-st = eps.getST(); st.setType("sinvert")
-ksp = st.getKSP(); ksp.setType("preonly")
-pc = ksp.getPC(); pc.setType("cholesky"); pc.setFactorSolverType("mumps")
 eps.setTolerances(1e-7)
 eps.setFromOptions()
 eps.solve()
