@@ -64,9 +64,16 @@ void declare_export(CLI::App& app, cli::ExportArguments& arguments)
   exported->add_option("--superelement", arguments.superelement, "its number in Nastran")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
+  exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
+      ->check(CLI::IsMember(cli::sid_dialects()))
+      ->capture_default_str();
+  exported->add_option("--json", arguments.json, "writes the summary for other programs")
+      ->type_name("FILE");
   exported->footer(
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
-      "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem");
+      "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
+      "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
+      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.h5");
 }
 
 void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
@@ -85,8 +92,11 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   info->footer("Example:\n  chladni info out/disc.body.h5");
   CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
   check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
+  check->add_option("--json", arguments.check_json, "writes the table for other programs")
+      ->type_name("FILE");
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
+  cli::declare_report(app, arguments.report);
   app.require_subcommand(1);
 }
 
@@ -96,6 +106,8 @@ void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
   }
   if (app.got_subcommand("export")) return cli::export_command(arguments);
+  if (app.got_subcommand("report"))
+    return cli::on_first_rank([&] { cli::write_report(arguments.report); });
   if (app.got_subcommand("check")) return cli::check_command(arguments);
   cli::info_command(arguments);
 }
@@ -140,7 +152,8 @@ int main(int argc, char** argv)
       "Examples:\n"
       "  chladni run scene.toml --output out\n"
       "  mpirun -n 2 chladni reduce scene.toml -- -log_view\n"
-      "  chladni info out/disc.body.h5");
+      "  chladni info out/disc.body.h5\n"
+      "  chladni report scene.toml --output out");
   if (const auto code = cli::parse_arguments(app, {argv + 1, dashes})) return *code;
   try {
     return perform_with_petsc(app, arguments);

@@ -6,6 +6,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/describe.hpp"
+#include "cli/report/report.hpp"
 #include "cli/squeal_run.hpp"
 #include "cli/version.hpp"
 
@@ -17,6 +18,7 @@ struct SquealArguments {
   cli::SceneArguments scene;
   std::string body_file;
   std::string info_file;
+  cli::ReportArguments report;
 };
 
 void declare_run(CLI::App& app, SquealArguments& arguments)
@@ -50,11 +52,16 @@ int main(int argc, char** argv)
   app.require_subcommand(1);
   declare_run(app, arguments);
   declare_info(app, arguments);
-  app.footer("Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5");
+  cli::declare_report(app, arguments.report);
+  app.footer(
+      "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
+      "  squeal report scene.toml --output out");
   if (const auto code = cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
   try {
     if (app.got_subcommand("run")) {
       cli::run_squeal(arguments.scene, arguments.body_file);
+    } else if (app.got_subcommand("report")) {
+      cli::write_report(arguments.report);
     } else {
       fmt::print("{}", cli::describe_file(arguments.info_file));
     }

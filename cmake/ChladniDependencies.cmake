@@ -4,6 +4,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 
@@ -15,6 +16,8 @@ if(CHLADNI_FE)
   find_library(METIS_LIBRARY metis REQUIRED)
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
   find_library(MUMPS_LIBRARY dmumps REQUIRED)
+  # Complex equations of the sound field, beside the real PETSc.
+  find_library(ZMUMPS_LIBRARY zmumps REQUIRED)
   # dgemm and dsyrk of the projection; OpenBLAS, since the reference BLAS is five times slower.
   find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 endif()

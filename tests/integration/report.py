@@ -1,0 +1,169 @@
+"""The page of `report`: what is in it, what it says without files, and how a browser draws it.
+
+Usage: report.py PROGRAM_DIR [CHROMIUM [SCREENSHOT]]
+"""
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+SQUEAL = """
+[squeal]
+ring = "track"
+thickness = 0.02
+use_modes = "nodal-diameters 3"
+speeds = { from_rad_s = 3.0, to_rad_s = 60.0, count = 20 }
+friction = 0.6
+contact = "bilateral"
+pads = [{ angle_deg = 0.0, stiffness = 6e6, damping = 0.0, preload = 2000.0 }]
+analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", "limit-cycle-branch",
+            "stability-map", "spectrum"]
+map = { parameter = "stiffness", from = 1e6, to = 9e6, count = 10 }
+transient = { speed_rad_s = 18.85, duration_s = 0.3, initial_pad_displacement = 6.8e-8 }
+"""
+BENCHMARK = {"speed_against_error": [
+    {"case": "disc </script>", "points": [
+        {"seconds": 1.0, "error": 1e-3, "automatic": False}, {"seconds": 2.0, "error": 1e-4, "automatic": True}]}]}  # fmt: skip
+
+# What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.
+READER = """<script>
+addEventListener("error", event => { document.body.dataset.error = event.message; });
+document.querySelector("tr[data-motion='2']").click();
+document.body.dataset.motion = document.querySelector("select").value;
+// In the browser's virtual time no frames are drawn; a timer stands in for them.
+window.requestAnimationFrame = frame => setTimeout(() => frame(performance.now()), 16);
+const before = window.viewer.turn;
+document.getElementById("viewer").dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
+document.body.dataset.turned = Number(window.viewer.turn !== before);
+document.querySelector("input[type=checkbox]").click();
+document.querySelector("button").click();
+setTimeout(() => {
+  document.body.dataset.phase = window.viewer.phase;
+  document.body.dataset.painted = window.viewer.painted;
+}, 1000);
+</script>"""
+
+
+def require(condition, what):
+    if not condition:
+        sys.exit(f"FAILED: {what}")
+    print(f"ok      {what}")
+
+
+def run(program, *arguments, code=0):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    require(done.returncode == code, f"{program.name} {arguments[0]} ends with {code}: {done.stderr.strip()}")
+    return done
+
+
+def content_of(page):
+    return json.loads(re.search(r'id="content">(.*?)</script>', page, re.DOTALL)[1])
+
+
+def make_disc(programs, folder):
+    scene = folder / "scene.toml"
+    text = (ROOT / "tests/data/coarse_disc.toml").read_text()
+    scene.write_text(text.replace("[body]", "sylvester = true\n\n[body]") + SQUEAL)
+    missing = run(programs / "squeal", "report", scene, "--output", folder, code=1)
+    require("chladni run" in missing.stderr, "without files the message says how to make them")
+    run(programs / "chladni", "run", scene, "--output", folder)
+    run(programs / "squeal", "run", scene, "--output", folder)
+    (folder / "bench.json").write_text("{}")
+    bad = run(programs / "squeal", "report", scene, "--output", folder, "--benchmark", folder / "bench.json", code=1)
+    require("speed_against_error" in bad.stderr, "JSON without the key is refused")
+    require(not list(folder.glob("*.html")), "a refusal leaves no page")
+    (folder / "bench.json").write_text(json.dumps(BENCHMARK))
+    run(programs / "squeal", "report", scene, "--output", folder, "--benchmark", folder / "bench.json")
+    return next(folder.glob("*.report.html"))
+
+
+def look_at_disc(page, folder):
+    text = page.read_text()
+    links = [link for link in re.findall(r"https?://[^\s\"'<]*", text) if "www.w3.org/2000/svg" not in link]
+    require(not links, f"nothing is loaded from elsewhere: {links}")
+    require(len(text) < 4e6, f"the page is small: {len(text) / 1e6:.2f} MB")
+    content = content_of(text)
+    json_of_squeal = content["critical"]["speed"]
+    require(3 < json_of_squeal < 60, f"critical speed {json_of_squeal} rad/s")
+    mode = content["modes"][6]
+    require(mode["diameters"] == 3 and 0 < mode["estimate"] < 0.01, f"mode 7 with diameters and error: {mode}")
+    require(mode["bound"] >= mode["estimate"], "the certified bound is above the estimate")
+    names = [motion["name"] for motion in content["surface"]["motions"]]
+    require(any("Limit cycle" in name for name in names), "the limit cycle can be looked at")
+    require("im" in content["surface"]["motions"][-1], "the least stable motion travels")
+
+
+def other_pages(programs, folder):
+    """A beam without squeal, and squeal without a body."""
+    beam = ROOT / "examples/beam/supported.toml"
+    run(programs / "chladni", "run", beam, "--output", folder / "beam")
+    run(programs / "chladni", "report", beam, "--output", folder / "beam")
+    rigid = ROOT / "examples/rigid_disc/scene.toml"
+    run(programs / "squeal", "run", rigid, "--output", folder / "rigid")
+    run(programs / "squeal", "report", rigid, "--output", folder / "rigid")
+    return [next((folder / name).glob("*.report.html")) for name in ("beam", "rigid")]
+
+
+def browse(chromium, page, *more):
+    profile = tempfile.mkdtemp(dir=page.parent)
+    command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+               "--disable-background-networking", "--disable-component-update", "--disable-sync",
+               "--enable-logging=stderr", "--virtual-time-budget=3000", "--window-size=1280,3000",
+               f"--user-data-dir={profile}", *more, page.as_uri()]  # fmt: skip
+    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+
+
+def draw(chromium, page, needed):
+    shown = browse(chromium, page, "--dump-dom")
+    said = [line for line in shown.stderr.splitlines() if "CONSOLE" in line]
+    require(not said, f"{page.name}: the console is silent {said}")
+    require('data-state="drawn"' in shown.stdout, f"{page.name}: is drawn")
+    sections = re.findall(r'<section id="([a-z-]+)"', shown.stdout)
+    require(set(needed) <= set(sections), f"{page.name}: has the sections {sections}")
+    empty = re.findall(r'NaN|undefined|Infinity', re.sub(r"<script.*?</script>", "", shown.stdout, flags=re.DOTALL))
+    require(not empty, f"{page.name}: no number failed {empty}")
+
+
+def use(chromium, page):
+    """A copy of the page with a reader in it."""
+    copy = page.with_name("used.html")
+    copy.write_text(page.read_text().replace("</body>", READER + "</body>"))
+    shown = browse(chromium, copy, "--dump-dom").stdout
+    state = dict(re.findall(r'data-([a-z]+)="([^"]*)"', re.search(r"<body[^>]*>", shown)[0]))
+    require("error" not in state, f"nothing fails in use: {state}")
+    require(state["motion"] == "2" and state["turned"] == "1", "a row shows its mode, a key turns the body")
+    require(float(state["phase"]) > 0, "the motion plays")
+    require(int(state["painted"]) > 20000, f"{state['painted']} pixels of the body are painted")
+
+
+def photograph(chromium, page, file):
+    browse(chromium, page, f"--screenshot={file}")
+    from matplotlib.image import imread
+
+    pixels = imread(file)[..., :3]
+    red, blue = pixels[..., 0], pixels[..., 2]
+    for name, part in (("blue", blue > red + 0.3), ("orange", red > blue + 0.3)):
+        require(part.sum() > 5000, f"{file}: {part.sum()} pixels are {name}")
+
+
+def main(programs, chromium=None, screenshot=None):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        page = make_disc(programs, folder)
+        look_at_disc(page, folder)
+        beam, rigid = other_pages(programs, folder)
+        if chromium is None:
+            return
+        draw(chromium, page, ["modes", "campbell", "map", "limit-cycle", "errors", "summary", "origin"])
+        draw(chromium, beam, ["modes", "errors", "summary"])
+        draw(chromium, rigid, ["campbell", "summary"])
+        use(chromium, page)
+        photograph(chromium, page, screenshot or str(folder / "page.png"))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), *sys.argv[2:])
