@@ -88,7 +88,7 @@ std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
   return searches;
 }
 
-std::optional<squeal::SoundCase> read_sound(const Table& squeal)
+std::optional<squeal::SoundCase> read_wav(const Table& squeal)
 {
   if (!squeal.has("wav")) return std::nullopt;
   const Table table = squeal.table("wav");
@@ -110,6 +110,13 @@ std::optional<squeal::MapCase> read_map(const Table& squeal)
 }
 
 }  // namespace
+
+bool read_radiation(const Table& root)
+{
+  if (!root.has("squeal")) return false;
+  const Table squeal = root.table("squeal");
+  return squeal.has("radiation") && squeal.truth("radiation");
+}
 
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene)
 {
@@ -133,7 +140,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.limit_cycle_direct = read_direct(squeal, options.transient);
   options.map = read_map(squeal);
   options.critical = read_critical(squeal);
-  options.sound = read_sound(squeal);
+  options.sound = read_wav(squeal);
   return options;
 }
 
