@@ -80,12 +80,12 @@ reduce::ReduceOptions read_reduce(const Table& root)
   }
   const std::string_view criterion = table.only_one_of({"modes", "cutoff_Hz", "tolerance"});
   if (criterion == "modes") {
-    options.modes = table.integer("modes", {.above = 0.0});
+    options.modes = table.integer("modes");
   } else if (criterion == "cutoff_Hz") {
-    options.cutoff_Hz = table.number("cutoff_Hz", {.above = 0.0, .unit = "Hz"});
+    options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
-    options.tolerance = {.tolerance = table.number("tolerance", {.above = 0.0, .below = 1.0}),
-                         .up_to_Hz = table.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
+    options.tolerance = {.tolerance = table.number("tolerance"),
+                         .up_to_Hz = table.number("up_to_Hz")};
   }
   return options;
 }
