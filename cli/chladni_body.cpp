@@ -4,6 +4,7 @@
 #include "cli/chladni_steps.hpp"
 #include "cli/describe.hpp"
 #include "cli/petsc_session.hpp"
+#include "cli/selection_json.hpp"
 #include "common/error.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/reduced_file.hpp"
@@ -38,12 +39,12 @@ void make_and_write_body(const SceneArguments& arguments)
   fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title, format_table(list_modes(body)),
              selection, selection.empty() ? "" : "\n", format_table(describe(body)),
              format_table(cost_table(cost)), file.string());
-  write_summary(arguments,
-                {{"n_masters", reduced.n_masters()},
-                 {"n_modes", reduced.fixed_interface_frequencies.size()},
-                 {"frequencies_Hz", frequencies_json(body.omega)},
-                 {"n_rigid", body.n_rigid}},
-                cost);
+  std::vector<Json::Member> members = {{"n_masters", reduced.n_masters()},
+                                       {"n_modes", reduced.fixed_interface_frequencies.size()},
+                                       {"frequencies_Hz", frequencies_json(body.omega)},
+                                       {"n_rigid", body.n_rigid}};
+  for (Json::Member& member : preparation_json(body)) members.push_back(std::move(member));
+  write_summary(arguments, members, cost);
 }
 
 }  // namespace

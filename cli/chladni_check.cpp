@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cli/chladni_commands.hpp"
+#include "cli/chladni_steps.hpp"
 #include "cli/output.hpp"
 #include "cli/petsc_session.hpp"
 #include "common/error.hpp"
@@ -45,9 +46,26 @@ TextTable table_of(const std::vector<Check>& checks)
   return table;
 }
 
-void print_checks(const std::string& file)
+void write_json(const std::string& file, const std::string& json, const std::vector<Check>& checks)
+{
+  std::vector<Json> list;
+  for (const Check& check : checks)
+    list.push_back(Json::object({{"check", check.name},
+                                 {"verdict", name_of(check.verdict)},
+                                 {"value", check.value},
+                                 {"limit", check.limit},
+                                 {"meaning", check.meaning}}));
+  write_summary({.scene = file, .output = {}, .json = json},
+                {{"file", file},
+                 {"verdict", name_of(mbs_export::worst(checks))},
+                 {"checks", Json::array(list)}},
+                cost_so_far({}));
+}
+
+void print_checks(const std::string& file, const std::string& json)
 {
   const std::vector<Check> checks = checks_of(file);
+  write_json(file, json, checks);
   fmt::print("{}\n\n{}", file, format_table(table_of(checks)));
   int n_failed = 0;
   for (const Check& check : checks) {
@@ -64,7 +82,7 @@ void print_checks(const std::string& file)
 
 void check_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { print_checks(arguments.check_file); });
+  on_first_rank([&] { print_checks(arguments.check_file, arguments.check_json); });
 }
 
 }  // namespace chladni::cli

@@ -18,6 +18,8 @@ struct ExportArguments {
   std::string from = ".";  ///< folder of the scene's reduced system
   std::string output;      ///< the file to write; empty for NAME and the extension of the format
   int superelement = 100;  ///< its number in Nastran
+  std::string sid_dialect = "simpack";  ///< one of sid_dialects()
+  std::string json;                     ///< file for the summary; empty for none
 };
 
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.
@@ -30,6 +32,7 @@ struct ChladniArguments {
   QualityChoice mesh;
   std::string info_file;
   std::string check_file;
+  std::string check_json;  ///< file for the summary; empty for none
   ExportArguments exported;
   ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
@@ -63,6 +66,9 @@ void export_command(const ChladniArguments& arguments);
 
 /// The values of --format.
 const std::vector<std::string>& export_formats();
+
+/// The values of --sid-dialect.
+const std::vector<std::string>& sid_dialects();
 
 /// Says what a file of Chladni holds.
 void info_command(const ChladniArguments& arguments);

@@ -4,11 +4,14 @@
 #include <optional>
 
 #include "cli/chladni_commands.hpp"
+#include "cli/chladni_steps.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/scene/scene.hpp"
 #include "common/error.hpp"
+#include "mbs_export/formats/exudyn.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
+#include "mbs_export/formats/sid.hpp"
 #include "mbs_export/formats/text_file.hpp"
 #include "mbs_export/reduced_file.hpp"
 
@@ -48,56 +51,89 @@ path target_of(const ExportArguments& arguments, const Source& source, const std
   return arguments.output.empty() ? path(source.stem.string() + extension) : path(arguments.output);
 }
 
-void write(const path& file, const std::string& text)
+std::string write(const path& file, const std::string& text)
 {
   formats::write_text(file, text);
-  fmt::print("wrote {}\n", file.string());
+  return file.string();
 }
 
-void export_superelement(const ExportArguments& arguments, const Source& source,
-                         const mbs_export::ReducedSystem& reduced)
+std::vector<std::string> export_superelement(const ExportArguments& arguments, const Source& source,
+                                             const mbs_export::ReducedSystem& reduced)
 {
   path file = target_of(arguments, source, ".op4");
   const auto files = formats::nastran_superelement(reduced, arguments.superelement);
-  write(file, files.op4);
-  write(file.replace_extension(".asm"), files.assembly);
-  write(file.replace_extension(".pch"), files.superelement);
+  return {write(file, files.op4), write(file.replace_extension(".asm"), files.assembly),
+          write(file.replace_extension(".pch"), files.superelement)};
 }
 
-void export_mbdyn(const ExportArguments& arguments, const Source& source,
-                  const mbs_export::ReducedSystem& reduced, formats::MbdynVersion version)
+formats::FloatingBody floating_body_of(const ExportArguments& arguments, const Source& source,
+                                       const mbs_export::ReducedSystem& reduced)
 {
   if (!source.scene)
     throw Error(fmt::format("{}: {} needs the supports and modes of [body]; give the scene",
                             arguments.source, arguments.format));
-  const auto floating = formats::floating_body(reduced, source.scene->body);
-  write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
+  return formats::floating_body(reduced, source.scene->body);
 }
 
-void export_as(const ExportArguments& arguments)
+/// A body in a frame that moves with it.
+std::string export_floating_body(const ExportArguments& arguments, const Source& source,
+                                 const formats::FloatingBody& floating)
+{
+  if (arguments.format == "exudyn") {
+    const path file = target_of(arguments, source, ".exudyn.h5");
+    formats::write_exudyn(file, floating);
+    return file.string();
+  }
+  if (arguments.format == "sid") {
+    const auto dialect = arguments.sid_dialect == "welib" ? formats::SidDialect::welib
+                                                          : formats::SidDialect::simpack;
+    return write(target_of(arguments, source, ".SID_FEM"), formats::sid_fem(floating, dialect));
+  }
+  const auto version =
+      arguments.format == "mbdyn" ? formats::MbdynVersion::v1_7 : formats::MbdynVersion::develop;
+  return write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
+}
+
+/// @return the files written
+std::vector<std::string> export_as(const ExportArguments& arguments)
 {
   const Source source = source_of(arguments);
   const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
   if (arguments.format == "nastran-dmig")
-    return write(target_of(arguments, source, ".dmig"), formats::nastran_dmig(reduced));
+    return {write(target_of(arguments, source, ".dmig"), formats::nastran_dmig(reduced))};
   if (arguments.format == "nastran-op4") return export_superelement(arguments, source, reduced);
-  export_mbdyn(
-      arguments, source, reduced,
-      arguments.format == "mbdyn" ? formats::MbdynVersion::v1_7 : formats::MbdynVersion::develop);
+  return {export_floating_body(arguments, source, floating_body_of(arguments, source, reduced))};
+}
+
+void export_and_report(const ExportArguments& arguments)
+{
+  const std::vector<std::string> files = export_as(arguments);
+  for (const std::string& file : files) fmt::print("wrote {}\n", file);
+  write_summary({.scene = arguments.source, .output = {}, .json = arguments.json},
+                {{"source", arguments.source},
+                 {"format", arguments.format},
+                 {"files", Json::array({files.begin(), files.end()})}},
+                cost_so_far({}));
 }
 
 }  // namespace
 
 const std::vector<std::string>& export_formats()
 {
-  static const std::vector<std::string> names{"nastran-dmig", "nastran-op4", "mbdyn",
-                                              "mbdyn-develop"};
+  static const std::vector<std::string> names{"nastran-dmig",  "nastran-op4", "mbdyn",
+                                              "mbdyn-develop", "sid",         "exudyn"};
+  return names;
+}
+
+const std::vector<std::string>& sid_dialects()
+{
+  static const std::vector<std::string> names{"simpack", "welib"};
   return names;
 }
 
 void export_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { export_as(arguments.exported); });
+  on_first_rank([&] { export_and_report(arguments.exported); });
 }
 
 }  // namespace chladni::cli

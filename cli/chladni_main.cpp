@@ -65,9 +65,16 @@ void declare_export(CLI::App& app, cli::ExportArguments& arguments)
   exported->add_option("--superelement", arguments.superelement, "its number in Nastran")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
+  exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
+      ->check(CLI::IsMember(cli::sid_dialects()))
+      ->capture_default_str();
+  exported->add_option("--json", arguments.json, "writes the summary for other programs")
+      ->type_name("FILE");
   exported->footer(
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
-      "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem");
+      "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
+      "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
+      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.h5");
 }
 
 void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
@@ -86,6 +93,8 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   info->footer("Example:\n  chladni info out/disc.body.h5");
   CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
   check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
+  check->add_option("--json", arguments.check_json, "writes the table for other programs")
+      ->type_name("FILE");
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
   cli::declare_report(app, arguments.report);

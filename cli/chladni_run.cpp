@@ -4,6 +4,7 @@
 #include "cli/chladni_steps.hpp"
 #include "cli/describe.hpp"
 #include "cli/petsc_session.hpp"
+#include "cli/selection_json.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/reduced_file.hpp"
 
@@ -28,6 +29,7 @@ void print_and_write_summary(const SceneArguments& arguments, const ReduceSummar
   std::vector<Json::Member> members = reduction_json(summary);
   members.emplace_back("frequencies_Hz", frequencies_json(body.omega));
   members.emplace_back("n_rigid", body.n_rigid);
+  for (Json::Member& member : preparation_json(body)) members.push_back(std::move(member));
   write_summary(arguments, members, cost);
 }
 

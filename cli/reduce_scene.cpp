@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/enrich_scene.hpp"
+#include "cli/mass_integrals.hpp"
 #include "cli/mesh_scene.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/picture.hpp"
@@ -76,6 +78,29 @@ RowsOf rows_of(const Partitioned& blocks, const Reduced& reduced)
   };
 }
 
+/// Room for interface modes of the whole model, mass integrals, pictures and section forces.
+Reduced with_what_bodies_need(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                              Reduced reduced, Phases& phases)
+{
+  if (wants_full_responses(scene)) {
+    reduced = with_full_responses(scene, fe, blocks, std::move(reduced), phases);
+  }
+  if (scene.mass_integrals) {
+    reduced.system.mass_integrals = phases.run(
+        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, blocks, reduced); });
+  }
+  const RowsOf rows = rows_of(blocks, reduced);
+  reduced.system.picture = phases.run("pictures", [&] {
+    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
+  });
+  if (!scene.resultants.groups.empty()) {
+    reduced.system.resultants = phases.run("section forces", [&] {
+      return section_forces(scene.resultants, structure_of(scene), fe, rows);
+    });
+  }
+  return reduced;
+}
+
 }  // namespace
 
 ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
@@ -85,7 +110,7 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  if (!scene.sylvester) {  // the blocks are enough
+  if (!scene.sylvester && !wants_full_responses(scene)) {  // the blocks are enough
     fe.system.K = {};
     fe.system.M = {};
   }
@@ -110,14 +135,7 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
     system.certificate =
         phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
   }
-  const RowsOf rows = rows_of(blocks, reduced);
-  system.picture = phases.run("pictures", [&] {
-    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
-  });
-  if (!scene.resultants.empty()) {
-    system.resultants = phases.run(
-        "section forces", [&] { return section_forces(scene.resultants, scene.beams, fe, rows); });
-  }
+  reduced = with_what_bodies_need(scene, fe, blocks, std::move(reduced), phases);
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),
                        .versions = library_versions(),

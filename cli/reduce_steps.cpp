@@ -139,7 +139,7 @@ Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned&
       phases.run("projection", [&] { return reduce::project(Q_CB, blocks.K, blocks.M); });
   std::vector<int> places = coordinate_places(blocks.masters, Q_CB.n_modes());
   mbs_export::ReducedSystem system = to_file_order(scene, fe, model, places);
-  if (blocks.C) system.C = as_eigen(reduce::project_damping(Q_CB, *blocks.C))(places, places);
+  if (blocks.C) system.C = as_eigen(reduce::project_form(Q_CB, *blocks.C))(places, places);
   return {.Q_CB = std::move(Q_CB),
           .model = std::move(model),
           .places = std::move(places),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/shell_section_forces.hpp"
 #include "common/error.hpp"
 #include "plate/beam_element.hpp"
 #include "plate/directors.hpp"
@@ -16,30 +17,13 @@ using mbs_export::ResultantModes;
 
 constexpr Index n_kinds = 6;
 
-/// A line of the mesh and where its points begin.
-struct Line {
-  const mesh::ElementBlock& block;
-  int element;
-  Index first_point;
-};
-
-std::vector<Line> lines_of(const mesh::Mesh& mesh, const mesh::Group& group)
+Index points_of_line(const mesh::ElementBlock& block)
 {
-  const auto index = static_cast<int>(&group - mesh.groups.data());
-  std::vector<Line> lines;
-  Index n_points = 0;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
-      if (block.shape != mesh::Shape::line || block.group[e] != index) continue;
-      lines.push_back({block, e, n_points});
-      n_points += Index{2} * block.order;
-    }
-  }
-  return lines;
+  return block.shape == mesh::Shape::line ? Index{2} * block.order : 0;
 }
 
 /// Places, axes and element numbers of the ends of all beams.
-void add_points(ResultantModes& forces, const Line& line, const plate::NodeVectors& x,
+void add_points(ResultantModes& forces, const ChosenElement& line, const plate::NodeVectors& x,
                 const plate::BeamSection& section)
 {
   for (Index i = 0; i + 1 < x.rows(); ++i) {
@@ -53,19 +37,44 @@ void add_points(ResultantModes& forces, const Line& line, const plate::NodeVecto
   }
 }
 
-/// Keeps the kinds that some coordinate causes.
+ResultantModes beam_section_forces(const Chosen& chosen, const plate::BeamSection& section,
+                                   const FeModel& fe, const RowsOf& rows_of)
+{
+  const MatrixXd u = node_rows(chosen.nodes, fe.system.dofs, rows_of);
+  const Index n_points = chosen.n_points;
+  ResultantModes forces{.name = chosen.group,
+                        .kinds = {"N", "Q_y", "Q_z", "M_x", "M_y", "M_z"},
+                        .units = {"N", "N", "N", "N m", "N m", "N m"},
+                        .elements = {},
+                        .positions = ResultantModes::Rows(n_points, 3),
+                        .axes = ResultantModes::Rows(n_points, 9),
+                        .S = MatrixXd(n_kinds * n_points, u.cols())};
+  for (const ChosenElement& line : chosen.elements) {
+    const plate::NodeVectors x = plate::element_positions(fe.mesh, line.block, line.element);
+    add_points(forces, line, x, section);
+    const MatrixXd u_e = rows_of_element(chosen, line, u);
+    forces.S.middleRows(n_kinds * line.first_point, 12 * (x.rows() - 1)) =
+        plate::beam_section_forces(x, section) * u_e;
+  }
+  drop_silent_kinds(forces);
+  return forces;
+}
+
+}  // namespace
+
 void drop_silent_kinds(ResultantModes& forces)
 {
+  const Index n = std::ssize(forces.kinds);
   const Index n_points = forces.positions.rows();
   std::vector<Index> kept;
-  for (Index kind = 0; kind < n_kinds; ++kind) {
-    if (!forces.S(Eigen::seqN(kind, n_points, n_kinds), Eigen::all).isZero(0.0)) {
+  for (Index kind = 0; kind < n; ++kind) {
+    if (!forces.S(Eigen::seqN(kind, n_points, n), Eigen::all).isZero(0.0)) {
       kept.push_back(kind);
     }
   }
   std::vector<Index> rows;
   for (Index point = 0; point < n_points; ++point) {
-    for (const Index kind : kept) rows.push_back(n_kinds * point + kind);
+    for (const Index kind : kept) rows.push_back(n * point + kind);
   }
   ResultantModes all = forces;
   forces.kinds.clear();
@@ -77,51 +86,27 @@ void drop_silent_kinds(ResultantModes& forces)
   forces.S = all.S(rows, Eigen::all);
 }
 
-ResultantModes forces_of_group(const mesh::Group& group, const plate::BeamSection& section,
-                               const FeModel& fe, const RowsOf& rows_of)
-{
-  const std::vector<Line> lines = lines_of(fe.mesh, group);
-  const MatrixXd u = node_rows(group.nodes, fe.system.dofs, rows_of);
-  const Index n_points = lines.back().first_point + Index{2} * lines.back().block.order;
-  ResultantModes forces{.name = group.name,
-                        .kinds = {"N", "Q_y", "Q_z", "M_x", "M_y", "M_z"},
-                        .units = {"N", "N", "N", "N m", "N m", "N m"},
-                        .elements = {},
-                        .positions = ResultantModes::Rows(n_points, 3),
-                        .axes = ResultantModes::Rows(n_points, 9),
-                        .S = MatrixXd(n_kinds * n_points, u.cols())};
-  for (const Line& line : lines) {
-    const plate::NodeVectors x = plate::element_positions(fe.mesh, line.block, line.element);
-    add_points(forces, line, x, section);
-    MatrixXd u_e(6 * x.rows(), u.cols());
-    for (Index i = 0; i < x.rows(); ++i) {
-      const int node = line.block.element_nodes(line.element)[static_cast<std::size_t>(i)];
-      const auto place = std::ranges::lower_bound(group.nodes, node) - group.nodes.begin();
-      u_e.middleRows<6>(6 * i) = u.middleRows<6>(6 * place);
-    }
-    forces.S.middleRows(n_kinds * line.first_point, 12 * (x.rows() - 1)) =
-        plate::beam_section_forces(x, section) * u_e;
-  }
-  drop_silent_kinds(forces);
-  return forces;
-}
-
-}  // namespace
-
-std::vector<ResultantModes> section_forces(const std::vector<std::string>& groups,
-                                           const std::vector<plate::BeamSection>& beams,
-                                           const FeModel& fe, const RowsOf& rows_of)
+std::vector<ResultantModes> section_forces(const ResultantChoice& choice,
+                                           const plate::Structure& structure, const FeModel& fe,
+                                           const RowsOf& rows_of)
 {
   std::vector<ResultantModes> forces;
-  for (const std::string& name : groups) {
-    const auto section = std::ranges::find(beams, name, &plate::BeamSection::group);
-    if (section == beams.end()) {
-      throw Error(
-          fmt::format("resultants: the group \"{}\" has no beam section; section forces "
-                      "are those of beams",
-                      name));
+  for (const std::string& name : choice.groups) {
+    const auto shell = std::ranges::find(structure.shells, name, &plate::ShellSection::group);
+    if (shell != structure.shells.end()) {
+      forces.push_back(shell_section_forces(choose_elements(fe.mesh, name, choice, points_of_shell),
+                                            *shell, fe, rows_of));
+      continue;
     }
-    forces.push_back(forces_of_group(mesh::find_group(fe.mesh, name), *section, fe, rows_of));
+    const auto section = std::ranges::find(structure.beams, name, &plate::BeamSection::group);
+    if (section == structure.beams.end()) {
+      throw Error(fmt::format(
+          "resultants: the group \"{}\" has no section; section forces are those of beams and "
+          "shells",
+          name));
+    }
+    forces.push_back(beam_section_forces(choose_elements(fe.mesh, name, choice, points_of_line),
+                                         *section, fe, rows_of));
   }
   return forces;
 }

@@ -9,13 +9,13 @@
 
 namespace chladni::cli {
 
-/// The section forces N, Q_y, Q_z, M_x, M_y, M_z (on the face with normal +x, in the local axes) at
-/// both ends of every beam of each group; kinds that no component of the model can cause are left
-/// out.
+/// Of beams the section forces N, Q_y, Q_z, M_x, M_y, M_z (on the face with normal +x, in the local
+/// axes) at both ends of every beam of each group, of shells those of shell_section_forces; kinds
+/// that no component of the model can cause are left out.
 /// @note   Collective, as rows_of.
-/// @throws chladni::Error for a group without beams.
-std::vector<mbs_export::ResultantModes> section_forces(const std::vector<std::string>& groups,
-                                                       const std::vector<plate::BeamSection>& beams,
+/// @throws chladni::Error for a group without section, or without any of the chosen elements.
+std::vector<mbs_export::ResultantModes> section_forces(const ResultantChoice& choice,
+                                                       const plate::Structure& structure,
                                                        const FeModel& fe, const RowsOf& rows_of);
 
 }  // namespace chladni::cli

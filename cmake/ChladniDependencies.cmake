@@ -16,6 +16,8 @@ if(CHLADNI_FE)
   find_library(METIS_LIBRARY metis REQUIRED)
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
   find_library(MUMPS_LIBRARY dmumps REQUIRED)
+  # Complex equations of the sound field, beside the real PETSc.
+  find_library(ZMUMPS_LIBRARY zmumps REQUIRED)
   # dgemm and dsyrk of the projection; OpenBLAS, since the reference BLAS is five times slower.
   find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 endif()

@@ -218,6 +218,7 @@ void write_body(const std::string& path, const ModalBody& body)
   for (const ContactRing& ring : body.rings) write_ring(file, ring);
   file_parts::write_picture(file, body.picture);
   file_parts::write_resultants(file, body.resultants);
+  file_parts::write_mass_integrals(file, body.mass_integrals);
   file.write("rigid_body/mass", body.mass, "kg");
   file.write("rigid_body/centre_of_mass", body.centre_of_mass, "m");
   file.write("rigid_body/inertia", body.inertia, "kg m^2");
@@ -259,6 +260,7 @@ ModalBody read_body(const std::string& path)
           .n_free_rigid = file_parts::read_count(file, "preparation/free_rigid_modes"),
           .preparation = read_preparation(file),
           .resultants = file_parts::read_resultants(file, n),
+          .mass_integrals = file_parts::read_mass_integrals(file, n),
           .selection = read_selection(file),
           .provenance = file_parts::read_provenance(file)};
 }

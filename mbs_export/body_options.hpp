@@ -24,10 +24,14 @@ struct KeptModes {
 /// IRM (at = set, omega0 = 0) or FRM of one set of loaded attachment nodes.
 struct InterfaceModes {
   enum class Kind { irm, frm };
+  /// Where the response is sought: among the neglected modes, or in the FE model at the time of the
+  /// reduction, which makes room for it in the reduced system.
+  enum class Space { reduced, full };
   Kind kind;
   std::string at;                ///< name of an attachment set
   std::vector<int> components;   ///< loaded components 0..5 of each of its nodes
   std::optional<double> omega0;  ///< rad/s; absent = half the first elastic free frequency
+  Space space = Space::reduced;
 };
 
 /// Damping of the body in its final coordinates.

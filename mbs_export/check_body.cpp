@@ -154,6 +154,9 @@ std::vector<Check> check_body(const ModalBody& body)
   add_supports(checks, body);
   add_inertia(checks, body);
   add_damping(checks, body);
+  if (body.mass_integrals)
+    checks.push_back(check_parts::check_mass_integrals(
+        *body.mass_integrals, MatrixXd::Identity(body.n_modes(), body.n_modes())));
   add_rings(checks, body);
   return checks;
 }

@@ -77,6 +77,17 @@ Check check_inertia(const Eigen::Matrix3d& inertia)
                  "excess of the largest principal moment over the sum of the others");
 }
 
+Check check_mass_integrals(const MassIntegrals& integrals, const MatrixXd& M)
+{
+  const auto& S = integrals.products;
+  const MatrixXd difference = S[0] + S[1] + S[2] - M;
+  const Eigen::VectorXd scale = M.diagonal().cwiseMax(1e-14 * M.diagonal().maxCoeff());
+  const Eigen::VectorXd s = scale.cwiseSqrt().cwiseInverse();
+  return bounded("mass integrals",
+                 (s.asDiagonal() * difference * s.asDiagonal()).cwiseAbs().maxCoeff(), 1e-8,
+                 "S_xx + S_yy + S_zz against M over sqrt(M_ii M_jj)");
+}
+
 double characteristic_length(const std::vector<AttachmentNode>& nodes)
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -28,6 +28,9 @@ Eigen::VectorXd relative_eigenvalues(const Eigen::MatrixXd& A);
 /// Principal moments of any body are positive, and none exceeds the sum of the other two.
 Check check_inertia(const Eigen::Matrix3d& inertia);
 
+/// S_xx + S_yy + S_zz against the mass matrix M of the same coordinates.
+Check check_mass_integrals(const MassIntegrals& integrals, const Eigen::MatrixXd& M);
+
 /// Root mean square distance of the attachment nodes from their centre, m; 1 for a single point.
 double characteristic_length(const std::vector<AttachmentNode>& nodes);
 

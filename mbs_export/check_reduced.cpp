@@ -154,6 +154,31 @@ void add_resultants(std::vector<Check>& checks, const ReducedSystem& reduced, co
   }
 }
 
+/// int phi dm is what a unit translation has of M, and int x dm of the whole body.
+double momentum_error(const ReducedSystem& reduced, const RigidInertia& rigid)
+{
+  const MassIntegrals& integrals = *reduced.mass_integrals;
+  const auto R = rigid_body_vectors(reduced, centre_of_nodes(reduced));
+  double largest = std::abs(integrals.mass - rigid.mass) / rigid.mass;
+  for (int k = 0; k < 3; ++k) {
+    if (R.col(k).isZero()) continue;
+    const VectorXd row = reduced.M * R.col(k);
+    const VectorXd difference = integrals.displacement.row(k).transpose() - row;
+    largest = std::max(largest, difference.cwiseAbs().maxCoeff() / row.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+void add_mass_integrals(std::vector<Check>& checks, const ReducedSystem& reduced)
+{
+  if (!reduced.mass_integrals) return;
+  checks.push_back(check_parts::check_mass_integrals(*reduced.mass_integrals, reduced.M));
+  const RigidInertia rigid = rigid_inertia(reduced);
+  if (!(rigid.mass > 0.0)) return;
+  checks.push_back(bounded("momentum of coordinates", momentum_error(reduced, rigid), 1e-8,
+                           "integrals over the mass against M times unit translations"));
+}
+
 void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
 {
   const std::optional<MatrixXd> B = rigid_basis(reduced);
@@ -225,6 +250,7 @@ std::vector<Check> check_reduced(const ReducedSystem& reduced)
   add_rigid_motions(checks, reduced);
   add_fixed_interface_modes(checks, reduced);
   add_free_modes(checks, reduced);
+  add_mass_integrals(checks, reduced);
   return checks;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mbs_export/hdf5.hpp"
+#include "mbs_export/mass_integrals.hpp"
 #include "mbs_export/reduced_system.hpp"
 
 /// The groups that the files of a reduced system and of a modal body have in common.
@@ -28,6 +30,11 @@ Picture read_picture(const hdf5::Reader& file, Eigen::Index n_columns);
 void write_resultants(hdf5::Writer& file, const std::vector<ResultantModes>& resultants);
 /// @param n_columns  that each `modes` must have
 std::vector<ResultantModes> read_resultants(const hdf5::Reader& file, Eigen::Index n_columns);
+
+/// Group `mass_integrals`; nothing is written when there are none.
+void write_mass_integrals(hdf5::Writer& file, const std::optional<MassIntegrals>& integrals);
+/// @param n  number of coordinates
+std::optional<MassIntegrals> read_mass_integrals(const hdf5::Reader& file, Eigen::Index n);
 
 void write_provenance(hdf5::Writer& file, const Provenance& provenance);
 Provenance read_provenance(const hdf5::Reader& file);

@@ -59,6 +59,10 @@ class Writer {
   /// An attribute of a dataset or group; "/" is the root.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
   void attribute(const std::string& object, const std::string& name, std::int64_t number);
+  /// Of variable length, for readers that compare text as h5py gives it to them: what is of fixed
+  /// length comes as bytes. Reader refuses it.
+  void variable_attribute(const std::string& object, const std::string& name,
+                          const std::string& text);
 
  private:
   using Extents = std::vector<std::uint64_t>;

@@ -45,8 +45,8 @@ struct Expected {
   std::vector<Eigen::Index> shape;  ///< `any` leaves an extent open
 };
 
-/// The extents; none when the values could not fit into a file of this size. Compressed ones can be
-/// larger than it, by a factor of about 1000 at most.
+/// The extents; none when the values could not come from what the file stores of them. Compressed
+/// ones can be larger than that, by a factor of about 1000 at most.
 std::optional<std::vector<Eigen::Index>> plausible_shape(hid_t dataset, hid_t type,
                                                          hsize_t file_size)
 {
@@ -58,13 +58,14 @@ std::optional<std::vector<Eigen::Index>> plausible_shape(hid_t dataset, hid_t ty
   H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
   const hsize_t value_size = H5Tget_size(type);
   if (value_size == 0) return std::nullopt;
-  hsize_t rest = file_size / value_size;
-  if (H5Pget_layout(creation.get()) == H5D_CHUNKED) rest *= 1024;
+  const bool is_empty = std::ranges::find(shape, hsize_t{0}) != shape.end();
+  hsize_t rest = std::min<hsize_t>(H5Dget_storage_size(dataset), file_size) / value_size;
+  if (H5Pget_nfilters(creation.get()) > 0) rest *= 1024;
   for (const hsize_t extent : shape) {
-    if (extent > rest) return std::nullopt;
+    if (extent > (is_empty ? file_size : rest)) return std::nullopt;
     if (extent > 0) rest /= extent;
   }
-  if (rest == 0) return std::nullopt;
+  if (rest == 0 && !is_empty) return std::nullopt;
   return std::vector<Eigen::Index>(shape.begin(), shape.end());
 }
 

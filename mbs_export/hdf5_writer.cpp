@@ -175,6 +175,17 @@ void Writer::attribute(const std::string& object, const std::string& name, std::
           object + "@" + name);
 }
 
+void Writer::variable_attribute(const std::string& object, const std::string& name,
+                                const std::string& text)
+{
+  const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
+  const Handle type = text_type(1);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  const char* const characters = text.c_str();
+  require(owner.valid() && set_attribute(owner.get(), name, type.get(), &characters), path_,
+          object + "@" + name);
+}
+
 void Writer::write_reals(const std::string& name, const double* x, const Extents& shape,
                          const std::string& unit)
 {

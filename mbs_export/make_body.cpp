@@ -190,6 +190,8 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .condition_Q_dd = 1.0,
                  .resultants = resultants_in_modes(reduced.resultants, modes.T),
                  .provenance = reduced.provenance};
+  if (reduced.mass_integrals)
+    body.mass_integrals = in_coordinates(*reduced.mass_integrals, modes.T);
   body.rings = contact_rings(reduced, body.attachment_modes);
   return body;
 }

@@ -74,8 +74,9 @@ struct ModalBody {
   double condition_Q_dd;             ///< of the mode shifting (1 when nothing is held)
   int n_free_rigid = 0;  ///< rigid-body motions that `fixed` leaves free: 0 for a held body
   Preparation preparation = {};
-  std::vector<ResultantModes> resultants = {};   ///< in the modes, N or the like per unit of q
-  std::optional<SelectionTable> selection = {};  ///< when a tolerance chose the modes
+  std::vector<ResultantModes> resultants = {};       ///< in the modes, N or the like per unit of q
+  std::optional<MassIntegrals> mass_integrals = {};  ///< phi_i: mode shapes, m per unit of q
+  std::optional<SelectionTable> selection = {};      ///< when a tolerance chose the modes
   Provenance provenance;
 
   Eigen::Index n_modes() const { return omega.size(); }

@@ -25,6 +25,15 @@ double condition(const MatrixXd& Q_dd)
   return smallest > 0.0 ? s[0] / smallest : std::numeric_limits<double>::infinity();
 }
 
+/// Displacements and rotations of a body much smaller or larger than 1 m differ in size, which
+/// costs no digits.
+MatrixXd rows_of_unit_length(MatrixXd Q)
+{
+  for (Index i = 0; i < Q.rows(); ++i)
+    if (const double norm = Q.row(i).norm(); norm > 0.0) Q.row(i) /= norm;
+  return Q;
+}
+
 /// Columns of A in the order of a pivoted QR, as far as they are independent.
 std::vector<int> independent_columns(const MatrixXd& A, double threshold)
 {
@@ -88,10 +97,8 @@ MatrixXd free_rigid_motions(const MatrixXd& Q_held, Index n_rigid)
 {
   MatrixXd q = MatrixXd::Identity(Q_held.cols(), n_rigid);
   if (Q_held.rows() == 0 || n_rigid == 0) return q;
-  MatrixXd rows = Q_held.leftCols(n_rigid);
-  for (Index i = 0; i < rows.rows(); ++i)
-    if (const double norm = rows.row(i).norm(); norm > 0.0) rows.row(i) /= norm;
-  Eigen::JacobiSVD<MatrixXd> svd(rows, Eigen::ComputeFullV);
+  Eigen::JacobiSVD<MatrixXd> svd(rows_of_unit_length(Q_held.leftCols(n_rigid)),
+                                 Eigen::ComputeFullV);
   svd.setThreshold(1.0 / largest_condition);
   return q * svd.matrixV().rightCols(n_rigid - svd.rank());
 }
@@ -100,10 +107,11 @@ MatrixXd free_rigid_motions(const MatrixXd& Q_held, Index n_rigid)
 
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
 {
-  const MatrixXd Q_held = modes.Q_e(held.rows, Eigen::all);
+  const MatrixXd Q_held = rows_of_unit_length(modes.Q_e(held.rows, Eigen::all));
   std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
   const bool complete = Index(dependent.size()) == Q_held.rows();
-  if (!complete || condition(Q_held(Eigen::all, dependent)) > largest_condition) {
+  if (!complete ||
+      condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
     if (dependent.size() < held.rows.size())
       throw Error(fmt::format(
@@ -124,12 +132,12 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
   const MatrixXd Q_held = modes.Q_e(held.rows, Eigen::all);
   const std::vector<int> independent = complement(dependent, modes.omega.size());
   const MatrixXd Q_dd = Q_held(Eigen::all, dependent);
-  const double cond = condition(Q_dd);
-  if (!(cond <= largest_condition))
+  const double directions = condition(rows_of_unit_length(Q_dd));
+  if (!(directions <= largest_condition))
     throw Error(fmt::format(
         "mode shifting: cond(Q_dd) = {:.1e} with the dependent modes {}, so {} cannot be held; "
         "choose other dependent modes or fix fewer displacements",
-        cond, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
+        directions, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
 
   // q_d = G q_i,  K_c = G^T Lambda_d G + Lambda_i,  M_c = G^T G + I
   const VectorXd lambda = modes.omega.cwiseAbs2();
@@ -140,7 +148,7 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
                   .M_c = G.transpose() * G,
                   .R_c = {},
                   .dependent = dependent,
-                  .condition_Q_dd = cond};
+                  .condition_Q_dd = condition(Q_dd)};
   shift.Q_c(dependent, Eigen::all) = G;
   shift.Q_c(independent, Eigen::all).setIdentity();
   shift.K_c.diagonal() += lambda(independent);

@@ -78,6 +78,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   write_certificate(file, reduced.certificate);
   file_parts::write_picture(file, reduced.picture);
   file_parts::write_resultants(file, reduced.resultants);
+  file_parts::write_mass_integrals(file, reduced.mass_integrals);
   file_parts::write_provenance(file, reduced.provenance);
   file.commit();
 }
@@ -107,6 +108,7 @@ ReducedSystem read_reduced(const std::string& path)
           .picture = file_parts::read_picture(file, n),
           .certificate = read_certificate(file),
           .resultants = file_parts::read_resultants(file, n),
+          .mass_integrals = file_parts::read_mass_integrals(file, n),
           .provenance = file_parts::read_provenance(file)};
 }
 

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mbs_export/certificate.hpp"
+#include "mbs_export/mass_integrals.hpp"
 
 namespace chladni::mbs_export {
 
@@ -75,6 +77,7 @@ struct ReducedSystem {
   Picture picture;                              ///< empty when the scene wants none
   Certificate certificate = {};
   std::vector<ResultantModes> resultants = {};
+  std::optional<MassIntegrals> mass_integrals = {};  ///< absent for matrices without geometry
   Provenance provenance;
 
   Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }

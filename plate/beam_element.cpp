@@ -193,6 +193,33 @@ ElementMatrices beam_matrices(const NodeVectors& x, const BeamSection& section)
   return chain;
 }
 
+Eigen::Matrix<double, 6, 12> beam_shapes(double xi, const RowVector3d& along,
+                                         const BeamSection& section)
+{
+  const double l = along.norm();
+  const auto shapes = [&](double I, double kappa) {
+    return bending_shapes(xi, l, bending_section(section, I, kappa, l).Phi);
+  };
+  const BendingShapes v = shapes(section.I_z, section.shear_factor_y);
+  const BendingShapes w = shapes(section.I_y, section.shear_factor_z);
+  Eigen::Matrix<double, 6, 12> N = Eigen::Matrix<double, 6, 12>::Zero();
+  for (const int i : {0, 3}) {  // a rod, and its torsion
+    N(i, i) = 1.0 - xi;
+    N(i, 6 + i) = xi;
+  }
+  constexpr std::array in_xy{1, 5, 7, 11}, in_xz{2, 4, 8, 10};
+  for (std::size_t k = 0; k < 4; ++k) {
+    // A positive slope of v turns about +z, a positive slope of w about -y.
+    const double sign = k % 2 == 0 ? 1.0 : -1.0;
+    const auto column = static_cast<Index>(k);
+    N(1, in_xy[k]) = v.w[column];
+    N(5, in_xy[k]) = v.beta[column];
+    N(2, in_xz[k]) = sign * w.w[column];
+    N(4, in_xz[k]) = -sign * w.beta[column];
+  }
+  return N * to_local(beam_axes(along, section));
+}
+
 MatrixXd beam_section_forces(const NodeVectors& x, const BeamSection& section)
 {
   MatrixXd S = MatrixXd::Zero(12 * (x.rows() - 1), 6 * x.rows());

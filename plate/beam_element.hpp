@@ -25,6 +25,12 @@ Eigen::Matrix3d beam_axes(const Eigen::RowVector3d& along, const BeamSection& se
 /// Friedman and Kosmatka, Comput. Struct. 47 (1993) 473.
 ElementMatrices beam_matrices(const NodeVectors& x, const BeamSection& section);
 
+/// Displacement and rotation (u, theta) of the section at xi in [0, 1] of one beam, in the local
+/// axes, as linear forms in the DOFs of its two nodes: the interpolation of `beam_matrices`.
+/// @param along  from the first node to the second, m
+Eigen::Matrix<double, 6, 12> beam_shapes(double xi, const Eigen::RowVector3d& along,
+                                         const BeamSection& section);
+
 /// Section forces at both ends of each beam of a line, as linear forms S_e in the DOFs of its
 /// nodes: force (N, Q_y, Q_z) and moment (M_x, M_y, M_z) in the local axes that act on the face
 /// with the normal +x. Q_z = dM_y/dx, Q_y = -dM_z/dx.

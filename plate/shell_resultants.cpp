@@ -20,30 +20,31 @@ using mesh::Shape;
 
 constexpr double kappa = 5.0 / 6.0;
 
-/// Covariant strains of one displacement at points: those of CovariantStrains times u_e.
+/// Covariant strains of some displacements at points, one column each: those of CovariantStrains
+/// times U_e.
 struct StrainValues {
-  std::array<VectorXd, 3> m, b, c;
-  std::array<VectorXd, 2> g0, g1;
+  std::array<MatrixXd, 3> m, b, c;
+  std::array<MatrixXd, 2> g0, g1;
 };
 
 template <std::size_t n>
-std::array<VectorXd, n> at_points(const std::array<StrainRows, n>& rows, const VectorXd& u_e,
+std::array<MatrixXd, n> at_points(const std::array<StrainRows, n>& rows, const MatrixXd& U_e,
                                   const MatrixXd& to_points)
 {
-  std::array<VectorXd, n> values;
-  for (std::size_t r = 0; r < n; ++r) values[r] = to_points * (rows[r] * u_e);
+  std::array<MatrixXd, n> values;
+  for (std::size_t r = 0; r < n; ++r) values[r] = to_points * (rows[r] * U_e);
   return values;
 }
 
 /// @param to_points  [n_points x n_rows] interpolation from the points of `strains`
-StrainValues values_of(const CovariantStrains& strains, const VectorXd& u_e,
+StrainValues values_of(const CovariantStrains& strains, const MatrixXd& U_e,
                        const MatrixXd& to_points)
 {
-  return {.m = at_points(strains.m, u_e, to_points),
-          .b = at_points(strains.b, u_e, to_points),
-          .c = at_points(strains.c, u_e, to_points),
-          .g0 = at_points(strains.g0, u_e, to_points),
-          .g1 = at_points(strains.g1, u_e, to_points)};
+  return {.m = at_points(strains.m, U_e, to_points),
+          .b = at_points(strains.b, U_e, to_points),
+          .c = at_points(strains.c, U_e, to_points),
+          .g0 = at_points(strains.g0, U_e, to_points),
+          .g1 = at_points(strains.g1, U_e, to_points)};
 }
 
 /// Values of the tensor-product polynomials that are 1 at one point of a grid and 0 at the others.
@@ -70,7 +71,7 @@ MatrixXd polynomial_fit(int degree, const Points& from, const Points& to)
 
 /// Assumed strains are known at the integration points and polynomials of order p between them;
 /// compatible ones are known everywhere.
-StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const VectorXd& u_e)
+StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const MatrixXd& U_e)
 {
   const Points full = gauss_points(Shape::quadrilateral, order + 1);
   const Points points = resultant_points(Shape::quadrilateral, order);
@@ -78,14 +79,14 @@ StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const Vec
   StrainValues values =
       values_of(assume_quadrilateral_strains(order, full, nodes, shell_frame(basis, nodes),
                                              covariant_strains(basis, nodes)),
-                u_e, tensor_interpolation(gauss_legendre(order + 1).x, points));
+                U_e, tensor_interpolation(gauss_legendre(order + 1).x, points));
   const StrainValues compatible =
-      values_of(covariant_strains(lagrange_basis(Shape::quadrilateral, order, points), nodes), u_e,
+      values_of(covariant_strains(lagrange_basis(Shape::quadrilateral, order, points), nodes), U_e,
                 MatrixXd::Identity(points.size(), points.size()));
   values.b = compatible.b;
   values.c = compatible.c;
   if (order == 1) {  // of degree 2, beyond two points, but known everywhere
-    values.m = at_points(assume_bilinear_membrane(points, nodes), u_e,
+    values.m = at_points(assume_bilinear_membrane(points, nodes), U_e,
                          MatrixXd::Identity(points.size(), points.size()));
   }
   return values;
@@ -93,20 +94,20 @@ StrainValues quadrilateral_strains(int order, const ShellNodes& nodes, const Vec
 
 /// As those of quadrilaterals, of the nodes and the bubbles that they turn.
 StrainValues triangle_strains(int order, const ShellNodes& nodes, const Material& material,
-                              const VectorXd& u_e)
+                              const MatrixXd& U_e)
 {
   const MatrixXd K = triangle_stiffness_with_bubbles(order, nodes, material);
-  const VectorXd u = motion_with_bubbles(K, nodes) * u_e;
+  const MatrixXd U = motion_with_bubbles(K, nodes) * U_e;
   const Points points = resultant_points(Shape::triangle, order);
   const BubbleBasis basis = basis_with_bubbles(order, points);
   const MatrixXd identity = MatrixXd::Identity(points.size(), points.size());
-  if (order == 1) return values_of(linear_triangle_strains(nodes, basis, points), u, identity);
+  if (order == 1) return values_of(linear_triangle_strains(nodes, basis, points), U, identity);
   const Points full = gauss_points(Shape::triangle, order + 1);
   const CovariantStrains at_full = strains_with_bubbles(basis_with_bubbles(order, full), nodes);
   CovariantStrains assumed = assume_triangle_shear(order, nodes, at_full);
   assumed.m = assume_triangle_membrane(order, nodes, at_full).m;
-  StrainValues values = values_of(assumed, u, polynomial_fit(order, full, points));
-  const StrainValues compatible = values_of(strains_with_bubbles(basis, nodes), u, identity);
+  StrainValues values = values_of(assumed, U, polynomial_fit(order, full, points));
+  const StrainValues compatible = values_of(strains_with_bubbles(basis, nodes), U, identity);
   values.b = compatible.b;
   values.c = compatible.c;
   return values;
@@ -125,14 +126,16 @@ Matrix3d stress(const Matrix3d& strain, const Vector3d& e_3, const Material& mat
          e_3 * tau.transpose();
 }
 
-/// Strain tensor and unit director at one point and height.
-struct PointStrain {
-  Matrix3d strain;
+/// Where strains are known: point q of the frame, height zeta.
+struct Place {
+  Index q;
+  double zeta;
+  Matrix3d contravariant;
   Vector3d e_3;
   double half_thickness;
 };
 
-PointStrain point_strain(const StrainValues& s, const ShellFrame& frame, Index q, double zeta)
+Place place_at(const ShellFrame& frame, Index q, double zeta)
 {
   const Vector3d g_1 = frame.a_1.row(q) + zeta * frame.d_1.row(q);
   const Vector3d g_2 = frame.a_2.row(q) + zeta * frame.d_2.row(q);
@@ -140,16 +143,28 @@ PointStrain point_strain(const StrainValues& s, const ShellFrame& frame, Index q
   const double det = g_1.cross(g_2).dot(g_3);
   Matrix3d contravariant;
   contravariant << g_2.cross(g_3) / det, g_3.cross(g_1) / det, g_1.cross(g_2) / det;
+  return {.q = q,
+          .zeta = zeta,
+          .contravariant = contravariant,
+          .e_3 = g_3.normalized(),
+          .half_thickness = g_3.norm()};
+}
+
+/// Strain tensor of one column.
+Matrix3d strain_at(const StrainValues& s, const Place& place, Index column)
+{
+  const Index q = place.q;
+  const double zeta = place.zeta;
   const auto in_plane = [&](std::size_t r) {
-    return s.m[r][q] + zeta * s.b[r][q] + zeta * zeta * s.c[r][q];
+    return s.m[r](q, column) + zeta * s.b[r](q, column) + zeta * zeta * s.c[r](q, column);
   };
-  const auto shear = [&](std::size_t r) { return 0.5 * (s.g0[r][q] + zeta * s.g1[r][q]); };
+  const auto shear = [&](std::size_t r) {
+    return 0.5 * (s.g0[r](q, column) + zeta * s.g1[r](q, column));
+  };
   Matrix3d covariant;
   covariant << in_plane(0), in_plane(2), shear(0), in_plane(2), in_plane(1), shear(1), shear(0),
       shear(1), 0.0;
-  return {.strain = contravariant * covariant * contravariant.transpose(),
-          .e_3 = g_3.normalized(),
-          .half_thickness = g_3.norm()};
+  return place.contravariant * covariant * place.contravariant.transpose();
 }
 
 Eigen::Matrix<double, 1, 6> components(const Matrix3d& A)
@@ -157,6 +172,17 @@ Eigen::Matrix<double, 1, 6> components(const Matrix3d& A)
   Eigen::Matrix<double, 1, 6> row;
   row << A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2);
   return row;
+}
+
+/// Adds what the stress at one height has of the section forces.
+void add_stress(const Matrix3d& sigma, const Place& place, ShellResultants& result)
+{
+  const double half = place.half_thickness;
+  const Vector3d tau = sigma * place.e_3;
+  const Matrix3d tangential = sigma - tau * place.e_3.transpose() - place.e_3 * tau.transpose();
+  result.N.row(place.q) += half * components(tangential);
+  result.M.row(place.q) += half * half * place.zeta * components(tangential);
+  result.Q.row(place.q) += half * tau.transpose();
 }
 
 Points lattice_points(Shape shape, int order)
@@ -184,30 +210,35 @@ Points resultant_points(Shape shape, int order)
   return gauss_points(shape, order);
 }
 
-ShellResultants shell_resultants(Shape shape, int order, const ShellNodes& nodes,
-                                 const Material& material, const VectorXd& u_e)
+std::vector<ShellResultants> shell_resultants_of(Shape shape, int order, const ShellNodes& nodes,
+                                                 const Material& material, const MatrixXd& U_e)
 {
   check_element_exists(shape, order);
   const Points points = resultant_points(shape, order);
   const ShellFrame frame = shell_frame(lagrange_basis(shape, order, points), nodes);
   const StrainValues strains = shape == Shape::triangle
-                                   ? triangle_strains(order, nodes, material, u_e)
-                                   : quadrilateral_strains(order, nodes, u_e);
+                                   ? triangle_strains(order, nodes, material, U_e)
+                                   : quadrilateral_strains(order, nodes, U_e);
   const Index n = points.size();
-  ShellResultants result{
-      .N = MatrixXd::Zero(n, 6), .M = MatrixXd::Zero(n, 6), .Q = MatrixXd::Zero(n, 3)};
+  std::vector<ShellResultants> results(
+      static_cast<std::size_t>(U_e.cols()),
+      {.N = MatrixXd::Zero(n, 6), .M = MatrixXd::Zero(n, 6), .Q = MatrixXd::Zero(n, 3)});
   for (const double zeta : {-1.0 / std::sqrt(3.0), 1.0 / std::sqrt(3.0)}) {
     for (Index q = 0; q < n; ++q) {
-      const auto [strain, e_3, half] = point_strain(strains, frame, q, zeta);
-      const Matrix3d sigma = stress(strain, e_3, material);
-      const Vector3d tau = sigma * e_3;
-      const Matrix3d tangential = sigma - tau * e_3.transpose() - e_3 * tau.transpose();
-      result.N.row(q) += half * components(tangential);
-      result.M.row(q) += half * half * zeta * components(tangential);
-      result.Q.row(q) += half * tau.transpose();
+      const Place place = place_at(frame, q, zeta);
+      for (Index column = 0; column < U_e.cols(); ++column) {
+        add_stress(stress(strain_at(strains, place, column), place.e_3, material), place,
+                   results[static_cast<std::size_t>(column)]);
+      }
     }
   }
-  return result;
+  return results;
+}
+
+ShellResultants shell_resultants(Shape shape, int order, const ShellNodes& nodes,
+                                 const Material& material, const VectorXd& u_e)
+{
+  return shell_resultants_of(shape, order, nodes, material, u_e).front();
 }
 
 MatrixXd extrapolation_to_nodes(Shape shape, int order)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "plate/covariant_strains.hpp"
 #include "plate/plate_options.hpp"
 
@@ -26,6 +28,13 @@ Points resultant_points(mesh::Shape shape, int order);
 /// @throws chladni::Error for an order that does not exist.
 ShellResultants shell_resultants(mesh::Shape shape, int order, const ShellNodes& nodes,
                                  const Material& material, const Eigen::VectorXd& u_e);
+
+/// The same of several displacements.
+/// @param U_e  [6 n_nodes x n] one in each column
+/// @return [n]
+std::vector<ShellResultants> shell_resultants_of(mesh::Shape shape, int order,
+                                                 const ShellNodes& nodes, const Material& material,
+                                                 const Eigen::MatrixXd& U_e);
 
 /// The polynomial of order p - 1 through (quadrilaterals) or nearest to (triangles) the values at
 /// `resultant_points`, at the nodes.

@@ -31,11 +31,15 @@ struct ReducedModel {
 /// @note   Collective.
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M);
 
-/// C_r = Q_CB^T C Q_CB of a damping matrix; C may be unsymmetric (rotor dynamics), and then so is
-/// C_r.
+/// Q_CB^T A Q_CB of any matrix, symmetric or not: of dampers, of Coriolis forces.
 /// @return [n_m + n_CB squared], on every rank
 /// @note   Collective.
-SmallMatrix project_damping(const CraigBamptonBasis& Q_CB, const Blocks& C);
+SmallMatrix project_form(const CraigBamptonBasis& Q_CB, const Blocks& A);
+
+/// Q_CB^T V of a few dense columns with the rows of K.
+/// @return [n_m + n_CB x k], on every rank
+/// @note   Collective.
+SmallMatrix project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V);
 
 /// Rows of Q_CB.
 /// @param dofs     global DOFs of K, the same list on every rank.

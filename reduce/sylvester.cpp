@@ -6,17 +6,6 @@ namespace chladni::reduce {
 
 namespace {
 
-/// K - sigma M.
-petsc::Matrix shifted(Mat K, Mat M, double sigma)
-{
-  petsc::Matrix A;
-  petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
-  petsc::check(MatAXPY(A, -sigma, M, DIFFERENT_NONZERO_PATTERN));
-  petsc::check(MatSetOption(A, MAT_SPD, PETSC_FALSE));  // K_ss is marked definite, A is not
-  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
-  return A;
-}
-
 /// Own rows that are not held.
 petsc::IndexSet free_rows(Mat K, std::vector<PetscInt> held)
 {
@@ -41,6 +30,16 @@ petsc::Matrix submatrix(Mat A, IS rows)
 }
 
 }  // namespace
+
+petsc::Matrix shifted(Mat K, Mat M, double sigma)
+{
+  petsc::Matrix A;
+  petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
+  petsc::check(MatAXPY(A, -sigma, M, DIFFERENT_NONZERO_PATTERN));
+  petsc::check(MatSetOption(A, MAT_SPD, PETSC_FALSE));  // K_ss is marked definite, A is not
+  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+  return A;
+}
 
 PetscInt eigenvalues_below(Mat K, Mat M, double sigma)
 {

@@ -6,6 +6,9 @@
 
 namespace chladni::reduce {
 
+/// K - sigma M, symmetric and not marked definite.
+petsc::Matrix shifted(Mat K, Mat M, double sigma);
+
 /// Number of eigenvalues of K x = lambda M x below sigma: by Sylvester's law of inertia the number
 /// of negative pivots of L D L^T = K - sigma M, by MUMPS. M positive semidefinite.
 /// @param sigma  rad^2/s^2; no eigenvalue itself: put it into a gap.

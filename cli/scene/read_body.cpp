@@ -66,6 +66,19 @@ std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
   return std::nullopt;
 }
 
+InterfaceModes::Space read_space(const Table& mode, InterfaceModes::Kind kind)
+{
+  using Space = InterfaceModes::Space;
+  if (!mode.has("space")) return Space::reduced;
+  const auto space =
+      mode.choice<Space>("space", {{"reduced", Space::reduced}, {"full", Space::full}});
+  if (space == Space::full && kind == InterfaceModes::Kind::irm) {
+    mode.refuse("space",
+                "the reduced system holds every static response already; take this key out");
+  }
+  return space;
+}
+
 InterfaceModes read_interface_mode(const Table& mode,
                                    const std::vector<std::string>& interface_nodes)
 {
@@ -78,7 +91,8 @@ InterfaceModes read_interface_mode(const Table& mode,
   return {.kind = kind,
           .at = at,
           .components = read_component_list(mode, "dofs"),
-          .omega0 = read_omega0(mode, kind)};
+          .omega0 = read_omega0(mode, kind),
+          .space = read_space(mode, kind)};
 }
 
 /// One ratio for all modes, or one for each.

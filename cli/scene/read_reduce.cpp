@@ -90,22 +90,28 @@ reduce::ReduceOptions read_reduce(const Table& root)
   return options;
 }
 
-std::vector<std::string> read_resultants(const Table& root, const Scene& scene)
+ResultantChoice read_resultants(const Table& root, const Scene& scene)
 {
   const Table table = root.table("reduce");
   if (!table.has("resultants")) return {};
   std::vector<std::string> groups = table.texts("resultants");
-  std::vector<std::string> beams;
-  for (const plate::BeamSection& beam : scene.beams) beams.push_back(beam.group);
+  std::vector<std::string> known;
+  for (const plate::BeamSection& beam : scene.beams) known.push_back(beam.group);
+  for (const plate::ShellSection& shell : scene.sections) known.push_back(shell.group);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (!contains(beams, groups[i])) {
-      table.refuse_element("resultants", i, no_such_name("group of beams", groups[i], beams));
+    if (!contains(known, groups[i])) {
+      table.refuse_element("resultants", i, no_such_name("group of elements", groups[i], known));
     }
     if (std::find(groups.begin(), groups.begin() + i, groups[i]) != groups.begin() + i) {
       table.refuse_element("resultants", i, "is named twice");
     }
   }
-  return groups;
+  ResultantChoice choice{.groups = std::move(groups), .elements = {}};
+  if (table.has("resultant_elements")) {
+    choice.elements = table.integers("resultant_elements");
+    if (choice.elements.empty()) table.refuse("resultant_elements", "must name an element");
+  }
+  return choice;
 }
 
 PictureChoice read_pictures(const Table& root)
@@ -115,6 +121,12 @@ PictureChoice read_pictures(const Table& root)
   return table.choice<PictureChoice>("pictures", {{"vertices", PictureChoice::vertices},
                                                   {"all", PictureChoice::all},
                                                   {"none", PictureChoice::none}});
+}
+
+bool read_mass_integrals(const Table& root)
+{
+  const Table table = root.table("reduce");
+  return !table.has("mass_integrals") || table.truth("mass_integrals");
 }
 
 bool read_sylvester(const Table& root)

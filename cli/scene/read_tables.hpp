@@ -48,14 +48,18 @@ std::optional<ModesOptions> read_natural_modes(const Table& root);
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
-/// [reduce] without its keys `pictures`, `resultants` and `sylvester`.
+/// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
+/// `mass_integrals` and `sylvester`.
 reduce::ReduceOptions read_reduce(const Table& root);
 
-/// [reduce] resultants: groups of beams; needs the sections of `scene`.
-std::vector<std::string> read_resultants(const Table& root, const Scene& scene);
+/// [reduce] resultants, resultant_elements; needs the sections of `scene`.
+ResultantChoice read_resultants(const Table& root, const Scene& scene);
 
 /// [reduce] pictures
 PictureChoice read_pictures(const Table& root);
+
+/// [reduce] mass_integrals
+bool read_mass_integrals(const Table& root);
 
 /// [reduce] sylvester
 bool read_sylvester(const Table& root);

@@ -64,6 +64,7 @@ Scene parse_scene(const std::string& text, const std::string& path)
     scene.reduce = read_reduce(root);
     scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);
+    scene.mass_integrals = read_mass_integrals(root);
     scene.sylvester = read_sylvester(root);
   }
   scene.body = read_body(root, scene.interface_nodes);

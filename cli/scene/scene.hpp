@@ -17,6 +17,13 @@ namespace chladni::cli {
 /// Of which nodes the reduced file keeps the displacements, for pictures.
 enum class PictureChoice { none, vertices, all };
 
+/// Of which elements the section forces are kept, as linear forms in the coordinates.
+struct ResultantChoice {
+  std::vector<std::string> groups;
+  std::vector<int>
+      elements;  ///< of the groups only these, by their numbers in the mesh; empty: all
+};
+
 /// `chladni static`: whose displacements the summary lists.
 struct StaticOptions {
   std::vector<std::string> report;  ///< groups, rings or couplings
@@ -48,9 +55,10 @@ struct Scene {
   std::vector<std::string> interface_nodes;  ///< rings, couplings or groups, all DOFs of each node;
                                              ///< empty in a scene for `static` or `modes` alone
   PictureChoice pictures = PictureChoice::vertices;
-  std::vector<std::string> resultants;  ///< groups whose elements give their section forces
+  ResultantChoice resultants;
   reduce::ReduceOptions reduce;
-  bool sylvester = false;  ///< count eigenvalues of the FE model, for the certificate
+  bool mass_integrals = true;  ///< of a moving frame: Coriolis and centrifugal forces
+  bool sylvester = false;      ///< count eigenvalues of the FE model, for the certificate
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
   std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty

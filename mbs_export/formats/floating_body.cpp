@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error.hpp"
 #include "mbs_export/make_body.hpp"
@@ -19,6 +20,8 @@ using Eigen::Index, Eigen::MatrixXd;
 ReducedSystem with_all_coordinates(ReducedSystem reduced)
 {
   const Index n = reduced.K.rows();
+  reduced.resultants.clear();
+  reduced.mass_integrals.reset();
   reduced.picture = {};
   reduced.picture.positions.setZero(1, 3);
   reduced.picture.transformation = MatrixXd::Identity(n, n);
@@ -36,7 +39,18 @@ ModalBody elastic_part(const ModalBody& body, Index n_rigid)
   elastic.attachment_modes = body.attachment_modes.rightCols(n);
   elastic.rings.clear();
   elastic.picture = {};
+  elastic.resultants.clear();
+  elastic.mass_integrals.reset();
   return elastic;
+}
+
+/// What it is in the reduced coordinates, for the modes T.
+void add_from_reduced(ModalBody& elastic, const ReducedSystem& reduced, const MatrixXd& T)
+{
+  if (reduced.mass_integrals) elastic.mass_integrals = in_coordinates(*reduced.mass_integrals, T);
+  if (reduced.picture.positions.rows() == 0) return;
+  elastic.picture = {reduced.picture.positions, reduced.picture.cells,
+                     reduced.picture.transformation * T};
 }
 
 }  // namespace
@@ -53,9 +67,10 @@ FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& opti
   const MatrixXd T = body.picture.transformation.rightCols(body.n_modes() - n_rigid);
   const MatrixXd P =
       rigid_body_vectors(reduced, Eigen::Vector3d::Zero()).transpose() * (reduced.M * T);
-  return {.body = elastic_part(body, n_rigid),
-          .momentum = P.topRows(3),
-          .angular_momentum = P.bottomRows(3)};
+  ModalBody elastic = elastic_part(body, n_rigid);
+  add_from_reduced(elastic, reduced, T);
+  return {
+      .body = std::move(elastic), .momentum = P.topRows(3), .angular_momentum = P.bottomRows(3)};
 }
 
 double coupling(const FloatingBody& floating)

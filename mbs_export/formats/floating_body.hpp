@@ -11,7 +11,7 @@ namespace chladni::mbs_export::formats {
 /// A modal body that moves with a frame: the frame does the rigid motion, the elastic modes the
 /// rest. What couples the two is exact for the consistent mass of the full model.
 struct FloatingBody {
-  ModalBody body;                                             ///< elastic modes only
+  ModalBody body;  ///< elastic modes only, without rings and resultants
   Eigen::Matrix<double, 3, Eigen::Dynamic> momentum;          ///< int u_j dm of each mode
   Eigen::Matrix<double, 3, Eigen::Dynamic> angular_momentum;  ///< int X x u_j dm about the origin
 };

@@ -1,6 +1,8 @@
 // `chladni check` and `chladni export`, run as their user does.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/reduced_file.hpp"
@@ -34,6 +36,10 @@ TEST(ChladniCheck, PassesSoundFilesAndFailsSpoiledOnes)
     EXPECT_NE(ending.out.find("rigid modes"), std::string::npos) << ending.out;
     EXPECT_EQ(ending.out.find("FAIL"), std::string::npos) << ending.out;
   }
+  EXPECT_EQ(run(folder, chladni_program + " check sound.body.h5 --json out.json").exit_code, 0);
+  const std::string json = read_text(folder.path() / "out.json");
+  EXPECT_NE(json.find("\"check\": \"mass integrals\", \"verdict\": \"pass\""), std::string::npos)
+      << json;
   const Ending ending = run(folder, chladni_program + " check spoiled.reduced.h5");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.out.find("FAIL: mass of rigid motions"), std::string::npos) << ending.out;
@@ -78,6 +84,23 @@ TEST(ChladniExport, WritesTheBodyOfASceneForMbdyn)
   const Ending old = run(folder, command + "mbdyn");  // the scene holds its hub
   EXPECT_EQ(old.exit_code, 1);
   EXPECT_NE(old.err.find("MBDyn 1.7"), std::string::npos) << old.err;
+}
+
+TEST(ChladniExport, WritesTheBodyOfASceneForOthersAndSaysSoInJson)
+{
+  const Folder folder;
+  write_text(folder.path() / "scene.toml",
+             replaced(read_text(CHLADNI_SOURCE_DIR "/examples/thesis_disc/scene.toml"),
+                      "nodes = 60", "nodes = 12"));
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", wheel());
+  const std::string command = chladni_program + " export scene.toml --format ";
+  EXPECT_EQ(run(folder, command + "sid --sid-dialect welib --json out.json").exit_code, 0);
+  EXPECT_NE(read_text(folder.path() / "disc.SID_FEM").find("end part"), std::string::npos);
+  EXPECT_NE(read_text(folder.path() / "out.json").find("\"files\": [\"disc.SID_FEM\"]"),
+            std::string::npos);
+  EXPECT_EQ(run(folder, command + "sid --sid-dialect other").exit_code, 2);
+  EXPECT_EQ(run(folder, command + "exudyn").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "disc.exudyn.h5"));
 }
 
 TEST(ChladniExport, SaysWhatIsMissing)

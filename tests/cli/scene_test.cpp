@@ -229,6 +229,27 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
 }
 
+TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
+{
+  using Space = mbs_export::InterfaceModes::Space;
+  const Scene scene = parse_scene(
+      replaced(replaced(disc, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }"),
+               "[body]",
+               "resultants = [\"disc\"]\nresultant_elements = [3, 4]\n"
+               "mass_integrals = false\n[body]"),
+      "scene.toml");
+  EXPECT_EQ(scene.body.interface_modes[0].space, Space::full);
+  EXPECT_EQ(scene.resultants.groups, std::vector<std::string>{"disc"});
+  EXPECT_EQ(scene.resultants.elements, (std::vector<int>{3, 4}));
+  EXPECT_FALSE(scene.mass_integrals);
+  EXPECT_TRUE(parse_scene(disc, "scene.toml").mass_integrals);
+  EXPECT_NE(
+      error_of(replaced(disc, "kind = \"frm\", at = \"track\", dofs = [\"z\"], omega0 = \"auto\"",
+                        "kind = \"irm\", at = \"track\", dofs = [\"z\"], space = \"full\""))
+          .find("holds every static response already"),
+      std::string::npos);
+}
+
 TEST(Scene, NeedsNeitherBodyNorSqueal)
 {
   const Scene scene = parse_scene(disc.substr(0, disc.find("[body]")), "scene.toml");
@@ -675,7 +696,7 @@ TEST(SceneError, NamesWhatABeamCannotBe)
          "scene.toml:26: interface.nodes[1] = \"A\": no such point or coupling in the scene; "
          "there are: \"start\", \"end\", \"B\"");
   expect("resultants = [\"beam\"]", "resultants = [\"rim\"]",
-         "scene.toml:30: reduce.resultants[1] = \"rim\": no such group of beams in the scene; "
+         "scene.toml:30: reduce.resultants[1] = \"rim\": no such group of elements in the scene; "
          "there are: \"beam\"");
   EXPECT_EQ(error_of(replaced(disc, "type = \"shell\"", "type = \"beam\"")),
             "scene.toml:15: section.type = \"beam\": this generator makes surfaces; use \"shell\"");

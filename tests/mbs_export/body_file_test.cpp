@@ -64,6 +64,20 @@ TEST(BodyFile, ReturnsWhatWasWrittenBitByBit)
   EXPECT_EQ(a.provenance.scene, b.provenance.scene);
 }
 
+TEST(BodyFile, ReturnsTheMassIntegralsBitByBit)
+{
+  const ScratchFolder folder;
+  const ModalBody body = complete_body();
+  write_body(folder.file("a.h5"), body);
+  const auto a = *body.mass_integrals, b = read_body(folder.file("a.h5")).mass_integrals.value();
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.second, b.second);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.position_displacement, b.position_displacement);
+  for (std::size_t i = 0; i < a.products.size(); ++i) EXPECT_EQ(a.products[i], b.products[i]);
+}
+
 TEST(BodyFile, ReturnsTheRingsBitByBit)
 {
   const ScratchFolder folder;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bending_beam.hpp"
+#include "mbs_export/constrained_modes.hpp"
 #include "scratch_folder.hpp"
 #include "wheel.hpp"
 
@@ -59,6 +60,31 @@ TEST(ModeShift, LeavesTheRigidMotionsThatNothingHolds)
   EXPECT_EQ(n_free({"rim.z"}), 3);  // twelve heights hold one translation and two rotations
   EXPECT_EQ(n_free({"hub.x", "hub.y", "hub.z"}), 3);
   EXPECT_EQ(n_free({"hub"}), 0);
+}
+
+TEST(ModeShift, DoesNotDependOnTheUnitOfLength)
+{
+  // The clamped beam with lengths counted in 1e-12 m: cond(Q_dd) grows as much, and costs no
+  // digits.
+  const ReducedSystem& beam = test::regression_beam();
+  ReducedSystem tiny = beam;
+  constexpr double unit = 1e-12;
+  for (AttachmentNode& node : tiny.attachment_nodes) node.position *= unit;
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(beam.K.rows());
+  for (Eigen::Index row = 0; row < beam.n_masters(); ++row)
+    if (beam.masters[std::size_t(row)].component >= 3)
+      scale[row] = unit;  // w = unit w, theta alike
+  tiny.K = scale.asDiagonal() * beam.K * scale.asDiagonal();
+  tiny.M = scale.asDiagonal() * beam.M * scale.asDiagonal();
+  const auto omega = [](const ReducedSystem& system) {
+    const FreeModes modes = orthogonalize(system);
+    const ModeShift shift = shift_modes(modes, held_dofs(system, {"A"}));
+    return std::pair{constrained_modes(shift).omega, shift.condition_Q_dd};
+  };
+  const auto [a, cond_a] = omega(beam);
+  const auto [b, cond_b] = omega(tiny);
+  EXPECT_GT(cond_b, 1e11 * cond_a);
+  EXPECT_LT((b.head(50) - a.head(50)).cwiseQuotient(a.head(50)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(ModeShift, RefusesDependentModesThatCannotFollow)

@@ -12,7 +12,7 @@ ScratchFolder::ScratchFolder()
 {
   const auto* const running = testing::UnitTest::GetInstance()->current_test_info();
   path_ = std::filesystem::temp_directory_path() /
-          ("chladni-" + std::to_string(getpid()) + "-" + running->name());
+          ("chladni-" + std::to_string(getpid()) + "-" + (running ? running->name() : "no-test"));
   std::filesystem::remove_all(path_);
   std::filesystem::create_directories(path_);
 }

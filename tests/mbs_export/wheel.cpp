@@ -36,6 +36,42 @@ void add_beam(ReducedSystem& system, int a, int b)
       system.K.block<6, 6>(start[i], start[j]) += K_e.block<6, 6>(6 * i, 6 * j);
 }
 
+/// Of lumped masses m with the inertia J about any axis: int r r^T dm = J / 2, so that
+/// int (theta x r)_k (theta' x r)_l dm = J / 2 (delta_kl theta . theta' - theta_l theta'_k).
+MassIntegrals integrals_of_nodes(const ReducedSystem& system)
+{
+  const Eigen::Index n = system.M.rows();
+  MassIntegrals integrals{.mass = 0.0,
+                          .first = Vector3d::Zero(),
+                          .second = Matrix3d::Zero(),
+                          .displacement = Eigen::MatrixXd::Zero(3, n),
+                          .position_displacement = Eigen::MatrixXd::Zero(9, n),
+                          .products = {}};
+  integrals.products.fill(Eigen::MatrixXd::Zero(n, n));
+  for (Eigen::Index i = 0; i < n; i += 6) {
+    const double m = system.M(i, i), half_J = 0.5 * system.M(i + 3, i + 3);
+    const Vector3d x = system.attachment_nodes[std::size_t(i / 6)].position;
+    integrals.mass += m;
+    integrals.first += m * x;
+    integrals.second += m * x * x.transpose() + half_J * Matrix3d::Identity();
+    integrals.displacement.block<3, 3>(0, i) = m * Matrix3d::Identity();
+    for (int k = 0; k < 3; ++k) {
+      integrals.position_displacement.block<3, 3>(3 * k, i) = m * x[k] * Matrix3d::Identity();
+      // int r_k (theta x r) dm = theta x e_k J / 2
+      integrals.position_displacement.block<3, 3>(3 * k, i + 3) =
+          -half_J * cross_matrix(Vector3d::Unit(k));
+    }
+    for (std::size_t s = 0; s < product_axes.size(); ++s) {
+      const auto [k, l] = product_axes[s];
+      Eigen::MatrixXd& S = integrals.products[s];
+      S(i + k, i + l) = m;
+      if (k == l) S.block<3, 3>(i + 3, i + 3) = half_J * Matrix3d::Identity();
+      S(i + 3 + l, i + 3 + k) -= half_J;
+    }
+  }
+  return integrals;
+}
+
 }  // namespace
 
 ReducedSystem wheel()
@@ -64,6 +100,7 @@ ReducedSystem wheel()
         rotation ? (hub ? hub_inertia : rim_node_inertia) : (hub ? hub_mass : rim_node_mass);
   }
   system.K = 0.5 * (system.K + system.K.transpose()).eval();
+  system.mass_integrals = integrals_of_nodes(system);
   return system;
 }
 

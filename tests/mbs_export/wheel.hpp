@@ -15,7 +15,8 @@ constexpr double hub_inertia = 4e-4;       // kg m^2, about any axis
 /// A free wheel in space: a rim of 12 nodes about the z axis, a hub at the origin, linear
 /// Timoshenko beams with one integration point (gamma = u_b - u_a - theta x l, kappa = theta_b -
 /// theta_a) as rim and spokes, of equal stiffness for all directions normal to z. All DOFs are
-/// masters; sets "rim" and "hub". By the symmetry of the rim its modes come in pairs.
+/// masters; sets "rim" and "hub"; with the mass integrals of its nodes. By the symmetry of the rim
+/// its modes come in pairs.
 ReducedSystem wheel();
 
 }  // namespace chladni::mbs_export::test

@@ -184,7 +184,7 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   const Reduction r;
   const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
   const petsc::Matrix C = dampers();
-  const SmallMatrix C_r = project_damping(Q_CB, split(C, r.dofs));
+  const SmallMatrix C_r = project_form(Q_CB, split(C, r.dofs));
   const SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
   const SmallMatrix C_all = replicate(C);
   ASSERT_EQ(C_r.n_rows, 8);

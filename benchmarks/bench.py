@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""Runs the benchmarks one after the other and writes what they found.
+
+usage: bench.py [--quick] [--only NAME ...] OUTPUT
+
+OUTPUT/results.json holds everything: machine, versions, commit, and of each benchmark its seconds, its
+JSON and its text. OUTPUT/results.md is made of it alone. With --quick small sizes are run, into a folder
+of their own, to see that everything works; the figures that documents show come from full runs.
+"""
+import argparse
+import json
+import os
+import pathlib
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+BUILD = ROOT / "build/release"
+PYTHON = "/usr/bin/python3"  # the one with Debian's h5py and matplotlib
+ENVIRONMENT = dict(
+    os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+    OMPI_MCA_mpi_yield_when_idle="1", PYTHONDONTWRITEBYTECODE="1")
+
+
+def program(name):
+    """The path of a benchmark program in the build."""
+    found = sorted(p for p in BUILD.rglob(name) if p.is_file() and os.access(p, os.X_OK))
+    if not found:
+        raise SystemExit(f"bench.py: {name} is not built; run ./dev build and the target benchmarks")
+    return str(found[0])
+
+
+def call(command, output=None):
+    """Runs a command and appends what it prints to `output`."""
+    done = subprocess.run([str(word) for word in command], env=ENVIRONMENT, capture_output=True,
+                          text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    if output is not None:
+        with open(output, "a", encoding="utf-8") as file:
+            file.write(done.stdout)
+
+
+def elements(out, quick):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        call([program("element_convergence")], folder / "runs.jsonl")
+        # About 300,000 DOFs; of a tenth of it when quick.
+        for order, size in ((2, 0.0083 if quick else 0.0026), (3, 0.0125 if quick else 0.0041)):
+            for ranks in (1, 2):
+                call(["mpirun", "--oversubscribe", "-n", ranks, program("element_assembly_speed"), order,
+                      size], folder / "assembly.jsonl")
+        call([PYTHON, HERE / "elements/report.py", HERE / "elements/exact_annulus.json",
+              folder / "runs.jsonl", folder / "assembly.jsonl", out])
+
+
+def squeal(out, quick):
+    with tempfile.TemporaryDirectory() as name:
+        result = pathlib.Path(name) / "squeal_benchmarks.json"
+        call([program("squeal_work_precision"), *(["--smallest"] if quick else []), result])
+        call([PYTHON, HERE / "squeal/report.py", result, out])
+        shutil.copy(result, out / "squeal_benchmarks.json")
+
+
+def script(path, quick_words=("--quick",), full_words=()):
+    """A benchmark that is one script: SCRIPT [WORDS] OUTPUT."""
+    return lambda out, quick: call([PYTHON, HERE / path, *(quick_words if quick else full_words), out])
+
+
+# name, title, how it is run, and the stem of the .json and .md that it writes
+BENCHMARKS = [
+    ("elements", "Elements", elements, "elements"),
+    ("scale", "Reduction over size and ranks", script("reduction/scale.py"), "reduction_scale"),
+    ("peers", "Reduction beside other programs",
+     script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
+    ("squeal", "Squeal", squeal, "squeal_benchmarks"),
+    ("end-to-end", "End to end", script("end_to_end/frontier.py"), "end_to_end"),
+]
+
+
+def versions():
+    """Of the Debian packages that the figures depend on."""
+    names = ["g++", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libmetis-dev",
+             "libopenblas-dev", "libgmsh-dev", "libhdf5-dev", "libeigen3-dev", "openmpi-bin"]
+    done = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}\n", *names],
+                          capture_output=True, text=True, check=False)
+    return dict(line.split() for line in done.stdout.splitlines())
+
+
+def machine():
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")),
+                     platform.machine())
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return {"processor": model, "cores": os.cpu_count(), "memory_GiB": round(memory, 1),
+            "system": platform.platform()}
+
+
+def commit():
+    git = lambda *words: subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True,
+                                        check=False).stdout.strip()
+    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no") else ""
+    return git("rev-parse", "--short", "HEAD") + changed
+
+
+def run_one(name, title, work, stem, out, quick):
+    print(f"== {title}", flush=True)
+    start, load = time.time(), os.getloadavg()[0]
+    try:
+        work(out, quick)
+    except RuntimeError as error:
+        print(f"bench.py: {name}: {error}", file=sys.stderr)
+        return {"title": title, "failed": str(error)}
+    found = {"title": title, "seconds": round(time.time() - start, 1), "load_before": load}
+    found["text"] = (out / f"{stem}.md").read_text(encoding="utf-8")
+    found["results"] = json.loads((out / f"{stem}.json").read_text(encoding="utf-8"))
+    return found
+
+
+def lowered(text):
+    """The text of one benchmark as a section: its headings one level down."""
+    return "\n".join("#" + line if line.startswith("#") else line for line in text.splitlines())
+
+
+def markdown(results):
+    """results.md, of results.json alone."""
+    about, packages = results["machine"], results["versions"]
+    lines = ["# Results", "",
+             f"Written by `./dev bench{' quick' if results['quick'] else ''}` from `results.json`; no number "
+             "here was typed. Times compare within one section only.", "",
+             "| | |", "|---|---|",
+             f"| commit | {results['commit']} |", f"| date | {results['date']} |",
+             f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
+             f"| system | {about['system']} |",
+             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", ""]
+    for found in results["benchmarks"].values():
+        if "failed" in found:
+            lines += [f"## {found['title']}", "", "Failed:", "", "```", found["failed"], "```", ""]
+        else:
+            lines += [lowered(found["text"]), "", f"*{found['seconds']:.0f} s; load of the machine before: "
+                      f"{found['load_before']:.1f}*", ""]
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", nargs="+", choices=[b[0] for b in BENCHMARKS], metavar="NAME")
+    parser.add_argument("output", type=pathlib.Path)
+    arguments = parser.parse_args()
+    out = arguments.output
+    (out / "figures").mkdir(parents=True, exist_ok=True)
+    results = {"quick": arguments.quick, "commit": commit(), "date": time.strftime("%Y-%m-%d"),
+               "machine": machine(), "versions": versions(), "benchmarks": {}}
+    if arguments.only and (out / "results.json").exists():  # the others stay as they were
+        results["benchmarks"] = json.loads((out / "results.json").read_text())["benchmarks"]
+    for name, title, work, stem in BENCHMARKS:
+        if not arguments.only or name in arguments.only:
+            results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
+    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
+    (out / "results.md").write_text(markdown(results), encoding="utf-8")
+    return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

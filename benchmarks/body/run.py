@@ -1,0 +1,262 @@
+"""What does a body cost, and what do a few more modes buy? Writes docs/body_benchmarks.{json,md} and docs/figures/body_*.png.
+
+- chain: `chladni body` on reduced systems of 106, 500 and 1500 coordinates;
+- selection: size against error, as `chladni body --json` reports it;
+- forces: displacement, moments and shear forces of a shell with and without a frequency-response mode;
+- conditioning: cases that ought to be hard, each solved with its loss of digits or refused with advice.
+
+Usage: run.py [--quick]     with the programs in build/release/bin; --quick leaves the largest sizes out
+"""
+
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+CHLADNI = ROOT / "build/release/bin/chladni"
+ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                   OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+def run(command, folder, text):
+    """One command on a scene; returns its summary, or the message with which it refused."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "scene.toml").write_text(text)
+    done = subprocess.run([CHLADNI, command, folder / "scene.toml", "--output", folder, "--json", folder / "out.json"],
+                          env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    return json.loads((folder / "out.json").read_text()) if done.returncode == 0 else done.stderr.strip()
+
+
+def only(folder, pattern):
+    return next(folder.glob(pattern))
+
+
+def beam(elements=300, modes=100, body='fixed = ["A"]\nkeep = { modes = 40 }', length=1.0, points=""):
+    text = (ROOT / "examples/beam/cantilever.toml").read_text()
+    text = text[:text.index("[body]")].replace("elements = 300", f"elements = {elements}")
+    text = text.replace("modes = 100", f"modes = {modes}").replace('resultants = ["beam"]', 'pictures = "none"')
+    text = text.replace("end = [1.0,", f"end = [{length},").replace("0.3333333333333333", str(length / 3))
+    text = text.replace('{ name = "C", distance = 1.0 },', f'{{ name = "C", distance = {length} }},{points}')
+    return text + f"[body]\n{body}\n"
+
+
+def chain(folder, quick):
+    """CPU time of each phase, the least of three runs."""
+    rows = []
+    body = 'fixed = ["A"]\nkeep = { modes = 40 }\ninterface_modes = [{ kind = "frm", at = "B", dofs = ["ry"] }]'
+    for elements, modes in [(300, 100), (600, 494), (1800, 1494)][:2 if quick else 3]:
+        text = beam(elements, modes, body)
+        made = run("reduce", folder / str(modes), text)
+        if isinstance(made, str):
+            sys.exit(made)
+        cpu = [run("body", folder / str(modes), text)["phases_cpu_s"] for _ in range(3)]
+        rows.append({"n_FE": made["n_masters"] + made["n_modes"],
+                     **{phase: min(one[phase] for one in cpu) for phase in ("read", "body", "write")}})
+    for a, b in zip(rows, rows[1:]):
+        b["growth"] = float(np.log(b["body"] / a["body"]) / np.log(b["n_FE"] / a["n_FE"]))
+    return rows
+
+
+def selection(folder):
+    """Steps of the beam at its thesis accuracy, and of a disc loaded on its track."""
+    found = {}
+    tolerance = 'fixed = ["A"]\nkeep = { tolerance = 1e-2, up_to_Hz = 11.0 }\n' \
+                'interface_modes = [{ kind = "frm", at = "B", dofs = ["ry"] }]'
+    found["beam"] = run("run", folder / "beam", beam(body=tolerance))["selection"]
+    disc = (ROOT / "tests/data/coarse_disc.toml").read_text()
+    disc = disc[:disc.index("[body]")].replace("modes = 20", "modes = 60")
+    disc += '[body]\nfixed = ["hub"]\nkeep = { tolerance = 1e-3, up_to_Hz = 5000.0 }\n'
+    found["disc"] = run("run", folder / "disc", disc)["selection"]
+    return found
+
+
+STRIP = """name = "strip"
+title = "strip"
+[mesh]
+generator = "rectangle"
+length = 0.4
+width = 0.1
+element_size = 0.02
+element_order = 3
+[material.steel]
+young = 2.1e11
+poisson = 0.3
+density = 7800.0
+[[section]]
+group = "plate"
+type = "shell"
+material = "steel"
+thickness = 0.004
+[[coupling]]
+type = "rigid"
+name = "L"
+group = "left"
+[[coupling]]
+type = "rigid"
+name = "R"
+group = "right"
+[interface]
+nodes = ["L", "R"]
+[reduce]
+method = "craig-bampton"
+modes = 60
+resultants = ["plate"]
+"""
+
+
+def harmonic(path, Omega):
+    """Displacement of R along z, and each kind of section force, for a unit harmonic force there."""
+    with h5py.File(path) as file:
+        X, omega = file["modes/attachment_displacements"][:], file["modes/frequencies"][:]
+        kinds = list(file["resultants/plate/kinds"].asstr()[:])
+        q = X[8] / (omega**2 - Omega**2)
+        forces = (file["resultants/plate/modes"][:] @ q).reshape(-1, len(kinds))
+    return {"displacement": X[6:] @ q, "moments": forces[:, [kinds.index(k) for k in ("M_x", "M_y", "M_xy")]],
+            "shear forces": forces[:, [kinds.index(k) for k in ("Q_x", "Q_y")]]}
+
+
+def forces(folder):
+    """Errors of the harmonic response against the complete reduced system at twice the first held frequency."""
+    whole = run("run", folder, STRIP + '[body]\nfixed = ["L"]\nkeep = { up_to_Hz = 1e9 }\n')
+    Omega = 2 * 2 * np.pi * whole["frequencies_Hz"][0]
+    exact = harmonic(only(folder, "*.body.h5"), Omega)
+    rows = []
+    for n_h in (3, 5, 10, 20):
+        for frm in (False, True):
+            body = f'[body]\nfixed = ["L"]\nkeep = {{ modes = {n_h} }}\n'
+            if frm:
+                body += f'interface_modes = [{{ kind = "frm", at = "R", dofs = ["z"], omega0 = {0.5 * Omega} }}]\n'
+            run("body", folder, STRIP + body)
+            found = harmonic(only(folder, "*.body.h5"), Omega)
+            rows.append({"n_h": n_h, "frm": int(frm), **{
+                kind: float(np.linalg.norm(found[kind] - exact[kind]) / np.linalg.norm(exact[kind])) for kind in exact}})
+    return rows
+
+
+def verdict(case, summary, value="", digits=None):
+    """One row of the table of hard cases."""
+    refused = isinstance(summary, str)
+    return {"case": case, "outcome": "refused" if refused else "solved",
+            "condition": None if refused else summary.get("condition_Q_dd"), "value": value,
+            "digits_lost": digits, "message": summary if refused else ""}
+
+
+def lost(found, exact):
+    """Of sixteen digits."""
+    error = np.abs(np.array(found) / np.array(exact) - 1).max()
+    return float(max(0.0, 16 + np.log10(max(error, 1e-16))))
+
+
+def conditioning(folder):
+    rows = []
+    first = run("run", folder / "L1", beam())["frequencies_Hz"][:5]
+    for length in (1e-2, 1e-4, 1e-6):
+        # Frequencies go with 1 / L^2, cond(Q_dd) with 1 / L.
+        made = run("run", folder / f"L{length}", beam(length=length))
+        digits = None if isinstance(made, str) else lost(np.array(made["frequencies_Hz"][:5]) * length**2, first)
+        rows.append(verdict(f"clamped beam of length {length:g} m", made, digits=digits))
+    text = beam()
+    run("reduce", folder / "near", text)
+    base = run("body", folder / "near", beam(body='fixed = ["A"]'))["frequencies_Hz"]
+    omega_n = 2 * np.pi * base[7]
+    for distance in (1e-2, 1e-6, 1e-10, 1e-14):
+        body = 'fixed = ["A"]\nkeep = { modes = 5 }\ninterface_modes = [{ kind = "frm", at = "B", dofs = ["ry"], ' \
+               f'omega0 = {omega_n * (1 + distance):.17g} }}]'
+        made = run("body", folder / "near", beam(body=body))
+        digits = None if isinstance(made, str) else lost(made["frequencies_Hz"][:5], base[:5])
+        rows.append(verdict(f"FRM at a neglected frequency (1 + {distance:g})", made, digits=digits))
+    disc = (ROOT / "tests/data/coarse_disc.toml").read_text().replace("nodes = 12", "nodes = 60")
+    disc = disc[:disc.index("[body]")]
+    run("reduce", folder / "disc", disc)
+    for frequencies in ("", ", omega0 = 5000.0"):
+        made = run("body", folder / "disc", disc + '[body]\nfixed = ["hub"]\nkeep = { modes = 20 }\n'
+                   f'interface_modes = [{{ kind = "frm", at = "track", dofs = ["z"]{frequencies} }}]\n')
+        value = "" if isinstance(made, str) else f"{made['interface_modes_dropped']} of 60 dropped"
+        rows.append(verdict("60 FRMs on one ring" + frequencies, made, value))
+    for fixed in ('"hub.x"', '"hub.x", "hub.y", "hub.z"', '"hub", "track"'):
+        made = run("body", folder / "disc", disc + f"[body]\nfixed = [{fixed}]\nkeep = {{ modes = 20 }}\n")
+        value = "" if isinstance(made, str) else f"{sum(f == 0 for f in made['frequencies_Hz'])} rigid motions left"
+        rows.append(verdict(f"supports {fixed.replace(chr(34), '')}", made, value))
+    return rows
+
+
+def figure(found, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plots, axes = plt.subplots(1, len(found), figsize=(10, 4), layout="constrained")
+    for axis, (name, table) in zip(axes, found.items()):
+        for key, marker, label in (("modes_only", "o-", "modes alone"),
+                                   ("with_interface_modes", "s-", "with interface modes")):
+            steps = table[key]
+            axis.semilogy([s["modes"] + s["interface_modes"] for s in steps], [s["error"] for s in steps], marker,
+                          markersize=4, label=label)
+        axis.axhline(table["tolerance"], color="0.5", linestyle="--", linewidth=1, label="tolerance")
+        axis.set(title=f"{name}, up to {table['up_to_Hz']:g} Hz", xlabel="size of the body",
+                 ylabel="largest relative error of the responses")
+        axis.grid(True, which="major", alpha=0.3)
+        axis.legend()
+    plots.savefig(path, dpi=110)
+
+
+def number(x):
+    return "" if x is None else f"{x:.3g}" if isinstance(x, float) else str(x)
+
+
+def table(rows, columns):
+    lines = ["| " + " | ".join(columns) + " |", "| " + " | ".join("---" for _ in columns) + " |"]
+    lines += ["| " + " | ".join(number(row.get(column, "")).replace("|", "\\|").replace("\n", " ") for column in columns)
+              + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def report(found):
+    return f"""# Bodies: cost, size against error, hard cases
+
+Written by `benchmarks/body/run.py` from `body_benchmarks.json`; {found['machine']}.
+
+## The chain
+
+CPU seconds of `chladni body` on the beam of the examples, 40 modes and one FRM; `growth` is the exponent of the size in the
+time of the phase `body`. Everything is dense: cubic growth is what there is to expect.
+
+{table(found['chain'], ['n_FE', 'read', 'body', 'write', 'growth'])}
+## Modes by a tolerance
+
+![size against error](figures/body_selection.png)
+
+## Moments and shear forces of a shell
+
+A strip of steel, clamped at one end, a harmonic force at the other at twice the first frequency: relative errors of all
+displacements there and of all section forces, against the complete reduced system, with `n_h` modes, without and with one FRM.
+
+{table(found['forces'], ['n_h', 'frm', 'displacement', 'moments', 'shear forces'])}
+## Hard cases
+
+`digits_lost`: of sixteen, in the first five frequencies, against the same problem in a harmless form.
+
+{table(found['conditioning'], ['case', 'outcome', 'condition', 'value', 'digits_lost', 'message'])}"""
+
+
+def main(quick):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        found = {"machine": f"{platform.machine()}, {os.cpu_count()} cores",
+                 "chain": chain(folder / "chain", quick), "selection": selection(folder / "selection"),
+                 "forces": forces(folder / "forces"), "conditioning": conditioning(folder / "hard")}
+    text = json.dumps(found, indent=1).replace(name, "...")
+    (ROOT / "docs/body_benchmarks.json").write_text(text + "\n")
+    found = json.loads(text)
+    (ROOT / "docs/body_benchmarks.md").write_text(report(found))
+    figure(found["selection"], ROOT / "docs/figures/body_selection.png")
+
+
+if __name__ == "__main__":
+    main("--quick" in sys.argv[1:])

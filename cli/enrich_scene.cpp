@@ -1,0 +1,85 @@
+#include "cli/enrich_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/error.hpp"
+#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/orthogonalize.hpp"
+#include "reduce/full_responses.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using mbs_export::InterfaceModes, mbs_export::ReducedSystem;
+
+/// Rows of K_r that are loaded, for each omega0 in rad/s.
+using Loads = std::map<double, std::set<int>>;
+
+/// Half the first elastic free frequency; the same on every rank.
+double automatic_omega0(const ReducedSystem& system)
+{
+  const mbs_export::FreeModes free = mbs_export::orthogonalize(system);
+  double omega0 = free.n_rigid < free.omega.size() ? 0.5 * free.omega[free.n_rigid] : 0.0;
+  MPI_Bcast(&omega0, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  return omega0;
+}
+
+int row_of(const ReducedSystem& system, const InterfaceModes& wanted, int node, int component)
+{
+  const auto found = std::ranges::find_if(system.masters, [&](const mbs_export::MasterDof& dof) {
+    return dof.node == node && dof.component == component;
+  });
+  if (found != system.masters.end()) return static_cast<int>(found - system.masters.begin());
+  throw Error(fmt::format("interface_modes at \"{}\": component {} is no DOF of the model",
+                          wanted.at, plate::component_names[std::size_t(component)]));
+}
+
+Loads loads_of(const Scene& scene, const ReducedSystem& system)
+{
+  const mbs_export::HeldDofs held = mbs_export::held_dofs(system, scene.body.fixed);
+  Loads loads;
+  for (const InterfaceModes& wanted : scene.body.interface_modes) {
+    if (wanted.space != InterfaceModes::Space::full) continue;
+    std::set<int>& rows = loads[wanted.omega0 ? *wanted.omega0 : automatic_omega0(system)];
+    rows.insert(held.rows.begin(), held.rows.end());
+    for (const int node : mbs_export::find_set(system, wanted.at).nodes) {
+      for (const int component : wanted.components) {
+        rows.insert(row_of(system, wanted, node, component));
+      }
+    }
+  }
+  return loads;
+}
+
+}  // namespace
+
+bool wants_full_responses(const Scene& scene)
+{
+  return std::ranges::any_of(scene.body.interface_modes, [](const InterfaceModes& wanted) {
+    return wanted.space == InterfaceModes::Space::full;
+  });
+}
+
+Reduced with_full_responses(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                            Reduced reduced, Phases& phases)
+{
+  const mbs_export::Certificate certificate = reduced.system.certificate;
+  for (const auto& [omega0, rows] : loads_of(scene, reduced.system)) {
+    std::vector<PetscInt> loaded;
+    for (const int row : rows) loaded.push_back(blocks.masters[static_cast<std::size_t>(row)]);
+    reduce::Enrichment enriched = phases.run("responses of the whole model", [&] {
+      const petsc::Matrix V = reduce::full_responses(fe.system.K, fe.system.M, omega0, loaded);
+      return reduce::enrich(reduced.Q_CB, blocks.rows, {blocks.K.ss, blocks.M.ss}, V);
+    });
+    reduced.Q_CB.modes = std::move(enriched.modes);
+  }
+  reduced = project_blocks(scene, fe, blocks, std::move(reduced.Q_CB), phases);
+  reduced.system.certificate = certificate;
+  return reduced;
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "mbs_export/formats/floating_body.hpp"
+
+namespace chladni::mbs_export::formats {
+
+/// What the files of others agree on but for three things: the order of the indices of m1 (row,
+/// mode, column or row, column, mode), of the squares of the angular velocity in Oe (xx, yy, zz,
+/// xy, yz, xz or xx, yy, zz, xy, xz, yz), and J as six rows or as a matrix.
+enum class SidDialect { simpack, welib };
+
+/// A body as Standard Input Data (*.SID_FEM) in the frame of the mesh: shapes at the attachment
+/// nodes, the inertia and its change with the deformation to first order, gyroscopic and
+/// centrifugal matrices. Without geometric stiffening, so ksigma is zero and Oe, Ct are those of
+/// the mass alone. Gr has no first order.
+/// @throws chladni::Error when the body has no mass integrals or no elastic mode.
+std::string sid_fem(const FloatingBody& floating, SidDialect dialect);
+
+}  // namespace chladni::mbs_export::formats

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "plate/block_rows.hpp"
+#include "plate/covariant_strains.hpp"
+#include "plate/dof_map.hpp"
+#include "plate/point_elements.hpp"
+
+/// How the DOFs of elements follow from the active ones: what the assembly of any matrix shares.
+namespace chladni::plate {
+
+/// The active numbers on which the motion of some nodes depends, ascending.
+std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes);
+
+/// u_e = T_e q of the points where the DOFs of an element stand, with q at active numbers.
+struct ElementMotion {
+  std::vector<PetscInt> numbers;
+  Eigen::MatrixXd T_e;  ///< [6 n_e x 6 n]; empty where u_e = q
+};
+
+/// Through the couplings to the nodes of the mesh, and along the arms from these to the points.
+/// @param arms  [n_e x 3] m; empty for zero
+ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
+                             const NodeVectors& arms);
+
+/// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
+/// @param A_e  symmetric, or the transposed of what is to be added
+void add(BlockRows& A, const Eigen::MatrixXd& A_e, const ElementMotion& motion, const DofMap& dofs);
+
+/// The neighbours of each node of this rank: all active numbers of an element are neighbours.
+BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
+                             const DofMap& dofs, int rank);
+/// Of the point elements alone.
+BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank);
+
+/// Calls visit(block, element, its active numbers) for each element that depends on a number that
+/// this rank owns.
+template <typename Visit>
+void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, const Visit& visit)
+{
+  const int first = dofs.range[rank];
+  const int last = dofs.range[rank + 1];
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+      const auto owned = std::ranges::lower_bound(numbers, first);
+      if (owned != numbers.end() && *owned < last) visit(block, e, numbers);
+    }
+  }
+}
+
+}  // namespace chladni::plate

@@ -1,0 +1,200 @@
+#include "reduce/full_responses.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reduce/block_basis.hpp"
+#include "reduce/sylvester.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+/// One unit load in each column.
+petsc::Matrix unit_loads(Mat K, const std::vector<PetscInt>& loaded)
+{
+  petsc::Matrix E = uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
+  petsc::check(MatZeroEntries(E));
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  for (std::size_t j = 0; j < loaded.size(); ++j) {
+    if (loaded[j] < first || loaded[j] >= last) continue;
+    petsc::check(MatSetValue(E, loaded[j], static_cast<PetscInt>(j), 1.0, INSERT_VALUES));
+  }
+  petsc::check(MatAssemblyBegin(E, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(E, MAT_FINAL_ASSEMBLY));
+  return E;
+}
+
+/// L D L^T of an indefinite matrix.
+petsc::LinearSolver indefinite_factor(Mat A)
+{
+  petsc::LinearSolver solver;
+  PC pc = nullptr;
+  petsc::check(KSPCreate(petsc::communicator(A), solver.put()));
+  petsc::check(KSPSetOptionsPrefix(solver, "cms_response_"));
+  petsc::check(KSPSetOperators(solver, A, A));
+  petsc::check(KSPSetType(solver, KSPPREONLY));
+  petsc::check(KSPGetPC(solver, &pc));
+  petsc::check(PCSetType(pc, PCCHOLESKY));
+  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  petsc::check(KSPSetFromOptions(solver));
+  petsc::check(KSPSetUp(solver));
+  return solver;
+}
+
+/// Largest |A v - e| over |A| |v| of the columns in the Frobenius norm.
+double backward_error(Mat A, Mat V, Mat E)
+{
+  petsc::Matrix R = uninitialized_dense(A, LocalRows(V).n_cols());
+  SparseProduct(A).apply(V, R);
+  petsc::check(MatAXPY(R, -1.0, E, SAME_NONZERO_PATTERN));
+  double residual = 0.0, of_A = 0.0, of_V = 0.0;
+  petsc::check(MatNorm(R, NORM_FROBENIUS, &residual));
+  petsc::check(MatNorm(A, NORM_FROBENIUS, &of_A));
+  petsc::check(MatNorm(V, NORM_FROBENIUS, &of_V));
+  return residual / (of_A * of_V);
+}
+
+/// V_s - Psi V_m: zero where the masters move.
+petsc::Matrix beyond_constraint_modes(const CraigBamptonBasis& Q_CB, const DofPartition& dofs,
+                                      Mat V)
+{
+  petsc::Matrix V_m, V_s;
+  petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
+  petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
+  const SmallMatrix at_masters = replicate(V_m);
+  const LocalRows Psi(Q_CB.Psi);
+  const PetscBLASInt m = Psi.n_rows(), n = at_masters.n_cols, k = at_masters.n_rows,
+                     lda = Psi.leading_dimension();
+  const PetscScalar minus_one = -1.0, one = 1.0;
+  PetscInt ld = 0;
+  PetscScalar* rows = nullptr;
+  petsc::check(MatDenseGetLDA(V_s, &ld));
+  petsc::check(MatDenseGetArray(V_s, &rows));
+  const PetscBLASInt ldc = ld;
+  if (m > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &minus_one, Psi.values(), &lda, at_masters.values.data(), &k,
+              &one, rows, &ldc);
+  }
+  petsc::check(MatDenseRestoreArray(V_s, &rows));
+  return V_s;
+}
+
+/// Columns of unit length in M, so that none is dropped for its unit.
+void normalise(Mat X, Mat M)
+{
+  const petsc::Matrix M_X = uninitialized_dense(M, LocalRows(X).n_cols());
+  SparseProduct(M).apply(X, M_X);
+  const SmallMatrix G = inner_product(X, M_X);
+  PetscInt ld = 0, n_rows = 0;
+  PetscScalar* rows = nullptr;
+  petsc::check(MatGetLocalSize(X, &n_rows, nullptr));
+  petsc::check(MatDenseGetLDA(X, &ld));
+  petsc::check(MatDenseGetArray(X, &rows));
+  for (PetscInt j = 0; j < G.n_cols; ++j) {
+    const double scale = G(j, j) > 0.0 ? 1.0 / std::sqrt(G(j, j)) : 0.0;
+    for (PetscInt i = 0; i < n_rows; ++i) rows[i + std::size_t(j) * ld] *= scale;
+  }
+  petsc::check(MatDenseRestoreArray(X, &rows));
+}
+
+/// [A, B]
+petsc::Matrix side_by_side(Mat A, Mat B, Mat rows_of)
+{
+  const LocalRows a(A), b(B);
+  petsc::Matrix both = uninitialized_dense(rows_of, a.n_cols() + b.n_cols());
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(both, &values));
+  for (const LocalRows* part : {&a, &b}) {
+    for (PetscInt j = 0; j < part->n_cols(); ++j, values += part->n_rows()) {
+      std::copy_n(part->values() + std::size_t(j) * part->leading_dimension(), part->n_rows(),
+                  values);
+    }
+  }
+  values = nullptr;
+  petsc::check(MatDenseRestoreArrayWrite(both, &values));
+  return both;
+}
+
+/// How many of the new directions are more than what round-off left of vectors of unit length;
+/// they come by falling length.
+PetscInt genuine_directions(const SmallMatrix& R)
+{
+  constexpr double round_off = 1e-9;
+  PetscInt n = 0;
+  for (; n < R.n_rows; ++n) {
+    double squared = 0.0;
+    for (PetscInt j = 0; j < R.n_cols; ++j) squared += R(n, j) * R(n, j);
+    if (squared < round_off * round_off) break;
+  }
+  return n;
+}
+
+/// Ritz vectors and values of some columns of a basis.
+struct Ritz {
+  petsc::Matrix X;
+  std::vector<double> lambda;
+};
+
+Ritz ritz_of(BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
+{
+  if (n == 0) return {.X = basis.new_block(0), .lambda = {}};
+  const petsc::Matrix Q = basis.columns(n_before, n);
+  const petsc::Matrix K_Q = basis.new_block(n);
+  SparseProduct(K).apply(Q, K_Q);
+  SymmetricEigen ritz = symmetric_eigen(inner_product(Q, K_Q));
+  SmallMatrix S(basis.n_columns(), n);
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i < n; ++i) S(n_before + i, j) = ritz.vectors(i, j);
+  }
+  return {.X = basis.combine(S), .lambda = std::move(ritz.values)};
+}
+
+}  // namespace
+
+petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<PetscInt>& loaded)
+{
+  const petsc::Matrix A = shifted(K, M, Omega_0 * Omega_0);
+  const petsc::LinearSolver solver = indefinite_factor(A);
+  PC pc = nullptr;
+  Mat factor = nullptr;
+  petsc::check(KSPGetPC(solver, &pc));
+  petsc::check(PCFactorGetMatrix(pc, &factor));
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  petsc::check(MatFactorGetError(factor, &error));
+  const petsc::Matrix E = unit_loads(K, loaded);
+  petsc::Matrix V = uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
+  petsc::check(MatZeroEntries(V));
+  if (error == MAT_FACTOR_NOERROR) petsc::check(MatMatSolve(factor, E, V));
+  constexpr double round_off = 1e-12;
+  if (error != MAT_FACTOR_NOERROR || !(backward_error(A, V, E) < round_off)) {
+    throw Error(fmt::format(
+        "full_responses: K - omega0^2 M has no usable factor at omega0 = {:.9g} rad/s; it is a "
+        "frequency of the free model, or the memory does not suffice: choose another omega0",
+        Omega_0));
+  }
+  return V;
+}
+
+Enrichment enrich(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, const SlaveBlocks& ss,
+                  Mat V)
+{
+  petsc::Matrix R = beyond_constraint_modes(Q_CB, dofs, V);
+  normalise(R, ss.M);
+  BlockBasis basis(ss.M, Q_CB.n_modes() + LocalRows(R).n_cols());
+  if (Q_CB.modes) basis.append(Q_CB.modes->Phi);
+  const PetscInt n_before = basis.n_columns();
+  const PetscInt n_added = genuine_directions(basis.append(R).R);
+  const Ritz ritz = ritz_of(basis, n_before, n_added, ss.K);
+  Enrichment enriched{.modes = {}, .n_added = n_added};
+  if (Q_CB.modes) enriched.modes.omega = Q_CB.modes->omega;
+  for (const double lambda : ritz.lambda) enriched.modes.omega.push_back(std::sqrt(lambda));
+  const petsc::Matrix none = basis.new_block(0);
+  enriched.modes.Phi = side_by_side(Q_CB.modes ? Mat(Q_CB.modes->Phi) : Mat(none), ritz.X, ss.M);
+  return enriched;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,149 @@
+// Friction contact near its kinks: slow growth, loss of contact, reversal of sliding, standstill.
+#include <algorithm>
+#include <cmath>
+
+#include "hard_case.hpp"
+#include "squeal/friction.hpp"
+#include "squeal/inertial_frame.hpp"
+#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/pads.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/transient.hpp"
+#include "tests/squeal/analytic_body.hpp"
+#include "tests/squeal/kirchhoff_modes.hpp"
+
+namespace chladni::hard_cases {
+namespace {
+
+using namespace squeal;
+using namespace squeal::test;
+
+Disc disc_of(const std::vector<PlatePair>& pairs)
+{
+  return make_disc(analytic_body(pairs), "track", {});
+}
+
+double growth_of(const PlatePair& pair, double speed)
+{
+  return least_stable_eigenvalue(inertial_disc(disc_of({pair})), reference_options(), speed).real();
+}
+
+double critical_of(const std::vector<PlatePair>& pairs, const SquealOptions& options)
+{
+  const auto found = critical_speed(inertial_disc(disc_of(pairs)), options);
+  return found ? found->speed / pi : std::nan("");
+}
+
+double cycle_frequency_error(ContactLaw law, double reference_Hz)
+{
+  const Disc disc = disc_of({kirchhoff_3(1672.13)});
+  return std::abs(limit_cycle_direct(disc, reference_options(law), 6.0 * pi).frequency_Hz -
+                  reference_Hz);
+}
+
+/// Largest power that friction gives to the disc over sliding directions and speeds through zero.
+double power_of_friction_through_zero()
+{
+  SquealOptions options = reference_options();
+  options.friction_rise = 0.3;
+  options.slip_regularisation = 1e-3;
+  const PadContact pad = pad_contact(options, options.pads[0], ring_radius);
+  double largest = -1e300;
+  for (int i = -200; i <= 200; ++i) {
+    const double speed = 1e-4 * i * std::abs(i);
+    const RingMotion<double> m{0.0, 0.0, 0.0, 0.0, 0.3, -0.1};
+    const PadState<double> up = pad_state(pad, m, speed, 1.0);
+    largest = std::max(largest, up.f_r * -0.01 * 0.3 + up.f_t * (speed * ring_radius + 0.01 * 0.1));
+  }
+  return largest;
+}
+
+/// Velocity that is left after braking to rest with regularised friction, over the largest.
+double motion_left_at_standstill()
+{
+  SquealOptions options = reference_options(ContactLaw::unilateral);
+  options.slip_regularisation = 1e-3;
+  const Transient run = transient(disc_of({kirchhoff_3()}), options,
+                                  {.speed = 20.0,
+                                   .duration = 0.6,
+                                   .initial_pad_displacement = 1e-6,
+                                   .steps_per_period = 40,
+                                   .speed_program = {{0.0, 20.0}, {0.1, 20.0}, {0.5, 0.0}}});
+  double largest = 0.0;
+  for (const double v : run.history.pad_velocity) largest = std::max(largest, std::abs(v));
+  return run.finished ? std::abs(run.history.pad_velocity.back()) / largest : 1.0;
+}
+
+}  // namespace
+
+std::vector<HardCase> contact_cases()
+{
+  const std::string area = "contact";
+  return {
+      {area, "limit cycle that loses contact", "the force has a kink, 12 m/s at the pad",
+       "error of the frequency, Hz", 1e-5,
+       [] { return cycle_frequency_error(ContactLaw::unilateral, 1691.1221391516015); }},
+      {area, "limit cycle with friction that follows the sign of N",
+       "the relative velocity falls to 0.17 m/s and friction turns within microseconds",
+       "error of the frequency, Hz", 1e-5,
+       [] { return cycle_frequency_error(ContactLaw::signed_force, 1696.8746237948594); }},
+      {area, "eigenvectors of a double frequency in any orientation",
+       "FE solvers return a pair turned and reversed at will",
+       "change of the critical speed over pi, rad/s", 1e-10,
+       [] {
+         PlatePair turned = kirchhoff_3();
+         turned.turn = 0.7321;
+         turned.sign = -1.0;
+         return std::abs(critical_of({turned}, reference_options()) -
+                         critical_of({kirchhoff_3()}, reference_options()));
+       }},
+      {area, "growth just above the critical speed", "0.0165 1/s is 1.5e-6 of omega",
+       "error of the growth rate, 1/s", 1e-3,
+       [] {
+         const Growth found = growth(disc_of({kirchhoff_3()}), reference_options(), 4.28 * pi, 3.0);
+         return std::abs(found.rate - growth_of(kirchhoff_3(), 4.28 * pi));
+       }},
+      {area, "35 modes up to 16 kHz, undamped", "the critical pair is not the one that squeals",
+       "error of the critical speed over pi, rad/s", 5e-5,
+       [] { return std::abs(critical_of(kirchhoff_modes(), reference_options()) - 4.02804); }},
+      {area, "pads 1000 times stiffer than a brake's",
+       "contact frequencies far above those of the disc: stiff equations",
+       "relative error of the largest growth rate of all modes against its transient", 0.02,
+       [] {
+         SquealOptions options = reference_options();
+         options.pads[0].stiffness = 6e9;
+         options.pads[0].damping = 1e4;
+         const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+         const double expected =
+             least_stable_eigenvalue(inertial_disc(disc), options, 6.0 * pi).real();
+         const Transient run = transient(
+             disc, options, {.speed = 6.0 * pi, .duration = 0.5, .initial_pad_displacement = 1e-9});
+         return run.growth_rate ? relative_error(*run.growth_rate, expected) : 1.0;
+       }},
+      {area, "friction through zero relative velocity", "the direction of friction jumps",
+       "largest power that friction gives, W", 0.0, power_of_friction_through_zero},
+      {area, "braking to standstill", "Coulomb friction has no direction at rest",
+       "motion left over the largest", 0.1, motion_left_at_standstill},
+      {area, "sliding at speed 0", "the equilibrium does not exist without regularisation",
+       "words missing in the refusal", 0.0,
+       [] {
+         return words_missing(
+             [] {
+               transient(disc_of({kirchhoff_3()}), reference_options(),
+                         {.speed = 0.0, .duration = 0.1, .initial_pad_displacement = 1e-6});
+             },
+             {"speed"});
+       }},
+      {area, "limit cycle of 40 m/s at 20 pi rad/s", "far beyond contact loss",
+       "relative error of the pad velocity", 1e-4,
+       [] {
+         return relative_error(
+             limit_cycle_direct(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral),
+                                20.0 * pi)
+                 .pad_velocity,
+             40.398);
+       }},
+  };
+}
+
+}  // namespace chladni::hard_cases

@@ -1,0 +1,136 @@
+// Files that are cut short, damaged, from the future, or whose writer is killed.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "hard_case.hpp"
+#include "mbs_export/body_file.hpp"
+#include "mbs_export/make_body.hpp"
+#include "tests/mbs_export/scratch_folder.hpp"
+#include "tests/mbs_export/wheel.hpp"
+
+namespace chladni::hard_cases {
+namespace {
+
+using namespace mbs_export;
+using test::ScratchFolder, test::bytes_of;
+
+ModalBody wheel_body(int n_modes)
+{
+  BodyOptions options;
+  options.fixed = {"hub"};
+  options.keep.count = n_modes;
+  return make_body(test::wheel(), options);
+}
+
+void put_bytes(const std::string& path, const std::string& bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Damaged copies of a body file that are neither read nor refused with a chladni::Error. (A crash
+/// would end the program.)
+template <class Damage>
+double unexpected_ends(int n, Damage damage)
+{
+  const ScratchFolder folder;
+  write_body(folder.file("sound.h5"), wheel_body(12));
+  const std::string sound = bytes_of(folder.file("sound.h5"));
+  double unexpected = 0.0;
+  for (int i = 0; i < n; ++i) {
+    std::string bytes = sound;
+    damage(bytes, i);
+    put_bytes(folder.file("damaged.h5"), bytes);
+    try {
+      read_body(folder.file("damaged.h5"));
+    } catch (const Error&) {
+    } catch (...) {
+      ++unexpected;
+    }
+  }
+  return unexpected;
+}
+
+/// Writes bodies of 6 and 60 modes in turn until it is killed.
+[[noreturn]] void write_for_ever(const std::string& path)
+{
+  const ModalBody bodies[] = {wheel_body(6), wheel_body(60)};
+  for (int i = 0;; ++i) write_body(path, bodies[i % 2]);
+}
+
+/// Kills a writer at random moments; how often the file is neither the old nor the new one.
+double half_files(int n_kills)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_body(path, wheel_body(6));
+  std::mt19937 generator(1);
+  std::uniform_int_distribution<int> microseconds(0, 20000);
+  double half = 0.0;
+  for (int i = 0; i < n_kills; ++i) {
+    const pid_t writer = fork();
+    if (writer == 0) write_for_ever(path);
+    std::this_thread::sleep_for(std::chrono::microseconds(20000 + microseconds(generator)));
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    try {
+      const auto n_modes = read_body(path).n_modes();
+      half += n_modes != 6 && n_modes != 60;
+    } catch (const Error&) {
+      ++half;
+    }
+  }
+  return half;
+}
+
+}  // namespace
+
+std::vector<HardCase> file_cases()
+{
+  const std::string area = "files", unexpected = "files neither read nor refused";
+  return {
+      {area, "body file cut at 300 places", "lengths and offsets point beyond its end", unexpected,
+       0.0,
+       [] {
+         return unexpected_ends(300, [](std::string& bytes, int i) {
+           bytes.resize(bytes.size() * static_cast<std::size_t>(i) / 300);
+         });
+       }},
+      {area, "body file with 2000 flipped bytes, one at a time",
+       "sizes that overflow, types and shapes that do not fit", unexpected, 0.0,
+       [] {
+         std::mt19937 generator(2);
+         return unexpected_ends(2000, [&](std::string& bytes, int) {
+           bytes[generator() % bytes.size()] ^= static_cast<char>(1u << (generator() % 8));
+         });
+       }},
+      {area, "writer killed 200 times at random moments", "a file may be half written",
+       "files neither old nor new", 0.0, [] { return half_files(200); }},
+      {area, "body with NaN", "poisons every later result in silence",
+       "words missing in the refusal", 0.0,
+       [] {
+         const ScratchFolder folder;
+         ModalBody body = wheel_body(12);
+         body.attachment_modes(3, 3) = std::nan("");
+         write_body(folder.file("nan.h5"), body);
+         return words_missing([&] { read_body(folder.file("nan.h5")); },
+                              {"nan.h5", "attachment_displacements", "finite"});
+       }},
+      {area, "text file with the name of a body", "not HDF5 at all", "words missing in the refusal",
+       0.0,
+       [] {
+         const ScratchFolder folder;
+         put_bytes(folder.file("text.body.h5"), "GRID,1,,0.,0.,0.\n");
+         return words_missing([&] { read_body(folder.file("text.body.h5")); }, {"text.body.h5"});
+       }},
+  };
+}
+
+}  // namespace chladni::hard_cases

@@ -1,0 +1,112 @@
+#include "mbs_export/formats/exudyn.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+
+#include "../scratch_folder.hpp"
+#include "../wheel.hpp"
+#include "mbs_export/hdf5.hpp"
+
+namespace chladni::mbs_export::formats {
+namespace {
+
+using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+
+/// Its nodes without inertia of their own, so that the sums of Exudyn over the nodes are exact.
+FloatingBody wheel_of_points()
+{
+  ReducedSystem wheel = test::wheel();
+  MassIntegrals& integrals = *wheel.mass_integrals;
+  const Index n = wheel.M.rows();
+  double half_J = 0.0;
+  for (Index i = 0; i < n; i += 6) {
+    half_J += 0.5 * wheel.M(i + 3, i + 3);
+    for (MatrixXd& S : integrals.products) S.block<3, 3>(i + 3, i + 3).setZero();
+    integrals.position_displacement.middleCols<3>(i + 3).setZero();
+  }
+  integrals.second -= half_J * Matrix3d::Identity();
+  wheel.picture.positions.setOnes(3, 3);
+  wheel.picture.cells = {{0, 1, 2, 2}, {0, 1, 1, 1}};
+  wheel.picture.transformation = MatrixXd::Zero(9, n);
+  BodyOptions options;
+  options.fixed = {"hub"};
+  options.keep.count = 5;
+  return floating_body(wheel, options);
+}
+
+Matrix3d tilde(const Vector3d& a)
+{
+  Matrix3d S;
+  S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return S;
+}
+
+/// Skew matrices of each node and column, as Exudyn's ComputeSkewMatrix.
+MatrixXd skew(const MatrixXd& A)
+{
+  MatrixXd S(A.rows(), 3 * A.cols());
+  for (Index i = 0; i < A.rows(); i += 3)
+    for (Index j = 0; j < A.cols(); ++j) S.block<3, 3>(i, 3 * j) = tilde(A.col(j).segment<3>(i));
+  return S;
+}
+
+TEST(Exudyn, HasTheProductsThatItComputesOfPointMasses)
+{
+  const test::ScratchFolder folder;
+  write_exudyn(folder.file("a.h5"), wheel_of_points());
+  const hdf5::Reader file(folder.file("a.h5"));
+  const MatrixXd Psi = file.matrix("modeBasis", {48, 5});
+  const VectorXd xRef = file.vector("xRef", 48);
+  VectorXd m = VectorXd::Zero(48);
+  const ReducedSystem wheel = test::wheel();
+  for (Index i = 0; i < 13; ++i) m.segment<3>(3 * i).setConstant(wheel.M(6 * i, 6 * i));
+  const MatrixXd M = m.asDiagonal(), Psi_tilde = skew(Psi), x_tilde = skew(xRef);
+  const MatrixXd Phit = Matrix3d::Identity().replicate(16, 1);
+  const auto expect_equal = [&](const std::string& name, const MatrixXd& exact) {
+    const MatrixXd found = file.matrix(name, {exact.rows(), exact.cols()});
+    EXPECT_LT((found - exact).norm(), 1e-14) << name;
+    EXPECT_GT(exact.norm(), 1e-6) << name;  // or the comparison would tell nothing
+  };
+  expect_equal("Mtt", Phit.transpose() * M * Phit);
+  expect_equal("inertiaLocal", x_tilde.transpose() * M * x_tilde);
+  expect_equal("mPhitTPsi", Phit.transpose() * M * Psi);
+  expect_equal("mPhitTPsiTilde", Phit.transpose() * M * Psi_tilde);
+  expect_equal("mXRefTildePsi", x_tilde.transpose() * M * Psi);
+  expect_equal("mXRefTildePsiTilde", x_tilde.transpose() * M * Psi_tilde);
+  expect_equal("mPsiTildePsi", Psi_tilde.transpose() * M * Psi);
+  expect_equal("mPsiTildePsiTilde", Psi_tilde.transpose() * M * Psi_tilde);
+  const Vector3d centre = file.vector("chiU", 3);
+  EXPECT_LT((centre - Phit.transpose() * M * xRef / 1.7).norm(), 1e-15);
+  EXPECT_EQ(file.matrix("chiUtilde"), MatrixXd(tilde(centre)));
+  EXPECT_NEAR(file.real("totalMass"), 1.7, 1e-15);
+}
+
+TEST(Exudyn, NumbersThePictureBehindTheAttachmentNodes)
+{
+  const test::ScratchFolder folder;
+  write_exudyn(folder.file("a.h5"), wheel_of_points());
+  const hdf5::Reader file(folder.file("a.h5"));
+  hdf5::IntegerMatrix triangle(1, 3);
+  triangle << 13, 14, 15;  // and none of the line
+  EXPECT_EQ(file.integer_matrix("trigList"), triangle);
+  EXPECT_EQ(file.text("type"), "ObjectFFRFreducedOrderInterface");
+  EXPECT_EQ(file.integer("fileVersion"), 1);
+  EXPECT_EQ(file.integer("infoList/item_0"), 5);
+  EXPECT_EQ(file.integer("infoList/item_1"), 16);
+  EXPECT_EQ(file.integer("infoList/item_5"), 12);
+}
+
+TEST(Exudyn, NeedsMassIntegralsAndLeavesNothingWithoutThem)
+{
+  const test::ScratchFolder folder;
+  FloatingBody floating = wheel_of_points();
+  floating.body.mass_integrals.reset();
+  const std::string text = test::error_of([&] { write_exudyn(folder.file("a.h5"), floating); });
+  EXPECT_NE(text.find("reduce the scene again"), std::string::npos) << text;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.h5")));
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export::formats
