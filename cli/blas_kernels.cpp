@@ -1,14 +1,18 @@
 #include "cli/blas_kernels.hpp"
 
+#include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
-// OpenBLAS' own; its headers are not needed for it.
-extern "C" char* openblas_get_corename();  // NOLINT(readability-identifier-naming)
+// OpenBLAS' own; its headers are not needed for them.
+extern "C" char* openblas_get_corename();       // NOLINT(readability-identifier-naming)
+extern "C" void openblas_set_num_threads(int);  // NOLINT(readability-identifier-naming)
 
 namespace chladni::cli {
 namespace {
@@ -44,6 +48,20 @@ void restart_with_fitting_blas_kernels(char** argv)
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   execv(program.c_str(), argv);  // where that fails, the slow kernels do
+}
+
+void share_processors()
+{
+  for (const char* variable : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    if (std::getenv(variable) != nullptr) return;
+  }
+  MPI_Comm machine = MPI_COMM_NULL;
+  int n_ranks = 1;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &n_ranks);
+  MPI_Comm_free(&machine);
+  const int n_processors = static_cast<int>(std::thread::hardware_concurrency());
+  openblas_set_num_threads(std::max(1, n_processors / n_ranks));
 }
 
 }  // namespace chladni::cli

@@ -8,4 +8,9 @@ namespace chladni::cli {
 /// @note   To be called first in main, before MPI starts.
 void restart_with_fitting_blas_kernels(char** argv);
 
+/// Divides the processors of this machine among its ranks, where the environment says nothing of
+/// threads: OpenBLAS would start as many in each rank as there are processors.
+/// @note   Collective on all ranks.
+void share_processors();
+
 }  // namespace chladni::cli

@@ -13,22 +13,20 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index most_modes = 100;  // of a certificate: bounds its block solve
-
-/// Elastic modes up to omega_max, in the coordinates of the reduced model.
+/// Elastic modes of a range, in the coordinates of the reduced model.
 reduce::ReducedPairs to_model_order(const mbs_export::HeldModeShapes& held,
-                                    const Reduction& reduction, double omega_max)
+                                    const std::vector<int>& places, const ModeRange& range)
 {
-  const auto n_below =
-      static_cast<Index>(std::ranges::upper_bound(held.omega, omega_max) - held.omega.begin());
-  const Index k = std::min(std::max<Index>(n_below, 1), std::min(most_modes, held.omega.size()));
-  reduce::ReducedPairs pairs{.X = {reduction.model.K.n_rows, static_cast<PetscInt>(k)},
+  const auto n_below = static_cast<Index>(std::ranges::upper_bound(held.omega, range.omega_max) -
+                                          held.omega.begin());
+  const Index k =
+      std::min(std::max<Index>(n_below, 1), std::min<Index>(range.most, held.omega.size()));
+  reduce::ReducedPairs pairs{.X = {static_cast<PetscInt>(places.size()), static_cast<PetscInt>(k)},
                              .lambda = {}};
   for (Index j = 0; j < k; ++j) {
     pairs.lambda.push_back(held.omega[j] * held.omega[j]);
     for (Index i = 0; i < held.X.rows(); ++i) {
-      pairs.X(reduction.places[static_cast<std::size_t>(i)], static_cast<PetscInt>(j)) =
-          held.X(i, j);
+      pairs.X(places[static_cast<std::size_t>(i)], static_cast<PetscInt>(j)) = held.X(i, j);
     }
   }
   return pairs;
@@ -59,36 +57,33 @@ reduce::ReducedPairs broadcast(reduce::ReducedPairs pairs)
 
 }  // namespace
 
-mbs_export::ReducedSystem with_modes(const mbs_export::ReducedSystem& system, int n_modes)
+HeldPairs held_pairs(const mbs_export::ReducedSystem& system, const std::vector<int>& places,
+                     const std::vector<std::string>& fixed, const ModeRange& range)
 {
-  const Index n = system.n_masters() + n_modes;
-  mbs_export::ReducedSystem cut = system;
-  cut.K = system.K.topLeftCorner(n, n);
-  cut.M = system.M.topLeftCorner(n, n);
-  if (system.C.size() > 0) cut.C = system.C.topLeftCorner(n, n);
-  cut.fixed_interface_frequencies = system.fixed_interface_frequencies.head(n_modes);
-  return cut;
+  HeldPairs held{.pairs = {.X = {0, 0}, .lambda = {}}, .n_rigid = 0, .rigid_residual = 0.0};
+  on_first_rank([&] {
+    const mbs_export::HeldModeShapes shapes = mbs_export::held_mode_shapes(system, fixed);
+    held.pairs = to_model_order(shapes, places, range);
+    held.n_rigid = shapes.n_free_rigid;
+    held.rigid_residual = shapes.rigid_residual;
+  });
+  held.pairs = broadcast(std::move(held.pairs));
+  return held;
 }
 
 mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
-                                const std::vector<std::string>& fixed, int n_modes,
-                                double omega_max)
+                                const std::vector<std::string>& fixed, const ModeRange& range)
 {
-  reduce::ReducedPairs pairs{.X = {0, 0}, .lambda = {}};
+  const HeldPairs held = held_pairs(system, reduction.places, fixed, range);
+  const std::vector<double> eta2 =
+      reduce::error_estimates(reduction.K_ss, reduction.Q_CB, reduction.M, held.pairs);
+  const auto k = static_cast<Index>(eta2.size());
   mbs_export::Certificate certificate;
   certificate.fixed = fixed;
-  on_first_rank([&] {
-    const mbs_export::HeldModeShapes held =
-        mbs_export::held_mode_shapes(with_modes(system, n_modes), fixed);
-    pairs = to_model_order(held, reduction, omega_max);
-    certificate.n_rigid = held.n_free_rigid;
-    certificate.rigid_residual = held.rigid_residual;
-  });
-  pairs = broadcast(std::move(pairs));
-  const std::vector<double> eta2 =
-      reduce::error_estimates(reduction.K_ss, reduction.Q_CB, reduction.M, pairs);
-  const auto k = static_cast<Index>(eta2.size());
-  certificate.frequencies = Eigen::Map<const Eigen::VectorXd>(pairs.lambda.data(), k).cwiseSqrt();
+  certificate.n_rigid = held.n_rigid;
+  certificate.rigid_residual = held.rigid_residual;
+  certificate.frequencies =
+      Eigen::Map<const Eigen::VectorXd>(held.pairs.lambda.data(), k).cwiseSqrt();
   certificate.eta2 = Eigen::Map<const Eigen::VectorXd>(eta2.data(), k);
   return certificate;
 }

@@ -13,19 +13,36 @@ struct Reduction {
   const reduce::Factorization& K_ss;
   const reduce::CraigBamptonBasis& Q_CB;
   const reduce::Blocks& M;
-  const reduce::ReducedModel& model;
   /// For each coordinate of the file its place in the model.
   const std::vector<int>& places;
 };
 
-/// The error estimates of the supported body's modes up to `omega_max` (at most 100 of them) with
-/// the first `n_modes` fixed-interface modes.
-/// @param system  [first rank] the reduced system in the order of the file, with all modes
+/// Elastic modes of the supported body up to a frequency, at most `most` of them and one at least.
+struct ModeRange {
+  double omega_max;  ///< rad/s
+  int most;
+};
+
+/// What a certificate says before there are errors, and the modes it is about; on every rank.
+struct HeldPairs {
+  reduce::ReducedPairs pairs;  ///< in the coordinates of the reduced model
+  int n_rigid;                 ///< of the free body
+  double rigid_residual;
+};
+
+/// @param system  [first rank] the reduced system in the order of the file
+/// @param places  for each coordinate of the file its place in the model
+/// @note   Collective on all ranks.
+/// @throws chladni::Error when the support does not fit the system.
+HeldPairs held_pairs(const mbs_export::ReducedSystem& system, const std::vector<int>& places,
+                     const std::vector<std::string>& fixed, const ModeRange& range);
+
+/// The error estimates of the supported body's modes.
+/// @param system  [first rank] the reduced system in the order of the file
 /// @note   Collective on all ranks.
 /// @throws chladni::Error when the support does not fit the system.
 mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
-                                const std::vector<std::string>& fixed, int n_modes,
-                                double omega_max);
+                                const std::vector<std::string>& fixed, const ModeRange& range);
 
 /// A spectrum under a support.
 struct HeldSpectrum {
@@ -38,8 +55,5 @@ struct HeldSpectrum {
 /// @param system  [first rank]
 /// @note   Collective on all ranks.
 HeldSpectrum held_spectrum(const mbs_export::ReducedSystem& system);
-
-/// The system with the first `n_modes` fixed-interface modes only.
-mbs_export::ReducedSystem with_modes(const mbs_export::ReducedSystem& system, int n_modes);
 
 }  // namespace chladni::cli

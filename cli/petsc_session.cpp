@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 
+#include "cli/blas_kernels.hpp"
 #include "common/error.hpp"
 #include "common/petsc.hpp"
 
@@ -33,6 +34,7 @@ PetscSession::PetscSession(const std::vector<std::string>& options)
   char** argv = pointers.data();
   petsc::check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
   petsc::check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  share_processors();
 }
 
 PetscSession::~PetscSession()

@@ -45,6 +45,9 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
                        const reduce::Factorization& K_ss, Phases& phases)
 {
+  if (is_free_interface(scene.reduce.method)) {
+    return reduce_by_free_modes(scene, fe, blocks, K_ss, phases);
+  }
   // The modes first: the subspace of the eigen-solver is as large as the constraint modes.
   std::optional<reduce::FixedInterfaceModes> modes;
   if (scene.reduce.method == reduce::Method::craig_bampton) {
@@ -61,7 +64,7 @@ double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
   PetscInt n_s = 0;
   petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
   constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
-  const double n_modes = wanted.modes.value_or(0);
+  const double n_modes = std::min<double>(wanted.modes.value_or(0), n_s);
   const double n_columns =
       std::max(static_cast<double>(blocks.masters.size()) + n_modes, subspace_of_modes * n_modes);
   constexpr double bytes_per_MiB = 1048576.0;
@@ -110,22 +113,24 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  if (!scene.sylvester && !wants_full_responses(scene)) {  // the blocks are enough
+  const bool needs_whole = scene.sylvester || wants_full_responses(scene) ||
+                           is_free_interface(scene.reduce.method);
+  if (!needs_whole) {  // the blocks are enough
     fe.system.K = {};
     fe.system.M = {};
   }
   const auto K_ss = phases.run("factorization", [&] {
-    return reduce::factorize(blocks.K.ss, basis_MiB(blocks, scene.reduce));
+    return factorize_slaves(fe, blocks, basis_MiB(blocks, scene.reduce));
   });
   const PhaseTime factorization = phases.times().back();
   Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  system.certificate = phases.run(
-      "error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced, n_modes); });
+  system.certificate =
+      phases.run("error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced); });
   const double modes_residual = phases.run("residuals", [&] {
-    return reduced.Q_CB.modes
+    return reduced.Q_CB.modes && !is_free_interface(scene.reduce.method)
                ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
                : 0.0;
   });

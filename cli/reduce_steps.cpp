@@ -1,9 +1,9 @@
 #include "cli/reduce_steps.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
-#include "cli/certify.hpp"
 #include "cli/petsc_session.hpp"
 
 namespace chladni::cli {
@@ -35,8 +35,22 @@ petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
   return set;
 }
 
-/// For each coordinate of the file (masters in the scene's order, then modes) its place in the
-/// reduced model, whose masters ascend by DOF.
+MatrixXd as_eigen(const reduce::SmallMatrix& A)
+{
+  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
+}
+
+/// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
+/// what else PETSc's viewers know.
+void view_from_options(const FeModel& fe, IS masters)
+{
+  petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
+  petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
+  petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
+}
+
+}  // namespace
+
 std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscInt n_modes)
 {
   std::vector<PetscInt> ascending = masters;
@@ -49,11 +63,6 @@ std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscIn
   }
   for (PetscInt k = 0; k < n_modes; ++k) places.push_back(static_cast<int>(std::ssize(places)));
   return places;
-}
-
-MatrixXd as_eigen(const reduce::SmallMatrix& A)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
 }
 
 mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
@@ -78,17 +87,6 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
       Eigen::Map<const Eigen::VectorXd>(model.omega.data(), std::ssize(model.omega));
   return reduced;
 }
-
-/// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
-/// what else PETSc's viewers know.
-void view_from_options(const FeModel& fe, IS masters)
-{
-  petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
-  petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
-  petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
-}
-
-}  // namespace
 
 plate::Structure structure_of(const Scene& scene)
 {
@@ -146,21 +144,28 @@ Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned&
           .system = std::move(system)};
 }
 
-mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
-                                      const reduce::Factorization& K_ss, const Reduced& reduced,
-                                      int n_modes)
+ModeRange certified_range(const Scene& scene, double omega_last)
 {
+  if (scene.reduce.tolerance) {  // which holds for all of them
+    return {.omega_max = 2.0 * std::numbers::pi * scene.reduce.tolerance->up_to_Hz,
+            .most = std::numeric_limits<int>::max()};
+  }
+  return {.omega_max = omega_last, .most = 100};  // bounds the block solve
+}
+
+mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
+                                      const reduce::Factorization& K_ss, const Reduced& reduced)
+{
+  if (scene.reduce.method == reduce::Method::macneal) {  // no projection: residuals mean nothing
+    mbs_export::Certificate none;
+    none.fixed = scene.body.fixed;
+    return none;
+  }
   const auto& frequencies = reduced.system.fixed_interface_frequencies;
-  const double omega_max = scene.reduce.tolerance
-                               ? 2.0 * std::numbers::pi * scene.reduce.tolerance->up_to_Hz
-                               : (n_modes > 0 ? frequencies[n_modes - 1] : 0.0);
+  const Eigen::Index n = frequencies.size();
   return certify(reduced.system,
-                 {.K_ss = K_ss,
-                  .Q_CB = reduced.Q_CB,
-                  .M = blocks.M,
-                  .model = reduced.model,
-                  .places = reduced.places},
-                 scene.body.fixed, n_modes, omega_max);
+                 {.K_ss = K_ss, .Q_CB = reduced.Q_CB, .M = blocks.M, .places = reduced.places},
+                 scene.body.fixed, certified_range(scene, n > 0 ? frequencies[n - 1] : 0.0));
 }
 
 }  // namespace chladni::cli

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "cli/attachments.hpp"
+#include "cli/certify.hpp"
 #include "cli/reduce_scene.hpp"
 #include "cli/scene/scene.hpp"
 #include "cli/timing.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/assemble.hpp"
 #include "reduce/craig_bampton.hpp"
+#include "reduce/progress.hpp"
 
 /// The steps of reduce_scene and what they hand on.
 namespace chladni::cli {
@@ -46,6 +48,9 @@ class Phases {
   auto run(const std::string& name, const Work& work)
   {
     if (progress_) progress_(name, 0.0);
+    const reduce::ListenToProgress listener([&](double fraction) {
+      if (progress_) progress_(name, fraction);
+    });
     auto result = work();
     clock_.end_phase(name);
     if (progress_) progress_(name, 1.0);
@@ -63,6 +68,12 @@ plate::Structure structure_of(const Scene& scene);
 
 Partitioned partition_scene(const FeModel& fe);
 
+/// The factor of K_ss.
+/// @param beside_MiB  memory that must remain for what comes after
+/// @throws chladni::Error that names the node that moves most where a part of the body is free.
+reduce::Factorization factorize_slaves(const FeModel& fe, const Partitioned& blocks,
+                                       double beside_MiB);
+
 /// Psi alone.
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
                                            const reduce::Factorization& K_ss, Phases& phases);
@@ -75,15 +86,33 @@ reduce::FixedInterfaceModes fixed_interface_modes(const Partitioned& blocks,
 Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
                        reduce::CraigBamptonBasis Q_CB, Phases& phases);
 
-/// Estimates with the first n_modes, up to the frequency that the scene promises.
+/// The modes whose errors the scene wants to know: up to the frequency that it promises, otherwise
+/// up to the last fixed-interface mode.
+/// @param omega_last  of that one, rad/s; 0 without any
+ModeRange certified_range(const Scene& scene, double omega_last);
+
+/// Estimates up to the frequency that the scene promises.
 mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
-                                      const reduce::Factorization& K_ss, const Reduced& reduced,
-                                      int n_modes);
+                                      const reduce::Factorization& K_ss, const Reduced& reduced);
+
+/// In the order of the file, without picture and certificate.
+mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
+                                        const reduce::ReducedModel& model,
+                                        const std::vector<int>& places);
+
+/// For each coordinate of the file (masters in the scene's order, then modes) its place in the
+/// reduced model, whose masters ascend by DOF.
+std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscInt n_modes);
 
 /// Counts the eigenvalues of the FE model and bounds the errors, for the certificate of `system`.
 /// @param system  [first rank]
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
                                     const mbs_export::ReducedSystem& system);
+
+/// Rubin's and MacNeal's methods.
+bool is_free_interface(reduce::Method method);
+Reduced reduce_by_free_modes(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                             const reduce::Factorization& K_ss, Phases& phases);
 
 /// As few modes as keep the tolerance of the scene.
 Reduced reduce_to_tolerance(const Scene& scene, const FeModel& fe, const Partitioned& blocks,

@@ -43,7 +43,8 @@ struct Performed {
 /// The analyses of a disc that is this body.
 Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body, PhaseClock& clock)
 {
-  const squeal::Disc disc = squeal::make_disc(body, scene.squeal->ring, scene.squeal->modes);
+  const squeal::Disc disc =
+      squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
   clock.end_phase("read");
   ProgressLine line;
   Performed performed{squeal::run(disc, *scene.squeal,
@@ -150,6 +151,22 @@ Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
   return Json::array(searches);
 }
 
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
+Json rotation_json(const squeal::RotationStability& stability)
+{
+  std::vector<Json> growth;
+  for (Eigen::Index i = 0; i < stability.speeds.size(); ++i) {
+    growth.push_back(
+        Json::object({{"speed_rad_s", stability.speeds[i]}, {"growth_1_s", stability.growth[i]}}));
+  }
+  return Json::object({{"critical_speed_rad_s", optional_json(stability.critical_speed)},
+                       {"growth", Json::array(growth)}});
+}
+
 Json peaks_json(const squeal::Spectrum& spectrum)
 {
   std::vector<Json> peaks;
@@ -158,11 +175,6 @@ Json peaks_json(const squeal::Spectrum& spectrum)
         Json::object({{"frequency_Hz", peak.frequency_Hz}, {"pad_velocity_m_s", peak.amplitude}}));
   }
   return Json::array(peaks);
-}
-
-Json optional_json(const std::optional<double>& x)
-{
-  return x ? Json(*x) : Json();
 }
 
 Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
@@ -201,6 +213,9 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const auto& critical = results.critical_speed;
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
     members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+  }
+  if (results.rotation_stability) {
+    members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
   }
   if (!results.critical_values.empty()) {
     members.emplace_back("critical_values", critical_values_json(results.critical_values));

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace chladni::cli {
@@ -39,7 +40,14 @@ double Stopwatch::cpu_s() const
 
 void PhaseClock::end_phase(std::string name)
 {
-  phases_.push_back({.name = std::move(name), .wall_s = watch_.wall_s(), .cpu_s = watch_.cpu_s()});
+  PhaseTime now{.name = std::move(name), .wall_s = watch_.wall_s(), .cpu_s = watch_.cpu_s()};
+  const auto earlier = std::ranges::find(phases_, now.name, &PhaseTime::name);
+  if (earlier == phases_.end()) {
+    phases_.push_back(std::move(now));
+  } else {
+    earlier->wall_s += now.wall_s;
+    earlier->cpu_s += now.cpu_s;
+  }
   watch_ = Stopwatch();
 }
 

@@ -21,6 +21,17 @@ double deflation_shift(const MatrixXd& K, const MatrixXd& M)
   return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
 }
 
+/// Pi^T K Pi with Pi = I - R R^T M: K without the round-off that it has along its zero-energy
+/// vectors. Where these are most of the coordinates, as of a body with a single attachment node,
+/// round-off is all that stands there, and may be of either sign.
+MatrixXd without_zero_energy(const MatrixXd& K, const MatrixXd& MR, const MatrixXd& R)
+{
+  const MatrixXd KR = K * R;
+  MatrixXd K_d = K - MR * KR.transpose() - KR * MR.transpose();
+  K_d += MR * (R.transpose() * KR) * MR.transpose();
+  return 0.5 * (K_d + K_d.transpose());
+}
+
 /// L^-1 M L^-T without the directions L^T R of the zero-energy vectors.
 MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
 {
@@ -53,7 +64,8 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
   const MatrixXd MR = M * R;
-  const Eigen::LLT<MatrixXd> B(K + deflation_shift(K, M) * MR * MR.transpose());
+  const MatrixXd K_d = without_zero_energy(K, MR, R);
+  const Eigen::LLT<MatrixXd> B(K_d + deflation_shift(K_d, M) * MR * MR.transpose());
   if (B.info() != Eigen::Success)
     throw Error(
         "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"

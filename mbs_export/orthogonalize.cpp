@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 
 #include "common/error.hpp"
 #include "mbs_export/eigenmodes.hpp"
@@ -41,17 +42,24 @@ struct RigidModes {
   double largest_energy;  ///< of phi_r^T K_r phi_r, rad^2/s^2
 };
 
-/// The combinations of the rigid-body vectors that K_r does not resist. Round-off in K_r leaves
-/// them an energy of 1e-16 of its largest stiffness-to-mass ratio; a support leaves far more.
+/// Largest energy that is no support's: round-off in K_r leaves 1e-16 of the largest
+/// stiffness-to-mass ratio of the FE model, of which a system with few modes shows nothing. There
+/// the least ratio stands for the elastic modes: a mount at 1/1000 of their frequency is still one.
+double energy_of_round_off(const ReducedSystem& reduced)
+{
+  const Eigen::ArrayXd m = reduced.M.diagonal().array(), k = reduced.K.diagonal().array();
+  const Eigen::ArrayXd ratio = (m > 0.0).select(k / m, 0.0);
+  const double largest = ratio.maxCoeff();
+  const double least = (ratio > 1e-10 * largest).select(ratio, largest).minCoeff();
+  return std::max(1e-12 * largest, 3e-7 * least);
+}
+
+/// The combinations of the rigid-body vectors that K_r does not resist.
 RigidModes unresisted(const ReducedSystem& reduced, const MatrixXd& basis)
 {
   if (basis.cols() == 0) return {basis, 0.0};
-  const double largest_ratio =
-      (reduced.M.diagonal().array() > 0.0)
-          .select(reduced.K.diagonal().array() / reduced.M.diagonal().array(), 0.0)
-          .maxCoeff();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> energies(basis.transpose() * reduced.K * basis);
-  const auto free = energies.eigenvalues().array().abs() <= 1e-12 * largest_ratio;
+  const auto free = energies.eigenvalues().array().abs() <= energy_of_round_off(reduced);
   const Index n_rigid = free.count();
   // Ascending: what is free comes first, up to negative round-off.
   const MatrixXd R = basis * energies.eigenvectors().leftCols(n_rigid);

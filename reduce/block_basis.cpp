@@ -115,11 +115,33 @@ bool is_large(const SmallMatrix& h, const SmallMatrix& G)
 
 }  // namespace
 
-BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M), capacity_(capacity)
+BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M)
 {
   petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
   petsc::check(MatGetSize(M, &n_global_, nullptr));
-  values_ = std::make_unique_for_overwrite<double[]>(std::size_t(n_local_) * capacity_);
+  reserve(capacity);
+}
+
+void BlockBasis::reserve(PetscInt capacity)
+{
+  if (capacity <= capacity_) return;
+  // Not a vector, which would touch all of it and, when it grows, hold it twice.
+  const std::size_t n_bytes =
+      std::max<std::size_t>(std::size_t(n_local_) * capacity, 1) * sizeof(double);
+  void* larger = std::realloc(values_.get(), n_bytes);
+  int refused = larger == nullptr ? 1 : 0;
+  if (larger != nullptr) {
+    static_cast<void>(values_.release());
+    values_.reset(static_cast<double*>(larger));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
+  if (refused == 1) {
+    throw Error(
+        fmt::format("block Lanczos: no memory for {} vectors of {} DOFs; ask for fewer "
+                    "modes, use more machines or -cms_lanczos_subspace",
+                    capacity, n_global_));
+  }
+  capacity_ = capacity;
 }
 
 petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,10 @@ class BlockBasis {
   PetscInt n_rows() const { return n_global_; }
   PetscInt n_columns() const { return n_columns_; }
   PetscInt capacity() const { return capacity_; }
+
+  /// Room for more columns; those that are there keep their place in memory or move by pages.
+  /// @throws chladni::Error when the machine refuses.
+  void reserve(PetscInt capacity);
 
   /// An empty dense matrix with the rows of the basis.
   petsc::Matrix new_block(PetscInt n_columns) const;
@@ -50,11 +55,14 @@ class BlockBasis {
   Mat M_;
   SparseProduct product_with_M_;
   PetscInt n_local_ = 0, n_global_ = 0;
-  PetscInt capacity_;
+  PetscInt capacity_ = 0;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;            ///< M times the last block
-  petsc::Matrix second_last_M_;       ///< M times the block before; empty after compress
-  std::unique_ptr<double[]> values_;  ///< [n_local x capacity] column-major, touched when used
+  petsc::Matrix newest_M_;       ///< M times the last block
+  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
+  struct Free {
+    void operator()(double* values) const { std::free(values); }
+  };
+  std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
 };
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix (LAPACK

@@ -117,27 +117,29 @@ void BlockIteration::restart(PetscInt n)
   n_old_ = n;
 }
 
-SmallMatrix BlockIteration::ritz_coefficients(PetscInt n) const
+SmallMatrix BlockIteration::ritz_coefficients(PetscInt first, PetscInt last) const
 {
-  SmallMatrix S(basis_.n_columns(), n);
-  for (PetscInt k = 0; k < n; ++k) {
-    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[k]);
+  SmallMatrix S(basis_.n_columns(), last - first);
+  for (PetscInt k = 0; k < S.n_cols; ++k) {
+    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[first + k]);
   }
   return S;
 }
 
 petsc::Matrix BlockIteration::ritz_vectors(PetscInt n) const
 {
-  return basis_.combine(ritz_coefficients(n));
+  return basis_.combine(ritz_coefficients(0, n));
 }
 
-petsc::Matrix BlockIteration::purified_vectors(PetscInt n) const
+petsc::Matrix BlockIteration::purified_vectors(PetscInt first, PetscInt last) const
 {
-  SmallMatrix S = ritz_coefficients(n);
-  for (PetscInt k = 0; k < n; ++k) {
+  SmallMatrix S = ritz_coefficients(first, last);
+  for (PetscInt k = 0; k < S.n_cols; ++k) {
+    const PetscInt ritz = first + k;
     for (PetscInt a = 0; a < basis_.n_columns() - n_old_; ++a) {
       for (PetscInt c = 0; c < R_.n_cols; ++c) {
-        S(n_old_ + a, k) += R_(a, c) * ritz_.vectors(n_old_ - R_.n_cols + c, order_[k]) / theta(k);
+        S(n_old_ + a, k) +=
+            R_(a, c) * ritz_.vectors(n_old_ - R_.n_cols + c, order_[ritz]) / theta(ritz);
       }
     }
     double norm = 0.0;  // in the M-orthonormal basis

@@ -21,6 +21,8 @@ class BlockIteration {
   /// @param capacity  most basis vectors, the newest block included
   BlockIteration(Mat M, PetscInt block_size, PetscInt capacity);
 
+  /// Room for a larger basis.
+  void reserve(PetscInt capacity) { basis_.reserve(capacity); }
   /// Takes a deterministic start block once through the operator.
   /// @throws chladni::Error when the operator or M maps it to zero.
   void start(const BlockOperator& op);
@@ -41,14 +43,14 @@ class BlockIteration {
   double residual(PetscInt i) const;
   /// Ritz vectors 0 .. n - 1, X^T M X = I; [n_rows x n] dense.
   petsc::Matrix ritz_vectors(PetscInt n) const;
-  /// The same after x <- Op x / theta, which costs nothing: without the null space of a singular M
-  /// that round-off brings in. For the largest |theta| only: smaller ones amplify what errors they
-  /// have along those.
-  petsc::Matrix purified_vectors(PetscInt n) const;
+  /// Ritz vectors first .. last - 1 after x <- Op x / theta, which costs nothing: without the null
+  /// space of a singular M that round-off brings in. For the largest |theta| only: smaller ones
+  /// amplify what errors they have along those.
+  petsc::Matrix purified_vectors(PetscInt first, PetscInt last) const;
 
  private:
-  /// Coefficients of the first n Ritz vectors in (V, Q).
-  SmallMatrix ritz_coefficients(PetscInt n) const;
+  /// Coefficients of Ritz vectors first .. last - 1 in (V, Q).
+  SmallMatrix ritz_coefficients(PetscInt first, PetscInt last) const;
 
   PetscInt block_size_;
   BlockBasis basis_;     ///< V and, behind it, the newest block Q

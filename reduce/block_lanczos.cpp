@@ -4,76 +4,107 @@
 #include <cmath>
 #include <functional>
 
-#include "reduce/block_iteration.hpp"
+#include "reduce/progress.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-PetscInt capacity(Mat M, const BlockLanczosOptions& options)
+PetscInt size_of(Mat M)
 {
   PetscInt n = 0;
   petsc::check(MatGetSize(M, &n, nullptr));
+  return n;
+}
+
+PetscInt capacity(PetscInt n_pairs, PetscInt n_rows, const BlockLanczosOptions& options)
+{
   const PetscInt b = options.block_size;
-  const PetscInt wanted = options.max_subspace > 0
-                              ? std::max(options.max_subspace, options.n_pairs + 4 * b)
-                              : 2 * options.n_pairs + 16 * b;
-  return std::min(wanted, n) + b;
+  const PetscInt wanted = options.max_subspace > 0 ? std::max(options.max_subspace, n_pairs + 4 * b)
+                                                   : 2 * n_pairs + 16 * b;
+  return std::min(wanted, n_rows) + b;
 }
 
-bool converged(BlockIteration& iteration, const BlockLanczosOptions& options)
+/// The largest residual of the first n pairs over what is allowed.
+double excess(const BlockIteration& iteration, PetscInt n, double tolerance)
 {
-  if (iteration.n_vectors() < options.n_pairs && !iteration.is_exhausted()) return false;
-  iteration.order_ritz_values(std::greater<>());
-  const PetscInt n = std::min(options.n_pairs, iteration.n_vectors());
-  for (PetscInt i = n - 1; i >= 0; --i) {  // the highest converge last
-    if (iteration.residual(i) > options.tolerance * std::abs(iteration.theta(i))) return false;
-  }
-  return true;
-}
-
-/// Keeps the wanted Ritz vectors and half of the others.
-void restart(BlockIteration& iteration, const BlockLanczosOptions& options)
-{
-  const PetscInt n = iteration.n_vectors();
-  iteration.order_ritz_values(std::greater<>());
-  iteration.restart(std::min(n - 1, options.n_pairs + (n - options.n_pairs) / 2));
-}
-
-EigenPairs extract(const BlockIteration& iteration, PetscInt n_pairs, PetscInt n_solves)
-{
-  const PetscInt n = std::min(n_pairs, iteration.n_vectors());
-  EigenPairs pairs{
-      .lambda = {}, .residual = {}, .X = iteration.purified_vectors(n), .n_solves = n_solves};
+  double largest = 0.0;
   for (PetscInt i = 0; i < n; ++i) {
-    pairs.lambda.push_back(1.0 / iteration.theta(i));
-    pairs.residual.push_back(iteration.residual(i) / std::abs(iteration.theta(i)));
+    largest = std::max(largest, iteration.residual(i) / (tolerance * std::abs(iteration.theta(i))));
   }
-  return pairs;
+  return largest;
 }
 
 }  // namespace
 
-EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
+BlockLanczos::BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
+    : factor_(factor),
+      options_(options),
+      n_rows_(size_of(M)),
+      op_([this](Mat, Mat MQ, Mat Y) {
+        PetscInt n_columns = 0;
+        petsc::check(MatGetSize(MQ, nullptr, &n_columns));
+        petsc::check(MatMatSolve(factor_, MQ, Y));
+        n_solves_ += n_columns;
+      }),
+      iteration_(M, options.block_size, capacity(0, n_rows_, options))
+{}
+
+/// The projected eigenproblem costs more than a step where the basis is large: it is not solved
+/// before the basis is half as large again as the number of pairs, and then in steps of 4 %.
+bool BlockLanczos::has_converged(PetscInt n_pairs)
 {
-  PetscInt n_solves = 0;
-  const BlockOperator op = [&](Mat, Mat MQ, Mat Y) {
-    PetscInt n_columns = 0;
-    petsc::check(MatGetSize(MQ, nullptr, &n_columns));
-    petsc::check(MatMatSolve(factor, MQ, Y));
-    n_solves += n_columns;
-  };
-  BlockIteration iteration(M, options.block_size, capacity(M, options));
-  iteration.start(op);
-  for (PetscInt i = 0; i < options.max_steps; ++i) {
-    iteration.step(op);
-    if (converged(iteration, options)) return extract(iteration, options.n_pairs, n_solves);
-    if (iteration.is_full()) restart(iteration, options);
+  const PetscInt n = iteration_.n_vectors();
+  report_progress(std::min(0.99, double(n) / (3.2 * n_pairs)));  // it takes 2.4 to 3.5 for each
+  const bool must_look = iteration_.is_exhausted() || iteration_.is_full();
+  if (n < (must_look ? 1 : std::max(next_look_, n_pairs + n_pairs / 2))) return false;
+  iteration_.order_ritz_values(std::greater<>());
+  next_look_ = n + n / 25;
+  if (n < n_pairs && !iteration_.is_exhausted()) return false;
+  const PetscInt n_looked_at = std::min(n_pairs, n);
+  if (excess(iteration_, n_looked_at, options_.tolerance) > 1.0) return false;
+  n_converged_ = n_looked_at;
+  return true;
+}
+
+/// Keeps the wanted Ritz vectors and half of the others.
+void BlockLanczos::restart(PetscInt n_pairs)
+{
+  const PetscInt n = iteration_.n_vectors();
+  iteration_.restart(std::min(n - 1, n_pairs + (n - n_pairs) / 2));
+  next_look_ = 0;
+}
+
+void BlockLanczos::converge(PetscInt n_pairs)
+{
+  iteration_.reserve(capacity(n_pairs, n_rows_, options_));
+  if (n_solves_ == 0) iteration_.start(op_);
+  next_look_ = 0;
+  if (iteration_.n_vectors() > 0 && has_converged(n_pairs)) return;
+  for (PetscInt i = 0; i < options_.max_steps; ++i) {
+    if (iteration_.is_full()) restart(n_pairs);
+    iteration_.step(op_);
+    if (has_converged(n_pairs)) return;
   }
   throw Error(
       fmt::format("block_lanczos: {} pairs did not converge to {:.1e} in {} block solves; "
                   "ask for fewer or raise the tolerance",
-                  options.n_pairs, options.tolerance, options.max_steps));
+                  n_pairs, options_.tolerance, options_.max_steps));
+}
+
+EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
+{
+  BlockLanczos lanczos(factor, M, options);
+  lanczos.converge(options.n_pairs);
+  EigenPairs pairs{.lambda = {},
+                   .residual = {},
+                   .X = lanczos.vectors(0, lanczos.n_pairs()),
+                   .n_solves = lanczos.n_solves()};
+  for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) {
+    pairs.lambda.push_back(lanczos.lambda(i));
+    pairs.residual.push_back(lanczos.residual(i));
+  }
+  return pairs;
 }
 
 }  // namespace chladni::reduce

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/block_iteration.hpp"
 
 namespace chladni::reduce {
 
@@ -22,16 +23,58 @@ struct EigenPairs {
   PetscInt n_solves;             ///< columns solved with the factor
 };
 
-/// Block Lanczos for K^-1 M with full reorthogonalisation in the M inner product and thick restart.
+/// Block Lanczos for K^-1 M with full reorthogonalisation in the M inner product and thick restart,
+/// which goes on where it stopped when more pairs are asked for.
 /// M may be singular: the Ritz vectors are purified by the step x <- K^-1 M x / theta, which the
 /// recurrence holds already. Start vectors depend on the global row only, so that the result does
 /// not depend on the number of ranks beyond round-off.
-/// @param factor  Cholesky factor of K, for MatMatSolve.
-/// @note   Collective.
-/// @throws chladni::Error when not all pairs converge in `max_steps`.
 /// Source: Grimes, Lewis and Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228; thick restart: Wu and
 /// Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602; purification: Nour-Omid, Parlett, Ericsson and
 /// Jensen, Math. Comp. 48 (1987) 663.
+class BlockLanczos {
+ public:
+  /// @param factor   Cholesky factor of K, for MatMatSolve; must outlive this.
+  /// @param options  all but n_pairs
+  BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options);
+  BlockLanczos(const BlockLanczos&) = delete;
+  BlockLanczos& operator=(const BlockLanczos&) = delete;
+
+  /// Goes on until the lowest n_pairs, or all where there are fewer, have converged.
+  /// @note   Collective.
+  /// @throws chladni::Error when they do not in `max_steps`.
+  void converge(PetscInt n_pairs);
+
+  /// Pairs that have converged.
+  PetscInt n_pairs() const { return n_converged_; }
+  /// Columns solved with the factor so far.
+  PetscInt n_solves() const { return n_solves_; }
+  double lambda(PetscInt i) const { return 1.0 / iteration_.theta(i); }
+  /// Relative, as in BlockLanczosOptions::tolerance.
+  double residual(PetscInt i) const { return iteration_.residual(i) / iteration_.theta(i); }
+  /// X of pairs first .. last - 1, orthonormal in M.
+  /// @note   Collective.
+  petsc::Matrix vectors(PetscInt first, PetscInt last) const
+  {
+    return iteration_.purified_vectors(first, last);
+  }
+
+ private:
+  bool has_converged(PetscInt n_pairs);
+  void restart(PetscInt n_pairs);
+
+  Mat factor_;
+  BlockLanczosOptions options_;
+  PetscInt n_rows_ = 0;
+  BlockOperator op_;
+  BlockIteration iteration_;
+  PetscInt n_converged_ = 0;
+  PetscInt n_solves_ = 0;
+  PetscInt next_look_ = 0;  ///< number of basis vectors
+};
+
+/// The lowest pairs by a BlockLanczos.
+/// @note   Collective.
+/// @throws chladni::Error when not all pairs converge in `max_steps`.
 EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options);
 
 }  // namespace chladni::reduce

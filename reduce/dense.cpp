@@ -75,6 +75,41 @@ SmallMatrix inner_product(Mat X, Mat Y)
   return product;
 }
 
+void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)
+{
+  const LocalRows x(X);
+  PetscScalar* y = nullptr;
+  PetscInt ldy = 0;
+  petsc::check(MatDenseGetLDA(Y, &ldy));
+  petsc::check(MatDenseGetArray(Y, &y));
+  const PetscBLASInt m = x.n_rows();
+  const PetscBLASInt n = S.n_cols;
+  const PetscBLASInt k = S.n_rows;
+  const PetscBLASInt ldx = x.leading_dimension();
+  const PetscBLASInt ld = ldy;
+  const PetscScalar one = 1.0;
+  if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.values.data(), &k, &one, y, &ld);
+  }
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
+{
+  PetscInt first = 0;
+  PetscInt ld = 0;
+  PetscScalar* y = nullptr;
+  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
+  petsc::check(MatDenseGetLDA(Y, &ld));
+  petsc::check(MatDenseGetArray(Y, &y));
+  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+    for (PetscInt j = 0; j < S.n_cols; ++j) {
+      y[row - first + std::size_t(j) * ld] += value * S(column, j);
+    }
+  });
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
 SmallMatrix inner_product_sparse(Mat X, Mat A)
 {
   PetscInt n_cols = 0;

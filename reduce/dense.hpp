@@ -85,6 +85,12 @@ class ColumnRange {
 /// @note   Collective.
 SmallMatrix inner_product(Mat X, Mat Y);
 
+/// Y <- Y + alpha X S for dense distributed X, Y and a small S.
+void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y);
+
+/// Y <- Y + A S for a sparse A [n x few columns] and a small S.
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y);
+
 /// X^T A for a dense X and a sparse A [n x few columns] with equally distributed rows, on every
 /// rank.
 /// @note   Collective.

@@ -1,9 +1,8 @@
 #include "reduce/error_estimates.hpp"
 
-#include <petscblaslapack.h>
-
 #include <algorithm>
 
+#include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
@@ -20,26 +19,6 @@ SmallMatrix rows_of(const SmallMatrix& A, PetscInt first, PetscInt n)
   return rows;
 }
 
-/// Y <- Y + X S for dense distributed X, Y and a small S.
-void add_product(Mat X, const SmallMatrix& S, Mat Y)
-{
-  const LocalRows x(X);
-  PetscScalar* y = nullptr;
-  PetscInt ldy = 0;
-  petsc::check(MatDenseGetLDA(Y, &ldy));
-  petsc::check(MatDenseGetArray(Y, &y));
-  const PetscBLASInt m = x.n_rows();
-  const PetscBLASInt n = S.n_cols;
-  const PetscBLASInt k = S.n_rows;
-  const PetscBLASInt ldx = x.leading_dimension();
-  const PetscBLASInt ld = ldy;
-  const PetscScalar one = 1.0;
-  if (m > 0 && n > 0 && k > 0) {
-    BLASgemm_("N", "N", &m, &n, &k, &one, x.values(), &ldx, S.values.data(), &k, &one, y, &ld);
-  }
-  petsc::check(MatDenseRestoreArray(Y, &y));
-}
-
 petsc::Matrix zero_block(Mat like, PetscInt n_columns)
 {
   PetscInt n_local = 0;
@@ -52,23 +31,6 @@ petsc::Matrix zero_block(Mat like, PetscInt n_columns)
   return block;
 }
 
-/// Y <- Y + A S for a sparse A [n_s x n_m] and a small S [n_m x k].
-void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
-{
-  PetscInt first = 0;
-  PetscInt ld = 0;
-  PetscScalar* y = nullptr;
-  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
-  petsc::check(MatDenseGetLDA(Y, &ld));
-  petsc::check(MatDenseGetArray(Y, &y));
-  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
-    for (PetscInt j = 0; j < S.n_cols; ++j) {
-      y[row - first + std::size_t(j) * ld] += value * S(column, j);
-    }
-  });
-  petsc::check(MatDenseRestoreArray(Y, &y));
-}
-
 /// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
 /// and leaving them out avoids the difference of two large forces.
 petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Blocks& M,
@@ -79,16 +41,16 @@ petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Bloc
   const SmallMatrix x_m = rows_of(pairs.X, 0, n_m);
   const SmallMatrix x_q = rows_of(pairs.X, n_m, Q_CB.n_modes());
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
-  if (Q_CB.modes) add_product(Q_CB.modes->Phi, x_q, elastic);
+  if (Q_CB.modes) add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
   petsc::Matrix r = uninitialized_dense(K_ss, pairs.X.n_cols);
   SparseProduct(K_ss).apply(elastic, r);
-  add_product(Q_CB.Psi, x_m, elastic);  // now u_s
+  add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
   petsc::Matrix inertia = uninitialized_dense(K_ss, pairs.X.n_cols);
   SparseProduct(M.ss).apply(elastic, inertia);
   add_sparse_product(M.sm, x_m, inertia);
   SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
   for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
-  add_product(inertia, minus_lambda, r);
+  add_product(1.0, inertia, minus_lambda, r);
   return r;
 }
 
@@ -112,6 +74,7 @@ std::vector<double> error_estimates(const Factorization& K_ss, const CraigBampto
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   std::vector<double> eta2;
   for (PetscInt first = 0; first < n_pairs; first += most) {
+    report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
     const petsc::Matrix r = slave_residual(K_ss.matrix(), Q_CB, M, some);
     const petsc::Matrix z = uninitialized_dense(K_ss.matrix(), some.X.n_cols);

@@ -6,35 +6,82 @@
 #include <string_view>
 
 #include "reduce/mumps_metis.hpp"
+#include "reduce/softest_motion.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
+/// What the analysis found, before any arithmetic.
+void check_memory(Mat factor, MatFactorError error, double budget_MiB)
+{
+  if (error != MAT_FACTOR_OUTMEMORY) return;
+  throw Error(fmt::format(
+      "factorize: the factor of K_ss needs {:.0f} MiB, and {}; use more machines, a coarser mesh, "
+      "fewer masters or modes, or raise -cms_memory",
+      forecast_MiB(factor),
+      budget_MiB > 0.0 ? fmt::format("{:.0f} MiB are free for it", budget_MiB)
+                       : "modes and constraint modes alone need more than there is"));
+}
+
+PetscInt n_negative_pivots(Mat factor)
+{
+  MatSolverType package = nullptr;
+  PetscInt negative = 0;
+  petsc::check(MatFactorGetSolverType(factor, &package));
+  if (std::string_view(package) == MATSOLVERMUMPS || std::string_view(package) == mumps_metis) {
+    petsc::check(MatMumpsGetInfog(factor, 12, &negative));
+  }
+  return negative;
+}
+
+[[noreturn]] void refuse(const std::string& why, PetscInt row)
+{
+  throw FreeMotion(fmt::format("factorize: K_ss is not positive definite ({}); a part of the body "
+                               "can move while all masters are held: connect it to the rest, give "
+                               "it an attachment node, or check for elements without stiffness",
+                               why),
+                   row);
+}
+
+/// Where A without a factor can move: from the factor of A with a larger diagonal; -1 if that has
+/// none either.
+PetscInt row_of_free_motion(Mat A)
+{
+  petsc::Matrix stiffer;
+  petsc::Vector diagonal;
+  petsc::check(MatDuplicate(A, MAT_COPY_VALUES, stiffer.put()));
+  petsc::check(MatCreateVecs(A, diagonal.put(), nullptr));
+  petsc::check(MatGetDiagonal(A, diagonal));
+  constexpr double far_above_round_off = 1e-8;
+  petsc::check(VecScale(diagonal, far_above_round_off));
+  petsc::check(MatDiagonalSet(stiffer, diagonal, ADD_VALUES));
+  petsc::Matrix factor;
+  petsc::check(MatGetFactor(stiffer, mumps_metis, MAT_FACTOR_CHOLESKY, factor.put()));
+  petsc::check(MatCholeskyFactorSymbolic(factor, stiffer, nullptr, nullptr));
+  petsc::check(MatCholeskyFactorNumeric(factor, stiffer, nullptr));
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  petsc::check(MatFactorGetError(factor, &error));
+  if (error != MAT_FACTOR_NOERROR || n_negative_pivots(factor) > 0) return -1;
+  return softest_motion(factor, A).row;
+}
+
 /// K_ss is singular or indefinite exactly when a part of the body can move with all masters held.
-void check_definite(Mat factor, double budget_MiB)
+/// Round-off may hide that from the pivots, but not from the energy of the motion.
+void check_definite(Mat factor, Mat A, double budget_MiB)
 {
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
-  PetscInt negative = 0;
-  MatSolverType package = nullptr;
-  petsc::check(MatFactorGetSolverType(factor, &package));
-  if (error == MAT_FACTOR_NOERROR &&
-      (std::string_view(package) == MATSOLVERMUMPS || std::string_view(package) == mumps_metis)) {
-    petsc::check(MatMumpsGetInfog(factor, 12, &negative));
+  check_memory(factor, error, budget_MiB);
+  if (error != MAT_FACTOR_NOERROR) refuse("zero pivot", row_of_free_motion(A));
+  if (const PetscInt n = n_negative_pivots(factor); n > 0) {
+    refuse(fmt::format("{} negative pivots", n), row_of_free_motion(A));
   }
-  if (error == MAT_FACTOR_OUTMEMORY) {
-    throw Error(fmt::format(
-        "factorize: the factor of K_ss needs {:.0f} MiB, and {:.0f} MiB are free for it; use more "
-        "machines, a coarser mesh, fewer masters or modes, or raise -cms_memory",
-        forecast_MiB(factor), budget_MiB));
-  }
-  if (error != MAT_FACTOR_NOERROR || negative > 0) {
-    throw Error(fmt::format(
-        "factorize: K_ss is not positive definite ({}); a part of the body can move while all "
-        "masters are held: connect it to the rest, give it an attachment node, or check for "
-        "elements without stiffness",
-        negative > 0 ? fmt::format("{} negative pivots", negative) : "zero pivot"));
+  const SoftestMotion softest = softest_motion(factor, A);
+  constexpr double round_off = 32.0 * std::numeric_limits<double>::epsilon();
+  if (softest.stiffness < round_off) {
+    refuse(fmt::format("a motion has a stiffness of {:.0e} of the diagonal", softest.stiffness),
+           softest.row);
   }
 }
 
@@ -90,7 +137,7 @@ Factorization::Factorization(Mat A, double beside_MiB)
   const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
   set_budget(factor(), budget_MiB);
   petsc::check(KSPSetUp(solver_));
-  check_definite(factor(), budget_MiB);
+  check_definite(factor(), A, budget_MiB);
 }
 
 Mat Factorization::factor() const

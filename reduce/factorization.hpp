@@ -1,8 +1,18 @@
 #pragma once
 
+#include <string>
+
+#include "common/error.hpp"
 #include "common/petsc.hpp"
 
 namespace chladni::reduce {
+
+/// A part of the body can move while all masters are held.
+class FreeMotion : public Error {
+ public:
+  FreeMotion(const std::string& message, PetscInt most) : Error(message), row(most) {}
+  PetscInt row;  ///< of the matrix, where the motion is largest; -1 where it is not known
+};
 
 /// The Cholesky factor of a symmetric positive-definite matrix, made once and shared by constraint
 /// modes and eigen-solver. By MUMPS unless the options say otherwise.
@@ -10,8 +20,10 @@ class Factorization {
  public:
   /// @param beside_MiB  memory of this machine that must remain for what comes after.
   /// @note   Collective on the communicator of `A`.
-  /// @throws chladni::Error when `A` is not positive definite, or, before any arithmetic, when the
-  ///         factor does not fit into the memory that is free or that -cms_memory allows.
+  /// @throws FreeMotion when `A` is not positive definite to working precision: a motion z has an
+  ///         energy of round-off, z^T A z < 32 eps z^T diag(A) z.
+  /// @throws chladni::Error, before any arithmetic, when the factor does not fit into the memory
+  ///         that is free or that -cms_memory allows.
   /// Options: `-cms_memory <MiB>`, `-cms_pc_factor_mat_solver_type mumps-metis|mumps|...`,
   /// `-cms_pc_...`, `-cms_mat_mumps_...`
   explicit Factorization(Mat A, double beside_MiB = 0.0);

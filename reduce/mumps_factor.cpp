@@ -19,6 +19,7 @@ constexpr int job_factorize = 2;
 constexpr int job_solve = 3;
 
 // ICNTL, numbered as in MUMPS' manual.
+constexpr int error_stream = 1;
 constexpr int print_level = 4;
 constexpr int ordering = 7;
 constexpr int root_on_one_rank = 13;
@@ -87,6 +88,7 @@ MumpsFactor::MumpsFactor(MPI_Comm comm)
   mumps_.sym = 1;  // positive definite
   mumps_.job = job_begin;
   dmumps_c(&mumps_);
+  set_control(error_stream, 0);  // what went wrong is in INFOG
   set_control(print_level, 0);
   set_control(ordering, 1);  // ours
   set_control(analysis_by_blocks, 0);

@@ -2,134 +2,14 @@
 
 #include <petsc/private/matimpl.h>
 
-#include <exception>
 #include <memory>
-#include <numeric>
 #include <string_view>
 
-#include "reduce/gather.hpp"
-#include "reduce/mumps_factor.hpp"
+#include "reduce/mumps_metis_solve.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-MumpsFactor& factor_of(Mat F)
-{
-  return *static_cast<MumpsFactor*>(F->data);
-}
-
-/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error.
-template <typename Work>
-PetscErrorCode guarded(const Work& work)
-{
-  try {
-    work();
-  } catch (const std::exception& error) {
-    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
-  }
-  return 0;
-}
-
-/// Dense array of the rows of this rank, for writing, as long as it lives.
-class LocalArray {
- public:
-  explicit LocalArray(Mat dense) : dense_(dense)
-  {
-    petsc::check(MatDenseGetLDA(dense_, &columns_.leading_dimension));
-    petsc::check(MatGetSize(dense_, nullptr, &columns_.n_columns));
-    petsc::check(MatDenseGetArray(dense_, &columns_.values));
-  }
-  ~LocalArray() { MatDenseRestoreArray(dense_, &columns_.values); }
-  LocalArray(const LocalArray&) = delete;
-  LocalArray& operator=(const LocalArray&) = delete;
-  LocalColumns columns() const { return columns_; }
-
- private:
-  Mat dense_;
-  LocalColumns columns_{};
-};
-
-PetscErrorCode solve_vector(Mat F, Vec b, Vec x)
-{
-  return guarded([&] {
-    petsc::check(VecCopy(b, x));
-    LocalColumns column{.values = nullptr, .leading_dimension = 0, .n_columns = 1};
-    petsc::check(VecGetLocalSize(x, &column.leading_dimension));
-    petsc::check(VecGetArray(x, &column.values));
-    factor_of(F).solve(column);
-    petsc::check(VecRestoreArray(x, &column.values));
-  });
-}
-
-PetscErrorCode solve_block(Mat F, Mat B, Mat X)
-{
-  return guarded([&] {
-    if (B != X) petsc::check(MatCopy(B, X, SAME_NONZERO_PATTERN));
-    factor_of(F).solve(LocalArray(X).columns());
-  });
-}
-
-/// The rows of B_t as columns, on rank 0.
-SparseColumns columns_of_transpose(Mat B_t)
-{
-  const MPI_Comm comm = petsc::communicator(B_t);
-  PetscInt first = 0, last = 0, n_columns = 0;
-  petsc::check(MatGetOwnershipRange(B_t, &first, &last));
-  petsc::check(MatGetSize(B_t, &n_columns, nullptr));
-  std::vector<int> lengths, rows;
-  std::vector<double> values;
-  for (PetscInt j = first; j < last; ++j) {
-    PetscInt n = 0;
-    const PetscInt* columns = nullptr;
-    const PetscScalar* entries = nullptr;
-    petsc::check(MatGetRow(B_t, j, &n, &columns, &entries));
-    lengths.push_back(n);
-    rows.insert(rows.end(), columns, columns + n);
-    values.insert(values.end(), entries, entries + n);
-    petsc::check(MatRestoreRow(B_t, j, &n, &columns, &entries));
-  }
-  lengths = gather(lengths, MPI_INT, comm);
-  SparseColumns B{.n_columns = n_columns,
-                  .starts = std::vector<int>(lengths.size() + 1, 0),
-                  .rows = gather(rows, MPI_INT, comm),
-                  .values = gather(values, MPI_DOUBLE, comm)};
-  std::inclusive_scan(lengths.begin(), lengths.end(), B.starts.begin() + 1);
-  return B;
-}
-
-/// Columns first to last of B, where it is.
-SparseColumns slice(const SparseColumns& B, int first, int last)
-{
-  SparseColumns part{.n_columns = last - first, .starts = {}, .rows = {}, .values = {}};
-  if (B.starts.size() < 2) return part;  // not on rank 0
-  const int begin = B.starts[first], end = B.starts[last];
-  for (int j = first; j <= last; ++j) part.starts.push_back(B.starts[j] - begin);
-  part.rows.assign(B.rows.begin() + begin, B.rows.begin() + end);
-  part.values.assign(B.values.begin() + begin, B.values.begin() + end);
-  return part;
-}
-
-PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X)
-{
-  return guarded([&] {
-    MumpsFactor& factor = factor_of(F);
-    const SparseColumns B = columns_of_transpose(B_t);
-    const LocalArray array(X);
-    const LocalColumns all = array.columns();
-    constexpr int columns_at_a_time = 27;
-    const int most = petsc::size(petsc::communicator(F)) == 1
-                         ? B.n_columns  // MUMPS works in place, block by block
-                         : std::max(factor.control(columns_at_a_time), 1);
-    for (int first = 0; first < B.n_columns; first += most) {
-      const int last = std::min(first + most, B.n_columns);
-      factor.solve(slice(B, first, last),
-                   {.values = all.values + std::size_t(first) * all.leading_dimension,
-                    .leading_dimension = all.leading_dimension,
-                    .n_columns = last - first});
-    }
-  });
-}
 
 /// What went wrong, in PETSc's words.
 MatFactorError failure(int info)
@@ -298,6 +178,9 @@ void register_mumps_metis()
 {
   static bool registered = false;
   if (registered) return;
+  // PETSc 3.18 reads its list of solvers before it fills it on the first call: it would forget all
+  // of its own ones where this is that call, as under -dll_append.
+  petsc::check(MatInitializePackage());
   for (const MatType type : {MATSEQAIJ, MATMPIAIJ}) {
     petsc::check(MatSolverTypeRegister(mumps_metis, type, MAT_FACTOR_CHOLESKY, create_factor));
   }

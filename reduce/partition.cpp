@@ -86,6 +86,18 @@ DofPartition partition(Mat K, IS masters)
   return dofs;
 }
 
+PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row)
+{
+  const MPI_Comm comm = petsc::communicator(dofs.slaves);
+  const std::vector<PetscInt> own = sorted_indices(dofs.slaves);
+  auto first = static_cast<PetscInt>(own.size());
+  MPI_Exscan(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_SUM, comm);
+  if (petsc::rank(comm) == 0) first = 0;
+  PetscInt dof = row >= first && row < first + std::ssize(own) ? own[row - first] : -1;
+  MPI_Allreduce(MPI_IN_PLACE, &dof, 1, MPIU_INT, MPI_MAX, comm);
+  return dof;
+}
+
 Blocks split(Mat A, const DofPartition& dofs)
 {
   return {.mm = submatrix(A, dofs.masters, dofs.masters),

@@ -21,6 +21,10 @@ struct Blocks {
 /// double.
 DofPartition partition(Mat K, IS masters);
 
+/// The global DOF of a row of the blocks ss, on every rank.
+/// @note   Collective.
+PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row);
+
 /// @note   Collective on the communicator of `A`.
 Blocks split(Mat A, const DofPartition& dofs);
 

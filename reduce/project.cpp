@@ -1,14 +1,16 @@
 #include <algorithm>
+#include <cmath>
 
-#include "reduce/craig_bampton.hpp"
+#include "reduce/block_basis.hpp"
+#include "reduce/guyan.hpp"
+#include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-constexpr PetscInt block_columns =
-    64;  // of M_ss Psi at a time: bounds the memory, enough for dgemm
+constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough for dgemm
 
 /// From above in the columns of `to` from first_column on.
 void copy_columns(SmallMatrix& to, PetscInt first_column, const SmallMatrix& from)
@@ -25,60 +27,6 @@ void mirror_upper_triangle(SmallMatrix& A)
   }
 }
 
-/// X^T M_ss Psi, block by block, for X = Psi and X = Phi.
-struct MassProducts {
-  SmallMatrix Psi_M_Psi;  ///< [n_m x n_m]
-  SmallMatrix Phi_M_Psi;  ///< [n_CB x n_m]
-};
-
-MassProducts mass_products(const CraigBamptonBasis& Q_CB, Mat M_ss)
-{
-  PetscInt n_m = 0;
-  petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
-  MassProducts products{.Psi_M_Psi = {n_m, n_m}, .Phi_M_Psi = {Q_CB.n_modes(), n_m}};
-  const SparseProduct product(M_ss);
-  for (PetscInt first = 0; first < n_m; first += block_columns) {
-    const PetscInt last = std::min(first + block_columns, n_m);
-    const petsc::Matrix M_Psi = uninitialized_dense(M_ss, last - first);
-    product.apply(ColumnRange(Q_CB.Psi, first, last), M_Psi);
-    // The upper triangle of Psi^T M Psi is enough.
-    copy_columns(products.Psi_M_Psi, first, inner_product(ColumnRange(Q_CB.Psi, 0, last), M_Psi));
-    if (Q_CB.modes) {
-      copy_columns(products.Phi_M_Psi, first, inner_product(Q_CB.modes->Phi, M_Psi));
-    }
-  }
-  mirror_upper_triangle(products.Psi_M_Psi);
-  return products;
-}
-
-/// K_G = K_mm + K_ms Psi, symmetric to the last bit.
-SmallMatrix guyan_stiffness(const CraigBamptonBasis& Q_CB, const Blocks& K)
-{
-  SmallMatrix K_G = replicate(K.mm);
-  const SmallMatrix Psi_K_sm = inner_product_sparse(Q_CB.Psi, K.sm);
-  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
-    for (PetscInt i = 0; i <= j; ++i) {
-      const double mean = 0.5 * (K_G(i, j) + K_G(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
-      K_G(i, j) = K_G(j, i) = mean;
-    }
-  }
-  return K_G;
-}
-
-SmallMatrix guyan_mass(const MassProducts& products, const CraigBamptonBasis& Q_CB, const Blocks& M)
-{
-  SmallMatrix M_G = replicate(M.mm);
-  const SmallMatrix Psi_M_sm = inner_product_sparse(Q_CB.Psi, M.sm);
-  for (PetscInt j = 0; j < M_G.n_cols; ++j) {
-    for (PetscInt i = 0; i <= j; ++i) {
-      const double Psi_M_Psi = 0.5 * (products.Psi_M_Psi(i, j) + products.Psi_M_Psi(j, i));
-      const double M_mm = 0.5 * (M_G(i, j) + M_G(j, i));
-      M_G(i, j) = M_G(j, i) = M_mm + Psi_M_sm(i, j) + Psi_M_sm(j, i) + Psi_M_Psi;
-    }
-  }
-  return M_G;
-}
-
 void set_leading_block(SmallMatrix& A, const SmallMatrix& block)
 {
   for (PetscInt j = 0; j < block.n_cols; ++j) {
@@ -86,29 +34,135 @@ void set_leading_block(SmallMatrix& A, const SmallMatrix& block)
   }
 }
 
+/// Calls with the first and the last + 1 of some columns, block after block.
+template <typename Work>
+void for_column_blocks(PetscInt n_columns, const Work& work)
+{
+  for (PetscInt first = 0; first < n_columns; first += block_columns) {
+    work(first, std::min(first + block_columns, n_columns));
+  }
+}
+
+PetscInt n_columns(Mat A)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, nullptr, &n));
+  return n;
+}
+
+/// K_G without what round-off leaves of K_mm where K_G resists nothing: eigenvalues, scaled by the
+/// diagonal of K_mm, below 1e-12 and of either sign. The softest plates keep 1e-10 of it; a body
+/// with a single attachment node has nothing but round-off in K_G.
+SmallMatrix without_round_off(SmallMatrix K_G, const SmallMatrix& K_mm)
+{
+  constexpr double round_off = 1e-12;
+  const auto scale = [&](PetscInt i) { return std::sqrt(std::max(K_mm(i, i), 0.0)); };
+  SmallMatrix scaled = K_G;
+  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+    for (PetscInt i = 0; i < K_G.n_rows; ++i) {
+      const double product = scale(i) * scale(j);
+      scaled(i, j) = product > 0.0 ? K_G(i, j) / product : 0.0;
+    }
+  }
+  const SymmetricEigen eigen = symmetric_eigen(std::move(scaled));
+  for (PetscInt k = 0; k < K_G.n_cols; ++k) {
+    if (std::abs(eigen.values[k]) > round_off) continue;
+    for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+      for (PetscInt i = 0; i < K_G.n_rows; ++i) {
+        K_G(i, j) -=
+            scale(i) * eigen.vectors(i, k) * eigen.values[k] * eigen.vectors(j, k) * scale(j);
+      }
+    }
+  }
+  return K_G;
+}
+
+/// Psi^T M_ss Psi
+SmallMatrix slave_mass(Mat Psi, Mat M_ss)
+{
+  const PetscInt n_m = n_columns(Psi);
+  SmallMatrix Psi_M_Psi(n_m, n_m);
+  const SparseProduct product(M_ss);
+  for_column_blocks(n_m, [&](PetscInt first, PetscInt last) {
+    report_progress(double(first) / n_m);
+    const petsc::Matrix M_Psi = uninitialized_dense(M_ss, last - first);
+    product.apply(ColumnRange(Psi, first, last), M_Psi);
+    // The upper triangle of Psi^T M Psi is enough.
+    copy_columns(Psi_M_Psi, first, inner_product(ColumnRange(Psi, 0, last), M_Psi));
+  });
+  mirror_upper_triangle(Psi_M_Psi);
+  return Psi_M_Psi;
+}
+
 }  // namespace
 
-ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M)
+SmallMatrix guyan_stiffness(Mat Psi, const Blocks& K)
 {
-  const MassProducts products = mass_products(Q_CB, M.ss);
-  const PetscInt n_m = products.Psi_M_Psi.n_rows;
-  const PetscInt n_q = Q_CB.n_modes();
-  ReducedModel reduced{
-      .K = {n_m + n_q, n_m + n_q}, .M = {n_m + n_q, n_m + n_q}, .n_masters = n_m, .omega = {}};
-  set_leading_block(reduced.K, guyan_stiffness(Q_CB, K));
-  set_leading_block(reduced.M, guyan_mass(products, Q_CB, M));
-  if (!Q_CB.modes) return reduced;
-  reduced.omega = Q_CB.modes->omega;
-  const SmallMatrix Phi_M_sm = inner_product_sparse(Q_CB.modes->Phi, M.sm);
+  SmallMatrix K_G = replicate(K.mm);
+  const SmallMatrix Psi_K_sm = inner_product_sparse(Psi, K.sm);
+  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+    for (PetscInt i = 0; i <= j; ++i) {
+      const double mean = 0.5 * (K_G(i, j) + K_G(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
+      K_G(i, j) = K_G(j, i) = mean;
+    }
+  }
+  return without_round_off(std::move(K_G), replicate(K.mm));
+}
+
+SmallMatrix guyan_mass(Mat Psi, const Blocks& M)
+{
+  const SmallMatrix Psi_M_Psi = slave_mass(Psi, M.ss);
+  SmallMatrix M_G = replicate(M.mm);
+  const SmallMatrix Psi_M_sm = inner_product_sparse(Psi, M.sm);
+  for (PetscInt j = 0; j < M_G.n_cols; ++j) {
+    for (PetscInt i = 0; i <= j; ++i) {
+      const double M_mm = 0.5 * (M_G(i, j) + M_G(j, i));
+      M_G(i, j) = M_G(j, i) = M_mm + Psi_M_sm(i, j) + Psi_M_sm(j, i) + Psi_M_Psi(i, j);
+    }
+  }
+  return M_G;
+}
+
+SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
+{
+  SmallMatrix P = inner_product_sparse(Phi, M.sm);
+  const SparseProduct product(M.ss);
+  for_column_blocks(n_columns(Phi), [&](PetscInt first, PetscInt last) {
+    const petsc::Matrix M_Phi = uninitialized_dense(M.ss, last - first);
+    product.apply(ColumnRange(Phi, first, last), M_Phi);
+    const SmallMatrix rows = inner_product(M_Phi, Psi);
+    for (PetscInt j = 0; j < P.n_cols; ++j) {
+      for (PetscInt k = first; k < last; ++k) P(k, j) += rows(k - first, j);
+    }
+  });
+  return P;
+}
+
+ReducedModel join(const SmallMatrix& K_G, const SmallMatrix& M_G, const SmallMatrix& P,
+                  std::vector<double> omega)
+{
+  const PetscInt n_m = K_G.n_rows;
+  const auto n_q = static_cast<PetscInt>(omega.size());
+  ReducedModel reduced{.K = {n_m + n_q, n_m + n_q},
+                       .M = {n_m + n_q, n_m + n_q},
+                       .n_masters = n_m,
+                       .omega = std::move(omega)};
+  set_leading_block(reduced.K, K_G);
+  set_leading_block(reduced.M, M_G);
   for (PetscInt k = 0; k < n_q; ++k) {
     reduced.K(n_m + k, n_m + k) = reduced.omega[k] * reduced.omega[k];
     reduced.M(n_m + k, n_m + k) = 1.0;
-    for (PetscInt j = 0; j < n_m; ++j) {
-      const double P_kj = products.Phi_M_Psi(k, j) + Phi_M_sm(k, j);
-      reduced.M(n_m + k, j) = reduced.M(j, n_m + k) = P_kj;
-    }
+    for (PetscInt j = 0; j < n_m; ++j) reduced.M(n_m + k, j) = reduced.M(j, n_m + k) = P(k, j);
   }
   return reduced;
+}
+
+ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M)
+{
+  const SmallMatrix K_G = guyan_stiffness(Q_CB.Psi, K);
+  const SmallMatrix M_G = guyan_mass(Q_CB.Psi, M);
+  if (!Q_CB.modes) return join(K_G, M_G, {0, 0}, {});
+  return join(K_G, M_G, inertial_coupling(Q_CB.modes->Phi, Q_CB.Psi, M), Q_CB.modes->omega);
 }
 
 }  // namespace chladni::reduce

@@ -4,7 +4,7 @@
 
 namespace chladni::reduce {
 
-enum class Method { guyan, craig_bampton };
+enum class Method { guyan, craig_bampton, rubin, macneal };
 
 /// As few fixed-interface modes as keep the estimated relative error eta^2 of omega^2 of each mode
 /// of the supported body up to a frequency below a tolerance.
@@ -13,7 +13,8 @@ struct ModesByTolerance {
   double up_to_Hz;
 };
 
-/// How many fixed-interface modes: exactly one member is set (none for Guyan).
+/// How many fixed-interface modes, or free-interface ones of Rubin and MacNeal, which know no
+/// tolerance: exactly one member is set (none for Guyan).
 struct ReduceOptions {
   Method method = Method::craig_bampton;
   std::optional<int> modes = {};

@@ -31,6 +31,15 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
   return state;
 }
 
+/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
+inline double pressure(const PadContact& pad, const PadState<double>& state,
+                       const PlateMotion<double>& plate, double sigma)
+{
+  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
+  return 1.0 +
+         sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
+}
+
 /// The force at a point pair, each pad on its branch: upper, lower.
 template <class Scalar>
 PairVector<Scalar> force_on_branch(const BrakePoint& point, const RingMotion<Scalar>& m,

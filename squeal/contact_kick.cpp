@@ -5,15 +5,15 @@ namespace chladni::squeal {
 ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       G_(disc.G.isZero(0.0) ? Eigen::MatrixXd() : disc.G),
-      ring_(disc),
-      pads_(pad_system(options, disc.radius)),
+      rings_(disc.rings.begin(), disc.rings.end()),
+      pads_(pad_system(options, ring_places(disc))),
       position_(pads_.points.size()),
       contacts_(pads_.points.size()),
       Q_(disc.n_modes() + pads_.n_modes()),
       v_mid_(Q_.size())
 {
   for (const PointPair& point : pads_.points) {
-    shapes_.push_back(pair_shapes(ring_.at(point.angle), pads_, point));
+    shapes_.push_back(pair_shapes(rings_[point.ring].at(point.angle), pads_, point));
     at_rest_.push_back(pad_state(point.contact, RingMotion<double>{}, speed, 1.0));
   }
 }
@@ -23,7 +23,8 @@ const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, cons
 {
   speed_ = turn.speed;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - turn.angle);
+    const PointPair& point = pads_.points[i];
+    const Eigen::MatrixX3d& S = rings_[point.ring].at(point.angle - turn.angle);
     shapes_[i].topLeftCorner(S.rows(), 3) = S;
     position_[i].noalias() = shapes_[i].transpose() * x.q;
   }

@@ -40,7 +40,7 @@ class ContactKick {
 
   double speed_;       ///< at the last kick, rad/s
   Eigen::MatrixXd G_;  ///< of the disc; see Disc
-  RingShapes ring_;
+  std::vector<RingShapes> rings_;
   PadSystem pads_;
   std::vector<PairShapes> shapes_;               ///< of each point at this instant
   std::vector<PairVector<double>> position_;     ///< of each point at this instant

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "squeal/analysis_file.hpp"
+#include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -32,9 +33,25 @@ constexpr Column columns[] = {{"speeds", "rad/s", &BranchPoint::speed},
                               {"N_max", "N", &BranchPoint::N_max},
                               {"largest_multiplier", "1", &BranchPoint::largest_multiplier}};
 
-std::string path_of(const Column& column)
+void write_points(Writer& file, const std::string& group, const std::vector<BranchPoint>& points)
 {
-  return std::string("limit_cycle_branch/") + column.name;
+  for (const Column& column : columns) {
+    std::vector<double> values;
+    for (const BranchPoint& point : points) values.push_back(point.*column.member);
+    file.write(group + column.name, values, column.unit);
+  }
+}
+
+std::vector<BranchPoint> read_points(const Reader& file, const std::string& group)
+{
+  const Eigen::Index n = file.vector(group + columns[0].name).size();
+  std::vector<BranchPoint> points(static_cast<std::size_t>(n));
+  for (const Column& column : columns) {
+    const Eigen::VectorXd values = file.vector(group + column.name, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      points[static_cast<std::size_t>(i)].*column.member = values[i];
+  }
+  return points;
 }
 
 }  // namespace
@@ -64,6 +81,7 @@ DirectLimitCycle read_direct(const Reader& file)
 {
   const auto numbers = file.integers("limit_cycle_direct/mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());
+  const Eigen::Index size = file.vector("limit_cycle_direct/x").size();
   return {.speed = file.real("limit_cycle_direct/speed"),
           .frequency_Hz = file.real("limit_cycle_direct/frequency"),
           .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
@@ -71,12 +89,12 @@ DirectLimitCycle read_direct(const Reader& file)
           .N_min = file.real("limit_cycle_direct/N_min"),
           .N_max = file.real("limit_cycle_direct/N_max"),
           .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
-          .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", 2 * n),
-                                        file.vector("limit_cycle_direct/multipliers_im", 2 * n)),
+          .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", size),
+                                        file.vector("limit_cycle_direct/multipliers_im", size)),
           .stable = file.integer("limit_cycle_direct/stable") != 0,
           .n_newton_steps = static_cast<int>(file.integer("limit_cycle_direct/newton_steps")),
           .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
-          .x = file.vector("limit_cycle_direct/x", 2 * n),
+          .x = file.vector("limit_cycle_direct/x"),
           .mode_numbers = {numbers.begin(), numbers.end()},
           .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
                                       file.vector("limit_cycle_direct/amplitude_im", n)),
@@ -85,26 +103,20 @@ DirectLimitCycle read_direct(const Reader& file)
 
 void write_branch(Writer& file, const LimitCycleBranch& branch)
 {
-  for (const Column& column : columns) {
-    std::vector<double> values;
-    for (const BranchPoint& point : branch.points) values.push_back(point.*column.member);
-    file.write(path_of(column), values, column.unit);
-  }
-  if (branch.lost_below) file.write("limit_cycle_branch/lost_below", *branch.lost_below, "rad/s");
+  write_points(file, "limit_cycle_branch/", branch.points);
+  if (!branch.folds.empty()) write_points(file, "limit_cycle_branch/folds/", branch.folds);
+  write_optional(file, "limit_cycle_branch/lost_below", branch.lost_below, "rad/s");
+  write_optional(file, "limit_cycle_branch/lost_above", branch.lost_above, "rad/s");
 }
 
 LimitCycleBranch read_branch(const Reader& file)
 {
   LimitCycleBranch branch;
-  const Eigen::Index n = file.vector(path_of(columns[0])).size();
-  branch.points.resize(static_cast<std::size_t>(n));
-  for (const Column& column : columns) {
-    const Eigen::VectorXd values = file.vector(path_of(column), n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      branch.points[static_cast<std::size_t>(i)].*column.member = values[i];
-  }
-  if (file.contains("limit_cycle_branch/lost_below"))
-    branch.lost_below = file.real("limit_cycle_branch/lost_below");
+  branch.points = read_points(file, "limit_cycle_branch/");
+  if (file.contains("limit_cycle_branch/folds"))
+    branch.folds = read_points(file, "limit_cycle_branch/folds/");
+  branch.lost_below = read_optional(file, "limit_cycle_branch/lost_below");
+  branch.lost_above = read_optional(file, "limit_cycle_branch/lost_above");
   return branch;
 }
 

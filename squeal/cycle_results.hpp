@@ -69,11 +69,15 @@ struct BranchPoint {
   double largest_multiplier;  ///< modulus, without the one along the cycle
 };
 
-/// Limit cycles over the speed, by rising speed.
+/// Limit cycles over the speed, in the order along their branch.
 struct LimitCycleBranch {
   std::vector<BranchPoint> points;
-  /// The cycle could not be followed below this speed, rad/s, though the disc is unstable there.
-  std::optional<double> lost_below;
+  /// Where the branch turns back: beyond such a speed two cycles, mostly a stable and an unstable
+  /// one, have met and vanished.
+  std::vector<BranchPoint> folds = {};
+  /// The branch could not be followed from this speed (rad/s) to lower, or to higher ones.
+  std::optional<double> lost_below = {};
+  std::optional<double> lost_above = {};
 };
 
 }  // namespace chladni::squeal

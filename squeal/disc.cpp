@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
+#include "mbs_export/mass_integrals.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -39,20 +40,34 @@ void check_ring(const ModalBody& body, const ContactRing& ring)
                               values->rows(), values->cols(), n, body.n_modes()));
 }
 
-Disc disc_of_all_modes(const ModalBody& body, const ContactRing& ring)
+DiscRing ring_of(const ModalBody& body, const std::string& name)
 {
+  const ContactRing& ring = mbs_export::find_ring(body, name);
+  check_ring(body, ring);
+  return {.name = name,
+          .radius = ring.radius,
+          .W = harmonics_of(ring.angles, ring.W),
+          .W_r = harmonics_of(ring.angles, ring.W_r),
+          .W_t = harmonics_of(ring.angles, ring.W_t)};
+}
+
+/// int rho phi_i . (e_z x phi_j) dV when the body has the integrals, else zero.
+Eigen::MatrixXd coriolis_of(const ModalBody& body)
+{
+  if (!body.mass_integrals) return Eigen::MatrixXd::Zero(body.n_modes(), body.n_modes());
+  return 0.5 * mbs_export::gyroscopic_matrix(*body.mass_integrals, Eigen::Vector3d::UnitZ());
+}
+
+Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& names)
+{
+  std::vector<DiscRing> rings;
+  for (const std::string& name : names) rings.push_back(ring_of(body, name));
   std::vector<int> numbers(static_cast<std::size_t>(body.n_modes()));
   std::iota(numbers.begin(), numbers.end(), 1);
   const Eigen::MatrixXd C =
       body.C.size() > 0 ? body.C : Eigen::MatrixXd::Zero(body.n_modes(), body.n_modes());
-  return {.radius = ring.radius,
-          .mode_numbers = numbers,
-          .omega = body.omega,
-          .C = C,
-          .G = Eigen::MatrixXd::Zero(body.n_modes(), body.n_modes()),
-          .W = harmonics_of(ring.angles, ring.W),
-          .W_r = harmonics_of(ring.angles, ring.W_r),
-          .W_t = harmonics_of(ring.angles, ring.W_t)};
+  return {
+      .rings = rings, .mode_numbers = numbers, .omega = body.omega, .C = C, .G = coriolis_of(body)};
 }
 
 Eigen::MatrixXd squared_amplitudes(const Harmonics& f)
@@ -60,11 +75,17 @@ Eigen::MatrixXd squared_amplitudes(const Harmonics& f)
   return f.cosine.cwiseAbs2() + f.sine.cwiseAbs2();
 }
 
-/// Squared amplitude of each harmonic of each mode, slopes multiplied by the radius.
+/// Squared amplitude of each harmonic of each mode on all rings, slopes multiplied by the radius.
 Eigen::MatrixXd ring_motion(const Disc& disc)
 {
-  return squared_amplitudes(disc.W) +
-         disc.radius * disc.radius * (squared_amplitudes(disc.W_r) + squared_amplitudes(disc.W_t));
+  Eigen::Index n_orders = 0;
+  for (const DiscRing& ring : disc.rings) n_orders = std::max(n_orders, ring.W.cosine.rows());
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(n_orders, disc.n_modes());
+  for (const DiscRing& ring : disc.rings)
+    motion.topRows(ring.W.cosine.rows()) +=
+        squared_amplitudes(ring.W) +
+        ring.radius * ring.radius * (squared_amplitudes(ring.W_r) + squared_amplitudes(ring.W_t));
+  return motion;
 }
 
 /// 0-based modes that move the ring along the axis.
@@ -142,14 +163,15 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
   std::vector<int> numbers;
   numbers.reserve(modes.size());
   for (const int i : modes) numbers.push_back(all.mode_numbers[static_cast<std::size_t>(i)]);
-  return {.radius = all.radius,
+  std::vector<DiscRing> rings;
+  for (const DiscRing& ring : all.rings)
+    rings.push_back({ring.name, ring.radius, columns(ring.W, modes), columns(ring.W_r, modes),
+                     columns(ring.W_t, modes)});
+  return {.rings = rings,
           .mode_numbers = numbers,
           .omega = all.omega(modes),
           .C = all.C(modes, modes),
-          .G = all.G(modes, modes),
-          .W = columns(all.W, modes),
-          .W_r = columns(all.W_r, modes),
-          .W_t = columns(all.W_t, modes)};
+          .G = all.G(modes, modes)};
 }
 
 }  // namespace
@@ -190,30 +212,58 @@ std::vector<int> nodal_diameters(const Disc& disc)
   return n;
 }
 
-Disc make_disc(const ModalBody& body, const std::string& ring_name, const ModeChoice& choice)
+Disc make_disc(const ModalBody& body, const std::string& ring, const ModeChoice& modes)
 {
-  const ContactRing& ring = mbs_export::find_ring(body, ring_name);
-  check_ring(body, ring);
-  const Disc all = disc_of_all_modes(body, ring);
+  return make_disc(body, std::vector{ring}, modes);
+}
+
+std::vector<std::string> ring_names(const SquealOptions& options)
+{
+  std::vector<std::string> names{options.ring};
+  for (const PadPair& pad : options.pads) {
+    if (!pad.grid) continue;
+    for (const std::string& name : pad.grid->rings)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<RingPlace> ring_places(const Disc& disc)
+{
+  std::vector<RingPlace> places;
+  for (const DiscRing& ring : disc.rings) places.push_back({ring.name, ring.radius});
+  return places;
+}
+
+Disc make_disc(const ModalBody& body, const std::vector<std::string>& names,
+               const ModeChoice& choice)
+{
+  const Disc all = disc_of_all_modes(body, names);
   if (!(ring_motion(all).maxCoeff() > 0.0))
     throw Error(
         fmt::format("ring '{}': no mode of the body moves it along the axis; it is held, or "
                     "the body has no bending modes",
-                    ring_name));
+                    fmt::join(names, "', '")));
   const std::vector<int> modes = chosen_modes(all, choice);
   check_elastic(body, modes);
   return with_modes(all, modes);
 }
 
-Shapes shapes_at(const Disc& disc, double theta)
+Shapes shapes_at(const DiscRing& ring, double theta)
 {
-  const Eigen::ArrayXd phase = theta * Eigen::ArrayXd::LinSpaced(disc.W.cosine.rows(), 0.0,
-                                                                 double(disc.W.cosine.rows() - 1));
+  const Eigen::Index n_orders = ring.W.cosine.rows();
+  const Eigen::ArrayXd phase =
+      theta * Eigen::ArrayXd::LinSpaced(n_orders, 0.0, double(n_orders - 1));
   const Eigen::VectorXd c = phase.cos(), s = phase.sin();
   const auto at = [&](const Harmonics& f) -> Eigen::VectorXd {
     return f.cosine.transpose() * c + f.sine.transpose() * s;
   };
-  return {at(disc.W), at(disc.W_r), at(disc.W_t)};
+  return {at(ring.W), at(ring.W_r), at(ring.W_t)};
+}
+
+Shapes shapes_at(const Disc& disc, double theta)
+{
+  return shapes_at(disc.rings.front(), theta);
 }
 
 }  // namespace chladni::squeal

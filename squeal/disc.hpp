@@ -31,32 +31,55 @@ struct Harmonics {
   Eigen::MatrixXd sine;    ///< [n/2 + 1 x n_modes]
 };
 
+/// A contact ring and the mode shapes along it.
+struct DiscRing {
+  std::string name;
+  double radius;  ///< m
+  Harmonics W;    ///< m per unit of q
+  Harmonics W_r;  ///< rad per unit of q
+  Harmonics W_t;  ///< rad per unit of q
+};
+
+/// Name and radius (m) of a contact ring.
+struct RingPlace {
+  std::string name;
+  double radius;
+};
+
 /// The disc of a squeal study, in the frame that rotates with it:
-/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes along one contact ring.
+/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes along its contact rings, of
+/// which the first is that of pads without a grid.
 struct Disc {
-  double radius;                  ///< of the contact ring, m
+  std::vector<DiscRing> rings;
   std::vector<int> mode_numbers;  ///< [n_modes] 1-based in the body
   Eigen::VectorXd omega;          ///< [n_modes] rad/s
   Eigen::MatrixXd C;              ///< [n_modes x n_modes] 1/s, zero when undamped
   /// [n_modes x n_modes] 1, skew: G_ij = int rho phi_i . (e_z x phi_j) dV, by which Coriolis forces
-  /// add 2 Omega G q'. `make_disc` leaves it zero, since a modal body does not hold it.
+  /// add 2 Omega G q'. Zero when the body does not hold it.
   Eigen::MatrixXd G;
-  Harmonics W;    ///< m per unit of q
-  Harmonics W_r;  ///< rad per unit of q
-  Harmonics W_t;  ///< rad per unit of q
 
   Eigen::Index n_modes() const { return omega.size(); }
 };
 
-/// The disc of `body` that touches the pads at the ring called `ring`. With no choice or a choice
+/// The disc of `body` that touches the pads at the rings of these names. With no choice or a choice
 /// by nodal diameters, modes that do not move the ring along the axis are left out: no pad sees
 /// them.
-/// @throws chladni::Error for an unknown ring, a mode number out of range or given twice, a number
+/// @throws chladni::Error for an unknown ring, two rings of one name, a mode number out of range or
+/// given twice, a number
 ///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),
 ///         and modes that do not move the ring.
+Disc make_disc(const mbs_export::ModalBody& body, const std::vector<std::string>& rings,
+               const ModeChoice& modes);
 Disc make_disc(const mbs_export::ModalBody& body, const std::string& ring, const ModeChoice& modes);
 
-/// Shapes at the angle `theta` (rad) of the disc, exact for harmonics below half the ring nodes.
+/// The ring of the study, then those that the grids of its pads name beside it.
+std::vector<std::string> ring_names(const SquealOptions& options);
+
+std::vector<RingPlace> ring_places(const Disc& disc);
+
+/// Shapes at the angle `theta` (rad) of a ring, exact for harmonics below half its nodes.
+Shapes shapes_at(const DiscRing& ring, double theta);
+/// On the first ring.
 Shapes shapes_at(const Disc& disc, double theta);
 
 /// Trigonometric interpolation of the columns of `values` [n x n_modes], which are given at the
@@ -64,7 +87,7 @@ Shapes shapes_at(const Disc& disc, double theta);
 /// @throws chladni::Error when the angles are not equally spaced over the circle.
 Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& values);
 
-/// The dominant harmonic of each mode along the ring, i.e. its number of nodal diameters.
+/// The dominant harmonic of each mode along the rings, i.e. its number of nodal diameters.
 std::vector<int> nodal_diameters(const Disc& disc);
 
 }  // namespace chladni::squeal

@@ -32,7 +32,7 @@ double vertex(double left, double middle, double right)
 
 }  // namespace
 
-DormandPrince::DormandPrince(Motion& motion, double t, const Eigen::VectorXd& y,
+DormandPrince::DormandPrince(SwitchedMotion& motion, double t, const Eigen::VectorXd& y,
                              const StepControl& control)
     : motion_(motion),
       control_(control),
@@ -58,6 +58,13 @@ const Eigen::VectorXd& DormandPrince::at(double t)
   if (t >= t_ || step_ == 0.0) return y_;
   if (!extended_) extend();
   return interpolated((t - t_begin_) / step_);
+}
+
+DormandPrince::Span DormandPrince::next_step()
+{
+  const double before = t_;
+  advance();
+  return {before, t_};
 }
 
 const Eigen::VectorXd& DormandPrince::slope(int stage, const Eigen::VectorXd& y)

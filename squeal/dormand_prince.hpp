@@ -15,10 +15,18 @@ namespace chladni::squeal {
 class DormandPrince final : public Integrator {
  public:
   /// @param motion  outlives the integrator, which sets its sides
-  DormandPrince(Motion& motion, double t, const Eigen::VectorXd& y, const StepControl& control);
+  DormandPrince(SwitchedMotion& motion, double t, const Eigen::VectorXd& y,
+                const StepControl& control);
 
   /// @throws chladni::Error when the sides change again and again without progress in time.
   const Eigen::VectorXd& at(double t) override;
+
+  /// Takes one more step, between `begin` and `end` of which `at` then interpolates. The sides of
+  /// the motion are those of the next step.
+  struct Span {
+    double begin, end;  ///< s
+  };
+  Span next_step();
 
   /// Zeros of the switching functions so far, by rising time.
   const std::vector<SwitchEvent>& events() const { return events_; }
@@ -41,7 +49,7 @@ class DormandPrince final : public Integrator {
   std::optional<Crossing> first_crossing();
   std::optional<double> crossing_of(Eigen::Index i, const Eigen::MatrixXd& samples);
 
-  Motion& motion_;
+  SwitchedMotion& motion_;
   StepControl control_;
   double t_;           ///< end of the last accepted step, s
   double t_begin_;     ///< its begin, s

@@ -9,7 +9,7 @@ namespace chladni::squeal {
 
 ExponentialFlow::ExponentialFlow(const InertialDisc& disc, const SquealOptions& options,
                                  double speed, double step)
-    : speed_(speed), step_(step), pads_(pad_system(options, disc.radius))
+    : speed_(speed), step_(step), pads_(pad_system(options, ring_places(disc)))
 {
   const Eigen::MatrixXd A = state_matrix(disc, options, speed);
   half_ = (0.5 * step * A).exp();
@@ -18,7 +18,8 @@ ExponentialFlow::ExponentialFlow(const InertialDisc& disc, const SquealOptions& 
   p_mid_.resize(A.rows() / 2);
   const Eigen::VectorXd omega = with_pads(disc, pads_).omega;
   for (const PointPair& point : pads_.points) {
-    BrakePoint at = brake_point(matrix_of(shapes_at(disc, point.angle)), pads_, point, speed);
+    BrakePoint at = brake_point(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)),
+                                pads_, point, speed);
     const PairShapes S_by_omega = omega.cwiseInverse().asDiagonal() * at.S;
     const PairDerivatives D = pair_derivatives(point.contact, speed, static_cast<int>(at.S.cols()));
     points_.push_back({std::move(at), S_by_omega, D});

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -28,23 +26,6 @@ constexpr double converged = 1e-13;
 constexpr double difference = 1e-5;
 /// Largest real part that rounding can make of a zero, relative to the eigenvalue.
 constexpr double rounding = 1e-12;
-
-/// The eigenvalue with the largest real part among those with Im >= 0, and its eigenvector.
-struct LeastStable {
-  Complex lambda;
-  Eigen::VectorXcd u;
-};
-
-LeastStable least_stable(const Eigen::MatrixXd& A)
-{
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
-  if (solver.info() != Eigen::Success)
-    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
-  const Complex expected = least_stable_eigenvalue(A);
-  Eigen::Index i = 0;
-  (solver.eigenvalues().array() - expected).abs().minCoeff(&i);
-  return {solver.eigenvalues()[i], solver.eigenvectors().col(i).normalized()};
-}
 
 /// g and its derivatives at (value, omega).
 struct Bordered {
@@ -73,14 +54,6 @@ Bordered bordered(const StateMatrixOf& A, double value, double omega,
   return {x[n], w.dot(i * u) / scale, -w.dot(A_value * u) / scale, u};
 }
 
-StateMatrixOf matrix_over(const InertialDisc& disc, const SquealOptions& options,
-                          const CriticalCase& search)
-{
-  return [&disc, &options, search](double value) {
-    return state_matrix(disc, with_parameter(options, search.parameter, value), search.speed);
-  };
-}
-
 }  // namespace
 
 std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
@@ -104,10 +77,8 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
   return std::nullopt;
 }
 
-CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
-                             const CriticalCase& search)
+CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search)
 {
-  const StateMatrixOf A = matrix_over(disc, options, search);
   CriticalValue result{.parameter = name_of(search.parameter),
                        .speed = search.speed,
                        .value = {},
@@ -115,7 +86,7 @@ CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& opti
                        .n_newton_steps = 0};
   std::optional<bool> was_stable;
   for (const double value : Eigen::VectorXd::LinSpaced(n_scanned, search.from, search.to)) {
-    const LeastStable now = least_stable(A(value));
+    const EigenPair now = least_stable_pair(A(value));
     if (std::abs(now.lambda.real()) <= rounding * std::abs(now.lambda)) continue;
     const bool stable = now.lambda.real() < 0.0;
     const bool lost = was_stable && *was_stable != stable;
@@ -133,6 +104,15 @@ CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& opti
     break;
   }
   return result;
+}
+
+CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
+                             const CriticalCase& search)
+{
+  const auto A = [&](double value) {
+    return state_matrix(disc, with_parameter(options, search.parameter, value), search.speed);
+  };
+  return critical_value(A, search);
 }
 
 }  // namespace chladni::squeal

@@ -35,8 +35,10 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
 /// The first value of the range at which the sliding disc loses its stability, at the speed of the
 /// search: its eigenvalues are looked at for 64 values, and Newton's method starts from the first
 /// pair of neighbours of which only one is stable. Searching the speed itself is `critical_speed`.
+/// @param A  the state matrix over the parameter, at the speed of the search
 /// @return without `value` when there is none in the range
 /// @throws chladni::Error when Newton's method does not converge from there.
+CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search);
 CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
                              const CriticalCase& search);
 

@@ -68,36 +68,62 @@ double other_harmonics(const Harmonics& f, const Group& group)
   return std::max(0.0, sum - harmonic_of_pair(f, group).squaredNorm());
 }
 
-/// A pair in its own coordinates (cos, sin): q = R a, amplitudes, and how pure it is.
-struct PurePair {
-  Matrix2d R;
-  double U;
-  double U_r;
-  double U_t;
-  double impurity;
+/// Amplitudes of a pair on a ring; squares of its motion there and of what is not its harmonic.
+struct RingAmplitudes {
+  double U, U_r, U_t;
+  double whole, rest;
 };
 
-/// B R = U I for a pure pair; R is the orthogonal polar factor of B, transposed. The shape with the
-/// larger motion gives it, in case a nodal circle lies on the ring.
-PurePair purify(const Disc& disc, const Group& group)
+/// A pair in its own coordinates (cos, sin): q = R a, its amplitudes on each ring, and how pure it
+/// is.
+struct PurePair {
+  Matrix2d R;
+  std::vector<RingAmplitudes> rings;
+
+  double impurity() const
+  {
+    double rest = 0.0, whole = 0.0;
+    for (const RingAmplitudes& ring : rings) {
+      rest += ring.rest;
+      whole += ring.whole;
+    }
+    return std::sqrt(std::max(0.0, rest) / whole);
+  }
+};
+
+/// Of the pair with these coordinates.
+RingAmplitudes amplitudes_on(const DiscRing& ring, const Group& group, const Matrix2d& R)
 {
-  const double r = disc.radius;
-  const Matrix2d B = harmonic_of_pair(disc.W, group), B_r = harmonic_of_pair(disc.W_r, group),
-                 B_t = harmonic_of_pair(disc.W_t, group);
-  const Eigen::JacobiSVD<Matrix2d> svd(B.norm() > 0.1 * r * B_r.norm() ? B : B_r,
-                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Matrix2d R = svd.matrixV() * svd.matrixU().transpose();
+  const double r = ring.radius;
+  const Matrix2d B = harmonic_of_pair(ring.W, group), B_r = harmonic_of_pair(ring.W_r, group),
+                 B_t = harmonic_of_pair(ring.W_t, group);
   const Matrix2d turn{{0.0, 1.0}, {-1.0, 0.0}};  // (cos, sin) turn = (-sin, cos)
   const double U = 0.5 * (B * R).trace(), U_r = 0.5 * (B_r * R).trace(),
                U_t = 0.5 * (turn.transpose() * B_t * R).trace();
 
   const Matrix2d I = Matrix2d::Identity();
   const double rest =
-      (B * R - U * I).squaredNorm() + other_harmonics(disc.W, group) +
-      r * r * ((B_r * R - U_r * I).squaredNorm() + other_harmonics(disc.W_r, group)) +
-      r * r * ((B_t * R - U_t * turn).squaredNorm() + other_harmonics(disc.W_t, group));
-  const double whole = 2.0 * (U * U + r * r * (U_r * U_r + U_t * U_t));
-  return {R, U, U_r, U_t, std::sqrt(rest / whole)};
+      (B * R - U * I).squaredNorm() + other_harmonics(ring.W, group) +
+      r * r * ((B_r * R - U_r * I).squaredNorm() + other_harmonics(ring.W_r, group)) +
+      r * r * ((B_t * R - U_t * turn).squaredNorm() + other_harmonics(ring.W_t, group));
+  return {U, U_r, U_t, 2.0 * (U * U + r * r * (U_r * U_r + U_t * U_t)), rest};
+}
+
+/// B R = U I for a pure pair; R is the orthogonal polar factor of B, transposed. The shape with the
+/// largest motion on any ring gives it, in case a nodal circle lies on one.
+PurePair purify(const Disc& disc, const Group& group)
+{
+  Matrix2d largest = Matrix2d::Zero();
+  for (const DiscRing& ring : disc.rings) {
+    const Matrix2d B = harmonic_of_pair(ring.W, group),
+                   B_r = 0.1 * ring.radius * harmonic_of_pair(ring.W_r, group);
+    if (B.norm() > largest.norm()) largest = B;
+    if (B_r.norm() > largest.norm()) largest = B_r;
+  }
+  const Eigen::JacobiSVD<Matrix2d> svd(largest, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  PurePair pair{svd.matrixV() * svd.matrixU().transpose(), {}};
+  for (const DiscRing& ring : disc.rings) pair.rings.push_back(amplitudes_on(ring, group, pair.R));
+  return pair;
 }
 
 /// A mode without nodal diameters, as the first of a pair whose second does not exist.
@@ -106,10 +132,14 @@ PurePair purify_single(const Disc& disc, const Group& group)
   const auto square = [&](const Harmonics& f) {
     return f.cosine.col(group.i).squaredNorm() + f.sine.col(group.i).squaredNorm();
   };
-  const double U = disc.W.cosine(0, group.i), U_r = disc.W_r.cosine(0, group.i);
-  const double r = disc.radius, whole = U * U + r * r * U_r * U_r;
-  const double rest = square(disc.W) + r * r * (square(disc.W_r) + square(disc.W_t)) - whole;
-  return {Matrix2d::Identity(), U, U_r, 0.0, std::sqrt(std::max(0.0, rest) / whole)};
+  PurePair pair{Matrix2d::Identity(), {}};
+  for (const DiscRing& ring : disc.rings) {
+    const double U = ring.W.cosine(0, group.i), U_r = ring.W_r.cosine(0, group.i);
+    const double r = ring.radius, whole = U * U + r * r * U_r * U_r;
+    const double rest = square(ring.W) + r * r * (square(ring.W_r) + square(ring.W_t)) - whole;
+    pair.rings.push_back({U, U_r, 0.0, whole, rest});
+  }
+  return pair;
 }
 
 InertialDisc empty_inertial_disc(const Disc& disc)
@@ -117,16 +147,16 @@ InertialDisc empty_inertial_disc(const Disc& disc)
   const Eigen::Index n = disc.n_modes();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
   const Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(n, n);
-  return {.radius = disc.radius,
+  std::vector<InertialRing> rings;
+  for (const DiscRing& ring : disc.rings)
+    rings.push_back({ring.name, ring.radius, zero, zero, zero});
+  return {.rings = rings,
           .nodal_diameters = std::vector<int>(static_cast<std::size_t>(n), 0),
           .omega = zero,
           .C = zeros,
           .G = zeros,
           .D = zeros,
           .R = zeros,
-          .U = zero,
-          .U_r = zero,
-          .U_t = zero,
           .largest_split = 0.0,
           .largest_impurity = 0.0};
 }
@@ -144,13 +174,15 @@ InertialDisc with_group(InertialDisc inertial, const Disc& disc, const Group& gr
     inertial.nodal_diameters[first + column] = group.n;
   }
   inertial.omega.segment(at, size).setConstant(omega);
-  inertial.U.segment(at, size).setConstant(pair.U);
-  inertial.U_r.segment(at, size).setConstant(pair.U_r);
-  inertial.U_t.segment(at, size).setConstant(pair.U_t);
+  for (std::size_t i = 0; i < pair.rings.size(); ++i) {
+    inertial.rings[i].U.segment(at, size).setConstant(pair.rings[i].U);
+    inertial.rings[i].U_r.segment(at, size).setConstant(pair.rings[i].U_r);
+    inertial.rings[i].U_t.segment(at, size).setConstant(pair.rings[i].U_t);
+  }
   if (size == 2) inertial.D.block<2, 2>(at, at) << 0.0, group.n, -group.n, 0.0;
   inertial.largest_split =
       std::max(inertial.largest_split, std::abs(disc.omega[group.i] - disc.omega[group.j]) / omega);
-  inertial.largest_impurity = std::max(inertial.largest_impurity, pair.impurity);
+  inertial.largest_impurity = std::max(inertial.largest_impurity, pair.impurity());
   return inertial;
 }
 
@@ -210,8 +242,9 @@ InertialDisc inertial_disc(const Disc& disc)
   auto outcome = try_inertial_disc(disc);
   if (const auto* complaint = std::get_if<Complaint>(&outcome))
     throw Error(
-        fmt::format("the disc is not axisymmetric: {}. Eigenvalues and critical speeds need "
-                    "an axisymmetric disc and both modes of each pair; a transient does not",
+        fmt::format("the disc is not axisymmetric: {}. Eigenvalues, critical values and limit "
+                    "cycles need an axisymmetric disc and both modes of each pair; the analyses "
+                    "\"rotation-stability\", \"growth\" and \"transient\" do not",
                     complaint->text));
   return std::get<InertialDisc>(std::move(outcome));
 }
@@ -237,16 +270,28 @@ Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, doubl
   return b;
 }
 
+std::vector<RingPlace> ring_places(const InertialDisc& disc)
+{
+  std::vector<RingPlace> places;
+  for (const InertialRing& ring : disc.rings) places.push_back({ring.name, ring.radius});
+  return places;
+}
+
 Shapes shapes_at(const InertialDisc& disc, double theta)
 {
-  Shapes shapes{disc.U, disc.U_r, Eigen::VectorXd::Zero(disc.n_modes())};
+  return shapes_at(disc, disc.rings.front(), theta);
+}
+
+Shapes shapes_at(const InertialDisc& disc, const InertialRing& ring, double theta)
+{
+  Shapes shapes{ring.U, ring.U_r, Eigen::VectorXd::Zero(disc.n_modes())};
   for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
     const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
     if (n == 0) continue;
     const Eigen::Vector2d along{std::cos(n * theta), std::sin(n * theta)};
-    shapes.W.segment<2>(i) = disc.U[i] * along;
-    shapes.W_r.segment<2>(i) = disc.U_r[i] * along;
-    shapes.W_t.segment<2>(i) = disc.U_t[i] * Eigen::Vector2d{-along[1], along[0]};
+    shapes.W.segment<2>(i) = ring.U[i] * along;
+    shapes.W_r.segment<2>(i) = ring.U_r[i] * along;
+    shapes.W_t.segment<2>(i) = ring.U_t[i] * Eigen::Vector2d{-along[1], along[0]};
     ++i;
   }
   return shapes;

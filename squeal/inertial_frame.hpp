@@ -8,22 +8,28 @@
 
 namespace chladni::squeal {
 
+/// A contact ring of an axisymmetric disc.
+struct InertialRing {
+  std::string name;
+  double radius;        ///< m
+  Eigen::VectorXd U;    ///< [n_modes] amplitude of W, m per unit of a
+  Eigen::VectorXd U_r;  ///< [n_modes] amplitude of W_r, rad per unit of a
+  Eigen::VectorXd U_t;  ///< [n_modes] W_t = U_t (-sin, cos)(n theta), rad per unit of a
+};
+
 /// An axisymmetric disc seen from the inertial frame, where its equations do not depend on time:
 /// a' = -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - (C + 2 Omega G) p + Q.
 /// Modes come as pairs U cos(n theta), U sin(n theta), or alone for n = 0.
 struct InertialDisc {
-  double radius;                     ///< of the contact ring, m
+  std::vector<InertialRing> rings;   ///< as in Disc
   std::vector<int> nodal_diameters;  ///< [n_modes] n of each coordinate; pairs are neighbours
   Eigen::VectorXd omega;             ///< [n_modes] rad/s, averaged over each pair
   Eigen::MatrixXd C;                 ///< [n_modes x n_modes] 1/s, averaged over the circumference
   Eigen::MatrixXd G;                 ///< [n_modes x n_modes] 1, averaged likewise; see Disc
   Eigen::MatrixXd D;                 ///< d/dtheta in the coordinates: [0 n; -n 0] for each pair
   Eigen::MatrixXd R;                 ///< orthogonal: q = R a when the two frames coincide
-  Eigen::VectorXd U;                 ///< [n_modes] amplitude of W, m per unit of a
-  Eigen::VectorXd U_r;               ///< [n_modes] amplitude of W_r, rad per unit of a
-  Eigen::VectorXd U_t;      ///< [n_modes] W_t = U_t (-sin, cos)(n theta), rad per unit of a
-  double largest_split;     ///< of the frequencies of a pair, relative
-  double largest_impurity;  ///< of the mode shapes on the ring, relative; see below
+  double largest_split;              ///< of the frequencies of a pair, relative
+  double largest_impurity;           ///< of the mode shapes on the ring, relative; see below
 
   Eigen::Index n_modes() const { return omega.size(); }
 };
@@ -47,7 +53,11 @@ std::optional<InertialDisc> find_inertial_disc(const Disc& disc);
 /// @param angle  Omega t, rad
 Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, double angle);
 
-/// Shapes at the inertial angle `theta`, rad; these do not depend on time.
+std::vector<RingPlace> ring_places(const InertialDisc& disc);
+
+/// Shapes at the inertial angle `theta` (rad) on a ring of the disc; these do not depend on time.
+Shapes shapes_at(const InertialDisc& disc, const InertialRing& ring, double theta);
+/// On the first ring.
 Shapes shapes_at(const InertialDisc& disc, double theta);
 
 }  // namespace chladni::squeal

@@ -37,14 +37,23 @@ struct LinearPads {
   Eigen::MatrixXd C;
 };
 
+Shapes shapes_on(const Disc& disc, const PointPair& point)
+{
+  return shapes_at(disc.rings[point.ring], point.angle);
+}
+Shapes shapes_on(const InertialDisc& disc, const PointPair& point)
+{
+  return shapes_at(disc, disc.rings[point.ring], point.angle);
+}
+
 template <class AnyDisc>
 LinearPads linear_pads(const AnyDisc& disc, const SquealOptions& options, double speed)
 {
-  const PadSystem system = pad_system(options, disc.radius);
+  const PadSystem system = pad_system(options, ring_places(disc));
   const Eigen::Index n = disc.n_modes() + system.n_modes();
   LinearPads pads{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   for (const PointPair& point : system.points) {
-    const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), system, point);
+    const PairShapes S = pair_shapes(matrix_of(shapes_on(disc, point)), system, point);
     const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     pads.K -= S * d.D_a * S.transpose();
     pads.C -= S * d.D_p * S.transpose();
@@ -58,7 +67,7 @@ Eigen::MatrixXd splitting_step(const InertialDisc& without_pads, const SquealOpt
                                double speed, double step)
 {
   LinearPads pads = linear_pads(without_pads, options, speed);
-  const InertialDisc disc = with_pads(without_pads, pad_system(options, without_pads.radius));
+  const InertialDisc disc = with_pads(without_pads, pad_system(options, ring_places(without_pads)));
   const Eigen::Index n = disc.n_modes();
   pads.C += 2.0 * speed * disc.G;
   const OscillatorFlow flow(disc.omega, disc.C, 0.5 * step);
@@ -118,7 +127,7 @@ int steps_for(IntegratorKind kind, const std::optional<InertialDisc>& disc,
 bool is_stiff(const Disc& disc, const SquealOptions& options, double speed)
 {
   const LinearPads pads = linear_pads(disc, options, speed);
-  const FreeBrake brake = free_brake(disc, pad_system(options, disc.radius), speed);
+  const FreeBrake brake = free_brake(disc, pad_system(options, ring_places(disc)), speed);
   const Eigen::Index n = brake.omega.size();
   const Eigen::MatrixXd omega = brake.omega.asDiagonal();
   Eigen::MatrixXd A(2 * n, 2 * n);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "squeal/cycle_problem.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/results.hpp"
 #include "squeal/squeal_options.hpp"
@@ -7,11 +8,15 @@
 
 namespace chladni::squeal {
 
-/// The limit cycles at those of `options.speeds` at which the sliding disc is unstable, each found
-/// from its neighbour above; where that is too far, at speeds between the two. The branch ends
-/// where the disc becomes stable or the cycle is lost.
-/// @return by rising speed, empty when the disc is stable at the highest speed
-/// @throws chladni::Error as `limit_cycle_direct` at the highest speed.
+/// The limit cycles at the speeds of `range`, on the branch that begins at the highest of them at
+/// which the sliding disc is unstable. The branch is followed along its arc, through folds, to
+/// lower speeds until it leaves the range or ends at rest, and then to higher ones. Where it folds
+/// back, a speed has more than one cycle.
+/// @return in the order along the branch, from its end on the side of low speeds; empty when the
+///         disc is stable at all speeds
+/// @throws chladni::Error as `limit_cycle_direct` at the first speed.
+LimitCycleBranch limit_cycle_branch(const CycleProblem& problem, const SpeedRange& range,
+                                    const Progress& progress = {});
 LimitCycleBranch limit_cycle_branch(const Disc& disc, const SquealOptions& options,
                                     const Progress& progress = {});
 

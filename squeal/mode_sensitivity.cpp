@@ -47,9 +47,10 @@ InertialDisc with_families(const InertialDisc& disc, const std::vector<Family>& 
   part.nodal_diameters.clear();
   for (const Eigen::Index i : kept)
     part.nodal_diameters.push_back(disc.nodal_diameters[static_cast<std::size_t>(i)]);
-  for (auto member :
-       {&InertialDisc::omega, &InertialDisc::U, &InertialDisc::U_r, &InertialDisc::U_t})
-    part.*member = Eigen::VectorXd((disc.*member)(kept));
+  part.omega = disc.omega(kept);
+  for (InertialRing& ring : part.rings)
+    for (auto member : {&InertialRing::U, &InertialRing::U_r, &InertialRing::U_t})
+      ring.*member = Eigen::VectorXd((ring.*member)(kept));
   for (auto member : {&InertialDisc::C, &InertialDisc::D, &InertialDisc::G, &InertialDisc::R})
     part.*member = Eigen::MatrixXd((disc.*member)(kept, kept));
   return part;

@@ -23,7 +23,7 @@ Eigen::VectorXcd normalised(const Eigen::VectorXcd& shape)
 std::vector<Eigen::MatrixXcd> mode_shapes(const InertialDisc& disc, const SquealOptions& options,
                                           const EigenvalueMap& map)
 {
-  const InertialDisc brake = with_pads(disc, pad_system(options, disc.radius));
+  const InertialDisc brake = with_pads(disc, pad_system(options, ring_places(disc)));
   const Eigen::Index n = brake.n_modes();
   std::vector<Eigen::MatrixXcd> shapes(static_cast<std::size_t>(map.speeds.size()));
   for_each_index(static_cast<int>(map.speeds.size()), [&](int i) {

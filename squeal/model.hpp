@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "squeal/autonomous_motion.hpp"
 #include "squeal/contact.hpp"
 
 namespace chladni::squeal {
@@ -20,6 +21,9 @@ struct Model {
 
   /// f(x; speed)
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x, double speed)> rate;
+
+  /// f with switching contact, for the search of periodic motions; empty where there is none.
+  AutonomousMotionAt motion;
 
   /// The first pad pair at x.
   std::function<ContactResult<double>(const Eigen::VectorXd& x, double speed)> contact;

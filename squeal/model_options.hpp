@@ -70,10 +70,14 @@ struct Oscillator {
 struct ModelOptions {
   std::variant<RigidDiscStudy, Oscillator> model;
   SpeedRange speeds;
-  std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
-                                      ///< "limit-cycle"
+  std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "critical-values",
+                                      ///< "stability-map", "growth", "transient", "limit-cycle",
+                                      ///< "limit-cycle-direct", "limit-cycle-branch"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
+  std::optional<DirectCase> limit_cycle_direct = {};
+  std::optional<MapCase> map = {};
+  std::vector<CriticalCase> critical = {};
 };
 
 }  // namespace chladni::squeal

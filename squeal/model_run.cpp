@@ -1,12 +1,18 @@
 #include "squeal/model_run.hpp"
 
 #include <algorithm>
+#include <functional>
 
+#include "common/error.hpp"
+#include "squeal/hopf.hpp"
 #include "squeal/limit_cycle.hpp"
+#include "squeal/limit_cycle_branch.hpp"
+#include "squeal/limit_cycle_direct.hpp"
 #include "squeal/model_transient.hpp"
 #include "squeal/oscillator.hpp"
 #include "squeal/rigid_model.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/stability_map.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -21,33 +27,128 @@ Model build(const Oscillator& oscillator)
   return model_of(oscillator);
 }
 
+RigidDiscStudy changed(RigidDiscStudy study, MapParameter parameter, double value)
+{
+  if (parameter == MapParameter::friction) study.disc.friction.kinetic = value;
+  if (parameter == MapParameter::preload) study.disc.preload = value;
+  if (parameter == MapParameter::stiffness) study.disc.spring.linear = value;
+  return study;
+}
+
+Oscillator changed(Oscillator oscillator, MapParameter parameter, double value)
+{
+  if (parameter == MapParameter::friction) oscillator.friction.kinetic = value;
+  if (parameter == MapParameter::preload) oscillator.preload = value;
+  if (parameter == MapParameter::stiffness) oscillator.contact_stiffness = value;
+  return oscillator;
+}
+
+Model model_with(const ModelOptions& options, MapParameter parameter, double value)
+{
+  return std::visit([&](const auto& study) { return build(changed(study, parameter, value)); },
+                    options.model);
+}
+
+CycleProblem cycle_problem_of(const Model& model)
+{
+  if (!model.motion)
+    throw Error(
+        "limit cycle: the linearised equations of the rigid disc have none; take equations = "
+        "\"nonlinear\"");
+  return cycle_problem(model);
+}
+
+std::vector<CriticalValue> critical_values(const ModelOptions& options)
+{
+  std::vector<CriticalValue> values;
+  for (const CriticalCase& search : options.critical)
+    values.push_back(critical_value(
+        [&](double value) {
+          return model_with(options, search.parameter, value).state_matrix(search.speed);
+        },
+        search));
+  return values;
+}
+
+StabilityMap map_of(const ModelOptions& options)
+{
+  const MapCase& range = options.map.value();
+  return stability_map(
+      [&](double value) { return model_with(options, range.parameter, value).state_matrix; }, range,
+      options.speeds);
+}
+
+std::vector<Growth> growths(const Model& model, const GrowthCase& runs, const Progress& progress)
+{
+  std::vector<Growth> results;
+  for (const double speed : runs.speeds) {
+    progress(double(results.size()) / double(runs.speeds.size()));
+    results.push_back(growth(model, speed, runs.duration));
+  }
+  return results;
+}
+
+/// An analysis and the names in the scene of all that need it.
+struct Step {
+  std::vector<std::string> names;
+  std::function<void(SquealResults&, const Progress&)> perform;
+};
+
+/// In the order in which they are done.
+std::vector<Step> steps_of(const Model& model, const ModelOptions& options)
+{
+  return {
+      {{"eigenvalues"},
+       [&](auto& r, auto&) { r.eigenvalues = eigenvalues(model.state_matrix, options.speeds); }},
+      {{"critical-speed"},
+       [&](auto& r, auto&) {
+         r.critical_speed = critical_speed(model.state_matrix, options.speeds);
+         r.searched_critical_speed = true;
+       }},
+      {{"critical-values"}, [&](auto& r, auto&) { r.critical_values = critical_values(options); }},
+      {{"stability-map"}, [&](auto& r, auto&) { r.map = map_of(options); }},
+      {{"growth"},
+       [&](auto& r, auto& progress) { r.growth = growths(model, *options.growth, progress); }},
+      {{"transient", "limit-cycle"},
+       [&](auto& r, auto& progress) {
+         r.transient = transient(model, *options.transient, progress);
+       }},
+      {{"limit-cycle"}, [&](auto& r, auto&) { r.limit_cycle = limit_cycle(Disc{}, *r.transient); }},
+      {{"limit-cycle-direct"},
+       [&](auto& r, auto&) {
+         r.limit_cycle_direct =
+             limit_cycle_direct(cycle_problem_of(model), options.limit_cycle_direct.value().speed);
+       }},
+      {{"limit-cycle-branch"}, [&](auto& r, auto& progress) {
+         r.limit_cycle_branch =
+             limit_cycle_branch(cycle_problem_of(model), options.speeds, progress);
+       }}};
+}
+
 }  // namespace
 
 SquealResults run(const ModelOptions& options, const RunProgress& progress)
 {
   const Model model = std::visit([](const auto& study) { return build(study); }, options.model);
-  const auto asked = [&](const char* analysis) {
-    return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
-           options.analyses.end();
-  };
-  const auto report = [&](const char* analysis, double fraction) {
-    if (progress) progress(analysis, fraction);
-  };
   SquealResults results;
-  if (asked("eigenvalues")) results.eigenvalues = eigenvalues(model.state_matrix, options.speeds);
-  if (asked("critical-speed")) {
-    results.critical_speed = critical_speed(model.state_matrix, options.speeds);
-    results.searched_critical_speed = true;
-  }
-  if (asked("growth"))
-    for (const double speed : options.growth->speeds) {
-      report("growth", double(results.growth.size()) / double(options.growth->speeds.size()));
-      results.growth.push_back(growth(model, speed, options.growth->duration));
+  bool any_done = false;
+  for (const Step& step : steps_of(model, options)) {
+    if (std::find_first_of(options.analyses.begin(), options.analyses.end(), step.names.begin(),
+                           step.names.end()) == options.analyses.end())
+      continue;
+    const auto report = [&](double fraction) {
+      if (progress) progress(step.names.front(), fraction);
+    };
+    report(0.0);
+    try {
+      step.perform(results, report);
+    } catch (const Error& error) {
+      if (!any_done) throw;
+      results.failure = error.what();
+      return results;
     }
-  if (asked("transient") || asked("limit-cycle"))
-    results.transient = transient(model, *options.transient,
-                                  [&](double fraction) { report("transient", fraction); });
-  if (asked("limit-cycle")) results.limit_cycle = limit_cycle(Disc{}, *results.transient);
+    any_done = true;
+  }
   return results;
 }
 

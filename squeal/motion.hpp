@@ -4,21 +4,15 @@
 
 namespace chladni::squeal {
 
-/// A motion q'' = g(t, q, q') of n coordinates, written y' = f(t, y) with y = (diag(omega) q, q'),
-/// so that all entries of y have one unit. What an integrator needs to know of a model.
-///
-/// f is smooth while each of the switching functions s_i(t, y) keeps its side. The side is a state
-/// of the motion: an integrator that locates the zeros of s_i sets it, and any other calls
-/// `take_sides` before each evaluation or step.
-class Motion {
+/// A motion y' = f(t, y) that is smooth while each of the switching functions s_i(t, y) keeps its
+/// side. The side is a state of the motion: an integrator that locates the zeros of s_i sets it,
+/// and any other calls `take_sides` before each evaluation or step.
+class SwitchedMotion {
  public:
-  Motion() = default;
-  Motion(const Motion&) = delete;
-  Motion& operator=(const Motion&) = delete;
-  virtual ~Motion() = default;
-
-  /// [n] rad/s, positive: scales of q; for modal coordinates their angular frequencies.
-  virtual const Eigen::VectorXd& omega() const = 0;
+  SwitchedMotion() = default;
+  SwitchedMotion(const SwitchedMotion&) = delete;
+  SwitchedMotion& operator=(const SwitchedMotion&) = delete;
+  virtual ~SwitchedMotion() = default;
 
   /// f(t, y) on the present sides; valid until the next call.
   virtual const Eigen::VectorXd& rate(double t, const Eigen::VectorXd& y) = 0;
@@ -30,13 +24,6 @@ class Motion {
   virtual double side(Eigen::Index i) const = 0;
   virtual void set_side(Eigen::Index i, double side) = 0;
 
-  /// Derivatives of g by q and by q' on the present sides.
-  struct Tangent {
-    Eigen::MatrixXd by_q;  ///< [n x n] 1/s^2
-    Eigen::MatrixXd by_v;  ///< [n x n] 1/s
-  };
-  virtual Tangent tangent(double t, const Eigen::VectorXd& y) = 0;
-
   /// Sets all sides to the signs of s_i(t, y).
   void take_sides(double t, const Eigen::VectorXd& y)
   {
@@ -44,6 +31,21 @@ class Motion {
     const Eigen::VectorXd s = switches();
     for (Eigen::Index i = 0; i < s.size(); ++i) set_side(i, s[i] < 0.0 ? -1.0 : 1.0);
   }
+};
+
+/// A motion q'' = g(t, q, q') of n coordinates, written y' = f(t, y) with y = (diag(omega) q, q'),
+/// so that all entries of y have one unit.
+class Motion : public SwitchedMotion {
+ public:
+  /// [n] rad/s, positive: scales of q; for modal coordinates their angular frequencies.
+  virtual const Eigen::VectorXd& omega() const = 0;
+
+  /// Derivatives of g by q and by q' on the present sides.
+  struct Tangent {
+    Eigen::MatrixXd by_q;  ///< [n x n] 1/s^2
+    Eigen::MatrixXd by_v;  ///< [n x n] 1/s
+  };
+  virtual Tangent tangent(double t, const Eigen::VectorXd& y) = 0;
 };
 
 }  // namespace chladni::squeal

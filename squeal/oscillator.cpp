@@ -1,8 +1,11 @@
 #include "squeal/oscillator.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "squeal/derivative.hpp"
+#include "squeal/model_motion.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -14,27 +17,41 @@ struct OscillatorContact {
   Scalar slip;      ///< v_r, m/s
 };
 
+/// @param law  yields S and g from the force that the contact would have if it could pull
+template <class Scalar, class Law>
+OscillatorContact<Scalar> contact_under(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                                        double speed, const Law& law)
+{
+  const Scalar v_r = o.radius * speed - motion[2];
+  const Scalar v = regularised_speed(o.friction, Scalar(v_r * v_r));
+  const auto [N, g] = law(Scalar(o.preload + o.contact_stiffness * motion[1]));
+  return {N, g * friction_coefficient(o.friction, v) * N * v_r / v, v_r};
+}
+
 template <class Scalar>
 OscillatorContact<Scalar> contact_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
                                      double speed)
 {
-  const Scalar v_r = o.radius * speed - motion[2];
-  const Scalar v = regularised_speed(o.friction, Scalar(v_r * v_r));
-  const auto [N, g] =
-      axial_force<Scalar>(o.law, Scalar(o.preload + o.contact_stiffness * motion[1]));
-  return {N, g * friction_coefficient(o.friction, v) * N * v_r / v, v_r};
+  return contact_under(o, motion, speed,
+                       [&](const Scalar& S) { return axial_force<Scalar>(o.law, S); });
 }
 
-/// (x', y', x'', y'') of (x, y, x', y').
+/// (x', y', x'', y'') of (x, y, x', y') under this contact.
+template <class Scalar>
+Eigen::Vector4<Scalar> rate_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                               double speed, const OscillatorContact<Scalar>& contact)
+{
+  const Scalar &x = motion[0], &y = motion[1], &u = motion[2], &w = motion[3];
+  const double at_rest = contact_of<double>(o, Eigen::Vector4d::Zero(), speed).friction;
+  return {u, w, (contact.friction - at_rest - o.d_x * u - o.k_x * x - o.k_xy * y) / o.mass,
+          (o.preload - contact.N - o.d_y * w - o.k_xy * x - o.k_y * y) / o.mass};
+}
+
 template <class Scalar>
 Eigen::Vector4<Scalar> rate_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
                                double speed)
 {
-  const Scalar &x = motion[0], &y = motion[1], &u = motion[2], &w = motion[3];
-  const OscillatorContact<Scalar> contact = contact_of(o, motion, speed);
-  const double at_rest = contact_of<double>(o, Eigen::Vector4d::Zero(), speed).friction;
-  return {u, w, (contact.friction - at_rest - o.d_x * u - o.k_x * x - o.k_xy * y) / o.mass,
-          (o.preload - contact.N - o.d_y * w - o.k_xy * x - o.k_y * y) / o.mass};
+  return rate_of(o, motion, speed, contact_of(o, motion, speed));
 }
 
 PadState<double> pad_of(const Oscillator& o, const Eigen::Vector4d& motion, double speed)
@@ -49,6 +66,48 @@ PadState<double> pad_of(const Oscillator& o, const Eigen::Vector4d& motion, doub
           .f_t = contact.friction};
 }
 
+ContactResult<double> pads_of(const Oscillator& o, const Eigen::Vector4d& motion, double speed)
+{
+  const PadState<double> pad = pad_of(o, motion, speed);
+  return {.force = {pad.N, 0.0, pad.f_t}, .upper = pad, .lower = pad};
+}
+
+/// For ModelMotion: the equations at a speed, x = scale (x, y, x', y').
+struct OscillatorEquationsAt {
+  Oscillator o;
+  Eigen::Vector4d scale;
+  double speed;
+
+  template <class Scalar>
+  SwitchedRate<Scalar> evaluate(const Eigen::VectorX<Scalar>& x,
+                                const Eigen::VectorXd& branches) const
+  {
+    const Eigen::Vector4<Scalar> motion = x.cwiseQuotient(scale.cast<Scalar>());
+    const double g = branches[0];
+    const auto contact = contact_under(o, motion, speed, [g](const Scalar& S) {
+      return AxialForce<Scalar>{g == 0.0 ? Scalar(0.0) : S, g};
+    });
+    const Eigen::VectorX<Scalar> pressure =
+        Eigen::VectorX<Scalar>::Constant(1, 1.0 + o.contact_stiffness * motion[1] / o.preload);
+    return {rate_of(o, motion, speed, contact).cwiseProduct(scale.cast<Scalar>()), pressure};
+  }
+  ContactResult<double> contact(const Eigen::VectorXd& x) const
+  {
+    return pads_of(o, x.cwiseQuotient(scale), speed);
+  }
+};
+
+AutonomousMotionAt motion_at(const Oscillator& o, const Eigen::Vector4d& scale)
+{
+  const double omega = std::sqrt((std::max(o.k_x, o.k_y + o.contact_stiffness) + o.k_xy) / o.mass);
+  return [o, scale, omega](double speed) {
+    return std::make_unique<ModelMotion<OscillatorEquationsAt>>(
+        OscillatorEquationsAt{o, scale, speed},
+        ModelMotion<OscillatorEquationsAt>::Properties{
+            .size = 4, .n_switches = 1, .omega_highest = omega, .law = o.law});
+  };
+}
+
 }  // namespace
 
 Model model_of(const Oscillator& o)
@@ -61,9 +120,7 @@ Model model_of(const Oscillator& o)
         rate_of<Scalar>(o, motion, speed).cwiseProduct(scale.cast<Scalar>()));
   };
   const auto pads = [o, scale](const Eigen::VectorXd& x, double speed) {
-    const PadState<double> pad = pad_of(o, x.cwiseQuotient(scale), speed);
-    const RingForce<double> force{pad.N, 0.0, pad.f_t};
-    return ContactResult<double>{.force = force, .upper = pad, .lower = pad};
+    return pads_of(o, x.cwiseQuotient(scale), speed);
   };
   return {.size = 4,
           .state_matrix =
@@ -73,6 +130,7 @@ Model model_of(const Oscillator& o)
               },
           .rate = [scaled_rate](const Eigen::VectorXd& x,
                                 double speed) { return scaled_rate(x, speed); },
+          .motion = motion_at(o, scale),
           .contact = pads,
           .start =
               [omega](double displacement) {

@@ -53,4 +53,18 @@ void OscillatorFlow::advance(ModalState& x) const
   }
 }
 
+void OscillatorFlow::advance(ModalColumns& x) const
+{
+  const Eigen::Index n = x.q.rows();
+  if (coupled_) {
+    const Eigen::MatrixXd q = flow_.topLeftCorner(n, n) * x.q + flow_.topRightCorner(n, n) * x.v;
+    x.v = flow_.bottomLeftCorner(n, n) * x.q + flow_.bottomRightCorner(n, n) * x.v;
+    x.q = q;
+    return;
+  }
+  const Eigen::MatrixXd q = qq_.matrix().asDiagonal() * x.q + qv_.matrix().asDiagonal() * x.v;
+  x.v = vq_.matrix().asDiagonal() * x.q + vv_.matrix().asDiagonal() * x.v;
+  x.q = q;
+}
+
 }  // namespace chladni::squeal

@@ -10,6 +10,12 @@ struct ModalState {
   Eigen::VectorXd v;  ///< [n_modes] q'
 };
 
+/// Several motions at once, one in each column.
+struct ModalColumns {
+  Eigen::MatrixXd q;  ///< [n_modes x n]
+  Eigen::MatrixXd v;  ///< [n_modes x n]
+};
+
 /// The exact flow of q'' + C q' + diag(omega^2) q = 0 over a fixed time.
 class OscillatorFlow {
  public:
@@ -19,6 +25,7 @@ class OscillatorFlow {
   OscillatorFlow(const Eigen::VectorXd& omega, const Eigen::MatrixXd& C, double time);
 
   void advance(ModalState& x) const;
+  void advance(ModalColumns& x) const;
 
  private:
   bool coupled_;

@@ -118,21 +118,46 @@ void check(const PadPair& pad, std::size_t i)
         i));
 }
 
-/// The points of pad `i` of the scene; its plates have the coordinates from `first` on, of n.
-void add_points(PadSystem& system, const SquealOptions& options, std::size_t i, double radius)
+/// Indices in `rings` of those that a grid lies on.
+std::vector<std::size_t> rings_of(const PadGrid& grid, const std::vector<RingPlace>& rings,
+                                  std::size_t pad)
+{
+  if (grid.rings.empty()) return {0};
+  std::vector<std::size_t> indices;
+  for (const std::string& name : grid.rings) {
+    const auto at = std::find_if(rings.begin(), rings.end(),
+                                 [&](const RingPlace& ring) { return ring.name == name; });
+    if (at == rings.end())
+      throw Error(
+          fmt::format("[squeal] pads[{}].grid.rings: the disc has no ring \"{}\"", pad, name));
+    indices.push_back(static_cast<std::size_t>(at - rings.begin()));
+  }
+  return indices;
+}
+
+/// The points of pad `i` of the scene, on one ring after the other.
+void add_points(PadSystem& system, const SquealOptions& options, std::size_t i,
+                const std::vector<RingPlace>& rings)
 {
   const PadPair& pad = options.pads[i];
   const PadGrid grid = pad.grid.value_or(PadGrid{.sector = 0.0, .points = 1});
-  const PadContact contact = part_of(pad_contact(options, pad, radius), grid.points);
-  for (int k = 0; k < grid.points; ++k) {
-    const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
-    system.points.push_back(
-        {.pad = i, .angle = pad.angle + turn, .contact = contact, .upper = {}, .lower = {}});
-  }
+  const std::vector<std::size_t> on = rings_of(grid, rings, i);
+  const int n = grid.points * static_cast<int>(on.size());
+  for (const std::size_t ring : on)
+    for (int k = 0; k < grid.points; ++k) {
+      const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
+      system.points.push_back({.pad = i,
+                               .angle = pad.angle + turn,
+                               .ring = ring,
+                               .contact = part_of(pad_contact(options, pad, rings[ring].radius), n),
+                               .upper = {},
+                               .lower = {}});
+    }
 }
 
-/// Motion of the plates at each point, in all coordinates of the pads.
-void add_plate_motion(PadSystem& system, const SquealOptions& options, double radius,
+/// Motion of the plates at each point, in all coordinates of the pads; the centre of a plate is
+/// above the first ring.
+void add_plate_motion(PadSystem& system, const SquealOptions& options, double centre,
                       Eigen::Index n)
 {
   for (PointPair& point : system.points) {
@@ -144,7 +169,8 @@ void add_plate_motion(PadSystem& system, const SquealOptions& options, double ra
     const std::vector<PlateFreedom> all = freedoms(*pad.body);
     const auto n_plate = static_cast<Eigen::Index>(all.size());
     const double turn = point.angle - pad.angle;
-    FacePoint at{turn, {radius * (std::cos(turn) - 1.0), radius * std::sin(turn), 0.0}};
+    const double radius = point.contact.radius;
+    FacePoint at{turn, {radius * std::cos(turn) - centre, radius * std::sin(turn), 0.0}};
     at.of_centre[2] = -pad.body->height;
     point.upper.middleRows(first, n_plate) = plate_motion(all, at);
     at.of_centre[2] = pad.body->height;
@@ -170,14 +196,19 @@ PadMatrices pad_matrices(const SquealOptions& options)
 
 PadSystem pad_system(const SquealOptions& options, double radius)
 {
+  return pad_system(options, std::vector<RingPlace>{{options.ring, radius}});
+}
+
+PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>& rings)
+{
   PadSystem system;
   for (std::size_t i = 0; i < options.pads.size(); ++i) {
     check(options.pads[i], i);
-    add_points(system, options, i, radius);
+    add_points(system, options, i, rings);
   }
   const PadMatrices matrices = pad_matrices(options);
   if (matrices.M.size() == 0) return system;
-  add_plate_motion(system, options, radius, matrices.M.rows());
+  add_plate_motion(system, options, rings.front().radius, matrices.M.rows());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
   const Eigen::MatrixXd& Phi = modes.eigenvectors();  // Phi^T M Phi = I
   system.omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
@@ -203,8 +234,9 @@ InertialDisc with_pads(InertialDisc disc, const PadSystem& pads)
   disc.G = extended(disc.G, Eigen::MatrixXd::Zero(m, m));
   disc.D = extended(disc.D, Eigen::MatrixXd::Zero(m, m));
   disc.R = extended(disc.R, Eigen::MatrixXd::Identity(m, m));
-  for (Eigen::VectorXd* amplitude : {&disc.U, &disc.U_r, &disc.U_t})
-    amplitude->conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
+  for (InertialRing& ring : disc.rings)
+    for (Eigen::VectorXd* amplitude : {&ring.U, &ring.U_r, &ring.U_t})
+      amplitude->conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
   disc.omega.conservativeResize(n + m);
   disc.omega.tail(m) = pads.omega;
   disc.nodal_diameters.resize(static_cast<std::size_t>(n + m), 0);

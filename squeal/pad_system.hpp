@@ -12,8 +12,9 @@ namespace chladni::squeal {
 
 /// Two opposite contact points, above and below the disc.
 struct PointPair {
-  std::size_t pad;  ///< which of the scene's pads
-  double angle;     ///< rad
+  std::size_t pad;   ///< which of the scene's pads
+  double angle;      ///< rad
+  std::size_t ring;  ///< which of the disc's rings
   PadContact contact;
   Eigen::MatrixX3d
       upper;  ///< [n_pad_modes x 3] motion of the plate there, (r, t, z) per coordinate
@@ -32,8 +33,12 @@ struct PadSystem {
   std::size_t n_pads() const { return points.empty() ? 0 : points.back().pad + 1; }
 };
 
-/// @param radius  of the contact ring, m
-/// @throws chladni::Error for a body without a suspension, and a caliper without a body to carry.
+/// @param rings  of the disc; the first is that of pads without a grid
+/// @throws chladni::Error for a body without a suspension, a caliper without a body to carry, and a
+///         grid on a ring that the disc does not have.
+PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>& rings);
+
+/// The same on one ring of this radius, m.
 PadSystem pad_system(const SquealOptions& options, double radius);
 
 /// The disc with the pads' modes as further coordinates at its end, which do not move the ring.

@@ -52,6 +52,7 @@ void Recorder::add(std::int64_t i, double t, const std::vector<ContactResult<dou
     history.pad_displacement.push_back(up.z - rest_);
     history.N_up.push_back(up.N);
     history.N_lo.push_back(lo.N);
+    history.slip_speed.push_back(up.slip_speed);
   };
   if (i % plan_.every == 0) append(transient_.history);
   if (in_tail(i)) append(transient_.tail);

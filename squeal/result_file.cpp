@@ -28,6 +28,15 @@ void write_critical_speed(Writer& file, const std::optional<CriticalSpeed>& crit
   if (!critical) return;
   file.write("critical/speed", critical->speed, "rad/s");
   file.write("critical/frequency", critical->frequency_Hz, "Hz");
+  file.write("critical/newton_steps", std::int64_t{critical->n_newton_steps}, "1");
+}
+
+CriticalSpeed read_critical_speed(const Reader& file)
+{
+  CriticalSpeed critical{file.real("critical/speed"), file.real("critical/frequency")};
+  if (file.contains("critical/newton_steps"))
+    critical.n_newton_steps = static_cast<int>(file.integer("critical/newton_steps"));
+  return critical;
 }
 
 void write_map(Writer& file, const StabilityMap& map)
@@ -48,6 +57,22 @@ StabilityMap read_map(const Reader& file)
           .speeds = speeds,
           .growth = file.matrix("stability_map/growth", {values.size(), speeds.size()}),
           .frequency_Hz = file.matrix("stability_map/frequency", {values.size(), speeds.size()})};
+}
+
+void write_rotation_stability(Writer& file, const RotationStability& stability)
+{
+  file.write("rotation_stability/speeds", stability.speeds, "rad/s");
+  file.write("rotation_stability/growth", stability.growth, "1/s");
+  file.write("rotation_stability/frequency", stability.frequency_Hz, "Hz");
+  write_optional(file, "rotation_stability/critical_speed", stability.critical_speed, "rad/s");
+}
+
+RotationStability read_rotation_stability(const Reader& file)
+{
+  const Eigen::VectorXd speeds = file.vector("rotation_stability/speeds");
+  return {speeds, file.vector("rotation_stability/growth", speeds.size()),
+          file.vector("rotation_stability/frequency", speeds.size()),
+          read_optional(file, "rotation_stability/critical_speed")};
 }
 
 void write_growth(Writer& file, const std::string& group, const Growth& growth)
@@ -125,6 +150,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
   write_critical_values(file, results.critical_values);
   if (results.map) write_map(file, *results.map);
+  if (results.rotation_stability) write_rotation_stability(file, *results.rotation_stability);
   if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
   for (std::size_t i = 0; i < results.growth.size(); ++i)
     write_growth(file, fmt::format("growth/{}", i + 1), results.growth[i]);
@@ -145,13 +171,13 @@ SquealResults read_results(const std::filesystem::path& path)
   results.largest_split = read_optional(file, "largest_split");
   if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);
   results.searched_critical_speed = file.contains("critical");
-  if (file.contains("critical/speed"))
-    results.critical_speed =
-        CriticalSpeed{file.real("critical/speed"), file.real("critical/frequency")};
+  if (file.contains("critical/speed")) results.critical_speed = read_critical_speed(file);
   results.critical_values = read_critical_values(file);
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
   if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("stability_map")) results.map = read_map(file);
+  if (file.contains("rotation_stability"))
+    results.rotation_stability = read_rotation_stability(file);
   if (file.contains("mode_sensitivity")) results.mode_sensitivity = read_sensitivity(file);
   for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)
     results.growth.push_back(read_growth(file, fmt::format("growth/{}", i)));

@@ -7,43 +7,9 @@
 #include <vector>
 
 #include "squeal/cycle_results.hpp"
+#include "squeal/stability_results.hpp"
 
 namespace chladni::squeal {
-
-/// Eigenvalues with Im >= 0 of the sliding disc, each column followed over the speed.
-struct EigenvalueMap {
-  Eigen::VectorXd speeds;   ///< [m] rad/s
-  Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
-  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
-  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
-  /// with a mass, of norm 1.
-  /// Empty for models without a body.
-  std::vector<Eigen::MatrixXcd> shapes = {};
-};
-
-/// The speed at which the sliding disc loses its stability.
-struct CriticalSpeed {
-  double speed;         ///< rad/s
-  double frequency_Hz;  ///< of the undamped oscillation there
-};
-
-/// Where the sliding disc loses or regains its stability over one parameter.
-struct CriticalValue {
-  std::string parameter;        ///< "friction", "preload" or "stiffness"
-  double speed;                 ///< rad/s
-  std::optional<double> value;  ///< 1, N or N/m; absent when there is none in the range
-  double frequency_Hz;          ///< of the undamped oscillation there
-  int n_newton_steps;
-};
-
-/// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
-struct StabilityMap {
-  std::string parameter;         ///< "friction", "preload" or "stiffness"
-  Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
-  Eigen::VectorXd speeds;        ///< [n] rad/s
-  Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
-  Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
-};
 
 /// Largest motion of the first upper pad within successive windows of time.
 struct Envelope {
@@ -59,6 +25,7 @@ struct History {
   std::vector<double> pad_displacement;  ///< of the upper pad from its position at rest, m
   std::vector<double> N_up;              ///< normal force on the upper pad, N
   std::vector<double> N_lo;              ///< normal force on the lower pad, N
+  std::vector<double> slip_speed = {};   ///< of the upper pad on the disc, m/s; least of a grid
 };
 
 /// The modes at the times of a history, in the frame that rotates with the disc.
@@ -96,6 +63,7 @@ struct Transient {
   double slip_speed_min;     ///< over all pads, m/s
   std::optional<double> t_zero_force;  ///< when a normal force first reaches zero, s
   std::optional<double> growth_rate;   ///< of the linear phase, 1/s, when there is one
+  std::string warning = {};            ///< what to doubt, in words; empty when there is nothing
 };
 
 /// Growth of a small disturbance at one speed, from a simulation and from the eigenvalues.
@@ -119,34 +87,6 @@ struct Spectrum {
   std::vector<Peak> peaks;  ///< by falling amplitude
 };
 
-/// What the lowest modes alone would say.
-struct ModeSubset {
-  int n_modes;
-  double highest_Hz;
-  std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
-  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
-  double growth;  ///< largest growth rate at the critical speed of all modes, 1/s
-};
-
-/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
-struct ModeInfluence {
-  int nodal_diameters;
-  double frequency_Hz;   ///< of the mode
-  double participation;  ///< part of the kinetic energy of the critical oscillation
-  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
-  /// absent for the mode that it consists of.
-  std::optional<double> growth_without;
-  std::optional<double> critical_speed_without;  ///< rad/s
-};
-
-/// Which modes move the critical speed.
-struct ModeSensitivity {
-  double critical_speed;  ///< with all modes, rad/s
-  double critical_frequency_Hz;
-  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
-  std::vector<ModeInfluence> influences;  ///< by rising frequency
-};
-
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
@@ -158,6 +98,7 @@ struct SquealResults {
   std::optional<CriticalSpeed> critical_speed;
   std::vector<CriticalValue> critical_values;
   std::optional<StabilityMap> map;
+  std::optional<RotationStability> rotation_stability;
   std::optional<ModeSensitivity> mode_sensitivity;
   std::vector<Growth> growth;
   std::optional<Transient> transient;

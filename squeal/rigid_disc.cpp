@@ -54,8 +54,10 @@ Eigen::Vector3<Scalar> cross(const Eigen::Vector3<Scalar>& a, const Eigen::Vecto
 /// z = (sigma h / 2 - b_3x x_p - b_3y y_p) / b_3z,   S = N_0 + sigma (k x + k_3 x^3 + d z'),
 /// x = z - sigma h / 2,
 /// N = S / (b_3z + sigma g mu t_z),   F = -sigma N b_3 - mu g N t
-template <class Scalar>
-RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, double sigma)
+/// @param law  yields S and g of the pad from its force if it could pull
+template <class Scalar, class Law>
+RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, double sigma,
+                        const Law& law)
 {
   using std::sqrt;
   const double half = 0.5 * sigma * disc.thickness;
@@ -69,11 +71,11 @@ RigidPad<Scalar> pad_of(const RigidDisc& disc, const Frame<Scalar>& frame, doubl
 
   const Scalar pad_force =
       disc.preload + sigma * (force(disc.spring, Scalar(z - half)) + disc.damping * z_dot);
-  const auto [S, g] = axial_force<Scalar>(disc.law, pad_force);
+  const auto [S, g] = law(pad_force);
   const Scalar g_mu_by_v = g * friction_coefficient(disc.friction, v_reg) / v_reg;
   const Scalar N = S / (frame.b_3[2] + sigma * g_mu_by_v * v_r[2]);
   const Eigen::Vector3<Scalar> F = (-sigma * N) * frame.b_3 - (g_mu_by_v * N) * v_r;
-  return {z, z_dot, S, N, sqrt(slip_squared), F};
+  return {z, z_dot, S, pad_force, N, sqrt(slip_squared), F};
 }
 
 /// Moment of the force of a pad about the centre of the disc.
@@ -98,14 +100,13 @@ Eigen::Vector3<Scalar> moments(const RigidDisc& disc, const RigidMotion<Scalar>&
           dot<Scalar>(M_pads, frame.b_3) - disc.Phi * c_2 * u[0] * u[1]};
 }
 
-}  // namespace
-
 template <class Scalar>
-RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
-                                     Drive drive)
+RigidAcceleration<Scalar> acceleration_under(const RigidDisc& disc,
+                                             const RigidMotion<Scalar>& motion, Drive drive,
+                                             const std::array<RigidPad<Scalar>, 2>& pads)
 {
   const Frame<Scalar> frame = frame_of(motion);
-  const RigidPad<Scalar> up = pad_of(disc, frame, 1.0), lo = pad_of(disc, frame, -1.0);
+  const auto& [up, lo] = pads;
   // Theta c_2 q_1''          = rhs_1 + M_A e_z.b_1
   // Theta q_2''              = rhs_2 + M_A e_z.b_2
   // Phi (spin' + s_2 q_1'')  = rhs_3 + M_A e_z.b_3
@@ -129,6 +130,38 @@ RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Sc
           up, lo};
 }
 
+}  // namespace
+
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
+                                     Drive drive)
+{
+  const auto law = [&](const Scalar& S) { return axial_force<Scalar>(disc.law, S); };
+  const Frame<Scalar> frame = frame_of(motion);
+  return acceleration_under<Scalar>(
+      disc, motion, drive, {pad_of(disc, frame, 1.0, law), pad_of(disc, frame, -1.0, law)});
+}
+
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate_on_branches(const RigidDisc& disc,
+                                                 const RigidMotion<Scalar>& motion, Drive drive,
+                                                 const std::array<double, 2>& branches)
+{
+  const auto on = [](double g) {
+    return [g](const Scalar& S) { return AxialForce<Scalar>{g == 0.0 ? Scalar(0.0) : S, g}; };
+  };
+  const Frame<Scalar> frame = frame_of(motion);
+  return acceleration_under<Scalar>(
+      disc, motion, drive,
+      {pad_of(disc, frame, 1.0, on(branches[0])), pad_of(disc, frame, -1.0, on(branches[1]))});
+}
+
+template RigidAcceleration<double> accelerate_on_branches(const RigidDisc&,
+                                                          const RigidMotion<double>&, Drive,
+                                                          const std::array<double, 2>&);
+template RigidAcceleration<std::complex<double>> accelerate_on_branches(
+    const RigidDisc&, const RigidMotion<std::complex<double>>&, Drive,
+    const std::array<double, 2>&);
 template RigidAcceleration<double> accelerate(const RigidDisc&, const RigidMotion<double>&, Drive);
 template RigidAcceleration<std::complex<double>> accelerate(
     const RigidDisc&, const RigidMotion<std::complex<double>>&, Drive);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <functional>
 #include <optional>
@@ -23,6 +24,7 @@ struct RigidPad {
   Scalar z;                  ///< height of the contact point on the pad axis, m
   Scalar z_dot;              ///< velocity of the pad, m/s
   Scalar S;                  ///< force of the pad along its axis, N
+  Scalar S_free;             ///< the same if the pad could pull, N
   Scalar N;                  ///< normal force, N
   Scalar slip_speed;         ///< |v_r|, m/s
   Eigen::Vector3<Scalar> F;  ///< force on the disc, inertial axes, N; F_z = -sigma S
@@ -42,6 +44,13 @@ struct RigidAcceleration {
 template <class Scalar>
 RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
                                      Drive drive);
+
+/// The same with the upper and the lower pad each on a branch of the contact law; see
+/// contact_branch.hpp.
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate_on_branches(const RigidDisc& disc,
+                                                 const RigidMotion<Scalar>& motion, Drive drive,
+                                                 const std::array<double, 2>& branches);
 
 /// M q'' + C q' + K q = 0.
 struct RigidMatrices {

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <complex>
 
+#include <memory>
 #include "squeal/derivative.hpp"
+#include "squeal/model_motion.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -17,27 +19,38 @@ double scale_of(const RigidDisc& disc)
 }
 
 template <class Scalar>
-RigidAcceleration<Scalar> acceleration(const RigidDisc& disc, Drive drive,
-                                       const Eigen::VectorX<Scalar>& x, double speed)
+RigidMotion<Scalar> motion_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
+                              double speed)
 {
   Scalar spin(speed);
   if (drive == Drive::moment) spin += x[4];
-  return accelerate(
-      disc,
-      RigidMotion<Scalar>{x.template head<2>() / scale_of(disc), x.template segment<2>(2), spin},
-      drive);
+  return {x.template head<2>() / scale_of(disc), x.template segment<2>(2), spin};
+}
+
+template <class Scalar>
+RigidAcceleration<Scalar> acceleration(const RigidDisc& disc, Drive drive,
+                                       const Eigen::VectorX<Scalar>& x, double speed)
+{
+  return accelerate(disc, motion_of(disc, drive, x, speed), drive);
+}
+
+/// x' of these accelerations.
+template <class Scalar>
+Eigen::VectorX<Scalar> rate_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
+                               const RigidAcceleration<Scalar>& a)
+{
+  Eigen::VectorX<Scalar> rate(x.size());
+  rate.template head<2>() = scale_of(disc) * x.template segment<2>(2);
+  rate.template segment<2>(2) = a.q_ddot;
+  if (drive == Drive::moment) rate[4] = a.spin_rate;
+  return rate;
 }
 
 template <class Scalar>
 Eigen::VectorX<Scalar> rate_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
                                double speed)
 {
-  const RigidAcceleration<Scalar> a = acceleration(disc, drive, x, speed);
-  Eigen::VectorX<Scalar> rate(x.size());
-  rate.template head<2>() = scale_of(disc) * x.template segment<2>(2);
-  rate.template segment<2>(2) = a.q_ddot;
-  if (drive == Drive::moment) rate[4] = a.spin_rate;
-  return rate;
+  return rate_of(disc, drive, x, acceleration(disc, drive, x, speed));
 }
 
 template <class Scalar>
@@ -91,6 +104,47 @@ Eigen::MatrixXd state_matrix(const RigidDisc& disc, Drive drive, double speed)
       .topLeftCorner<4, 4>();
 }
 
+/// For ModelMotion: the nonlinear equations at a speed.
+struct RigidEquationsAt {
+  RigidDisc disc;
+  Drive drive;
+  double speed;
+
+  template <class Scalar>
+  SwitchedRate<Scalar> evaluate(const Eigen::VectorX<Scalar>& x,
+                                const Eigen::VectorXd& branches) const
+  {
+    const RigidAcceleration<Scalar> a = accelerate_on_branches<Scalar>(
+        disc, motion_of(disc, drive, x, speed), drive, {branches[0], branches[1]});
+    return {rate_of(disc, drive, x, a),
+            Eigen::Vector2<Scalar>(a.upper.S_free, a.lower.S_free) / disc.preload};
+  }
+  ContactResult<double> contact(const Eigen::VectorXd& x) const
+  {
+    return nonlinear_pads(disc, drive, x, speed);
+  }
+};
+
+/// The springs of the pads raise the frequency of the disc on its own springs.
+double highest_frequency(const RigidDisc& disc)
+{
+  const double k = disc.k_t + 2.0 * disc.spring.linear * disc.radius * disc.radius;
+  return std::sqrt(k / disc.Theta);
+}
+
+AutonomousMotionAt motion_at(const RigidDisc& disc, Drive drive)
+{
+  const Eigen::Index size = drive == Drive::moment ? 5 : 4;
+  return [disc, drive, size](double speed) {
+    return std::make_unique<ModelMotion<RigidEquationsAt>>(
+        RigidEquationsAt{disc, drive, speed},
+        ModelMotion<RigidEquationsAt>::Properties{.size = size,
+                                                  .n_switches = 2,
+                                                  .omega_highest = highest_frequency(disc),
+                                                  .law = disc.law});
+  };
+}
+
 /// The upper pad is displaced by r_0 tan(q_1) + ... = r_0 q_1 to first order.
 Eigen::VectorXd start_of(const RigidDisc& disc, Drive drive, double displacement)
 {
@@ -112,6 +166,7 @@ Model model_of(const RigidDisc& disc, Drive drive, RigidEquations equations)
         const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
         return rate_of(disc, drive, along, speed).imag() / complex_step;
       },
+      .motion = linear ? AutonomousMotionAt() : motion_at(disc, drive),
       .contact =
           [disc, drive, linear](const Eigen::VectorXd& x, double speed) {
             return linear ? linear_pads(disc, drive, x, speed)

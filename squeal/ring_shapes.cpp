@@ -18,13 +18,13 @@ Eigen::VectorXd column_of(const Eigen::MatrixXd& W, const Eigen::MatrixXd& W_r,
 
 }  // namespace
 
-RingShapes::RingShapes(const Disc& disc) : shapes_(disc.n_modes(), 3)
+RingShapes::RingShapes(const DiscRing& ring) : shapes_(ring.W.cosine.cols(), 3)
 {
-  const Eigen::Index n_orders = disc.W.cosine.rows(), n = disc.n_modes();
+  const Eigen::Index n_orders = ring.W.cosine.rows(), n = ring.W.cosine.cols();
   Eigen::MatrixXd all(3 * n, 2 * n_orders);
   for (Eigen::Index k = 0; k < n_orders; ++k) {
-    all.col(2 * k) = column_of(disc.W.cosine, disc.W_r.cosine, disc.W_t.cosine, k);
-    all.col(2 * k + 1) = column_of(disc.W.sine, disc.W_r.sine, disc.W_t.sine, k);
+    all.col(2 * k) = column_of(ring.W.cosine, ring.W_r.cosine, ring.W_t.cosine, k);
+    all.col(2 * k + 1) = column_of(ring.W.sine, ring.W_r.sine, ring.W_t.sine, k);
   }
   const Eigen::ArrayXd limit = negligible * all.cwiseAbs().rowwise().maxCoeff();
   std::vector<Eigen::Index> kept;

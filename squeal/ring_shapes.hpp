@@ -11,7 +11,7 @@ namespace chladni::squeal {
 /// that are zero.
 class RingShapes {
  public:
-  explicit RingShapes(const Disc& disc);
+  explicit RingShapes(const DiscRing& ring);
 
   /// [n_modes x 3], columns W, W_r, W_t at the angle `theta` (rad); valid until the next call.
   const Eigen::MatrixX3d& at(double theta);

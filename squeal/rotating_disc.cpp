@@ -6,24 +6,12 @@
 #include "squeal/contact_branch.hpp"
 
 namespace chladni::squeal {
-namespace {
-
-/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
-double pressure(const PadContact& pad, const PadState<double>& state,
-                const PlateMotion<double>& plate, double sigma)
-{
-  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
-  return 1.0 +
-         sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
-}
-
-}  // namespace
 
 RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       pulled_(pulled_branch(options.contact)),
-      ring_(disc),
-      pads_(pad_system(options, disc.radius)),
+      rings_(disc.rings.begin(), disc.rings.end()),
+      pads_(pad_system(options, ring_places(disc))),
       branches_(2 * pads_.points.size(), 1.0),
       S_(options.contact == ContactLaw::signed_force
              ? Eigen::VectorXd()
@@ -36,12 +24,13 @@ RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, doubl
   f_.resize(2 * omega_.size());
   q_.resize(omega_.size());
   for (const PointPair& point : pads_.points)
-    points_.push_back(brake_point(ring_.at(point.angle), pads_, point, speed));
+    points_.push_back(brake_point(rings_[point.ring].at(point.angle), pads_, point, speed));
 }
 
 const PairShapes& RotatingDisc::shapes(std::size_t i, double t)
 {
-  const Eigen::MatrixX3d& S = ring_.at(pads_.points[i].angle - speed_ * t);
+  const PointPair& point = pads_.points[i];
+  const Eigen::MatrixX3d& S = rings_[point.ring].at(point.angle - speed_ * t);
   points_[i].S.topLeftCorner(S.rows(), 3) = S;
   return points_[i].S;
 }

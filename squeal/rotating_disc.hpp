@@ -49,7 +49,7 @@ class RotatingDisc final : public Motion {
   Eigen::VectorXd omega_;
   Eigen::MatrixXd C_;
   bool damped_;
-  RingShapes ring_;
+  std::vector<RingShapes> rings_;
   PadSystem pads_;
   std::vector<BrakePoint> points_;  ///< with the shapes where the disc stood last
   std::vector<double> branches_;    ///< of each point; see contact_branch.hpp

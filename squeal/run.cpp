@@ -13,6 +13,7 @@
 #include "squeal/mode_sensitivity.hpp"
 #include "squeal/mode_shapes.hpp"
 #include "squeal/parallel.hpp"
+#include "squeal/rotation_stability.hpp"
 #include "squeal/spectrum.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
@@ -75,6 +76,8 @@ std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
        [&](auto& r, auto&) {
          r.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
        }},
+      {{"rotation-stability"},
+       [&](auto& r, auto&) { r.rotation_stability = rotation_stability(disc, options); }},
       {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
       {{"transient", "limit-cycle", "spectrum"},
        [&](auto& r, auto& progress) {

@@ -1,25 +1,13 @@
 #include "squeal/sliding_disc.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <span>
-#include <utility>
 
-#include "common/error.hpp"
 #include "squeal/contact_branch.hpp"
-#include "squeal/dop853.hpp"
-#include "squeal/root.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {
 namespace {
-
-/// Branch changes within one step beyond which the motion is taken for chatter.
-constexpr int changes_max = 64;
-/// Of the time of a branch change, relative. The force is continuous there, so that x is wrong by
-/// its square and the derivative by its first power.
-constexpr double change_error = 1e-8;
 
 SquealOptions without_pads(SquealOptions options)
 {
@@ -52,13 +40,13 @@ struct PointPower {
 
 /// Friction is what the normal forces are not; so is the friction at rest that plates are held
 /// against.
+/// @param all  the contact at this motion
 PointPower point_power(const BrakePoint& point, const PairVector<double>& g,
-                       const PairVector<double>& g_dot, double speed)
+                       const PairVector<double>& g_dot, const ContactResult<double>& all)
 {
   const PadContact& pad = point.contact;
   const auto rows = static_cast<int>(g.size());
   const RingMotion<double> m = pair_motion(g, g_dot);
-  const ContactResult<double> all = contact(pad, m, speed);
   const PadState<double> up = without_friction(all.upper, m, 1.0);
   const PadState<double> lo = without_friction(all.lower, m, -1.0);
   PadState<double> at_rest = point.at_rest;
@@ -73,161 +61,100 @@ PointPower point_power(const BrakePoint& point, const PairVector<double>& g,
 SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       pulled_(pulled_branch(options.contact)),
-      pads_(pad_system(options, disc.radius)),
-      by_omega_(with_pads(disc, pads_).omega.cwiseInverse()),
-      A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed))
+      pads_(pad_system(options, ring_places(disc))),
+      omega_(with_pads(disc, pads_).omega),
+      A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed)),
+      branches_(2 * pads_.points.size(), 1.0),
+      S_(options.contact == ContactLaw::signed_force
+             ? Eigen::VectorXd()
+             : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(branches_.size())))
 {
   for (const PointPair& point : pads_.points)
-    points_.push_back(brake_point(matrix_of(shapes_at(disc, point.angle)), pads_, point, speed));
+    points_.push_back(brake_point(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)),
+                                  pads_, point, speed));
 }
 
 SlidingDisc::PointMotion SlidingDisc::motion_at(const BrakePoint& point,
                                                 const Eigen::VectorXd& x) const
 {
-  const Eigen::Index n = by_omega_.size();
-  return {.g = point.S.transpose() * by_omega_.cwiseProduct(x.head(n)),
+  const Eigen::Index n = omega_.size();
+  return {.g = point.S.transpose() * x.head(n).cwiseQuotient(omega_),
           .g_dot = point.S.transpose() * x.tail(n)};
 }
 
-ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x) const
+const Eigen::VectorXd& SlidingDisc::rate(double /*t*/, const Eigen::VectorXd& x)
 {
-  std::vector<ContactResult<double>> results;
-  for (const BrakePoint& point : points_) {
+  ++n_evaluations_;
+  f_.noalias() = A_ * x;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const BrakePoint& point = points_[i];
     const PointMotion at = motion_at(point, x);
-    results.push_back(contact(point.contact, pair_motion(at.g, at.g_dot), speed_));
+    const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
+    const auto up = pad_on_branch(point.contact, motion, speed_, {1.0, branches_[2 * i]});
+    const auto lo = pad_on_branch(point.contact, motion, speed_, {-1.0, branches_[2 * i + 1]});
+    if (S_.size() > 0) {
+      const auto first = static_cast<Eigen::Index>(2 * i);
+      S_[first] = pressure(point.contact, up, motion.upper, 1.0);
+      S_[first + 1] = pressure(point.contact, lo, motion.lower, -1.0);
+    }
+    f_.tail(omega_.size()).noalias() +=
+        point.S * pair_forces(pair_force(point.contact, motion, up, lo), up, lo, point.at_rest,
+                              static_cast<int>(point.S.cols()));
   }
-  return by_pad(pads_, results).front();
+  return f_;
 }
 
-SlidingDisc::Power SlidingDisc::power(const Eigen::VectorXd& x) const
+double SlidingDisc::side(Eigen::Index i) const
 {
+  return branches_[static_cast<std::size_t>(i)] == 1.0 ? 1.0 : -1.0;
+}
+
+void SlidingDisc::set_side(Eigen::Index i, double side)
+{
+  branches_[static_cast<std::size_t>(i)] = side > 0.0 ? 1.0 : pulled_;
+}
+
+Eigen::MatrixXd SlidingDisc::jacobian(const Eigen::VectorXd& x)
+{
+  n_evaluations_ += 6;
+  const Eigen::Index n = omega_.size();
+  Eigen::MatrixXd J = A_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PairShapes& S = points_[i].S;
+    const PointMotion at = motion_at(points_[i], x);
+    const Eigen::MatrixXd D = force_derivative(points_[i], at.g, at.g_dot,
+                                               {speed_, std::span(branches_).subspan(2 * i, 2)});
+    J.bottomLeftCorner(n, n).noalias() +=
+        S * D.leftCols(S.cols()) * S.transpose() * omega_.cwiseInverse().asDiagonal();
+    J.bottomRightCorner(n, n).noalias() += S * D.rightCols(S.cols()) * S.transpose();
+  }
+  return J;
+}
+
+ContactResult<double> SlidingDisc::first_contact(const Eigen::VectorXd& x)
+{
+  return sample(x).first;
+}
+
+SlidingDisc::Sample SlidingDisc::sample(const Eigen::VectorXd& x)
+{
+  ++n_evaluations_;
   const auto n_pads = static_cast<Eigen::Index>(pads_.n_pads());
-  const Eigen::Index n = by_omega_.size();
+  const Eigen::Index n = omega_.size();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_pads);
   const auto p = x.tail(n);
   Power power{zero, zero, zero, p.dot(A_.bottomRightCorner(n, n) * p)};
+  std::vector<ContactResult<double>> contacts;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointMotion at = motion_at(points_[i], x);
-    const PointPower of_point = point_power(points_[i], at.g, at.g_dot, speed_);
+    contacts.push_back(contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_));
+    const PointPower of_point = point_power(points_[i], at.g, at.g_dot, contacts.back());
     const auto pad = static_cast<Eigen::Index>(pads_.points[i].pad);
     power.friction[pad] += of_point.friction;
     power.normal[pad] += of_point.normal;
     power.heat[pad] += of_point.heat;
   }
-  return power;
-}
-
-/// S of each pad, of either sign.
-Eigen::VectorXd SlidingDisc::axial_forces(const Eigen::VectorXd& x)
-{
-  ++n_evaluations_;
-  Eigen::VectorXd S(static_cast<Eigen::Index>(2 * points_.size()));
-  Eigen::Index i = 0;
-  for (const BrakePoint& point : points_) {
-    const PointMotion at = motion_at(point, x);
-    const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
-    for (const double sigma : {1.0, -1.0})
-      S[i++] = pad_on_branch(point.contact, motion, speed_, {sigma, 1.0}).S;
-  }
-  return S;
-}
-
-SlidingDisc::Branches SlidingDisc::branches_at(const Eigen::VectorXd& x)
-{
-  Branches branches(2 * points_.size(), 1.0);
-  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return branches;
-  const Eigen::VectorXd S = axial_forces(x);
-  for (std::size_t i = 0; i < branches.size(); ++i)
-    if (S[static_cast<Eigen::Index>(i)] < 0.0) branches[i] = pulled_;
-  return branches;
-}
-
-/// (f(x), f'(x) X) of Y = (x, X).
-Eigen::MatrixXd SlidingDisc::field(const Eigen::MatrixXd& Y, const Branches& branches)
-{
-  const Eigen::Index n = by_omega_.size(), n_columns = Y.cols() - 1;
-  n_evaluations_ += n_columns > 0 ? 7 : 1;
-  Eigen::MatrixXd rate = A_ * Y;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const BrakePoint& point = points_[i];
-    const PointMotion at = motion_at(point, Y.col(0));
-    const std::span<const double> of_pad = std::span(branches).subspan(2 * i, 2);
-    const Eigen::Index rows = point.S.cols();
-    Eigen::MatrixXd F(rows, Y.cols());
-    F.col(0) = force_on_branch(point, pair_motion(at.g, at.g_dot), speed_, of_pad);
-    if (n_columns > 0) {
-      Eigen::MatrixXd G(2 * rows, n_columns);
-      G << point.S.transpose() * by_omega_.asDiagonal() * Y.topRightCorner(n, n_columns),
-          point.S.transpose() * Y.bottomRightCorner(n, n_columns);
-      F.rightCols(n_columns) = force_derivative(point, at.g, at.g_dot, {speed_, of_pad}) * G;
-    }
-    rate.bottomRows(n) += point.S * F;
-  }
-  return rate;
-}
-
-/// The first pad whose force changes its sign on the way from `x` to `end`.
-std::optional<SlidingDisc::Change> SlidingDisc::first_change(const Eigen::VectorXd& x,
-                                                             const Eigen::VectorXd& end,
-                                                             double step, const Branches& branches)
-{
-  std::optional<Change> first;
-  if (points_.empty() || points_.front().contact.law == ContactLaw::signed_force) return first;
-  const Eigen::VectorXd S_end = axial_forces(end);
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const double side = branches[i] == 1.0 ? 1.0 : -1.0;
-    if (side * S_end[at] >= 0.0) continue;
-    const auto passed = [&](double time) {
-      const auto f = [&](const Eigen::MatrixXd& Y) { return field(Y, branches); };
-      return -side * axial_forces(dop853_step(f, Eigen::MatrixXd(x), time).col(0))[at];
-    };
-    // Rounding may leave a pad that has just changed a little on its old side.
-    const double after =
-        side * axial_forces(x)[at] > 0.0 ? root(passed, 0.0, step, change_error) : 0.0;
-    if (!first || after < first->after) first = Change{i, after};
-  }
-  return first;
-}
-
-Eigen::MatrixXd SlidingDisc::advance_over(Eigen::MatrixXd Y, double step, Branches& branches)
-{
-  for (int i = 0; i < changes_max; ++i) {
-    const auto f = [&](const Eigen::MatrixXd& at) { return field(at, branches); };
-    const Eigen::MatrixXd end = dop853_step(f, Y, step);
-    const auto change = first_change(Y.col(0), end.col(0), step, branches);
-    if (!change) return end;
-    if (change->after > 0.0) Y = dop853_step(f, Y, change->after);
-    branches[change->pad] = branches[change->pad] == 1.0 ? pulled_ : 1.0;
-    step -= change->after;
-  }
-  throw Error(
-      fmt::format("the contact of a pad changes more than {} times in {} s", changes_max, step));
-}
-
-Eigen::MatrixXd SlidingDisc::integrate(Eigen::MatrixXd Y, double time, int n_steps)
-{
-  Branches branches = branches_at(Y.col(0));
-  for (int i = 0; i < n_steps; ++i) Y = advance_over(std::move(Y), time / n_steps, branches);
-  return Y;
-}
-
-Eigen::VectorXd SlidingDisc::rate(const Eigen::VectorXd& x)
-{
-  return field(x, branches_at(x));
-}
-
-Eigen::VectorXd SlidingDisc::advance(const Eigen::VectorXd& x, double time, int n_steps)
-{
-  return integrate(x, time, n_steps);
-}
-
-SlidingDisc::Flow SlidingDisc::flow(const Eigen::VectorXd& x, double time, int n_steps)
-{
-  Eigen::MatrixXd Y(size(), size() + 1);
-  Y << x, Eigen::MatrixXd::Identity(size(), size());
-  const Eigen::MatrixXd end = integrate(std::move(Y), time, n_steps);
-  return {end.col(0), end.rightCols(size())};
+  return {by_pad(pads_, contacts).front(), power};
 }
 
 }  // namespace chladni::squeal

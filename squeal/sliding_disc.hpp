@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
+#include "squeal/autonomous_motion.hpp"
 #include "squeal/contact.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/pad_system.hpp"
@@ -14,31 +14,23 @@ namespace chladni::squeal {
 
 /// The motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with
 /// x = (diag(omega) a, p), pads with a mass at the end of a and p, all of the unit m kg^(1/2) / s.
-/// f is smooth but where the axial force of a pad passes zero; there the integration stops and goes
-/// on with the other branch of the contact law, so that it keeps its order. A pad that leaves and
-/// returns within one step is not seen to do so.
-class SlidingDisc {
+/// f is smooth but where the axial force of a pad passes zero; switching functions are these forces
+/// over their preloads, upper and lower one of each point pair in turn.
+class SlidingDisc final : public AutonomousMotion {
  public:
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);
 
-  double speed() const { return speed_; }  ///< rad/s
-  Eigen::Index size() const { return A_.rows(); }
+  double speed() const { return speed_; }                ///< rad/s
+  std::size_t n_pads() const { return pads_.n_pads(); }  ///< pairs
+  Eigen::Index size() const override { return A_.rows(); }
+  double omega_highest() const override { return omega_.maxCoeff(); }
 
-  /// f(x) with the contact law as it is at x.
-  Eigen::VectorXd rate(const Eigen::VectorXd& x);
-
-  /// x after `time` (s), in `n_steps` steps of order 8.
-  Eigen::VectorXd advance(const Eigen::VectorXd& x, double time, int n_steps);
-
-  /// x after `time` and its derivatives by the initial x, in `n_steps` steps of order 8.
-  struct Flow {
-    Eigen::VectorXd end;
-    Eigen::MatrixXd derivative;  ///< [size x size]
-  };
-  Flow flow(const Eigen::VectorXd& x, double time, int n_steps);
-
-  /// The first pad pair at x.
-  ContactResult<double> first_contact(const Eigen::VectorXd& x) const;
+  const Eigen::VectorXd& rate(double t, const Eigen::VectorXd& x) override;
+  const Eigen::VectorXd& switches() const override { return S_; }
+  double side(Eigen::Index i) const override;
+  void set_side(Eigen::Index i, double side) override;
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) override;
+  ContactResult<double> first_contact(const Eigen::VectorXd& x) override;
 
   /// Power (W) of each source on the vibration; see CycleEnergy.
   struct Power {
@@ -47,43 +39,30 @@ class SlidingDisc {
     Eigen::VectorXd heat;      ///< [n_pads]
     double damping;
   };
-  Power power(const Eigen::VectorXd& x) const;
 
-  /// Evaluations of the contact forces of all pads so far; one with derivatives counts as seven,
-  /// since a derivative in each of six directions costs as much as the force.
-  std::int64_t n_evaluations() const { return n_evaluations_; }
+  /// What can be seen of the state x.
+  struct Sample {
+    ContactResult<double> first;  ///< of the first pad pair
+    Power power;
+  };
+  Sample sample(const Eigen::VectorXd& x);
 
  private:
-  /// Friction factor of each point, upper and lower one of each pair in turn: 1 in contact, -1
-  /// where a bilateral pad pulls, 0 where a unilateral pad is off.
-  using Branches = std::vector<double>;
-
   struct PointMotion {
     PairVector<double> g, g_dot;  ///< see PairShapes
   };
 
-  /// When the force of a pad passes zero, s after the begin of a step.
-  struct Change {
-    std::size_t pad;
-    double after;
-  };
-
   PointMotion motion_at(const BrakePoint& point, const Eigen::VectorXd& x) const;
-  Eigen::VectorXd axial_forces(const Eigen::VectorXd& x);
-  Branches branches_at(const Eigen::VectorXd& x);
-  Eigen::MatrixXd field(const Eigen::MatrixXd& Y, const Branches& branches);
-  std::optional<Change> first_change(const Eigen::VectorXd& x, const Eigen::VectorXd& end,
-                                     double step, const Branches& branches);
-  Eigen::MatrixXd advance_over(Eigen::MatrixXd Y, double step, Branches& branches);
-  Eigen::MatrixXd integrate(Eigen::MatrixXd Y, double time, int n_steps);
 
   double speed_;
   double pulled_;  ///< branch of a pad whose axial force is negative
   PadSystem pads_;
-  Eigen::VectorXd by_omega_;
+  Eigen::VectorXd omega_;
   Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
   std::vector<BrakePoint> points_;
-  std::int64_t n_evaluations_ = 0;
+  std::vector<double> branches_;  ///< of each point; see contact_branch.hpp
+  Eigen::VectorXd S_;
+  Eigen::VectorXd f_;
 };
 
 }  // namespace chladni::squeal

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "squeal/pad_options.hpp"
+
 namespace chladni::squeal {
 
 /// What happens when the disc pulls away from a pad.
@@ -11,52 +13,6 @@ enum class ContactLaw {
   bilateral,    ///< the pad also pulls; |N| in the friction law (the thesis)
   unilateral,   ///< contact is lost
   signed_force  ///< the pad also pulls; friction changes sign with N
-};
-
-/// A spring and a damper side by side.
-struct Suspension {
-  double stiffness;  ///< N/m, or N m for a rotation; > 0
-  double damping;    ///< N s/m, or N m s
-};
-
-/// A rotation of a pad on a spring and a damper.
-struct RotarySuspension {
-  double inertia;  ///< kg m^2
-  Suspension suspension;
-};
-
-/// The plate of a pad as a rigid body with those of its six degrees of freedom that have a
-/// suspension. Its lining, between plate and disc, has the stiffness of the pad.
-struct PadBody {
-  double mass;          ///< kg
-  double height = 0.0;  ///< of its centre of mass above the contact plane, m
-  std::optional<Suspension> radial = {}, tangential = {}, axial = {};
-  std::optional<RotarySuspension> about_radial = {}, about_tangential = {}, about_axial = {};
-};
-
-/// A rigid body between the axial suspensions of the two plates of a pair and the ground.
-struct Caliper {
-  double mass;  ///< kg
-  Suspension axial;
-};
-
-/// Point contacts in the middle of equal parts of a sector, which share stiffness, damping and
-/// preload of the pad.
-struct PadGrid {
-  double sector;  ///< rad
-  int points;
-};
-
-/// One pad pair: an upper and a lower pad on one vertical axis; massless unless it has a body.
-struct PadPair {
-  double angle;                  ///< inertial angle of the axis, rad
-  double stiffness;              ///< of each pad spring, N/m
-  double damping;                ///< N s/m
-  double preload;                ///< N_0 of each pad, N
-  double cubic_stiffness = 0.0;  ///< k_3 of each pad spring, N/m^3
-  std::optional<PadGrid> grid = {};
-  std::optional<PadBody> body = {};
-  std::optional<Caliper> caliper = {};  ///< needs a body with an axial suspension
 };
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -155,7 +111,7 @@ struct SquealOptions {
   std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "growth", "transient",
                                       ///< "limit-cycle", "limit-cycle-direct",
                                       ///< "limit-cycle-branch", "stability-map", "critical-values",
-                                      ///< "spectrum"
+                                      ///< "spectrum", "mode-sensitivity", "rotation-stability"
   std::optional<TransientCase> transient;
   std::optional<GrowthCase> growth;
   std::optional<DirectCase> limit_cycle_direct;

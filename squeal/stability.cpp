@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "squeal/hopf.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/root.hpp"
 
@@ -55,17 +56,37 @@ Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
 
 /// Largest real part that rounding can make of a zero, relative to the eigenvalue.
 constexpr double rounding = 1e-12;
+/// The same at a point that Newton's method has found to 1e-11.
+constexpr double rounding_of_newton = 1e-11;
+
+/// The eigenvalue at `high` that has crossed since `low`, followed back by Newton's method on the
+/// bordered system; by bracketing where that leads elsewhere, as it may where two of them cross.
+CriticalSpeed crossing_between(const StateMatrixAt& A, double low, double high)
+{
+  const auto worst = [&](double speed) { return least_stable_eigenvalue(A(speed)); };
+  const EigenPair unstable = least_stable_pair(A(high));
+  const auto point = hopf_point(A, high, unstable.lambda.imag(), unstable.u);
+  if (point && point->value >= low && point->value <= high) {
+    const Complex there = worst(point->value);
+    // No other one is unstable there.
+    if (there.real() <= rounding_of_newton * std::abs(there))
+      return {point->value, point->omega / (2.0 * std::numbers::pi), point->n_newton_steps};
+  }
+  const double critical = root([&](double x) { return worst(x).real(); }, low, high);
+  return {critical, worst(critical).imag() / (2.0 * std::numbers::pi), 0};
+}
 
 }  // namespace
 
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed)
 {
-  const PadSystem pads = pad_system(options, disc.radius);
+  const PadSystem pads = pad_system(options, ring_places(disc));
   const InertialDisc brake = with_pads(disc, pads);
   const Eigen::Index n = brake.n_modes();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C + 2.0 * speed * brake.G;
   for (const PointPair& point : pads.points) {
-    const PairShapes S = pair_shapes(matrix_of(shapes_at(disc, point.angle)), pads, point);
+    const PairShapes S =
+        pair_shapes(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)), pads, point);
     const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     K -= S * d.D_a * S.transpose();
     C -= S * d.D_p * S.transpose();
@@ -88,6 +109,17 @@ Complex least_stable_eigenvalue(const Eigen::MatrixXd& A)
   Eigen::Index worst = 0;
   lambda.real().maxCoeff(&worst);
   return lambda[worst];
+}
+
+EigenPair least_stable_pair(const Eigen::MatrixXd& A)
+{
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  if (solver.info() != Eigen::Success)
+    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
+  const Complex expected = least_stable_eigenvalue(A);
+  Eigen::Index i = 0;
+  (solver.eigenvalues().array() - expected).abs().minCoeff(&i);
+  return {solver.eigenvalues()[i], solver.eigenvectors().col(i).normalized()};
 }
 
 Complex least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
@@ -121,16 +153,14 @@ EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options
 
 std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range)
 {
-  const auto worst = [&](double speed) { return least_stable_eigenvalue(A(speed)); };
   const Eigen::VectorXd speeds = speeds_of(range, std::max(128, range.count));
   std::optional<double> last_stable;
   for (const double speed : speeds) {
-    const Complex now = worst(speed);
+    const Complex now = least_stable_eigenvalue(A(speed));
     const bool decided = std::abs(now.real()) > rounding * std::abs(now);
     if (decided && now.real() < 0.0) last_stable = speed;
     if (!decided || now.real() < 0.0 || !last_stable) continue;
-    const double critical = root([&](double x) { return worst(x).real(); }, *last_stable, speed);
-    return CriticalSpeed{critical, worst(critical).imag() / (2.0 * std::numbers::pi)};
+    return crossing_between(A, *last_stable, speed);
   }
   return std::nullopt;
 }

@@ -26,13 +26,21 @@ std::complex<double> least_stable_eigenvalue(const Eigen::MatrixXd& A);
 std::complex<double> least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
                                              double speed);
 
+/// The eigenvalue of A with the largest real part and Im >= 0, and its eigenvector of norm 1.
+struct EigenPair {
+  std::complex<double> lambda;
+  Eigen::VectorXcd u;
+};
+EigenPair least_stable_pair(const Eigen::MatrixXd& A);
+
 /// Eigenvalues over the speeds, followed from speed to speed by extrapolation.
 EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range);
 EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options);
 
-/// The smallest speed of the range at which max Re(lambda) turns from negative to positive, found
-/// to 1e-12 relative by bracketing; absent when it does not within the range. The range is scanned
-/// at 128 speeds or `range.count`, whichever is more.
+/// The smallest speed of the range at which max Re(lambda) turns from negative to positive; absent
+/// when it does not within the range. The range is scanned at 128 speeds or `range.count`,
+/// whichever is more; from the first unstable one Newton's method on the bordered system of
+/// hopf.hpp finds the crossing to rounding.
 std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range);
 std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options);
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
+
 #include "squeal/inertial_frame.hpp"
+#include "squeal/model.hpp"
 #include "squeal/results.hpp"
 #include "squeal/squeal_options.hpp"
 
@@ -17,5 +20,10 @@ const char* name_of(MapParameter parameter);
 /// @throws chladni::Error when `options.map` is absent.
 StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options,
                            unsigned n_threads = 0);
+
+/// The same of whatever has a state matrix for each value of the parameter.
+/// @param A_of  yields the state matrix over the speed; called from several threads
+StabilityMap stability_map(const std::function<StateMatrixAt(double value)>& A_of,
+                           const MapCase& range, const SpeedRange& speeds, unsigned n_threads = 0);
 
 }  // namespace chladni::squeal

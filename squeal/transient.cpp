@@ -1,5 +1,7 @@
 #include "squeal/transient.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -65,7 +67,8 @@ ModalState start_in_first_pair(const InertialDisc& disc, const TransientCase& ru
          disc.omega[i] < disc.omega[first]))
       first = i;
   const bool pair = disc.nodal_diameters[static_cast<std::size_t>(first)] > 0;
-  a.segment(first, pair ? 2 : 1).setConstant(run.initial_pad_displacement / disc.U[first]);
+  a.segment(first, pair ? 2 : 1)
+      .setConstant(run.initial_pad_displacement / disc.rings.front().U[first]);
   const Eigen::VectorXd at_pad = turned(disc, a, angle);
   return {disc.R * at_pad, disc.R * (run.speed * disc.D * at_pad)};
 }
@@ -136,6 +139,22 @@ class StateRecorder {
   Eigen::Index n_tail_ = 0;
 };
 
+/// Sliding so slow that its direction turns within a step of an explicit kick, m/s, without
+/// regularisation, and with it in multiples of that.
+constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
+
+std::string warning_of(const Transient& run, const SquealOptions& options)
+{
+  const double eps = options.slip_regularisation;
+  const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
+  if (run.slip_speed_min >= limit || options.friction == 0.0) return {};
+  return fmt::format(
+      "sliding fell to {:.2g} m/s, {}; compare with integrator = \"generalised-alpha\"",
+      run.slip_speed_min,
+      eps > 0.0 ? "where the regularisation of friction counts"
+                : "where the direction of friction turns at once: give friction a regularisation");
+}
+
 bool is_finite(const std::vector<ContactResult<double>>& contacts)
 {
   return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
@@ -190,6 +209,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
     result.speed = turn_at(run, run.duration).speed;
   result.modes = states.modes();
   result.tail_a = states.tail_a();
+  result.warning = warning_of(result, options);
   if (sound) {
     sound->finish();
     result.sound = sound->samples();

@@ -21,15 +21,19 @@ void write_history(Writer& file, const std::string& group, const History& histor
   file.write(group + "/pad_displacement", history.pad_displacement, "m");
   file.write(group + "/N_up", history.N_up, "N");
   file.write(group + "/N_lo", history.N_lo, "N");
+  file.write(group + "/slip_speed", history.slip_speed, "m/s");
 }
 
 History read_history(const Reader& file, const std::string& group)
 {
   const std::vector<double> t = read_series(file, group + "/t");
   const auto n = static_cast<Eigen::Index>(t.size());
-  return {t, read_series(file, group + "/pad_velocity", n),
-          read_series(file, group + "/pad_displacement", n), read_series(file, group + "/N_up", n),
-          read_series(file, group + "/N_lo", n)};
+  return {t,
+          read_series(file, group + "/pad_velocity", n),
+          read_series(file, group + "/pad_displacement", n),
+          read_series(file, group + "/N_up", n),
+          read_series(file, group + "/N_lo", n),
+          read_series(file, group + "/slip_speed", n)};
 }
 
 /// One row for each time, as everything else of a history.
@@ -110,6 +114,7 @@ void write_transient(Writer& file, const Transient& run)
   file.write("transient/integrator", run.integrator);
   file.write("transient/integrator_reason", run.integrator_reason);
   file.write("transient/steps", run.n_steps, "1");
+  if (!run.warning.empty()) file.write("transient/warning", run.warning);
   file.write("transient/contact_evaluations", run.n_contact_evaluations, "1");
   file.write("transient/N_min", run.N_min, "N");
   file.write("transient/N_max", run.N_max, "N");
@@ -143,7 +148,9 @@ Transient read_transient(const Reader& file)
           .N_max = file.real("transient/N_max"),
           .slip_speed_min = file.real("transient/slip_speed_min"),
           .t_zero_force = read_optional(file, "transient/t_zero_force"),
-          .growth_rate = read_optional(file, "transient/growth_rate")};
+          .growth_rate = read_optional(file, "transient/growth_rate"),
+          .warning =
+              file.contains("transient/warning") ? file.text("transient/warning") : std::string()};
 }
 
 }  // namespace chladni::squeal

@@ -15,10 +15,10 @@
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 11> analyses{
+constexpr std::array<std::string_view, 12> analyses{
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
     "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
-    "mode-sensitivity"};
+    "mode-sensitivity",   "rotation-stability"};
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
@@ -171,7 +171,7 @@ void validate(const SquealOptions& options)
                               fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
       asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
-      asks_for(options, "limit-cycle-branch"))
+      asks_for(options, "limit-cycle-branch") || asks_for(options, "rotation-stability"))
     validate_speeds(options.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle") ||
       asks_for(options, "spectrum"))

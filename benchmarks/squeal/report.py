@@ -83,10 +83,18 @@ def discrete_table(series):
         yield f"| {row['modes']} | {row['integrator']} | " + " | ".join(f"{e:.1e}" for _, e in row["points"]) + " |\n"
 
 
+def hard_cases_table(rows):
+    yield "\n## Hard cases\n\nWhat they mean and where they end is in [squeal_models.md](squeal_models.md).\n\n"
+    yield "| case | setting | result | beside it |\n| --- | --- | --- | --- |\n"
+    for row in rows:
+        yield f"| {row['case']} | {row['setting']} | {row['result']} | {row['reference']} |\n"
+
+
 def main(result, docs):
     data = json.loads(result.read_text())
     draw(data["cases"], docs / "figures" / "squeal_work_precision.png")
     text = HEAD + "".join(target_row(target) for target in data["targets"])
+    text += "".join(hard_cases_table(data["hard_cases"]))
     text += "".join(discrete_table(data["discrete"]))
     for case in data["cases"]:
         text += "".join(case_table(case))

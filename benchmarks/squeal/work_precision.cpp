@@ -8,20 +8,18 @@
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/squeal/cvode.hpp"
+#include "benchmarks/squeal/hard_cases.hpp"
+#include "benchmarks/squeal/targets.hpp"
 #include "squeal/dormand_prince.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
-#include "squeal/limit_cycle_direct.hpp"
 #include "squeal/rotating_disc.hpp"
 #include "squeal/stability.hpp"
-#include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
 #include "squeal/transient_steps.hpp"
 #include "tests/squeal/analytic_body.hpp"
@@ -31,14 +29,7 @@ namespace {
 
 using namespace chladni::squeal;
 using namespace chladni::squeal::test;
-
-/// Processor time of all threads: what else runs on the machine does not count.
-double seconds_of(const std::function<void()>& work)
-{
-  const std::clock_t start = std::clock();
-  work();
-  return double(std::clock() - start) / CLOCKS_PER_SEC;
-}
+using namespace chladni::squeal::bench;
 
 /// One run: what it cost, and how far it was from the truth.
 struct Point {
@@ -197,81 +188,6 @@ std::string growth_json(const Case& study, bool smallest)
   return json_of(study, "of the growth rate, 1/s", points);
 }
 
-/// A target and what was measured.
-struct Target {
-  std::string name, unit;
-  double measured, limit;
-};
-
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
-std::vector<Target> transient_targets(bool smallest)
-{
-  const Disc pair = disc_of({kirchhoff_3(1672.13)}), all = disc_of(kirchhoff_modes());
-  const double seconds = smallest ? 0.5 : 6.0, speed = 6.0 * pi;
-  Transient run{};
-  const double time = seconds_of([&] {
-    run = transient(pair, reference_options(),
-                    {.speed = speed, .duration = seconds, .initial_pad_displacement = 6.8e-8});
-  });
-  const double rate =
-      least_stable_eigenvalue(inertial_disc(pair), reference_options(), speed).real();
-  const double large = smallest ? 0.02 : 1.0;
-  const double time_all = seconds_of([&] {
-    transient(all, reference_options(ContactLaw::unilateral),
-              {.speed = speed, .duration = large, .initial_pad_displacement = 1e-4});
-  });
-  return {
-      {"6 s transient of two modes, time over real time", "1", time / seconds, 0.1},
-      {"its error of the growth rate", "1/s", std::abs(run.growth_rate.value_or(NAN) - rate), 1e-3},
-      {"transient of 35 modes below 16 kHz, time over real time", "1", time_all / large, 1.0}};
-}
-
-std::vector<Target> direct_targets(bool smallest)
-{
-  const Disc pair = disc_of({kirchhoff_3(1672.13)}), all = disc_of(kirchhoff_modes());
-  SquealOptions options = reference_options();
-  const int n = smallest ? 10 : 100;
-  options.speeds.count = n;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .count = n};
-  const double map = seconds_of([&] { stability_map(inertial_disc(pair), options); });
-  std::vector<Target> targets{
-      {fmt::format("stability map of {0} x {0} points, two modes", n), "s", map, 10.0}};
-  if (!smallest)
-    targets.push_back({"stability map of 100 x 100 points, 35 modes", "s",
-                       seconds_of([&] { stability_map(inertial_disc(all), options); }), 0.0});
-  const DirectLimitCycle cycle = limit_cycle_direct(pair, reference_options(), 6.0 * pi);
-  const Transient run = transient(
-      pair, reference_options(),
-      {.speed = 6.0 * pi, .duration = smallest ? 0.5 : 6.0, .initial_pad_displacement = 6.8e-8});
-  const Transient splitting = transient(pair, reference_options(),
-                                        {.speed = 6.0 * pi,
-                                         .duration = smallest ? 0.5 : 6.0,
-                                         .initial_pad_displacement = 6.8e-8,
-                                         .steps_per_period = 40,
-                                         .integrator = IntegratorKind::splitting});
-  const auto direct = double(cycle.n_contact_evaluations);
-  targets.push_back(
-      {"contact evaluations of the transient of 6 s over those of the direct limit cycle", "1",
-       double(run.n_contact_evaluations) / direct, 0.0});
-  targets.push_back({"the same for a transient by splitting, 40 steps for a period", "1",
-                     double(splitting.n_contact_evaluations) / direct, 50.0});
-  return targets;
-}
-
-std::string json_of(const std::vector<Target>& targets)
-{
-  std::string text = "[";
-  for (const Target& target : targets)
-    text += fmt::format(
-        "{}\n  {{\"name\": \"{}\", \"unit\": \"{}\", \"measured\": {:.4g}, \"target\": {:g}}}",
-        text.size() > 1 ? "," : "", target.name, target.unit, target.measured, target.limit);
-  return text + "]";
-}
-
 /// Largest error of all growth rates by the eigenvalues of one discrete step, near 4.28 pi.
 std::string discrete_json(const Disc& disc, IntegratorKind kind)
 {
@@ -297,8 +213,7 @@ int main(int argc, char** argv)
   const SquealOptions bilateral = reference_options(),
                       unilateral = reference_options(ContactLaw::unilateral);
   const double squeal = 1.0 / 1750.0;
-  std::vector<Target> targets = transient_targets(smallest);
-  for (const Target& target : direct_targets(smallest)) targets.push_back(target);
+  const std::vector<Target> targets = measured_targets(smallest);
   for (const Target& target : targets)
     fmt::print("{}: {:.3g} {} (target {:g})\n", target.name, target.measured, target.unit,
                target.limit);
@@ -316,6 +231,6 @@ int main(int argc, char** argv)
        << ",\n"
        << motion_json({"35 modes with contact loss", all, unilateral, 6.0 * pi, 5.0 * squeal},
                       smallest)
-       << "\n]}\n";
+       << "\n],\n\"hard_cases\": " << hard_cases_json(smallest) << "}\n";
   return file ? 0 : 1;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "cli/scene/squeal_tables.hpp"
@@ -63,8 +64,18 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad)
 {
   if (!pad.has("grid")) return std::nullopt;
   const Table table = pad.table("grid");
-  return squeal::PadGrid{.sector = degree * table.number("sector_deg"),
-                         .points = table.integer("points")};
+  squeal::PadGrid grid{.sector = degree * table.number("sector_deg"),
+                       .points = table.integer("points")};
+  if (table.has("rings")) {
+    grid.rings = table.texts("rings");
+    if (grid.rings.empty()) table.refuse("rings", "must name at least one ring");
+    std::vector<std::string> sorted = grid.rings;
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) {
+      table.refuse("rings", "must not name a ring twice");
+    }
+  }
+  return grid;
 }
 
 squeal::PadPair read_pad(const Table& pad)

@@ -68,9 +68,11 @@ reduce::ReduceOptions read_reduce(const Table& root)
 {
   const Table table = root.table("reduce");
   reduce::ReduceOptions options;
-  options.method = table.choice<reduce::Method>(
-      "method",
-      {{"craig-bampton", reduce::Method::craig_bampton}, {"guyan", reduce::Method::guyan}});
+  options.method =
+      table.choice<reduce::Method>("method", {{"craig-bampton", reduce::Method::craig_bampton},
+                                              {"guyan", reduce::Method::guyan},
+                                              {"rubin", reduce::Method::rubin},
+                                              {"macneal", reduce::Method::macneal}});
   if (options.method == reduce::Method::guyan) {
     for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"}) {
       if (table.has(key))
@@ -84,6 +86,9 @@ reduce::ReduceOptions read_reduce(const Table& root)
   } else if (criterion == "cutoff_Hz") {
     options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
+    if (options.method != reduce::Method::craig_bampton) {
+      table.refuse("tolerance", "needs method \"craig-bampton\"; give modes or cutoff_Hz");
+    }
     options.tolerance = {.tolerance = table.number("tolerance"),
                          .up_to_Hz = table.number("up_to_Hz")};
   }

@@ -8,22 +8,36 @@
 namespace chladni::cli {
 namespace {
 
-using squeal::MapParameter;
-
 const std::vector<std::string> analysis_names = {
     "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
     "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
-    "mode-sensitivity"};
+    "mode-sensitivity",   "rotation-stability"};
+
+void check_ring(const Table& table, std::string_view key, const std::string& ring,
+                const Scene& scene)
+{
+  const std::vector<std::string> rings = ring_names(scene.mesh);
+  if (!contains(rings, ring)) table.refuse(key, no_such_name("ring", ring, rings));
+  if (!contains(scene.interface_nodes, ring)) {
+    table.refuse(key, "must stand in interface.nodes too, or the body does not have it");
+  }
+}
 
 std::string read_ring(const Table& squeal, const Scene& scene)
 {
   const std::string ring = squeal.text("ring");
-  const std::vector<std::string> rings = ring_names(scene.mesh);
-  if (!contains(rings, ring)) squeal.refuse("ring", no_such_name("ring", ring, rings));
-  if (!contains(scene.interface_nodes, ring)) {
-    squeal.refuse("ring", "must stand in interface.nodes too, or the body does not have it");
-  }
+  check_ring(squeal, "ring", ring, scene);
   return ring;
+}
+
+/// The rings of all grids are those of the body.
+void check_grids(const Table& squeal, const Scene& scene)
+{
+  for (const Table& pad : squeal.tables("pads")) {
+    if (!pad.has("grid") || !pad.table("grid").has("rings")) continue;
+    const Table grid = pad.table("grid");
+    for (const std::string& ring : grid.texts("rings")) check_ring(grid, "rings", ring, scene);
+  }
 }
 
 /// The n of "nodal-diameters n"; absent when the text is anything else.
@@ -55,57 +69,11 @@ squeal::ModeChoice read_modes(const Table& squeal)
   return modes;
 }
 
-/// At the speed of the transient unless the scene gives another one.
-std::optional<squeal::DirectCase> read_direct(const Table& squeal,
-                                              const std::optional<squeal::TransientCase>& transient)
-{
-  if (squeal.has("limit_cycle_direct")) {
-    const Table table = squeal.table("limit_cycle_direct");
-    return squeal::DirectCase{table.number("speed_rad_s")};
-  }
-  if (transient) return squeal::DirectCase{transient->speed};
-  return std::nullopt;
-}
-
-MapParameter read_parameter(const Table& table)
-{
-  return table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
-                                                  {"preload", MapParameter::preload},
-                                                  {"stiffness", MapParameter::stiffness}});
-}
-
-std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
-{
-  std::vector<squeal::CriticalCase> searches;
-  if (!squeal.has("critical")) return searches;
-  for (const Table& table : squeal.tables("critical")) {
-    const double from = table.number("from");
-    searches.push_back({.parameter = read_parameter(table),
-                        .from = from,
-                        .to = table.number("to", {.above = from, .unit = "from"}),
-                        .speed = table.number("speed_rad_s")});
-  }
-  return searches;
-}
-
 std::optional<squeal::SoundCase> read_sound(const Table& squeal)
 {
   if (!squeal.has("wav")) return std::nullopt;
   const Table table = squeal.table("wav");
   return squeal::SoundCase{table.integer("rate_Hz")};
-}
-
-std::optional<squeal::MapCase> read_map(const Table& squeal)
-{
-  if (!squeal.has("map")) return std::nullopt;
-  const Table table = squeal.table("map");
-  const MapParameter parameter = read_parameter(table);
-  const double from = parameter == MapParameter::friction ? table.number("from")
-                                                          : table.number("from", {.above = 0.0});
-  return squeal::MapCase{.parameter = parameter,
-                         .from = from,
-                         .to = table.number("to", {.at_least = from}),
-                         .count = table.integer("count")};
 }
 
 }  // namespace
@@ -126,6 +94,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.slip_regularisation = friction.regularisation;
   options.contact = read_contact(squeal);
   options.pads = read_pads(squeal);
+  check_grids(squeal, scene);
   options.analyses = read_analyses(squeal, analysis_names);
   options.transient = read_transient(squeal);
   options.growth = read_growth(squeal);

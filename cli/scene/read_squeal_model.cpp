@@ -9,8 +9,9 @@ using squeal::RigidEquations;
 
 enum class ModelChoice { flexible_disc, rigid_disc, oscillator };
 
-const std::vector<std::string> analysis_names = {"eigenvalues", "critical-speed", "growth",
-                                                 "transient", "limit-cycle"};
+const std::vector<std::string> analysis_names = {
+    "eigenvalues", "critical-speed", "critical-values",    "stability-map",     "growth",
+    "transient",   "limit-cycle",    "limit-cycle-direct", "limit-cycle-branch"};
 
 /// The only pad pair of a rigid disc; its angle does not matter.
 Table read_only_pad(const Table& squeal)
@@ -115,6 +116,9 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
                   "order 8 at a constant speed");
   }
   options.growth = read_growth(squeal);
+  options.limit_cycle_direct = read_direct(squeal, options.transient);
+  options.map = read_map(squeal);
+  options.critical = read_critical(squeal);
   return options;
 }
 

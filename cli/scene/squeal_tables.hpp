@@ -35,4 +35,14 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal);
 /// squeal.growth
 std::optional<squeal::GrowthCase> read_growth(const Table& squeal);
 
+/// squeal.limit_cycle_direct; at the speed of the transient unless the scene gives another one.
+std::optional<squeal::DirectCase> read_direct(
+    const Table& squeal, const std::optional<squeal::TransientCase>& transient);
+
+/// squeal.critical
+std::vector<squeal::CriticalCase> read_critical(const Table& squeal);
+
+/// squeal.map
+std::optional<squeal::MapCase> read_map(const Table& squeal);
+
 }  // namespace chladni::cli

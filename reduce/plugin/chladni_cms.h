@@ -21,6 +21,8 @@ typedef const char *CMSType;
 
 #define CMSGUYAN "guyan"                 /* masters only: static condensation */
 #define CMSCRAIGBAMPTON "craig-bampton"  /* masters and fixed-interface modes; the default */
+#define CMSRUBIN "rubin"     /* modes of the free body and residual flexibility, consistent mass */
+#define CMSMACNEAL "macneal" /* the same with the mass of the modes alone; no error estimates */
 
 /* How the modes found compare with the number of eigenvalues that the full model must have. */
 typedef struct {
@@ -72,7 +74,7 @@ PETSC_EXTERN PetscErrorCode CMSSetInterfaceGeometry(CMS cms, PetscInt n, const P
 /* Rows wanted by CMSGetTransformation, global indices; NULL (default): all rows, laid out as K. */
 PETSC_EXTERN PetscErrorCode CMSSetOutput(CMS cms, IS rows);
 
-/* -cms_type guyan|craig-bampton */
+/* -cms_type guyan|craig-bampton|rubin|macneal */
 PETSC_EXTERN PetscErrorCode CMSSetType(CMS cms, CMSType type);
 PETSC_EXTERN PetscErrorCode CMSGetType(CMS cms, CMSType *type);
 /* How many modes; the last of the three that is set counts.

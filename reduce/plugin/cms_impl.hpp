@@ -11,6 +11,7 @@
 #include "reduce/craig_bampton.hpp"
 #include "reduce/error_estimates.hpp"
 #include "reduce/plugin/chladni_cms.h"
+#include "reduce/progress.hpp"
 #include "reduce/reduce_options.hpp"
 
 /// Inside of the PETSc class CMS; nothing of it crosses the C header.
@@ -78,7 +79,8 @@ Handle reference(Object object)
   return Handle(object);
 }
 
-/// Brackets a phase: log event, wall time, monitor.
+/// Brackets a phase: log event, wall time, monitor; with -cms_monitor on a terminal also how much
+/// of it is done and how long the rest will take.
 class Phase {
  public:
   Phase(CMS cms, PetscLogEvent event, const char* name);
@@ -89,10 +91,14 @@ class Phase {
   void done();
 
  private:
+  void show(double fraction);
+
   CMS cms_;
   PetscLogEvent event_;
   const char* name_;
   PetscLogDouble started_ = 0.0;
+  PetscLogDouble shown_ = 0.0;
+  std::optional<ListenToProgress> listener_;
 };
 
 /// While it lives, reduce/ finds the options `-PREFIXcms_...` of the object as `-cms_...`.
@@ -110,6 +116,13 @@ class OptionsOf {
   };
   std::vector<Hidden> hidden_;
 };
+
+/// Columns of the transformation.
+struct Basis {
+  CraigBamptonBasis Q;
+  std::optional<SmallMatrix> mass;  ///< where the method does not project it
+};
+Basis make_basis(CMS cms);
 
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
 SetUp make_set_up(CMS cms);

@@ -14,40 +14,10 @@ namespace chladni::reduce::plugin {
 
 namespace {
 
-constexpr std::array<const char*, 2> type_names{CMSGUYAN, CMSCRAIGBAMPTON};
-constexpr std::array types{Method::guyan, Method::craig_bampton};
-
-PetscErrorCode print_phase(CMS cms, const char phase[], PetscReal seconds)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)cms), "  CMS %-24s %10.3f s\n", phase,
-                        (double)seconds));
-  PetscFunctionReturn(0);
-}
+constexpr std::array<const char*, 4> type_names{CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL};
+constexpr std::array types{Method::guyan, Method::craig_bampton, Method::rubin, Method::macneal};
 
 }  // namespace
-
-Phase::Phase(CMS cms, PetscLogEvent event, const char* name) : cms_(cms), event_(event), name_(name)
-{
-  petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
-  petsc::check(PetscTime(&started_));
-}
-
-Phase::~Phase()
-{
-  static_cast<void>(PetscLogEventEnd(event_, cms_, 0, 0, 0));
-}
-
-void Phase::done()
-{
-  PetscLogDouble now = 0.0;
-  petsc::check(PetscTime(&now));
-  const Settings& settings = cms_->inside->settings;
-  if (settings.prints_phases) petsc::check(print_phase(cms_, name_, now - started_));
-  if (settings.monitor) {
-    petsc::check(settings.monitor(cms_, name_, now - started_, settings.monitor_context));
-  }
-}
 
 OptionsOf::OptionsOf(CMS cms)
 {
@@ -101,7 +71,8 @@ PetscErrorCode CMSSetType(CMS cms, CMSType type)
     PetscFunctionReturn(0);
   }
   SETERRQ(PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_UNKNOWN_TYPE,
-          "Unknown CMS type \"%s\"; give -cms_type %s or %s", type, CMSGUYAN, CMSCRAIGBAMPTON);
+          "Unknown CMS type \"%s\"; give -cms_type %s, %s, %s or %s", type, CMSGUYAN,
+          CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL);
 }
 
 PetscErrorCode CMSGetType(CMS cms, CMSType* type)
@@ -218,7 +189,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   PetscBool monitor = settings.prints_phases ? PETSC_TRUE : PETSC_FALSE;
   PetscObjectOptionsBegin((PetscObject)cms);
   PetscCall(PetscOptionsEList("-cms_type", "Method of reduction", "CMSSetType", type_names.data(),
-                              2, type_names[type], &type, &type_given));
+                              type_names.size(), type_names[type], &type, &type_given));
   PetscCall(PetscOptionsInt("-cms_nmodes", "Number of fixed-interface modes", "CMSSetDimensions",
                             n_modes, &n_modes, &modes_given));
   PetscCall(PetscOptionsReal("-cms_cutoff", "All fixed-interface modes below this, Hz",

@@ -87,12 +87,18 @@ Operators checked_operators(CMS cms)
   return checked;
 }
 
-Factorization factorized(CMS cms, Mat K_ss)
+Factorization factorized(CMS cms, Mat K_ss, const DofPartition& rows)
 {
   Phase phase(cms, events.factor, "factorization");
-  Factorization factor = factorize(K_ss);
-  phase.done();
-  return factor;
+  try {
+    Factorization factor = factorize(K_ss);
+    phase.done();
+    return factor;
+  } catch (const FreeMotion& free) {
+    if (free.row < 0) throw;
+    throw Error(
+        fmt::format("{}; it moves most at row {} of K", free.what(), dof_of_slave(rows, free.row)));
+  }
 }
 
 }  // namespace
@@ -108,7 +114,7 @@ SetUp make_set_up(CMS cms)
   DofPartition rows = partition(checked.K, own_part(checked.K, ascending));
   Blocks K = split(checked.K, rows);
   Blocks M = split(checked.M, rows);
-  Factorization K_ss = factorized(cms, K.ss);
+  Factorization K_ss = factorized(cms, K.ss, rows);
   return {.K = std::move(checked.K),
           .M = std::move(checked.M),
           .C = std::move(checked.C),

@@ -37,12 +37,15 @@ void view_modes(const Result& result, PetscViewer viewer)
   for (std::size_t i = 0; i < std::min(n, most_lines); ++i) {
     const std::string bound =
         i < result.bounds.size() ? fmt::format("{:20.2e}", result.bounds[i]) : "";
-    print(viewer,
-          fmt::format("{:6} {:16.8g} {:16.2e}{}", i + 1, result.f_Hz[i], result.eta2[i], bound));
+    const std::string eta2 = i < result.eta2.size() ? fmt::format("{:16.2e}", result.eta2[i])
+                                                    : fmt::format("{:>16}", "-");
+    print(viewer, fmt::format("{:6} {:16.8g} {}{}", i + 1, result.f_Hz[i], eta2, bound));
   }
   if (n > most_lines) {
-    print(viewer, fmt::format("  ... {} more; largest eta^2 of all {:.2e}", n - most_lines,
-                              std::ranges::max(result.eta2)));
+    print(viewer, fmt::format("  ... {} more", n - most_lines));
+  }
+  if (!result.eta2.empty()) {
+    print(viewer, fmt::format("  largest eta^2 {:.2e}", std::ranges::max(result.eta2)));
   }
 }
 
@@ -52,7 +55,7 @@ void view_result(const Result& result, PetscViewer viewer)
   constexpr double two_pi = 2.0 * std::numbers::pi;
   const std::vector<double>& omega = result.model.omega;
   if (!omega.empty()) {
-    print(viewer, fmt::format("fixed-interface modes: {}, from {:.6g} to {:.6g} Hz", omega.size(),
+    print(viewer, fmt::format("modes with held masters: {}, from {:.6g} to {:.6g} Hz", omega.size(),
                               omega.front() / two_pi, omega.back() / two_pi));
   }
   print(viewer, fmt::format("condition of K_ss (estimate): {:.2e}", quality.condition));

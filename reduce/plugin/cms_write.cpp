@@ -83,7 +83,8 @@ mbs_export::ModeCount as_mode_count(const CMSCount& count)
 mbs_export::Certificate certificate_of(const Result& result)
 {
   return {.fixed = {},
-          .frequencies = as_vector(result.f_Hz, 2.0 * std::numbers::pi),
+          .frequencies =
+              result.eta2.empty() ? VectorXd(0) : as_vector(result.f_Hz, 2.0 * std::numbers::pi),
           .eta2 = as_vector(result.eta2, 1.0),
           .bounds = as_vector(result.bounds, 1.0),
           .fixed_interface = as_mode_count(result.quality.modes),

@@ -162,7 +162,7 @@ void store_vectors(EPS eps, const BlockIteration& iteration)
 {
   petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
   if (eps->nconv == 0) return;
-  const petsc::Matrix X = eps->purify && inverts(eps) ? iteration.purified_vectors(eps->nconv)
+  const petsc::Matrix X = eps->purify && inverts(eps) ? iteration.purified_vectors(0, eps->nconv)
                                                       : iteration.ritz_vectors(eps->nconv);
   for (PetscInt i = 0; i < eps->nconv; ++i) {
     Vec x = nullptr, v = nullptr;

@@ -1,5 +1,7 @@
 // What -dll_append finds in libchladni_petsc.so.
+#include "reduce/mumps_metis.hpp"
 #include "reduce/plugin/chladni_cms.h"
+#include "reduce/plugin/guard.hpp"
 
 extern "C" PETSC_VISIBILITY_PUBLIC PetscErrorCode PetscDLLibraryRegister_chladni_petsc();
 
@@ -9,5 +11,7 @@ PetscErrorCode PetscDLLibraryRegister_chladni_petsc()
   PetscFunctionBegin;
   PetscCall(CMSInitializePackage());
   PetscCall(CMSRegisterEPS());
+  PetscCall(chladni::reduce::plugin::guarded(nullptr, __func__,
+                                             [] { chladni::reduce::register_mumps_metis(); }));
   PetscFunctionReturn(0);
 }

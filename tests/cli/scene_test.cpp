@@ -636,7 +636,7 @@ TEST(Scene, HoldsABeam)
   EXPECT_FALSE(scene.beams[0].has_rotary_inertia);
   EXPECT_EQ(scene.beams[0].orientation, (std::array{1.0, 0.0, 0.0}));
   EXPECT_EQ(scene.beams[0].I_z, 2e-6);
-  EXPECT_EQ(scene.resultants, std::vector<std::string>{"beam"});
+  EXPECT_EQ(scene.resultants.groups, std::vector<std::string>{"beam"});
   EXPECT_TRUE(scene.sections.empty());
 }
 

@@ -1,79 +1,18 @@
 // The program `squeal`, run as its user does, on a body whose squeal is known.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "mbs_export/body_file.hpp"
 #include "squeal/result_file.hpp"
 #include "tests/cli/programs.hpp"
+#include "tests/cli/two_mode_body.hpp"
 
 namespace chladni::cli::testing {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 const std::string squeal_program = "'" SQUEAL_PROGRAM "'";
-
-std::string example_scene()
-{
-  return read_text(CHLADNI_SOURCE_DIR "/examples/thesis_disc/scene.toml");
-}
-
-/// The contact ring of a pair of modes with three nodal diameters, mass-normalised, shape U at the
-/// ring and radial slope dU.
-mbs_export::ContactRing ring_of_the_pair(double U, double dU)
-{
-  constexpr int n = 60;
-  constexpr double radius = 0.13;
-  mbs_export::ContactRing ring{.name = "track",
-                               .radius = radius,
-                               .height = 0.0,
-                               .nodes = {},
-                               .angles = Eigen::VectorXd(n),
-                               .W = Eigen::MatrixXd(n, 2),
-                               .W_r = Eigen::MatrixXd(n, 2),
-                               .W_t = Eigen::MatrixXd(n, 2)};
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2.0 * pi * i / n;
-    const Eigen::RowVector2d shape(std::cos(3.0 * angle), std::sin(3.0 * angle));
-    const Eigen::RowVector2d derivative(-3.0 * shape[1], 3.0 * shape[0]);
-    ring.nodes.push_back(i);
-    ring.angles[i] = angle;
-    ring.W.row(i) = U * shape;
-    ring.W_r.row(i) = dU * shape;
-    ring.W_t.row(i) = U / radius * derivative;
-  }
-  return ring;
-}
-
-/// The disc as two modes of a Kirchhoff plate (Vogel and Skinner) at 1672.13 Hz.
-mbs_export::ModalBody kirchhoff_body()
-{
-  const double root_of_mass = std::sqrt(1.60374675810);
-  mbs_export::ModalBody body{};
-  body.title = "two modes";
-  body.kinds.assign(2, mbs_export::ModeKind::constrained);
-  body.omega = Eigen::Vector2d::Constant(2.0 * pi * 1672.13);
-  const mbs_export::ContactRing ring =
-      ring_of_the_pair(0.616788686350 / root_of_mass, 10.9276550014 / root_of_mass);
-  for (int i = 0; i < ring.angles.size(); ++i) {
-    const double angle = ring.angles[i];
-    body.attachment_nodes.push_back(
-        {.number = i + 1,
-         .position = {ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0}});
-  }
-  body.sets = {{.name = "track", .nodes = ring.nodes}};
-  body.fixed = {"hub"};
-  body.attachment_modes = Eigen::MatrixXd::Zero(6 * ring.angles.size(), 2);
-  body.rings = {ring};
-  body.mass = 10.1;
-  body.centre_of_mass.setZero();
-  body.inertia.setIdentity();
-  body.free_frequencies = Eigen::VectorXd::Zero(6);
-  body.n_rigid = 6;
-  body.condition_Q_dd = 1.0;
-  return body;
-}
 
 TEST(SquealProgram, ReproducesTheSquealOfTheTwoModeDisc)
 {
@@ -238,29 +177,6 @@ TEST(SquealProgram, SaysHowToMakeTheBodyThatIsMissing)
             "out/disc.body.h5: no such file; make it with `chladni run scene.toml --output out`, "
             "or name another one with --body\n");
   EXPECT_EQ(folder.n_files(), 1u);
-}
-
-TEST(SquealProgram, LeavesNothingBehindWhenTheSceneIsWrong)
-{
-  const Folder folder;
-  write_text(folder.path() / "scene.toml",
-             replaced(example_scene(), "friction = 0.6", "friction = -0.6"));
-  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
-  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
-  EXPECT_EQ(ending.exit_code, 1);
-  EXPECT_EQ(ending.err, "scene.toml:53: squeal.friction = -0.6: must be >= 0\n");
-  EXPECT_EQ(folder.n_files(), 2u);
-}
-
-TEST(SquealProgram, RefusesAFileThatIsNoBody)
-{
-  const Folder folder;
-  write_text(folder.path() / "scene.toml", example_scene());
-  write_text(folder.path() / "disc.body.h5", "not HDF5");
-  const Ending ending = run(folder, squeal_program + " run scene.toml");
-  EXPECT_EQ(ending.exit_code, 1);
-  EXPECT_NE(ending.err.find("disc.body.h5"), std::string::npos) << ending.err;
-  EXPECT_EQ(folder.n_files(), 2u);
 }
 
 }  // namespace

@@ -82,9 +82,9 @@ void change_values(hid_t file, const std::string& name, unsigned how)
   const Handle type{H5Dget_type(dataset.get()), H5Tclose};
   const Handle space{H5Dget_space(dataset.get()), H5Sclose};
   const hssize_t n = H5Sget_simple_extent_npoints(space.get());
-  if (n <= 0 || n > 100000) return;
+  if (n <= 0 || n > 4096) return;
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  constexpr std::array reals{std::nan(""), infinite, -infinite, -1.0, 1e308, 0.0, 1e-320, -0.0};
+  const std::array reals{std::nan(""), infinite, -infinite, -1.0, 1e308, 0.0, 1e-320, -0.0};
   constexpr std::array<std::int64_t, 8> integers{-1,
                                                  1,
                                                  7,

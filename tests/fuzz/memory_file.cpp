@@ -1,6 +1,5 @@
 #include "memory_file.hpp"
 
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -9,21 +8,18 @@
 
 namespace chladni::fuzz {
 
-MemoryFile::MemoryFile(std::span<const std::uint8_t> bytes)
-    : descriptor_(memfd_create("fuzz", MFD_CLOEXEC))
+// Not memfd_create: HDF5 resolves links, and what they lead to under /proc has no name.
+MemoryFile::MemoryFile(std::span<const std::uint8_t> bytes) : path_("/dev/shm/fuzz-XXXXXX")
 {
-  if (descriptor_ < 0 || write(descriptor_, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
+  const int descriptor = mkstemp(path_.data());
+  if (descriptor < 0 || write(descriptor, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
     std::abort();
+  close(descriptor);
 }
 
 MemoryFile::~MemoryFile()
 {
-  close(descriptor_);
-}
-
-std::string MemoryFile::path() const
-{
-  return "/proc/self/fd/" + std::to_string(descriptor_);
+  unlink(path_.c_str());
 }
 
 std::string bytes_of(const std::string& path)

@@ -198,8 +198,7 @@ std::vector<HardCase> reduction_cases()
          const EqualChains five;
          return std::abs(double(Reduction(pencil(five.chain), five.masters).modes(7).omega.size()) -
                          10.0);
-       },
-       "two modes are computed beyond those asked for, enough for pairs only"},
+       }},
       {area, "the modes of fivefold frequencies", "any basis of the eigenspace is as good",
        "departure from orthonormality", 1e-12,
        [] {

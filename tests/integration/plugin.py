@@ -78,6 +78,12 @@ def solver_type_of_an_alien_program(plugin):
         # The error of an eigenvalue is the square of the residual's: round-off times the condition.
         yield expect(f"six eigenvalues, {ranks} ranks", error < 1e-11, f"error {error:.1e}")
         yield expect("their residuals", np.max(found[:, 1]) < 1e-7, f"{np.max(found[:, 1]):.1e}")
+        factor = "-st_ksp_type preonly -st_pc_type cholesky -st_pc_factor_mat_solver_type mumps-metis"
+        text = plugin.run([plugin.examples / "laplacian", "-eps_view"], ranks,
+                          f"{options} {inner} {factor}")  # fmt: skip
+        error = np.max(np.abs(numbers(text)[:6, 0] / exact - 1))
+        yield expect(f"with the factor of the plugin, {ranks} ranks",
+                     error < 1e-11 and "ordering by METIS" in text, f"error {error:.1e}")  # fmt: skip
     between = 0.5 * (exact[2] + exact[3])
     found = numbers(plugin.run([plugin.examples / "laplacian"], 1,
                                f"{options} -eps_target {between} -st_type sinvert"))  # fmt: skip

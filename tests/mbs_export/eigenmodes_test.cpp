@@ -64,6 +64,22 @@ TEST(Eigenmodes, LeaveOutMasslessDirections)
   EXPECT_NEAR(modes.lambda[1], 9.0, 1e-13);
 }
 
+TEST(Eigenmodes, OfABodyWithOneNodeDoNotSeeTheRoundOffOfItsRigidMotions)
+{
+  // Two rigid coordinates, in which round-off alone stands in K, and two modes.
+  MatrixXd K = VectorXd{{1e-4, 1e-4, 1e4, 4e4}}.asDiagonal();
+  K(0, 1) = K(1, 0) = -3e-4;
+  MatrixXd M = MatrixXd::Identity(4, 4);
+  M(2, 0) = M(0, 2) = 0.6;
+  MatrixXd R = MatrixXd::Zero(4, 2);
+  R(0, 0) = R(1, 1) = 1.0;
+  const Eigenmodes modes = eigenmodes(K, M, R);
+  ASSERT_EQ(modes.lambda.size(), 2);
+  // The first mode moves against the mass that it is coupled to: 1e4 / (1 - 0.6^2).
+  EXPECT_NEAR(modes.lambda[0], 1e4 / 0.64, 1e-7);
+  EXPECT_NEAR(modes.lambda[1], 4e4, 1e-7);
+}
+
 TEST(Eigenmodes, RefuseMechanismsAndNegativeMass)
 {
   const MatrixXd I = MatrixXd::Identity(3, 3);

@@ -61,6 +61,29 @@ TEST(BlockLanczos, GivesTheSameWhenItMustRestart)
   expect_exact(pairs, 400);
 }
 
+TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
+{
+  const FixedChain c(200);
+  const Factorization factor(c.K.ss);
+  for (const PetscInt subspace : {0, 40}) {  // the latter restarts in between
+    const BlockLanczosOptions options{.n_pairs = 20, .block_size = 4, .max_subspace = subspace};
+    BlockLanczos lanczos(factor.factor(), c.M.ss, options);
+    lanczos.converge(6);
+    const PetscInt n_first = lanczos.n_solves();
+    lanczos.converge(20);
+    // A restart forgets the directions that it drops; nothing else is done twice.
+    const PetscInt n_alone = block_lanczos(factor.factor(), c.M.ss, options).n_solves;
+    EXPECT_LE(lanczos.n_solves(), n_alone + (subspace > 0 ? n_first : options.block_size));
+    ASSERT_EQ(lanczos.n_pairs(), 20);
+    for (int i = 0; i < 20; ++i) EXPECT_NEAR(lanczos.lambda(i) / exact(i + 1, 200), 1.0, 1e-11);
+    const petsc::Matrix X = lanczos.vectors(3, 15);
+    const SmallMatrix I = inner_product(X, X);  // M = I
+    for (PetscInt i = 0; i < 12; ++i) {
+      for (PetscInt j = 0; j < 12; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
+    }
+  }
+}
+
 TEST(BlockLanczos, HasOrthonormalVectors)
 {
   const FixedChain c(200);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "chain.hpp"
+#include "reduce/tolerance_search.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -16,6 +17,23 @@ using testing::free_chain;
 using testing::master_set;
 
 constexpr PetscInt n = 60;
+
+/// The first pairs of a reduced pencil without its first coordinate.
+ReducedPairs lowest(const ReducedModel& model, PetscInt n_pairs)
+{
+  const PetscInt n_r = model.K.n_rows;
+  const auto held = [&](const SmallMatrix& A) {
+    return MatrixXd(
+        Eigen::Map<const MatrixXd>(A.values.data(), n_r, n_r).bottomRightCorner(n_r - 1, n_r - 1));
+  };
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(held(model.K), held(model.M));
+  ReducedPairs result{.X = {n_r, n_pairs}, .lambda = {}};
+  for (PetscInt j = 0; j < n_pairs; ++j) {
+    result.lambda.push_back(eigen.eigenvalues()[j]);
+    for (PetscInt i = 1; i < n_r; ++i) result.X(i, j) = eigen.eigenvectors()(i - 1, j);
+  }
+  return result;
+}
 
 /// A chain reduced to its ends with a few modes; its first mass is held.
 struct HeldChain {
@@ -30,23 +48,7 @@ struct HeldChain {
   Factorization K_ss = factorize(K.ss);
   CraigBamptonBasis Q_CB;
 
-  /// All pairs of the reduced pencil without its first coordinate.
-  ReducedPairs pairs() const
-  {
-    const ReducedModel model = project(Q_CB, K, M);
-    const PetscInt n_r = model.K.n_rows;
-    const auto held = [&](const SmallMatrix& A) {
-      return MatrixXd(Eigen::Map<const MatrixXd>(A.values.data(), n_r, n_r)
-                          .bottomRightCorner(n_r - 1, n_r - 1));
-    };
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(held(model.K), held(model.M));
-    ReducedPairs result{.X = {n_r, n_r - 1}, .lambda = {}};
-    for (PetscInt j = 0; j < n_r - 1; ++j) {
-      result.lambda.push_back(eigen.eigenvalues()[j]);
-      for (PetscInt i = 1; i < n_r; ++i) result.X(i, j) = eigen.eigenvectors()(i - 1, j);
-    }
-    return result;
-  }
+  ReducedPairs pairs() const { return lowest(project(Q_CB, K, M), Q_CB.n_modes() + 1); }
 };
 
 /// lambda_k, k = 1, 2, ..., of m = n - 1 masses, one end held and the other free.
@@ -99,6 +101,53 @@ TEST(ErrorEstimates, FallWithTheNumberOfModes)
   const HeldChain few(4), many(16);
   EXPECT_GT(error_estimates(few.K_ss, few.Q_CB, few.M, few.pairs())[2],
             50.0 * error_estimates(many.K_ss, many.Q_CB, many.M, many.pairs())[2]);
+}
+
+TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
+{
+  const HeldChain all(20);
+  GrowingModel growing({.K_ss = all.K_ss, .Psi = all.Q_CB.Psi, .K = all.K, .M = all.M});
+  const FixedInterfaceModes& modes = *all.Q_CB.modes;
+  const auto omega = modes.omega.begin();
+  growing.append(ColumnRange(modes.Phi, 0, 8), {omega, omega + 8});
+  growing.append(ColumnRange(modes.Phi, 8, 20), {omega + 8, omega + 20});
+  for (const int n_modes : {3, 8, 15, 20}) {
+    const HeldChain some(n_modes);
+    const ReducedModel expected = project(some.Q_CB, some.K, some.M);
+    const ReducedModel model = growing.model(n_modes);
+    for (std::size_t i = 0; i < model.M.values.size(); ++i) {
+      // Signs of modes are free, and with them those of the coupling.
+      EXPECT_NEAR(std::abs(model.M.values[i]), std::abs(expected.M.values[i]), 1e-9);
+      EXPECT_NEAR(model.K.values[i], expected.K.values[i], 1e-9);
+    }
+    const ReducedPairs pairs = some.pairs();
+    const std::vector<double> eta2 = error_estimates(some.K_ss, some.Q_CB, some.M, pairs);
+    const std::vector<double> grown = growing.error_estimates(pairs, n_modes);
+    for (std::size_t i = 0; i < eta2.size(); ++i) {
+      EXPECT_NEAR(grown[i], eta2[i], 1e-9 * eta2[i] + 1e-12) << n_modes << " modes, pair " << i + 1;
+    }
+  }
+}
+
+TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
+{
+  const HeldChain held(1);
+  const auto lowest_held_pairs = [&](const ReducedModel& model) { return lowest(model, 6); };
+  constexpr double tolerance = 1e-6;
+  ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+                         tolerance, lowest_held_pairs);
+  do {
+    search.find_modes();
+  } while (!search.is_enough());
+  const auto largest_error = [&](FixedInterfaceModes modes) {
+    CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K), .modes = std::move(modes)};
+    const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6);
+    return std::ranges::max(error_estimates(held.K_ss, Q_CB, held.M, pairs));
+  };
+  const auto n_modes = static_cast<int>(search.modes().omega.size());
+  EXPECT_LE(largest_error(search.modes()), 1.001 * tolerance);
+  EXPECT_GT(largest_error(fixed_interface_modes(held.K_ss, held.M.ss, {.modes = n_modes - 1})),
+            tolerance);
 }
 
 }  // namespace

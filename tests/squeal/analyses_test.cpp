@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <fstream>
-#include <sstream>
 
 #include "analytic_body.hpp"
 #include "common/error.hpp"
@@ -14,13 +11,11 @@
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/mode_shapes.hpp"
 #include "squeal/parallel.hpp"
-#include "squeal/resampler.hpp"
 #include "squeal/run.hpp"
 #include "squeal/spectrum.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
-#include "squeal/wav_file.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -134,34 +129,6 @@ TEST(LimitCycleDirect, BalancesItsEnergy)
   }
 }
 
-TEST(Spectrum, FindsFrequencyAndAmplitudeBetweenTheLines)
-{
-  std::vector<double> x;
-  const double step = 1.0 / 44100.0;
-  for (int i = 0; i < 4410; ++i) {
-    const double t = i * step;
-    x.push_back(3.0 * std::sin(2.0 * pi * 1696.853 * t + 0.3) +
-                0.01 * std::cos(2.0 * pi * 5090.4 * t) + 0.5);
-  }
-  const Spectrum result = spectrum(x, step);
-  ASSERT_GE(result.peaks.size(), 2u);
-  // Lines are 10 Hz apart; the side lobes of other lines disturb by 1e-4 of a line.
-  EXPECT_NEAR(result.peaks[0].frequency_Hz, 1696.853, 0.01);
-  EXPECT_NEAR(result.peaks[0].amplitude, 3.0, 3e-3);
-  EXPECT_NEAR(result.peaks[1].frequency_Hz, 5090.4, 0.1);
-  EXPECT_NEAR(result.peaks[1].amplitude, 0.01, 3e-4);
-  EXPECT_THROW(spectrum(std::vector<double>(10, 0.0), step), Error);
-}
-
-/// A sine of this frequency and of amplitude 1 through a resampler from 70 kHz to 44.1 kHz.
-std::vector<float> resampled_sine(double f_Hz)
-{
-  Resampler resampler(1.0 / 70000.0, 44100);
-  for (int i = 0; i < 7000; ++i) resampler.add(std::sin(2.0 * pi * f_Hz * (i + 0.5) / 70000.0));
-  resampler.finish();
-  return resampler.samples();
-}
-
 /// The body with its ring at 960 nodes, whose shapes are interpolated linearly between `n_coarse`
 /// of them.
 mbs_export::ModalBody linearly_interpolated(mbs_export::ModalBody body, Eigen::Index n_coarse)
@@ -205,47 +172,6 @@ TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
   EXPECT_NEAR(exact, 2.77597, 3e-4);
   EXPECT_GT(coarse, 0.015);
   EXPECT_NEAR(coarse / fine, 4.0, 0.8);
-}
-
-TEST(Resampler, KeepsWhatTheNewRateCanHoldAndDropsTheRest)
-{
-  const std::vector<float> low = resampled_sine(1700.0), high = resampled_sine(30000.0);
-  ASSERT_EQ(low.size(), 4410u);
-  // Away from both ends: ripple of the Blackman window 2e-4; 30 kHz would fold down to 14.1 kHz.
-  for (std::size_t i = 100; i + 100 < low.size(); ++i) {
-    EXPECT_NEAR(low[i], std::sin(2.0 * pi * 1700.0 * double(i) / 44100.0), 5e-4) << i;
-    EXPECT_NEAR(high[i], 0.0, 5e-4) << i;
-  }
-}
-
-std::uint32_t number(const std::string& bytes, std::size_t at, int n)
-{
-  std::uint32_t x = 0;
-  for (int i = n - 1; i >= 0; --i) x = 256 * x + static_cast<unsigned char>(bytes[at + i]);
-  return x;
-}
-
-TEST(WavFile, HoldsTheSamplesAndWhatFullScaleMeans)
-{
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("analyses_test-" + std::to_string(getpid()) + ".wav");
-  const std::vector<float> x{0.0F, 1.5F, -3.0F, 0.75F};
-  EXPECT_EQ(write_wav(path, x, 48000), 3.0);
-  std::stringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  std::filesystem::remove(path);
-  const std::string bytes = content.str();
-  EXPECT_EQ(bytes.substr(0, 4) + bytes.substr(8, 8), "RIFFWAVEfmt ");
-  EXPECT_EQ(number(bytes, 4, 4), bytes.size() - 8);
-  EXPECT_EQ(number(bytes, 20, 2), 1u);
-  EXPECT_EQ(number(bytes, 24, 4), 48000u);
-  EXPECT_NE(bytes.find("full scale = 3 m/s"), std::string::npos);
-  const std::size_t data = bytes.find("data");
-  ASSERT_EQ(number(bytes, data + 4, 4), 8u);
-  const int expected[] = {0, 16384, -32767, 8192};
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_EQ(static_cast<std::int16_t>(number(bytes, data + 8 + 2 * i, 2)), expected[i]);
-  EXPECT_THROW(write_wav("/nowhere/at/all.wav", x, 48000), Error);
 }
 
 TEST(StabilityMap, DoesNotDependOnTheNumberOfThreads)

@@ -58,16 +58,9 @@ TEST(Harmonics, ReturnAnyValuesAtTheNodes)
   const Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(8, 0.1, 0.1 + 2 * pi * 7 / 8);
   const Eigen::VectorXd values = (Eigen::VectorXd(8) << 3, -1, 4, 1, -5, 9, 2, -6).finished();
   const Harmonics f = harmonics_of(angles, values);
-  const Disc disc{.radius = 1.0,
-                  .mode_numbers = {1},
-                  .omega = Eigen::VectorXd::Ones(1),
-                  .C = Eigen::MatrixXd::Zero(1, 1),
-                  .G = Eigen::MatrixXd::Zero(1, 1),
-                  .W = f,
-                  .W_r = f,
-                  .W_t = f};
+  const DiscRing ring{.name = "track", .radius = 1.0, .W = f, .W_r = f, .W_t = f};
   for (int j = 0; j < 8; ++j)
-    EXPECT_NEAR(shapes_at(disc, angles[j]).W[0], values[j], 1e-13);  // rounding of 5 harmonics
+    EXPECT_NEAR(shapes_at(ring, angles[j]).W[0], values[j], 1e-13);  // rounding of 5 harmonics
 }
 
 TEST(Harmonics, RefuseUnequalSpacing)

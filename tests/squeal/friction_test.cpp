@@ -68,16 +68,18 @@ TEST(Friction, OfTheLinearisedContactIsTheDerivativeOfItsForce)
     SlidingDisc motion(disc, options, 20.0);
     const Eigen::VectorXd x = Eigen::Vector4d{6.0, -3.0, 2.0, 5.0};
     const double time = 1e-7;
-    const Eigen::MatrixXd derivative = motion.flow(x, time, 1).derivative;
+    const Eigen::MatrixXd derivative = flow(motion, {x, time}, 1e-9).derivative;
     Eigen::Matrix4d differences;
     for (int j = 0; j < 4; ++j) {
       const Eigen::Vector4d h = 1e-4 * Eigen::Vector4d::Unit(j);
-      differences.col(j) = (motion.advance(x + h, time, 1) - motion.advance(x - h, time, 1)) / 2e-4;
+      differences.col(j) =
+          (end_of(motion, {x + h, time}, 1e-9) - end_of(motion, {x - h, time}, 1e-9)) / 2e-4;
     }
     EXPECT_LT((derivative - differences).norm(), 1e-8 * derivative.norm());
     // And at rest it is the state matrix.
-    const Eigen::Matrix4d at_rest = motion.flow(Eigen::Vector4d::Zero(), 0.1 * time, 1).derivative -
-                                    Eigen::Matrix4d::Identity();
+    const Eigen::Matrix4d at_rest =
+        flow(motion, {Eigen::Vector4d::Zero(), 0.1 * time}, 1e-9).derivative -
+        Eigen::Matrix4d::Identity();
     const Eigen::Matrix4d A = state_matrix(disc, options, 20.0);
     // exp(1e-8 A) - I = 1e-8 A + ..., whose third term is (1e-8 omega)^2 / 6 of the first.
     const Eigen::Matrix4d series = 1e-8 * A + 0.5e-16 * A * A;

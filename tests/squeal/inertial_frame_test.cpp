@@ -42,9 +42,9 @@ TEST(InertialDisc, FindsAmplitudesOfAPairInAnyOrientation)
     pair.sign = sign;
     const InertialDisc disc = inertial_disc(disc_of({pair}));
     for (int i = 0; i < 2; ++i) {
-      EXPECT_NEAR(disc.U[i] * root, kirchhoff_3().U, 1e-13);
-      EXPECT_NEAR(disc.U_r[i] * root, kirchhoff_3().U_r, 1e-12);
-      EXPECT_NEAR(disc.U_t[i] * root, kirchhoff_3().U_t, 1e-12);
+      EXPECT_NEAR(disc.rings[0].U[i] * root, kirchhoff_3().U, 1e-13);
+      EXPECT_NEAR(disc.rings[0].U_r[i] * root, kirchhoff_3().U_r, 1e-12);
+      EXPECT_NEAR(disc.rings[0].U_t[i] * root, kirchhoff_3().U_t, 1e-12);
     }
     EXPECT_LT(disc.largest_impurity, 1e-7);  // square root of the rounding of squares
     EXPECT_LT((disc.R.transpose() * disc.R - Eigen::Matrix2d::Identity()).norm(), 1e-14);
@@ -94,7 +94,7 @@ TEST(InertialDisc, ToleratesTheImpuritiesOfAMesh)
   body.rings[0].W += 1e-3 * Eigen::MatrixXd::Random(60, 2);
   const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
   EXPECT_GT(disc.largest_impurity, 1e-4);
-  EXPECT_NEAR(disc.U[0] * std::sqrt(kirchhoff_3().mass), kirchhoff_3().U, 1e-3);
+  EXPECT_NEAR(disc.rings[0].U[0] * std::sqrt(kirchhoff_3().mass), kirchhoff_3().U, 1e-3);
 }
 
 TEST(InertialDisc, SaysByHowMuchADiscIsNotAxisymmetric)

@@ -73,13 +73,20 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   // SQUEAL reference values: 4 I / (2 n m) = -0.0076588 of the coupling 2 n Omega, and the critical
   // speed of the Mindlin pair with it. They leave out the centrifugal part 2 n g Omega^2 of the
   // same terms, 1e-7 of omega^2.
-  Disc disc = make_disc(analytic_body({mindlin_3()}), "track", {});
+  auto body = analytic_body({mindlin_3()});
+  Disc disc = make_disc(body, "track", {});
   const double g = 3.0 * 0.00765875649913187;
   const auto critical_by_pi = [&] {
     return critical_speed(inertial_disc(disc), reference_options())->speed / pi;
   };
   EXPECT_NEAR(critical_by_pi(), 4.235183338216228, 1e-9);
-  disc.G = Eigen::Matrix2d{{0.0, -g}, {g, 0.0}};
+  // As a body has them: 2 int phi_i . (e_z x phi_j) dm = 2 (S_xy^T - S_xy).
+  mbs_export::MassIntegrals integrals{};
+  integrals.products.fill(Eigen::Matrix2d::Zero());
+  integrals.products[3] = Eigen::Matrix2d{{0.0, g}, {0.0, 0.0}};
+  body.mass_integrals = integrals;
+  disc = make_disc(body, "track", {});
+  EXPECT_EQ(disc.G, (Eigen::Matrix2d{{0.0, -g}, {g, 0.0}}));
   EXPECT_NEAR(critical_by_pi(), 4.250189346231441, 1e-7);
   // The transient has the same terms in its kick.
   const Growth result = growth(disc, reference_options(), 6.0 * pi, 3.0);

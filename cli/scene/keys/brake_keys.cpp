@@ -57,6 +57,7 @@ constexpr Key rows[] = {
      "",
      {.above = 0.0, .at_most = 360.0, .unit = "degrees"}},
     {"squeal.pads.grid.points", integer, "required", "", {.at_least = 1}},
+    {"squeal.pads.grid.rings", texts, "the ring of the study", "rings that share the points"},
     {"squeal.pads.body", table, "massless", "each plate as a rigid body; needs a suspension"},
     {"squeal.pads.body.mass", number, "required", "", mass},
     {"squeal.pads.body.height",

@@ -15,7 +15,7 @@ constexpr Key rows[] = {
      "rings, edges, points and couplings; all DOFs are masters"},
     {"interface.dofs", texts, "all six", "not available yet"},
     {"reduce", table, "required for a reduction", "[theory](theory.md)"},
-    {"reduce.method", word, "required", "", {}, "craig-bampton | guyan"},
+    {"reduce.method", word, "required", "", {}, "craig-bampton | guyan | rubin | macneal"},
     {"reduce.modes",
      integer,
      "or `cutoff_Hz`, `tolerance`",

@@ -38,7 +38,8 @@ constexpr Key rows[] = {
      "one behind the other",
      {},
      "eigenvalues | critical-speed | growth | transient | limit-cycle | limit-cycle-direct | "
-     "limit-cycle-branch | stability-map | critical-values | spectrum | mode-sensitivity"},
+     "limit-cycle-branch | stability-map | critical-values | spectrum | mode-sensitivity | "
+     "rotation-stability"},
     {"squeal.transient", table, "for transient, limit-cycle", "a run from a small disturbance"},
     {"squeal.transient.speed_rad_s", number, "required", "", speed},
     {"squeal.transient.duration_s", number, "required", "", duration},

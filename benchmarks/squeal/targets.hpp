@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "squeal/disc.hpp"
+#include "tests/squeal/analytic_body.hpp"
+
+namespace chladni::squeal::bench {
+
+/// Processor time of all threads: what else runs on the machine does not count.
+template <class Work>
+double seconds_of(const Work& work)
+{
+  const std::clock_t start = std::clock();
+  work();
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+inline Disc disc_of(const std::vector<test::PlatePair>& pairs)
+{
+  return make_disc(test::analytic_body(pairs), "track", {});
+}
+
+/// A target and what was measured; a limit of 0 means that there is none.
+struct Target {
+  std::string name, unit;
+  double measured, limit;
+};
+std::vector<Target> measured_targets(bool smallest);
+
+std::string json_of(const std::vector<Target>& targets);
+
+}  // namespace chladni::squeal::bench

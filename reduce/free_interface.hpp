@@ -1,0 +1,48 @@
+#pragma once
+
+#include "reduce/craig_bampton.hpp"
+#include "reduce/reduce_options.hpp"
+
+namespace chladni::reduce {
+
+/// The FE model and what is known of it.
+struct WholeSystem {
+  Mat K, M;                  ///< all DOFs
+  const DofPartition& dofs;  ///< as K_ss, Psi and the blocks
+  const Blocks& K_blocks;
+  const Blocks& M_blocks;
+  const Factorization& K_ss;
+};
+
+/// The lowest modes X of the body without any support, X^T M X = I, rigid-body motions first.
+struct FreeInterfaceModes {
+  petsc::Matrix X_s;          ///< [n_s x k] dense
+  SmallMatrix X_m;            ///< [n_m x k], on every rank
+  std::vector<double> omega;  ///< [k] rad/s; 0 for the rigid-body motions
+  PetscInt n_rigid;
+
+  PetscInt n_modes() const { return static_cast<PetscInt>(omega.size()); }
+};
+
+/// By number (of elastic modes) or up to a frequency.
+/// @note   Collective, as all of this header; one or two more factorisations, of K + mu M.
+/// @throws chladni::Error when there are not as many modes, or a tolerance is asked for.
+FreeInterfaceModes free_interface_modes(const WholeSystem& body, Mat Psi,
+                                        const ReduceOptions& wanted);
+
+/// Rubin's basis: the modes of the free body and the residual flexibility of the masters. The
+/// latter are statically complete, so that Psi lies in that space, and next to it the
+/// inertia-relief shapes K_ss^-1 (M_ss X_s + M_sm X_m) of the rigid-body motions and X_s - Psi X_m
+/// of the elastic modes. Ritz vectors of (K_ss, M_ss) among these take the place of fixed-interface
+/// modes: the reduced model has the form of Craig and Bampton, with the frequencies of Rubin.
+/// @return Phi [n_s x k], omega: square roots of the Ritz values
+/// Source: Rubin, AIAA J. 13 (1975) 995; Craig and Chang, AIAA J. 14 (1976) 1633.
+FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInterfaceModes& free);
+
+/// MacNeal's mass on Rubin's basis: that of the free modes alone, M_r = Z^T Z with Z = X^T M Q;
+/// residual flexibility is massless. No Galerkin projection: frequencies may be too low.
+/// Source: MacNeal, Computers & Structures 1 (1971) 581.
+SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
+                         const FreeInterfaceModes& free);
+
+}  // namespace chladni::reduce

@@ -1,0 +1,127 @@
+#include "reduce/growing_model.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+
+#include "reduce/progress.hpp"
+#include "reduce/sparse_product.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+constexpr PetscInt block_columns = 64;  // of the solves: bounds the memory
+
+SmallMatrix columns_of(const SmallMatrix& A, PetscInt first, PetscInt last)
+{
+  SmallMatrix columns(A.n_rows, last - first);
+  std::copy_n(A.values.begin() + std::size_t(first) * A.n_rows, columns.values.size(),
+              columns.values.begin());
+  return columns;
+}
+
+/// A above B.
+SmallMatrix stacked(const SmallMatrix& A, const SmallMatrix& B)
+{
+  SmallMatrix both(A.n_rows + B.n_rows, B.n_cols);
+  for (PetscInt j = 0; j < B.n_cols; ++j) {
+    for (PetscInt i = 0; i < A.n_rows; ++i) both(i, j) = A(i, j);
+    for (PetscInt i = 0; i < B.n_rows; ++i) both(A.n_rows + i, j) = B(i, j);
+  }
+  return both;
+}
+
+/// B_j = M_ss (Psi - Phi P)_j + M_sm,j of columns first .. last - 1.
+petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, const SmallMatrix& P,
+                               PetscInt first)
+{
+  petsc::Matrix shape, B = uninitialized_dense(system.M.ss, P.n_cols);
+  petsc::check(
+      MatDuplicate(ColumnRange(system.Psi, first, first + P.n_cols), MAT_COPY_VALUES, shape.put()));
+  add_product(-1.0, Phi, P, shape);
+  SparseProduct(system.M.ss).apply(shape, B);
+  PetscInt first_row = 0;
+  PetscScalar* values = nullptr;
+  petsc::check(MatGetOwnershipRange(B, &first_row, nullptr));
+  petsc::check(MatDenseGetArray(B, &values));
+  const PetscInt n_local = LocalRows(shape).n_rows();
+  for_local_entries(system.M.sm, [&](PetscInt row, PetscInt column, double value) {
+    if (column < first || column >= first + P.n_cols) return;
+    values[row - first_row + std::size_t(column - first) * n_local] += value;
+  });
+  petsc::check(MatDenseRestoreArray(B, &values));
+  return B;
+}
+
+}  // namespace
+
+GrowingModel::GrowingModel(const System& system)
+    : system_(system),
+      K_G_(guyan_stiffness(system.Psi, system.K)),
+      M_G_(guyan_mass(system.Psi, system.M)),
+      P_(0, K_G_.n_rows),
+      G_(0, 0)
+{}
+
+/// G = (Psi - Phi P)^T M_ss Z + M_ms Z with Z = K_ss^-1 (M_ss (Psi - Phi P) + M_sm).
+void GrowingModel::start_errors(Mat Phi)
+{
+  const PetscInt n_m = K_G_.n_rows;
+  n_first_ = P_.n_rows;
+  G_ = SmallMatrix(n_m, n_m);
+  for (PetscInt first = 0; first < n_m; first += block_columns) {
+    report_progress(double(first) / n_m);
+    const PetscInt last = std::min(first + block_columns, n_m);
+    const SmallMatrix P = columns_of(P_, first, last);
+    const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
+    const petsc::Matrix Z = uninitialized_dense(system_.M.ss, last - first);
+    petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
+    const petsc::Matrix MZ = uninitialized_dense(system_.M.ss, last - first);
+    SparseProduct(system_.M.ss).apply(Z, MZ);
+    const SmallMatrix Psi_MZ = inner_product(system_.Psi, MZ);
+    const SmallMatrix Phi_MZ = inner_product(Phi, MZ);
+    const SmallMatrix Z_M_sm = inner_product_sparse(Z, system_.M.sm);
+    for (PetscInt j = first; j < last; ++j) {
+      for (PetscInt i = 0; i < n_m; ++i) {
+        double deflation = 0.0;
+        for (PetscInt k = 0; k < n_first_; ++k) deflation += P_(k, i) * Phi_MZ(k, j - first);
+        G_(i, j) = Psi_MZ(i, j - first) - deflation + Z_M_sm(j - first, i);
+      }
+    }
+  }
+}
+
+void GrowingModel::append(Mat Phi, const std::vector<double>& omega)
+{
+  const bool is_first = omega_.empty();
+  P_ = stacked(P_, inertial_coupling(Phi, system_.Psi, system_.M));
+  omega_.insert(omega_.end(), omega.begin(), omega.end());
+  if (is_first) start_errors(Phi);
+}
+
+ReducedModel GrowingModel::model(PetscInt n) const
+{
+  return join(K_G_, M_G_, P_, {omega_.begin(), omega_.begin() + n});
+}
+
+std::vector<double> GrowingModel::error_estimates(const ReducedPairs& pairs, PetscInt n) const
+{
+  const PetscInt n_m = K_G_.n_rows;
+  std::vector<double> eta2;
+  for (PetscInt j = 0; j < pairs.X.n_cols; ++j) {
+    double sum = 0.0;
+    for (PetscInt c = 0; c < n_m; ++c) {
+      for (PetscInt r = 0; r < n_m; ++r) sum += pairs.X(r, j) * G_(r, c) * pairs.X(c, j);
+    }
+    for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
+      double P_x = 0.0;
+      for (PetscInt i = 0; i < n_m; ++i) P_x += P_(k, i) * pairs.X(i, j);
+      sum += (n > n_first_ ? -1.0 : 1.0) * P_x * P_x / (omega_[k] * omega_[k]);
+    }
+    eta2.push_back(std::max(0.0, pairs.lambda[j] * sum));
+  }
+  return eta2;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,198 @@
+#include "reduce/mode_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace chladni::reduce {
+
+namespace {
+
+constexpr double pair_gap = 1e-4;   // relative distance of frequencies of one cluster
+constexpr double tolerance = 1e-7;  // of the vectors; the error of lambda is its square
+
+EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
+{
+  PetscInt n = 0, n_local = 0, n_s = 0, n_iterations = 0;
+  petsc::check(EPSGetConverged(eps, &n));
+  petsc::check(EPSGetIterationNumber(eps, &n_iterations));
+  if (n < n_modes) {
+    throw Error(
+        fmt::format("fixed_interface_modes: {} of {} modes converged in {} restarts; ask for "
+                    "fewer modes or raise -cms_eps_ncv or -cms_eps_max_it",
+                    n, n_modes, n_iterations));
+  }
+  petsc::check(MatGetLocalSize(M_ss, &n_local, nullptr));
+  petsc::check(MatGetSize(M_ss, &n_s, nullptr));
+  EigenPairs pairs{.lambda = {}, .residual = {}, .X = {}, .n_solves = 0};
+  petsc::check(MatCreateDense(petsc::communicator(M_ss), n_local, PETSC_DECIDE, n_s, n, nullptr,
+                              pairs.X.put()));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscScalar lambda = 0.0;
+    Vec column = nullptr;
+    petsc::check(MatDenseGetColumnVecWrite(pairs.X, i, &column));
+    petsc::check(EPSGetEigenpair(eps, i, &lambda, nullptr, column, nullptr));
+    petsc::check(MatDenseRestoreColumnVecWrite(pairs.X, i, &column));
+    pairs.lambda.push_back(lambda);
+  }
+  return pairs;
+}
+
+/// An ST resets its solver when it is destroyed; the factor of K_ss must outlive it.
+void take_back_solver(ST st)
+{
+  petsc::LinearSolver other;
+  petsc::check(KSPCreate(petsc::communicator(st), other.put()));
+  petsc::check(STSetKSP(st, other));
+}
+
+/// By SLEPc's Krylov-Schur, one column at a time.
+EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
+{
+  petsc::EigenSolver eps;
+  petsc::check(EPSCreate(petsc::communicator(M_ss), eps.put()));
+  petsc::check(EPSSetOptionsPrefix(eps, "cms_"));
+  petsc::check(EPSSetOperators(eps, K_ss.matrix(), M_ss));
+  petsc::check(EPSSetProblemType(eps, EPS_GHEP));
+  petsc::check(EPSSetDimensions(eps, n_modes, PETSC_DEFAULT, PETSC_DEFAULT));
+  petsc::check(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
+  petsc::check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  petsc::check(EPSSetTarget(eps, 0.0));
+  // Purification would cost one single solve for each mode and gains nothing at this tolerance.
+  petsc::check(EPSSetPurify(eps, PETSC_FALSE));
+  ST st = nullptr;
+  petsc::check(EPSGetST(eps, &st));
+  petsc::check(STSetType(st, STSINVERT));
+  petsc::check(STSetShift(st, 0.0));
+  petsc::check(STSetKSP(st, K_ss.solver()));  // the same matrix object: no second factorisation
+  petsc::check(EPSSetFromOptions(eps));
+  petsc::check(EPSSolve(eps));
+  EigenPairs pairs = converged_pairs(eps, M_ss, n_modes);
+  take_back_solver(st);
+  return pairs;
+}
+
+/// "block-lanczos" (default) or "krylov-schur".
+bool uses_krylov_schur()
+{
+  std::array<char, 64> name{};
+  PetscBool given = PETSC_FALSE;
+  petsc::check(PetscOptionsGetString(nullptr, nullptr, "-cms_modes_solver", name.data(),
+                                     name.size(), &given));
+  const std::string_view solver = given ? name.data() : "block-lanczos";
+  if (solver != "block-lanczos" && solver != "krylov-schur") {
+    throw Error(fmt::format("-cms_modes_solver {}: give block-lanczos or krylov-schur", solver));
+  }
+  return solver == "krylov-schur";
+}
+
+/// The value of an integer option, or what stands there without it.
+PetscInt integer_option(const char* name, PetscInt otherwise)
+{
+  petsc::check(PetscOptionsGetInt(nullptr, nullptr, name, &otherwise, nullptr));
+  return otherwise;
+}
+
+/// Larger blocks solve a column faster and need more columns: measured optima, flat ones.
+PetscInt fastest_block_size(Mat M_ss)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(M_ss, &n, nullptr));
+  constexpr PetscInt large = 100000;
+  return n < large ? 8 : 12;
+}
+
+/// The value of an option, or what stands there without it.
+double real_option(const char* name, double otherwise)
+{
+  petsc::check(PetscOptionsGetReal(nullptr, nullptr, name, &otherwise, nullptr));
+  return otherwise;
+}
+
+BlockLanczosOptions lanczos_options(Mat M_ss)
+{
+  const BlockLanczosOptions options{
+      .n_pairs = 0,
+      .block_size = integer_option("-cms_lanczos_block_size", fastest_block_size(M_ss)),
+      .max_subspace = integer_option("-cms_lanczos_subspace", 0),
+      .tolerance = real_option("-cms_lanczos_tolerance", tolerance)};
+  if (options.block_size < 1 || !(options.tolerance > 0.0)) {
+    throw Error(
+        fmt::format("-cms_lanczos_block_size {}, -cms_lanczos_tolerance {}: give positive "
+                    "values",
+                    options.block_size, options.tolerance));
+  }
+  return options;
+}
+
+double angular_frequency(double lambda)
+{
+  if (lambda > 0.0) return std::sqrt(lambda);
+  throw Error(
+      fmt::format("fixed_interface_modes: eigenvalue {} is not positive; a part of the body is "
+                  "free while the masters are held",
+                  lambda));
+}
+
+}  // namespace
+
+ModeSearch::ModeSearch(const Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
+{
+  petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
+  if (!uses_krylov_schur()) lanczos_.emplace(K_ss.factor(), M_ss, lanczos_options(M_ss));
+}
+
+void ModeSearch::find_by_krylov_schur(PetscInt n)
+{
+  EigenPairs pairs = krylov_schur(K_ss_, M_ss_, n);
+  X_ = std::move(pairs.X);
+  omega_.clear();
+  for (const double lambda : pairs.lambda) omega_.push_back(angular_frequency(lambda));
+}
+
+void ModeSearch::find_all(PetscInt n)
+{
+  n = std::min(n, n_s_);
+  if (n <= std::ssize(omega_)) return;
+  if (!lanczos_) return find_by_krylov_schur(n);
+  lanczos_->converge(n);
+  omega_.clear();
+  for (PetscInt i = 0; i < lanczos_->n_pairs(); ++i) {
+    omega_.push_back(angular_frequency(lanczos_->lambda(i)));
+  }
+}
+
+void ModeSearch::find(PetscInt n)
+{
+  constexpr PetscInt n_guard_modes = 2;  // so that a partner of the last one is seen
+  const auto n_found = [&] { return static_cast<PetscInt>(omega_.size()); };
+  PetscInt n_before = -1;
+  for (PetscInt n_more = n_guard_modes; n_before < n_found(); n_more *= 2) {
+    n_before = n_found();
+    find_all(n + n_more);
+    // A cluster that ends with what is found may go on: frequencies of more than two modes.
+    if (complete_cluster(std::min(n, n_found())) < n_found()) break;
+  }
+}
+
+PetscInt ModeSearch::complete_cluster(PetscInt n) const
+{
+  while (n > 0 && n < std::ssize(omega_) && omega_[n] - omega_[n - 1] < pair_gap * omega_[n]) ++n;
+  return n;
+}
+
+petsc::Matrix ModeSearch::shapes(PetscInt first, PetscInt last) const
+{
+  if (lanczos_) return lanczos_->vectors(first, last);
+  petsc::Matrix columns;
+  petsc::check(MatDuplicate(ColumnRange(X_, first, last), MAT_COPY_VALUES, columns.put()));
+  return columns;
+}
+
+FixedInterfaceModes ModeSearch::leading(PetscInt n) const
+{
+  return {.Phi = shapes(0, n), .omega = {omega_.begin(), omega_.begin() + n}};
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reduce/block_lanczos.hpp"
+#include "reduce/fixed_interface_modes.hpp"
+
+namespace chladni::reduce {
+
+/// The lowest fixed-interface modes, ever more of them, with the factor of K_ss as shift-and-invert
+/// operator at shift 0: block Lanczos goes on where it stopped, SLEPc's Krylov-Schur begins anew.
+/// Options: as `fixed_interface_modes`
+class ModeSearch {
+ public:
+  /// Both must outlive the search.
+  ModeSearch(const Factorization& K_ss, Mat M_ss);
+
+  /// Number of slaves, which bounds the number of modes.
+  PetscInt n_slaves() const { return n_s_; }
+  /// Finds the lowest n, or all where there are fewer, and more until the last partner is seen.
+  /// @note   Collective.
+  /// @throws chladni::Error when the solver does not converge or K_ss is not definite.
+  void find(PetscInt n);
+  /// Angular frequencies of all that are found, ascending; rad/s.
+  const std::vector<double>& omega() const { return omega_; }
+  /// The first n modes and those that follow within 1e-4 in frequency.
+  PetscInt complete_cluster(PetscInt n) const;
+  /// Phi of modes first .. last - 1.
+  /// @note   Collective.
+  petsc::Matrix shapes(PetscInt first, PetscInt last) const;
+  /// The first n modes.
+  /// @note   Collective.
+  FixedInterfaceModes leading(PetscInt n) const;
+
+ private:
+  void find_all(PetscInt n);
+  void find_by_krylov_schur(PetscInt n);
+
+  const Factorization& K_ss_;
+  Mat M_ss_;
+  PetscInt n_s_ = 0;
+  std::optional<BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
+  petsc::Matrix X_;                      ///< then all vectors that it found
+  std::vector<double> omega_;
+};
+
+}  // namespace chladni::reduce

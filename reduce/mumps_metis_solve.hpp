@@ -1,0 +1,34 @@
+#pragma once
+
+#include <petscmat.h>
+
+#include <exception>
+
+#include "reduce/mumps_factor.hpp"
+
+/// What PETSc calls on a factor of type "mumps-metis".
+namespace chladni::reduce {
+
+/// The C++ object in a factor of that type.
+MumpsFactor& factor_of(Mat F);
+
+/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error.
+template <typename Work>
+PetscErrorCode guarded(const Work& work)
+{
+  try {
+    work();
+  } catch (const std::exception& error) {
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
+  }
+  return 0;
+}
+
+/// MatSolve.
+PetscErrorCode solve_vector(Mat F, Vec b, Vec x);
+/// MatMatSolve; X may be B.
+PetscErrorCode solve_block(Mat F, Mat B, Mat X);
+/// MatMatTransposeSolve: the rows of the sparse B_t are the right-hand sides.
+PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X);
+
+}  // namespace chladni::reduce

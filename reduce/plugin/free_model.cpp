@@ -1,0 +1,119 @@
+#include "reduce/plugin/free_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numbers>
+
+#include "mbs_export/eigenmodes.hpp"
+#include "reduce/plugin/check_operators.hpp"
+
+namespace chladni::reduce::plugin {
+
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr std::size_t most_certified = 100;  // bounds the block solve of the error estimates
+constexpr std::size_t certified_of_guyan = 20;
+constexpr double zero_energy = 1e-10;  // of the largest eigenvalue of K_r with unit diagonal
+constexpr double indefinite = 1e-8;
+
+MatrixXd as_eigen(const SmallMatrix& A)
+{
+  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
+}
+
+/// M_r-orthonormal motions that K_r does not resist, found with unit diagonal so that units do not
+/// decide.
+MatrixXd zero_energy_motions(const MatrixXd& K, const MatrixXd& M)
+{
+  const VectorXd scale =
+      (K.diagonal().array() > 0.0).select(K.diagonal().array().rsqrt(), 1.0).matrix();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * K * scale.asDiagonal());
+  const VectorXd& energy = solver.eigenvalues();
+  const double largest = energy[energy.size() - 1];
+  if (energy[0] < -indefinite * largest) {
+    throw Error(
+        fmt::format("CMSSolve: K is indefinite: an eigenvalue of K_r is {:.1e} of its "
+                    "largest; K must be positive semidefinite",
+                    energy[0] / largest));
+  }
+  const Index r = (energy.array() <= zero_energy * largest).count();
+  if (r == 0) return MatrixXd(K.rows(), 0);
+  const MatrixXd Z = scale.asDiagonal() * solver.eigenvectors().leftCols(r);
+  const Eigen::LLT<MatrixXd> mass(Z.transpose() * M * Z);
+  if (mass.info() != Eigen::Success) {
+    throw Error("CMSSolve: a motion has neither stiffness nor mass; the pencil (K, M) is singular");
+  }
+  return mass.matrixL().solve(Z.transpose()).transpose();
+}
+
+FreeModel free_model(const ReducedModel& model)
+{
+  const MatrixXd K = as_eigen(model.K), M = as_eigen(model.M);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M, Eigen::EigenvaluesOnly);
+  if (mass.eigenvalues()[0] < -indefinite * mass.eigenvalues()[M.rows() - 1]) {
+    throw Error(
+        fmt::format("CMSSolve: M is indefinite: an eigenvalue of M_r is {:.1e} of its "
+                    "largest; M must be positive semidefinite",
+                    mass.eigenvalues()[0] / mass.eigenvalues()[M.rows() - 1]));
+  }
+  const MatrixXd R = zero_energy_motions(K, M);
+  const mbs_export::Eigenmodes modes = mbs_export::eigenmodes(K, M, R);
+  FreeModel free;
+  free.lambda.assign(modes.lambda.begin(), modes.lambda.end());
+  free.X = SmallMatrix(model.K.n_rows, static_cast<PetscInt>(free.lambda.size()));
+  std::ranges::copy(modes.X.reshaped(), free.X.values.begin());
+  free.n_zero = static_cast<PetscInt>(R.cols());
+  if (R.cols() > 0 && !free.lambda.empty()) {
+    const MatrixXd energy = R.transpose() * K * R;
+    free.rigid_residual = energy.diagonal().cwiseAbs().maxCoeff() / free.lambda.front();
+  }
+  return free;
+}
+
+}  // namespace
+
+FreeModel free_model_everywhere(const ReducedModel& model, MPI_Comm comm)
+{
+  FreeModel free;
+  std::optional<std::string> complaint;
+  if (petsc::rank(comm) == 0) {
+    try {
+      free = free_model(model);
+    } catch (const Error& error) {
+      complaint = error.what();
+    }
+  }
+  agree(comm, complaint);
+  auto k = static_cast<int>(free.lambda.size());
+  MPI_Bcast(&k, 1, MPI_INT, 0, comm);
+  MPI_Bcast(&free.n_zero, 1, MPIU_INT, 0, comm);
+  MPI_Bcast(&free.rigid_residual, 1, MPI_DOUBLE, 0, comm);
+  free.lambda.resize(k);
+  if (petsc::rank(comm) != 0) free.X = SmallMatrix(model.K.n_rows, k);
+  MPI_Bcast(free.lambda.data(), k, MPI_DOUBLE, 0, comm);
+  MPI_Bcast(free.X.values.data(), static_cast<int>(free.X.values.size()), MPI_DOUBLE, 0, comm);
+  return free;
+}
+
+ReducedPairs certified_pairs(const FreeModel& free, const Settings& settings,
+                             const ReducedModel& model)
+{
+  std::size_t k = certified_of_guyan;
+  if (settings.options.tolerance || !model.omega.empty()) {
+    const double omega = settings.options.tolerance ? two_pi * settings.options.tolerance->up_to_Hz
+                                                    : model.omega.back();
+    k = std::ranges::upper_bound(free.lambda, omega * omega) - free.lambda.begin();
+    k = std::clamp<std::size_t>(k, 1, settings.options.tolerance ? k + 1 : most_certified);
+  }
+  k = std::min(k, free.lambda.size());
+  ReducedPairs pairs{.X = {free.X.n_rows, static_cast<PetscInt>(k)},
+                     .lambda = {free.lambda.begin(), free.lambda.begin() + k}};
+  std::copy_n(free.X.values.begin(), pairs.X.values.size(), pairs.X.values.begin());
+  return pairs;
+}
+
+}  // namespace chladni::reduce::plugin

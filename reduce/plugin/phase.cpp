@@ -1,0 +1,66 @@
+// Phases of a CMS: log events, -cms_monitor and progress.
+#include <fmt/format.h>
+#include <petsctime.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "reduce/plugin/cms_impl.hpp"
+
+namespace chladni::reduce::plugin {
+
+namespace {
+
+constexpr const char* wipe_line = "\r\033[K";
+
+PetscErrorCode print_phase(CMS cms, const char phase[], PetscReal seconds)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)cms), "  CMS %-24s %10.3f s\n", phase,
+                        (double)seconds));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+Phase::Phase(CMS cms, PetscLogEvent event, const char* name) : cms_(cms), event_(event), name_(name)
+{
+  petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
+  petsc::check(PetscTime(&started_));
+  const bool is_first = petsc::rank(PetscObjectComm(reinterpret_cast<PetscObject>(cms))) == 0;
+  if (!cms->inside->settings.prints_phases || !is_first || isatty(STDERR_FILENO) == 0) return;
+  listener_.emplace([this](double fraction) { show(fraction); });
+}
+
+Phase::~Phase()
+{
+  if (shown_ > 0.0) std::fputs(wipe_line, stderr);
+  static_cast<void>(PetscLogEventEnd(event_, cms_, 0, 0, 0));
+}
+
+/// "  CMS fixed-interface modes: 42 %, 7 s left", twice a second from the third second on.
+void Phase::show(double fraction)
+{
+  PetscLogDouble now = 0.0;
+  constexpr double short_s = 2.0, pause_s = 0.5;
+  if (PetscTime(&now) != 0 || now - started_ < short_s || now - shown_ < pause_s) return;
+  shown_ = now;
+  const double left_s = fraction > 0.0 ? (now - started_) * (1.0 - fraction) / fraction : 0.0;
+  std::fputs(
+      fmt::format("{}  CMS {}: {:.0f} %, {:.0f} s left", wipe_line, name_, 100.0 * fraction, left_s)
+          .c_str(),
+      stderr);
+}
+
+void Phase::done()
+{
+  PetscLogDouble now = 0.0;
+  petsc::check(PetscTime(&now));
+  const Settings& settings = cms_->inside->settings;
+  if (settings.prints_phases) petsc::check(print_phase(cms_, name_, now - started_));
+  if (settings.monitor) {
+    petsc::check(settings.monitor(cms_, name_, now - started_, settings.monitor_context));
+  }
+}
+
+}  // namespace chladni::reduce::plugin

@@ -1,0 +1,104 @@
+#include "reduce/tolerance_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chladni::reduce {
+
+namespace {
+
+constexpr PetscInt n_at_first = 48;
+constexpr double pair_gap = 1e-4;    // of frequencies: partners stay together
+constexpr double same_value = 1e-8;  // of frequencies of converged modes
+
+/// Whether `before` are the first values of `now`: a partner that a search finds late shifts them.
+bool begins_with(const std::vector<double>& now, const std::vector<double>& before)
+{
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (std::abs(now[i] - before[i]) > same_value * before[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, double tolerance,
+                                 PairsOf pairs_in_range)
+    : system_(system),
+      tolerance_(tolerance),
+      pairs_in_range_(std::move(pairs_in_range)),
+      search_(system.K_ss, system.M.ss),
+      n_asked_(n_at_first)
+{}
+
+/// Modes that are found together with all their partners.
+PetscInt ToleranceSearch::n_complete() const
+{
+  const std::vector<double>& omega = search_.omega();
+  const auto n_all = static_cast<PetscInt>(omega.size());
+  if (n_all == search_.n_slaves()) return n_all;
+  for (PetscInt n = n_all - 1; n > 0; --n) {
+    if (omega[n] - omega[n - 1] > pair_gap * omega[n]) return n;
+  }
+  return n_all;
+}
+
+void ToleranceSearch::find_modes()
+{
+  search_.find(std::min(n_asked_, search_.n_slaves()));
+  const std::vector<double>& omega = search_.omega();
+  PetscInt n = n_complete();
+  if (model_ && n <= model_->n_modes()) n = static_cast<PetscInt>(omega.size());  // no others
+  if (model_ && n <= model_->n_modes()) {
+    throw Error(
+        fmt::format("with all {} fixed-interface modes that there are eta^2 is {:.1e}, "
+                    "above the tolerance {:.1e}; raise the tolerance",
+                    n, error(n), tolerance_));
+  }
+  if (model_ && !begins_with(omega, model_->omega())) model_.reset();
+  if (!model_) model_.emplace(system_);
+  const PetscInt n_before = model_->n_modes();
+  model_->append(search_.shapes(n_before, n), {omega.begin() + n_before, omega.begin() + n});
+}
+
+double ToleranceSearch::error(PetscInt n) const
+{
+  const std::vector<double> eta2 = model_->error_estimates(pairs_in_range_(model_->model(n)), n);
+  return eta2.empty() ? 0.0 : std::ranges::max(eta2);
+}
+
+bool ToleranceSearch::is_enough()
+{
+  const double last_error = error(model_->n_modes());
+  if (last_error > tolerance_) {
+    n_asked_ = prediction(last_error);
+    return false;
+  }
+  n_enough_ = search_.complete_cluster(least());
+  return true;
+}
+
+/// By bisection to 1 % or one mode.
+PetscInt ToleranceSearch::least() const
+{
+  PetscInt too_few = 0;
+  PetscInt enough = model_->n_modes();
+  while (enough - too_few > std::max<PetscInt>(1, enough / 100)) {
+    const PetscInt n = (enough + too_few) / 2;
+    (error(n) <= tolerance_ ? enough : too_few) = n;
+  }
+  return std::max<PetscInt>(enough, 1);
+}
+
+/// A number of modes that keeps the tolerance if the error goes on to fall as a power of it, from
+/// the errors with half of the modes and with all; between 1.15 and 1.5 times as many: the error
+/// falls in jumps.
+PetscInt ToleranceSearch::prediction(double last_error) const
+{
+  const PetscInt n = model_->n_modes();
+  const double power = std::max(0.5, std::log2(error(n / 2) / last_error));
+  const double predicted = 1.1 * n * std::pow(last_error / tolerance_, 1.0 / power);
+  return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, 1.5 * n)) + 1;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// Eigenvalues with Im >= 0 of the sliding disc, each column followed over the speed.
+struct EigenvalueMap {
+  Eigen::VectorXd speeds;   ///< [m] rad/s
+  Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
+  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
+  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
+  /// with a mass, of norm 1.
+  /// Empty for models without a body.
+  std::vector<Eigen::MatrixXcd> shapes = {};
+};
+
+/// The speed at which the sliding disc loses its stability.
+struct CriticalSpeed {
+  double speed;            ///< rad/s
+  double frequency_Hz;     ///< of the undamped oscillation there
+  int n_newton_steps = 0;  ///< 0: it was bracketed, because Newton's method led elsewhere
+};
+
+/// Where the sliding disc loses or regains its stability over one parameter.
+struct CriticalValue {
+  std::string parameter;        ///< "friction", "preload" or "stiffness"
+  double speed;                 ///< rad/s
+  std::optional<double> value;  ///< 1, N or N/m; absent when there is none in the range
+  double frequency_Hz;          ///< of the undamped oscillation there
+  int n_newton_steps;
+};
+
+/// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
+struct StabilityMap {
+  std::string parameter;         ///< "friction", "preload" or "stiffness"
+  Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
+  Eigen::VectorXd speeds;        ///< [n] rad/s
+  Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
+  Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
+};
+
+/// Floquet stability of the sliding disc in its own frame, over the speed; see
+/// rotation_stability.hpp.
+struct RotationStability {
+  Eigen::VectorXd speeds;                ///< [m] rad/s
+  Eigen::VectorXd growth;                ///< [m] largest growth rate, 1/s
+  Eigen::VectorXd frequency_Hz;          ///< [m] of the motion with it, in the frame of the disc
+  std::optional<double> critical_speed;  ///< the first from which it grows, rad/s
+};
+
+/// What the lowest modes alone would say.
+struct ModeSubset {
+  int n_modes;
+  double highest_Hz;
+  std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
+  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
+  double growth;  ///< largest growth rate at the critical speed of all modes, 1/s
+};
+
+/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
+struct ModeInfluence {
+  int nodal_diameters;
+  double frequency_Hz;   ///< of the mode
+  double participation;  ///< part of the kinetic energy of the critical oscillation
+  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
+  /// absent for the mode that it consists of.
+  std::optional<double> growth_without;
+  std::optional<double> critical_speed_without;  ///< rad/s
+};
+
+/// Which modes move the critical speed.
+struct ModeSensitivity {
+  double critical_speed;  ///< with all modes, rad/s
+  double critical_frequency_Hz;
+  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
+  std::vector<ModeInfluence> influences;  ///< by rising frequency
+};
+
+}  // namespace chladni::squeal

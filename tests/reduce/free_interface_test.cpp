@@ -1,0 +1,152 @@
+#include "reduce/free_interface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "chain.hpp"
+#include "reduce/error_estimates.hpp"
+
+namespace chladni::reduce {
+namespace {
+
+using Eigen::MatrixXd;
+using testing::free_chain;
+using testing::master_set;
+
+constexpr PetscInt n = 60;
+constexpr int n_modes = 7;
+
+/// lambda_k = 4 sin^2(k pi / 2 n), k = 0, 1, ..., of the free chain.
+double exact(int k)
+{
+  return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / n), 2);
+}
+
+/// The free chain with masters at an end and within, reduced by its own modes.
+struct ReducedChain {
+  testing::Chain chain = free_chain(n);
+  DofPartition dofs = partition(chain.K, master_set(chain.K, {0, 23}));
+  Blocks K = split(chain.K, dofs);
+  Blocks M = split(chain.M, dofs);
+  Factorization K_ss = factorize(K.ss);
+  WholeSystem body{
+      .K = chain.K, .M = chain.M, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
+  CraigBamptonBasis Q{.Psi = constraint_modes(K_ss, K), .modes = {}};
+  FreeInterfaceModes free = free_interface_modes(body, Q.Psi, {.modes = n_modes});
+};
+
+MatrixXd dense(const SmallMatrix& A)
+{
+  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
+}
+
+/// Eigenvalues of M x = mu (K + M) x as lambda = 1 / mu - 1, ascending; infinite without mass.
+std::vector<double> eigenvalues(const MatrixXd& K, const MatrixXd& M)
+{
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(M, K + M);
+  std::vector<double> lambda;
+  for (Eigen::Index i = K.rows() - 1; i >= 0; --i) lambda.push_back(1 / eigen.eigenvalues()[i] - 1);
+  return lambda;
+}
+
+TEST(FreeInterfaceModes, BeginWithTheRigidMotion)
+{
+  const ReducedChain reduced;
+  EXPECT_EQ(reduced.free.n_rigid, 1);
+  ASSERT_EQ(reduced.free.n_modes(), 1 + n_modes);
+  EXPECT_EQ(reduced.free.omega[0], 0.0);
+  for (int k = 1; k <= n_modes; ++k) {
+    EXPECT_NEAR(std::pow(reduced.free.omega[k], 2) / exact(k), 1.0, 1e-9);
+  }
+}
+
+TEST(Rubin, KeepsTheModesThatItIsMadeOf)
+{
+  ReducedChain reduced;
+  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  // Two masters, the modes, and the inertia relief of one rigid motion.
+  ASSERT_EQ(model.K.n_rows, 2 + n_modes + 1);
+  const std::vector<double> lambda = eigenvalues(dense(model.K), dense(model.M));
+  EXPECT_NEAR(lambda[0], 0.0, 1e-12);
+  for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
+}
+
+TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
+{
+  ReducedChain reduced;
+  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  // Receptance of the first mass to a force on it, full model: sum over all modes.
+  const auto receptance = [](double omega2) {
+    double sum = -1.0 / (n * omega2);
+    for (int k = 1; k < n; ++k) {
+      const double phi = std::sqrt(2.0 / n) * std::cos(0.5 * k * std::numbers::pi / n);
+      sum += phi * phi / (exact(k) - omega2);
+    }
+    return sum;
+  };
+  double before = 0.0;
+  for (const double omega2 : {1e-2, 1e-3}) {
+    const MatrixXd D = dense(model.K) - omega2 * dense(model.M);
+    const double error = std::abs(D.partialPivLu().solve(MatrixXd::Identity(D.rows(), 1))(0, 0) -
+                                  receptance(omega2));
+    // The residual flexibility is exact at 0 and has the right slope: the error goes with omega^4.
+    if (before > 0.0) {
+      EXPECT_NEAR(before / error, 100.0, 15.0);
+    }
+    before = error;
+  }
+}
+
+TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
+{
+  ReducedChain reduced;
+  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  const PetscInt n_r = model.K.n_rows;  // the first mass is held
+  const MatrixXd K = dense(model.K).bottomRightCorner(n_r - 1, n_r - 1);
+  const MatrixXd M = dense(model.M).bottomRightCorner(n_r - 1, n_r - 1);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
+  ReducedPairs pairs{.X = {n_r, 4}, .lambda = {}};
+  for (PetscInt j = 0; j < 4; ++j) {
+    pairs.lambda.push_back(eigen.eigenvalues()[j]);
+    for (PetscInt i = 1; i < n_r; ++i) pairs.X(i, j) = eigen.eigenvectors()(i - 1, j);
+  }
+  const std::vector<double> eta2 = error_estimates(reduced.K_ss, reduced.Q, reduced.M, pairs);
+  for (PetscInt j = 0; j < 4; ++j) {
+    const double held =
+        4.0 * std::pow(std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n - 1))),
+                       2);  // one end held
+    const double error = pairs.lambda[j] / held - 1.0;
+    EXPECT_NEAR(eta2[j], error, 0.2 * error + 1e-11) << "mode " << j + 1;
+  }
+}
+
+TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
+{
+  ReducedChain reduced;
+  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  const MatrixXd M = dense(macneal_mass(reduced.Q, reduced.M, reduced.free));
+  const std::vector<double> lambda = eigenvalues(dense(model.K), M);
+  for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M);
+  EXPECT_NEAR(mass.eigenvalues()[1], 0.0, 1e-12);  // 10 coordinates, 8 modes
+  EXPECT_GT(mass.eigenvalues()[2], 1e-6);
+}
+
+TEST(FreeInterfaceModes, RefuseATolerance)
+{
+  const ReducedChain reduced;
+  EXPECT_THROW(
+      free_interface_modes(reduced.body, reduced.Q.Psi,
+                           {.tolerance = ModesByTolerance{.tolerance = 0.1, .up_to_Hz = 1.0}}),
+      Error);
+}
+
+}  // namespace
+}  // namespace chladni::reduce

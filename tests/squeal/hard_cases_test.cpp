@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "analytic_body.hpp"
+#include "squeal/inertial_frame.hpp"
+#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/stability.hpp"
+#include "squeal/transient.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc pair_disc()
+{
+  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
+}
+
+TEST(HardCase, SlipNearZeroIsBoundedByTheRegularisation)
+{
+  // The signed law at 7 pi reaches 0.017 m/s; a disc that starts beyond its limit cycle at low
+  // speed reverses the direction of sliding. Friction stays bounded and the run finite.
+  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  SquealOptions options = reference_options(ContactLaw::signed_force);
+  options.slip_regularisation = 1e-3;
+  const Transient run = transient(disc, options,
+                                  {.speed = 0.5,
+                                   .duration = 0.2,
+                                   .initial_pad_displacement = 5e-4,
+                                   .steps_per_period = 80,
+                                   .integrator = IntegratorKind::splitting});
+  EXPECT_TRUE(run.finished);
+  EXPECT_LT(run.slip_speed_min, 5e-3);
+  EXPECT_LT(run.envelope.pad_velocity.back(), run.envelope.pad_velocity.front());
+}
+
+TEST(HardCase, SlidingThatNearlyStopsInEachPeriodHasItsLimitCycle)
+{
+  // SQUEAL reference value: the slip of the signed law at 7 pi falls to 0.017 m/s, where friction
+  // turns about within microseconds. The smallest of 128 samples is above the minimum.
+  const auto cycle =
+      limit_cycle_direct(pair_disc(), reference_options(ContactLaw::signed_force), 7.0 * pi);
+  EXPECT_LT(cycle.slip_speed_min, 0.06);
+  EXPECT_GT(cycle.slip_speed_min, 0.016);
+  EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
+  EXPECT_TRUE(cycle.stable);
+}
+
+TEST(HardCase, SlowGrowthNearTheCriticalSpeedIsInTheTransientToo)
+{
+  // 1.5e-6 of the frequency. The integration is exact for small motions; the fit leaves 1e-4.
+  const TransientCase run{.speed = 4.28 * pi, .duration = 3.0, .initial_pad_displacement = 1e-8};
+  const Transient result = transient(pair_disc(), reference_options(), run);
+  EXPECT_EQ(result.integrator, "exponential");
+  EXPECT_NEAR(result.growth_rate.value(), 0.01653109890077859, 1e-4);
+}
+
+TEST(HardCase, SpeedToZeroIsOverdampedInTheEigenvalues)
+{
+  // SQUEAL reference values. C_11 grows with 1 / Omega: below 0.00625 rad/s the radial slip no
+  // longer oscillates, while the other wave grows a little. Rounding of 1e-16 of 4e5 1/s, times
+  // the condition of the eigenvalues.
+  const InertialDisc disc = inertial_disc(pair_disc());
+  const auto lambda_at = [&](double speed_by_pi) {
+    return state_matrix(disc, reference_options(), speed_by_pi * pi).eigenvalues().eval();
+  };
+  const auto slow = lambda_at(0.01);
+  EXPECT_NEAR(slow.real().maxCoeff(), 1.0355966969655128e-4, 1e-9);
+  EXPECT_NEAR(slow.real().minCoeff(), -2187.7928611871057, 1e-6);
+  const auto slower = lambda_at(1e-4);
+  EXPECT_NEAR(slower.real().minCoeff(), -437275.6236390703, 1e-3);
+  EXPECT_NEAR((slower.array() + 282.92788948876694).abs().minCoeff(), 0.0, 1e-6);
+}
+
+TEST(HardCase, SlowSpeedsTakeTheStiffIntegrator)
+{
+  // At 1e-4 pi something decays faster than the mode oscillates.
+  const TransientCase run{.speed = 1e-4 * pi, .duration = 0.02, .initial_pad_displacement = 1e-7};
+  const Transient result = transient(pair_disc(), reference_options(), run);
+  EXPECT_EQ(result.integrator, "generalised-alpha");
+  EXPECT_TRUE(result.finished);
+}
+
+TEST(HardCase, StiffPadsHoldTheDisc)
+{
+  // k to infinity pins the cosine mode under the pad, the sine mode is left: its frequency is that
+  // of the free pair to N_0 h and the friction, and the other one rises with the root of k.
+  const InertialDisc disc = inertial_disc(pair_disc());
+  SquealOptions options = reference_options();
+  options.pads[0].stiffness = 6e12;
+  const Eigen::VectorXcd lambda = state_matrix(disc, options, 6.0 * pi).eigenvalues();
+  const double pinned = std::sqrt(2.0 * 6e12) * disc.rings[0].U[0];
+  EXPECT_NEAR(lambda.imag().maxCoeff() / pinned, 1.0, 1e-4);
+  const Transient run =
+      transient(pair_disc(), options,
+                {.speed = 6.0 * pi, .duration = 0.01, .initial_pad_displacement = 1e-12});
+  EXPECT_TRUE(run.finished);
+}
+
+}  // namespace
+}  // namespace chladni::squeal

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "squeal/limit_cycle_branch.hpp"
+#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/model_run.hpp"
+#include "squeal/oscillator.hpp"
+#include "squeal/rigid_model.hpp"
+#include "squeal/stability.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using std::numbers::pi;
+
+/// Steinbrecher 2015, table 3.1.
+RigidDisc source_disc(ContactLaw law = ContactLaw::bilateral)
+{
+  return {.Theta = 0.16,
+          .Phi = 0.32,
+          .k_t = 1.88e7,
+          .d_t = 0.1,
+          .radius = 0.13,
+          .thickness = 0.02,
+          .spring = {6e6},
+          .damping = 5.0,
+          .preload = 3000.0,
+          .friction = {0.6},
+          .law = law};
+}
+
+ModelOptions rigid_study(const RigidDiscStudy& study)
+{
+  return {.model = study,
+          .speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
+          .analyses = {"eigenvalues", "critical-speed"},
+          .transient = {},
+          .growth = {}};
+}
+
+/// SQUEAL reference values at 20 pi by shooting with finite differences, which leave up to 1e-4
+/// where contact is lost.
+struct Reference {
+  ContactLaw law;
+  double frequency_Hz, velocity, tolerance;
+};
+
+TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
+{
+  const Reference references[] = {{ContactLaw::bilateral, 1740.888105, 11.5214, 1e-5},
+                                  {ContactLaw::unilateral, 1737.862, 59.034, 1e-4},
+                                  {ContactLaw::signed_force, 1740.619, 64.689, 1e-4}};
+  for (const Reference& reference : references) {
+    SCOPED_TRACE(static_cast<int>(reference.law));
+    ModelOptions options = rigid_study({.disc = source_disc(reference.law)});
+    options.analyses = {"limit-cycle-direct"};
+    options.limit_cycle_direct = DirectCase{20.0 * pi};
+    const DirectLimitCycle cycle = run(options).limit_cycle_direct.value();
+    EXPECT_NEAR(cycle.frequency_Hz, reference.frequency_Hz, 1e-3);
+    EXPECT_NEAR(cycle.pad_velocity, reference.velocity, reference.tolerance * reference.velocity);
+    EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
+    EXPECT_TRUE(cycle.stable);
+  }
+}
+
+TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
+{
+  ModelOptions options = rigid_study({.disc = source_disc()});
+  options.analyses = {"stability-map", "critical-speed", "critical-values"};
+  options.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
+  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
+  options.critical = {
+      {.parameter = MapParameter::friction, .from = 0.3, .to = 0.9, .speed = 12.0 * pi}};
+  const SquealResults results = run(options);
+  const StabilityMap& map = results.map.value();
+  for (Eigen::Index j = 0; j < map.speeds.size(); ++j)
+    EXPECT_EQ(map.growth(1, j) > 0.0, map.speeds[j] > results.critical_speed->speed);
+  // The critical friction at 12 pi is that at which 12 pi is the critical speed.
+  ASSERT_TRUE(results.critical_values.at(0).value);
+  RigidDisc disc = source_disc();
+  disc.friction.kinetic = *results.critical_values[0].value;
+  const auto critical = critical_speed(model_of(disc, Drive::speed, {}).state_matrix,
+                                       {.from = 5.0 * pi, .to = 20.0 * pi, .count = 2});
+  EXPECT_NEAR(critical.value().speed, 12.0 * pi, 1e-6);
+}
+
+TEST(RigidModel, HasNoLimitCycleInItsLinearEquations)
+{
+  ModelOptions options = rigid_study({.disc = source_disc(), .equations = RigidEquations::linear});
+  options.analyses = {"limit-cycle-direct"};
+  options.limit_cycle_direct = DirectCase{20.0 * pi};
+  EXPECT_THROW(run(options), Error);
+}
+
+/// A mass on a belt whose friction falls over the speed, with enough damping to be stable above
+/// V_c = -v_s ln(d_x v_s / (N_0 rise)).
+Oscillator falling_friction()
+{
+  return {.mass = 2.0,
+          .k_x = 4e4,
+          .k_y = 4e6,
+          .k_xy = 0.0,
+          .d_x = 60.0,
+          .d_y = 400.0,
+          .contact_stiffness = 7e6,
+          .preload = 500.0,
+          .radius = 0.13,
+          .friction = {.kinetic = 0.3, .rise = 0.3, .decay_speed = 0.5, .regularisation = 2e-2}};
+}
+
+TEST(Oscillator, SticksAndSlipsBesideStableSliding)
+{
+  // Where the slope of friction no longer outweighs the damping, sliding becomes stable; the
+  // stick-slip cycle lives on above that speed and vanishes in a fold: hysteresis.
+  const Oscillator o = falling_friction();
+  const double V_c = -0.5 * std::log(60.0 * 0.5 / (500.0 * 0.3));
+  const Model model = model_of(o);
+  EXPECT_GT(least_stable_eigenvalue(model.state_matrix(0.98 * V_c / o.radius)).real(), 0.0);
+  EXPECT_LT(least_stable_eigenvalue(model.state_matrix(1.02 * V_c / o.radius)).real(), 0.0);
+  const LimitCycleBranch branch =
+      limit_cycle_branch(cycle_problem(model),
+                         {.from = 0.5 * V_c / o.radius, .to = 1.5 * V_c / o.radius, .count = 41});
+  ASSERT_FALSE(branch.points.empty());
+  bool stable_above = false;
+  for (const BranchPoint& point : branch.points)
+    stable_above |= point.speed * o.radius > V_c && point.largest_multiplier < 1.0;
+  EXPECT_TRUE(stable_above);
+  ASSERT_FALSE(branch.folds.empty());
+  EXPECT_GT(branch.folds.back().speed * o.radius, V_c);
+}
+
+}  // namespace
+}  // namespace chladni::squeal
