@@ -7,6 +7,7 @@
 #include "cli/arguments.hpp"
 #include "cli/describe.hpp"
 #include "cli/report/report.hpp"
+#include "cli/scene/keys.hpp"
 #include "cli/squeal_run.hpp"
 #include "cli/version.hpp"
 
@@ -53,6 +54,8 @@ int main(int argc, char** argv)
   declare_run(app, arguments);
   declare_info(app, arguments);
   cli::declare_report(app, arguments.report);
+  app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
+      ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
       "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
@@ -62,6 +65,8 @@ int main(int argc, char** argv)
       cli::run_squeal(arguments.scene, arguments.body_file);
     } else if (app.got_subcommand("report")) {
       cli::write_report(arguments.report);
+    } else if (app.got_subcommand("scene-reference")) {
+      fmt::print("{}", cli::scene_reference());
     } else {
       fmt::print("{}", cli::describe_file(arguments.info_file));
     }

@@ -65,13 +65,14 @@ std::string read_benchmark(const std::string& file)
   text << stream.rdbuf();
   if (!stream) throw Error(fmt::format("{}: cannot be read", file));
   const auto json = nlohmann::json::parse(text.str(), nullptr, false);
-  if (!json.is_object() || !json.contains("speed_against_error")) {
+  if (!json.is_object() || !json.contains("studies") ||
+      !json["studies"].is_array()) {
     throw Error(
-        fmt::format("{}: must be JSON with the key speed_against_error; docs/report.md "
-                    "says what stands there",
+        fmt::format("{}: must be the end_to_end.json of `./dev bench`; docs/report.md "
+                    "says what is read of it",
                     file));
   }
-  return json["speed_against_error"].dump();
+  return json["studies"].dump();
 }
 
 Json table_json(const std::string& title, const TextTable& table)
@@ -154,7 +155,7 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
       ->capture_default_str();
   report
       ->add_option("--benchmark", arguments.benchmark,
-                   "JSON with speed against error, drawn too (docs/report.md)")
+                   "end_to_end.json of ./dev bench: speed against error, drawn too")
       ->type_name("FILE");
   report->footer(
       fmt::format("Example (after `chladni run` and `squeal run` with the same SCENE and DIR):\n"

@@ -12,7 +12,7 @@ namespace chladni::cli {
 struct ReportArguments {
   std::string scene;
   std::string output = ".";  ///< folder of the scene's files, and of the report
-  std::string benchmark;     ///< JSON with speed against error; empty for none
+  std::string benchmark;     ///< JSON of speed against error; empty for none
 };
 
 /// Declares the subcommand `report` of `app`; the values arrive in `arguments`.

@@ -17,6 +17,9 @@ struct Admissible {
 
 bool admits(const Admissible& admissible, double x);
 
+/// What both admit, with the unit of `b` where it has one.
+Admissible both(const Admissible& a, const Admissible& b);
+
 /// `> 0 and <= 5 (m)`, after `kind` when that is not empty.
 std::string requirement(const Admissible& admissible, std::string_view kind = {});
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "cli/scene/keys.hpp"
 #include "common/error.hpp"
 
 namespace chladni::cli {
@@ -23,6 +24,7 @@ struct Table::Node {
   std::shared_ptr<const toml::table> file_table;  ///< keeps all nodes of the file alive
   std::string file;
   std::string path;  ///< of keys; empty for the root
+  std::string row;   ///< the same without the places in lists, as in the rows of keys.hpp
   const toml::table* table;
   std::set<std::string, std::less<>> asked;
   std::vector<std::shared_ptr<Node>> opened;
@@ -57,7 +59,18 @@ struct Table::Node {
   /// Throws when a key that nobody asked for looks like a slip for the missing `key`.
   void refuse_slip(std::string_view key) const;
   const toml::node& require(std::string_view key, std::string_view kind);
-  std::shared_ptr<Node> open(const toml::table& inner, std::string inner_path);
+  std::shared_ptr<Node> open(const toml::table& inner, std::string_view key,
+                             std::string inner_path);
+  std::string row_of(std::string_view key) const
+  {
+    return row.empty() ? std::string(key) : fmt::format("{}.{}", row, key);
+  }
+  /// What the row of the key and the reader admit.
+  Admissible admitted(std::string_view key, const Admissible& further) const
+  {
+    const Key* known = find_key(row_of(key));
+    return known != nullptr ? both(known->admits, further) : further;
+  }
   /// The value at `key`; `objection` says what is wrong with it, or nothing.
   template <class T>
   T value(std::string_view key, std::string_view kind, const Objection& objection);
@@ -144,13 +157,14 @@ MessagesByLine Table::Node::unknown_keys() const
   return unknown;
 }
 
-std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string inner_path)
+std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string_view key,
+                                               std::string inner_path)
 {
   for (const auto& node : opened) {
     if (node->table == &inner) return node;
   }
-  return opened.emplace_back(
-      std::make_shared<Node>(Node{file_table, file, std::move(inner_path), &inner, {}, {}}));
+  return opened.emplace_back(std::make_shared<Node>(
+      Node{file_table, file, std::move(inner_path), row_of(key), &inner, {}, {}}));
 }
 
 template <class T>
@@ -204,14 +218,16 @@ bool Table::is_table(std::string_view key) const
   return node_->require(key, "a value").is_table();
 }
 
-double Table::number(std::string_view key, const Admissible& admissible) const
+double Table::number(std::string_view key, const Admissible& further) const
 {
+  const Admissible admissible = node_->admitted(key, further);
   return node_->value<double>(key, requirement(admissible, "a number"),
                               objection_to_number(admissible));
 }
 
-int Table::integer(std::string_view key, const Admissible& admissible) const
+int Table::integer(std::string_view key, const Admissible& further) const
 {
+  const Admissible admissible = node_->admitted(key, further);
   return node_->value<int>(key, requirement(admissible, "a whole number"),
                            objection_to_integer(admissible));
 }
@@ -221,18 +237,28 @@ std::string Table::text(std::string_view key) const
   return node_->value<std::string>(key, "a text in quotes", objection_to_text);
 }
 
+void Table::check_word(std::string_view key, const std::string& word) const
+{
+  const Key* known = find_key(node_->row_of(key));
+  if (known == nullptr || known->words.empty()) return;
+  const std::vector<std::string> words = words_of(*known);
+  if (!contains(words, word)) refuse(key, "must be one of " + quoted_list(words));
+}
+
 bool Table::truth(std::string_view key) const
 {
   return node_->value<bool>(key, "true or false", objection_to_truth);
 }
 
-std::vector<double> Table::numbers(std::string_view key, const Admissible& admissible) const
+std::vector<double> Table::numbers(std::string_view key, const Admissible& further) const
 {
+  const Admissible admissible = node_->admitted(key, further);
   return node_->elements<double>(key, "a list of numbers", objection_to_number(admissible));
 }
 
-std::vector<int> Table::integers(std::string_view key, const Admissible& admissible) const
+std::vector<int> Table::integers(std::string_view key, const Admissible& further) const
 {
+  const Admissible admissible = node_->admitted(key, further);
   return node_->elements<int>(key, "a list of whole numbers", objection_to_integer(admissible));
 }
 
@@ -258,7 +284,7 @@ Table Table::table(std::string_view key) const
 {
   const toml::node& value = node_->require(key, "a table");
   if (!value.is_table()) refuse(key, "must be a table");
-  return Table(node_->open(*value.as_table(), node_->path_of(key)));
+  return Table(node_->open(*value.as_table(), key, node_->path_of(key)));
 }
 
 std::vector<Table> Table::tables(std::string_view key) const
@@ -271,7 +297,7 @@ std::vector<Table> Table::tables(std::string_view key) const
     const std::string element_path =
         array.size() == 1 ? node_->path_of(key) : node_->element_path_of(key, tables.size());
     if (!element.is_table()) node_->refuse(element, element_path, "must be a table");
-    tables.push_back(Table(node_->open(*element.as_table(), element_path)));
+    tables.push_back(Table(node_->open(*element.as_table(), key, element_path)));
   }
   return tables;
 }
@@ -306,7 +332,8 @@ Table parse_toml(const std::string& text, const std::string& file)
 {
   try {
     const auto root = std::make_shared<const toml::table>(toml::parse(text, file));
-    return Table(std::make_shared<Table::Node>(Table::Node{root, file, {}, root.get(), {}, {}}));
+    return Table(
+        std::make_shared<Table::Node>(Table::Node{root, file, {}, {}, root.get(), {}, {}}));
   } catch (const toml::parse_error& error) {
     throw Error(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
   }

@@ -30,12 +30,14 @@ class Table {
   bool is_number(std::string_view key) const;
   bool is_list(std::string_view key) const;
   bool is_table(std::string_view key) const;
-  double number(std::string_view key, const Admissible& admissible) const;
-  int integer(std::string_view key, const Admissible& admissible) const;
+  /// Numbers are checked by the row of the key (keys.hpp), and by `further`, which may depend on
+  /// other keys.
+  double number(std::string_view key, const Admissible& further = {}) const;
+  int integer(std::string_view key, const Admissible& further = {}) const;
   std::string text(std::string_view key) const;
   bool truth(std::string_view key) const;
-  std::vector<double> numbers(std::string_view key, const Admissible& admissible) const;
-  std::vector<int> integers(std::string_view key, const Admissible& admissible) const;
+  std::vector<double> numbers(std::string_view key, const Admissible& further = {}) const;
+  std::vector<int> integers(std::string_view key, const Admissible& further = {}) const;
   std::vector<std::string> texts(std::string_view key) const;
 
   /// The one key of these that the table holds.
@@ -63,6 +65,9 @@ class Table {
   void refuse_unknown_keys() const;
 
  private:
+  /// Refuses a word that the row of the key does not list.
+  void check_word(std::string_view key, const std::string& word) const;
+
   struct Node;
   explicit Table(std::shared_ptr<Node> node) : node_(std::move(node)) {}
   friend Table parse_toml(const std::string& text, const std::string& file);
@@ -78,6 +83,7 @@ template <class T>
 T Table::choice(std::string_view key, const std::vector<Choice<T>>& choices) const
 {
   const std::string name = text(key);
+  check_word(key, name);
   std::vector<std::string> names;
   for (const Choice<T>& choice : choices) {
     if (choice.name == name) return choice.value;

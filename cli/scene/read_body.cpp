@@ -41,13 +41,12 @@ KeptModes read_kept_modes(const Table& body)
   const Table keep = body.table("keep");
   KeptModes kept;
   if (keep.has("tolerance")) {
-    kept.tolerance = {.error = keep.number("tolerance", {.above = 0.0, .below = 1.0}),
-                      .up_to_Hz = keep.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
+    kept.tolerance = {.error = keep.number("tolerance"), .up_to_Hz = keep.number("up_to_Hz")};
     return kept;
   }
   const std::string_view key = keep.only_one_of({"modes", "up_to_Hz", "list"});
-  if (key == "modes") kept.count = keep.integer(key, {.above = 0.0});
-  if (key == "up_to_Hz") kept.up_to_Hz = keep.number(key, {.above = 0.0, .unit = "Hz"});
+  if (key == "modes") kept.count = keep.integer(key);
+  if (key == "up_to_Hz") kept.up_to_Hz = keep.number(key);
   if (key == "list") kept.list = read_mode_list(keep, key);
   return kept;
 }
@@ -60,7 +59,7 @@ std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
     return 0.0;
   }
   if (!mode.has("omega0")) return std::nullopt;
-  if (mode.is_number("omega0")) return mode.number("omega0", {.above = 0.0, .unit = "rad/s"});
+  if (mode.is_number("omega0")) return mode.number("omega0");
   if (mode.text("omega0") != "auto") {
     mode.refuse("omega0", "must be \"auto\" or a number > 0 (rad/s)");
   }
@@ -99,9 +98,8 @@ InterfaceModes read_interface_mode(const Table& mode,
 /// One ratio for all modes, or one for each.
 std::vector<double> read_ratios(const Table& damping)
 {
-  const Admissible ratios{.at_least = 0.0, .below = 1.0};
-  if (damping.has("ratio") && damping.is_list("ratio")) return damping.numbers("ratio", ratios);
-  return {damping.number("ratio", ratios)};
+  if (damping.has("ratio") && damping.is_list("ratio")) return damping.numbers("ratio");
+  return {damping.number("ratio")};
 }
 
 Damping read_damping(const Table& body)
@@ -115,30 +113,28 @@ Damping read_damping(const Table& body)
                                                       {"matrix", Damping::Type::matrix}});
   if (damping.type == Damping::Type::modal) damping.ratios = read_ratios(table);
   if (damping.type == Damping::Type::rayleigh) {
-    damping.alpha = table.number("alpha", {.at_least = 0.0, .unit = "1/s"});
-    damping.beta = table.number("beta", {.at_least = 0.0, .unit = "s"});
+    damping.alpha = table.number("alpha");
+    damping.beta = table.number("beta");
   }
   return damping;
 }
 
 }  // namespace
 
-std::array<double, 3> read_vector(const Table& table, std::string_view key,
-                                  const Admissible& admissible)
+std::array<double, 3> read_vector(const Table& table, std::string_view key)
 {
-  const std::vector<double> values = table.numbers(key, admissible);
+  const std::vector<double> values = table.numbers(key);
   if (values.size() != 3) table.refuse(key, "must be three numbers [x, y, z]");
   return {values[0], values[1], values[2]};
 }
 
-std::array<double, 6> read_by_component(const Table& table, std::string_view key,
-                                        const Admissible& admissible)
+std::array<double, 6> read_by_component(const Table& table, std::string_view key)
 {
   const Table values = table.table(key);
   std::array<double, 6> by_component{};
   for (std::size_t c = 0; c < component_names.size(); ++c) {
     if (values.has(component_names[c])) {
-      by_component[c] = values.number(component_names[c], admissible);
+      by_component[c] = values.number(component_names[c]);
     }
   }
   return by_component;
@@ -165,7 +161,7 @@ std::vector<int> read_component_list(const Table& table, std::string_view key)
 
 std::vector<int> read_mode_list(const Table& table, std::string_view key)
 {
-  const std::vector<int> modes = table.integers(key, {.at_least = 1});
+  const std::vector<int> modes = table.integers(key);
   if (modes.empty()) table.refuse(key, "must name at least one mode, counted from 1");
   for (std::size_t i = 1; i < modes.size(); ++i) {
     if (modes[i] <= modes[i - 1])

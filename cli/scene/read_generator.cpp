@@ -39,7 +39,7 @@ double read_outer_radius(const Table& mesh, double inner_radius)
 mesh::AnnulusOptions read_annulus(const Table& mesh)
 {
   mesh::AnnulusOptions annulus{};
-  annulus.inner_radius = mesh.number("inner_radius", {.above = 0.0, .unit = "m"});
+  annulus.inner_radius = mesh.number("inner_radius");
   annulus.outer_radius = read_outer_radius(mesh, annulus.inner_radius);
   const double width = annulus.outer_radius - annulus.inner_radius;
   annulus.element_size = read_element_size(mesh, width);
@@ -61,17 +61,17 @@ std::optional<mesh::BoltOptions> read_bolts(const Table& mesh, const mesh::HatDi
   }
   const Table bolts = mesh.table("bolts");
   return mesh::BoltOptions{
-      .count = bolts.integer("count", {.at_least = 2}),
+      .count = bolts.integer("count"),
       .circle_radius = bolts.number(
           "circle_radius",
           {.above = hat.hub_radius, .below = hat.top_radius, .unit = "m, on the flange"}),
-      .hole_radius = bolts.number("hole_radius", {.above = 0.0, .unit = "m"})};
+      .hole_radius = bolts.number("hole_radius")};
 }
 
 mesh::HatDiscOptions read_hat_disc(const Table& mesh)
 {
   mesh::HatDiscOptions hat{};
-  hat.wall_radius = mesh.number("wall_radius", {.above = 0.0, .unit = "m"});
+  hat.wall_radius = mesh.number("wall_radius");
   hat.outer_radius =
       mesh.number("outer_radius", {.above = hat.wall_radius, .unit = "m, the wall's radius"});
   const auto or_wall = [&](const char* key, const Admissible& admissible) {
@@ -81,7 +81,7 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
       or_wall("inner_radius", {.above = 0.0, .at_most = hat.wall_radius, .unit = "m"});
   hat.top_radius = or_wall("top_radius", {.above = 0.0, .unit = "m"});
   hat.hub_radius = mesh.number("hub_radius", {.above = 0.0, .below = hat.top_radius, .unit = "m"});
-  hat.height = mesh.number("height", {.above = 0.0, .unit = "m"});
+  hat.height = mesh.number("height");
   if (mesh.has("foot")) {
     hat.foot = mesh.number("foot", {.at_least = 0.0, .below = hat.height, .unit = "m"});
   }
@@ -102,11 +102,11 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
 mesh::PadOptions read_pad(const Table& mesh)
 {
   mesh::PadOptions pad{};
-  pad.inner_radius = mesh.number("inner_radius", {.above = 0.0, .unit = "m"});
+  pad.inner_radius = mesh.number("inner_radius");
   pad.outer_radius = read_outer_radius(mesh, pad.inner_radius);
-  pad.angle = degree * mesh.number("angle_deg", {.above = 0.0, .below = 180.0, .unit = "degrees"});
+  pad.angle = degree * mesh.number("angle_deg");
   if (mesh.has("centre_deg")) {
-    pad.centre_angle = degree * mesh.number("centre_deg", {.unit = "degrees"});
+    pad.centre_angle = degree * mesh.number("centre_deg");
   }
   const double length = 0.5 * (pad.inner_radius + pad.outer_radius) * pad.angle;
   const double width = std::min(pad.outer_radius - pad.inner_radius, length);
@@ -120,8 +120,8 @@ mesh::PadOptions read_pad(const Table& mesh)
 mesh::RectangleOptions read_rectangle(const Table& mesh)
 {
   mesh::RectangleOptions plate{};
-  plate.length = mesh.number("length", {.above = 0.0, .unit = "m"});
-  plate.width = mesh.number("width", {.above = 0.0, .unit = "m"});
+  plate.length = mesh.number("length");
+  plate.width = mesh.number("width");
   const double width = std::min(plate.length, plate.width);
   plate.element_size = read_element_size(mesh, width);
   if (mesh.has("element_order")) plate.element_order = read_element_order(mesh);
@@ -147,13 +147,12 @@ std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
 
 mesh::BeamMeshOptions read_beam(const Table& mesh)
 {
-  mesh::BeamMeshOptions beam{.start = read_vector(mesh, "start", {.unit = "m"}),
-                             .end = read_vector(mesh, "end", {.unit = "m"})};
+  mesh::BeamMeshOptions beam{.start = read_vector(mesh, "start"), .end = read_vector(mesh, "end")};
   const double length = std::hypot(beam.end[0] - beam.start[0], beam.end[1] - beam.start[1],
                                    beam.end[2] - beam.start[2]);
   if (!(length > 0.0)) mesh.refuse("end", "is the start of the beam too");
   if (mesh.only_one_of({"elements", "element_size"}) == "elements") {
-    beam.elements = mesh.integer("elements", {.at_least = 1, .at_most = 1e6});
+    beam.elements = mesh.integer("elements");
   } else {
     beam.element_size =
         mesh.number("element_size",

@@ -29,13 +29,6 @@ std::string read_set(const Table& table, const Scene& scene)
   return name;
 }
 
-std::array<double, 3> read_vector(const Table& table, std::string_view key, std::string_view unit)
-{
-  const std::vector<double> values = table.numbers(key, {.unit = unit});
-  if (values.size() != 3) table.refuse(key, "must be the three numbers [x, y, z]");
-  return {values[0], values[1], values[2]};
-}
-
 /// The components of `dofs = ["x", "rz"]`.
 std::vector<int> read_components(const Table& support)
 {
@@ -81,8 +74,8 @@ plate::NodalLoad read_nodal_load(const Table& table, const Scene& scene)
   plate::NodalLoad load{.group = read_set(table, scene)};
   const bool has_force = table.has("force");
   const bool has_moment = table.has("moment");
-  if (has_force || !has_moment) load.force = read_vector(table, "force", "N");
-  if (has_moment) load.moment = read_vector(table, "moment", "N m");
+  if (has_force || !has_moment) load.force = read_vector(table, "force");
+  if (has_moment) load.moment = read_vector(table, "moment");
   return load;
 }
 
@@ -98,14 +91,14 @@ plate::Load read_load(const Table& table, const Scene& scene)
       return read_nodal_load(table, scene);
     case LoadType::line:
       return plate::EdgeLoad{.group = read_set(table, scene),
-                             .line_force = read_vector(table, "line_force", "N/m")};
+                             .line_force = read_vector(table, "line_force")};
     case LoadType::pressure:
       return plate::PressureLoad{.group = read_set(table, scene),
-                                 .pressure = table.number("pressure", {.unit = "Pa"})};
+                                 .pressure = table.number("pressure")};
     case LoadType::gravity:
       break;
   }
-  return plate::GravityLoad{.acceleration = read_vector(table, "acceleration", "m/s^2")};
+  return plate::GravityLoad{.acceleration = read_vector(table, "acceleration")};
 }
 
 }  // namespace
@@ -149,7 +142,7 @@ std::optional<ModesOptions> read_natural_modes(const Table& root)
   if (!root.has("modes")) return std::nullopt;
   const Table table = root.table("modes");
   ModesOptions options;
-  if (table.has("count")) options.count = table.integer("count", {.at_least = 1.0});
+  if (table.has("count")) options.count = table.integer("count");
   return options;
 }
 

@@ -14,8 +14,8 @@ mesh::RingOptions read_ring(const Table& ring, const Admissible& radii)
 {
   mesh::RingOptions options{.name = ring.text("name"),
                             .radius = ring.number("radius", radii),
-                            .nodes = ring.integer("nodes", {.at_least = 3})};
-  if (ring.has("z")) options.z = ring.number("z", {.unit = "m"});
+                            .nodes = ring.integer("nodes")};
+  if (ring.has("z")) options.z = ring.number("z");
   return options;
 }
 
@@ -96,13 +96,13 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
   check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
   check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
   if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
-  if (is_step) options.element_size = mesh.number("element_size", {.above = 0.0, .unit = "m"});
+  if (is_step) options.element_size = mesh.number("element_size");
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
   if (mesh.has("length_unit")) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
   if (mesh.has("merge_tolerance")) {
-    options.merge_tolerance = mesh.number("merge_tolerance", {.above = 0.0, .unit = "m"});
+    options.merge_tolerance = mesh.number("merge_tolerance");
   }
   std::vector<std::string> taken;
   for (const mesh::EntityGroup& group : options.groups) taken.push_back(group.name);
@@ -114,7 +114,7 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
 
 int read_element_order(const Table& mesh)
 {
-  return mesh.integer("element_order", {.at_least = 1, .at_most = 4});
+  return mesh.integer("element_order");
 }
 
 std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<std::string>& taken,

@@ -11,7 +11,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 squeal::Suspension read_suspension(const Table& table, std::string_view stiffness_unit)
 {
   return {.stiffness = table.number("stiffness", {.above = 0.0, .unit = stiffness_unit}),
-          .damping = table.number("damping", {.at_least = 0.0})};
+          .damping = table.number("damping")};
 }
 
 std::optional<squeal::Suspension> read_translation(const Table& body, std::string_view key)
@@ -24,17 +24,16 @@ std::optional<squeal::RotarySuspension> read_rotation(const Table& body, std::st
 {
   if (!body.has(key)) return std::nullopt;
   const Table table = body.table(key);
-  return squeal::RotarySuspension{
-      .inertia = table.number("inertia", {.above = 0.0, .unit = "kg m^2"}),
-      .suspension = read_suspension(table, "N m")};
+  return squeal::RotarySuspension{.inertia = table.number("inertia"),
+                                  .suspension = read_suspension(table, "N m")};
 }
 
 std::optional<squeal::PadBody> read_body_of_pad(const Table& pad)
 {
   if (!pad.has("body")) return std::nullopt;
   const Table table = pad.table("body");
-  squeal::PadBody body{.mass = table.number("mass", {.above = 0.0, .unit = "kg"})};
-  if (table.has("height")) body.height = table.number("height", {.at_least = 0.0, .unit = "m"});
+  squeal::PadBody body{.mass = table.number("mass")};
+  if (table.has("height")) body.height = table.number("height");
   body.radial = read_translation(table, "radial");
   body.tangential = read_translation(table, "tangential");
   body.axial = read_translation(table, "axial");
@@ -58,18 +57,15 @@ std::optional<squeal::Caliper> read_caliper(const Table& pad,
     pad.refuse("caliper", "carries the pads by their axial suspension: give body.axial");
   }
   const Table table = pad.table("caliper");
-  return squeal::Caliper{.mass = table.number("mass", {.above = 0.0, .unit = "kg"}),
-                         .axial = read_suspension(table, "N/m")};
+  return squeal::Caliper{.mass = table.number("mass"), .axial = read_suspension(table, "N/m")};
 }
 
 std::optional<squeal::PadGrid> read_grid(const Table& pad)
 {
   if (!pad.has("grid")) return std::nullopt;
   const Table table = pad.table("grid");
-  squeal::PadGrid grid{
-      .sector =
-          degree * table.number("sector_deg", {.above = 0.0, .at_most = 360.0, .unit = "degrees"}),
-      .points = table.integer("points", {.at_least = 1.0})};
+  squeal::PadGrid grid{.sector = degree * table.number("sector_deg"),
+                       .points = table.integer("points")};
   if (table.has("rings")) {
     grid.rings = table.texts("rings");
     if (grid.rings.empty()) table.refuse("rings", "must name at least one ring");
@@ -86,10 +82,10 @@ squeal::PadPair read_pad(const Table& pad)
 {
   const squeal::PadSpring spring = read_pad_spring(pad);
   const std::optional<squeal::PadBody> body = read_body_of_pad(pad);
-  return {.angle = degree * pad.number("angle_deg", {.unit = "degrees"}),
+  return {.angle = degree * pad.number("angle_deg"),
           .stiffness = spring.linear,
-          .damping = pad.number("damping", {.at_least = 0.0, .unit = "N s/m"}),
-          .preload = pad.number("preload", {.above = 0.0, .unit = "N"}),
+          .damping = pad.number("damping"),
+          .preload = pad.number("preload"),
           .cubic_stiffness = spring.cubic,
           .grid = read_grid(pad),
           .body = body,

@@ -9,9 +9,9 @@ namespace {
 
 plate::Material read_material(const Table& material)
 {
-  return {.young = material.number("young", {.above = 0.0, .unit = "Pa"}),
-          .poisson = material.number("poisson", {.above = -1.0, .below = 0.5}),
-          .density = material.number("density", {.above = 0.0, .unit = "kg/m^3"})};
+  return {.young = material.number("young"),
+          .poisson = material.number("poisson"),
+          .density = material.number("density")};
 }
 
 std::map<std::string, plate::Material> read_materials(const Table& root)
@@ -45,21 +45,21 @@ const plate::Material& read_material_of(const Table& section,
 }
 
 /// A constant, or a table over a coordinate or the radius.
-plate::Profile read_profile(const Table& section, std::string_view key, const Admissible& lengths)
+plate::Profile read_profile(const Table& section, std::string_view key)
 {
-  if (!section.has(key) || !section.is_table(key)) return section.number(key, lengths);
+  if (!section.has(key) || !section.is_table(key)) return section.number(key);
   using plate::Coordinate;
   const Table table = section.table(key);
   const auto over = table.choice<Coordinate>("over", {{"x", Coordinate::x},
                                                       {"y", Coordinate::y},
                                                       {"z", Coordinate::z},
                                                       {"radius", Coordinate::radius}});
-  const std::vector<double> at = table.numbers("at", {.unit = "m"});
+  const std::vector<double> at = table.numbers("at");
   if (at.size() < 2) table.refuse("at", "must hold at least two places");
   for (std::size_t i = 1; i < at.size(); ++i) {
     if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
   }
-  const std::vector<double> values = table.numbers("values", lengths);
+  const std::vector<double> values = table.numbers("values");
   if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
   return {over, at, values};
 }
@@ -102,13 +102,13 @@ double read_shear_factor(const Table& section, std::string_view key, plate::Beam
   if (theory == plate::BeamTheory::bernoulli_euler) {
     section.refuse(key, "a beam of Bernoulli and Euler is rigid in shear; take this key out");
   }
-  return section.number(key, {.above = 0.0, .at_most = 1.0});
+  return section.number(key);
 }
 
 std::optional<std::array<double, 3>> read_orientation(const Table& section)
 {
   if (!section.has("orientation")) return std::nullopt;
-  const std::array<double, 3> v = read_vector(section, "orientation", {});
+  const std::array<double, 3> v = read_vector(section, "orientation");
   if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
     section.refuse("orientation", "must not be zero; it points towards the z axis of the section");
   }
@@ -118,13 +118,12 @@ std::optional<std::array<double, 3>> read_orientation(const Table& section)
 plate::BeamSection read_beam_section(const Table& section, const std::string& group,
                                      const plate::Material& material)
 {
-  const Admissible second_moment{.above = 0.0, .unit = "m^4"};
   plate::BeamSection beam{.group = group,
                           .material = material,
-                          .area = section.number("area", {.above = 0.0, .unit = "m^2"}),
-                          .I_y = section.number("I_y", second_moment),
-                          .I_z = section.number("I_z", second_moment),
-                          .J = section.number("J", second_moment)};
+                          .area = section.number("area"),
+                          .I_y = section.number("I_y"),
+                          .I_z = section.number("I_z"),
+                          .J = section.number("J")};
   if (section.has("theory")) {
     beam.theory = section.choice<plate::BeamTheory>(
         "theory", {{"timoshenko", plate::BeamTheory::timoshenko},
@@ -184,8 +183,8 @@ Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
     sections.shells.push_back(
         {.group = group,
          .material = material,
-         .thickness = read_profile(table, "thickness", {.above = 0.0, .unit = "m"}),
-         .offset = table.has("offset") ? read_profile(table, "offset", {.unit = "m"}) : 0.0});
+         .thickness = read_profile(table, "thickness"),
+         .offset = table.has("offset") ? read_profile(table, "offset") : 0.0});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
   return sections;

@@ -19,7 +19,7 @@ std::string read_place(const Table& table, std::string_view key, const Scene& sc
 /// The symmetric tensor about the centre of mass, or three moments.
 std::array<double, 6> read_inertia(const Table& mass)
 {
-  const std::vector<double> values = mass.numbers("inertia", {.unit = "kg m^2"});
+  const std::vector<double> values = mass.numbers("inertia");
   if (values.size() != 3 && values.size() != 6) {
     mass.refuse("inertia", "must be three moments [xx, yy, zz] or six [xx, yy, zz, xy, xz, yz]");
   }
@@ -49,10 +49,9 @@ std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene)
   std::vector<plate::PointMass> masses;
   if (!root.has("mass")) return masses;
   for (const Table& table : root.tables("mass")) {
-    plate::PointMass mass{.at = read_place(table, "at", scene),
-                          .mass = table.number("mass", {.above = 0.0, .unit = "kg"})};
+    plate::PointMass mass{.at = read_place(table, "at", scene), .mass = table.number("mass")};
     if (table.has("inertia")) mass.inertia = read_inertia(table);
-    if (table.has("offset")) mass.offset = read_vector(table, "offset", {.unit = "m"});
+    if (table.has("offset")) mass.offset = read_vector(table, "offset");
     masses.push_back(mass);
   }
   return masses;
@@ -71,10 +70,8 @@ std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene)
     if (!table.has("stiffness") && !table.has("damping")) {
       table.refuse("at", "the spring needs `stiffness` or `damping`, like { z = 1e6 }");
     }
-    const Admissible constant{.at_least = 0.0, .unit = "N/m, N m/rad"};
-    const Admissible damping{.at_least = 0.0, .unit = "N s/m, N m s/rad"};
-    if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness", constant);
-    if (table.has("damping")) spring.damping = read_by_component(table, "damping", damping);
+    if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
+    if (table.has("damping")) spring.damping = read_by_component(table, "damping");
     springs.push_back(spring);
   }
   return springs;

@@ -82,15 +82,15 @@ reduce::ReduceOptions read_reduce(const Table& root)
   }
   const std::string_view criterion = table.only_one_of({"modes", "cutoff_Hz", "tolerance"});
   if (criterion == "modes") {
-    options.modes = table.integer("modes", {.above = 0.0});
+    options.modes = table.integer("modes");
   } else if (criterion == "cutoff_Hz") {
-    options.cutoff_Hz = table.number("cutoff_Hz", {.above = 0.0, .unit = "Hz"});
+    options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
     if (options.method != reduce::Method::craig_bampton) {
       table.refuse("tolerance", "needs method \"craig-bampton\"; give modes or cutoff_Hz");
     }
-    options.tolerance = {.tolerance = table.number("tolerance", {.above = 0.0, .below = 1.0}),
-                         .up_to_Hz = table.number("up_to_Hz", {.above = 0.0, .unit = "Hz"})};
+    options.tolerance = {.tolerance = table.number("tolerance"),
+                         .up_to_Hz = table.number("up_to_Hz")};
   }
   return options;
 }
@@ -113,7 +113,7 @@ ResultantChoice read_resultants(const Table& root, const Scene& scene)
   }
   ResultantChoice choice{.groups = std::move(groups), .elements = {}};
   if (table.has("resultant_elements")) {
-    choice.elements = table.integers("resultant_elements", {.above = 0.0});
+    choice.elements = table.integers("resultant_elements");
     if (choice.elements.empty()) table.refuse("resultant_elements", "must name an element");
   }
   return choice;

@@ -19,7 +19,7 @@ std::optional<squeal::DirectCase> read_direct(const Table& squeal,
 {
   if (squeal.has("limit_cycle_direct")) {
     const Table table = squeal.table("limit_cycle_direct");
-    return squeal::DirectCase{table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"})};
+    return squeal::DirectCase{table.number("speed_rad_s")};
   }
   if (transient) return squeal::DirectCase{transient->speed};
   return std::nullopt;
@@ -30,11 +30,11 @@ std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
   std::vector<squeal::CriticalCase> searches;
   if (!squeal.has("critical")) return searches;
   for (const Table& table : squeal.tables("critical")) {
-    const double from = table.number("from", {.above = 0.0});
+    const double from = table.number("from");
     searches.push_back({.parameter = read_parameter(table),
                         .from = from,
                         .to = table.number("to", {.above = from, .unit = "from"}),
-                        .speed = table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"})});
+                        .speed = table.number("speed_rad_s")});
   }
   return searches;
 }
@@ -44,12 +44,12 @@ std::optional<squeal::MapCase> read_map(const Table& squeal)
   if (!squeal.has("map")) return std::nullopt;
   const Table table = squeal.table("map");
   const MapParameter parameter = read_parameter(table);
-  const double from = parameter == MapParameter::friction ? table.number("from", {.at_least = 0.0})
+  const double from = parameter == MapParameter::friction ? table.number("from")
                                                           : table.number("from", {.above = 0.0});
   return squeal::MapCase{.parameter = parameter,
                          .from = from,
                          .to = table.number("to", {.at_least = from}),
-                         .count = table.integer("count", {.at_least = 1.0})};
+                         .count = table.integer("count")};
 }
 
 }  // namespace chladni::cli

@@ -73,8 +73,7 @@ std::optional<squeal::SoundCase> read_wav(const Table& squeal)
 {
   if (!squeal.has("wav")) return std::nullopt;
   const Table table = squeal.table("wav");
-  return squeal::SoundCase{
-      table.integer("rate_Hz", {.at_least = 8000.0, .at_most = 192000.0, .unit = "Hz"})};
+  return squeal::SoundCase{table.integer("rate_Hz")};
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   const Table squeal = root.table("squeal");
   squeal::SquealOptions options{};
   options.ring = read_ring(squeal, scene);
-  options.thickness = squeal.number("thickness", {.above = 0.0, .unit = "m"});
+  options.thickness = squeal.number("thickness");
   options.modes = read_modes(squeal);
   options.speeds = read_speeds(squeal);
   const squeal::FrictionLaw friction = read_friction(squeal);

@@ -38,19 +38,18 @@ squeal::RigidDiscStudy read_rigid_disc(const Table& squeal)
   const Table table = squeal.table("rigid_disc");
   const Table pad = read_only_pad(squeal);
   const squeal::FrictionLaw friction = read_friction(squeal);
-  squeal::RigidDiscStudy study{
-      .disc = {.Theta = table.number("diametral_inertia", {.above = 0.0, .unit = "kg m^2"}),
-               .Phi = table.number("axial_inertia", {.above = 0.0, .unit = "kg m^2"}),
-               .k_t = table.number("stiffness", {.above = 0.0, .unit = "N m"}),
-               .d_t = table.number("damping", {.at_least = 0.0, .unit = "N m s"}),
-               .radius = table.number("pad_radius", {.above = 0.0, .unit = "m"}),
-               .thickness = squeal.number("thickness", {.above = 0.0, .unit = "m"}),
-               .spring = read_pad_spring(pad),
-               .damping = pad.number("damping", {.at_least = 0.0, .unit = "N s/m"}),
-               .preload = pad.number("preload", {.above = 0.0, .unit = "N"}),
-               .friction = friction,
-               .law = read_contact(squeal)},
-      .drive = read_drive(table, friction)};
+  squeal::RigidDiscStudy study{.disc = {.Theta = table.number("diametral_inertia"),
+                                        .Phi = table.number("axial_inertia"),
+                                        .k_t = table.number("stiffness"),
+                                        .d_t = table.number("damping"),
+                                        .radius = table.number("pad_radius"),
+                                        .thickness = squeal.number("thickness"),
+                                        .spring = read_pad_spring(pad),
+                                        .damping = pad.number("damping"),
+                                        .preload = pad.number("preload"),
+                                        .friction = friction,
+                                        .law = read_contact(squeal)},
+                               .drive = read_drive(table, friction)};
   if (table.has("equations")) {
     study.equations = table.choice<RigidEquations>(
         "equations",
@@ -62,24 +61,19 @@ squeal::RigidDiscStudy read_rigid_disc(const Table& squeal)
 squeal::Oscillator read_oscillator(const Table& squeal)
 {
   const Table table = squeal.table("oscillator");
-  const auto stiffness = [&](const char* key) {
-    return table.number(key, {.above = 0.0, .unit = "N/m"});
-  };
-  const auto damping = [&](const char* key) {
-    return table.number(key, {.at_least = 0.0, .unit = "N s/m"});
-  };
-  squeal::Oscillator oscillator{
-      .mass = table.number("mass", {.above = 0.0, .unit = "kg"}),
-      .k_x = stiffness("stiffness_along"),
-      .k_y = stiffness("stiffness_normal"),
-      .k_xy = table.number("stiffness_coupling", {.at_least = 0.0, .unit = "N/m"}),
-      .d_x = damping("damping_along"),
-      .d_y = damping("damping_normal"),
-      .contact_stiffness = stiffness("contact_stiffness"),
-      .preload = table.number("preload", {.above = 0.0, .unit = "N"}),
-      .radius = table.number("radius", {.above = 0.0, .unit = "m"}),
-      .friction = read_friction(squeal),
-      .law = read_contact(squeal)};
+  const auto stiffness = [&](const char* key) { return table.number(key); };
+  const auto damping = [&](const char* key) { return table.number(key); };
+  squeal::Oscillator oscillator{.mass = table.number("mass"),
+                                .k_x = stiffness("stiffness_along"),
+                                .k_y = stiffness("stiffness_normal"),
+                                .k_xy = table.number("stiffness_coupling"),
+                                .d_x = damping("damping_along"),
+                                .d_y = damping("damping_normal"),
+                                .contact_stiffness = stiffness("contact_stiffness"),
+                                .preload = table.number("preload"),
+                                .radius = table.number("radius"),
+                                .friction = read_friction(squeal),
+                                .law = read_contact(squeal)};
   if (!(oscillator.k_xy * oscillator.k_xy < oscillator.k_x * oscillator.k_y)) {
     table.refuse("stiffness_coupling",
                  "its square must be below stiffness_along times stiffness_normal, or the springs "

@@ -91,12 +91,10 @@ std::vector<std::string> group_names(const mesh::MeshOptions& mesh);
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);
 
 /// One number for each component that the table `key = { z = ..., ry = ... }` names, else 0.
-std::array<double, 6> read_by_component(const Table& table, std::string_view key,
-                                        const Admissible& admissible);
+std::array<double, 6> read_by_component(const Table& table, std::string_view key);
 
 /// A list of three numbers.
-std::array<double, 3> read_vector(const Table& table, std::string_view key,
-                                  const Admissible& admissible);
+std::array<double, 3> read_vector(const Table& table, std::string_view key);
 
 /// A list of components by name as numbers 0 to 5, in the order of the list.
 std::vector<int> read_component_list(const Table& table, std::string_view key);

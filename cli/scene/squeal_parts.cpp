@@ -46,7 +46,7 @@ std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, doubl
   std::vector<squeal::SpeedPoint> points{{.time = 0.0, .speed = first_speed}};
   for (const Table& row : transient.tables("speed_program")) {
     points.push_back({.time = row.number("t_s", {.above = points.back().time, .unit = "s"}),
-                      .speed = row.number("speed_rad_s", {.at_least = 0.0, .unit = "rad/s"})});
+                      .speed = row.number("speed_rad_s")});
   }
   if (points.size() == 1) transient.refuse("speed_program", "must hold at least one point");
   return points;
@@ -57,7 +57,7 @@ std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, doubl
 squeal::SpeedRange read_speeds(const Table& squeal)
 {
   const Table speeds = squeal.table("speeds");
-  const double from = speeds.number("from_rad_s", {.above = 0.0, .unit = "rad/s"});
+  const double from = speeds.number("from_rad_s");
   const double to = speeds.number("to_rad_s", {.at_least = from, .unit = "rad/s, from_rad_s"});
   const int least = to > from ? 2 : 1;
   return {.from = from,
@@ -67,16 +67,15 @@ squeal::SpeedRange read_speeds(const Table& squeal)
 
 squeal::FrictionLaw read_friction(const Table& squeal)
 {
-  if (!squeal.is_table("friction"))
-    return {.kinetic = squeal.number("friction", {.at_least = 0.0})};
+  if (!squeal.is_table("friction")) return {.kinetic = squeal.number("friction")};
   const Table table = squeal.table("friction");
-  squeal::FrictionLaw law{.kinetic = table.number("kinetic", {.at_least = 0.0})};
+  squeal::FrictionLaw law{.kinetic = table.number("kinetic")};
   if (table.has("static")) {
     law.rise = table.number("static", {.at_least = law.kinetic, .unit = "kinetic"}) - law.kinetic;
-    law.decay_speed = table.number("decay_speed", {.above = 0.0, .unit = "m/s"});
+    law.decay_speed = table.number("decay_speed");
   }
   if (table.has("regularisation")) {
-    law.regularisation = table.number("regularisation", {.above = 0.0, .unit = "m/s"});
+    law.regularisation = table.number("regularisation");
   }
   return law;
 }
@@ -91,9 +90,9 @@ squeal::ContactLaw read_contact(const Table& squeal)
 
 squeal::PadSpring read_pad_spring(const Table& pad)
 {
-  squeal::PadSpring spring{.linear = pad.number("stiffness", {.above = 0.0, .unit = "N/m"})};
+  squeal::PadSpring spring{.linear = pad.number("stiffness")};
   if (pad.has("cubic_stiffness")) {
-    spring.cubic = pad.number("cubic_stiffness", {.at_least = 0.0, .unit = "N/m^3"});
+    spring.cubic = pad.number("cubic_stiffness");
   }
   return spring;
 }
@@ -118,12 +117,11 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
   if (!squeal.has("transient")) return std::nullopt;
   const Table table = squeal.table("transient");
   squeal::TransientCase transient{
-      .speed = table.number("speed_rad_s", {.above = 0.0, .unit = "rad/s"}),
-      .duration = table.number("duration_s", {.above = 0.0, .unit = "s"}),
-      .initial_pad_displacement =
-          table.number("initial_pad_displacement", {.above = 0.0, .unit = "m"})};
+      .speed = table.number("speed_rad_s"),
+      .duration = table.number("duration_s"),
+      .initial_pad_displacement = table.number("initial_pad_displacement")};
   if (table.has("steps_per_period")) {
-    transient.steps_per_period = table.integer("steps_per_period", {.at_least = 8});
+    transient.steps_per_period = table.integer("steps_per_period");
   }
   if (table.has("integrator")) {
     transient.integrator = table.choice<IntegratorKind>(
@@ -134,7 +132,7 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
                        {"generalised-alpha", IntegratorKind::generalised_alpha}});
   }
   if (table.has("growth_error_1_s")) {
-    transient.growth_error = table.number("growth_error_1_s", {.above = 0.0, .unit = "1/s"});
+    transient.growth_error = table.number("growth_error_1_s");
   }
   if (table.has("speed_program")) {
     transient.speed_program = read_speed_program(table, transient.speed);
@@ -146,9 +144,8 @@ std::optional<squeal::GrowthCase> read_growth(const Table& squeal)
 {
   if (!squeal.has("growth")) return std::nullopt;
   const Table table = squeal.table("growth");
-  squeal::GrowthCase growth{
-      .speeds = table.numbers("speeds_rad_s", {.above = 0.0, .unit = "rad/s"}),
-      .duration = table.number("duration_s", {.above = 0.0, .unit = "s"})};
+  squeal::GrowthCase growth{.speeds = table.numbers("speeds_rad_s"),
+                            .duration = table.number("duration_s")};
   if (growth.speeds.empty()) table.refuse("speeds_rad_s", "must hold at least one speed");
   return growth;
 }

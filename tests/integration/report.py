@@ -25,9 +25,8 @@ analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", 
 map = { parameter = "stiffness", from = 1e6, to = 9e6, count = 10 }
 transient = { speed_rad_s = 18.85, duration_s = 0.3, initial_pad_displacement = 6.8e-8 }
 """
-BENCHMARK = {"speed_against_error": [
-    {"case": "disc </script>", "points": [
-        {"seconds": 1.0, "error": 1e-3, "automatic": False}, {"seconds": 2.0, "error": 1e-4, "automatic": True}]}]}  # fmt: skip
+BENCHMARK = {"studies": [{"case": "disc </script>", "by_hand": [{"cpu_s": 1.0, "error": 1e-3}, {"cpu_s": 3.0, "error": 1e-5}],
+                          "by_tolerance": [{"cpu_s": 2.0, "error": 1e-4}]}]}  # fmt: skip
 
 # What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.
 READER = """<script>
@@ -74,7 +73,7 @@ def make_disc(programs, folder):
     run(programs / "squeal", "run", scene, "--output", folder)
     (folder / "bench.json").write_text("{}")
     bad = run(programs / "squeal", "report", scene, "--output", folder, "--benchmark", folder / "bench.json", code=1)
-    require("speed_against_error" in bad.stderr, "JSON without the key is refused")
+    require("end_to_end.json" in bad.stderr, "JSON without the key is refused")
     require(not list(folder.glob("*.html")), "a refusal leaves no page")
     (folder / "bench.json").write_text(json.dumps(BENCHMARK))
     run(programs / "squeal", "report", scene, "--output", folder, "--benchmark", folder / "bench.json")

@@ -227,17 +227,14 @@ function estimateFigure(modes) {
                                 x: {label: "frequency, Hz"}, y: {label: "relative error", log: true}, series});
 }
 
-function benchmarkFigure(runs) {
+function benchmarkFigure(studies) {
   const markers = ["circle", "square", "triangle"];
-  const curve = (run, k, points, more) => ({x: points.map(p => p.seconds), y: points.map(p => p.error), colour: k % 6,
-                                            line: false, marker: markers[k % 3], ...more});
-  const series = runs.flatMap((run, k) => {
-    const automatic = run.points.filter(point => point.automatic);
-    return [curve(run, k, run.points.filter(point => !point.automatic), {name: run.case, hollow: true}),
-            ...(automatic.length ? [curve(run, k, automatic, {name: `${run.case}, automatic`, marker: "star"})] : [])];
-  });
-  return plot({title: "Whole program: error reached over time spent", x: {label: "time, s", log: true},
-               y: {label: "relative error", log: true}, series});
+  const curve = (points, k, more) => ({x: points.map(p => p.cpu_s), y: points.map(p => p.error), colour: k % 6, ...more});
+  const series = studies.flatMap((study, k) => [
+    curve(study.by_hand, k, {name: `${study.case}, by hand`, marker: markers[k % 3], hollow: true}),
+    curve(study.by_tolerance, k, {name: `${study.case}, by tolerance`, marker: "star", line: false})]);
+  return plot({title: "Whole program: error reached over time spent", x: {label: "CPU time, s", log: true},
+               y: {label: "relative error of the frequencies", log: true}, series});
 }
 
 let page;

@@ -1,0 +1,33 @@
+// From a body file to the speed at which its brake squeals: brake disc.body.h5
+#include <cstdio>
+#include <exception>
+#include <numbers>
+
+#include "mbs_export/body_file.hpp"
+#include "squeal/disc.hpp"
+#include "squeal/run.hpp"
+
+int main(int argc, char** argv)
+try {
+  namespace squeal = chladni::squeal;
+  if (argc != 2) return std::fputs("usage: brake FILE.body.h5\n", stderr), 2;
+  // 1. The body, and of its modes the pair with three nodal diameters on the ring of the pads.
+  const auto body = chladni::mbs_export::read_body(argv[1]);
+  const squeal::Disc disc = squeal::make_disc(body, "track", {.nodal_diameters = 3});
+  // 2. One pair of pads at the angle 0.
+  const squeal::SquealOptions options{
+      .ring = "track",
+      .thickness = 0.02,
+      .speeds = {.from = 3.0, .to = 60.0, .count = 20},
+      .friction = 0.6,
+      .pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}},
+      .analyses = {"eigenvalues", "critical-speed"}};
+  // 3. Where the sliding disc loses its stability.
+  const squeal::SquealResults results = squeal::run(disc, options);
+  if (!results.critical_speed) return std::puts("no squeal in this range"), 0;
+  std::printf("squeals from %.4f pi rad/s on, at %.1f Hz\n",
+              results.critical_speed->speed / std::numbers::pi,
+              results.critical_speed->frequency_Hz);
+} catch (const std::exception& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 1;
+}

@@ -1,0 +1,98 @@
+"""What is installed serves a project of its own, and the Debian packages hold what they should.
+
+Usage: install.py BUILD_DIR
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+LIBRARY = ROOT / "examples/library"
+
+
+def run(*command, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    if done.returncode:
+        sys.exit(f"FAILED: {' '.join(map(str, command))}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
+    return done.stdout
+
+
+def require(condition, what):
+    if not condition:
+        sys.exit(f"FAILED: {what}")
+    print(f"ok      {what}", flush=True)
+
+
+def build_consumer(source, build, prefix):
+    run("cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
+        "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")  # fmt: skip
+    run("cmake", "--build", build)
+
+
+def use_programs(prefix, folder):
+    """The installed programs make the body that the consumers read."""
+    scene = ROOT / "tests/data/coarse_disc.toml"
+    run(prefix / "bin/chladni", "run", scene, "--output", folder)
+    return next(folder.glob("*.body.h5"))
+
+
+def use_libraries(prefix, folder, body):
+    build_consumer(LIBRARY, folder / "all", prefix)
+    said = run(folder / "all/reduce_disc")
+    require("6 masters and 10 modes" in said, f"a C++ program on the FE libraries: {said.strip()}")
+    said = run(folder / "all/brake", body)
+    require("squeals from" in said, f"a C++ program on squeal: {said.strip()}")
+    said = run(folder / "all/membrane", "-n", "20")
+    require(said.strip(), "a C program on the PETSc class")
+
+    build_consumer(LIBRARY / "light", folder / "light", prefix)
+    cache = (folder / "light/CMakeCache.txt").read_text()
+    require("PETSC" not in cache and "MPI" not in cache, "find_package(chladni COMPONENTS squeal) asks for no PETSc")
+    linked = run("ldd", folder / "light/brake")
+    require("petsc" not in linked and "mpi" not in linked, "nor does its program link it")
+
+
+def use_pkg_config(prefix, folder, body):
+    environment = {**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")}
+    flags = run("pkg-config", "--cflags", "--libs", "chladni", env=environment).split()
+    run("c++", LIBRARY / "light/brake.cpp", "-o", folder / "brake", *flags)
+    require("squeals from" in run(folder / "brake", body), "pkg-config chladni")
+    flags = run("pkg-config", "--cflags", "--libs", "chladni-petsc", env=environment).split()
+    run("mpicc", ROOT / "examples/plugin/membrane.c", "-o", folder / "membrane", *flags, "-lm")
+    run(folder / "membrane", "-n", "20", env={**os.environ, "LD_LIBRARY_PATH": str(prefix / "lib")})
+    require(True, "pkg-config chladni-petsc")
+
+
+def use_debs(build, folder):
+    run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder / "debs")
+    debs = {file.name.split("_")[0]: file for file in (folder / "debs").glob("*.deb")}
+    require(set(debs) == {"chladni", "chladni-squeal", "libchladni-dev"}, f"Debian packages {sorted(debs)}")
+    for name, file in debs.items():
+        run("dpkg-deb", "-x", file, folder / name)
+    light = run("dpkg-deb", "-f", debs["chladni-squeal"], "Depends")
+    require("libhdf5" in light and "petsc" not in light, f"chladni-squeal depends on {light.strip()}")
+    require("petsc" in run("dpkg-deb", "-f", debs["chladni"], "Depends"), "chladni depends on PETSc")
+    said = run(folder / "chladni-squeal/usr/bin/squeal", "run", ROOT / "examples/oscillator/scene.toml",
+               "--output", folder)  # fmt: skip
+    require("wrote" in said, "squeal runs from its package")
+    require("chladni" in run(folder / "chladni/usr/bin/chladni", "--version"), "so does chladni")
+    plugin = list((folder / "chladni").rglob("libchladni_petsc.so"))
+    require(len(plugin) == 1, "and the plugin is in it")
+
+
+def main(build):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        prefix = folder / "prefix"
+        run("cmake", "--install", build, "--prefix", prefix)
+        body = use_programs(prefix, folder)
+        use_libraries(prefix, folder, body)
+        use_pkg_config(prefix, folder, body)
+        use_debs(build, folder)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

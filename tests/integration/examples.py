@@ -1,0 +1,43 @@
+"""The examples that no other test runs; and none of the folder is forgotten. Usage: examples.py PROGRAM_DIR"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+# Folder or file -> the test that runs it.
+ELSEWHERE = {
+    "beam": "beam.py",
+    "hat_disc": "hat_disc.py",
+    "library": "../install/install.py",
+    "plugin": "plugin.py",
+    "read_body.py": "../cli/chladni_export_test.cpp",
+    "thesis_disc": "thesis_disc.py",
+}
+HERE = {"mechanisms", "oscillator", "rigid_disc"}
+
+
+def run(*command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
+    if done.returncode:
+        sys.exit(f"FAILED: {command}\n{done.stdout}{done.stderr}")
+    print(f"ok      {' '.join(str(word) for word in command[1:])}", flush=True)
+
+
+def main(programs):
+    known = HERE | set(ELSEWHERE)
+    found = {path.name for path in EXAMPLES.iterdir() if path.name not in ("README.md", "__pycache__")}
+    if found != known:
+        sys.exit(f"FAILED: examples and tests differ: {sorted(found ^ known)}")
+    for name, test in ELSEWHERE.items():
+        if name.split(".")[0] not in (Path(__file__).parent / test).read_text():
+            sys.exit(f"FAILED: {test} does not run {name}")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("oscillator", "rigid_disc"):
+            run(programs / "squeal", "run", EXAMPLES / name / "scene.toml", "--output", folder)
+        run(sys.executable, EXAMPLES / "mechanisms/compare.py", programs / "squeal", folder, folder)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]).resolve())

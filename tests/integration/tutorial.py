@@ -1,0 +1,56 @@
+"""Runs docs/tutorial.md: writes its files, runs its commands. --update also writes what they print into it.
+
+Usage: tutorial.py PROGRAM_DIR [--update]
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TUTORIAL = Path(__file__).parents[2] / "docs/tutorial.md"
+BLOCK = re.compile(r"^```(\w+) ?(\S*)\n(.*?)^```\n(?:\n```text\n.*?^```\n)?", re.M | re.S)
+# Times and memory differ from run to run.
+VOLATILE = re.compile(r"^(phase |.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
+
+
+def shown(text):
+    """What people are to see of an output: without times, and long tables cut."""
+    lines = [line.rstrip() for line in text.splitlines() if not VOLATILE.match(line)]
+    text = re.sub(r"\n{2,}", "\n\n", "\n".join(lines)).strip()
+    lines = text.splitlines()
+    return "\n".join(lines if len(lines) < 45 else lines[:30] + ["..."] + lines[-12:])
+
+
+def perform(block, folder, programs):
+    """Writes a file or runs commands; what they print."""
+    kind, name, text = block
+    if kind != "sh":
+        (folder / name).write_text(text)
+        return None
+    environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+    run = subprocess.run(["sh", "-ec", text], cwd=folder, env=environment, capture_output=True, text=True)
+    if (run.returncode != 0) != (name == "fails"):
+        sys.exit(f"FAILED with {run.returncode}:\n{text}\n{run.stdout}{run.stderr}")
+    print(f"ok      {text.strip().splitlines()[-1]}", flush=True)
+    return shown(run.stdout + run.stderr)
+
+
+def main(programs, update=False):
+    tutorial = TUTORIAL.read_text()
+    with tempfile.TemporaryDirectory() as folder:
+
+        def replaced(match):
+            printed = perform(match.groups(), Path(folder), programs)
+            head = f"```{match[1]}{' ' + match[2] if match[2] else ''}\n{match[3]}```\n"
+            return head if printed is None else f"{head}\n```text\n{printed}\n```\n"
+
+        written = BLOCK.sub(replaced, tutorial)
+    if update:
+        TUTORIAL.write_text(written)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]).resolve(), "--update" in sys.argv)
