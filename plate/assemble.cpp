@@ -119,9 +119,8 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
 }
 
 /// Rows and columns of the components that the system has.
-MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
+MatrixXd only_components(const MatrixXd& A_e, const DofMap& dofs)
 {
-  if (dofs.n_components() == 6) return A_e;
   std::vector<Index> kept;
   for (Index node = 0; node < A_e.rows(); node += 6) {
     for (const int c : dofs.components) kept.push_back(node + c);
@@ -130,11 +129,14 @@ MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
 }
 
 /// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
-void add(BlockRows& A, const MatrixXd& A_e, const ElementMotion& motion, const DofMap& dofs)
+/// @param places  of the blocks of motion.numbers
+void add(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
+         std::span<const std::ptrdiff_t> places)
 {
   const MatrixXd& T_e = motion.T_e;
-  A.add(only_components(T_e.size() == 0 ? A_e : MatrixXd(T_e.transpose() * A_e * T_e), dofs),
-        motion.numbers);
+  if (T_e.size() > 0) A_e = T_e.transpose() * A_e * T_e;
+  if (dofs.n_components() < 6) A_e = only_components(A_e, dofs);
+  A.add(A_e, places);
 }
 
 /// C of the dampers, whose few entries have a pattern of their own; null without one.
@@ -150,7 +152,9 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
   const BlockPattern pattern = std::move(neighbours).pattern();
   BlockRows C(pattern);
   for (const PointElement& point : points) {
-    if (is_damper(point)) add(C, point.C, element_motion(dofs, point.nodes, {}), dofs);
+    if (!is_damper(point)) continue;
+    const ElementMotion motion = element_motion(dofs, point.nodes, {});
+    add(C, point.C, motion, dofs, block_places(pattern, motion.numbers));
   }
   return C.to_matrix(comm);
 }
@@ -175,15 +179,17 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   const BlockPattern pattern = pattern_of(mesh, points, dofs, rank);
   BlockRows K(pattern), M(pattern);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
-    const auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
+    auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
     const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
-    add(K, matrices.K, motion, dofs);
-    add(M, matrices.M, motion, dofs);
+    const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
+    add(K, std::move(matrices.K), motion, dofs, places);
+    add(M, std::move(matrices.M), motion, dofs, places);
   });
   for (const PointElement& point : points) {
     const ElementMotion motion = element_motion(dofs, point.nodes, {});
-    if (point.K.size() > 0) add(K, point.K, motion, dofs);
-    if (point.M.size() > 0) add(M, point.M, motion, dofs);
+    const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
+    if (point.K.size() > 0) add(K, point.K, motion, dofs, places);
+    if (point.M.size() > 0) add(M, point.M, motion, dofs, places);
   }
   System system{.K = K.to_matrix(comm),
                 .M = M.to_matrix(comm),

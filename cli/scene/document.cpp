@@ -1,85 +1,13 @@
 #include "cli/scene/document.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <functional>
-#include <map>
-#include <set>
-#include <sstream>
-
+#include "cli/scene/document_node.hpp"
 #include "common/error.hpp"
 
 namespace chladni::cli {
 namespace {
-
-using Objection = std::function<std::string(const toml::node&)>;
-using MessagesByLine = std::multimap<toml::source_index, std::string>;
-
-}  // namespace
-
-struct Table::Node {
-  std::shared_ptr<const toml::table> file_table;  ///< keeps all nodes of the file alive
-  std::string file;
-  std::string path;  ///< of keys; empty for the root
-  const toml::table* table;
-  std::set<std::string, std::less<>> asked;
-  std::vector<std::shared_ptr<Node>> opened;
-
-  std::string path_of(std::string_view key) const
-  {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-  }
-  std::string element_path_of(std::string_view key, std::size_t i) const
-  {
-    return fmt::format("{}[{}]", path_of(key), i + 1);
-  }
-  std::string at(toml::source_index line) const { return fmt::format("{}:{}: ", file, line); }
-  const toml::node* find(std::string_view key)
-  {
-    asked.emplace(key);
-    return table->get(key);
-  }
-  MessagesByLine unknown_keys() const;
-  std::vector<std::string> keys_not_asked() const
-  {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : *table) {
-      if (!asked.contains(key.str())) keys.emplace_back(key.str());
-    }
-    return keys;
-  }
-  toml::source_index line_of_key(std::string_view key) const
-  {
-    return table->find(key)->first.source().begin.line;
-  }
-  /// Throws when a key that nobody asked for looks like a slip for the missing `key`.
-  void refuse_slip(std::string_view key) const;
-  const toml::node& require(std::string_view key, std::string_view kind);
-  std::shared_ptr<Node> open(const toml::table& inner, std::string inner_path);
-  /// The value at `key`; `objection` says what is wrong with it, or nothing.
-  template <class T>
-  T value(std::string_view key, std::string_view kind, const Objection& objection);
-  /// The list at `key`; `objection` says what is wrong with an element, or nothing.
-  template <class T>
-  std::vector<T> elements(std::string_view key, std::string_view kind, const Objection& objection);
-  [[noreturn]] void refuse(const toml::node& value, std::string_view value_path,
-                           std::string_view why) const;
-};
-
-namespace {
-
-std::string value_text(const toml::node& value)
-{
-  if (const auto* text = value.as_string()) return fmt::format("\"{}\"", text->get());
-  if (const auto* number = value.as_floating_point()) return fmt::format("{}", number->get());
-  std::ostringstream stream;
-  stream << toml::toml_formatter(value);
-  std::string text = stream.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= 60 ? text : text.substr(0, 60) + " ...";
-}
 
 /// Says what is wrong with a value that should be a number of this kind; nothing when it is one.
 Objection objection_to_number(const Admissible& admissible)
@@ -113,77 +41,6 @@ std::string objection_to_text(const toml::node& value)
 
 }  // namespace
 
-void Table::Node::refuse_slip(std::string_view key) const
-{
-  const std::string slip = nearest_name(key, keys_not_asked());
-  if (slip.empty()) return;
-  throw Error(at(line_of_key(slip)) +
-              fmt::format("{} is not a key here; did you mean {}?", path_of(slip), key));
-}
-
-const toml::node& Table::Node::require(std::string_view key, std::string_view kind)
-{
-  if (const toml::node* value = find(key)) return *value;
-  refuse_slip(key);
-  const std::string place = path.empty() ? file + ": " : at(table->source().begin.line);
-  throw Error(place + fmt::format("{} is missing: must be {}", path_of(key), kind));
-}
-
-MessagesByLine Table::Node::unknown_keys() const
-{
-  const std::vector<std::string> allowed(asked.begin(), asked.end());
-  MessagesByLine unknown;
-  for (const std::string& key : keys_not_asked()) {
-    const auto line = line_of_key(key);
-    const std::string near = nearest_name(key, allowed);
-    const std::string hint = near.empty() ? "" : fmt::format(" did you mean {}?", near);
-    unknown.emplace(line, fmt::format("{}{} is not a key here;{} allowed: {}", at(line),
-                                      path_of(key), hint, fmt::join(allowed, ", ")));
-  }
-  for (const auto& inner : opened) unknown.merge(inner->unknown_keys());
-  return unknown;
-}
-
-std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string inner_path)
-{
-  for (const auto& node : opened) {
-    if (node->table == &inner) return node;
-  }
-  return opened.emplace_back(
-      std::make_shared<Node>(Node{file_table, file, std::move(inner_path), &inner, {}, {}}));
-}
-
-template <class T>
-T Table::Node::value(std::string_view key, std::string_view kind, const Objection& objection)
-{
-  const toml::node& found = require(key, kind);
-  const std::string why = objection(found);
-  if (!why.empty()) refuse(found, path_of(key), why);
-  return *found.value<T>();
-}
-
-template <class T>
-std::vector<T> Table::Node::elements(std::string_view key, std::string_view kind,
-                                     const Objection& objection)
-{
-  const toml::node& list = require(key, kind);
-  if (!list.is_array()) refuse(list, path_of(key), fmt::format("must be {} in [ ]", kind));
-  std::vector<T> values;
-  for (const toml::node& element : *list.as_array()) {
-    const std::string why = objection(element);
-    if (!why.empty()) refuse(element, element_path_of(key, values.size()), why);
-    values.push_back(*element.value<T>());
-  }
-  return values;
-}
-
-void Table::Node::refuse(const toml::node& value, std::string_view value_path,
-                         std::string_view why) const
-{
-  const std::string text = value.is_table() ? "" : " = " + value_text(value);
-  throw Error(at(value.source().begin.line) + fmt::format("{}{}: {}", value_path, text, why));
-}
-
 bool Table::has(std::string_view key) const
 {
   return node_->find(key) != nullptr;
@@ -202,6 +59,11 @@ bool Table::is_list(std::string_view key) const
 bool Table::is_table(std::string_view key) const
 {
   return node_->require(key, "a value").is_table();
+}
+
+bool Table::is_text(std::string_view key) const
+{
+  return node_->require(key, "a value").is_string();
 }
 
 double Table::number(std::string_view key, const Admissible& admissible) const

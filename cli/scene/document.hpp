@@ -30,6 +30,7 @@ class Table {
   bool is_number(std::string_view key) const;
   bool is_list(std::string_view key) const;
   bool is_table(std::string_view key) const;
+  bool is_text(std::string_view key) const;
   double number(std::string_view key, const Admissible& admissible) const;
   int integer(std::string_view key, const Admissible& admissible) const;
   std::string text(std::string_view key) const;

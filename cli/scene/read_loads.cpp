@@ -6,8 +6,6 @@
 namespace chladni::cli {
 namespace {
 
-constexpr std::array component_names{"x", "y", "z", "rx", "ry", "rz"};
-
 /// What may be held or loaded: groups, rings and couplings; empty where only the mesh file knows.
 std::vector<std::string> named_sets(const Scene& scene)
 {
@@ -29,29 +27,6 @@ std::string read_set(const Table& table, const Scene& scene)
   return name;
 }
 
-std::array<double, 3> read_vector(const Table& table, std::string_view key, std::string_view unit)
-{
-  const std::vector<double> values = table.numbers(key, {.unit = unit});
-  if (values.size() != 3) table.refuse(key, "must be the three numbers [x, y, z]");
-  return {values[0], values[1], values[2]};
-}
-
-/// The components of `dofs = ["x", "rz"]`.
-std::vector<int> read_components(const Table& support)
-{
-  const std::vector<std::string> names = support.texts("dofs");
-  if (names.empty()) support.refuse("dofs", "must name at least one of x, y, z, rx, ry, rz");
-  std::vector<int> components;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto* found = std::ranges::find(component_names, names[i]);
-    if (found == component_names.end()) {
-      support.refuse_element("dofs", i, "must be one of x, y, z, rx, ry, rz");
-    }
-    components.push_back(static_cast<int>(found - component_names.begin()));
-  }
-  return components;
-}
-
 /// In the plane of symmetry nothing moves along its normal or turns about its axes.
 std::vector<int> symmetry_components(const Table& support)
 {
@@ -61,7 +36,7 @@ std::vector<int> symmetry_components(const Table& support)
 
 std::vector<int> components_of(const Table& support)
 {
-  if (support.only_one_of({"type", "dofs"}) == "dofs") return read_components(support);
+  if (support.only_one_of({"type", "dofs"}) == "dofs") return read_component_list(support, "dofs");
   enum class Type { clamped, simply_supported, symmetry };
   switch (support.choice<Type>("type", {{"clamped", Type::clamped},
                                         {"simply-supported", Type::simply_supported},
@@ -81,8 +56,8 @@ plate::NodalLoad read_nodal_load(const Table& table, const Scene& scene)
   plate::NodalLoad load{.group = read_set(table, scene)};
   const bool has_force = table.has("force");
   const bool has_moment = table.has("moment");
-  if (has_force || !has_moment) load.force = read_vector(table, "force", "N");
-  if (has_moment) load.moment = read_vector(table, "moment", "N m");
+  if (has_force || !has_moment) load.force = read_vector(table, "force", {.unit = "N"});
+  if (has_moment) load.moment = read_vector(table, "moment", {.unit = "N m"});
   return load;
 }
 
@@ -98,14 +73,14 @@ plate::Load read_load(const Table& table, const Scene& scene)
       return read_nodal_load(table, scene);
     case LoadType::line:
       return plate::EdgeLoad{.group = read_set(table, scene),
-                             .line_force = read_vector(table, "line_force", "N/m")};
+                             .line_force = read_vector(table, "line_force", {.unit = "N/m"})};
     case LoadType::pressure:
       return plate::PressureLoad{.group = read_set(table, scene),
                                  .pressure = table.number("pressure", {.unit = "Pa"})};
     case LoadType::gravity:
       break;
   }
-  return plate::GravityLoad{.acceleration = read_vector(table, "acceleration", "m/s^2")};
+  return plate::GravityLoad{.acceleration = read_vector(table, "acceleration", {.unit = "m/s^2"})};
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "cli/scene/document_node.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace chladni::cli {
+namespace {
+
+std::string value_text(const toml::node& value)
+{
+  if (const auto* text = value.as_string()) return fmt::format("\"{}\"", text->get());
+  if (const auto* number = value.as_floating_point()) return fmt::format("{}", number->get());
+  std::ostringstream stream;
+  stream << toml::toml_formatter(value);
+  std::string text = stream.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() <= 60 ? text : text.substr(0, 60) + " ...";
+}
+
+}  // namespace
+
+void Table::Node::refuse_slip(std::string_view key) const
+{
+  const std::string slip = nearest_name(key, keys_not_asked());
+  if (slip.empty()) return;
+  throw Error(at(line_of_key(slip)) +
+              fmt::format("{} is not a key here; did you mean {}?", path_of(slip), key));
+}
+
+const toml::node& Table::Node::require(std::string_view key, std::string_view kind)
+{
+  if (const toml::node* value = find(key)) return *value;
+  refuse_slip(key);
+  const std::string place = path.empty() ? file + ": " : at(table->source().begin.line);
+  throw Error(place + fmt::format("{} is missing: must be {}", path_of(key), kind));
+}
+
+MessagesByLine Table::Node::unknown_keys() const
+{
+  const std::vector<std::string> allowed(asked.begin(), asked.end());
+  MessagesByLine unknown;
+  for (const std::string& key : keys_not_asked()) {
+    const auto line = line_of_key(key);
+    const std::string near = nearest_name(key, allowed);
+    const std::string hint = near.empty() ? "" : fmt::format(" did you mean {}?", near);
+    unknown.emplace(line, fmt::format("{}{} is not a key here;{} allowed: {}", at(line),
+                                      path_of(key), hint, fmt::join(allowed, ", ")));
+  }
+  for (const auto& inner : opened) unknown.merge(inner->unknown_keys());
+  return unknown;
+}
+
+std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string inner_path)
+{
+  for (const auto& node : opened) {
+    if (node->table == &inner) return node;
+  }
+  return opened.emplace_back(
+      std::make_shared<Node>(Node{file_table, file, std::move(inner_path), &inner, {}, {}}));
+}
+
+void Table::Node::refuse(const toml::node& value, std::string_view value_path,
+                         std::string_view why) const
+{
+  const std::string text = value.is_table() ? "" : " = " + value_text(value);
+  throw Error(at(value.source().begin.line) + fmt::format("{}{}: {}", value_path, text, why));
+}
+
+}  // namespace chladni::cli
