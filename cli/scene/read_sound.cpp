@@ -91,7 +91,7 @@ std::vector<sound::Microphone> read_microphones(const Table& sound)
   std::vector<sound::Microphone> microphones;
   if (!sound.has("microphones")) return microphones;
   for (const Table& table : sound.tables("microphones")) {
-    const auto x = read_vector(table, "position", {.unit = "m"});
+    const auto x = read_vector(table, "position");
     microphones.push_back({table.text("name"), {x[0], x[1], x[2]}});
     const auto same = [&](const auto& other) { return other.name == microphones.back().name; };
     if (std::count_if(microphones.begin(), microphones.end(), same) > 1)
