@@ -38,7 +38,7 @@ def main(programs):
     printed = subprocess.run([programs / "squeal", "scene-reference"], capture_output=True, text=True, check=True).stdout
     document = (ROOT / "docs/scene_reference.md").read_text()
     rows = re.findall(r"^\| `([\w.*]+)` \|", printed, re.M)
-    fail_on("row without a meaning or a rule", {line for line in printed.splitlines() if line.startswith("| `") and line.count("|  ") >= 5})
+    fail_on("row without a meaning", {line.split("`")[1] for line in printed.splitlines() if line.startswith("| `") and line.endswith("|  |")})
     names = {row.split(".")[-1] for row in rows} - {"*"}
     source = "".join(file.read_text() for file in READERS)
     fail_on("key that is read but has no row in cli/scene/keys", set(ASKED.findall(source)) - names)
