@@ -131,7 +131,7 @@ TEST(SceneOfLoadsError, NamesWhatALoadCannotBe)
 {
   const std::string load = plate + "[static]\n[[load]]\n";
   EXPECT_EQ(error_of(load + "type = \"force\"\ngroup = \"disc\"\nforce = [1.0, 2.0]\n"),
-            "scene.toml:19: load.force = [ 1.0, 2.0 ]: must be the three numbers [x, y, z]");
+            "scene.toml:19: load.force = [ 1.0, 2.0 ]: must be three numbers [x, y, z]");
   EXPECT_NE(error_of(load + "type = \"force\"\ngroup = \"disc\"\n").find("load.force is missing"),
             std::string::npos);
   EXPECT_EQ(error_of(load + "type = \"weight\"\n"),

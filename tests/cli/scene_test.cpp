@@ -458,9 +458,8 @@ TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
             "scene.toml:7: squeal.pads.cubic_stiffness = -1: must be >= 0 (N/m^3)");
   EXPECT_TRUE(error_after(rigid_disc, "[{ stiffness", "[{ angle_deg = 3.0, stiffness")
                   .starts_with("scene.toml:7: squeal.pads.angle_deg is not a key here;"));
-  EXPECT_TRUE(
-      error_after(rigid_disc, "[\"eigenvalues\"", "[\"stability-map\"")
-          .starts_with("scene.toml:9: squeal.analyses[1] = \"stability-map\": must be one "));
+  EXPECT_TRUE(error_after(rigid_disc, "[\"eigenvalues\"", "[\"spectrum\"")
+                  .starts_with("scene.toml:9: squeal.analyses[1] = \"spectrum\": must be one "));
   EXPECT_TRUE(error_after(rigid_disc, "[squeal]", "[mesh]\nfile = \"a.msh\"\n[squeal]")
                   .starts_with("scene.toml:2: mesh is not a key here;"));
   EXPECT_EQ(error_after(oscillator, "stiffness_coupling = 1e6", "stiffness_coupling = 1e8"),
