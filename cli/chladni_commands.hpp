@@ -27,9 +27,15 @@ struct QualityChoice {
   bool quality = false;  ///< report the shapes of the elements
 };
 
+/// What `chladni sound` takes besides.
+struct SoundChoice {
+  bool radiation_only = false;  ///< damping of the modes, without a limit cycle
+};
+
 struct ChladniArguments {
   SceneArguments scene;
   QualityChoice mesh;
+  SoundChoice sound;
   std::string info_file;
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
@@ -56,6 +62,10 @@ void body_command(const ChladniArguments& arguments);
 
 /// All of this, from the scene to both files.
 void run_command(const ChladniArguments& arguments);
+
+/// The sound of the limit cycle in NAME.squeal.h5 and what it does to the squeal: NAME.sound.h5,
+/// NAME.sound.vtu, NAME.radiation.h5 and, if asked for, NAME.sound.wav. Needs no PETSc.
+void sound_command(const ChladniArguments& arguments);
 
 /// Checks a reduced system or a modal body.
 /// @throws chladni::Error after the table is printed, when a check fails.

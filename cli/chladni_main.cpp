@@ -45,6 +45,10 @@ constexpr Subcommand on_scenes[] = {
     {"body", "makes the modal body of NAME.reduced.h5: NAME.body.h5",
      "Example (after a change of [body] in the scene):\n  chladni body scene.toml --output out",
      cli::body_command},
+    {"sound", "the sound of the limit cycle that `squeal run` found: NAME.sound.h5, .vtu, .wav",
+     "Examples:\n  chladni sound scene.toml --output out --json out/sound.json\n"
+     "  chladni sound scene.toml --radiation --output out    (before `squeal run`)",
+     cli::sound_command},
     {"run", "mesh, reduce and body in one go",
      "Examples:\n  chladni run scene.toml --output out --json out/chladni.json\n"
      "  mpirun -n 2 chladni run scene.toml",
@@ -87,6 +91,9 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
+  app.get_subcommand("sound")->add_flag(
+      "--radiation", arguments.sound.radiation_only,
+      "only what the sound of each mode does to it: NAME.radiation.h5, for `radiation = true`");
   CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
   info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5 or *.squeal.h5")
       ->required();

@@ -15,6 +15,7 @@
 #include "mbs_export/body_file.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/model_run.hpp"
+#include "squeal/radiation.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
 #include "squeal/wav_file.hpp"
@@ -34,17 +35,31 @@ mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
   return mbs_export::read_body(file);
 }
 
+squeal::Radiation read_radiation_of(const std::filesystem::path& file, const Scene& scene)
+{
+  if (!std::filesystem::exists(file)) {
+    throw Error(
+        fmt::format("{0}: no such file, but squeal.radiation = true needs it; make it with "
+                    "`chladni sound {1} --radiation --output {2}`",
+                    file.string(), scene.path, file.parent_path().string()));
+  }
+  return squeal::read_radiation(file);
+}
+
 /// What the analyses found, and where the numbers come from.
 struct Performed {
   squeal::SquealResults results;
   mbs_export::Provenance origin;
 };
 
-/// The analyses of a disc that is this body.
-Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body, PhaseClock& clock)
+/// The analyses of a disc that is this body, damped by the file `radiation` if the scene says so.
+Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body,
+                          const std::filesystem::path& radiation, PhaseClock& clock)
 {
-  const squeal::Disc disc =
+  squeal::Disc disc =
       squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
+  if (scene.radiation)
+    disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
   clock.end_phase("read");
   ProgressLine line;
   Performed performed{squeal::run(disc, *scene.squeal,
@@ -281,7 +296,7 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
                             read_body_of(body_file.empty() ? folder / (scene.name + ".body.h5")
                                                            : std::filesystem::path(body_file),
                                          arguments),
-                            clock);
+                            folder / (scene.name + ".radiation.h5"), clock);
   clock.end_phase("analyses");
 
   const std::filesystem::path file = folder / (scene.name + ".squeal.h5");

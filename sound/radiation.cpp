@@ -14,24 +14,25 @@ using Eigen::Index, Eigen::MatrixXcd;
 constexpr double same_frequency = 1e-4;
 
 /// [n_modes] Z at one frequency.
-Eigen::VectorXcd impedances(const ThickBody& thick, const SurfaceMotion& motion,
-                            const AirOptions& air, double omega)
+Eigen::VectorXcd impedances(const Source& source, double omega)
 {
-  const AirPlan plan = plan_air(thick.outline, air, omega, motion.antisymmetric());
-  const auto mesh = std::make_shared<const AirMesh>(air_around(thick.outline, plan));
+  const SurfaceMotion& motion = source.motion;
+  const Medium& medium = source.air.medium;
+  const AirPlan plan = plan_air(source.body.outline, source.air, omega, motion.antisymmetric());
+  const auto mesh = std::make_shared<const AirMesh>(air_around(source.body.outline, plan));
   Eigen::VectorXcd Z = Eigen::VectorXcd::Zero(motion.residual().size());
   const auto add = [&](Exterior& exterior, const Eigen::MatrixXd& w) {
     const Field field = solve(exterior, w.cast<std::complex<double>>());
     Z += 2.0 * complex_power(field).diagonal();
   };
   if (!plan.meridian) {
-    Exterior exterior(mesh, {air.medium, omega, 0}, plan.layer);
+    Exterior exterior(mesh, {medium, omega, 0}, plan.layer);
     add(exterior, motion.in_space(exterior.surface()));
     return Z;
   }
   for (std::size_t i = 0; i < motion.harmonics().size(); ++i) {
     const int n = motion.harmonics()[i];
-    Exterior exterior(mesh, {air.medium, omega, n}, plan.layer);
+    Exterior exterior(mesh, {medium, omega, n}, plan.layer);
     add(exterior, motion.on_meridian(exterior.surface(), i, Parity::cosine));
     if (n > 0) add(exterior, motion.on_meridian(exterior.surface(), i, Parity::sine));
   }
@@ -40,23 +41,25 @@ Eigen::VectorXcd impedances(const ThickBody& thick, const SurfaceMotion& motion,
 
 }  // namespace
 
-squeal::Radiation radiation(const mbs_export::ModalBody& body, const ThickBody& thick,
-                            const SurfaceMotion& motion, const std::vector<int>& modes,
-                            const AirOptions& air)
+squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& source,
+                            const std::vector<int>& modes, double squeal_omega)
 {
   const auto n = static_cast<Index>(modes.size());
-  squeal::Radiation result{{}, Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  squeal::Radiation result{
+      {}, Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   double omega = 0.0;
   Eigen::VectorXcd Z;
   for (Index i = 0; i < n; ++i) {
     const int mode = modes[std::size_t(i)];
     const double own = body.omega[mode];
-    if (std::abs(own - omega) > same_frequency * own) {
-      omega = own;
-      Z = impedances(thick, motion, air, omega);
+    const double at = std::abs(own - squeal_omega) < near_squeal * own ? squeal_omega : own;
+    if (std::abs(at - omega) > same_frequency * at) {
+      omega = at;
+      Z = impedances(source, omega);
     }
     result.mode_numbers.push_back(mode + 1);
     result.omega[i] = own;
+    result.at[i] = omega;
     result.damping[i] = Z[i].real();
     result.added_mass[i] = Z[i].imag() / omega;
   }

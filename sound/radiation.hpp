@@ -1,19 +1,22 @@
 #pragma once
 
-#include "sound/air_plan.hpp"
-#include "sound/surface_motion.hpp"
+#include "sound/tone.hpp"
 #include "squeal/radiation.hpp"
 
 namespace chladni::sound {
 
-/// What the air does to each of the modes of a body, at the frequency of the mode: the pressure of
-/// q' = 1 does the work Z = integral of p conj(v_n), so that q'' + ... gains Re(Z) q' and
-/// Im(Z) / omega q''. Coupling of modes through the air is left out.
-/// @param modes  0-based, those that `motion` has
+/// How far from the squeal the frequency of a mode may be to be taken for the one that squeals.
+inline constexpr double near_squeal = 0.05;
+
+/// What the air does to each of the modes of a body: the pressure of q' = 1 does the work
+/// Z = integral of p conj(v_n), so that the equation of the mode gains Re(Z) q' and
+/// Im(Z) / omega q''. It is evaluated at the frequency of the mode, but for modes near the squeal,
+/// which the pads stiffen, at that of the squeal. Coupling of modes through the air is left out.
+/// @param modes         0-based, those that `motion` has
+/// @param squeal_omega  rad/s; 0 for none
 /// @throws chladni::Error from plan_air.
 /// @note MPI must be running.
-squeal::Radiation radiation(const mbs_export::ModalBody& body, const ThickBody& thick,
-                            const SurfaceMotion& motion, const std::vector<int>& modes,
-                            const AirOptions& air);
+squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& source,
+                            const std::vector<int>& modes, double squeal_omega);
 
 }  // namespace chladni::sound

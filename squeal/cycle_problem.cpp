@@ -16,8 +16,10 @@ namespace {
 using std::numbers::pi;
 
 /// Points of the cycle from which peaks, amplitudes and energies are taken: a parabola through
-/// three of them misses the peak of a sine by 1e-7.
-constexpr int n_samples = 128;
+/// three of them misses the peak of a sine by 1e-8.
+constexpr int n_samples = 256;
+/// Of two of these parts, for the lowest speed of sliding.
+constexpr int n_finer = 40;
 
 /// What the first pad pair does during one period.
 struct PadSamples {
@@ -40,6 +42,23 @@ double peak(const Eigen::VectorXd& x)
   const double left = x[(i + x.size() - 1) % x.size()], right = x[(i + 1) % x.size()];
   const double bend = left - 2.0 * top + right;
   return left < top && right < top ? top - (right - left) * (right - left) / (8.0 * bend) : top;
+}
+
+/// The lowest speed of sliding of the first pads, by finer samples about that of the given ones:
+/// where it nearly stops, sliding turns within microseconds.
+double lowest_slip(AutonomousMotion& motion, const PadSamples& pad, const Eigen::MatrixXd& states,
+                   const PeriodicOrbit& orbit)
+{
+  Eigen::Index i = 0;
+  double lowest = pad.slip_speed.minCoeff(&i);
+  const CycleStart about{states.col((i + n_samples - 1) % n_samples),
+                         2.0 * orbit.at.period / n_samples};
+  const Eigen::MatrixXd finer = states_over_period(motion, about, n_finer, orbit.tolerance);
+  for (int k = 0; k < n_finer; ++k) {
+    const ContactResult<double> at = motion.first_contact(finer.col(k));
+    lowest = std::min({lowest, at.upper.slip_speed, at.lower.slip_speed});
+  }
+  return lowest;
 }
 
 /// All but modes and energies.
@@ -100,6 +119,7 @@ DirectLimitCycle measured_disc(SlidingDisc& motion, const InertialDisc& disc,
                    x.head(n).cwiseQuotient(disc.omega);
   }
   DirectLimitCycle cycle = seen_at_pad(pad, orbit, motion.speed());
+  cycle.slip_speed_min = lowest_slip(motion, pad, states, orbit);
   cycle.amplitude = body_amplitude(disc, fundamental);
   cycle.energy = energy;
   cycle.n_contact_evaluations = motion.n_evaluations();
@@ -112,6 +132,7 @@ DirectLimitCycle measured_model(AutonomousMotion& motion, const PeriodicOrbit& o
   PadSamples pad;
   for (int i = 0; i < n_samples; ++i) pad.set(i, motion.first_contact(states.col(i)));
   DirectLimitCycle cycle = seen_at_pad(pad, orbit, speed);
+  cycle.slip_speed_min = lowest_slip(motion, pad, states, orbit);
   cycle.n_contact_evaluations = motion.n_evaluations();
   return cycle;
 }

@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int newton_steps_max = 30;
+constexpr int newton_steps_max = 12;
 /// Largest change of X in one step, relative.
 constexpr double largest_change = 0.5;
 

@@ -100,9 +100,11 @@ class Follower {
   void add_speeds(const ArcPoint& a, const ArcPoint& b, LimitCycleBranch& part)
   {
     std::vector<double> between;
-    for (const double speed : speeds_)
-      if (speed > std::min(a.speed, b.speed) && speed <= std::max(a.speed, b.speed))
-        between.push_back(speed);
+    for (const double speed : speeds_) {
+      const bool passed = b.speed < a.speed ? speed < a.speed && speed >= b.speed
+                                            : speed > a.speed && speed <= b.speed;
+      if (passed) between.push_back(speed);
+    }
     if (b.speed < a.speed) std::reverse(between.begin(), between.end());
     for (const double speed : between) {
       const double s = (speed - a.speed) / (b.speed - a.speed);

@@ -21,7 +21,7 @@ constexpr double start_amplitudes[] = {2.0, 4.0, 1.0, 8.0, 16.0, 0.5, 0.25, 0.1}
 /// Of an eigenvector, in the same measure: it moves the pad in proportion to itself.
 constexpr double small = 1e-5;
 /// Harmonics of the start of the shooting: one to come near, three for three to four digits.
-constexpr HarmonicResolution coarse{.n_harmonics = 1, .n_samples = 12, .tolerance = 3e-2};
+constexpr HarmonicResolution coarse{.n_harmonics = 1, .n_samples = 16, .tolerance = 5e-2};
 constexpr HarmonicResolution fine{.n_harmonics = 3, .n_samples = 32, .tolerance = 1e-2};
 
 /// Displacement of the first upper pad for each unit of v, m.

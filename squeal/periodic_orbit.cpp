@@ -19,7 +19,7 @@ using std::numbers::pi;
 /// Parts of the period of the fastest mode for a step of the integration at most, and for one
 /// exponential.
 constexpr double steps_per_period_min = 6.0;
-constexpr double exponentials_per_period = 16.0;
+constexpr double exponentials_per_period = 36.0;
 constexpr double first_tolerance = 1e-9;
 constexpr double last_tolerance = 1e-13;
 constexpr double multiplier_error = 1e-6;

@@ -15,7 +15,7 @@ struct CycleStart {
 
 /// x(T) and its derivatives by x(0). The motion is integrated with order 8 and located switching;
 /// the derivative is the product of the exponentials of Magnus' series of order 4 along it, which
-/// takes two derivatives of f for each sixteenth of the fastest period.
+/// takes two derivatives of f for each 36th of the fastest period.
 struct Flow {
   Eigen::VectorXd end;
   Eigen::MatrixXd derivative;  ///< [size x size]

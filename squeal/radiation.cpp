@@ -49,6 +49,7 @@ void write_radiation(const std::filesystem::path& file, const Radiation& radiati
   writer.attribute("/", "title", title);
   writer.write("mode_numbers", std::span<const int>(radiation.mode_numbers), "1");
   writer.write("frequencies", radiation.omega, "rad/s");
+  writer.write("evaluated_at", radiation.at, "rad/s");
   writer.write("damping", radiation.damping, "1/s");
   writer.write("added_mass", radiation.added_mass, "1");
   writer.commit();
@@ -62,6 +63,7 @@ Radiation read_radiation(const std::filesystem::path& file)
   const auto n = static_cast<Eigen::Index>(numbers.size());
   return {.mode_numbers = {numbers.begin(), numbers.end()},
           .omega = reader.vector("frequencies", n),
+          .at = reader.vector("evaluated_at", n),
           .damping = reader.vector("damping", n),
           .added_mass = reader.vector("added_mass", n)};
 }

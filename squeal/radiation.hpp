@@ -13,6 +13,7 @@ namespace chladni::squeal {
 struct Radiation {
   std::vector<int> mode_numbers;  ///< [n] 1-based in the body
   Eigen::VectorXd omega;          ///< [n] of these modes, rad/s
+  Eigen::VectorXd at;             ///< [n] at which the next two hold, rad/s
   Eigen::VectorXd damping;        ///< [n] c in q'' + c q' + omega^2 q = 0, 1/s
   Eigen::VectorXd added_mass;     ///< [n] of the air, relative to the modal mass 1
 };

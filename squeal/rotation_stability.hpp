@@ -14,7 +14,8 @@ struct RotationGrowth {
 
 /// In the frame of the disc the pads go round, so that its linearised equations have the period of
 /// one rotation. Their monodromy matrix is the product of Strang steps over that time, exact modes
-/// and linearised pads; growth = ln |mu| / T of its largest eigenvalue mu (Floquet).
+/// and linearised pads; growth = ln |mu| / T of its largest eigenvalue mu (Floquet), extrapolated
+/// from two step lengths.
 RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, double speed);
 
 /// The growth over `options.speeds`, on `n_threads` threads (0: as many as processors), and the

@@ -42,7 +42,8 @@ std::string format_chunk(int rate_Hz)
 
 }  // namespace
 
-double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz)
+double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz,
+                 const std::string& unit)
 {
   double scale = 0.0;
   for (const float value : x) scale = std::max(scale, std::abs(double(value)));
@@ -52,7 +53,7 @@ double write_wav(const std::filesystem::path& path, std::span<const float> x, in
     const auto level = static_cast<std::int16_t>(std::lround(32767.0 * double(value) / scale));
     append(samples, static_cast<std::uint16_t>(level), 2);
   }
-  std::string comment = fmt::format("full scale = {:.9g} m/s", scale);
+  std::string comment = fmt::format("full scale = {:.9g} {}", scale, unit);
   comment.push_back('\0');
   const std::string content = "WAVE" + format_chunk(rate_Hz) +
                               chunk("LIST", "INFO" + chunk("ICMT", comment)) +

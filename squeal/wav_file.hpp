@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace chladni::squeal {
 
@@ -9,6 +10,7 @@ namespace chladni::squeal {
 /// stands in it as a comment (chunk LIST, INFO, ICMT): "full scale = 6.73 m/s".
 /// @return full scale, the largest |x|; 1 for silence
 /// @throws chladni::Error when the file cannot be written; an old one is left as it was.
-double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz);
+double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz,
+                 const std::string& unit = "m/s");
 
 }  // namespace chladni::squeal

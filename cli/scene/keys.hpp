@@ -39,6 +39,7 @@ std::span<const Key> model_keys();
 std::span<const Key> reduction_keys();
 std::span<const Key> squeal_keys();
 std::span<const Key> brake_keys();
+std::span<const Key> sound_keys();
 
 /// The row of a key; null for one that no table has.
 const Key* find_key(std::string_view path);

@@ -69,7 +69,7 @@ squeal::ModeChoice read_modes(const Table& squeal)
   return modes;
 }
 
-std::optional<squeal::SoundCase> read_sound(const Table& squeal)
+std::optional<squeal::SoundCase> read_wav(const Table& squeal)
 {
   if (!squeal.has("wav")) return std::nullopt;
   const Table table = squeal.table("wav");
@@ -77,6 +77,13 @@ std::optional<squeal::SoundCase> read_sound(const Table& squeal)
 }
 
 }  // namespace
+
+bool read_radiation(const Table& root)
+{
+  if (!root.has("squeal")) return false;
+  const Table squeal = root.table("squeal");
+  return squeal.has("radiation") && squeal.truth("radiation");
+}
 
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene)
 {
@@ -101,7 +108,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.limit_cycle_direct = read_direct(squeal, options.transient);
   options.map = read_map(squeal);
   options.critical = read_critical(squeal);
-  options.sound = read_sound(squeal);
+  options.sound = read_wav(squeal);
   return options;
 }
 

@@ -71,6 +71,12 @@ mbs_export::BodyOptions read_body(const Table& root,
 /// [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
 
+/// [squeal] radiation
+bool read_radiation(const Table& root);
+
+/// [sound]; needs the mesh, the sections and the squeal of `scene`.
+std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& scene);
+
 /// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
 /// body; absent for any other scene.
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);

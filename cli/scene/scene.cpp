@@ -69,6 +69,8 @@ Scene parse_scene(const std::string& text, const std::string& path)
   }
   scene.body = read_body(root, scene.interface_nodes);
   scene.squeal = read_squeal(root, scene);
+  scene.radiation = read_radiation(root);
+  scene.sound = read_sound(root, scene);
   // Dampers of the model are not lost when the body says nothing of damping.
   const auto damps = [](const plate::Spring& spring) {
     return spring.damping != std::array<double, 6>{};

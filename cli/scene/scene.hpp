@@ -9,6 +9,7 @@
 #include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
 #include "reduce/reduce_options.hpp"
+#include "sound/sound_options.hpp"
 #include "squeal/model_options.hpp"
 #include "squeal/squeal_options.hpp"
 
@@ -61,6 +62,8 @@ struct Scene {
   bool sylvester = false;      ///< count eigenvalues of the FE model, for the certificate
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
+  bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate
+  std::optional<sound::SoundOptions> sound;
   std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
 };
 

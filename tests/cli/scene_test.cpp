@@ -518,7 +518,7 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "pattern, rings"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
-       "interface, load, mass, material, mesh, model, modes, name, reduce, section, spring, "
+       "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, spring, "
        "squeal, static, support, title"},
       {"count = 60", "count = 60, colour = 3",
        "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "

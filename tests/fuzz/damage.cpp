@@ -78,7 +78,7 @@ void make_anew(hid_t file, const std::string& name, unsigned what, unsigned how)
 void change_values(hid_t file, const std::string& name, unsigned how)
 {
   const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
-  if (!dataset.valid()) return;
+  if (!dataset.valid() || H5Dget_storage_size(dataset.get()) == 0) return;  // made anew
   const Handle type{H5Dget_type(dataset.get()), H5Tclose};
   const Handle space{H5Dget_space(dataset.get()), H5Sclose};
   const hssize_t n = H5Sget_simple_extent_npoints(space.get());

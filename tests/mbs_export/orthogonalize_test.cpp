@@ -15,7 +15,11 @@ TEST(Orthogonalize, FindsTheRigidMotionsOfAStiffModelWithFewModes)
 {
   // K_r of 300 elements resists rigid motion by 8e-6, round-off of an FE model whose largest
   // stiffness-to-mass ratio three modes no longer show.
-  const FreeModes modes = orthogonalize(test::reduced_beam(300, 3));
+  ReducedSystem beam = test::regression_beam();
+  beam.K = beam.K.topLeftCorner(9, 9).eval();
+  beam.M = beam.M.topLeftCorner(9, 9).eval();
+  beam.fixed_interface_frequencies = beam.fixed_interface_frequencies.head(3).eval();
+  const FreeModes modes = orthogonalize(beam);
   EXPECT_EQ(modes.n_rigid, 2);
   EXPECT_NEAR(modes.omega[2], 22.3733, 0.01);  // three modes are that good
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mbs_export/modal_body.hpp"
 #include "sound/body_surface.hpp"
 #include "sound/wave.hpp"
 
@@ -20,6 +21,15 @@ double slope(double r);
 /// @param rim  factor of the motion of the rim, 0 or 1
 Eigen::MatrixXcd disc_velocity(const BodySurface& surface, double rim);
 
+/// The same in space, with cos(3 phi).
+Eigen::MatrixXcd disc_velocity_in_space(const BodySurface& surface);
+
 Wave squeal_wave();
+
+/// A body of the pair of modes, with a contact ring "track" at 0.13 m and a picture of 16 circles.
+/// Its frequency is that of the squeal.
+mbs_export::ModalBody thesis_body();
+
+inline constexpr double modal_mass = 1.60374675810;  // kg, of unit deflection of the rim
 
 }  // namespace chladni::sound::testing

@@ -84,7 +84,7 @@ TEST(Disc, GivesTheShapesOfThePlateBetweenTheNodes)
 TEST(RingShapes, AgreeWithTheShapesOfTheDisc)
 {
   const Disc disc = make_disc(three_pairs(), "track", {});
-  RingShapes ring(disc);
+  RingShapes ring(disc.rings.front());
   for (const double theta : {0.0, 1.7, -42.0}) {
     const Shapes shapes = shapes_at(disc, theta);
     const Eigen::MatrixX3d at = ring.at(theta);

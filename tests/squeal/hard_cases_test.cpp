@@ -40,10 +40,10 @@ TEST(HardCase, SlipNearZeroIsBoundedByTheRegularisation)
 TEST(HardCase, SlidingThatNearlyStopsInEachPeriodHasItsLimitCycle)
 {
   // SQUEAL reference value: the slip of the signed law at 7 pi falls to 0.017 m/s, where friction
-  // turns about within microseconds. The smallest of 128 samples is above the minimum.
+  // turns about within microseconds; the samples about the minimum are 0.1 us apart.
   const auto cycle =
       limit_cycle_direct(pair_disc(), reference_options(ContactLaw::signed_force), 7.0 * pi);
-  EXPECT_LT(cycle.slip_speed_min, 0.06);
+  EXPECT_LT(cycle.slip_speed_min, 0.025);
   EXPECT_GT(cycle.slip_speed_min, 0.016);
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
   EXPECT_TRUE(cycle.stable);
@@ -78,7 +78,10 @@ TEST(HardCase, SpeedToZeroIsOverdampedInTheEigenvalues)
 TEST(HardCase, SlowSpeedsTakeTheStiffIntegrator)
 {
   // At 1e-4 pi something decays faster than the mode oscillates.
-  const TransientCase run{.speed = 1e-4 * pi, .duration = 0.02, .initial_pad_displacement = 1e-7};
+  const TransientCase run{.speed = 1e-4 * pi,
+                          .duration = 0.002,
+                          .initial_pad_displacement = 1e-7,
+                          .steps_per_period = 40};
   const Transient result = transient(pair_disc(), reference_options(), run);
   EXPECT_EQ(result.integrator, "generalised-alpha");
   EXPECT_TRUE(result.finished);

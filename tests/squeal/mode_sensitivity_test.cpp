@@ -82,6 +82,7 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   EXPECT_NEAR(critical_by_pi(), 4.235183338216228, 1e-9);
   // As a body has them: 2 int phi_i . (e_z x phi_j) dm = 2 (S_xy^T - S_xy).
   mbs_export::MassIntegrals integrals{};
+  integrals.displacement = Eigen::MatrixXd::Zero(3, 2);
   integrals.products.fill(Eigen::Matrix2d::Zero());
   integrals.products[3] = Eigen::Matrix2d{{0.0, g}, {0.0, 0.0}};
   body.mass_integrals = integrals;

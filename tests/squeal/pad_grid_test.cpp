@@ -150,25 +150,20 @@ TEST(PadGrid, SharesItsForcesAmongAllRings)
 
 TEST(PadGrid, OnTwoRingsGrowsInTimeAsItsEigenvaluesSayUnderEveryIntegrator)
 {
-  // The plate of the pad tilts about the circumferential axis under the pressure of two radii. What
-  // the integrators leave is 1e-3 1/s; the decaying modes of the plate leave as much to the fit.
-  PadPair pad = pad_on({"track", "inner"}, 2);
-  pad.stiffness = 2e7;
-  pad.body = PadBody{.mass = 0.3,
-                     .axial = Suspension{9e6, 5.0},
-                     .about_tangential = RotarySuspension{1e-4, {2e3, 0.05}}};
+  // What the integrators leave is 1e-3 1/s; the decaying wave leaves as much to the fit.
+  const PadPair pad = pad_on({"track", "inner"}, 2);
   const SquealOptions options = options_with(pad);
   const Disc disc = disc_for(pad);
   const double speed = 12.0 * pi;
   const double growth = least_stable_eigenvalue(inertial_disc(disc), options, speed).real();
-  ASSERT_GT(growth, 0.5);
-  EXPECT_NEAR(rotation_growth(disc, options, speed).growth, growth, 1e-2);
+  ASSERT_GT(growth, 0.1);
+  EXPECT_NEAR(rotation_growth(disc, options, speed).growth, growth, 1e-4);
   TransientCase run{.speed = speed, .duration = 1.0, .initial_pad_displacement = 3e-8};
   for (const IntegratorKind kind :
        {IntegratorKind::exponential, IntegratorKind::splitting, IntegratorKind::dormand_prince}) {
     run.integrator = kind;
     run.steps_per_period = kind == IntegratorKind::splitting ? 160 : 20;
-    EXPECT_NEAR(transient(disc, options, run).growth_rate.value(), growth, 5e-3)
+    EXPECT_NEAR(transient(disc, options, run).growth_rate.value(), growth, 2e-3)
         << static_cast<int>(kind);
   }
 }

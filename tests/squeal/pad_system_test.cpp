@@ -195,7 +195,7 @@ TEST(PadBody, HasALimitCycleWithContactLoss)
   EXPECT_EQ(cycle.N_min, 0.0);
   EXPECT_EQ(cycle.multipliers.size(), 2 * (2 + 2));
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
-  // 128 samples of powers with kinks leave about 1e-4 of the largest.
+  // 256 samples of powers with kinks leave about 1e-4 of the largest.
   const CycleEnergy& energy = cycle.energy;
   const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
   EXPECT_LT(std::abs(sum), 2e-3 * energy.friction.cwiseAbs().maxCoeff());

@@ -88,6 +88,8 @@ constexpr Key rows[] = {
     {"squeal.critical.from", number, "required", "1, N or N/m", {.above = 0.0}},
     {"squeal.critical.to", number, "required", "as from", {.above = 0.0}},
     {"squeal.critical.speed_rad_s", number, "required", "rotation speed", speed},
+    {"squeal.radiation", truth, "false",
+     "damps the modes by the sound that they radiate, from `chladni sound`"},
     {"squeal.wav", table, "none", "pad velocity of the transient as sound, NAME.wav"},
     {"squeal.wav.rate_Hz",
      integer,

@@ -397,7 +397,7 @@ TEST(CMS, RefusesSettingsWithoutSense)
   EXPECT_NE(CMSSetDimensions(solver.cms, 0), 0);
   EXPECT_NE(CMSSetCutoff(solver.cms, -1.0), 0);
   EXPECT_NE(CMSSetTolerance(solver.cms, 2.0, 10.0), 0);
-  const PetscErrorCode code = CMSSetType(solver.cms, "rubin");
+  const PetscErrorCode code = CMSSetType(solver.cms, "hurty");
   EXPECT_NE(message(code).find("-cms_type guyan, craig-bampton, rubin or macneal"),
             std::string::npos);
   const Options options("-cms_nmodes 3 -cms_cutoff 5");

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "cli/chladni_commands.hpp"
+#include "cli/chladni_steps.hpp"
+#include "cli/petsc_session.hpp"
+#include "cli/sound_report.hpp"
+#include "cli/sound_vtu.hpp"
+#include "cli/version.hpp"
+#include "common/error.hpp"
+#include "mbs_export/body_file.hpp"
+#include "sound/sound_file.hpp"
+#include "sound/study.hpp"
+#include "squeal/result_file.hpp"
+#include "squeal/wav_file.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using std::filesystem::path;
+
+void need(const path& file, const std::string& remedy)
+{
+  if (!std::filesystem::exists(file))
+    throw Error(fmt::format("{}: no such file; {}", file.string(), remedy));
+}
+
+/// The speed at which the feedback is looked at when no limit cycle tells one.
+double speed_of(const squeal::SquealOptions& options)
+{
+  if (options.transient) return options.transient->speed;
+  if (options.limit_cycle_direct) return options.limit_cycle_direct->speed;
+  return options.speeds.to;
+}
+
+/// The envelope of the transient, when that is what led to the limit cycle.
+sound::Onset onset_of(const squeal::SquealResults& results, sound::CycleChoice choice)
+{
+  sound::Onset onset;
+  if (!results.transient || !results.limit_cycle || choice == sound::CycleChoice::direct)
+    return onset;
+  onset.t = results.transient->envelope.t;
+  for (const double v : results.transient->envelope.pad_velocity)
+    onset.amplitude.push_back(v / results.limit_cycle->pad_velocity);
+  return onset;
+}
+
+/// NAME.sound.wav, when the scene asks for it.
+void write_wav(const Scene& scene, const path& folder, const sound::SoundResults& results,
+               const sound::Onset& onset)
+{
+  if (!scene.sound->wav) return;
+  const sound::WavCase& wav = *scene.sound->wav;
+  std::size_t i = 0;
+  while (results.microphones[i].name != wav.microphone) ++i;
+  const path file = folder / (scene.name + ".sound.wav");
+  const auto samples = sound::samples(results.tones, results.heard[i].pressure, wav, onset);
+  const double scale = squeal::write_wav(file, samples, wav.rate_Hz, "Pa");
+  fmt::print("wrote {}, full scale {:.6g} Pa\n", file.string(), scale);
+}
+
+struct Files {
+  path body, squeal, sound, radiation, picture;
+};
+
+Files files_of(const Scene& scene, const SceneArguments& arguments)
+{
+  const path stem = path(arguments.output) / scene.name;
+  const auto with = [&](const char* extension) { return path(stem.string() + extension); };
+  return {with(".body.h5"), with(".squeal.h5"), with(".sound.h5"), with(".radiation.h5"),
+          with(".sound.vtu")};
+}
+
+Scene read_sounding_scene(const std::string& file)
+{
+  Scene scene = read_meshed_scene(file);
+  if (!scene.sound)
+    throw Error(fmt::format("{}: there is no table [sound], so nothing to do", scene.path));
+  return scene;
+}
+
+void compute_sound(const ChladniArguments& arguments)
+{
+  PhaseClock clock;
+  const Scene scene = read_sounding_scene(arguments.scene.scene);
+  const Files files = files_of(scene, arguments.scene);
+  const bool whole = !arguments.sound.radiation_only;
+  need(files.body, fmt::format("make it with `chladni run {} --output {}`", arguments.scene.scene,
+                               arguments.scene.output));
+  if (whole) {
+    need(files.squeal, fmt::format("make it with `squeal run {} --output {}`, or ask for the "
+                                   "radiation of the modes alone with --radiation",
+                                   arguments.scene.scene, arguments.scene.output));
+  }
+  const mbs_export::ModalBody body = mbs_export::read_body(files.body);
+  const squeal::SquealResults squeal_results =
+      whole ? squeal::read_results(files.squeal) : squeal::SquealResults{};
+  clock.end_phase("read");
+  const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};
+  ProgressLine line;
+  const auto report = [&](const std::string& step, double part) { line.show(step, part); };
+  const sound::SoundResults results =
+      whole ? sound_study(setting, squeal_results, report)
+            : radiation_study(setting, speed_of(*scene.squeal), report);
+  clock.end_phase("sound");
+
+  squeal::write_radiation(files.radiation, results.radiation, scene.title);
+  if (whole) {
+    mbs_export::Provenance origin = body.provenance;
+    origin.scene = scene.text;
+    origin.versions = fmt::format("chladni {}; body: {}", version, origin.versions);
+    sound::write_sound(files.sound, results, origin);
+    write_text_atomically(files.picture, sound_vtu(results.tones));
+  }
+  clock.end_phase("write");
+  const Cost cost = cost_so_far(clock.phases());
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, describe_sound(results),
+             format_table(cost_table(cost)), files.radiation.string());
+  if (whole) {
+    fmt::print("wrote {}\nwrote {}\n", files.sound.string(), files.picture.string());
+    write_wav(scene, arguments.scene.output, results, onset_of(squeal_results, scene.sound->cycle));
+  }
+  write_summary(arguments.scene, sound_json(results), cost);
+}
+
+}  // namespace
+
+void sound_command(const ChladniArguments& arguments)
+{
+  on_first_rank([&] { compute_sound(arguments); });
+}
+
+}  // namespace chladni::cli

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sound/levels.hpp"
+#include "squeal/radiation.hpp"
+#include "squeal/results.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::sound {
+
+/// A disc between its pads, without or with the damping by its sound.
+struct Brake {
+  std::optional<squeal::CriticalSpeed> critical;  ///< absent when there is none in the range
+  double growth;  ///< largest growth rate at the speed of the study, 1/s
+  std::optional<squeal::DirectLimitCycle> cycle;  ///< absent when the disc is stable there
+};
+
+/// What radiation does to the squeal.
+struct Feedback {
+  double speed;  ///< rad/s
+  Brake without, with;
+};
+
+/// How loud the limit cycle is at one speed.
+struct Loudness {
+  double speed;                ///< rad/s
+  bool damped;                 ///< by its radiation
+  double frequency_Hz;         ///< 0 when there is no limit cycle
+  double pad_velocity;         ///< m/s
+  double power;                ///< W
+  std::vector<double> rms_dB;  ///< of each microphone; empty when there is no limit cycle
+};
+
+/// What `chladni sound` finds.
+struct SoundResults {
+  Medium medium;
+  std::vector<int> harmonics;  ///< circumferential ones
+  double residual;             ///< of the surface's motion; the largest of SurfaceMotion::residual
+  squeal::Radiation radiation;
+  std::optional<Feedback> feedback;  ///< absent when the disc is not axisymmetric
+  std::optional<Vibration> vibration;
+  std::vector<Tone> tones;
+  std::vector<Microphone> microphones;
+  std::vector<Heard> heard;
+  std::optional<Directivity> directivity;
+  std::vector<Loudness> loudness;
+};
+
+/// A body with the brake around it.
+struct Setting {
+  const mbs_export::ModalBody& body;
+  const squeal::SquealOptions& squeal;
+  const SoundOptions& sound;
+  bool damped = false;  ///< the limit cycle was found with the damping by radiation
+};
+
+/// Called with the name of the step under way and the part of it that is done, 0 to 1.
+using StudyProgress = std::function<void(const std::string& step, double part)>;
+
+/// The damping of the modes that the brake uses, and what it does to the squeal at `speed`, rad/s.
+SoundResults radiation_study(const Setting& setting, double speed,
+                             const StudyProgress& progress = {});
+
+/// The same, and the sound of the limit cycle in `squeal_results`.
+/// @throws chladni::Error when there is no limit cycle, or one of other modes; when a microphone is
+///         inside the body; and from plan_air.
+SoundResults sound_study(const Setting& setting, const squeal::SquealResults& squeal_results,
+                         const StudyProgress& progress = {});
+
+}  // namespace chladni::sound

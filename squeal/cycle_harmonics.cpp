@@ -1,0 +1,46 @@
+#include "squeal/cycle_harmonics.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "squeal/inertial_frame.hpp"
+#include "squeal/sliding_disc.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using std::numbers::pi;
+
+/// The first multiple of the frequency that is taken for a lower one is 120, which is rounding.
+constexpr int n_samples = 128;
+/// Of order 8; see limit_cycle_direct.
+constexpr int steps_per_period = 24;
+
+}  // namespace
+
+Eigen::MatrixXcd cycle_harmonics(const Disc& disc, const SquealOptions& options,
+                                 const DirectLimitCycle& cycle)
+{
+  const InertialDisc inertial = inertial_disc(disc);
+  SlidingDisc motion(inertial, options, cycle.speed);
+  const double step = 1.0 / (cycle.frequency_Hz * n_samples);
+  const auto n_steps =
+      static_cast<int>(std::ceil(steps_per_period * inertial.omega.maxCoeff() * step / (2.0 * pi)));
+  Eigen::MatrixXcd harmonics = Eigen::MatrixXcd::Zero(inertial.n_modes(), n_cycle_harmonics);
+  Eigen::VectorXd x = cycle.x;
+  for (int i = 0; i < n_samples; ++i) {
+    const Eigen::VectorXd a = x.head(inertial.n_modes()).cwiseQuotient(inertial.omega);
+    for (int h = 1; h <= n_cycle_harmonics; ++h)
+      harmonics.col(h - 1) += std::polar(2.0 / n_samples, -2.0 * pi * h * i / n_samples) * a;
+    x = motion.advance(x, step, n_steps);
+  }
+  harmonics = inertial.R * harmonics;
+  Eigen::Index largest = 0;
+  harmonics.col(0).cwiseAbs().maxCoeff(&largest);
+  const double phase = std::arg(harmonics(largest, 0));
+  for (int h = 1; h <= n_cycle_harmonics; ++h) harmonics.col(h - 1) *= std::polar(1.0, -h * phase);
+  return harmonics;
+}
+
+}  // namespace chladni::squeal

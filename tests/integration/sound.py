@@ -1,0 +1,145 @@
+"""From a coarse disc to its sound: powers, levels, the way back into the squeal, and mistakes.
+
+Usage: sound.py PROGRAM_DIR
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import wave
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+DISC = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
+SQUEAL = """
+[squeal]
+ring = "track"
+thickness = 0.02
+use_modes = "nodal-diameters 3"
+speeds = { from_rad_s = 3.14159, to_rad_s = 62.8319, count = 40 }
+friction = 0.6
+contact = "bilateral"
+pads = [{ angle_deg = 0.0, stiffness = 6e6, damping = 0.0, preload = 2000.0 }]
+analyses = ["critical-speed", "limit-cycle-direct"]
+limit_cycle_direct = { speed_rad_s = 18.8495559 }
+"""
+SOUND = """
+[sound]
+microphones = [{ name = "above", position = [0.5, 0.0, 0.5] }, { name = "plane", position = [0.5, 0.1, 0.0] }]
+harmonics = 3
+wav = { microphone = "above", rate_Hz = 44100, duration_s = 0.5 }
+"""
+
+
+class Case:
+    """A scene in a folder of its own."""
+
+    def __init__(self, programs, folder, scene):
+        self.programs, self.folder = programs, Path(folder)
+        self.scene = self.folder / "scene.toml"
+        self.scene.write_text(scene)
+
+    def run(self, program, *arguments):
+        return subprocess.run(
+            [self.programs / program, *arguments, "--output", self.folder], capture_output=True, text=True
+        )
+
+    def works(self, program, command, *arguments):
+        """The summary of a run that must succeed."""
+        file = self.folder / "summary.json"
+        run = self.run(program, command, self.scene, "--json", file, *arguments)
+        assert run.returncode == 0, run.stderr
+        return json.loads(file.read_text())
+
+    def fails(self, program, command, *words):
+        run = self.run(program, command, self.scene)
+        assert run.returncode == 1, f"{words}: exit code {run.returncode}"
+        assert len(run.stderr.strip().splitlines()) == 1, run.stderr
+        for word in words:
+            assert word in run.stderr, f"'{word}' is not in: {run.stderr}"
+
+
+def check_sound(case):
+    summary = case.works("chladni", "sound")
+    tone = summary["tones"][0]
+    assert abs(tone["far_power_W"] / tone["power_W"] - 1) < 1e-5, "power balance"
+    above, plane = summary["microphones"]
+    assert 135 < above["level_dB"] < 146, above
+    assert plane["level_dB"] < 0, "exact cancellation in the plane of the disc"
+    assert abs(above["level_of_peak_dB"] - above["level_dB"] - 3.0103) < 1e-3
+    without, damped = (summary["feedback"][f"{x}_radiation"] for x in ("without", "with"))
+    decay = summary["radiation"][0]["decay_1_s"]
+    assert abs(without["growth_1_s"] - damped["growth_1_s"] - decay) < 0.02
+    assert damped["critical_speed_rad_s"] > 1.1 * without["critical_speed_rad_s"]
+    check_files(case, above)
+    return summary
+
+
+def check_files(case, above):
+    name = case.folder / "coarse"
+    with h5py.File(f"{name}.sound.h5") as sound:
+        p = sound["microphones/pressure_re"][0, 0] + 1j * sound["microphones/pressure_im"][0, 0]
+        assert np.isclose(abs(p), abs(complex(*above["pressure_Pa"][0])))
+        assert sound["tones/1/meridian/3/triangles"].shape[1] == 3
+    with wave.open(f"{name}.sound.wav") as sound:
+        samples = np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
+        assert len(samples) == 22050 and abs(samples).max() == 32767
+    assert "pressure_re" in Path(f"{name}.sound.vtu").read_text()
+
+
+def check_way_back(case, summary):
+    """`squeal run` with `radiation = true` finds what `chladni sound` foretold."""
+    case.scene.write_text(case.scene.read_text().replace("[squeal]", "[squeal]\nradiation = true"))
+    (case.folder / "coarse.radiation.h5").unlink()
+    case.fails("squeal", "run", "radiation.h5", "chladni sound", "--radiation")
+    case.works("chladni", "sound", "--radiation")
+    damped = case.works("squeal", "run")
+    foretold = summary["feedback"]["with_radiation"]
+    for key in ("critical_speed_rad_s",):
+        assert np.isclose(damped[key], foretold[key], rtol=1e-6), key
+    cycle = damped["limit_cycle_direct"]["pad_velocity_m_s"]
+    assert np.isclose(cycle, foretold["pad_velocity_m_s"], rtol=1e-5)
+    # The sound of the damped cycle is softer by what its velocity is smaller.
+    softer = case.works("chladni", "sound")
+    ratio = softer["microphones"][0]["level_dB"] - summary["microphones"][0]["level_dB"]
+    assert -10 < ratio < -1, ratio
+
+
+def check_mistakes(case):
+    good = case.scene.read_text()
+
+    def mistaken(old, new, *words):
+        assert old in good, old
+        case.scene.write_text(good.replace(old, new))
+        case.fails("chladni", "sound", *words)
+
+    mistaken("[0.5, 0.0, 0.5]", "[0.1, 0.0, 0.005]", "above", "inside the body")
+    mistaken("harmonics = 3", "element_size = 0.3", "too coarse", "element_size = ")
+    mistaken("harmonics = 3", "layer_thickness = 0.01", "layer", "layer_thickness = ")
+    mistaken("harmonics = 3", "inner_radius = 0.1", "inner_radius", "0.162")
+    mistaken('harmonics = 3', 'cycle = "transient"', "no limit cycle", "limit-cycle")
+    mistaken('use_modes = "nodal-diameters 3"', 'use_modes = "nodal-diameters 2"', "other modes", "squeal run")
+    (case.folder / "coarse.squeal.h5").unlink()
+    case.scene.write_text(good)
+    case.fails("chladni", "sound", "squeal.h5", "squeal run")
+    case.scene.write_text(good.replace(SOUND, ""))
+    case.fails("chladni", "sound", "[sound]")
+
+
+def main(programs):
+    scene = 'name = "coarse"\n' + DISC.replace("modes = 20", 'modes = 20\npictures = "all"') + SQUEAL + SOUND
+    with tempfile.TemporaryDirectory() as folder:
+        case = Case(programs, folder, scene)
+        case.works("chladni", "run")
+        case.works("squeal", "run")
+        summary = check_sound(case)
+        check_way_back(case, summary)
+        check_mistakes(case)
+    print("the disc sounds, and every mistake is named")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,138 @@
+#include "sound/surface_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "sound/mesh_air.hpp"
+#include "thesis_disc.hpp"
+
+namespace chladni::sound {
+namespace {
+
+const std::vector<MidLine> disc_line = {{.from = {testing::hub_radius, 0.0},
+                                         .to = {testing::disc_radius, 0.0},
+                                         .thickness = testing::disc_thickness}};
+
+BodySurface surface_of(const Outline& outline, bool half_space)
+{
+  return body_surface(mesh_meridian(outline, {.order = 3,
+                                              .element_size = 0.05,
+                                              .edge_size = 0.005,
+                                              .inner_radius = 0.22,
+                                              .shell_thickness = 0.05,
+                                              .half_space = half_space}));
+}
+
+TEST(Splines, HoldEveryCubic)
+{
+  const Splines splines(0.3, 4);
+  const auto f = [](double s) { return 1.0 + s * (2.0 + s * (-3.0 + 5.0 * s)); };
+  const auto slope = [](double s) { return 2.0 + s * (-6.0 + 15.0 * s); };
+  Eigen::MatrixXd A(20, splines.size());
+  Eigen::VectorXd y(20);
+  for (int i = 0; i < 20; ++i) {
+    A.row(i) = splines.values(0.3 * i / 19.0);
+    y[i] = f(0.3 * i / 19.0);
+  }
+  const Eigen::VectorXd c = (A.transpose() * A).ldlt().solve(A.transpose() * y);
+  for (const double s : {0.0, 0.07, 0.15, 0.3}) {
+    EXPECT_NEAR(splines.values(s) * c, f(s), 1e-12);
+    EXPECT_NEAR(splines.slopes(s) * c, slope(s), 1e-10);
+  }
+}
+
+TEST(SurfaceMotion, FollowsTheModeOfTheDisc)
+{
+  const ThickBody thick = thick_body(disc_line, Hub::closed);
+  const SurfaceMotion motion(testing::thesis_body(), thick, {0, 1}, {3});
+  // 16 circles of nodes: the splines are cubic over 2 of their distances.
+  EXPECT_LT(motion.residual().maxCoeff(), 1e-3);
+  EXPECT_TRUE(motion.antisymmetric());
+  const BodySurface surface = surface_of(thick.outline, true);
+  const Eigen::VectorXd exact = testing::disc_velocity(surface, 1.0).real();
+  const double scale = 1.0 / std::sqrt(testing::modal_mass);
+  const Eigen::MatrixXd c = motion.on_meridian(surface, 0, Parity::cosine);
+  const Eigen::MatrixXd s = motion.on_meridian(surface, 0, Parity::sine);
+  EXPECT_LT((c.col(0) - scale * exact).cwiseAbs().maxCoeff(), 2e-3 * scale);
+  EXPECT_LT((s.col(1) - scale * exact).cwiseAbs().maxCoeff(), 2e-3 * scale);
+  EXPECT_LT(c.col(1).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(SurfaceMotion, OfTheClosedHubIsZero)
+{
+  const ThickBody thick = thick_body(disc_line, Hub::closed);
+  const SurfaceMotion motion(testing::thesis_body(), thick, {0, 1}, {3});
+  const BodySurface surface = surface_of(thick.outline, true);
+  const Eigen::MatrixXd w = motion.on_meridian(surface, 0, Parity::cosine);
+  for (Eigen::Index i = 0; i < w.rows(); ++i) {
+    if (surface.x(i, 0) < testing::hub_radius) {
+      EXPECT_EQ(w(i, 0), 0.0);
+    }
+  }
+}
+
+TEST(SurfaceMotion, FindsNothingInOtherHarmonics)
+{
+  const ThickBody thick = thick_body(disc_line, Hub::closed);
+  const SurfaceMotion motion(testing::thesis_body(), thick, {0, 1}, {2});
+  EXPECT_NEAR(motion.residual().maxCoeff(), 1.0, 1e-9);
+}
+
+TEST(SurfaceMotion, NeedsNodesInTheOutlineAndEnoughOfThem)
+{
+  const ThickBody elsewhere =
+      thick_body({{.from = {0.025, 0.1}, .to = {0.162, 0.1}, .thickness = 0.02}}, Hub::closed);
+  EXPECT_THROW(SurfaceMotion(testing::thesis_body(), elsewhere, {0}, {3}), Error);
+  mbs_export::ModalBody bare = testing::thesis_body();
+  bare.picture = {};
+  EXPECT_THROW(SurfaceMotion(bare, thick_body(disc_line, Hub::closed), {0}, {3}), Error);
+  const ThickBody longer = thick_body(
+      {disc_line[0], {.from = {0.162, 0.0}, .to = {0.2, 0.0}, .thickness = 0.02}}, Hub::closed);
+  EXPECT_THROW(SurfaceMotion(testing::thesis_body(), longer, {0}, {3}), Error);
+}
+
+TEST(Outline, ContainsWhatIsInsideIt)
+{
+  const Outline disc = thick_body(disc_line, Hub::closed, {{0.1, 0.01, 4}}).outline;
+  EXPECT_TRUE(contains(disc, {0.0, 0.0, 0.0}));
+  EXPECT_TRUE(contains(disc, {0.0, 0.16, 0.009}));
+  EXPECT_FALSE(contains(disc, {0.0, 0.16, 0.011}));
+  EXPECT_FALSE(contains(disc, {0.0, 0.163, 0.0}));
+  EXPECT_FALSE(contains(disc, {0.1, 0.0, 0.0})) << "a hole";
+  EXPECT_TRUE(contains(disc, {0.08, 0.08, 0.0})) << "between two holes";
+  EXPECT_FALSE(contains(thick_body(disc_line, Hub::open).outline, {0.01, 0.0, 0.0}));
+}
+
+TEST(Outline, OfADiscIsMirroredAndOfAHatIsNot)
+{
+  EXPECT_TRUE(mirrored(thick_body(disc_line, Hub::closed).outline));
+  const std::vector<MidLine> hat = {{.from = {0.08, 0.0}, .to = {0.16, 0.0}, .thickness = 0.02},
+                                    {.from = {0.08, 0.0}, .to = {0.08, 0.05}, .thickness = 0.008},
+                                    {.from = {0.03, 0.05}, .to = {0.08, 0.05}, .thickness = 0.008}};
+  const ThickBody body = thick_body(hat, Hub::closed);
+  EXPECT_FALSE(mirrored(body.outline));
+  EXPECT_TRUE(contains(body.outline, {0.0, 0.0, 0.05})) << "the plug of the hub";
+  EXPECT_FALSE(contains(body.outline, {0.0, 0.0, 0.0}));
+}
+
+TEST(Outline, IsHeldByTheSmallestBall)
+{
+  const Ball ball = enclosing_ball(thick_body(disc_line, Hub::closed).outline);
+  EXPECT_EQ(ball.z, 0.0);
+  EXPECT_NEAR(ball.radius, std::hypot(0.162, 0.01), 1e-12);
+}
+
+TEST(ThickBody, NeedsPiecesWithLengthAndThickness)
+{
+  EXPECT_THROW(thick_body({}, Hub::closed), Error);
+  EXPECT_THROW(thick_body({{.from = {0.1, 0.0}, .to = {0.1, 0.0}, .thickness = 0.01}}, Hub::open),
+               Error);
+  EXPECT_THROW(thick_body({{.from = {-0.1, 0.0}, .to = {0.1, 0.0}, .thickness = 0.01}}, Hub::open),
+               Error);
+}
+
+}  // namespace
+}  // namespace chladni::sound
