@@ -68,6 +68,13 @@ def squeal(out, quick):
         shutil.copy(result, out / "squeal_benchmarks.json")
 
 
+def sound(out, quick):
+    with tempfile.TemporaryDirectory() as name:
+        result = pathlib.Path(name) / "sound_benchmarks.json"
+        call([program("sound_convergence"), *(["--smallest"] if quick else []), result])
+        call([PYTHON, HERE / "sound/report.py", result, out])
+
+
 def script(path, quick_words=("--quick",), full_words=()):
     """A benchmark that is one script: SCRIPT [WORDS] OUTPUT."""
     return lambda out, quick: call([PYTHON, HERE / path, *(quick_words if quick else full_words), out])
@@ -77,9 +84,14 @@ def script(path, quick_words=("--quick",), full_words=()):
 BENCHMARKS = [
     ("elements", "Elements", elements, "elements"),
     ("scale", "Reduction over size and ranks", script("reduction/scale.py"), "reduction_scale"),
+    ("accuracy", "Accuracy of the reduction",
+     script("reduction/accuracy.py", ("--size", "0.03", "--ring", "12", "--modes", "20", "50")),
+     "reduction_accuracy"),
     ("peers", "Reduction beside other programs",
      script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
+    ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
+    ("sound", "Sound", sound, "sound_benchmarks"),
     ("end-to-end", "End to end", script("end_to_end/frontier.py"), "end_to_end"),
 ]
 

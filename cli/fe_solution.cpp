@@ -4,38 +4,22 @@
 
 #include "cli/mesh_scene.hpp"
 #include "cli/petsc_session.hpp"
-#include "common/error.hpp"
 #include "mesh/partition.hpp"
 #include "plate/supports.hpp"
 
 namespace chladni::cli {
 namespace {
 
-/// Supports and rigid motions are found by geometry, in all six components.
-void check_components_and_springs(const Scene& scene)
-{
-  if (scene.components.size() != 6) {
-    throw Error(
-        "model.dofs: `static` and `modes` need all six DOFs of each node; take [model] out and "
-        "hold the others by a [[support]] of the group");
-  }
-  if (!scene.springs.empty()) {
-    throw Error(
-        "spring: `static` and `modes` do not know springs; hold the body by a [[support]], or use "
-        "`reduce` and `body`");
-  }
-}
-
 SupportedModel assemble_supported(const Scene& scene, mesh::Mesh mesh)
 {
-  check_components_and_springs(scene);
   std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
   plate::DofMap dofs = plate::make_dof_map(mesh, scene.couplings, owners, n_ranks());
+  dofs.components = scene.components;
   plate::check_stiffness_of_all_nodes(mesh, dofs);
   std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
+  std::vector<plate::FreePart> free = plate::free_parts(mesh, dofs, held, scene.springs);
   plate::System system =
       plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
-  std::vector<plate::FreePart> free = plate::free_parts(mesh, system, held);
   return {.mesh = std::move(mesh),
           .system = std::move(system),
           .owners = std::move(owners),
@@ -55,7 +39,7 @@ TextTable model_table(const SupportedModel& model)
 {
   TextTable table{.header = {"model", "value"}, .rows = {}};
   table.rows.push_back({"nodes of the mesh", fmt::format("{}", model.mesh.n_nodes())});
-  table.rows.push_back({"DOFs", fmt::format("{}", 6 * model.system.dofs.n_active())});
+  table.rows.push_back({"DOFs", fmt::format("{}", model.system.dofs.n_dofs())});
   table.rows.push_back({"DOFs held by supports", fmt::format("{}", model.held.size())});
   return table;
 }
@@ -63,7 +47,7 @@ TextTable model_table(const SupportedModel& model)
 std::vector<Json::Member> model_json(const SupportedModel& model)
 {
   return {{"n_nodes", model.mesh.n_nodes()},
-          {"n_dofs", 6 * model.system.dofs.n_active()},
+          {"n_dofs", model.system.dofs.n_dofs()},
           {"n_held", model.held.size()},
           {"n_rigid", plate::n_free_motions(model.free)}};
 }

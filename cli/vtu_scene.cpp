@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "plate/directors.hpp"
+#include "plate/profile.hpp"
 #include "plate/sections.hpp"
 
 namespace chladni::cli {

@@ -12,6 +12,7 @@ if(CHLADNI_FE)
   find_package(MPI REQUIRED COMPONENTS CXX)
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)
   pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18)
+  pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)  # formulas of the position
   find_library(GMSH_LIBRARY gmsh REQUIRED)
   find_library(METIS_LIBRARY metis REQUIRED)
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.

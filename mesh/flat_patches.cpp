@@ -100,23 +100,109 @@ std::array<int, 4> add_boundary(const FourEdges& patch)
   return curves;
 }
 
+/// Curves of a patch in Gmsh: its surfaces, and its edges in the order of FourEdges.
+struct PatchModel {
+  std::vector<int> surfaces;
+  std::array<std::vector<int>, 4> edges;
+};
+
+PatchModel add_patch(const FourEdges& patch)
+{
+  const auto [first, end, last, start] = add_boundary(patch);
+  namespace geo = gmsh::model::geo;
+  return {.surfaces = {geo::addPlaneSurface({geo::addCurveLoop({first, end, last, start})})},
+          .edges = {{{start}, {end}, {first}, {last}}}};
+}
+
+/// The patch cut into three by three along its edge rows: the middle is left to Gmsh, around it
+/// stand rows of elements.
+class PatchInRows {
+ public:
+  PatchInRows(const FourEdges& patch, const PatchOptions& o)
+      : patch_(patch),
+        size_(o.element_size),
+        along_profile_{patch.start, patch.start + *o.edge_row, patch.end - *o.edge_row, patch.end},
+        along_path_{0.0, *o.edge_row / patch.length, 1.0 - *o.edge_row / patch.length, 1.0}
+  {
+    check_edge_rows(*o.edge_row, patch.end - patch.start);
+    check_edge_rows(*o.edge_row, patch.length);
+  }
+
+  PatchModel add()
+  {
+    add_points();
+    PatchModel model;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        across_[i][k] = add_curve(points_[i][k], points_[i + 1][k], Direction::profile, i);
+        along_[k][i] = add_curve(points_[k][i], points_[k][i + 1], Direction::path, i);
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) model.surfaces.push_back(add_surface(i, j));
+    }
+    const auto all = [](const std::array<int, 3>& of) {
+      return std::vector<int>(of.begin(), of.end());
+    };
+    const auto ends = [&](std::size_t k) {
+      return std::vector<int>{across_[0][k], across_[1][k], across_[2][k]};
+    };
+    model.edges = {all(along_[0]), all(along_[3]), ends(0), ends(3)};
+    return model;
+  }
+
+ private:
+  enum class Direction { profile, path };
+
+  void add_points()
+  {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        const auto x = patch_.position({along_profile_[i], 0.0}, along_path_[j]);
+        points_[i][j] = gmsh::model::geo::addPoint(x[0], x[1], x[2]);
+      }
+    }
+    centre_ = patch_.round ? gmsh::model::geo::addPoint(0.0, 0.0, 0.0) : 0;
+  }
+  int add_curve(int from, int to, Direction direction, std::size_t interval)
+  {
+    namespace geo = gmsh::model::geo;
+    const bool arc = patch_.round && direction == Direction::path;
+    const int curve = arc ? geo::addCircleArc(from, centre_, to) : geo::addLine(from, to);
+    const double length = direction == Direction::path
+                              ? patch_.length * (along_path_[2] - along_path_[1])
+                              : along_profile_[2] - along_profile_[1];
+    const auto n = interval == 1 ? std::max(1, static_cast<int>(std::lround(length / size_))) : 1;
+    geo::mesh::setTransfiniteCurve(curve, n + 1);
+    return curve;
+  }
+  int add_surface(std::size_t i, std::size_t j)
+  {
+    namespace geo = gmsh::model::geo;
+    const int surface = geo::addPlaneSurface(
+        {geo::addCurveLoop({across_[i][j], along_[i + 1][j], -across_[i][j + 1], -along_[i][j]})});
+    if (i != 1 || j != 1) geo::mesh::setTransfiniteSurface(surface);
+    return surface;
+  }
+
+  const FourEdges& patch_;
+  double size_;
+  std::array<double, 4> along_profile_, along_path_;
+  std::array<std::array<int, 4>, 4> points_{};
+  int centre_ = 0;
+  std::array<std::array<int, 4>, 3> across_{};  ///< [interval][place on the path]
+  std::array<std::array<int, 3>, 4> along_{};   ///< [place on the profile][interval]
+};
+
 Mesh patch_by_gmsh(const FourEdges& patch, const PatchOptions& o)
 {
-  if (o.edge_row) {
-    throw Error(fmt::format("{}: edge_row needs pattern = \"structured\"", patch.surface));
-  }
   const auto build = [&] {
-    namespace geo = gmsh::model::geo;
     gmsh::model::add(patch.surface);
     set_element_size(o.element_size, o.pattern);
-    const auto [first, end, last, start] = add_boundary(patch);
-    const int surface = geo::addPlaneSurface({geo::addCurveLoop({first, end, last, start})});
-    geo::synchronize();
-    add_physical_group(1, {start}, patch.edges[0]);
-    add_physical_group(1, {end}, patch.edges[1]);
-    add_physical_group(1, {first}, patch.edges[2]);
-    add_physical_group(1, {last}, patch.edges[3]);
-    add_physical_group(2, {surface}, patch.surface);
+    const PatchModel model = o.edge_row ? PatchInRows(patch, o).add() : add_patch(patch);
+    gmsh::model::geo::synchronize();
+    for (std::size_t i = 0; i < 4; ++i) add_physical_group(1, model.edges[i], patch.edges[i]);
+    add_physical_group(2, model.surfaces, patch.surface);
   };
   return mesh_with_gmsh(build, o.element_order);
 }

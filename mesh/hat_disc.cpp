@@ -22,6 +22,7 @@ struct HatModel {
   std::vector<Circle> disc;  ///< ascending by radius
   Circle seat, foot, top, hub;
   std::vector<Circle> bolts;
+  std::vector<Circle> bolt_rows;  ///< around the bolts, where there are edge rows
 };
 
 std::vector<Circle> disc_circles(const HatDiscOptions& o, const Circle& seat)
@@ -45,17 +46,18 @@ std::vector<Circle> disc_circles(const HatDiscOptions& o, const Circle& seat)
   return circles;
 }
 
-std::vector<Circle> bolt_circles(const HatDiscOptions& o)
+void add_bolts(const HatDiscOptions& o, HatModel& hat)
 {
-  std::vector<Circle> circles;
   for (int i = 0; o.bolts && i < o.bolts->count; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / o.bolts->count;
-    circles.push_back(add_circle({.radius = o.bolts->hole_radius,
-                                  .centre = {o.bolts->circle_radius * std::cos(angle),
-                                             o.bolts->circle_radius * std::sin(angle), o.height}},
-                                 o.element_size));
+    CirclePlace place{.radius = o.bolts->hole_radius,
+                      .centre = {o.bolts->circle_radius * std::cos(angle),
+                                 o.bolts->circle_radius * std::sin(angle), o.height}};
+    hat.bolts.push_back(add_circle(place, o.element_size));
+    if (!o.edge_row) continue;
+    place.radius += *o.edge_row;
+    hat.bolt_rows.push_back(add_circle(place, hat.bolts.back()));
   }
-  return circles;
 }
 
 HatModel add_circles(const HatDiscOptions& o)
@@ -70,13 +72,13 @@ HatModel add_circles(const HatDiscOptions& o)
   hat.foot = o.foot > 0.0 ? add_circle(at(o.wall_radius, o.foot), hat.seat) : hat.seat;
   hat.top = add_circle(at(o.top_radius, o.height), hat.seat);
   hat.hub = add_circle(at(o.hub_radius, o.height), h);
-  hat.bolts = bolt_circles(o);
+  add_bolts(o, hat);
   return hat;
 }
 
 std::vector<int> add_flange(const HatDiscOptions& o, const HatModel& hat)
 {
-  std::vector<Circle> holes = hat.bolts;
+  std::vector<Circle> holes = o.edge_row ? hat.bolt_rows : hat.bolts;
   if (!o.edge_row) {
     holes.push_back(hat.hub);
     return {add_plane(hat.top, holes)};
@@ -85,6 +87,10 @@ std::vector<int> add_flange(const HatDiscOptions& o, const HatModel& hat)
       add_circle({.radius = o.hub_radius + *o.edge_row, .centre = {0.0, 0.0, o.height}}, hat.hub);
   std::vector<int> surfaces = add_rows(hat.hub, row, o.element_size);
   holes.push_back(row);
+  for (std::size_t i = 0; i < hat.bolts.size(); ++i) {
+    const std::vector<int> of_bolt = add_rows(hat.bolts[i], hat.bolt_rows[i], o.element_size);
+    surfaces.insert(surfaces.end(), of_bolt.begin(), of_bolt.end());
+  }
   surfaces.push_back(add_plane(hat.top, holes));
   return surfaces;
 }
@@ -151,10 +157,10 @@ void check_bolts(const HatDiscOptions& o)
     throw Error("hat_disc: bolts need pattern = \"unstructured\" or \"triangles\"");
   }
   const double c = o.bolts->circle_radius;
-  const double r = o.bolts->hole_radius;
+  const double r = o.bolts->hole_radius + o.edge_row.value_or(0.0);
+  check_ascending({{"0", 0.0}, {"bolts.hole_radius", o.bolts->hole_radius}});
   check_ascending(
-      {{"0", 0.0},
-       {"bolts.hole_radius", r},
+      {{"bolts.hole_radius with its row", r},
        {"half the distance of two bolts", c * std::sin(std::numbers::pi / o.bolts->count)}});
   check_ascending({{"hub_radius with its row", o.hub_radius + o.edge_row.value_or(0.0)},
                    {"the inmost point of a bolt's hole", c - r},

@@ -58,7 +58,7 @@ struct HatDiscOptions {
   int element_order = 3;
   std::vector<RingOptions> rings;  ///< on the ring-shaped disc
   Pattern pattern = Pattern::structured;
-  std::optional<double> edge_row = {};  ///< m, along the edges of disc and hub
+  std::optional<double> edge_row = {};  ///< m, along the edges of disc and hub and around bolts
   std::optional<BoltOptions> bolts = {};
 };
 

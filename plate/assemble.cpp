@@ -26,7 +26,8 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
   const BlockPattern pattern = point_pattern(dampers, dofs, petsc::rank(comm));
   BlockRows C(pattern);
   for (const PointElement& damper : dampers) {
-    add(C, damper.C, element_motion(dofs, damper.nodes, {}), dofs);
+    const ElementMotion motion = element_motion(dofs, damper.nodes, {});
+    add(C, damper.C, motion, dofs, block_places(pattern, motion.numbers));
   }
   return C.to_matrix(comm);
 }
@@ -51,15 +52,17 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   const BlockPattern pattern = element_pattern(mesh, points, dofs, rank);
   BlockRows K(pattern), M(pattern);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
-    const auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
+    auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
     const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
-    add(K, matrices.K, motion, dofs);
-    add(M, matrices.M, motion, dofs);
+    const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
+    add(K, std::move(matrices.K), motion, dofs, places);
+    add(M, std::move(matrices.M), motion, dofs, places);
   });
   for (const PointElement& point : points) {
     const ElementMotion motion = element_motion(dofs, point.nodes, {});
-    if (point.K.size() > 0) add(K, point.K, motion, dofs);
-    if (point.M.size() > 0) add(M, point.M, motion, dofs);
+    const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
+    if (point.K.size() > 0) add(K, point.K, motion, dofs, places);
+    if (point.M.size() > 0) add(M, point.M, motion, dofs, places);
   }
   System system{.K = K.to_matrix(comm),
                 .M = M.to_matrix(comm),

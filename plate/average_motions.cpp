@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "plate/follow_references.hpp"
+#include "plate/group_shares.hpp"
 
 namespace chladni::plate {
 
@@ -37,23 +38,32 @@ Matrix3d cross_matrix(const Vector3d& r)
 }
 
 /// The motion of the reference node as the mean of its group: A q.
-Blocks mean_motion(const DofMap& map, const std::vector<int>& nodes, int reference)
+/// @param shares  of the nodes of the group, their weights
+Blocks mean_motion(const DofMap& map, const std::map<int, double>& shares, int reference)
 {
-  const Vector3d centre = position_of(map, reference);
-  const auto n = static_cast<double>(nodes.size());
+  double sum = 0.0;
+  Vector3d centre = Vector3d::Zero();
+  for (const auto& [node, share] : shares) {
+    sum += share;
+    centre += share * position_of(map, node);
+  }
+  centre /= sum;
   Matrix3d J = Matrix3d::Zero();
-  for (const int node : nodes) {
+  for (const auto& [node, share] : shares) {
     const Matrix3d r = cross_matrix(position_of(map, node) - centre);
-    J -= r * r / n;
+    J -= share / sum * r * r;
   }
   const Matrix3d J_inverse = J.completeOrthogonalDecomposition().pseudoInverse();
+  const Matrix6d to_reference = rigid_arm(position_of(map, reference) - centre);
   Blocks A;
-  for (const int node : nodes) {
-    Matrix6d share = Matrix6d::Zero();
-    share.topLeftCorner<3, 3>() = Matrix3d::Identity() / n;
-    share.bottomLeftCorner<3, 3>() = J_inverse * cross_matrix(position_of(map, node) - centre) / n;
+  for (const auto& [node, share] : shares) {
+    const double w = share / sum;
+    Matrix6d of_node = Matrix6d::Zero();
+    of_node.topLeftCorner<3, 3>() = w * Matrix3d::Identity();
+    of_node.bottomLeftCorner<3, 3>() =
+        w * J_inverse * cross_matrix(position_of(map, node) - centre);
     for (const MotionTerm& term : map.motion(node)) {
-      A.try_emplace(term.number, Matrix6d::Zero()).first->second += share * term.T;
+      A.try_emplace(term.number, Matrix6d::Zero()).first->second += to_reference * of_node * term.T;
     }
   }
   return A;
@@ -167,7 +177,7 @@ void average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings
     if (couplings[i].kind != CouplingKind::averaging) continue;
     const std::vector<int>& nodes = mesh::find_group(mesh, couplings[i].group).nodes;
     const int reference = map.reference_node(couplings[i].name).value();
-    const Blocks A = mean_motion(map, nodes, reference);
+    const Blocks A = mean_motion(map, group_shares(mesh, couplings[i].group), reference);
     claim(A, claimed, i, couplings);
     const Pivots pivots = choose_pivots(A, size_of(map, nodes, reference), couplings[i]);
     const auto combine = [&](int node, CombinedMotion motion) {

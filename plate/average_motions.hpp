@@ -7,9 +7,10 @@
 namespace chladni::plate {
 
 /// Makes the reference nodes of averaging couplings move with their groups. With x_i the nodes of
-/// the group and r_i = x_i - x_ref, x_ref their centre, the reference node has
-///   u_ref = 1/n sum u_i,   theta_ref = J^-1 1/n sum r_i x u_i,   J = 1/n sum (r_i^2 I - r_i
-///   r_i^T),
+/// the group, w_i their group_shares divided by the sum of these, c = sum w_i x_i and r_i = x_i -
+/// c, the reference node has
+///   theta_ref = J^-1 sum w_i r_i x u_i,   J = sum w_i (r_i^2 I - r_i r_i^T),
+///   u_ref = sum w_i u_i + theta_ref x (x_ref - c),
 /// the rigid motion that fits the u_i best. These six equations are solved for six of the u_i,
 /// chosen by pivoting: they become combinations of the others and of the motion of the reference
 /// node, whose DOFs take their places. The system keeps its size, and the reference node can be

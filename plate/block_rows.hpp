@@ -22,6 +22,12 @@ struct BlockPattern {
 /// @param neighbours  [n_rows] for each row the nodes that share an element with it, in any order
 BlockPattern block_pattern(int n, PetscInt first, std::vector<std::vector<PetscInt>> neighbours);
 
+/// Where the blocks of an element matrix stand among those of the pattern.
+/// @param nodes  of the element, by number; the same may stand there twice
+/// @return [n_nodes x n_nodes] by rows; -1 where the row is not in the pattern
+std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
+                                         std::span<const PetscInt> nodes);
+
 /// Sums of element matrices over a pattern. Each entry adds in the order of the calls, whatever
 /// rank the row is on.
 class BlockRows {
@@ -29,9 +35,9 @@ class BlockRows {
   explicit BlockRows(const BlockPattern& pattern);
 
   /// Adds the rows of `A_e` whose nodes are in the pattern.
-  /// @param A_e    symmetric, n rows for each of its nodes
-  /// @param nodes  their numbers; the same may stand there twice
-  void add(const Eigen::MatrixXd& A_e, std::span<const PetscInt> nodes);
+  /// @param A_e     symmetric, n rows for each of its nodes
+  /// @param places  block_places of its nodes
+  void add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
 
   /// The matrix without its zeros off the diagonal, of block size n; empties this one.
   /// @note   Collective on `comm`.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "plate/profile.hpp"
 
 namespace chladni::plate {
 
@@ -70,20 +71,6 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
     x.row(i) << p[0], p[1], p[2];
   }
   return x;
-}
-
-double value_at(const Profile& profile, const std::array<double, 3>& position)
-{
-  if (profile.at.empty()) return profile.values.front();
-  const double s = profile.over == Coordinate::radius
-                       ? std::hypot(position[0], position[1])
-                       : position[static_cast<std::size_t>(profile.over)];
-  const auto above = std::ranges::upper_bound(profile.at, s) - profile.at.begin();
-  if (above == 0) return profile.values.front();
-  if (above == std::ssize(profile.at)) return profile.values.back();
-  const auto i = static_cast<std::size_t>(above);
-  const double share = (s - profile.at[i - 1]) / (profile.at[i] - profile.at[i - 1]);
-  return std::lerp(profile.values[i - 1], profile.values[i], share);
 }
 
 NodeVectors mean_normals(const mesh::Mesh& mesh)

@@ -14,9 +14,6 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
 /// @throws chladni::Error naming an element and node where the Jacobian is not positive.
 NodeVectors mean_normals(const mesh::Mesh& mesh);
 
-/// The value of a profile at a place of the model, m.
-double value_at(const Profile& profile, const std::array<double, 3>& position);
-
 /// Mid-surface points, off the mesh by the section's offset, and half-thickness directors of one
 /// element. A director is the mean normal
 /// where the surface is smooth, and the element's own normal at a kink of more than 20 degrees; it

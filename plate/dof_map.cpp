@@ -96,13 +96,17 @@ std::vector<MotionTerm> DofMap::motion(int node) const
   return terms;
 }
 
-std::optional<int> DofMap::dof(int node, int component) const
+std::optional<int> DofMap::dof_of_number(int active, int component) const
 {
   const auto it = std::ranges::find(components, component);
-  if (is_dependent(node) || it == components.end()) return std::nullopt;
-  if (combined[node] < 0) {
-    return n_components() * number[node] + static_cast<int>(it - components.begin());
-  }
+  if (it == components.end()) return std::nullopt;
+  return n_components() * active + static_cast<int>(it - components.begin());
+}
+
+std::optional<int> DofMap::dof(int node, int component) const
+{
+  if (is_dependent(node)) return std::nullopt;
+  if (combined[node] < 0) return dof_of_number(number[node], component);
   const int dof = combined_motions[combined[node]].dof[static_cast<std::size_t>(component)];
   return dof < 0 ? std::nullopt : std::optional(dof);
 }

@@ -64,6 +64,8 @@ struct DofMap {
   std::vector<MotionTerm> motion(int node) const;
   /// Whether the motion of a node is that of its own six DOFs.
   bool is_plain(int node) const { return reference[node] < 0 && combined[node] < 0; }
+  /// The DOF of a component (0 to 5) of an active number; absent where the nodes do not have it.
+  std::optional<int> dof_of_number(int active, int component) const;
   /// The DOF that is this component (0 to 5) of the node's motion; absent where couplings make it a
   /// combination of others, and where the nodes do not have this component.
   std::optional<int> dof(int node, int component) const;

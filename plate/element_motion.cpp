@@ -37,9 +37,8 @@ class Neighbours {
 };
 
 /// Rows and columns of the components that the system has.
-MatrixXd only_components(MatrixXd A_e, const DofMap& dofs)
+MatrixXd only_components(const MatrixXd& A_e, const DofMap& dofs)
 {
-  if (dofs.n_components() == 6) return A_e;
   std::vector<Index> kept;
   for (Index node = 0; node < A_e.rows(); node += 6) {
     for (const int c : dofs.components) kept.push_back(node + c);
@@ -87,11 +86,13 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
   return motion;
 }
 
-void add(BlockRows& A, const MatrixXd& A_e, const ElementMotion& motion, const DofMap& dofs)
+void add(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
+         std::span<const std::ptrdiff_t> places)
 {
   const MatrixXd& T_e = motion.T_e;
-  A.add(only_components(T_e.size() == 0 ? A_e : MatrixXd(T_e.transpose() * A_e * T_e), dofs),
-        motion.numbers);
+  if (T_e.size() > 0) A_e = T_e.transpose() * A_e * T_e;
+  if (dofs.n_components() < 6) A_e = only_components(A_e, dofs);
+  A.add(A_e, places);
 }
 
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,

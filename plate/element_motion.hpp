@@ -28,8 +28,10 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
                              const NodeVectors& arms);
 
 /// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
-/// @param A_e  symmetric, or the transposed of what is to be added
-void add(BlockRows& A, const Eigen::MatrixXd& A_e, const ElementMotion& motion, const DofMap& dofs);
+/// @param A_e     symmetric, or the transposed of what is to be added
+/// @param places  block_places of motion.numbers
+void add(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
+         std::span<const std::ptrdiff_t> places);
 
 /// The neighbours of each node of this rank: all active numbers of an element are neighbours.
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,

@@ -1,5 +1,6 @@
 #include "plate/free_motions.hpp"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
@@ -7,6 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+
+#include "common/error.hpp"
+#include "plate/point_elements.hpp"
 
 namespace chladni::plate {
 
@@ -18,8 +23,6 @@ using Eigen::Vector3d;
 using RowVector6d = Eigen::Matrix<double, 1, 6>;
 
 constexpr double same_motion = 1e-8;  // of unit motions; the mesh's coordinates have 12 digits
-/// Of the sum of the absolute values of the terms of r^T K r, whose round-off is 1e-15 of it.
-constexpr double no_force = 1e-13;
 
 /// Disjoint sets of active numbers that elements and couplings connect.
 class Connection {
@@ -36,49 +39,80 @@ class Connection {
   std::vector<int> parent_;
 };
 
-/// The part of each active number, and how many there are.
+/// The part of each active number, and which parts springs connect.
 struct Parts {
   std::vector<int> of_number;
-  int count = 0;
+  std::vector<int> body;   ///< [n_parts] parts that springs connect are one body
+  std::vector<int> place;  ///< [n_parts] of the part in its body
+  int n_bodies = 0;
 };
 
-Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs)
+/// Consecutive numbers of the disjoint sets.
+std::vector<int> numbered(Connection& connection, int n)
+{
+  std::vector<int> of(n, -1), of_root(n, -1);
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    int& set = of_root[connection.root(i)];
+    if (set < 0) set = count++;
+    of[i] = set;
+  }
+  return of;
+}
+
+int count_of(const std::vector<int>& numbered)
+{
+  return numbered.empty() ? 0 : *std::ranges::max_element(numbered) + 1;
+}
+
+int number_of(const DofMap& dofs, int node)
+{
+  return dofs.motion(node).front().number;
+}
+
+Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
+                      std::span<const PlacedSpring> springs)
 {
   Connection connection(dofs.n_active());
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
-      const int first = dofs.motion(block.element_nodes(e)[0]).front().number;
+      const int first = number_of(dofs, block.element_nodes(e)[0]);
       for (const int node : block.element_nodes(e)) {
         for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
       }
     }
   }
-  Parts parts{.of_number = std::vector<int>(dofs.n_active(), -1)};
-  std::vector<int> of_root(dofs.n_active(), -1);
-  for (int i = 0; i < dofs.n_active(); ++i) {
-    int& part = of_root[connection.root(i)];
-    if (part < 0) part = parts.count++;
-    parts.of_number[i] = part;
+  Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
+  const int n_parts = count_of(parts.of_number);
+  Connection bodies(n_parts);
+  for (const PlacedSpring& spring : springs) {
+    if (spring.nodes.size() < 2) continue;
+    bodies.join(parts.of_number[number_of(dofs, spring.nodes[0])],
+                parts.of_number[number_of(dofs, spring.nodes[1])]);
   }
+  parts.body = numbered(bodies, n_parts);
+  parts.n_bodies = count_of(parts.body);
+  std::vector<int> n_of_body(parts.n_bodies, 0);
+  for (const int body : parts.body) parts.place.push_back(n_of_body[body]++);
   return parts;
 }
 
-/// Centre and mean radius of each part, the geometry that scales rotations.
+/// Centre and mean radius of each body, the geometry that scales rotations.
 struct Extent {
   Vector3d centre = Vector3d::Zero();
   double length = 0.0;
   int n_nodes = 0;
+  int n_parts = 0;
 };
 
 std::vector<Extent> extents(const DofMap& dofs, const Parts& parts)
 {
-  std::vector<Extent> extents(parts.count);
+  std::vector<Extent> extents(parts.n_bodies);
   const auto for_nodes = [&](const auto& visit) {
     for (int node = 0; node < dofs.n_nodes(); ++node) {
-      const auto dof = dofs.dof(node, 0);
-      if (!dof) continue;
-      const auto& x = dofs.positions[node];
-      visit(extents[parts.of_number[*dof / 6]], Vector3d(x[0], x[1], x[2]));
+      if (dofs.is_dependent(node) || dofs.number[node] < 0) continue;
+      const int body = parts.body[parts.of_number[dofs.number[node]]];
+      visit(extents[body], Vector3d(dofs.positions[node].data()));
     }
   };
   for_nodes([](Extent& extent, const Vector3d& x) {
@@ -92,118 +126,113 @@ std::vector<Extent> extents(const DofMap& dofs, const Parts& parts)
   for (Extent& extent : extents) {
     if (!(extent.length > 0.0)) extent.length = 1.0;  // a single node
   }
+  for (const int body : parts.body) ++extents[body].n_parts;
   return extents;
 }
 
-/// What one unit of each rigid motion is at this component of a node.
-RowVector6d rigid_row(const std::array<double, 3>& position, const Extent& extent, int component)
+/// What one unit of each rigid motion of a part is at this component of one of its points.
+RowVector6d rigid_row(const Vector3d& position, const Extent& extent, int component)
 {
-  const Vector3d r =
-      (Vector3d(position[0], position[1], position[2]) - extent.centre) / extent.length;
+  const Vector3d r = (position - extent.centre) / extent.length;
   RowVector6d row = RowVector6d::Zero();
-  if (component >= 3) {
-    row[component] = 1.0;  // times 1 / length
-    return row;
-  }
-  row[component] = 1.0;
+  row[component] = 1.0;  // of a rotation times 1 / length
+  if (component >= 3) return row;
   for (int axis = 0; axis < 3; ++axis) row[3 + axis] = Vector3d::Unit(axis).cross(r)[component];
   return row;
 }
 
-/// For each part the rigid motions that are zero at all its held DOFs, [6 x n].
-std::vector<MatrixXd> motions_not_held(const DofMap& dofs, const Parts& parts,
-                                       const std::vector<Extent>& extents,
-                                       const std::vector<int>& held)
+/// For each body G with x^T G x = 0 for the rigid motions x of its parts that nothing resists.
+class Resistance {
+ public:
+  Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents)
+      : dofs_(dofs), parts_(parts), extents_(extents)
+  {
+    for (const Extent& extent : extents) {
+      gram_.push_back(MatrixXd::Zero(6 * extent.n_parts, 6 * extent.n_parts));
+    }
+  }
+
+  /// This component of the node does not move.
+  void hold(int node, int component)
+  {
+    add(node, -1, Vector3d(dofs_.positions[node].data()), component);
+  }
+  /// A spring resists the motion against the ground or of both nodes, seen at the middle.
+  void add(const PlacedSpring& spring)
+  {
+    const Vector3d a(dofs_.positions[spring.nodes.front()].data());
+    const Vector3d b(dofs_.positions[spring.nodes.back()].data());
+    for (const int component : spring.components) {
+      add(spring.nodes.front(), spring.nodes.size() > 1 ? spring.nodes.back() : -1, 0.5 * (a + b),
+          component);
+    }
+  }
+  const std::vector<MatrixXd>& gram() const { return gram_; }
+
+ private:
+  /// @param other  that the first node moves against, -1 for the ground
+  void add(int node, int other, const Vector3d& at, int component)
+  {
+    const int part = parts_.of_number[number_of(dofs_, node)];
+    const int body = parts_.body[part];
+    const RowVector6d motion = rigid_row(at, extents_[body], component);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(gram_[body].cols());
+    row.segment<6>(6 * parts_.place[part]) += motion;
+    if (other >= 0) {
+      row.segment<6>(6 * parts_.place[parts_.of_number[number_of(dofs_, other)]]) -= motion;
+    }
+    gram_[body] += row.transpose() * row;
+  }
+
+  const DofMap& dofs_;
+  const Parts& parts_;
+  const std::vector<Extent>& extents_;
+  std::vector<MatrixXd> gram_;
+};
+
+/// What supports, and the components that the nodes do not have, hold.
+void hold_supports(const DofMap& dofs, const std::vector<int>& held, Resistance& resistance)
 {
-  std::vector<MatrixXd> gram(parts.count, MatrixXd::Zero(6, 6));
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
-      if (!dof || !std::ranges::binary_search(held, *dof)) continue;
-      const int part = parts.of_number[*dof / 6];
-      const RowVector6d row = rigid_row(dofs.positions[node], extents[part], component);
-      gram[part] += row.transpose() * row;
+      const bool has_component = std::ranges::binary_search(dofs.components, component);
+      if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component) {
+        resistance.hold(node, component);
+      }
     }
   }
-  std::vector<MatrixXd> motions;
-  for (const MatrixXd& G : gram) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(G);
-    Index n = 0;
-    while (n < 6 && eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace())) {
-      ++n;
-    }
-    motions.emplace_back(eigen.eigenvectors().leftCols(n));
+}
+
+MatrixXd null_space(const MatrixXd& G)
+{
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(G);
+  Index n = 0;
+  while (n < G.rows() &&
+         eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace())) {
+    ++n;
   }
-  return motions;
-}
-
-/// One rigid motion of one part at every DOF.
-petsc::Vector spread(const System& system, const Parts& parts, int part, const Extent& extent,
-                     const Eigen::VectorXd& motion)
-{
-  petsc::Vector r;
-  petsc::check(MatCreateVecs(system.K, r.put(), nullptr));
-  PetscInt first = 0, last = 0;
-  petsc::check(VecGetOwnershipRange(r, &first, &last));
-  for (int node = 0; node < system.dofs.n_nodes(); ++node) {
-    for (int component = 0; component < 6; ++component) {
-      const auto dof = system.dofs.dof(node, component);
-      if (!dof || *dof < first || *dof >= last || parts.of_number[*dof / 6] != part) continue;
-      const double scale = component < 3 ? 1.0 : 1.0 / extent.length;
-      const double value =
-          scale * rigid_row(system.dofs.positions[node], extent, component).dot(motion.transpose());
-      petsc::check(VecSetValue(r, *dof, value, INSERT_VALUES));
-    }
-  }
-  petsc::check(VecAssemblyBegin(r));
-  petsc::check(VecAssemblyEnd(r));
-  return r;
-}
-
-/// The size of the terms that cancel in r^T K r: sum over the rows of max_j |K_ij| r_i^2.
-double size_of_terms(Mat K, Vec r)
-{
-  petsc::Vector r_abs, product;
-  petsc::check(VecDuplicate(r, r_abs.put()));
-  petsc::check(VecCopy(r, r_abs));
-  petsc::check(VecAbs(r_abs));
-  petsc::check(VecDuplicate(r, product.put()));
-  petsc::check(MatGetRowMaxAbs(K, product, nullptr));
-  petsc::check(VecPointwiseMult(product, product, r_abs));
-  double size = 0.0;
-  petsc::check(VecDot(product, r_abs, &size));
-  return size;
-}
-
-bool is_without_force(Mat K, Vec r)
-{
-  petsc::Vector K_r;
-  petsc::check(VecDuplicate(r, K_r.put()));
-  petsc::check(MatMult(K, r, K_r));
-  double energy = 0.0;
-  petsc::check(VecDot(r, K_r, &energy));
-  return std::abs(energy) <= no_force * size_of_terms(K, r);
+  return eigen.eigenvectors().leftCols(n);
 }
 
 }  // namespace
 
-std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const System& system,
-                                 const std::vector<int>& held)
+std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
+                                 const std::vector<int>& held, std::span<const Spring> springs)
 {
-  const Parts parts = connected_parts(mesh, system.dofs);
-  const std::vector<Extent> extent = extents(system.dofs, parts);
-  const std::vector<MatrixXd> motions = motions_not_held(system.dofs, parts, extent, held);
+  const std::vector<PlacedSpring> placed = place_springs(mesh, dofs, springs);
+  const Parts parts = connected_parts(mesh, dofs, placed);
+  const std::vector<Extent> extent = extents(dofs, parts);
+  Resistance resistance(dofs, parts, extent);
+  hold_supports(dofs, held, resistance);
+  for (const PlacedSpring& spring : placed) resistance.add(spring);
   std::vector<FreePart> free;
-  for (int part = 0; part < parts.count; ++part) {
-    FreePart found{
-        .n_nodes = extent[part].n_nodes, .centre = extent[part].centre, .motions = MatrixXd(6, 0)};
-    for (Index k = 0; k < motions[part].cols(); ++k) {
-      const petsc::Vector r = spread(system, parts, part, extent[part], motions[part].col(k));
-      if (!is_without_force(system.K, r)) continue;
-      found.motions.conservativeResize(6, found.motions.cols() + 1);
-      found.motions.rightCols<1>() = motions[part].col(k);
-    }
-    if (found.motions.cols() > 0) free.push_back(std::move(found));
+  for (int body = 0; body < parts.n_bodies; ++body) {
+    MatrixXd motions = null_space(resistance.gram()[static_cast<std::size_t>(body)]);
+    if (motions.cols() == 0) continue;
+    free.push_back({.n_nodes = extent[body].n_nodes,
+                    .centre = extent[body].centre,
+                    .motions = std::move(motions)});
   }
   return free;
 }
@@ -221,8 +250,10 @@ std::string describe_motions(const FreePart& part)
                              "rotation about x",    "rotation about y",    "rotation about z"};
   std::vector<std::string> pure;
   for (Index c = 0; c < 6; ++c) {
-    // A unit motion of its own if all of it lies in the space of the free ones.
-    if (part.motions.row(c).norm() > 1.0 - same_motion) {
+    // A motion of all pieces alike, if all of it lies in the space of the free ones.
+    Eigen::VectorXd alike = Eigen::VectorXd::Zero(part.motions.rows());
+    alike(Eigen::seq(c, Eigen::last, 6)).setConstant(std::sqrt(6.0 / double(alike.size())));
+    if ((alike.transpose() * part.motions).norm() > 1.0 - same_motion) {
       pure.emplace_back(names[static_cast<std::size_t>(c)]);
     }
   }
@@ -240,8 +271,7 @@ void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
     }
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    const auto dof = dofs.dof(node, 0);
-    if (!dof || touched[*dof / 6]) continue;
+    if (dofs.is_dependent(node) || dofs.number[node] < 0 || touched[dofs.number[node]]) continue;
     if (node >= dofs.n_mesh_nodes) {
       throw Error(fmt::format("coupling \"{}\": none of its nodes belongs to an element",
                               dofs.reference_names[node - dofs.n_mesh_nodes]));

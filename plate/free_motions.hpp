@@ -1,28 +1,32 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "plate/assemble.hpp"
+#include "mesh/mesh.hpp"
+#include "plate/dof_map.hpp"
+#include "plate/plate_options.hpp"
 
 namespace chladni::plate {
 
-/// The rigid-body motions that are left to one connected part of the body, without force.
+/// The rigid-body motions that are left to one body, without force.
 struct FreePart {
   int n_nodes;             ///< that have DOFs of their own
   Eigen::Vector3d centre;  ///< m, the mean of these nodes
-  /// [6 x n] orthonormal: translation and, in units of 1/length, rotation about the centre.
+  /// [6 n_pieces x n] orthonormal: of each piece that springs alone connect to the others,
+  /// translation and, in units of 1/length, rotation about the centre.
   Eigen::MatrixXd motions;
 };
 
-/// The parts of the body that can still move as rigid ones when the held DOFs do not. Found from
-/// geometry, since a factor of K tells nothing reliable about them, and confirmed by K: a motion
-/// that a spring resists does not count.
+/// The bodies that can still move as rigid ones when the held DOFs do not, and neither do the
+/// components that the nodes do not have. Found from geometry, since a factor of K tells nothing
+/// reliable about them: a soft spring on a stiff body holds it as well as a hard one.
 /// @param held  ascending, the same on every rank.
-/// @note   Collective on the communicator of `system.K`.
-std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const System& system,
-                                 const std::vector<int>& held);
+std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
+                                 const std::vector<int>& held,
+                                 std::span<const Spring> springs = {});
 
 /// The sum of the numbers of motions.
 int n_free_motions(const std::vector<FreePart>& parts);

@@ -149,7 +149,8 @@ petsc::Matrix displacement_product(const MassModel& model, int k, int l)
     const StrainRows& N_k = points.N[static_cast<std::size_t>(k)];
     const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
     // `add` reads columns as rows, so it wants S_kl^T = S_lk.
-    add(S, N_l.transpose() * points.dm.asDiagonal() * N_k, motion, model.dofs);
+    add(S, N_l.transpose() * points.dm.asDiagonal() * N_k, motion, model.dofs,
+        block_places(model.pattern, motion.numbers));
   });
   petsc::Matrix A = S.to_matrix(model.comm);
   if (k != l) {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <set>
 
+#include "plate/group_shares.hpp"
 #include "plate/interpolation.hpp"
 
 namespace chladni::plate {
@@ -27,10 +27,11 @@ class Forces {
   void add(int node, const Vector6d& force)
   {
     for (const MotionTerm& term : dofs_.motion(node)) {
-      if (6 * term.number < first_ || 6 * term.number >= last_) continue;
       const Vector6d share = term.T.transpose() * force;
-      for (int c = 0; c < 6; ++c) {
-        petsc::check(VecSetValue(f_, 6 * term.number + c, share[c], ADD_VALUES));
+      for (const int c : dofs_.components) {
+        const int dof = *dofs_.dof_of_number(term.number, c);
+        if (dof < first_ || dof >= last_) continue;
+        petsc::check(VecSetValue(f_, dof, share[c], ADD_VALUES));
       }
     }
   }
@@ -76,69 +77,17 @@ void add_load(const mesh::Mesh& mesh, const System& system, const NodalLoad& loa
   for (const int node : nodes) forces.add(node, force / static_cast<double>(nodes.size()));
 }
 
-/// The nodes of the element's edges from end to end, in lattice order.
-std::vector<std::vector<int>> edges_of(const mesh::ElementBlock& block, int element)
-{
-  const int p = block.order;
-  const std::span<const int> nodes = block.element_nodes(element);
-  const bool triangle = block.shape == mesh::Shape::triangle;
-  const auto place = [&](int i, int j) {
-    return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
-  };
-  std::vector<std::vector<int>> edges(triangle ? 3 : 4);
-  for (int i = 0; i <= p; ++i) {
-    edges[0].push_back(nodes[place(i, 0)]);
-    edges[1].push_back(nodes[place(0, i)]);
-    edges[2].push_back(nodes[triangle ? place(p - i, i) : place(p, i)]);
-    if (!triangle) edges[3].push_back(nodes[place(i, p)]);
-  }
-  return edges;
-}
-
-/// Element edges with all their nodes in the group; an edge between two elements counts once.
-std::vector<std::vector<int>> edges_in(const mesh::Mesh& mesh, const mesh::Group& group)
-{
-  const std::set<int> members(group.nodes.begin(), group.nodes.end());
-  std::set<std::vector<int>> seen;
-  std::vector<std::vector<int>> edges;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (block.shape == mesh::Shape::line) continue;
-    for (int e = 0; e < block.n_elements(); ++e) {
-      for (std::vector<int>& edge : edges_of(block, e)) {
-        if (!std::ranges::all_of(edge, [&](int n) { return members.contains(n); })) continue;
-        std::vector<int> key = edge;
-        std::ranges::sort(key);
-        if (seen.insert(key).second) edges.push_back(std::move(edge));
-      }
-    }
-  }
-  return edges;
-}
-
-/// f_i = int N_i q ds along one edge.
-void add_edge(const mesh::Mesh& mesh, const std::vector<int>& edge, const Vector3d& q,
-              Forces& forces)
-{
-  const auto p = static_cast<int>(edge.size()) - 1;
-  const GaussRule gauss = gauss_legendre(p + 2);
-  const Eigen::VectorXd ends = Eigen::VectorXd::LinSpaced(2, -1.0, 1.0);
-  const Points points =
-      tensor_points(gauss.x, ends.head(1));  // the lower edge of the parent square
-  const Basis basis = lagrange_basis(mesh::Shape::quadrilateral, p, points);
-  const Eigen::MatrixX3d tangents = basis.N_xi.leftCols(p + 1) * positions_of(mesh, edge);
-  const Eigen::VectorXd lengths = gauss.w.cwiseProduct(tangents.rowwise().norm());
-  const Eigen::VectorXd shares = basis.N.leftCols(p + 1).transpose() * lengths;
-  for (Index i = 0; i < shares.size(); ++i) forces.add_force(edge[i], shares[i] * q);
-}
-
+/// f_i = int N_i q ds along the edges.
 void add_load(const mesh::Mesh& mesh, const System&, const EdgeLoad& load, Forces& forces)
 {
-  const auto edges = edges_in(mesh, mesh::find_group(mesh, load.group));
-  if (edges.empty()) {
+  const std::map<int, double> shares = edge_shares(mesh, load.group);
+  if (shares.empty()) {
     throw Error(fmt::format(
         "line load on \"{}\": no edge of an element has all its nodes in this group", load.group));
   }
-  for (const auto& edge : edges) add_edge(mesh, edge, vector_of(load.line_force), forces);
+  for (const auto& [node, share] : shares) {
+    forces.add_force(node, share * vector_of(load.line_force));
+  }
 }
 
 /// f_i = int N_i p (a_1 x a_2) d xi d eta over one element.

@@ -19,16 +19,24 @@ struct Material {
 /// What a profile runs over: a coordinate of the model, or the distance from its z axis.
 enum class Coordinate { x, y, z, radius };
 
-/// A length that is constant, or linear between the points of a table and constant beyond its ends.
+/// A length that is constant, or linear between the points of a table and constant beyond its ends,
+/// or a formula of the position.
 struct Profile {
   Coordinate over = Coordinate::x;
   std::vector<double> at;      ///< m, ascending; empty for a constant
   std::vector<double> values;  ///< m, as many as `at`; one for a constant
+  std::string formula;         ///< of x, y, z, radius (m) and angle (rad); empty without one
 
   Profile(double constant = 0.0) : values{constant} {}  // NOLINT(google-explicit-constructor)
   Profile(Coordinate coordinate, std::vector<double> points, std::vector<double> lengths)
       : over(coordinate), at(std::move(points)), values(std::move(lengths))
   {}
+  static Profile by_formula(std::string text)
+  {
+    Profile profile;
+    profile.formula = std::move(text);
+    return profile;
+  }
   bool operator==(const Profile&) const = default;
 };
 
@@ -92,7 +100,8 @@ struct Structure {
 ///   whatever gap is between them (a bell that ends at the face of a disc and its mid-surface);
 /// - averaging: a reference node at the centre of a group that moves as the group does on average
 ///   and stiffens nothing: the translation and rotation that fit the displacements of its nodes
-///   best in the mean square. Forces on it reach the nodes accordingly.
+///   best in the mean square, weighted with the length or area that each stands for. Forces on it
+///   reach the nodes accordingly: an even traction.
 enum class CouplingKind { rigid, link, averaging };
 
 struct Coupling {

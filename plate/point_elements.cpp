@@ -58,20 +58,49 @@ PointElement spring_element(std::vector<int> nodes, const Spring& spring, const 
   return element;
 }
 
-PointElement spring_between(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring)
+/// The two nodes of a spring between places.
+std::vector<int> nodes_between(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring)
 {
   const int a = only_node(mesh, dofs, spring.at);
   const int b = only_node(mesh, dofs, *spring.to);
   if (a == b) {
     throw Error(fmt::format("spring at \"{}\": leads to the node where it begins", spring.at));
   }
-  const Vector3d ab = Vector3d(dofs.positions[b].data()) - Vector3d(dofs.positions[a].data());
-  return spring_element({a, b}, spring, [&](const std::array<double, 6>& k) -> MatrixXd {
+  return {a, b};
+}
+
+PointElement spring_between(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring)
+{
+  const std::vector<int> nodes = nodes_between(mesh, dofs, spring);
+  const Vector3d ab =
+      Vector3d(dofs.positions[nodes[1]].data()) - Vector3d(dofs.positions[nodes[0]].data());
+  return spring_element(nodes, spring, [&](const std::array<double, 6>& k) -> MatrixXd {
     return spring_matrix(k, ab);
   });
 }
 
 }  // namespace
+
+std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& dofs,
+                                        std::span<const Spring> springs)
+{
+  std::vector<PlacedSpring> placed;
+  for (const Spring& spring : springs) {
+    std::vector<int> components;
+    for (int c = 0; c < 6; ++c) {
+      if (spring.stiffness[static_cast<std::size_t>(c)] != 0.0) components.push_back(c);
+    }
+    if (components.empty()) continue;
+    if (spring.to) {
+      placed.push_back({nodes_between(mesh, dofs, spring), components});
+      continue;
+    }
+    for (const int node : nodes_at(mesh, dofs, "spring at", spring.at)) {
+      placed.push_back({{node}, components});
+    }
+  }
+  return placed;
+}
 
 Matrix6d point_mass_matrix(const PointMass& mass)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -20,6 +21,18 @@ struct PointElement {
 ///         several nodes or from a node to itself.
 std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs);
+
+/// One spring between two nodes, or from one to the ground.
+struct PlacedSpring {
+  std::vector<int> nodes;
+  std::vector<int> components;  ///< that have a stiffness
+};
+
+/// The springs at their nodes; of a group each node has its own to the ground. Dampers without
+/// stiffness are left out.
+/// @throws chladni::Error as point_elements.
+std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& dofs,
+                                        std::span<const Spring> springs);
 
 /// M of a rigid body in the displacement and rotation of the node it is fixed to,
 ///   [m I, -m c~; m c~, J - m c~ c~],   c = offset.

@@ -57,7 +57,9 @@ MatrixXd node_motions(const DofMap& dofs, Vec q)
   MatrixXd motions = MatrixXd::Zero(dofs.n_nodes(), 6);
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     for (const MotionTerm& term : dofs.motion(node)) {
-      motions.row(node) += term.T * all.segment<6>(6 * term.number);
+      for (const int c : dofs.components) {
+        motions.row(node) += all[*dofs.dof_of_number(term.number, c)] * term.T.col(c).transpose();
+      }
     }
   }
   return motions;
@@ -67,7 +69,10 @@ MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residua
 {
   const Eigen::VectorXd all = replicate(residual);
   MatrixXd forces = MatrixXd::Zero(dofs.n_active(), 6);
-  for (const int dof : held) forces(dof / 6, dof % 6) = all[dof];
+  const int n = dofs.n_components();
+  for (const int dof : held) {
+    forces(dof / n, dofs.components[static_cast<std::size_t>(dof % n)]) = all[dof];
+  }
   return forces;
 }
 

@@ -5,6 +5,7 @@
 #include "common/error.hpp"
 #include "plate/beam_element.hpp"
 #include "plate/directors.hpp"
+#include "plate/profile.hpp"
 #include "plate/sections.hpp"
 #include "plate/shell_element.hpp"
 
@@ -26,6 +27,19 @@ int index_of_section(const SectionMap& map, const mesh::ElementBlock& block, int
   return kind_of(block) == Kind::beam ? map.beam[group] : map.shell[group];
 }
 
+/// A formula may be negative where a table cannot.
+void check_thickness(const mesh::Mesh& mesh, const ShellSection& section)
+{
+  if (section.thickness.formula.empty()) return;
+  for (const int node : mesh::find_group(mesh, section.group).nodes) {
+    const double t = value_at(section.thickness, mesh.positions[node]);
+    if (t > 0.0) continue;
+    throw Error(fmt::format(
+        "section of group \"{}\": the thickness \"{}\" is {:.6g} m at node {}; it must be > 0",
+        section.group, section.thickness.formula, t, mesh.node_numbers[node]));
+  }
+}
+
 /// The axes of all beams of a line are defined.
 void check_axes(const NodeVectors& x, const BeamSection& section)
 {
@@ -38,6 +52,7 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
 {
   const SectionMap map{.shell = section_of_group(mesh, structure.shells),
                        .beam = section_of_group(mesh, structure.beams)};
+  for (const ShellSection& section : structure.shells) check_thickness(mesh, section);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (kind_of(block) == Kind::shell) check_element_exists(block.shape, block.order);
     for (int e = 0; e < block.n_elements(); ++e) {

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
-#include <vector>
 
 #include "common/error.hpp"
 #include "plate/assumed_strains.hpp"
+#include "plate/element_rules.hpp"
+#include "plate/plane_element.hpp"
 #include "plate/rotation_bubbles.hpp"
 #include "plate/strain_energy.hpp"
 
@@ -23,63 +21,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-constexpr double drilling_factor = 1e-3;
-
-struct ElementSize {
-  double thickness_squared;
-  double h_squared;  ///< a quarter of the sum of the squared straight edges: h^2 of a square
-};
-
-ElementSize element_size(mesh::Shape shape, int order, const ShellNodes& nodes)
-{
-  const Index last = nodes.x.rows() - 1;
-  const std::vector<Index> corners = shape == mesh::Shape::triangle
-                                         ? std::vector<Index>{0, order, last}
-                                         : std::vector<Index>{0, order, last, last - order};
-  double sum = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    sum += (nodes.x.row(corners[i]) - nodes.x.row(corners[(i + 1) % corners.size()])).squaredNorm();
-  }
-  return {.thickness_squared = 4.0 * nodes.D.rowwise().squaredNorm().mean(),
-          .h_squared = 0.25 * sum};
-}
-
-double blend(const ElementSize& size, double c)
-{
-  return size.thickness_squared / (size.thickness_squared + c * size.h_squared);
-}
-
-/// Integration points with their bases, made once for each element of the library.
-struct Rule {
-  Points points;
-  Basis basis;
-};
-
-struct Rules {
-  Rule full, reduced;   ///< Gauss p+1 and p
-  BubbleBasis bubbles;  ///< of triangles of order 2 and 3, at the points of `full`
-};
-
-Rules make_rules(mesh::Shape shape, int order)
-{
-  Rules rules;
-  for (auto [rule, n] : {std::pair{&rules.full, order + 1}, {&rules.reduced, order}}) {
-    rule->points = gauss_points(shape, n);
-    rule->basis = lagrange_basis(shape, order, rule->points);
-  }
-  if (shape == mesh::Shape::triangle) rules.bubbles = basis_with_bubbles(order, rules.full.points);
-  return rules;
-}
-
-const Rules& rules_of(mesh::Shape shape, int order)
-{
-  static std::map<std::pair<mesh::Shape, int>, Rules> cache;
-  const std::pair key{shape, order};
-  const auto it = cache.find(key);
-  return it != cache.end() ? it->second
-                           : cache.emplace(key, make_rules(shape, order)).first->second;
-}
-
 MatrixXd quadrilateral_stiffness(int order, const ShellNodes& nodes, const Material& material)
 {
   const auto root = elasticity_root(material, Strains::all);
@@ -89,11 +30,10 @@ MatrixXd quadrilateral_stiffness(int order, const ShellNodes& nodes, const Mater
       stiffness(assume_quadrilateral_strains(order, full.points, nodes, frame,
                                              covariant_strains(full.basis, frame, nodes.D)),
                 frame, full.points, root);
-  if (order != 2 && order != 3) return K;
+  const double beta = share_of_reduced_integration(order, nodes);
+  if (beta == 0.0) return K;
   const MatrixXd K_reduced = stiffness(covariant_strains(reduced.basis, nodes),
                                        shell_frame(reduced.basis, nodes), reduced.points, root);
-  const double beta = std::min(
-      0.95, blend(element_size(mesh::Shape::quadrilateral, order, nodes), order == 2 ? 0.5 : 0.1));
   return beta * K_reduced + (1.0 - beta) * K;
 }
 
@@ -179,8 +119,7 @@ MatrixXd triangle_stiffness_with_bubbles(int order, const ShellNodes& nodes,
   const ShellFrame frame = shell_frame(rules.full.basis, nodes);
   const CovariantStrains compatible = strains_with_bubbles(rules.bubbles, nodes);
   const auto shear_root = elasticity_root(material, Strains::shear);
-  const double alpha =
-      order == 2 ? 0.0 : blend(element_size(mesh::Shape::triangle, order, nodes), 0.5);
+  const double alpha = order == 2 ? 0.0 : thickness_blend(mesh::Shape::triangle, order, nodes, 0.5);
   MatrixXd K = stiffness(assume_triangle_membrane(order, nodes, compatible), frame, points,
                          elasticity_root(material, Strains::without_shear)) +
                (1.0 - alpha) * stiffness(assume_triangle_shear(order, nodes, compatible), frame,
@@ -204,6 +143,11 @@ ElementMatrices shell_matrices(mesh::Shape shape, int order, const ShellNodes& n
                                const Material& material)
 {
   check_element_exists(shape, order);
+  if (shape == mesh::Shape::quadrilateral && order > 1) {
+    if (const auto plane = in_its_plane(nodes)) {
+      return plane_matrices(order, *plane, material, share_of_reduced_integration(order, nodes));
+    }
+  }
   const Rule& rule = rules_of(shape, order).full;
   const MatrixXd K =
       shape == mesh::Shape::triangle

@@ -24,8 +24,8 @@ constexpr double noise = 2e-3;
 /// Circumferential harmonics that the modes of the disc have.
 std::vector<int> harmonics_of(const squeal::Disc& disc)
 {
-  const Eigen::ArrayXXd amplitude =
-      (disc.W.cosine.cwiseAbs2() + disc.W.sine.cwiseAbs2()).cwiseSqrt().array();
+  const squeal::Harmonics& W = disc.rings.front().W;
+  const Eigen::ArrayXXd amplitude = (W.cosine.cwiseAbs2() + W.sine.cwiseAbs2()).cwiseSqrt().array();
   std::vector<int> harmonics;
   for (Index n = 0; n < amplitude.rows(); ++n) {
     const auto part = amplitude.row(n) / amplitude.colwise().maxCoeff();

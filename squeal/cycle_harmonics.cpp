@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "squeal/inertial_frame.hpp"
+#include "squeal/periodic_orbit.hpp"
 #include "squeal/sliding_disc.hpp"
 
 namespace chladni::squeal {
@@ -14,8 +15,8 @@ using std::numbers::pi;
 
 /// The first multiple of the frequency that is taken for a lower one is 120, which is rounding.
 constexpr int n_samples = 128;
-/// Of order 8; see limit_cycle_direct.
-constexpr int steps_per_period = 24;
+/// Of the integration over the period.
+constexpr double tolerance = 1e-10;
 
 }  // namespace
 
@@ -24,16 +25,13 @@ Eigen::MatrixXcd cycle_harmonics(const Disc& disc, const SquealOptions& options,
 {
   const InertialDisc inertial = inertial_disc(disc);
   SlidingDisc motion(inertial, options, cycle.speed);
-  const double step = 1.0 / (cycle.frequency_Hz * n_samples);
-  const auto n_steps =
-      static_cast<int>(std::ceil(steps_per_period * inertial.omega.maxCoeff() * step / (2.0 * pi)));
+  const Eigen::MatrixXd x =
+      states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz}, n_samples, tolerance);
   Eigen::MatrixXcd harmonics = Eigen::MatrixXcd::Zero(inertial.n_modes(), n_cycle_harmonics);
-  Eigen::VectorXd x = cycle.x;
   for (int i = 0; i < n_samples; ++i) {
-    const Eigen::VectorXd a = x.head(inertial.n_modes()).cwiseQuotient(inertial.omega);
+    const Eigen::VectorXd a = x.col(i).head(inertial.n_modes()).cwiseQuotient(inertial.omega);
     for (int h = 1; h <= n_cycle_harmonics; ++h)
       harmonics.col(h - 1) += std::polar(2.0 / n_samples, -2.0 * pi * h * i / n_samples) * a;
-    x = motion.advance(x, step, n_steps);
   }
   harmonics = inertial.R * harmonics;
   Eigen::Index largest = 0;

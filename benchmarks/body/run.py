@@ -1,11 +1,11 @@
-"""What does a body cost, and what do a few more modes buy? Writes docs/body_benchmarks.{json,md} and docs/figures/body_*.png.
+"""What does a body cost, and what do a few more modes buy? Writes OUTPUT/body_benchmarks.{json,md} and OUTPUT/figures/body_*.png.
 
 - chain: `chladni body` on reduced systems of 106, 500 and 1500 coordinates;
 - selection: size against error, as `chladni body --json` reports it;
 - forces: displacement, moments and shear forces of a shell with and without a frequency-response mode;
 - conditioning: cases that ought to be hard, each solved with its loss of digits or refused with advice.
 
-Usage: run.py [--quick]     with the programs in build/release/bin; --quick leaves the largest sizes out
+Usage: run.py [--quick] OUTPUT     with the programs in build/release/bin; --quick leaves the largest sizes out
 """
 
 import json
@@ -245,18 +245,19 @@ displacements there and of all section forces, against the complete reduced syst
 {table(found['conditioning'], ['case', 'outcome', 'condition', 'value', 'digits_lost', 'message'])}"""
 
 
-def main(quick):
+def main(quick, output):
+    (output / "figures").mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         found = {"machine": f"{platform.machine()}, {os.cpu_count()} cores",
                  "chain": chain(folder / "chain", quick), "selection": selection(folder / "selection"),
                  "forces": forces(folder / "forces"), "conditioning": conditioning(folder / "hard")}
     text = json.dumps(found, indent=1).replace(name, "...")
-    (ROOT / "docs/body_benchmarks.json").write_text(text + "\n")
+    (output / "body_benchmarks.json").write_text(text + "\n")
     found = json.loads(text)
-    (ROOT / "docs/body_benchmarks.md").write_text(report(found))
-    figure(found["selection"], ROOT / "docs/figures/body_selection.png")
+    (output / "body_benchmarks.md").write_text(report(found))
+    figure(found["selection"], output / "figures/body_selection.png")
 
 
 if __name__ == "__main__":
-    main("--quick" in sys.argv[1:])
+    main("--quick" in sys.argv[1:], Path(sys.argv[-1]))

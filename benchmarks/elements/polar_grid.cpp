@@ -1,19 +1,42 @@
 #include "polar_grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace chladni::benchmarks {
 
-mesh::Mesh polar_grid(double inner_radius, double outer_radius, int order, int n_r)
+namespace {
+
+/// Ends of the rows of elements, ascending: of one width, but for edge rows.
+std::vector<double> row_ends(const PolarGrid& o)
 {
+  const int n_inside = o.edge_row > 0.0 ? o.n_r - 2 : o.n_r;
+  const double start = o.inner_radius + o.edge_row;
+  const double width = (o.outer_radius - o.edge_row - start) / n_inside;
+  std::vector<double> ends;
+  if (o.edge_row > 0.0) ends.push_back(o.inner_radius);
+  for (int i = 0; i <= n_inside; ++i) ends.push_back(start + i * width);
+  if (o.edge_row > 0.0) ends.push_back(o.outer_radius);
+  return ends;
+}
+
+}  // namespace
+
+mesh::Mesh polar_grid(const PolarGrid& options)
+{
+  const auto [inner_radius, outer_radius, order, n_r, edge_row] = options;
+  const std::vector<double> ends = row_ends(options);
   const int n_rings = n_r * order + 1;
   const int n_around = 4 * n_r * order;
   mesh::Mesh grid;
   mesh::Group disc{.name = "disc", .dimension = 2, .nodes = {}};
   mesh::Group inner_edge{.name = "inner_edge", .dimension = 1, .nodes = {}};
   for (int j = 0; j < n_rings; ++j) {
-    const double r = inner_radius + (outer_radius - inner_radius) * j / (n_rings - 1);
+    const auto row = static_cast<std::size_t>(std::min(j / order, n_r - 1));
+    const double share = double(j) / order - double(row);
+    const double r = ends[row] + share * (ends[row + 1] - ends[row]);
     for (int i = 0; i < n_around; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / n_around;
       disc.nodes.push_back(grid.n_nodes());

@@ -66,7 +66,7 @@ def layer_of(row):
 def draw_layer(rows, path):
     layers = [(*layer_of(row), row["error"]) for row in rows if row["table"] == "layer"]
     exponents = sorted({m for _, _, m, _ in layers})
-    figure, axes = plt.subplots(1, len(exponents), figsize=(9, 3.3), sharey=True, layout="constrained")
+    figure, axes = plt.subplots(1, len(exponents), figsize=(10, 3.3), sharey=True, layout="constrained")
     for ax, m in zip(axes, exponents):
         sizes = sorted({d for d, _, exponent, _ in layers if exponent == m})
         for i, size in enumerate(sizes):
@@ -74,10 +74,10 @@ def draw_layer(rows, path):
             colour = plt.cm.viridis_r(0.1 + 0.9 * i / max(len(sizes) - 1, 1))
             ax.semilogy(*zip(*points), "o-", ms=3, lw=1.1, color=colour, label=f"{size:g}")
         ax.semilogy([1, 10], [pow(2.718281828, -2.0), pow(2.718281828, -20.0)], "--", lw=0.8, color="#888888")
-        ax.set(xlabel="strength alpha", title=f"exponent m = {m}", ylim=(3e-7, 2))
+        ax.set(xlabel="strength alpha", title=f"exponent m = {m}", ylim=(2e-8, 2))
         ax.grid(color="#eeeeee")
     axes[0].set_ylabel("error of the pressure")
-    axes[-1].legend(title="thickness in\nwavelengths", frameon=False, fontsize=8)
+    axes[-1].legend(title="thickness in\nwavelengths", frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     figure.savefig(path, dpi=120)
 
 

@@ -218,6 +218,11 @@ bool Table::is_table(std::string_view key) const
   return node_->require(key, "a value").is_table();
 }
 
+bool Table::is_text(std::string_view key) const
+{
+  return node_->require(key, "a value").is_string();
+}
+
 double Table::number(std::string_view key, const Admissible& further) const
 {
   const Admissible admissible = node_->admitted(key, further);

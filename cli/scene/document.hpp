@@ -30,6 +30,7 @@ class Table {
   bool is_number(std::string_view key) const;
   bool is_list(std::string_view key) const;
   bool is_table(std::string_view key) const;
+  bool is_text(std::string_view key) const;
   /// Numbers are checked by the row of the key (keys.hpp), and by `further`, which may depend on
   /// other keys.
   double number(std::string_view key, const Admissible& further = {}) const;

@@ -6,8 +6,6 @@
 namespace chladni::cli {
 namespace {
 
-constexpr std::array component_names{"x", "y", "z", "rx", "ry", "rz"};
-
 /// What may be held or loaded: groups, rings and couplings; empty where only the mesh file knows.
 std::vector<std::string> named_sets(const Scene& scene)
 {
@@ -29,22 +27,6 @@ std::string read_set(const Table& table, const Scene& scene)
   return name;
 }
 
-/// The components of `dofs = ["x", "rz"]`.
-std::vector<int> read_components(const Table& support)
-{
-  const std::vector<std::string> names = support.texts("dofs");
-  if (names.empty()) support.refuse("dofs", "must name at least one of x, y, z, rx, ry, rz");
-  std::vector<int> components;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto* found = std::ranges::find(component_names, names[i]);
-    if (found == component_names.end()) {
-      support.refuse_element("dofs", i, "must be one of x, y, z, rx, ry, rz");
-    }
-    components.push_back(static_cast<int>(found - component_names.begin()));
-  }
-  return components;
-}
-
 /// In the plane of symmetry nothing moves along its normal or turns about its axes.
 std::vector<int> symmetry_components(const Table& support)
 {
@@ -54,7 +36,7 @@ std::vector<int> symmetry_components(const Table& support)
 
 std::vector<int> components_of(const Table& support)
 {
-  if (support.only_one_of({"type", "dofs"}) == "dofs") return read_components(support);
+  if (support.only_one_of({"type", "dofs"}) == "dofs") return read_component_list(support, "dofs");
   enum class Type { clamped, simply_supported, symmetry };
   switch (support.choice<Type>("type", {{"clamped", Type::clamped},
                                         {"simply-supported", Type::simply_supported},

@@ -44,9 +44,12 @@ const plate::Material& read_material_of(const Table& section,
   section.refuse("material", no_such_name("material", section.text("material"), names));
 }
 
-/// A constant, or a table over a coordinate or the radius.
+/// A constant, a table over a coordinate or the radius, or a formula, which the mesh will check.
 plate::Profile read_profile(const Table& section, std::string_view key)
 {
+  if (section.has(key) && section.is_text(key)) {
+    return plate::Profile::by_formula(section.text(key));
+  }
   if (!section.has(key) || !section.is_table(key)) return section.number(key);
   using plate::Coordinate;
   const Table table = section.table(key);

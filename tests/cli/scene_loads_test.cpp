@@ -120,7 +120,8 @@ TEST(SceneOfLoadsError, NamesWhatASupportCannotBe)
             "scene.toml:18: support.type = \"hinged\": must be one of \"clamped\", "
             "\"simply-supported\", \"symmetry\"");
   EXPECT_EQ(error_of(support + "group = \"disc\"\ndofs = [\"x\", \"w\"]\n"),
-            "scene.toml:18: support.dofs[2] = \"w\": must be one of x, y, z, rx, ry, rz");
+            "scene.toml:18: support.dofs[2] = \"w\": must be one of \"x\", \"y\", \"z\", "
+            "\"rx\", \"ry\", \"rz\"");
   EXPECT_EQ(error_of(support + "group = \"disc\"\ntype = \"clamped\"\ndofs = [\"x\"]\n"),
             "scene.toml:19: support.dofs = [ 'x' ]: give exactly one of type, dofs");
   EXPECT_EQ(error_of(support + "group = \"disc\"\ntype = \"symmetry\"\n"),
@@ -153,6 +154,9 @@ TEST(SceneOfLoads, ReadsProfilesOfSections)
   EXPECT_EQ(thickness.over, plate::Coordinate::radius);
   EXPECT_EQ(thickness.values, (std::vector<double>{0.02, 0.015}));
   EXPECT_EQ(scene.sections[0].offset, -0.01);
+  const Scene by_formula =
+      parse_scene(replaced(plate, "0.02\n", "\"0.02 * radius\"\n") + "[static]\n", "s.toml");
+  EXPECT_EQ(by_formula.sections[0].thickness.formula, "0.02 * radius");
   const auto error = [&](const std::string& part, const std::string& wrong) {
     return error_of(replaced(plate, "0.02\n", replaced(table, part, wrong) + "\n") + "[static]\n");
   };

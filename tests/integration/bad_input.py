@@ -45,10 +45,35 @@ $Elements
 12 3 2 1 1 2 5 6 3
 $EndElements
 """
+# One solid, and a quadrilateral whose group no section names beside one that has a section.
+SOLID_MSH = FOLDED_MSH[: FOLDED_MSH.index("$Elements")] + "$Elements\n1\n1 4 2 1 1 1 2 3 6\n$EndElements\n"
+TWO_GROUPS_MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+0 7 "loose"
+2 1 "disc"
+2 2 "spare"
+$EndPhysicalNames
+""" + (
+    FOLDED_MSH[FOLDED_MSH.index("$Nodes") :]
+    .replace("6 1.2 0.2 0", "6 2 1 0")
+    .replace("12 3 2 1 1 ", "12 3 2 2 2 ")
+)
+LOOSE_MSH = (
+    TWO_GROUPS_MSH.replace("12 3 2 2 2 ", "12 3 2 1 1 ")
+    .replace("6\n1 0", "7\n1 0")
+    .replace("$EndNodes", "7 9 9 0\n$EndNodes")
+    .replace("$Elements\n2", "$Elements\n3\n10 15 2 7 7 7")
+)
 MESH_FILES = {
     "plate.geo": PLATE_GEO,
     "folded.msh": FOLDED_MSH,
     "cut_off.msh": FOLDED_MSH[:-30],
+    "solid.msh": SOLID_MSH,
+    "two_groups.msh": TWO_GROUPS_MSH,
+    "loose.msh": LOOSE_MSH,
     "crack.msh": FOLDED_MSH.replace("6 1.2 0.2 0", "6 2 1 0")
     .replace("6\n1 0", "7\n1 0")
     .replace("$EndNodes", "7 1 1 0\n$EndNodes")
@@ -70,6 +95,14 @@ def with_mesh_file(name):
     return scene.replace('nodes = ["track", "hub"]', 'nodes = ["hub"]')
 
 
+def without_hub(name):
+    """The same without the coupling; the edge is named elsewhere only."""
+    scene = with_mesh_file(name)
+    return scene.replace(scene[scene.index("[[coupling]]") : scene.index("[interface]")], "")
+
+
+LOOSE = '[[coupling]]\ntype = "rigid"\nname = "hub"\ngroup = "loose"\n[interface]'
+
 # mistake, scene (None: no file), words of the message
 SCENES = [
     ("missing scene file", None, ["scene.toml"]),
@@ -89,6 +122,12 @@ SCENES = [
     ("mistyped key", changed("thickness = 0.02", "thicknes = 0.02"), ["thicknes", "thickness"]),
     ("wrong type", changed("young = 9.15915e10", 'young = "soft"'), ["young", "soft"]),
     ("value without sense", changed("poisson = 0.3", "poisson = 0.6"), ["poisson", "0.6"]),
+    ("zero thickness", changed("thickness = 0.02", "thickness = 0.0"), ["thickness", "0"]),
+    ("formula that is none", changed("thickness = 0.02", 'thickness = "0.02 * raduis"'), ["raduis", "radius"]),
+    ("formula that is zero", changed("thickness = 0.02", 'thickness = "0.02 - 0.2 * x"'), ["disc", "node", "0.02 - 0.2 * x"]),
+    ("mesh of solids", with_mesh_file("solid.msh"), ["solid.msh", "1 solid", "mid-surface"]),
+    ("group without a section", without_hub("two_groups.msh"), ["element 12", "section"]),
+    ("coupling of a free node", without_hub("loose.msh").replace("[interface]", LOOSE), ["loose"]),
     ("negative thickness", changed("thickness = 0.02", "thickness = -0.02"), ["thickness"]),
 ]
 HELD = '[[support]]\ngroup = "outer_edge"\ntype = "clamped"\n'

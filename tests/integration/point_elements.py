@@ -3,6 +3,7 @@
 Usage: point_elements.py PROGRAM_DIR MPIRUN
 """
 
+import json
 import subprocess
 import sys
 import tempfile
@@ -64,8 +65,8 @@ keep = {{ modes = 5 }}
 """
 
 
-def own_frequencies():
-    """Of the same model in (w, theta_y), from matrices that stand here."""
+def own_matrices():
+    """Of the same model in (w, theta_y), held at its start."""
     h = 1 / N
     k = np.array([[12, -6 * h, -12, -6 * h], [-6 * h, 4 * h**2, 6 * h, 2 * h**2],
                   [-12, 6 * h, 12, 6 * h], [-6 * h, 2 * h**2, 6 * h, 4 * h**2]]) / h**3  # fmt: skip
@@ -82,8 +83,13 @@ def own_frequencies():
     B = np.zeros(len(K))
     B[[N, N + 1, 2 * N, 2 * N + 1]] = -1, 0.25, 1, 0.25
     K += BETWEEN * np.outer(B, B)
-    L = np.linalg.cholesky(K[2:, 2:])
-    A = np.linalg.solve(L, np.linalg.solve(L, M[2:, 2:]).T)
+    return K[2:, 2:], M[2:, 2:]
+
+
+def own_frequencies():
+    K, M = own_matrices()
+    L = np.linalg.cholesky(K)
+    A = np.linalg.solve(L, np.linalg.solve(L, M).T)
     return 1 / np.sqrt(np.linalg.eigvalsh((A + A.T) / 2)[::-1][:5])
 
 
@@ -97,6 +103,30 @@ def body(programs, mpirun, ranks, folder):
     with h5py.File(folder / "beam.body.h5") as f:
         x, u = f["picture/positions"][:, 0], f["picture/displacements"][2::3]
         return f["modes/frequencies"][:], f["modes/damping"][:], u[np.abs(x - 0.5).argmin()]
+
+
+def direct(programs, mpirun, ranks, folder):
+    """Frequencies of `modes`, and the deflection that `static` finds under a tip force of 1 N."""
+    held = '[[support]]\ngroup = "start"\ntype = "clamped"\n[modes]\ncount = 5\n'
+    load = '[[load]]\ntype = "force"\ngroup = "end"\nforce = [0.0, 0.0, 1.0]\n[static]\nreport = ["end"]\n'
+    (folder / "scene.toml").write_text(SCENE[: SCENE.index("[interface]")] + held + load)
+    found = {}
+    for command in ("modes", "static"):
+        call = [mpirun, "--oversubscribe", "-n", str(ranks), programs / "chladni", command, "scene.toml",
+                "--json", f"{command}.json"]  # fmt: skip
+        subprocess.run(call, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        found[command] = json.loads((folder / f"{command}.json").read_text())
+    omega = 2 * np.pi * np.array(found["modes"]["frequencies_Hz"])
+    return omega, found["static"]["motions"]["end"][0]["motion"][2]
+
+
+def complaints_of_direct(omega, deflection):
+    K, _ = own_matrices()
+    exact = np.linalg.solve(K, np.eye(len(K))[-2])[-2]
+    for name, value, expected in (("frequencies", omega, own_frequencies()), ("deflection", deflection, exact)):
+        error = np.max(np.abs(value / expected - 1))
+        if not error < 1e-8:  # round-off times the condition of K
+            yield f"{name} of the model itself differ by {error:.1e}"
 
 
 def complaints(omega, C, middle):
@@ -115,8 +145,10 @@ def main(programs, mpirun):
     for ranks in (1, 2):
         with tempfile.TemporaryDirectory() as folder:
             omega, C, middle = body(programs, mpirun, ranks, Path(folder))
+            alone = direct(programs, mpirun, ranks, Path(folder))
         print(f"{ranks} ranks: omega = {omega}")
         bad += [f"{ranks} ranks: {text}" for text in complaints(omega, C, middle)]
+        bad += [f"{ranks} ranks: {text}" for text in complaints_of_direct(*alone)]
     if bad:
         sys.exit("FAILED: " + "; ".join(bad))
 

@@ -83,7 +83,11 @@ ReducedSystem version_1_reduced()
   reduced.picture = some_picture(n);
   reduced.certificate = {.fixed = {"ends.z"},
                          .frequencies = Eigen::Vector2d(300.0, 500.0),
-                         .eta2 = Eigen::Vector2d(1e-9, 1.0 / 3e6)};
+                         .eta2 = Eigen::Vector2d(1e-9, 1.0 / 3e6),
+                         .bounds = {},
+                         .fixed_interface = {},
+                         .range = {},
+                         .complete = {}};
   reduced.resultants = {some_resultants(n)};
   reduced.mass_integrals = some_integrals(n);
   reduced.provenance = some_provenance();

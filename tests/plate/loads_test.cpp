@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "mesh/partition.hpp"
-#include "plate/free_motions.hpp"
 #include "plate/supports.hpp"
 #include "small_disc.hpp"
 #include "square_plate.hpp"
@@ -162,66 +161,6 @@ TEST(HeldDofs, NameTheCouplingThatANodeFollows)
     FAIL() << "a dependent node was held";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("\"hub\" instead"), std::string::npos) << error.what();
-  }
-}
-
-TEST(FreeParts, FindTheSixMotionsOfAFreeBody)
-{
-  const Model disc = disc_with_hub();
-  const auto parts = free_parts(disc.mesh, disc.system, {});
-  ASSERT_EQ(parts.size(), 1u);
-  EXPECT_EQ(n_free_motions(parts), 6);
-}
-
-TEST(FreeParts, NameWhatSupportsLeaveFree)
-{
-  const Model plate = plate_model();
-  const auto free = [&](const std::vector<Support>& supports) {
-    return free_parts(plate.mesh, plate.system, held_dofs(plate.mesh, plate.system.dofs, supports));
-  };
-  EXPECT_TRUE(free({{.group = "left", .components = all_components}}).empty());
-  EXPECT_TRUE(free({{.group = "corner", .components = all_components}}).empty());
-  const auto in_plane = free({{.group = "left", .components = {2, 4}}});
-  ASSERT_EQ(n_free_motions(in_plane), 3);
-  EXPECT_EQ(describe_motions(in_plane[0]),
-            "3 ways (translation along x, translation along y, rotation about z)");
-  const auto hinged = free({{.group = "left", .components = {0, 1, 2}}});
-  EXPECT_EQ(n_free_motions(hinged), 1);  // about the left edge
-}
-
-TEST(FreeParts, FindAPartThatNothingConnects)
-{
-  mesh::Mesh mesh = testing::rectangle({.a = 2.0, .b = 1.0, .n_x = 4, .n_y = 3, .order = 2});
-  const mesh::Mesh other = mesh;
-  const int n = mesh.n_nodes();
-  for (auto x : other.positions) mesh.positions.push_back({x[0] + 10.0, x[1], x[2]});
-  for (const auto number : other.node_numbers) mesh.node_numbers.push_back(n + number);
-  for (const int node : other.blocks[0].nodes) mesh.blocks[0].nodes.push_back(n + node);
-  for (const auto number : other.blocks[0].numbers) mesh.blocks[0].numbers.push_back(12 + number);
-  for (const int group : other.blocks[0].group) mesh.blocks[0].group.push_back(group);
-  const Model two =
-      model_of(std::move(mesh), {.group = "plate", .material = material, .thickness = 0.05});
-  const auto parts =
-      free_parts(two.mesh, two.system,
-                 held_dofs(two.mesh, two.system.dofs,
-                           std::vector<Support>{{.group = "left", .components = all_components}}));
-  ASSERT_EQ(parts.size(), 1u);
-  EXPECT_EQ(parts[0].n_nodes, n);
-  EXPECT_NEAR(parts[0].centre.x(), 11.0, round_off);
-}
-
-TEST(StiffnessOfAllNodes, NamesANodeWithoutElement)
-{
-  mesh::Mesh mesh = testing::rectangle({.a = 2.0, .b = 1.0, .n_x = 4, .n_y = 3, .order = 2});
-  mesh.positions.push_back({0.0, 0.0, 1.0});
-  mesh.node_numbers.push_back(4711);
-  const std::vector<int> owners(mesh.n_nodes(), 0);
-  const DofMap map = make_dof_map(mesh, {}, owners, 1);
-  try {
-    check_stiffness_of_all_nodes(mesh, map);
-    FAIL() << "the node was not found";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("node 4711"), std::string::npos) << error.what();
   }
 }
 

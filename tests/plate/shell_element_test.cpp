@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "common/error.hpp"
+#include "plate/plane_element.hpp"
 #include "sample_elements.hpp"
 
 namespace chladni::plate {
@@ -82,6 +83,37 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{Shape::quadrilateral, 3}, std::pair{Shape::quadrilateral, 4},
                       std::pair{Shape::triangle, 1}, std::pair{Shape::triangle, 2},
                       std::pair{Shape::triangle, 3}));
+
+/// Quadrilaterals that are computed in their plane, where bending and membrane are independent.
+class PlaneElement : public ::testing::TestWithParam<int> {};
+
+TEST_P(PlaneElement, IsTheCurvedOneWhereThatIsFlat)
+{
+  const Eigen::MatrixX2d P = testing::lattice(Shape::quadrilateral, GetParam());
+  ShellNodes flat{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
+  for (Eigen::Index k = 0; k < P.rows(); ++k) {
+    const double r = P(k, 0), s = P(k, 1);
+    flat.x.row(k) << r + 0.1 * s * s + 0.2 * r * s, 0.8 * s + 0.2 * r, 0.0;
+  }
+  flat.D.col(2).setConstant(0.15);
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  for (const Eigen::Matrix3d& turn : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), R}) {
+    const ShellNodes plane = testing::rotated(flat, turn);
+    // The least curvature that takes the element out of its plane.
+    ShellNodes bent = flat;
+    for (Eigen::Index k = 0; k < P.rows(); ++k) bent.x(k, 2) = 1e-9 * P(k, 0) * P(k, 0);
+    bent = testing::rotated(bent, turn);
+    ASSERT_TRUE(in_its_plane(plane).has_value());
+    ASSERT_FALSE(in_its_plane(bent).has_value());
+    const ElementMatrices A = shell_matrices(Shape::quadrilateral, GetParam(), plane, steel_like);
+    const ElementMatrices B = shell_matrices(Shape::quadrilateral, GetParam(), bent, steel_like);
+    EXPECT_LT((A.K - B.K).cwiseAbs().maxCoeff(), 1e-8 * A.K.cwiseAbs().maxCoeff());
+    EXPECT_LT((A.M - B.M).cwiseAbs().maxCoeff(), 1e-8 * A.M.cwiseAbs().maxCoeff());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, PlaneElement, ::testing::Values(2, 3, 4));
 
 TEST(ShellElement, RefusesAnOrderThatDoesNotExist)
 {

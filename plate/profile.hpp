@@ -1,0 +1,13 @@
+#pragma once
+
+#include <array>
+
+#include "plate/plate_options.hpp"
+
+namespace chladni::plate {
+
+/// The value of a profile at a place of the model, m.
+/// @throws chladni::Error when a formula cannot be read, or is no finite number there.
+double value_at(const Profile& profile, const std::array<double, 3>& position);
+
+}  // namespace chladni::plate

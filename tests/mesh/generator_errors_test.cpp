@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "common/error.hpp"
+#include "generated.hpp"
+#include "mesh/rings.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+using testing::hat_options;
+using testing::radius;
+
+std::string error_of(const auto& generate)
+{
+  try {
+    generate();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// The message of a hat disc with one change.
+std::string hat_error(const std::function<void(HatDiscOptions&)>& change)
+{
+  HatDiscOptions options = hat_options(Pattern::structured, 2);
+  change(options);
+  return error_of([&] { hat_disc(options); });
+}
+
+TEST(HatDisc, NamesTheLengthsThatDoNotFit)
+{
+  EXPECT_EQ(hat_error([](auto& o) { o.hub_radius = 0.09; }),
+            "hat_disc: hub_radius = 0.09 m must be less than top_radius = 0.07 m");
+  EXPECT_EQ(hat_error([](auto& o) { o.foot = 0.06; }),
+            "hat_disc: foot = 0.06 m must be less than height = 0.05 m");
+  EXPECT_NE(hat_error([](auto& o) { o.rings[0].radius = 0.158; }).find("ring \"track\""),
+            std::string::npos);
+  EXPECT_NE(hat_error([](auto& o) { o.edge_row = 0.05; }).find("edge_row"), std::string::npos);
+  EXPECT_NE(hat_error([](auto& o) { o.rings[1].nodes = 37; }).find("asks for 1332 structured"),
+            std::string::npos);
+  EXPECT_NE(hat_error([](auto& o) {
+              o.bolts = {.count = 5, .circle_radius = 0.05, .hole_radius = 0.006};
+            }).find("pattern"),
+            std::string::npos);
+}
+
+TEST(Pad, NamesTheLengthsThatDoNotFit)
+{
+  const auto error = [](double outer_radius, double angle, double size) {
+    return error_of([&] {
+      pad({.inner_radius = 0.1,
+           .outer_radius = outer_radius,
+           .angle = angle,
+           .element_size = size});
+    });
+  };
+  EXPECT_NE(error(0.05, 1.0, 0.01).find("inner_radius < outer_radius"), std::string::npos);
+  EXPECT_NE(error(0.15, 4.0, 0.01).find("angle"), std::string::npos);
+  EXPECT_NE(error(0.15, 1.0, 0.1).find("element_size"), std::string::npos);
+}
+
+TEST(Rings, AskForZWhereTheHatStandsAboveTheirCircle)
+{
+  Mesh mesh = hat_disc(hat_options(Pattern::structured, 1));
+  const auto ring = [&](std::optional<double> z) {
+    return error_of([&] {
+      Mesh copy = mesh;
+      const RingOptions options{.name = "seat", .radius = 0.08, .nodes = 12, .z = z};
+      add_rings(copy, std::span(&options, 1));
+    });
+  };
+  EXPECT_NE(ring(std::nullopt).find("say which with z"), std::string::npos);
+  EXPECT_EQ(ring(0.01), "no error");
+}
+
+}  // namespace
+}  // namespace chladni::mesh
