@@ -470,8 +470,8 @@ TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
 TEST(SceneError, NamesPlaceAndTypeOfAValue)
 {
   expect_messages({
-      {"thickness = 0.02", "thickness = \"0.02\"",
-       "scene.toml:17: section.thickness = \"0.02\": must be a number > 0 (m)"},
+      {"density = 6300.0", "density = \"6300.0\"",
+       "scene.toml:12: material.iron.density = \"6300.0\": must be a number > 0 (kg/m^3)"},
       {"modes = 100", "modes = 1e2",
        "scene.toml:26: reduce.modes = 100: must be a whole number > 0"},
       {"title = \"Disc\"", "title = 3", "scene.toml:1: title = 3: must be a text in quotes"},
