@@ -44,6 +44,7 @@ void check_loads(const Scene& scene)
 Found solve(const Scene& scene, const SupportedModel& model)
 {
   const petsc::Vector f = plate::load_vector(model.mesh, model.system, scene.loads);
+  check_supported(scene, model);
   const reduce::StaticSolution solution =
       reduce::static_solution(model.system.K, f, reduce::free_dofs(model.system.K, model.held));
   Found found;
@@ -128,7 +129,6 @@ void static_command(const ChladniArguments& arguments)
   const ReduceProgress silent;
   Phases phases(silent);
   const SupportedModel model = supported_model(scene, phases);
-  check_supported(scene, model);
   const Found found = phases.run("solution", [&] { return solve(scene, model); });
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");

@@ -113,8 +113,8 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  const bool needs_whole = scene.sylvester || wants_full_responses(scene) ||
-                           is_free_interface(scene.reduce.method);
+  const bool needs_whole =
+      scene.sylvester || wants_full_responses(scene) || is_free_interface(scene.reduce.method);
   if (!needs_whole) {  // the blocks are enough
     fe.system.K = {};
     fe.system.M = {};

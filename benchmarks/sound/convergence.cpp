@@ -130,7 +130,8 @@ Eigen::MatrixX3d listeners()
 {
   Eigen::MatrixX3d x(40, 3);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    const double theta = 0.05 + 1.4 * double(i % 10) / 9.0, R = 0.19 + 0.17 * double(i / 10);
+    const Eigen::Index ring = i / 10;
+    const double theta = 0.05 + 1.4 * double(i % 10) / 9.0, R = 0.19 + 0.17 * double(ring);
     const double phi = 0.7 * double(i);
     x.row(i) << R * std::sin(theta) * std::cos(phi), R * std::sin(theta) * std::sin(phi),
         R * std::cos(theta);

@@ -65,8 +65,7 @@ std::string read_benchmark(const std::string& file)
   text << stream.rdbuf();
   if (!stream) throw Error(fmt::format("{}: cannot be read", file));
   const auto json = nlohmann::json::parse(text.str(), nullptr, false);
-  if (!json.is_object() || !json.contains("studies") ||
-      !json["studies"].is_array()) {
+  if (!json.is_object() || !json.contains("studies") || !json["studies"].is_array()) {
     throw Error(
         fmt::format("{}: must be the end_to_end.json of `./dev bench`; docs/report.md "
                     "says what is read of it",

@@ -470,8 +470,8 @@ TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
 TEST(SceneError, NamesPlaceAndTypeOfAValue)
 {
   expect_messages({
-      {"density = 6300.0", "density = \"6300.0\"",
-       "scene.toml:12: material.iron.density = \"6300.0\": must be a number > 0 (kg/m^3)"},
+      {"thickness = 0.02", "thickness = true",
+       "scene.toml:17: section.thickness = true: must be a number > 0 (m)"},
       {"modes = 100", "modes = 1e2",
        "scene.toml:26: reduce.modes = 100: must be a whole number > 0"},
       {"title = \"Disc\"", "title = 3", "scene.toml:1: title = 3: must be a text in quotes"},
@@ -518,8 +518,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "pattern, rings"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
-       "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, spring, "
-       "squeal, static, support, title"},
+       "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, "
+       "spring, squeal, static, support, title"},
       {"count = 60", "count = 60, colour = 3",
        "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "
        "to_rad_s"},

@@ -98,7 +98,8 @@ def with_mesh_file(name):
 def without_hub(name):
     """The same without the coupling; the edge is named elsewhere only."""
     scene = with_mesh_file(name)
-    return scene.replace(scene[scene.index("[[coupling]]") : scene.index("[interface]")], "")
+    scene = scene.replace(scene[scene.index("[[coupling]]") : scene.index("[interface]")], "")
+    return scene.replace('["hub"]', '["disc"]')
 
 
 LOOSE = '[[coupling]]\ntype = "rigid"\nname = "hub"\ngroup = "loose"\n[interface]'

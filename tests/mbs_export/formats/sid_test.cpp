@@ -313,9 +313,9 @@ TEST(SidFem, SaysTheSameInBothDialects)
   const SidFile a = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
   const SidFile b = read_sid(sid_fem(floating, SidDialect::welib), SidDialect::welib);
   const MatrixXd six = a.blocks.at("J").at(q), J = b.blocks.at("J").at(q);
-  EXPECT_EQ(six(3, 0), J(1, 0));
-  EXPECT_EQ(six(4, 0), J(2, 0));
-  EXPECT_EQ(six(5, 0), J(2, 1));
+  EXPECT_DOUBLE_EQ(six(3, 0), J(1, 0));
+  EXPECT_DOUBLE_EQ(six(4, 0), J(2, 0));
+  EXPECT_DOUBLE_EQ(six(5, 0), J(2, 1));
   EXPECT_LT((J - J.transpose()).norm(), 1e-15);
   const MatrixXd Oe_a = a.blocks.at("Oe").at(q), Oe_b = b.blocks.at("Oe").at(q);
   EXPECT_EQ(VectorXd(Oe_a.col(4)), VectorXd(Oe_b.col(5)));
