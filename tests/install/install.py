@@ -50,7 +50,7 @@ def use_libraries(prefix, folder, body):
 
     build_consumer(LIBRARY / "light", folder / "light", prefix)
     cache = (folder / "light/CMakeCache.txt").read_text()
-    require("PETSC" not in cache and "MPI" not in cache, "find_package(chladni COMPONENTS squeal) asks for no PETSc")
+    require("PETSC" not in cache and "MPI_CXX" not in cache, "find_package(chladni COMPONENTS squeal) asks for no PETSc")
     linked = run("ldd", folder / "light/brake")
     require("petsc" not in linked and "mpi" not in linked, "nor does its program link it")
 

@@ -13,7 +13,7 @@ from pathlib import Path
 TUTORIAL = Path(__file__).parents[2] / "docs/tutorial.md"
 BLOCK = re.compile(r"^```(\w+) ?(\S*)\n(.*?)^```\n(?:\n```text\n.*?^```\n)?", re.M | re.S)
 # Times and memory differ from run to run.
-VOLATILE = re.compile(r"^(phase |.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
+VOLATILE = re.compile(r"^(phase |CPU of the factorisation|.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
 
 
 def shown(text):
