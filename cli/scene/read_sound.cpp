@@ -33,7 +33,7 @@ double thickness_of(const Table& root, const Scene& scene, const std::string& gr
 /// The middle surface of a generated disc.
 std::vector<MidLine> generated_lines(const Table& root, const Scene& scene)
 {
-  const auto line = [&](Vector2d from, Vector2d to, const char* group) {
+  const auto line = [&](const Vector2d& from, const Vector2d& to, const char* group) {
     return MidLine{.from = from, .to = to, .thickness = thickness_of(root, scene, group)};
   };
   if (const auto& disc = scene.mesh.annulus)
