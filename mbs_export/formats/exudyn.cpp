@@ -76,8 +76,8 @@ Matrix3d tilde(const Vector3d& a)
 
 /// Positions and shapes at the nodes, rows x, y, z of each in turn.
 struct Nodes {
-  VectorXd xRef;       ///< [3 nn]
-  MatrixXd modeBasis;  ///< [3 nn x nm]
+  VectorXd x_ref;       ///< [3 nn]
+  MatrixXd mode_basis;  ///< [3 nn x nm]
 };
 
 Nodes all_nodes(const ModalBody& body)
@@ -85,12 +85,12 @@ Nodes all_nodes(const ModalBody& body)
   const Index n_a = Index(body.attachment_nodes.size()), n_p = body.picture.positions.rows();
   Nodes nodes{VectorXd(3 * (n_a + n_p)), MatrixXd(3 * (n_a + n_p), body.n_modes())};
   for (Index i = 0; i < n_a; ++i) {
-    nodes.xRef.segment<3>(3 * i) = body.attachment_nodes[std::size_t(i)].position;
-    nodes.modeBasis.middleRows<3>(3 * i) = body.attachment_modes.middleRows<3>(6 * i);
+    nodes.x_ref.segment<3>(3 * i) = body.attachment_nodes[std::size_t(i)].position;
+    nodes.mode_basis.middleRows<3>(3 * i) = body.attachment_modes.middleRows<3>(6 * i);
   }
   if (n_p == 0) return nodes;
-  nodes.xRef.tail(3 * n_p) = body.picture.positions.reshaped<Eigen::RowMajor>();
-  nodes.modeBasis.bottomRows(3 * n_p) = body.picture.transformation;
+  nodes.x_ref.tail(3 * n_p) = body.picture.positions.reshaped<Eigen::RowMajor>();
+  nodes.mode_basis.bottomRows(3 * n_p) = body.picture.transformation;
   return nodes;
 }
 
@@ -176,13 +176,13 @@ void write_exudyn(const std::string& path, const FloatingBody& floating)
   Dictionary dictionary(path);
   dictionary.text("type", "ObjectFFRFreducedOrderInterface");
   dictionary.integer("fileVersion", 1);
-  dictionary.array("modeBasis", nodes.modeBasis);
-  dictionary.array("xRef", nodes.xRef);
+  dictionary.array("modeBasis", nodes.mode_basis);
+  dictionary.array("xRef", nodes.x_ref);
   dictionary.array("trigList", triangles(body));
   dictionary.empty_dictionary("postProcessingModes");
   dictionary.array("massMatrixReduced", MatrixXd::Identity(n, n));
   dictionary.array("stiffnessMatrixReduced", MatrixXd(body.omega.cwiseAbs2().asDiagonal()));
-  dictionary.list("infoList", {n, nodes.xRef.size() / 3, 3, n_rotation, n_rigid, n_rigid + n});
+  dictionary.list("infoList", {n, nodes.x_ref.size() / 3, 3, n_rotation, n_rigid, n_rigid + n});
   dictionary.text("rigidBodyNodeType", "NodeType.RotationEulerParameters");
   write_rigid_body(dictionary, *body.mass_integrals);
   write_products(dictionary, *body.mass_integrals);

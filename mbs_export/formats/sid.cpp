@@ -145,22 +145,22 @@ Taylor centrifugal(const MassIntegrals& integrals, SidDialect dialect)
   const Index n = integrals.displacement.cols();
   const auto S = [&](int k, int l) { return displacement_product(integrals, k, l); };
   const MatrixXd M = S(0, 0) + S(1, 1) + S(2, 2);
-  Taylor Oe{.M0 = MatrixXd(n, 6), .M1 = std::vector<MatrixXd>(std::size_t(n), MatrixXd(n, 6))};
+  Taylor O_e{.M0 = MatrixXd(n, 6), .M1 = std::vector<MatrixXd>(std::size_t(n), MatrixXd(n, 6))};
   for (Index c = 0; c < 6; ++c) {
     const auto [k, l] = axes[std::size_t(c)];
     const MatrixXd both = k == l ? MatrixXd(S(k, k) - M) : MatrixXd(S(k, l) + S(l, k));
     for (Index j = 0; j < n; ++j) {
       const Eigen::Matrix3d C4 = position_tilde_shape(integrals, j);
-      Oe.M0(j, c) = k == l ? C4(k, k) : C4(k, l) + C4(l, k);
-      Oe.M1[std::size_t(j)].col(c) = both.col(j);
+      O_e.M0(j, c) = k == l ? C4(k, k) : C4(k, l) + C4(l, k);
+      O_e.M1[std::size_t(j)].col(c) = both.col(j);
     }
   }
-  return Oe;
+  return O_e;
 }
 
 /// Cr(q) = int phi x~... to first order: Cr1_m(i, c) = int (phi_m x phi_i)_c dm, and Ge = 2 Cr1.
 struct Rotational {
-  Taylor Cr, Ge, Gr;
+  Taylor Cr, G_e, Gr;
 };
 
 Rotational rotational(const FloatingBody& floating, const MassIntegrals& integrals)
@@ -168,13 +168,13 @@ Rotational rotational(const FloatingBody& floating, const MassIntegrals& integra
   const Index n = integrals.displacement.cols();
   Rotational terms{.Cr = {.M0 = floating.angular_momentum.transpose(),
                           .M1 = std::vector<MatrixXd>(std::size_t(n), MatrixXd(n, 3))},
-                   .Ge = {MatrixXd(n, 3 * n)},
+                   .G_e = {MatrixXd(n, 3 * n)},
                    .Gr = {MatrixXd(3, 3 * n)}};
   for (int c = 0; c < 3; ++c) {
     const MatrixXd cross = cross_product(integrals, c);
     for (Index m = 0; m < n; ++m) {
       terms.Cr.M1[std::size_t(m)].col(c) = cross.row(m).transpose();
-      terms.Ge.M0.col(3 * m + c) = 2.0 * cross.row(m).transpose();
+      terms.G_e.M0.col(3 * m + c) = 2.0 * cross.row(m).transpose();
     }
   }
   for (Index j = 0; j < n; ++j)
@@ -231,7 +231,7 @@ std::string sid_fem(const FloatingBody& floating, SidDialect dialect)
   sid.taylor("Cr", terms.Cr);
   sid.taylor("Me", {MatrixXd::Identity(n, n)});
   sid.taylor("Gr", terms.Gr);
-  sid.taylor("Ge", terms.Ge);
+  sid.taylor("Ge", terms.G_e);
   sid.taylor("Oe", centrifugal(integrals, dialect));
   sid.taylor("ksigma", {MatrixXd::Zero(n, 1)});
   sid.taylor("Ke", {MatrixXd(body.omega.cwiseAbs2().asDiagonal())});
