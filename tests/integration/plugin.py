@@ -226,7 +226,7 @@ def matrix_market(plugin):
             (["60,61"], "master 60 is out of range; rows are 0 to 59"),
             (["60,60"], "master 59 is given twice"),
             (["60", "-cms_nmodes", "60"], "60 modes asked of 59 slaves"),
-            (["60", "-cms_type", "rubin"], "rubin"),
+            (["60", "-cms_type", "hintz"], "hintz"),
         ):
             for ranks in (1, 2):
                 text = plugin.run([*command, *change], ranks, code=1, folder=folder)
