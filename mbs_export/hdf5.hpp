@@ -41,7 +41,8 @@ class Writer {
   template <class Derived>
   void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)
   {
-    const RowMajorMatrix rows = x.template cast<double>();
+    RowMajorMatrix rows(x.rows(), x.cols());
+    rows = x.template cast<double>();
     if constexpr (Derived::IsVectorAtCompileTime)
       write_reals(name, rows.data(), {static_cast<std::uint64_t>(rows.size())}, unit);
     else
