@@ -18,10 +18,10 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST_IN_A_BATCH = 16
+sys.path.insert(0, str(ROOT / "cmake"))
+from batches import batches  # noqa: E402
+
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
-HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
-NAME = re.compile(r"^(?:struct|class|enum class|enum) (\w+)|^[^ \n}/#{u][^\n(={\[;]*?\b(\w+)(?=[({\[;]| =)", re.M)
 
 
 def headers_of(path, seen):
@@ -40,27 +40,6 @@ def key_of(path):
     rules = [folder / ".clang-tidy" for folder in [ROOT, *path.parents] if (folder / ".clang-tidy").is_file()]
     text = b"".join(p.read_bytes() for p in [*sorted(seen), *rules, pathlib.Path(__file__)])
     return hashlib.sha256(str(path.relative_to(ROOT)).encode() + text).hexdigest()[:32]
-
-
-def hidden_names(path):
-    """Names in the unnamed namespaces of a file: two files that share one cannot be read together."""
-    found = HIDDEN.findall(path.read_text(encoding="utf-8"))
-    return {name for text in found for pair in NAME.findall(text) for name in pair if name}
-
-
-def batches(paths, flags):
-    """Files of one folder with the same flags and without common hidden names."""
-    made = []
-    for path in paths:
-        names, own = hidden_names(path), (path.parent, tuple(flags[path]))
-        for batch in made:
-            if batch["own"] == own and len(batch["paths"]) < MOST_IN_A_BATCH and not batch["names"] & names:
-                batch["paths"].append(path)
-                batch["names"] |= names
-                break
-        else:
-            made.append({"own": own, "paths": [path], "names": names})
-    return [batch["paths"] for batch in made]
 
 
 def flags_of(entry):
@@ -112,9 +91,10 @@ def main():
     # What is not built here, for want of an optional library, cannot be read either.
     paths = [p for p in (pathlib.Path(name).resolve() for name in sys.argv[2:]) if p in flags]
     paths = [p for p in paths if not (folder / key_of(p)).exists()]
+    groups = batches(paths, lambda path: (path.parent, *flags[path]))
     wrong = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
-        for found in workers.map(lambda batch: tidy(batch, flags, folder), batches(paths, flags)):
+        for found in workers.map(lambda batch: tidy(batch, flags, folder), groups):
             if found:
                 wrong = True
                 print(found, file=sys.stderr, flush=True)
