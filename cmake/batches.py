@@ -15,14 +15,16 @@ MOST = 12
 HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)")
 ALIAS = re.compile(r"using (\w+) = (.*);")
+USING = re.compile(r"^using ([\w:]+::(\w+));", re.M)
 CONSTANT = re.compile(r"(\w+)(?: = |\{|\[)")
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 
 
 def hidden_names(path):
-    """{name: what it is} of the unnamed namespaces of a file; equal aliases may stand in two files."""
-    names = {}
-    for text in HIDDEN.findall(pathlib.Path(path).read_text(encoding="utf-8")):
+    """{name: what it is} of what a file declares for itself; equal aliases may stand in two files."""
+    whole = pathlib.Path(path).read_text(encoding="utf-8")
+    names = {name: what for what, name in USING.findall(whole)}
+    for text in HIDDEN.findall(whole):
         for line in text.splitlines():
             if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):
                 continue
