@@ -91,6 +91,12 @@ BENCHMARKS = [
      "reduction_accuracy"),
     ("peers", "Reduction beside other programs",
      script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
+    ("calculix", "Modes beside CalculiX",
+     script("reduction/calculix.py", ("--modes", "20", "--around", "60", "--across", "12")),
+     "reduction_calculix"),
+    ("many-modes", "Many modes",
+     script("reduction/many_modes.py", ("--size", "0.02", "--modes", "60", "--cut", "5"),
+            ("--modes", "100", "500", "--cut", "5")), "reduction_many_modes"),
     ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
     ("sound", "Sound", sound, "sound_benchmarks"),
@@ -163,6 +169,11 @@ def markdown(results):
     return "\n".join(lines)
 
 
+def write(out, results):
+    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
+    (out / "results.md").write_text(markdown(results), encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -179,8 +190,7 @@ def main():
     for name, title, work, stem in BENCHMARKS:
         if not arguments.only or name in arguments.only:
             results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
-    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    (out / "results.md").write_text(markdown(results), encoding="utf-8")
+            write(out, results)
     if not arguments.quick:
         claims.put_into(ROOT / "README.md", results["benchmarks"])
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0

@@ -26,6 +26,8 @@ function(chladni_batches target)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${number})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A name inside a function may be a hidden one of another source.
+  target_compile_options(${target} PRIVATE -Wno-shadow)
 endfunction()
 
 function(chladni_warnings target)
