@@ -19,45 +19,58 @@ struct SplitRows {
   std::vector<double> other_value;
 };
 
-/// Turns the sums over a pattern into rows of scalars without zeros off the diagonal. The values
-/// stay in the memory of the sums, since what is touched for the first time takes longest: a node's
-/// rows never hold more than its blocks.
-/// @param held    of each block the components (n * i + j), the diagonal among them
-/// @param values  [n_blocks x n_held]
-SplitRows split_rows(const BlockPattern& pattern, const std::vector<int>& held,
-                     std::vector<double> values)
+/// Sums over a pattern.
+struct HeldBlocks {
+  const BlockPattern& pattern;
+  const std::vector<int>& held;               ///< n * i + j of blocks that do not hold all
+  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1]
+};
+
+/// Calls visit(j, value) for the entries that row i of a block holds.
+template <typename Visit>
+void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, const Visit& visit)
 {
+  const int n = blocks.pattern.n;
+  if (std::ssize(block) == std::ptrdiff_t(n) * n) {
+    for (int j = 0; j < n; ++j) visit(j, block[i * n + j]);
+    return;
+  }
+  for (std::size_t s = 0; s < block.size(); ++s)
+    if (blocks.held[s] / n == i) visit(blocks.held[s] % n, block[s]);
+}
+
+/// Turns the sums over a pattern into rows of scalars without zeros off the diagonal. The values
+/// stay in the memory of the sums: the rows of a node never have more than its blocks hold.
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values)
+{
+  const auto& [pattern, held, offset] = blocks;
   const int n = pattern.n;
-  const std::ptrdiff_t n_held = std::ssize(held);
   SplitRows rows;
   rows.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
   PetscInt count = 0;
   std::vector<double> of_node;
   for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
     const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
-    of_node.assign(values.begin() + begin * n_held, values.begin() + end * n_held);
-    std::ptrdiff_t s_begin = 0;
+    of_node.assign(values.begin() + offset[begin], values.begin() + offset[end]);
     for (int i = 0; i < n; ++i) {
-      const std::ptrdiff_t s_end = std::ranges::lower_bound(held, n * (i + 1)) - held.begin();
       for (std::ptrdiff_t k = begin; k < end; ++k) {
-        const double* of_block = of_node.data() + (k - begin) * n_held;
+        const std::span<const double> block(of_node.data() + offset[k] - offset[begin],
+                                            static_cast<std::size_t>(offset[k + 1] - offset[k]));
         const PetscInt own_node = pattern.column[k] - pattern.first;
         if (own_node >= 0 && own_node < pattern.n_rows()) {
-          for (std::ptrdiff_t s = s_begin; s < s_end; ++s) {  // zeros are overwritten by the next
-            const PetscInt column = n * own_node + held[s] - n * i;
-            rows.column[count] = column;
-            values[static_cast<std::size_t>(count)] = of_block[s];
-            count += static_cast<PetscInt>(of_block[s] != 0.0 || column == n * node + i);
-          }
+          for_held(block, i, blocks, [&](int j, double value) {  // the next overwrites a zero
+            rows.column[count] = n * own_node + j;
+            values[static_cast<std::size_t>(count)] = value;
+            count += static_cast<PetscInt>(value != 0.0 || (own_node == node && i == j));
+          });
           continue;
         }
-        for (std::ptrdiff_t s = s_begin; s < s_end; ++s) {
-          if (of_block[s] == 0.0) continue;
-          rows.other_column.push_back(n * pattern.column[k] + held[s] - n * i);
-          rows.other_value.push_back(of_block[s]);
-        }
+        for_held(block, i, blocks, [&](int j, double value) {
+          if (value == 0.0) return;
+          rows.other_column.push_back(n * pattern.column[k] + j);
+          rows.other_value.push_back(value);
+        });
       }
-      s_begin = s_end;
       rows.start.push_back(count);
       rows.other_start.push_back(static_cast<PetscInt>(rows.other_column.size()));
     }
@@ -93,7 +106,7 @@ petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
 }
 
 /// Bit n * i + j: some block of the transposed matrix has an entry (i, j).
-std::uint64_t components_of(const Eigen::MatrixXd& A_e, int n)
+std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
 {
   std::uint64_t found = 0;
   for (int j = 0; j < n; ++j) {
@@ -140,40 +153,79 @@ std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
 
 void BlockRows::widen(std::uint64_t components)
 {
-  for (int i = 0; i < pattern_.n; ++i) components |= std::uint64_t{1} << (pattern_.n + 1) * i;
-  std::vector<int> held;
-  for (int c = 0; c < pattern_.n * pattern_.n; ++c)
-    if (((components_ | components) >> c & 1) != 0) held.push_back(c);
+  const int n = pattern_.n;
+  for (int i = 0; i < n; ++i) components |= std::uint64_t{1} << (n + 1) * i;
+  std::vector<int> held, place;  // place in the new ones of each that was held
+  for (int c = 0; c < n * n; ++c) {
+    if (((components_ | components) >> c & 1) == 0) continue;
+    if ((components_ >> c & 1) != 0) place.push_back(static_cast<int>(held.size()));
+    held.push_back(c);
+  }
   if (held.size() == held_.size()) return;
-  std::vector<double> values(pattern_.column.size() * held.size(), 0.0);
-  for (std::size_t s = 0; s < held_.size(); ++s) {
-    const auto t =
-        static_cast<std::size_t>(std::ranges::lower_bound(held, held_[s]) - held.begin());
-    for (std::size_t k = 0; k < pattern_.column.size(); ++k)
-      values[k * held.size() + t] = values_[k * held_.size() + s];
+  const auto is_full = [&](PetscInt node) {
+    return std::ranges::binary_search(pattern_.full, node);
+  };
+  std::vector<std::ptrdiff_t> offset{0};
+  for (PetscInt row = 0; row < pattern_.n_rows(); ++row) {
+    const bool whole_row = is_full(pattern_.first + row);
+    for (std::ptrdiff_t k = pattern_.start[row]; k < pattern_.start[row + 1]; ++k) {
+      const bool all = whole_row || is_full(pattern_.column[k]);
+      offset.push_back(offset.back() + (all ? std::ptrdiff_t(n) * n : std::ssize(held)));
+    }
+  }
+  std::vector<double> values(static_cast<std::size_t>(offset.back()), 0.0);
+  for (std::ptrdiff_t k = 0; k + 1 < std::ssize(offset_); ++k) {
+    const double* from = values_.data() + offset_[k];
+    double* to = values.data() + offset[k];
+    if (holds_all(k)) {
+      std::copy(from, from + std::ptrdiff_t(n) * n, to);
+      continue;
+    }
+    for (std::size_t s = 0; s < place.size(); ++s) to[place[s]] = from[s];
   }
   components_ |= components;
   held_ = std::move(held);
+  offset_ = std::move(offset);
   values_ = std::move(values);
+}
+
+void BlockRows::make_room(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
+{
+  if ((components_of(A_e, pattern_.n) & ~components_) == 0 && !offset_.empty()) return;
+  if (offset_.empty()) widen(0);
+  const int n = pattern_.n;
+  const Eigen::Index n_nodes = A_e.rows() / n;
+  std::uint64_t components = 0;
+  for (Eigen::Index a = 0; a < n_nodes; ++a) {
+    for (Eigen::Index b = 0; b < n_nodes; ++b) {
+      const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
+      if (place >= 0 && !holds_all(place))
+        components |= components_of(A_e.block(n * b, n * a, n, n), n);
+    }
+  }
+  if ((components & ~components_) != 0) widen(components);
 }
 
 void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
 {
   const int n = pattern_.n;
   const Eigen::Index n_nodes = A_e.rows() / n;
-  const std::uint64_t components = components_of(A_e, n);
-  if ((components & ~components_) != 0) widen(components);
+  make_room(A_e, places);
   // A column of the transposed block is a row, and contiguous.
-  std::vector<Eigen::Index> offset(held_.size());
+  std::vector<Eigen::Index> distance(held_.size());
   for (std::size_t s = 0; s < held_.size(); ++s)
-    offset[s] = held_[s] / n * A_e.outerStride() + held_[s] % n;
+    distance[s] = held_[s] / n * A_e.outerStride() + held_[s] % n;
   for (Eigen::Index a = 0; a < n_nodes; ++a) {
     for (Eigen::Index b = 0; b < n_nodes; ++b) {
       const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
       if (place < 0) continue;
-      double* block = values_.data() + place * std::ssize(held_);
+      double* block = values_.data() + offset_[place];
+      if (holds_all(place)) {
+        Eigen::Map<Eigen::MatrixXd>(block, n, n) += A_e.block(n * b, n * a, n, n);
+        continue;
+      }
       const double* source = &A_e(n * b, n * a);
-      for (std::size_t s = 0; s < offset.size(); ++s) block[s] += source[offset[s]];
+      for (std::size_t s = 0; s < distance.size(); ++s) block[s] += source[distance[s]];
     }
   }
 }
@@ -181,7 +233,7 @@ void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> 
 petsc::Matrix BlockRows::to_matrix(MPI_Comm comm)
 {
   widen(0);  // a matrix without elements has its diagonal, too
-  SplitRows rows = split_rows(pattern_, held_, std::move(values_));
+  SplitRows rows = split_rows({pattern_, held_, offset_}, std::move(values_));
   petsc::Matrix A = matrix_of(std::move(rows), pattern_.n * pattern_.n_rows(), comm);
   petsc::check(MatSetBlockSize(A, pattern_.n));
   petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
