@@ -43,7 +43,8 @@ void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, co
 /// stay in the memory of the sums: the rows of a node never have more than its blocks hold.
 SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values)
 {
-  const auto& [pattern, held, offset] = blocks;
+  const BlockPattern& pattern = blocks.pattern;
+  const std::vector<std::ptrdiff_t>& offset = blocks.offset;
   const int n = pattern.n;
   SplitRows rows;
   rows.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
