@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 /// Before the shooting: three harmonics, for three to four digits.
-constexpr HarmonicResolution balanced{.n_harmonics = 3, .n_samples = 32, .tolerance = 1e-2};
+constexpr HarmonicResolution balanced{.n_harmonics = 3, .n_samples = 64, .tolerance = 1e-2};
 
 /// By harmonic balance, then by shooting; by shooting alone where the balance fails.
 std::optional<PeriodicOrbit> orbit_from(AutonomousMotion& motion, const HarmonicCycle& start)
