@@ -4,7 +4,7 @@
 usage: bench.py [--quick] [--only NAME ...] OUTPUT
 
 OUTPUT/results.json holds everything: machine, versions, commit, and of each benchmark its seconds, its
-JSON and its text. OUTPUT/results.md is made of it alone. With --quick small sizes are run, into a folder
+JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small sizes are run, into a folder
 of their own, to see that everything works; the figures that documents show come from full runs.
 """
 import argparse
@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import claims
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -150,7 +152,8 @@ def markdown(results):
              f"| commit | {results['commit']} |", f"| date | {results['date']} |",
              f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
              f"| system | {about['system']} |",
-             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", ""]
+             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", "",
+             "## In short", "", "The same table stands in README.md.", "", *claims.table(results["benchmarks"]), ""]
     for found in results["benchmarks"].values():
         if "failed" in found:
             lines += [f"## {found['title']}", "", "Failed:", "", "```", found["failed"], "```", ""]
@@ -178,6 +181,8 @@ def main():
             results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
     (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
     (out / "results.md").write_text(markdown(results), encoding="utf-8")
+    if not arguments.quick:
+        claims.put_into(ROOT / "README.md", results["benchmarks"])
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
 
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,13 +30,14 @@ std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
                                          std::span<const PetscInt> nodes);
 
 /// Sums of element matrices over a pattern. Each entry adds in the order of the calls, whatever
-/// rank the row is on.
+/// rank the row is on. Of each block only the components are held that some element has: half of K
+/// and a sixth of M for plane shells, and memory touched for the first time is what takes longest.
 class BlockRows {
  public:
-  explicit BlockRows(const BlockPattern& pattern);
+  explicit BlockRows(const BlockPattern& pattern) : pattern_(pattern) {}
 
   /// Adds the rows of `A_e` whose nodes are in the pattern.
-  /// @param A_e     symmetric, n rows for each of its nodes
+  /// @param A_e     symmetric, or the transposed of what is added; n rows for each of its nodes
   /// @param places  block_places of its nodes
   void add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
 
@@ -44,8 +46,13 @@ class BlockRows {
   petsc::Matrix to_matrix(MPI_Comm comm);
 
  private:
+  /// Makes room for components that no element had before.
+  void widen(std::uint64_t components);
+
   const BlockPattern& pattern_;
-  std::vector<double> values_;  ///< [n_blocks x n^2] each block by rows
+  std::uint64_t components_ = 0;  ///< bit n * i + j: blocks have an entry (i, j)
+  std::vector<int> held_;         ///< n * i + j of these, ascending
+  std::vector<double> values_;    ///< [n_blocks x n_held]
 };
 
 }  // namespace chladni::plate
