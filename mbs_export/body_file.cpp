@@ -49,6 +49,29 @@ void write_ring(hdf5::Writer& file, const ContactRing& ring)
                  {ring.W_t, "rad per unit of q"});
 }
 
+/// Largest difference of a stored Fourier coefficient from that of the values, over the largest of
+/// these: another order of summation changes 1e-15.
+constexpr double fourier_tolerance = 1e-9;
+
+/// The values at the nodes. The coefficients follow from them; a file in which they do not is
+/// damaged.
+MatrixXd read_quantity(const hdf5::Reader& file, const std::string& name, const VectorXd& angles,
+                       Index n_modes)
+{
+  const MatrixXd values = file.matrix(name, {angles.size(), n_modes});
+  const FourierCoefficients expected = fourier_coefficients(angles, values);
+  const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+  for (const auto& [suffix, coefficients] :
+       {std::pair{"_cosine", &expected.cosine}, std::pair{"_sine", &expected.sine}}) {
+    if (!file.contains(name + suffix)) continue;
+    const MatrixXd stored =
+        file.matrix(name + suffix, {coefficients->rows(), coefficients->cols()});
+    if (!((stored - *coefficients).cwiseAbs().array() <= fourier_tolerance * largest).all())
+      file.fail(name + suffix, "is not the Fourier coefficients of the values at the nodes");
+  }
+  return values;
+}
+
 ContactRing read_ring(const hdf5::Reader& file, const std::string& name, Index n_nodes,
                       Index n_modes)
 {
@@ -63,9 +86,9 @@ ContactRing read_ring(const hdf5::Reader& file, const std::string& name, Index n
                    .W_t = {}};
   const Index n = Index(ring.nodes.size());
   ring.angles = file.vector(group + "angles", n);
-  ring.W = file.matrix(group + "displacement", {n, n_modes});
-  ring.W_r = file.matrix(group + "radial_slope", {n, n_modes});
-  ring.W_t = file.matrix(group + "circumferential_slope", {n, n_modes});
+  ring.W = read_quantity(file, group + "displacement", ring.angles, n_modes);
+  ring.W_r = read_quantity(file, group + "radial_slope", ring.angles, n_modes);
+  ring.W_t = read_quantity(file, group + "circumferential_slope", ring.angles, n_modes);
   if (ring.radius <= 0.0) file.fail(group + "radius", "is not positive");
   if (n < 3 || !std::is_sorted(ring.angles.begin(), ring.angles.end()))
     file.fail(group + "angles", "expected three or more angles in ascending order");

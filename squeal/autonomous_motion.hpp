@@ -32,8 +32,8 @@ class AutonomousMotion : public SwitchedMotion {
   /// f(x) with the contact law as it is at x.
   Eigen::VectorXd rate_at(const Eigen::VectorXd& x)
   {
-    take_sides(0.0, x);
-    return rate(0.0, x);
+    const Eigen::VectorXd f = rate(0.0, x);
+    return take_sides_of_rate() ? rate(0.0, x) : f;
   }
 
  protected:

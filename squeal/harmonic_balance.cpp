@@ -11,7 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int newton_steps_max = 12;
+constexpr int newton_steps_max = 20;
+/// A derivative serves until a change is more than this part of the one before.
+constexpr double worn_out = 0.4;
 /// Largest change of X in one step, relative.
 constexpr double largest_change = 0.5;
 
@@ -48,29 +50,38 @@ Eigen::MatrixXd derivative(const Eigen::MatrixXd& X)
   return X_tau;
 }
 
-/// The residual omega X D - F P and its derivative by the entries of X, column after column.
-struct Balance {
-  Eigen::MatrixXd residual;  ///< [size x columns]
-  Eigen::MatrixXd J;         ///< [size columns x size columns]
-};
+/// The residual omega X D - F P.
+/// @return [size x columns]
+Eigen::MatrixXd residual_of(AutonomousMotion& motion, const HarmonicCycle& cycle,
+                            const Eigen::MatrixXd& gamma)
+{
+  const Eigen::MatrixXd P = projection(gamma), x = cycle.X * gamma;
+  Eigen::MatrixXd residual = cycle.omega * derivative(cycle.X);
+  for (Eigen::Index j = 0; j < gamma.cols(); ++j)
+    residual.noalias() -= motion.rate_at(x.col(j)) * P.row(j);
+  return residual;
+}
 
-Balance balance(AutonomousMotion& motion, const HarmonicCycle& cycle, const Eigen::MatrixXd& gamma)
+/// Its derivative by the entries of X, column after column.
+/// @return [size columns x size columns]
+Eigen::MatrixXd residual_derivative(AutonomousMotion& motion, const HarmonicCycle& cycle,
+                                    const Eigen::MatrixXd& gamma)
 {
   const Eigen::Index n = cycle.X.rows(), m = cycle.X.cols();
   const Eigen::MatrixXd P = projection(gamma), x = cycle.X * gamma;
-  Balance result{cycle.omega * derivative(cycle.X), Eigen::MatrixXd::Zero(n * m, n * m)};
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n * m, n * m);
   for (Eigen::Index j = 0; j < gamma.cols(); ++j) {
-    result.residual.noalias() -= motion.rate_at(x.col(j)) * P.row(j);
+    motion.take_sides(0.0, x.col(j));
     const Eigen::MatrixXd J_j = motion.jacobian(x.col(j));
     for (Eigen::Index b = 0; b < m; ++b)
       for (Eigen::Index a = 0; a < m; ++a)
-        result.J.block(a * n, b * n, n, n) -= (P(j, a) * gamma(b, j)) * J_j;
+        J.block(a * n, b * n, n, n) -= (P(j, a) * gamma(b, j)) * J_j;
   }
   for (Eigen::Index k = 1; 2 * k < m; ++k) {
-    result.J.block((2 * k - 1) * n, 2 * k * n, n, n).diagonal().array() += double(k) * cycle.omega;
-    result.J.block(2 * k * n, (2 * k - 1) * n, n, n).diagonal().array() -= double(k) * cycle.omega;
+    J.block((2 * k - 1) * n, 2 * k * n, n, n).diagonal().array() += double(k) * cycle.omega;
+    J.block(2 * k * n, (2 * k - 1) * n, n, n).diagonal().array() -= double(k) * cycle.omega;
   }
-  return result;
+  return J;
 }
 
 /// The start with zeros in the higher harmonics.
@@ -91,16 +102,18 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
   const Eigen::MatrixXd gamma = waves(resolution);
   HarmonicCycle cycle = padded(start, resolution.n_harmonics);
   const Eigen::Index N = cycle.X.size();
+  Eigen::MatrixXd by_X;
+  double before = 0.0;  // the last change, none while the derivative is to be made
   for (int i = 0; i < newton_steps_max; ++i) {
-    const Balance at = balance(motion, cycle, gamma);
+    if (before == 0.0) by_X = residual_derivative(motion, cycle, gamma);
     const Eigen::MatrixXd X_tau = derivative(cycle.X);
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(N + 1, N + 1);
-    J.topLeftCorner(N, N) = at.J;
+    J.topLeftCorner(N, N) = by_X;
     // omega scaled by itself, as all else has the size of omega X.
     J.col(N).head(N) = cycle.omega * X_tau.reshaped();
     J.row(N).head(N) = cycle.omega * X_tau.reshaped().transpose();
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
-    rhs.head(N) = -at.residual.reshaped();
+    rhs.head(N) = -residual_of(motion, cycle, gamma).reshaped();
     const Eigen::VectorXd change = J.partialPivLu().solve(rhs);
     const double size = change.head(N).norm() / cycle.X.norm() + std::abs(change[N]);
     if (!std::isfinite(size)) return std::nullopt;
@@ -108,6 +121,8 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
     cycle.X += damping * change.head(N).reshaped(cycle.X.rows(), cycle.X.cols());
     cycle.omega *= 1.0 + damping * change[N];
     if (size < resolution.tolerance) return cycle;
+    const bool worn = damping < 1.0 || (before > 0.0 && size > worn_out * before);
+    before = worn ? 0.0 : size;
   }
   return std::nullopt;
 }

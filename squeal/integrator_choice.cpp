@@ -9,9 +9,12 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "squeal/generalised_alpha.hpp"
 #include "squeal/oscillator_flow.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/sticking.hpp"
+#include "squeal/transient_start.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -136,6 +139,18 @@ bool is_stiff(const Disc& disc, const SquealOptions& options, double speed)
   return -A.eigenvalues().real().minCoeff() > brake.omega.maxCoeff();
 }
 
+/// Whether the start of a run may stop a pad on the disc, and friction then damps so fast that an
+/// explicit step would chatter.
+bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
+            const SquealOptions& options, const TransientCase& run)
+{
+  const double sliding = run.speed * disc.rings.front().radius;
+  const ModalState start = transient_start(disc, inertial, run, options.pads.front().angle);
+  if (options.friction == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
+    return false;
+  return is_stiff(disc, with_friction_at_rest(options, disc, run.speed), 0.0);
+}
+
 /// Kind and steps of "auto".
 IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& inertial,
                           const SquealOptions& options, const TransientCase& run)
@@ -146,6 +161,10 @@ IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& i
   if (is_stiff(disc, options, run.speed))
     return {IntegratorKind::generalised_alpha, 0, 0.0,
             "the pads damp faster than the highest mode oscillates"};
+  if (sticks(disc, inertial, options, run))
+    return {IntegratorKind::generalised_alpha, 0, 0.0,
+            "pads may stick to the disc, and friction then damps faster than the highest mode "
+            "oscillates"};
   if (inertial)
     return {IntegratorKind::exponential, 0, 0.0,
             "the disc is axisymmetric, so that small motions can be exact"};
@@ -192,10 +211,12 @@ double growth_error_of(IntegratorKind kind, const InertialDisc& disc, const Sque
   if (kind != IntegratorKind::generalised_alpha) return 0.0;
   double largest = 0.0;
   for (const Complex& lambda : exact) {
-    // The amplification of x' = lambda x by the trapezoidal rule.
+    if (!oscillates(lambda)) continue;
+    // The amplification of x' = lambda x by the trapezoidal rule, and the numerical damping.
     const Complex half = 0.5 * step * lambda;
     const Complex discrete = std::log((1.0 + half) / (1.0 - half)) / step;
-    if (oscillates(lambda)) largest = std::max(largest, std::abs(discrete.real() - lambda.real()));
+    const double numerical = damping_of_step(std::abs(lambda.imag()), step);
+    largest = std::max(largest, std::abs(discrete.real() - lambda.real()) + numerical);
   }
   return largest;
 }

@@ -11,8 +11,8 @@
 namespace chladni::squeal {
 
 /// The limit cycle at `speed` (rad/s) without a transient. It begins with the unstable eigenvector
-/// of the sliding disc, first at twice the displacement at which a pad loses its force; harmonic
-/// balance brings it near, shooting ends it.
+/// of the sliding disc where its averaged growth ends (cycle_guess.hpp); harmonic balance brings it
+/// near, shooting ends it.
 /// @throws chladni::Error when the disc is not axisymmetric, when it is stable at this speed, and
 ///         when no start leads to a periodic motion.
 DirectLimitCycle limit_cycle_direct(const CycleProblem& problem, double speed);

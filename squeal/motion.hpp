@@ -28,8 +28,21 @@ class SwitchedMotion {
   void take_sides(double t, const Eigen::VectorXd& y)
   {
     rate(t, y);
-    const Eigen::VectorXd s = switches();
-    for (Eigen::Index i = 0; i < s.size(); ++i) set_side(i, s[i] < 0.0 ? -1.0 : 1.0);
+    take_sides_of_rate();
+  }
+
+ protected:
+  /// Sets all sides to the signs of s_i of the last `rate`.
+  /// @return whether any changed
+  bool take_sides_of_rate()
+  {
+    bool changed = false;
+    for (Eigen::Index i = 0; i < switches().size(); ++i) {
+      const double now = switches()[i] < 0.0 ? -1.0 : 1.0;
+      changed = changed || now != side(i);
+      set_side(i, now);
+    }
+    return changed;
   }
 };
 

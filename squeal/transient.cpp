@@ -16,6 +16,7 @@
 #include "squeal/speed_program.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient_plan.hpp"
+#include "squeal/transient_start.hpp"
 #include "squeal/transient_steps.hpp"
 
 namespace chladni::squeal {
@@ -53,33 +54,6 @@ FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, do
                                                              Eigen::EigenvaluesOnly);
   range.highest = std::max(range.highest, std::sqrt(modes.eigenvalues().maxCoeff()));
   return range;
-}
-
-/// a_cos = a_sin in the first pair, turned so that the crest of the cosine is at `angle`; at rest
-/// in the inertial frame, i.e. a' = 0, p = Omega D a.
-ModalState start_in_first_pair(const InertialDisc& disc, const TransientCase& run, double angle)
-{
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(disc.n_modes());
-  Eigen::Index first = 0;
-  for (Eigen::Index i = 1; i < disc.n_modes(); ++i)
-    if (disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 &&
-        (disc.nodal_diameters[static_cast<std::size_t>(first)] == 0 ||
-         disc.omega[i] < disc.omega[first]))
-      first = i;
-  const bool pair = disc.nodal_diameters[static_cast<std::size_t>(first)] > 0;
-  a.segment(first, pair ? 2 : 1)
-      .setConstant(run.initial_pad_displacement / disc.rings.front().U[first]);
-  const Eigen::VectorXd at_pad = turned(disc, a, angle);
-  return {disc.R * at_pad, disc.R * (run.speed * disc.D * at_pad)};
-}
-
-ModalState initial_state(const Disc& disc, const std::optional<InertialDisc>& inertial,
-                         const TransientCase& run, double angle)
-{
-  if (inertial) return start_in_first_pair(*inertial, run, angle);
-  const Eigen::VectorXd W = shapes_at(disc, angle).W;
-  return {W * (run.initial_pad_displacement / W.squaredNorm()),
-          Eigen::VectorXd::Zero(disc.n_modes())};
 }
 
 double rest_compression(const SquealOptions& options)
@@ -147,7 +121,9 @@ std::string warning_of(const Transient& run, const SquealOptions& options)
 {
   const double eps = options.slip_regularisation;
   const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
-  if (run.slip_speed_min >= limit || options.friction == 0.0) return {};
+  if (run.slip_speed_min >= limit || options.friction == 0.0 ||
+      run.integrator == name_of(IntegratorKind::generalised_alpha))
+    return {};
   return fmt::format(
       "sliding fell to {:.2g} m/s, {}; compare with integrator = \"generalised-alpha\"",
       run.slip_speed_min,
@@ -177,7 +153,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
       recording_plan(run, frequencies_of(disc, options, run.speed), sampling_of(choice));
   const auto steps =
       transient_steps(disc, options, run, choice, plan.step,
-                      initial_state(disc, inertial, run, options.pads.front().angle));
+                      transient_start(disc, inertial, run, options.pads.front().angle));
   Recorder recorder(plan, 0.5 * options.thickness);
   StateRecorder states(disc, inertial, plan, run);
   std::optional<Resampler> sound;

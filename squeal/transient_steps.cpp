@@ -10,6 +10,7 @@
 #include "squeal/generalised_alpha.hpp"
 #include "squeal/rotating_disc.hpp"
 #include "squeal/speed_program.hpp"
+#include "squeal/sticking.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -181,8 +182,8 @@ std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOp
       return std::make_unique<AdaptiveSteps<DormandPrince>>(disc, options, speed, choice, step,
                                                             start);
     case IntegratorKind::generalised_alpha:
-      return std::make_unique<AdaptiveSteps<GeneralisedAlpha>>(disc, options, speed, choice, step,
-                                                               start);
+      return std::make_unique<AdaptiveSteps<GeneralisedAlpha>>(
+          disc, with_friction_at_rest(options, disc, speed), speed, choice, step, start);
     case IntegratorKind::automatic:
     case IntegratorKind::splitting:
       break;

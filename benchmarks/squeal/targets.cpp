@@ -60,7 +60,9 @@ std::vector<Target> map_targets(bool smallest)
 std::vector<Target> direct_targets(ContactLaw law, bool smallest)
 {
   const Disc pair = disc_of({kirchhoff_3(1672.13)});
-  const std::string name = law == ContactLaw::bilateral ? "bilateral" : "unilateral";
+  const std::string name = law == ContactLaw::bilateral    ? "bilateral"
+                           : law == ContactLaw::unilateral ? "unilateral"
+                                                           : "signed";
   const double seconds = smallest ? 0.2 : 6.0;
   const DirectLimitCycle cycle = limit_cycle_direct(pair, reference_options(law), 6.0 * pi);
   const auto direct = double(cycle.n_contact_evaluations);
@@ -90,8 +92,9 @@ std::vector<Target> measured_targets(bool smallest)
     targets.insert(targets.end(), more.begin(), more.end());
   };
   add(map_targets(smallest));
-  add(direct_targets(ContactLaw::bilateral, smallest));
-  add(direct_targets(ContactLaw::unilateral, smallest));
+  for (const ContactLaw law :
+       {ContactLaw::bilateral, ContactLaw::unilateral, ContactLaw::signed_force})
+    add(direct_targets(law, smallest));
   return targets;
 }
 

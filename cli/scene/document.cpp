@@ -4,23 +4,18 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 
+#include "cli/scene/document_values.hpp"
 #include "cli/scene/keys.hpp"
 #include "common/error.hpp"
 
 namespace chladni::cli {
-namespace {
-
-using Objection = std::function<std::string(const toml::node&)>;
-using MessagesByLine = std::multimap<toml::source_index, std::string>;
-
-}  // namespace
 
 struct Table::Node {
+  using MessagesByLine = std::multimap<toml::source_index, std::string>;
+
   std::shared_ptr<const toml::table> file_table;  ///< keeps all nodes of the file alive
   std::string file;
   std::string path;  ///< of keys; empty for the root
@@ -81,51 +76,6 @@ struct Table::Node {
                            std::string_view why) const;
 };
 
-namespace {
-
-std::string value_text(const toml::node& value)
-{
-  if (const auto* text = value.as_string()) return fmt::format("\"{}\"", text->get());
-  if (const auto* number = value.as_floating_point()) return fmt::format("{}", number->get());
-  std::ostringstream stream;
-  stream << toml::toml_formatter(value);
-  std::string text = stream.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= 60 ? text : text.substr(0, 60) + " ...";
-}
-
-/// Says what is wrong with a value that should be a number of this kind; nothing when it is one.
-Objection objection_to_number(const Admissible& admissible)
-{
-  return [admissible](const toml::node& value) -> std::string {
-    if (!value.is_number()) return "must be " + requirement(admissible, "a number");
-    const bool admitted = admits(admissible, *value.value<double>());
-    return admitted ? "" : "must be " + requirement(admissible);
-  };
-}
-
-Objection objection_to_integer(const Admissible& admissible)
-{
-  return [admissible](const toml::node& value) -> std::string {
-    if (!value.is_integer()) return "must be " + requirement(admissible, "a whole number");
-    if (!value.value<int>()) return "is too large";
-    return objection_to_number(admissible)(value);
-  };
-}
-
-std::string objection_to_truth(const toml::node& value)
-{
-  return value.is_boolean() ? "" : "must be true or false";
-}
-
-std::string objection_to_text(const toml::node& value)
-{
-  if (!value.is_string()) return "must be a text in quotes";
-  return value.as_string()->get().empty() ? "must not be empty" : "";
-}
-
-}  // namespace
-
 void Table::Node::refuse_slip(std::string_view key) const
 {
   const std::string slip = nearest_name(key, keys_not_asked());
@@ -142,7 +92,7 @@ const toml::node& Table::Node::require(std::string_view key, std::string_view ki
   throw Error(place + fmt::format("{} is missing: must be {}", path_of(key), kind));
 }
 
-MessagesByLine Table::Node::unknown_keys() const
+Table::Node::MessagesByLine Table::Node::unknown_keys() const
 {
   const std::vector<std::string> allowed(asked.begin(), asked.end());
   MessagesByLine unknown;

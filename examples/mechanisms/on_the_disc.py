@@ -35,6 +35,7 @@ LAWS = {
 }
 LOW, HIGH = 1.0, 30.0  # rad/s
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
+LINES = ("-", "--", "-")  # two of the curves lie on each other where friction does not fall
 
 
 def set_key(scene, key, value):
@@ -73,6 +74,12 @@ def growth_over_speed(start, i, law):
         np.array([row["speed_rad_s"] for row in rows]),
         np.array([max(re for re, _ in row["lambda"]) for row in rows]),
     )
+
+
+def ranges(speeds, unstable):
+    """[first, last] of each range of neighbours among the speeds at which it is."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], unstable.astype(int), [0]))))
+    return [[float(speeds[i]), float(speeds[j - 1])] for i, j in ends.reshape(-1, 2)]
 
 
 def sliding(start, i, case):
@@ -114,11 +121,11 @@ def main(program, body, folder, figure_folder):
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.2), layout="constrained")
     for i, (name, law) in enumerate(LAWS.items()):
         speeds, growth = growth_over_speed(start, i, law)
-        axes[0].plot(speeds, growth, color=COLOURS[i], label=name)
-        row = {"friction": name, "unstable_rad_s": speeds[growth > 1e-2].tolist()}
+        axes[0].plot(speeds, growth, LINES[i], color=COLOURS[i], label=name)
+        row = {"friction": name, "unstable_rad_s": ranges(speeds, growth > 1e-2)}
         for ax, speed in zip(axes[1:], (LOW, HIGH)):
             t, slip, velocity, integrator = sliding(start, i, (law, speed))
-            ax.plot(1e3 * t, slip / (RADIUS * speed), color=COLOURS[i], lw=1.0)
+            ax.plot(1e3 * t, slip / (RADIUS * speed), LINES[i], color=COLOURS[i], lw=1.0)
             row[f"at_{speed:.0f}_rad_s"] = {
                 "motion": motion_of(slip, speed),
                 "part_of_time_sticking": float(np.mean(slip < 3.0 * EPS)),
@@ -131,7 +138,7 @@ def main(program, body, folder, figure_folder):
     axes[0].set_yscale("symlog", linthresh=1.0)
     axes[0].legend(title="friction coefficient", frameon=False, fontsize=8, title_fontsize=8)
     for ax, speed in zip(axes[1:], (LOW, HIGH)):
-        ax.set(xlabel="time, ms", ylabel="speed of sliding over that of the disc",
+        ax.set(xlabel="time, ms", ylabel="sliding / speed of the disc",
                title=f"at {speed:.0f} rad/s", ylim=(0.0, None))  # fmt: skip
     for ax in axes:
         ax.grid(color="#e4e4e4", lw=0.6)

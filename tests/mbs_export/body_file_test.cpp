@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "bending_beam.hpp"
+#include "damaged_numbers.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/hdf5.hpp"
 #include "mbs_export/make_body.hpp"
@@ -153,6 +155,35 @@ TEST(BodyFile, IsRefusedWhenItsContentMakesNoSense)
   expect("rings/rim/angles", [](ModalBody& b) { b.rings[0].angles.reverseInPlace(); });
   expect("rings/rim/radial_slope", [](ModalBody& b) { b.rings[0].W_r(2, 2) = std::nan(""); });
   expect("free_body/rigid_modes", [](ModalBody& b) { b.n_rigid = 1000; });
+}
+
+TEST(BodyFile, IsRefusedWithANumberThatIsNoneInAnyDataset)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_body(path, complete_body());
+  const std::vector<std::string> names = test::real_datasets(path);
+  EXPECT_GT(names.size(), 25u);
+  for (const std::string& name : names) {
+    const double before = test::replace_last(path, name, std::nan(""));
+    const std::string text = error_of([&] { read_body(path); });
+    EXPECT_NE(text.find(name + ": value "), std::string::npos) << name << ": '" << text << "'";
+    EXPECT_NE(text.find("nan"), std::string::npos) << text;
+    test::replace_last(path, name, before);
+  }
+  EXPECT_EQ(error_of([&] { read_body(path); }), "");
+}
+
+TEST(BodyFile, IsRefusedWhenTheHarmonicsOfARingAreNotThoseOfItsNodes)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  for (const std::string part : {"displacement_cosine", "radial_slope_sine"}) {
+    write_body(path, complete_body());
+    test::replace_last(path, "rings/rim/" + part, 1.0);
+    const std::string text = error_of([&] { read_body(path); });
+    EXPECT_NE(text.find(part + ": is not the Fourier"), std::string::npos) << text;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "mbs_export/hdf5.hpp"
 #include "squeal/run.hpp"
+#include "tests/mbs_export/damaged_numbers.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -142,6 +143,25 @@ TEST(ResultFile, NamesFormatUnitsAndOrigin)
   EXPECT_EQ(reader.text_attribute("transient/tail/N_up", "unit"), "N");
   EXPECT_EQ(reader.text_attribute("eigenvalues/speeds", "unit"), "rad/s");
   EXPECT_EQ(reader.text_attribute("stability_map/values", "unit"), "N");
+}
+
+TEST(ResultFile, RefusesANumberThatIsNoneInAnyDataset)
+{
+  const TemporaryFile file;
+  write_results(file.path, complete_results(), {});
+  const auto names = mbs_export::test::real_datasets(file.path);
+  EXPECT_GT(names.size(), 60u);
+  for (const std::string& name : names) {
+    const double before = mbs_export::test::replace_last(file.path, name, std::nan(""));
+    try {
+      read_results(file.path);
+      ADD_FAILURE() << name << " is read";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(name + ": value "), std::string::npos)
+          << error.what();
+    }
+    mbs_export::test::replace_last(file.path, name, before);
+  }
 }
 
 TEST(ResultFile, RefusesFilesThatAreNotResults)

@@ -1,0 +1,180 @@
+#include "cli/squeal_json.hpp"
+
+#include <complex>
+#include <optional>
+
+namespace chladni::cli {
+namespace {
+
+Json eigenvalues_json(const squeal::EigenvalueMap& map)
+{
+  std::vector<Json> speeds;
+  for (Eigen::Index i = 0; i < map.speeds.size(); ++i) {
+    std::vector<Json> lambda;
+    for (const std::complex<double>& value : map.lambda.row(i)) {
+      lambda.push_back(Json::array({value.real(), value.imag()}));
+    }
+    speeds.push_back(
+        Json::object({{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}}));
+  }
+  return Json::array(speeds);
+}
+
+Json growth_json(const std::vector<squeal::Growth>& growths)
+{
+  std::vector<Json> speeds;
+  for (const squeal::Growth& growth : growths) {
+    speeds.push_back(
+        Json::object({{"speed_rad_s", growth.speed},
+                      {"growth_1_s", growth.rate},
+                      {"eigenvalue_growth_1_s",
+                       growth.eigenvalue_rate ? Json(*growth.eigenvalue_rate) : Json()}}));
+  }
+  return Json::array(speeds);
+}
+
+Json limit_cycle_json(const squeal::LimitCycle& cycle)
+{
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"drift", cycle.drift}});
+}
+
+Json direct_json(const squeal::DirectLimitCycle& cycle)
+{
+  std::vector<Json> multipliers;
+  for (const std::complex<double>& value : cycle.multipliers) {
+    multipliers.push_back(Json::array({value.real(), value.imag()}));
+  }
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"friction_work_J", cycle.energy.friction.sum()},
+                       {"normal_work_J", cycle.energy.normal.sum()},
+                       {"damping_work_J", cycle.energy.damping},
+                       {"multipliers", Json::array(multipliers)},
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
+}
+
+Json branch_json(const squeal::LimitCycleBranch& branch)
+{
+  std::vector<Json> points;
+  for (const squeal::BranchPoint& point : branch.points) {
+    points.push_back(Json::object({{"speed_rad_s", point.speed},
+                                   {"frequency_Hz", point.frequency_Hz},
+                                   {"pad_velocity_m_s", point.pad_velocity},
+                                   {"pad_displacement_m", point.pad_displacement},
+                                   {"largest_multiplier", point.largest_multiplier}}));
+  }
+  return Json::array(points);
+}
+
+Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
+{
+  std::vector<Json> searches;
+  for (const squeal::CriticalValue& value : values) {
+    searches.push_back(
+        Json::object({{"parameter", value.parameter},
+                      {"speed_rad_s", value.speed},
+                      {"value", value.value ? Json(*value.value) : Json()},
+                      {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}}));
+  }
+  return Json::array(searches);
+}
+
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
+Json rotation_json(const squeal::RotationStability& stability)
+{
+  std::vector<Json> growth;
+  for (Eigen::Index i = 0; i < stability.speeds.size(); ++i) {
+    growth.push_back(
+        Json::object({{"speed_rad_s", stability.speeds[i]}, {"growth_1_s", stability.growth[i]}}));
+  }
+  return Json::object({{"critical_speed_rad_s", optional_json(stability.critical_speed)},
+                       {"growth", Json::array(growth)}});
+}
+
+Json peaks_json(const squeal::Spectrum& spectrum)
+{
+  std::vector<Json> peaks;
+  for (const squeal::Spectrum::Peak& peak : spectrum.peaks) {
+    peaks.push_back(
+        Json::object({{"frequency_Hz", peak.frequency_Hz}, {"pad_velocity_m_s", peak.amplitude}}));
+  }
+  return Json::array(peaks);
+}
+
+Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
+{
+  std::vector<Json> subsets, modes;
+  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
+    subsets.push_back(
+        Json::object({{"n_modes", double(subset.n_modes)},
+                      {"highest_Hz", subset.highest_Hz},
+                      {"critical_speed_rad_s", optional_json(subset.critical_speed)},
+                      {"critical_frequency_Hz", optional_json(subset.critical_frequency_Hz)},
+                      {"growth_1_s", subset.growth}}));
+  }
+  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
+    modes.push_back(Json::object(
+        {{"frequency_Hz", mode.frequency_Hz},
+         {"nodal_diameters", double(mode.nodal_diameters)},
+         {"participation", mode.participation},
+         {"growth_without_1_s", optional_json(mode.growth_without)},
+         {"critical_speed_without_rad_s", optional_json(mode.critical_speed_without)}}));
+  }
+  return Json::object({{"critical_speed_rad_s", sensitivity.critical_speed},
+                       {"critical_frequency_Hz", sensitivity.critical_frequency_Hz},
+                       {"subsets", Json::array(subsets)},
+                       {"modes", Json::array(modes)}});
+}
+
+}  // namespace
+
+std::vector<Json::Member> results_json(const squeal::SquealResults& results)
+{
+  std::vector<Json::Member> members;
+  if (results.eigenvalues) {
+    members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
+  }
+  if (results.searched_critical_speed) {
+    const auto& critical = results.critical_speed;
+    members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
+    members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+  }
+  if (results.rotation_stability) {
+    members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
+  }
+  if (!results.critical_values.empty()) {
+    members.emplace_back("critical_values", critical_values_json(results.critical_values));
+  }
+  if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
+  if (results.mode_sensitivity) {
+    members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
+  }
+  if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
+  if (results.transient) {
+    const auto& rate = results.transient->growth_rate;
+    members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+    members.emplace_back("integrator", results.transient->integrator);
+  }
+  if (results.limit_cycle) {
+    members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
+  }
+  if (results.limit_cycle_direct) {
+    members.emplace_back("limit_cycle_direct", direct_json(*results.limit_cycle_direct));
+  }
+  if (results.limit_cycle_branch) {
+    members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
+  }
+  return members;
+}
+
+}  // namespace chladni::cli
