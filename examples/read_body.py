@@ -6,10 +6,9 @@ import numpy as np
 with h5py.File(sys.argv[1]) as body:
     print(f"{body.attrs['title'].decode()}: {body['rigid_body/mass'][()]:.4g} kg")
     f_Hz = body["modes/frequencies"][:] / (2 * np.pi)
-    modes = body["modes/attachment_displacements"][:]
-    is_displacement = body["modes/row_components"][:] < 3  # the others are rotations
-    node = body["attachment/node_numbers"][:][body["modes/row_nodes"][:]]
-    loudest = node[is_displacement][np.abs(modes[is_displacement]).argmax(axis=0)]
+    # Rows: three displacements and three rotations of each node in turn.
+    modes = body["modes/attachment_displacements"][:].reshape(-1, 6, f_Hz.size)
+    loudest = body["attachment/node_numbers"][:][np.linalg.norm(modes[:, :3], axis=1).argmax(axis=0)]
     for mode in zip(range(1, f_Hz.size + 1), f_Hz, body["modes/kinds"].asstr()[:], loudest):
         print("mode {}: {:10.2f} Hz  {:<12} moves node {} most".format(*mode))
     for name in body["ring_names"].asstr():

@@ -53,6 +53,7 @@ def beam(elements=300, modes=100, body='fixed = ["A"]\nkeep = { modes = 40 }', l
     text = text.replace("end = [1.0,", f"end = [{length},").replace("0.3333333333333333", str(length / 3))
     text = text.replace('{ name = "C", distance = 1.0 },', f'{{ name = "C", distance = {length} }},')
     if beside_A:
+        text = text.replace(f"elements = {elements}", f"element_size = {length / elements!r}")
         text = text.replace('{ name = "B"', f'{{ name = "D", distance = {beside_A * length!r} }},\n  {{ name = "B"')
         text = text.replace('nodes = ["A", "B", "C"]', 'nodes = ["A", "B", "C", "D"]')
     return text + f"[body]\n{body}\n"
@@ -169,7 +170,7 @@ def struck_out(path, held):
 def conditioning(folder):
     rows = []
     first = run("run", folder / "L1", beam())["frequencies_Hz"][:5]
-    for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-12):
+    for distance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7):
         # Two heights that come to mean one: Q_dd = [1, x_A; 1, x_D].
         made = run("run", folder / f"D{distance}", beam(body='fixed = ["A.z", "D.z"]\nkeep = { modes = 40 }', beside_A=distance))
         digits = None
