@@ -85,7 +85,7 @@ def thesis_beams(folder, figures):
         shutil.copy(folder / f"{name}_harmonic.png", figures / f"beam_{name}.png")
     rows = [{"figure": row.name, "computed": row.computed, "reference": row.reference,
              "ratio - 1": row.ratio() - 1, "allowed": row.within} for row in beam_report.figures(folder)]
-    return {"rows": rows, "selections": [vars(one) | {"good": one.is_good()} for one in beam_report.selections(folder)]}
+    return {"rows": rows, "selections": [vars(one) | {"good": bool(one.is_good())} for one in beam_report.selections(folder)]}
 
 
 def selection(folder):
