@@ -4,7 +4,7 @@
 usage: bench.py [--quick] [--only NAME ...] OUTPUT
 
 OUTPUT/results.json holds everything: machine, versions, commit, and of each benchmark its seconds, its
-JSON and its text. OUTPUT/results.md is made of it alone. With --quick small sizes are run, into a folder
+JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small sizes are run, into a folder
 of their own, to see that everything works; the figures that documents show come from full runs.
 """
 import argparse
@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import claims
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -89,6 +91,12 @@ BENCHMARKS = [
      "reduction_accuracy"),
     ("peers", "Reduction beside other programs",
      script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
+    ("calculix", "Modes beside CalculiX",
+     script("reduction/calculix.py", ("--modes", "20", "--around", "60", "--across", "12")),
+     "reduction_calculix"),
+    ("many-modes", "Many modes",
+     script("reduction/many_modes.py", ("--size", "0.02", "--modes", "60", "--cut", "5"),
+            ("--modes", "100", "500", "--cut", "5")), "reduction_many_modes"),
     ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
     ("sound", "Sound", sound, "sound_benchmarks"),
@@ -150,7 +158,8 @@ def markdown(results):
              f"| commit | {results['commit']} |", f"| date | {results['date']} |",
              f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
              f"| system | {about['system']} |",
-             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", ""]
+             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", "",
+             "## In short", "", "The same table stands in README.md.", "", *claims.table(results["benchmarks"]), ""]
     for found in results["benchmarks"].values():
         if "failed" in found:
             lines += [f"## {found['title']}", "", "Failed:", "", "```", found["failed"], "```", ""]
@@ -158,6 +167,11 @@ def markdown(results):
             lines += [lowered(found["text"]), "", f"*{found['seconds']:.0f} s; load of the machine before: "
                       f"{found['load_before']:.1f}*", ""]
     return "\n".join(lines)
+
+
+def write(out, results):
+    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
+    (out / "results.md").write_text(markdown(results), encoding="utf-8")
 
 
 def main():
@@ -176,8 +190,9 @@ def main():
     for name, title, work, stem in BENCHMARKS:
         if not arguments.only or name in arguments.only:
             results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
-    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    (out / "results.md").write_text(markdown(results), encoding="utf-8")
+            write(out, results)
+    if not arguments.quick:
+        claims.put_into(ROOT / "README.md", results["benchmarks"])
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
 
 

@@ -25,7 +25,7 @@ std::string escaped(char c)
   }
 }
 
-std::string quoted(std::string_view text)
+std::string in_quotes(std::string_view text)
 {
   std::string result = "\"";
   for (const char c : text) result += escaped(c);
@@ -36,7 +36,7 @@ std::string quoted(std::string_view text)
 
 Json::Json(double number) : text_(std::isfinite(number) ? fmt::format("{}", number) : "null") {}
 
-Json::Json(std::string_view text) : text_(quoted(text)) {}
+Json::Json(std::string_view text) : text_(in_quotes(text)) {}
 
 Json Json::array(const std::vector<Json>& elements)
 {
@@ -54,7 +54,7 @@ Json Json::object(const std::vector<Member>& members)
   Json json;
   json.text_ = "{";
   for (const auto& [name, value] : members) {
-    json.text_ += (json.text_.size() > 1 ? ", " : "") + quoted(name) + ": " + value.text_;
+    json.text_ += (json.text_.size() > 1 ? ", " : "") + in_quotes(name) + ": " + value.text_;
   }
   json.text_ += "}";
   return json;

@@ -10,11 +10,11 @@ namespace chladni::mesh {
 SilentOutput::SilentOutput() : saved_{dup(STDOUT_FILENO), dup(STDERR_FILENO)}
 {
   std::fflush(nullptr);
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-  close(nowhere);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
 }
 
 SilentOutput::~SilentOutput()
@@ -23,8 +23,8 @@ SilentOutput::~SilentOutput()
   constexpr std::array outputs{STDOUT_FILENO, STDERR_FILENO};
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (saved_[i] < 0) continue;
-    dup2(saved_[i], outputs[i]);
-    close(saved_[i]);
+    ::dup2(saved_[i], outputs[i]);
+    ::close(saved_[i]);
   }
 }
 

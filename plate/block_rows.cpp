@@ -3,56 +3,121 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <memory>
 
 namespace chladni::plate {
 
 namespace {
 
-/// Calls visit(row, columns, values) for each row of scalars, counted from the first one here, with
-/// its entries but the zeros off the diagonal; columns are global.
-template <typename Visit>
-void for_scalar_rows(const BlockPattern& pattern, const std::vector<double>& values,
-                     const Visit& visit)
-{
-  const int n = pattern.n;
-  std::vector<PetscInt> columns;
-  std::vector<double> row_values;
-  for (PetscInt row = 0; row < n * pattern.n_rows(); ++row) {
-    const std::ptrdiff_t begin = pattern.start[row / n], end = pattern.start[row / n + 1];
-    const PetscInt diagonal = n * pattern.first + row;
-    columns.resize(static_cast<std::size_t>(n * (end - begin)));
-    row_values.resize(columns.size());
-    std::size_t count = 0;
-    for (std::ptrdiff_t k = begin; k < end; ++k) {
-      const double* of_block = values.data() + (k * n + row % n) * n;
-      const PetscInt first_column = n * pattern.column[k];
-      for (int j = 0; j < n; ++j) {  // without a branch: zeros are overwritten by what follows
-        columns[count] = first_column + j;
-        row_values[count] = of_block[j];
-        count += static_cast<std::size_t>(of_block[j] != 0.0 || first_column + j == diagonal);
-      }
-    }
-    visit(row, std::span(columns).first(count), std::span(row_values).first(count));
-  }
-}
-
-/// Numbers of entries of each row in the columns of this rank, and in the others.
-struct RowSizes {
-  std::vector<PetscInt> own, other;
+/// Rows in CSR form: the entries in the columns of this rank, counted from its first, and in the
+/// others.
+struct SplitRows {
+  std::vector<PetscInt> start{0};
+  std::unique_ptr<PetscInt[]> column;
+  std::vector<double> value;
+  std::vector<PetscInt> other_start{0}, other_column;
+  std::vector<double> other_value;
 };
 
-RowSizes row_sizes(const BlockPattern& pattern, const std::vector<double>& values)
+/// Sums over a pattern.
+struct HeldBlocks {
+  const BlockPattern& pattern;
+  const std::vector<int>& held;               ///< n * i + j of blocks that do not hold all
+  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1]
+};
+
+/// Calls visit(j, value) for the entries that row i of a block holds.
+template <typename Visit>
+void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, const Visit& visit)
 {
-  const PetscInt first = pattern.n * pattern.first;
-  const PetscInt last = first + pattern.n * pattern.n_rows();
-  RowSizes sizes;
-  for_scalar_rows(pattern, values, [&](PetscInt, auto columns, auto) {
-    const auto begin = std::ranges::lower_bound(columns, first);
-    const auto end = std::ranges::lower_bound(columns, last);
-    sizes.own.push_back(static_cast<PetscInt>(end - begin));
-    sizes.other.push_back(static_cast<PetscInt>(std::ssize(columns) - (end - begin)));
-  });
-  return sizes;
+  const int n = blocks.pattern.n;
+  if (std::ssize(block) == std::ptrdiff_t(n) * n) {
+    for (int j = 0; j < n; ++j) visit(j, block[i * n + j]);
+    return;
+  }
+  for (std::size_t s = 0; s < block.size(); ++s)
+    if (blocks.held[s] / n == i) visit(blocks.held[s] % n, block[s]);
+}
+
+/// Turns the sums over a pattern into rows of scalars without zeros off the diagonal. The values
+/// stay in the memory of the sums: the rows of a node never have more than its blocks hold.
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values)
+{
+  const BlockPattern& pattern = blocks.pattern;
+  const std::vector<std::ptrdiff_t>& offset = blocks.offset;
+  const int n = pattern.n;
+  SplitRows rows;
+  rows.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
+  PetscInt count = 0;
+  std::vector<double> of_node;
+  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+    const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
+    of_node.assign(values.begin() + offset[begin], values.begin() + offset[end]);
+    for (int i = 0; i < n; ++i) {
+      for (std::ptrdiff_t k = begin; k < end; ++k) {
+        const std::span<const double> block(of_node.data() + offset[k] - offset[begin],
+                                            static_cast<std::size_t>(offset[k + 1] - offset[k]));
+        const PetscInt own_node = pattern.column[k] - pattern.first;
+        if (own_node >= 0 && own_node < pattern.n_rows()) {
+          for_held(block, i, blocks, [&](int j, double value) {  // the next overwrites a zero
+            rows.column[count] = n * own_node + j;
+            values[static_cast<std::size_t>(count)] = value;
+            count += static_cast<PetscInt>(value != 0.0 || (own_node == node && i == j));
+          });
+          continue;
+        }
+        for_held(block, i, blocks, [&](int j, double value) {
+          if (value == 0.0) return;
+          rows.other_column.push_back(n * pattern.column[k] + j);
+          rows.other_value.push_back(value);
+        });
+      }
+      rows.start.push_back(count);
+      rows.other_start.push_back(static_cast<PetscInt>(rows.other_column.size()));
+    }
+  }
+  rows.value = std::move(values);
+  return rows;
+}
+
+/// A matrix on these rows, which it keeps: a copy of the arrays would cost as much as their sums.
+petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
+{
+  auto kept = std::make_unique<SplitRows>(std::move(split));
+  petsc::Matrix A;
+  if (petsc::size(comm) == 1)
+    petsc::check(MatCreateSeqAIJWithArrays(comm, n_rows, n_rows, kept->start.data(),
+                                           kept->column.get(), kept->value.data(), A.put()));
+  else
+    petsc::check(MatCreateMPIAIJWithSplitArrays(
+        comm, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE, kept->start.data(),
+        kept->column.get(), kept->value.data(), kept->other_start.data(), kept->other_column.data(),
+        kept->other_value.data(), A.put()));
+  PetscContainer container = nullptr;
+  petsc::check(PetscContainerCreate(comm, &container));
+  petsc::check(PetscContainerSetPointer(container, kept.release()));
+  petsc::check(PetscContainerSetUserDestroy(container, [](void* rows) -> PetscErrorCode {
+    delete static_cast<SplitRows*>(rows);
+    return 0;
+  }));
+  petsc::check(PetscObjectCompose(reinterpret_cast<PetscObject>(static_cast<Mat>(A)),
+                                  "chladni_rows", reinterpret_cast<PetscObject>(container)));
+  petsc::check(PetscContainerDestroy(&container));  // the matrix keeps it
+  return A;
+}
+
+/// Bit n * i + j: some block of the transposed matrix has an entry (i, j).
+std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
+{
+  std::uint64_t found = 0;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Index n_nodes = A_e.rows() / n;
+      const auto entries = A_e(Eigen::seqN(i, n_nodes, n), Eigen::seqN(j, n_nodes, n));
+      if ((entries.array() != 0.0).any()) found |= std::uint64_t{1} << (n * j + i);
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -68,10 +133,6 @@ BlockPattern block_pattern(int n, PetscInt first, std::vector<std::vector<PetscI
   }
   return pattern;
 }
-
-BlockRows::BlockRows(const BlockPattern& pattern)
-    : pattern_(pattern), values_(pattern.column.size() * pattern.n * pattern.n, 0.0)
-{}
 
 std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
                                          std::span<const PetscInt> nodes)
@@ -91,45 +152,91 @@ std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
   return places;
 }
 
+void BlockRows::widen(std::uint64_t components)
+{
+  const int n = pattern_.n;
+  for (int i = 0; i < n; ++i) components |= std::uint64_t{1} << (n + 1) * i;
+  std::vector<int> held, place;  // place in the new ones of each that was held
+  for (int c = 0; c < n * n; ++c) {
+    if (((components_ | components) >> c & 1) == 0) continue;
+    if ((components_ >> c & 1) != 0) place.push_back(static_cast<int>(held.size()));
+    held.push_back(c);
+  }
+  if (held.size() == held_.size()) return;
+  const auto is_full = [&](PetscInt node) {
+    return std::ranges::binary_search(pattern_.full, node);
+  };
+  std::vector<std::ptrdiff_t> offset{0};
+  for (PetscInt row = 0; row < pattern_.n_rows(); ++row) {
+    const bool whole_row = is_full(pattern_.first + row);
+    for (std::ptrdiff_t k = pattern_.start[row]; k < pattern_.start[row + 1]; ++k) {
+      const bool all = whole_row || is_full(pattern_.column[k]);
+      offset.push_back(offset.back() + (all ? std::ptrdiff_t(n) * n : std::ssize(held)));
+    }
+  }
+  std::vector<double> values(static_cast<std::size_t>(offset.back()), 0.0);
+  for (std::ptrdiff_t k = 0; k + 1 < std::ssize(offset_); ++k) {
+    const double* from = values_.data() + offset_[k];
+    double* to = values.data() + offset[k];
+    if (holds_all(k)) {
+      std::copy(from, from + std::ptrdiff_t(n) * n, to);
+      continue;
+    }
+    for (std::size_t s = 0; s < place.size(); ++s) to[place[s]] = from[s];
+  }
+  components_ |= components;
+  held_ = std::move(held);
+  offset_ = std::move(offset);
+  values_ = std::move(values);
+}
+
+void BlockRows::make_room(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
+{
+  if ((components_of(A_e, pattern_.n) & ~components_) == 0 && !offset_.empty()) return;
+  if (offset_.empty()) widen(0);
+  const int n = pattern_.n;
+  const Eigen::Index n_nodes = A_e.rows() / n;
+  std::uint64_t components = 0;
+  for (Eigen::Index a = 0; a < n_nodes; ++a) {
+    for (Eigen::Index b = 0; b < n_nodes; ++b) {
+      const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
+      if (place >= 0 && !holds_all(place))
+        components |= components_of(A_e.block(n * b, n * a, n, n), n);
+    }
+  }
+  if ((components & ~components_) != 0) widen(components);
+}
+
 void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
 {
   const int n = pattern_.n;
   const Eigen::Index n_nodes = A_e.rows() / n;
+  make_room(A_e, places);
+  // A column of the transposed block is a row, and contiguous.
+  std::vector<Eigen::Index> distance(held_.size());
+  for (std::size_t s = 0; s < held_.size(); ++s)
+    distance[s] = held_[s] / n * A_e.outerStride() + held_[s] % n;
   for (Eigen::Index a = 0; a < n_nodes; ++a) {
     for (Eigen::Index b = 0; b < n_nodes; ++b) {
       const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
       if (place < 0) continue;
-      double* block = values_.data() + place * n * n;
-      // Of a symmetric matrix a column of the transposed block is a row, and contiguous.
-      for (int i = 0; i < n; ++i) {
-        const double* source = &A_e(n * b, n * a + i);
-        for (int j = 0; j < n; ++j) block[i * n + j] += source[j];
+      double* block = values_.data() + offset_[place];
+      if (holds_all(place)) {
+        Eigen::Map<Eigen::MatrixXd>(block, n, n) += A_e.block(n * b, n * a, n, n);
+        continue;
       }
+      const double* source = &A_e(n * b, n * a);
+      for (std::size_t s = 0; s < distance.size(); ++s) block[s] += source[distance[s]];
     }
   }
 }
 
 petsc::Matrix BlockRows::to_matrix(MPI_Comm comm)
 {
-  const PetscInt n_rows = pattern_.n * pattern_.n_rows();
-  const PetscInt first = pattern_.n * pattern_.first;
-  const RowSizes sizes = row_sizes(pattern_, values_);
-  petsc::Matrix A;
-  petsc::check(MatCreate(comm, A.put()));
-  petsc::check(MatSetSizes(A, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE));
-  petsc::check(MatSetType(A, MATAIJ));
+  widen(0);  // a matrix without elements has its diagonal, too
+  SplitRows rows = split_rows({pattern_, held_, offset_}, std::move(values_));
+  petsc::Matrix A = matrix_of(std::move(rows), pattern_.n * pattern_.n_rows(), comm);
   petsc::check(MatSetBlockSize(A, pattern_.n));
-  petsc::check(MatSeqAIJSetPreallocation(A, 0, sizes.own.data()));
-  petsc::check(MatMPIAIJSetPreallocation(A, 0, sizes.own.data(), 0, sizes.other.data()));
-  petsc::check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
-  for_scalar_rows(pattern_, values_, [&](PetscInt i, auto columns, auto values) {
-    const PetscInt row = first + i;
-    petsc::check(MatSetValues(A, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(),
-                              values.data(), INSERT_VALUES));
-  });
-  values_ = std::vector<double>();
-  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   return A;

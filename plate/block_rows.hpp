@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct BlockPattern {
   PetscInt first = 0;
   std::vector<std::ptrdiff_t> start;  ///< [n_rows + 1] of each row in `column`
   std::vector<PetscInt> column;       ///< node numbers, ascending in each row
+  std::vector<PetscInt> full = {};    ///< nodes that others follow, ascending: any entry may come
 
   PetscInt n_rows() const { return static_cast<PetscInt>(start.size()) - 1; }
 };
@@ -29,13 +31,15 @@ std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
                                          std::span<const PetscInt> nodes);
 
 /// Sums of element matrices over a pattern. Each entry adds in the order of the calls, whatever
-/// rank the row is on.
+/// rank the row is on. Of a block only the components are held that some element has, but of those
+/// of full nodes: half of K and a sixth of M for plane shells, and memory that is touched for the
+/// first time is what takes longest.
 class BlockRows {
  public:
-  explicit BlockRows(const BlockPattern& pattern);
+  explicit BlockRows(const BlockPattern& pattern) : pattern_(pattern) {}
 
   /// Adds the rows of `A_e` whose nodes are in the pattern.
-  /// @param A_e     symmetric, n rows for each of its nodes
+  /// @param A_e     symmetric, or the transposed of what is added; n rows for each of its nodes
   /// @param places  block_places of its nodes
   void add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
 
@@ -44,8 +48,19 @@ class BlockRows {
   petsc::Matrix to_matrix(MPI_Comm comm);
 
  private:
+  bool holds_all(std::ptrdiff_t block) const
+  {
+    return offset_[block + 1] - offset_[block] == std::ptrdiff_t(pattern_.n) * pattern_.n;
+  }
+  /// Makes room for what the matrix has in these blocks and none had before.
+  void make_room(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
+  void widen(std::uint64_t components);
+
   const BlockPattern& pattern_;
-  std::vector<double> values_;  ///< [n_blocks x n^2] each block by rows
+  std::uint64_t components_ = 0;        ///< bit n * i + j: blocks have an entry (i, j)
+  std::vector<int> held_;               ///< n * i + j of these, ascending
+  std::vector<std::ptrdiff_t> offset_;  ///< [n_blocks + 1] of the blocks in the values
+  std::vector<double> values_;          ///< of each block all n^2, or those held
 };
 
 }  // namespace chladni::plate

@@ -46,6 +46,19 @@ MatrixXd only_components(const MatrixXd& A_e, const DofMap& dofs)
   return A_e(kept, kept);
 }
 
+/// Numbers that other nodes follow.
+std::vector<PetscInt> followed_numbers(const DofMap& dofs)
+{
+  std::vector<PetscInt> numbers;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    if (dofs.is_plain(node)) continue;
+    for (const MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
+  }
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
@@ -102,7 +115,9 @@ BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElemen
   for_owned_elements(mesh, dofs, rank,
                      [&](const auto&, int, const auto& numbers) { neighbours.connect(numbers); });
   for (const PointElement& point : points) neighbours.connect(active_numbers(dofs, point.nodes));
-  return std::move(neighbours).pattern();
+  BlockPattern pattern = std::move(neighbours).pattern();
+  pattern.full = followed_numbers(dofs);
+  return pattern;
 }
 
 BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank)

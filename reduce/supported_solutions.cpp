@@ -19,7 +19,7 @@ petsc::Matrix free_block(Mat A, const FreeDofs& free)
 }
 
 /// K + mu M
-petsc::Matrix shifted(Mat K, Mat M, double mu)
+petsc::Matrix with_mass(Mat K, Mat M, double mu)
 {
   petsc::Matrix A;
   petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
@@ -64,7 +64,7 @@ EigenPairs free_pairs(Mat K, Mat M, const NaturalModesOptions& options)
   double mu = 1e-10 * least_diagonal_ratio(K, M);
   const int n_asked = std::max(options.n_modes, options.n_rigid + 1);
   for (int attempt = 0;; ++attempt) {
-    const petsc::Matrix A = shifted(K, M, mu);
+    const petsc::Matrix A = with_mass(K, M, mu);
     const Factorization factor = factorize(A);
     EigenPairs pairs = block_lanczos(factor.factor(), M, {.n_pairs = n_asked});
     for (double& lambda : pairs.lambda) lambda -= mu;

@@ -27,6 +27,7 @@ std::vector<HardCase> reduction_cases();
 std::vector<HardCase> body_cases();
 std::vector<HardCase> contact_cases();
 std::vector<HardCase> integration_cases();
+std::vector<HardCase> sound_cases();
 std::vector<HardCase> file_cases();
 
 /// |value / exact - 1|

@@ -1,0 +1,114 @@
+"""What README.md says of speed and accuracy, each sentence made of the results of `./dev bench`."""
+import re
+
+BEGIN, END = "<!-- made by ./dev bench: begin -->", "<!-- made by ./dev bench: end -->"
+
+
+def elements(found):
+    """DOFs from which on all finer meshes keep a limit at r_a/h = 8.1 on Gmsh's meshes."""
+    fewest = {}
+    for element in ("order 3", "S8R"):
+        own = sorted((r for r in found["convergence"] if (r["ratio"], r["mesh"], r["element"])
+                      == (8.1, "unstructured", element)), key=lambda r: -r["n_dofs"])
+        for run in own:
+            if run["rms_31"] is None or run["rms_31"] > 1e-4:
+                break
+            fewest[element] = run["n_dofs"]
+    return [("Elements",
+             f"31 bending modes of a disc within 1e-4 of the exact plate need {fewest['order 3']:,} DOFs with elements of "
+             f"order 3, {fewest['S8R']:,} with S8R, on Gmsh's meshes")]
+
+
+def scale(found):
+    largest = max((r for r in found["runs"] if r["ranks"] == 1), key=lambda r: r["dofs"])
+    two = [r for r in found["runs"] if r["ranks"] == 2 and r["disc"] == largest["disc"]]
+    ranks = f", {two[0]['wall_s']:.0f} s on two ranks" if two else ""
+    return [("Reduction",
+             f"{largest['dofs']:,} DOFs to 366 masters and 100 certified modes in {largest['wall_s']:.0f} s on one core{ranks}, "
+             f"in {largest['peak_MiB'] / 1024:.1f} GiB")]
+
+
+def accuracy(found):
+    judged = [(c["modes"], c["judgement"]) for c in found["cases"]]
+    low, high = (pick(j["effectivity"][i] for _, j in judged) for i, pick in enumerate((min, max)))
+    whole = "and none is above its bound" if all(j["bounds_hold"] for _, j in judged) else "but a bound was broken"
+    return [("Certificates",
+             f"the error estimate of a frequency is {low:.1f} to {high:.1f} times its true error over all modes of "
+             f"{len(judged)} reductions, {whole}")]
+
+
+def peers(found):
+    return [("Beside scipy",
+             "the reduction costs " + " and ".join(f"1/{r['ratio']:.1f} (366 masters + {r['modes']} modes)"
+                                                    for r in found["runs"])
+             + f" of the CPU time of scipy with its sparse LU, at {found['runs'][0]['dofs']:,} DOFs")]
+
+
+def calculix(found):
+    last = found["runs"][-1]
+    return [("Beside CalculiX",
+             f"{last['modes']} modes of {last['elements']:,} elements with 8 nodes take "
+             f"{last['ccx_cpu_s'] / last['chladni_modes_cpu_s']:.1f} times less CPU time, reduced to {last['masters']} masters "
+             f"besides {last['ccx_cpu_s'] / last['chladni_reduce_cpu_s']:.1f} times less")]
+
+
+def body(found):
+    last = [c for c in found["chain"] if c["n_FE"] == 500][0]
+    forces = {(f["n_h"], f["frm"]): f for f in found["forces"]}
+    without, with_frm = forces[(5, 0)]["shear forces"], forces[(5, 1)]["shear forces"]
+    return [("Body", f"another boundary condition of a reduced system of 500 coordinates takes {last['body']:.2f} s"),
+            ("Response modes",
+             f"one of them takes the error of the shear forces of a plate strip with five modes from {without:.1g} to "
+             f"{with_frm:.1g}")]
+
+
+def squeal(found):
+    of = {t["name"]: t["measured"] for t in found["targets"]}
+    one = lambda start: next(v for k, v in of.items() if k.startswith(start))
+    return [("Squeal", f"a transient of two modes takes {one('6 s transient'):.1g} of real time, of 35 modes "
+                       f"{one('transient of 35 modes'):.1g}"),
+            ("Stability map", f"100 x 100 points with 35 modes in {one('stability map of 100 x 100 points, 35'):.0f} s"),
+            ("Limit cycle", f"found directly with {1 / one('the same for a transient'):.2g} of the contact evaluations of a "
+                            "transient by splitting")]
+
+
+def sound(found):
+    of = lambda table: min((r for r in found if r["table"] == table), key=lambda r: r["error"])
+    plane, space = of("disc, plane"), of("disc, space")
+    seconds = lambda r: r["mesh_cpu_s"] + r["solve_cpu_s"]
+    return [("Sound",
+             f"the field of a squealing disc within {plane['error']:.0e} in {seconds(plane):.1f} s by Fourier series, within "
+             f"{space['error']:.0e} in {seconds(space):.0f} s by tetrahedra")]
+
+
+def end_to_end(found):
+    chosen = [c for s in found["studies"] for c in s["by_tolerance"]]
+    kept = sum(c["keeps_promise"] for c in chosen)
+    costs = [c["cost_over_best_by_hand"] for c in chosen if c["cost_over_best_by_hand"]]
+    return [("Choice by tolerance",
+             f"{kept} of {len(chosen)} tolerances asked are kept, at most {max(costs):.1f} times as costly as the best "
+             "choice by hand")]
+
+
+MAKERS = {"elements": elements, "scale": scale, "accuracy": accuracy, "peers": peers, "calculix": calculix,
+          "body": body, "squeal": squeal, "sound": sound, "end-to-end": end_to_end}
+
+
+def claims(benchmarks):
+    """(what, sentence) of all benchmarks that ran."""
+    return [claim for name, make in MAKERS.items() if "results" in benchmarks.get(name, {})
+            for claim in make(benchmarks[name]["results"])]
+
+
+def table(benchmarks):
+    return ["| | |", "|---|---|", *(f"| {what} | {sentence} |" for what, sentence in claims(benchmarks))]
+
+
+def put_into(readme, benchmarks):
+    """The table between its marks in README.md."""
+    text = readme.read_text(encoding="utf-8")
+    made = "\n".join([BEGIN, *table(benchmarks), END])
+    new, n = re.subn(f"{re.escape(BEGIN)}.*?{re.escape(END)}", lambda _: made, text, flags=re.S)
+    if n != 1:
+        raise SystemExit(f"claims.py: {readme} has no marks for the table of results")
+    readme.write_text(new, encoding="utf-8")

@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+"""Which sources can be compiled together, as one file that includes them.
+
+usage: batches.py SOURCE...
+
+Headers of Eigen take most of the time of a compiler, and a batch reads them once. Sources whose unnamed
+namespaces share a name cannot be in one batch. Prints the number of the batch of each source, separated
+by semicolons as CMake has its lists.
+"""
+import pathlib
+import re
+import sys
+
+MOST = 12
+HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
+TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)")
+ALIAS = re.compile(r"using (\w+) = (.*);")
+USING = re.compile(r"^using ([\w:]+::(\w+));", re.M)
+CONSTANT = re.compile(r"(\w+)(?: = |\{|\[)")
+FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
+
+
+def hidden_names(path):
+    """{name: what it is} of what a file declares for itself; equal aliases may stand in two files."""
+    whole = pathlib.Path(path).read_text(encoding="utf-8")
+    names = {name: what for what, name in USING.findall(whole)}
+    for text in HIDDEN.findall(whole):
+        for line in text.splitlines():
+            if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):
+                continue
+            alias, kind = ALIAS.match(line), TYPE.match(line)
+            if alias:
+                names[alias[1]] = alias[2]
+            elif kind:
+                names[kind[1]] = path
+            elif line.startswith("constexpr") or line.startswith("const ") and "(" not in line:
+                names.update((name, path) for name in CONSTANT.findall(line))
+            elif FUNCTION.match(line):
+                names[FUNCTION.match(line)[1]] = path
+    return names
+
+
+def batches(paths, key=lambda path: pathlib.Path(path).parent, most=MOST):
+    """Lists of paths of one key and without names that mean two things."""
+    made = []
+    for path in paths:
+        names = hidden_names(path)
+        for batch in made:
+            if (batch["key"] == key(path) and len(batch["paths"]) < most
+                    and all(batch["names"].get(name, what) == what for name, what in names.items())):
+                batch["paths"].append(path)
+                batch["names"].update(names)
+                break
+        else:
+            made.append({"key": key(path), "paths": [path], "names": names})
+    return [batch["paths"] for batch in made]
+
+
+if __name__ == "__main__":
+    number = {path: i for i, batch in enumerate(batches(sys.argv[1:])) for path in batch}
+    print(";".join(str(number[path]) for path in sys.argv[1:]), end="")
