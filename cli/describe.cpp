@@ -119,6 +119,8 @@ TextTable describe(const mbs_export::ModalBody& body)
   add_count(table, "rigid-body motions of the free body", body.n_rigid);
   add_count(table, "rigid-body motions left by the supports", body.n_free_rigid);
   add(table, "condition of the mode shift", body.condition_Q_dd, "");
+  if (body.preparation.condition_directions)
+    add(table, "condition with rows of unit length", *body.preparation.condition_directions, "");
   add_count(table, "attachment nodes", static_cast<Eigen::Index>(body.attachment_nodes.size()));
   add_sets(table, body.sets);
   add_count(table, "contact rings", static_cast<Eigen::Index>(body.rings.size()));
@@ -166,8 +168,11 @@ std::string describe_file(const std::filesystem::path& file)
   if (format == "chladni-body") {
     const mbs_export::ModalBody body = mbs_export::read_body(file);
     const std::string selection = describe_selection(body);
+    const bool is_certified = body.fixed == body.certificate.fixed;  // or it is of other modes
+    const std::string certificate = is_certified ? describe_certificate(body.certificate) : "";
     return titled(body) + "\n" + format_table(list_modes(body)) +
-           (selection.empty() ? "" : "\n" + selection);
+           (selection.empty() ? "" : "\n" + selection) +
+           (certificate.empty() ? "" : "\n" + certificate);
   }
   if (format == "chladni-squeal") return format_table(describe(squeal::read_results(file)));
   throw Error(

@@ -23,6 +23,8 @@ std::vector<Json::Member> preparation_json(const mbs_export::ModalBody& body)
   std::vector<Json::Member> members = {
       {"condition_Q_dd", body.condition_Q_dd},
       {"interface_modes_dropped", body.preparation.n_interface_dropped}};
+  if (body.preparation.condition_directions)
+    members.emplace_back("condition_directions", *body.preparation.condition_directions);
   if (!body.selection) return members;
   const mbs_export::SelectionTable& table = *body.selection;
   const std::vector<Json> loads(table.loads.begin(), table.loads.end());

@@ -1,22 +1,15 @@
-"""Reads a modal body with nothing but h5py: what it weighs, and what each of its modes does.
-
-Usage: read_body.py NAME.body.h5
-"""
-
+"""Reads a modal body with h5py alone: its mass, its modes, its contact rings. Usage: read_body.py NAME.body.h5"""
 import sys
-
 import h5py
 import numpy as np
 
 with h5py.File(sys.argv[1]) as body:
     print(f"{body.attrs['title'].decode()}: {body['rigid_body/mass'][()]:.4g} kg")
     f_Hz = body["modes/frequencies"][:] / (2 * np.pi)
-    kinds = body["modes/kinds"].asstr()[:]
-    # Row 6 i + c is component c of node i; the first three are displacements.
+    # Rows: three displacements and three rotations of each node in turn.
     modes = body["modes/attachment_displacements"][:].reshape(-1, 6, f_Hz.size)
-    numbers = body["attachment/node_numbers"][:]
-    loudest = numbers[np.linalg.norm(modes[:, :3], axis=1).argmax(axis=0)]
-    for mode in zip(range(1, f_Hz.size + 1), f_Hz, kinds, loudest):
+    loudest = body["attachment/node_numbers"][:][np.linalg.norm(modes[:, :3], axis=1).argmax(axis=0)]
+    for mode in zip(range(1, f_Hz.size + 1), f_Hz, body["modes/kinds"].asstr()[:], loudest):
         print("mode {}: {:10.2f} Hz  {:<12} moves node {} most".format(*mode))
     for name in body["ring_names"].asstr():
         ring = body[f"rings/{name}"]

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
+#include "mbs_export/certificate_file.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/file_parts.hpp"
+#include "mbs_export/selection_file.hpp"
+#include "mbs_export/vtkhdf.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -17,6 +19,10 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr auto format = "chladni-body";
 constexpr std::int64_t version = 1;
+constexpr auto frame =
+    "axes and origin of the mesh; displacements relative to the undeformed body, small rotations "
+    "as "
+    "vectors";
 
 /// In the order of ModeKind.
 constexpr std::array kind_names{"rigid", "constrained", "interface"};
@@ -95,6 +101,21 @@ ContactRing read_ring(const hdf5::Reader& file, const std::string& name, Index n
   return ring;
 }
 
+/// The order of the rows of `attachment_displacements`, as data for other readers.
+struct RowOrder {
+  std::vector<std::int64_t> nodes, components;
+};
+
+RowOrder row_order(Index n_nodes)
+{
+  RowOrder order;
+  for (Index row = 0; row < 6 * n_nodes; ++row) {
+    order.nodes.push_back(row / 6);
+    order.components.push_back(row % 6);
+  }
+  return order;
+}
+
 void write_modes(hdf5::Writer& file, const ModalBody& body)
 {
   std::vector<std::string> kinds;
@@ -104,6 +125,21 @@ void write_modes(hdf5::Writer& file, const ModalBody& body)
   file.write("modes/kinds", kinds);
   if (body.C.size() > 0) file.write("modes/damping", body.C, "1/s");
   file.write("modes/attachment_displacements", body.attachment_modes, "m, rad per unit of q");
+  const RowOrder order = row_order(Index(body.attachment_nodes.size()));
+  file.write("modes/row_nodes", std::span<const std::int64_t>(order.nodes), "1");
+  file.write("modes/row_components", std::span<const std::int64_t>(order.components), "1");
+}
+
+/// Files written before they said so have the same order.
+void check_row_order(const hdf5::Reader& file, Index n_nodes)
+{
+  const RowOrder order = row_order(n_nodes);
+  const auto expect = [&](const std::string& name, const std::vector<std::int64_t>& values) {
+    if (file.contains(name) && file.integers(name, 6 * n_nodes) != values)
+      file.fail(name, "expected all six components of each node in turn");
+  };
+  expect("modes/row_nodes", order.nodes);
+  expect("modes/row_components", order.components);
 }
 
 VectorXd read_frequencies(const hdf5::Reader& file, const std::string& name)
@@ -135,6 +171,8 @@ void write_preparation(hdf5::Writer& file, const ModalBody& body)
     file.write("preparation/" + name, std::int64_t{n}, "1");
   };
   file.write("preparation/condition_Q_dd", body.condition_Q_dd, "1");
+  if (body.preparation.condition_directions)
+    file.write("preparation/condition_directions", *body.preparation.condition_directions, "1");
   file.write("preparation/rigid_residual", body.preparation.rigid_residual, "1");
   count("free_rigid_modes", body.n_free_rigid);
   count("constrained_modes", body.preparation.n_constrained_modes);
@@ -148,64 +186,15 @@ Preparation read_preparation(const hdf5::Reader& file)
   const auto count = [&](const std::string& name) {
     return file_parts::read_count(file, "preparation/" + name);
   };
+  std::optional<double> directions;
+  if (file.contains("preparation/condition_directions"))
+    directions = file.real("preparation/condition_directions");
   return {.n_constrained_modes = count("constrained_modes"),
           .n_partners = count("partner_modes"),
           .n_interface_dropped = count("interface_modes_dropped"),
           .n_massless = count("massless_coordinates"),
-          .rigid_residual = file.real("preparation/rigid_residual")};
-}
-
-void write_steps(hdf5::Writer& file, const std::string& group,
-                 const std::vector<SelectionStep>& steps)
-{
-  std::vector<std::string> added;
-  std::vector<int> n_modes, n_interface;
-  VectorXd error(Index(steps.size()));
-  for (const SelectionStep& step : steps) {
-    error[Index(added.size())] = step.error;
-    added.push_back(step.added);
-    n_modes.push_back(step.n_modes);
-    n_interface.push_back(step.n_interface);
-  }
-  file.write(group + "added", added);
-  file.write(group + "modes", std::span<const int>(n_modes), "1");
-  file.write(group + "interface_modes", std::span<const int>(n_interface), "1");
-  file.write(group + "error", error, "1");
-}
-
-std::vector<SelectionStep> read_steps(const hdf5::Reader& file, const std::string& group)
-{
-  const std::vector<std::string> added = file.texts(group + "added");
-  const Index n = Index(added.size());
-  constexpr Index limit = std::numeric_limits<int>::max();
-  const std::vector<int> n_modes = file_parts::read_indices(file, group + "modes", limit, n);
-  const std::vector<int> n_interface =
-      file_parts::read_indices(file, group + "interface_modes", limit, n);
-  const VectorXd error = file.vector(group + "error", n);
-  std::vector<SelectionStep> steps;
-  for (std::size_t i = 0; i < added.size(); ++i)
-    steps.push_back({added[i], n_modes[i], n_interface[i], error[Index(i)]});
-  return steps;
-}
-
-void write_selection(hdf5::Writer& file, const SelectionTable& table)
-{
-  file.write("selection/tolerance", table.error, "1");
-  file.write("selection/highest_frequency", table.Omega_max, "rad/s");
-  file.write("selection/loads", table.loads);
-  write_steps(file, "selection/modes_only/", table.modes_only);
-  write_steps(file, "selection/with_interface_modes/", table.with_interface_modes);
-}
-
-std::optional<SelectionTable> read_selection(const hdf5::Reader& file)
-{
-  if (!file.contains("selection")) return std::nullopt;
-  return SelectionTable{
-      .error = file.real("selection/tolerance"),
-      .Omega_max = file.real("selection/highest_frequency"),
-      .loads = file.texts("selection/loads"),
-      .modes_only = read_steps(file, "selection/modes_only/"),
-      .with_interface_modes = read_steps(file, "selection/with_interface_modes/")};
+          .rigid_residual = file.real("preparation/rigid_residual"),
+          .condition_directions = directions};
 }
 
 std::vector<ContactRing> read_rings(const hdf5::Reader& file, Index n_nodes, Index n_modes)
@@ -232,6 +221,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.attribute("/", "format", format);
   file.attribute("/", "version", version);
   file.attribute("/", "title", body.title);
+  file.attribute("/", "frame", frame);
   file_parts::write_attachment(file, body.attachment_nodes, body.sets);
   write_modes(file, body);
   file.write("fixed", body.fixed);
@@ -240,6 +230,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("ring_names", ring_names);
   for (const ContactRing& ring : body.rings) write_ring(file, ring);
   file_parts::write_picture(file, body.picture);
+  write_vtkhdf(file, body);
   file_parts::write_resultants(file, body.resultants);
   file_parts::write_mass_integrals(file, body.mass_integrals);
   file.write("rigid_body/mass", body.mass, "kg");
@@ -249,6 +240,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("free_body/rigid_modes", std::int64_t{body.n_rigid}, "1");
   write_preparation(file, body);
   if (body.selection) write_selection(file, *body.selection);
+  write_certificate(file, body.certificate);
   file_parts::write_provenance(file, body.provenance);
   file.commit();
 }
@@ -262,6 +254,7 @@ ModalBody read_body(const std::string& path)
   VectorXd free_frequencies = read_frequencies(file, "free_body/frequencies");
   const Index n_nodes = Index(nodes.size()), n = omega.size();
   const int n_rigid = read_n_rigid(file, free_frequencies);
+  check_row_order(file, n_nodes);
   MatrixXd C;
   if (file.contains("modes/damping")) C = file.matrix("modes/damping", {n, n});
   return {.title = file.text_attribute("/", "title"),
@@ -285,6 +278,7 @@ ModalBody read_body(const std::string& path)
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),
           .selection = read_selection(file),
+          .certificate = read_certificate(file),
           .provenance = file_parts::read_provenance(file)};
 }
 

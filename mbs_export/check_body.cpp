@@ -85,6 +85,18 @@ void add_rigid_modes(std::vector<Check>& checks, const ModalBody& body)
                            "rigid modes in mass, centre and inertia"));
 }
 
+/// Metres against radians do no harm, so rows of unit length count where the file knows them.
+void add_condition(std::vector<Check>& checks, const ModalBody& body)
+{
+  const bool unit_rows = body.preparation.condition_directions.has_value();
+  Check check = bounded("condition of Q_dd",
+                        body.preparation.condition_directions.value_or(body.condition_Q_dd), 1e6,
+                        unit_rows ? "rows of unit length; another choice of supports lowers it"
+                                  : "in m and rad, which may be all that is wrong with it");
+  if (!unit_rows) check.verdict = std::min(check.verdict, Verdict::warn);
+  checks.push_back(check);
+}
+
 void add_supports(std::vector<Check>& checks, const ModalBody& body)
 {
   if (!body.fixed.empty() && body.attachment_modes.size() > 0) {
@@ -96,8 +108,7 @@ void add_supports(std::vector<Check>& checks, const ModalBody& body)
     checks.push_back(bounded("held displacements", scale > 0.0 ? largest / scale : 0.0, 1e-7,
                              "largest one over the largest of all"));
   }
-  checks.push_back(bounded("condition of Q_dd", body.condition_Q_dd, 1e6,
-                           "of the mode shifting; another choice of supports lowers it"));
+  add_condition(checks, body);
 }
 
 void add_inertia(std::vector<Check>& checks, const ModalBody& body)

@@ -20,6 +20,13 @@ struct Shape {
   Eigen::Index cols = any;
 };
 
+/// A column of a matrix that a file holds.
+struct Column {
+  std::string matrix;
+  Eigen::Index rows, cols;  ///< of the matrix
+  Eigen::Index column;
+};
+
 /// Writes a file under a temporary name beside the target; only `commit` gives it its name.
 /// A program that stops before leaves the old file, never half of a new one.
 class Writer {
@@ -54,12 +61,20 @@ class Writer {
   void write(const std::string& name, std::span<const std::int64_t> x, const std::string& unit);
   void write(const std::string& name, std::span<const int> x, const std::string& unit);
   void write(const std::string& name, const IntegerMatrix& x, const std::string& unit);
+  void write(const std::string& name, std::span<const std::uint8_t> x, const std::string& unit);
   void write(const std::string& name, const std::string& text);
   void write(const std::string& name, const std::vector<std::string>& texts);
+
+  /// Another name for a dataset of the file.
+  void link(const std::string& name, const std::string& target);
+  /// The column seen as rows of three values: a dataset [rows / 3 x 3] that stores nothing.
+  void view_column(const std::string& name, const Column& column);
 
   /// An attribute of a dataset or group; "/" is the root.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
   void attribute(const std::string& object, const std::string& name, std::int64_t number);
+  void attribute(const std::string& object, const std::string& name,
+                 std::span<const std::int64_t> numbers);
   /// Of variable length, for readers that compare text as h5py gives it to them: what is of fixed
   /// length comes as bytes. Reader refuses it.
   void variable_attribute(const std::string& object, const std::string& name,

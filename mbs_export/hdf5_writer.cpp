@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -145,6 +146,12 @@ void Writer::write(const std::string& name, const IntegerMatrix& x, const std::s
   write_integers(name, x.data(), extents(x.rows(), x.cols()), unit);
 }
 
+void Writer::write(const std::string& name, std::span<const std::uint8_t> x,
+                   const std::string& unit)
+{
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_UINT8, {x.size()}, x.data()), path_, name);
+}
+
 void Writer::write(const std::string& name, const std::string& text)
 {
   const Handle type = text_type(text.size());
@@ -173,6 +180,43 @@ void Writer::attribute(const std::string& object, const std::string& name, std::
   const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
   require(owner.valid() && set_attribute(owner.get(), name, H5T_NATIVE_INT64, &number), path_,
           object + "@" + name);
+}
+
+void Writer::attribute(const std::string& object, const std::string& name,
+                       std::span<const std::int64_t> numbers)
+{
+  const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
+  const hsize_t n = numbers.size();
+  const Handle space{H5Screate_simple(1, &n, nullptr), H5Sclose};
+  const Handle attribute{H5Acreate2(owner.get(), name.c_str(), H5T_NATIVE_INT64, space.get(),
+                                    H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose};
+  require(attribute.valid() && H5Awrite(attribute.get(), H5T_NATIVE_INT64, numbers.data()) >= 0,
+          path_, object + "@" + name);
+}
+
+void Writer::link(const std::string& name, const std::string& target)
+{
+  require(H5Lcreate_soft(target.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,
+          name);
+}
+
+void Writer::view_column(const std::string& name, const Column& column)
+{
+  const std::array matrix{hsize_t(column.rows), hsize_t(column.cols)};
+  const std::array triples{hsize_t(column.rows / 3), hsize_t{3}};
+  const std::array start{hsize_t{0}, hsize_t(column.column)},
+      count{hsize_t(column.rows), hsize_t{1}};
+  const Handle source{H5Screate_simple(2, matrix.data(), nullptr), H5Sclose};
+  H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Handle view{H5Screate_simple(2, triples.data(), nullptr), H5Sclose};
+  const Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+  // "." is the file itself, whatever its name will be.
+  H5Pset_virtual(creation.get(), view.get(), ".", column.matrix.c_str(), source.get());
+  const Handle made{H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, view.get(), H5P_DEFAULT,
+                               creation.get(), H5P_DEFAULT),
+                    H5Dclose};
+  require(made.valid(), path_, name);
 }
 
 void Writer::variable_attribute(const std::string& object, const std::string& name,

@@ -189,6 +189,7 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .n_rigid = 0,
                  .condition_Q_dd = 1.0,
                  .resultants = resultants_in_modes(reduced.resultants, modes.T),
+                 .certificate = reduced.certificate,
                  .provenance = reduced.provenance};
   if (reduced.mass_integrals)
     body.mass_integrals = in_coordinates(*reduced.mass_integrals, modes.T);
@@ -217,7 +218,8 @@ ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
                       .n_partners = choice.selection.n_partners,
                       .n_interface_dropped = choice.basis.n_dropped,
                       .n_massless = free.n_massless,
-                      .rigid_residual = free.rigid_residual};
+                      .rigid_residual = free.rigid_residual,
+                      .condition_directions = shift.condition_directions};
   body.selection = choice.table;
   return body;
 }

@@ -32,6 +32,8 @@ struct Preparation {
   int n_interface_dropped = 0;  ///< interface modes that depended on others
   int n_massless = 0;           ///< reduced coordinates without mass, which the modes cannot carry
   double rigid_residual = 0.0;  ///< energy of the rigid modes over the first elastic omega^2
+  /// Of Q_dd with rows of unit length, which takes their units out; a file may not know it.
+  std::optional<double> condition_directions = {};
 };
 
 /// One step of a selection by tolerance, and what the basis is after it.
@@ -77,6 +79,7 @@ struct ModalBody {
   std::vector<ResultantModes> resultants = {};       ///< in the modes, N or the like per unit of q
   std::optional<MassIntegrals> mass_integrals = {};  ///< phi_i: mode shapes, m per unit of q
   std::optional<SelectionTable> selection = {};      ///< when a tolerance chose the modes
+  Certificate certificate = {};  ///< of the reduced system; for the body where it is `fixed` alike
   Provenance provenance;
 
   Eigen::Index n_modes() const { return omega.size(); }

@@ -148,7 +148,8 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
                   .M_c = G.transpose() * G,
                   .R_c = {},
                   .dependent = dependent,
-                  .condition_Q_dd = condition(Q_dd)};
+                  .condition_Q_dd = condition(Q_dd),
+                  .condition_directions = directions};
   shift.Q_c(dependent, Eigen::all) = G;
   shift.Q_c(independent, Eigen::all).setIdentity();
   shift.K_c.diagonal() += lambda(independent);

@@ -17,6 +17,9 @@ struct ModeShift {
   Eigen::MatrixXd R_c;  ///< [n_modes - n_c x n_free_rigid] rigid motion left, M_c-orthonormal
   std::vector<int> dependent;  ///< [n_c] the modes d, ascending
   double condition_Q_dd;       ///< 1 when nothing is held
+  /// Of Q_dd with rows of unit length: how far the held displacements depend on one another,
+  /// whatever their units. 1 when nothing is held.
+  double condition_directions;
 };
 
 /// Mode shifting with the rigid modes as dependent ones, as far as they are independent at the held

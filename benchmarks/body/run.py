@@ -1,6 +1,7 @@
 """What does a body cost, and what do a few more modes buy? Writes OUTPUT/body_benchmarks.{json,md} and OUTPUT/figures/body_*.png.
 
 - chain: `chladni body` on reduced systems of 106, 500 and 1500 coordinates;
+- beams: the numbers and figures of the thesis beside their references;
 - selection: size against error, as `chladni body --json` reports it;
 - forces: displacement, moments and shear forces of a shell with and without a frequency-response mode;
 - conditioning: cases that ought to be hard, each solved with its loss of digits or refused with advice.
@@ -11,6 +12,7 @@ Usage: run.py [--quick] OUTPUT     with the programs in build/release/bin; --qui
 import json
 import os
 import platform
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,6 +22,11 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "examples/beam"))
+import figures as beam_figures  # noqa: E402  (beside the scenes, not a package)
+import report as beam_report  # noqa: E402
+import study as beam_study  # noqa: E402
+
 CHLADNI = ROOT / "build/release/bin/chladni"
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
                    OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -38,17 +45,22 @@ def only(folder, pattern):
     return next(folder.glob(pattern))
 
 
-def beam(elements=300, modes=100, body='fixed = ["A"]\nkeep = { modes = 40 }', length=1.0, points=""):
+def beam(elements=300, modes=100, body='fixed = ["A"]\nkeep = { modes = 40 }', length=1.0, beside_A=None):
+    """The beam of the examples; `beside_A` is the distance of a fourth attachment node D from A, over the length."""
     text = (ROOT / "examples/beam/cantilever.toml").read_text()
     text = text[:text.index("[body]")].replace("elements = 300", f"elements = {elements}")
     text = text.replace("modes = 100", f"modes = {modes}").replace('resultants = ["beam"]', 'pictures = "none"')
     text = text.replace("end = [1.0,", f"end = [{length},").replace("0.3333333333333333", str(length / 3))
-    text = text.replace('{ name = "C", distance = 1.0 },', f'{{ name = "C", distance = {length} }},{points}')
+    text = text.replace('{ name = "C", distance = 1.0 },', f'{{ name = "C", distance = {length} }},')
+    if beside_A:
+        text = text.replace(f"elements = {elements}", f"element_size = {length / elements!r}")
+        text = text.replace('{ name = "B"', f'{{ name = "D", distance = {beside_A * length!r} }},\n  {{ name = "B"')
+        text = text.replace('nodes = ["A", "B", "C"]', 'nodes = ["A", "B", "C", "D"]')
     return text + f"[body]\n{body}\n"
 
 
 def chain(folder, quick):
-    """CPU time of each phase, the least of three runs."""
+    """CPU time of each phase and of the whole program, the least of three runs."""
     rows = []
     body = 'fixed = ["A"]\nkeep = { modes = 40 }\ninterface_modes = [{ kind = "frm", at = "B", dofs = ["ry"] }]'
     for elements, modes in [(300, 100), (600, 494), (1800, 1494)][:2 if quick else 3]:
@@ -56,12 +68,24 @@ def chain(folder, quick):
         made = run("reduce", folder / str(modes), text)
         if isinstance(made, str):
             sys.exit(made)
-        cpu = [run("body", folder / str(modes), text)["phases_cpu_s"] for _ in range(3)]
+        runs = [run("body", folder / str(modes), text) for _ in range(3)]
         rows.append({"n_FE": made["n_masters"] + made["n_modes"],
-                     **{phase: min(one[phase] for one in cpu) for phase in ("read", "body", "write")}})
+                     **{phase: min(one["phases_cpu_s"][phase] for one in runs) for phase in ("read", "body", "write")},
+                     "program": min(one["cpu_s"] for one in runs)})
     for a, b in zip(rows, rows[1:]):
         b["growth"] = float(np.log(b["body"] / a["body"]) / np.log(b["n_FE"] / a["n_FE"]))
     return rows
+
+
+def thesis_beams(folder, figures):
+    """The beam examples beside their references; two of their figures."""
+    beam_study.main(CHLADNI.parent, folder)
+    beam_figures.main(folder)
+    for name in ("cantilever", "supported"):
+        shutil.copy(folder / f"{name}_harmonic.png", figures / f"beam_{name}.png")
+    rows = [{"figure": row.name, "computed": row.computed, "reference": row.reference,
+             "ratio - 1": row.ratio() - 1, "allowed": row.within} for row in beam_report.figures(folder)]
+    return {"rows": rows, "selections": [vars(one) | {"good": bool(one.is_good())} for one in beam_report.selections(folder)]}
 
 
 def selection(folder):
@@ -77,38 +101,14 @@ def selection(folder):
     return found
 
 
-STRIP = """name = "strip"
-title = "strip"
-[mesh]
-generator = "rectangle"
-length = 0.4
-width = 0.1
-element_size = 0.02
-element_order = 3
-[material.steel]
-young = 2.1e11
-poisson = 0.3
-density = 7800.0
-[[section]]
-group = "plate"
-type = "shell"
-material = "steel"
-thickness = 0.004
-[[coupling]]
-type = "rigid"
-name = "L"
-group = "left"
-[[coupling]]
-type = "rigid"
-name = "R"
-group = "right"
-[interface]
-nodes = ["L", "R"]
-[reduce]
-method = "craig-bampton"
-modes = 60
-resultants = ["plate"]
-"""
+def strip():
+    """The strip of the tests without offset, with a finer mesh and more modes, up to its [body]."""
+    text = (ROOT / "tests/data/strip.toml").read_text()
+    for old, new in (("offset = 0.03\n", ""), ("poisson = 0.0", "poisson = 0.3"), ("element_size = 0.05", "element_size = 0.02"),
+                     ("element_order = 2", "element_order = 3"), ("modes = 5", "modes = 60")):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text[:text.index("[body]")]
 
 
 def harmonic(path, Omega):
@@ -124,7 +124,8 @@ def harmonic(path, Omega):
 
 def forces(folder):
     """Errors of the harmonic response against the complete reduced system at twice the first held frequency."""
-    whole = run("run", folder, STRIP + '[body]\nfixed = ["L"]\nkeep = { up_to_Hz = 1e9 }\n')
+    scene = strip()
+    whole = run("run", folder, scene + '[body]\nfixed = ["L"]\nkeep = { up_to_Hz = 1e9 }\n')
     Omega = 2 * 2 * np.pi * whole["frequencies_Hz"][0]
     exact = harmonic(only(folder, "*.body.h5"), Omega)
     rows = []
@@ -133,7 +134,7 @@ def forces(folder):
             body = f'[body]\nfixed = ["L"]\nkeep = {{ modes = {n_h} }}\n'
             if frm:
                 body += f'interface_modes = [{{ kind = "frm", at = "R", dofs = ["z"], omega0 = {0.5 * Omega} }}]\n'
-            run("body", folder, STRIP + body)
+            run("body", folder, scene + body)
             found = harmonic(only(folder, "*.body.h5"), Omega)
             rows.append({"n_h": n_h, "frm": int(frm), **{
                 kind: float(np.linalg.norm(found[kind] - exact[kind]) / np.linalg.norm(exact[kind])) for kind in exact}})
@@ -144,7 +145,8 @@ def verdict(case, summary, value="", digits=None):
     """One row of the table of hard cases."""
     refused = isinstance(summary, str)
     return {"case": case, "outcome": "refused" if refused else "solved",
-            "condition": None if refused else summary.get("condition_Q_dd"), "value": value,
+            "condition": None if refused else summary["condition_Q_dd"],
+            "unit rows": None if refused else summary["condition_directions"], "value": value,
             "digits_lost": digits, "message": summary if refused else ""}
 
 
@@ -154,10 +156,29 @@ def lost(found, exact):
     return float(max(0.0, 16 + np.log10(max(error, 1e-16))))
 
 
+def struck_out(path, held):
+    """Frequencies in Hz of the reduced matrices without the rows and columns of the held (node, component)."""
+    with h5py.File(path) as file:
+        K, M = file["matrices/stiffness"][:], file["matrices/mass"][:]
+        masters = list(zip(file["masters/node"][:], file["masters/component"][:]))
+    kept = [i for i in range(len(K)) if i >= len(masters) or masters[i] not in held]
+    s = 1 / np.sqrt(np.diag(M)[kept])
+    L = np.linalg.inv(np.linalg.cholesky(s[:, None] * M[np.ix_(kept, kept)] * s))
+    return np.sqrt(np.linalg.eigvalsh(L @ (s[:, None] * K[np.ix_(kept, kept)] * s) @ L.T)) / (2 * np.pi)
+
+
 def conditioning(folder):
     rows = []
     first = run("run", folder / "L1", beam())["frequencies_Hz"][:5]
-    for length in (1e-2, 1e-4, 1e-6):
+    for distance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7):
+        # Two heights that come to mean one: Q_dd = [1, x_A; 1, x_D].
+        made = run("run", folder / f"D{distance}", beam(body='fixed = ["A.z", "D.z"]\nkeep = { modes = 40 }', beside_A=distance))
+        digits = None
+        if not isinstance(made, str):
+            exact = struck_out(only(folder / f"D{distance}", "*.reduced.h5"), [(0, 2), (3, 2)])
+            digits = lost(made["frequencies_Hz"][:5], exact[:5])
+        rows.append(verdict(f"supports {distance:g} of the length apart", made, digits=digits))
+    for length in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12):
         # Frequencies go with 1 / L^2, cond(Q_dd) with 1 / L.
         made = run("run", folder / f"L{length}", beam(length=length))
         digits = None if isinstance(made, str) else lost(np.array(made["frequencies_Hz"][:5]) * length**2, first)
@@ -224,10 +245,23 @@ Written by `benchmarks/body/run.py` from `body_benchmarks.json`; {found['machine
 
 ## The chain
 
-CPU seconds of `chladni body` on the beam of the examples, 40 modes and one FRM; `growth` is the exponent of the size in the
-time of the phase `body`. Everything is dense: cubic growth is what there is to expect.
+CPU seconds of `chladni body` on the beam of the examples, 40 modes and one FRM, its phases and the `program` from start to end;
+`growth` is the exponent of the size in the time of the phase `body`. Everything is dense: cubic growth is what there is to expect.
 
-{table(found['chain'], ['n_FE', 'read', 'body', 'write', 'growth'])}
+{table(found['chain'], ['n_FE', 'read', 'body', 'write', 'program', 'growth'])}
+## The beams of the thesis
+
+Steinbrecher (2015, section 4.3): each number of `examples/beam` beside its reference of 60 digits; w, M and Q are errors of displacement,
+bending moment and shear force against the FE model. `allowed` is what the test `integration.beam` takes for |ratio - 1|.
+
+![cantilever](figures/beam_cantilever.png)
+
+![simply supported beam](figures/beam_supported.png)
+
+{table(found['beams']['rows'], ['figure', 'computed', 'reference', 'ratio - 1', 'allowed'])}
+For the accuracy of five modes and one FRM a tolerance chose:
+
+{table(found['beams']['selections'], ['name', 'tolerance', 'error', 'size'])}
 ## Modes by a tolerance
 
 ![size against error](figures/body_selection.png)
@@ -242,7 +276,10 @@ displacements there and of all section forces, against the complete reduced syst
 
 `digits_lost`: of sixteen, in the first five frequencies, against the same problem in a harmless form.
 
-{table(found['conditioning'], ['case', 'outcome', 'condition', 'value', 'digits_lost', 'message'])}"""
+`condition` is cond(Q_dd) of the mode shifting in m and rad, `unit rows` the same with rows of unit length: units alone cost nothing,
+dependent supports do.
+
+{table(found['conditioning'], ['case', 'outcome', 'condition', 'unit rows', 'value', 'digits_lost', 'message'])}"""
 
 
 def main(quick, output):
@@ -250,7 +287,8 @@ def main(quick, output):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         found = {"machine": f"{platform.machine()}, {os.cpu_count()} cores",
-                 "chain": chain(folder / "chain", quick), "selection": selection(folder / "selection"),
+                 "chain": chain(folder / "chain", quick),
+                 "beams": thesis_beams(folder / "beams", output / "figures"), "selection": selection(folder / "selection"),
                  "forces": forces(folder / "forces"), "conditioning": conditioning(folder / "hard")}
     text = json.dumps(found, indent=1).replace(name, "...")
     (output / "body_benchmarks.json").write_text(text + "\n")

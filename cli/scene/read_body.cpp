@@ -66,7 +66,8 @@ std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
   return std::nullopt;
 }
 
-InterfaceModes::Space read_space(const Table& mode, InterfaceModes::Kind kind)
+InterfaceModes::Space read_space(const Table& mode, InterfaceModes::Kind kind,
+                                 reduce::Method method)
 {
   using Space = InterfaceModes::Space;
   if (!mode.has("space")) return Space::reduced;
@@ -76,23 +77,28 @@ InterfaceModes::Space read_space(const Table& mode, InterfaceModes::Kind kind)
     mode.refuse("space",
                 "the reduced system holds every static response already; take this key out");
   }
+  if (space == Space::full &&
+      (method == reduce::Method::rubin || method == reduce::Method::macneal)) {
+    mode.refuse("space",
+                "responses of the whole model join fixed-interface modes, and a free-interface "
+                "reduction has none; take this key out, or reduce with method \"craig-bampton\"");
+  }
   return space;
 }
 
-InterfaceModes read_interface_mode(const Table& mode,
-                                   const std::vector<std::string>& interface_nodes)
+InterfaceModes read_interface_mode(const Table& mode, const Scene& scene)
 {
   const auto kind = mode.choice<InterfaceModes::Kind>(
       "kind", {{"irm", InterfaceModes::Kind::irm}, {"frm", InterfaceModes::Kind::frm}});
   const std::string at = mode.text("at");
-  if (!contains(interface_nodes, at)) {
-    mode.refuse("at", no_such_name("interface node", at, interface_nodes));
+  if (!contains(scene.interface_nodes, at)) {
+    mode.refuse("at", no_such_name("interface node", at, scene.interface_nodes));
   }
   return {.kind = kind,
           .at = at,
           .components = read_component_list(mode, "dofs"),
           .omega0 = read_omega0(mode, kind),
-          .space = read_space(mode, kind)};
+          .space = read_space(mode, kind, scene.reduce.method)};
 }
 
 /// One ratio for all modes, or one for each.
@@ -170,17 +176,16 @@ std::vector<int> read_mode_list(const Table& table, std::string_view key)
   return modes;
 }
 
-mbs_export::BodyOptions read_body(const Table& root,
-                                  const std::vector<std::string>& interface_nodes)
+mbs_export::BodyOptions read_body(const Table& root, const Scene& scene)
 {
   if (!root.has("body")) return {};
   const Table body = root.table("body");
   mbs_export::BodyOptions options;
-  options.fixed = read_fixed(body, interface_nodes);
+  options.fixed = read_fixed(body, scene.interface_nodes);
   options.keep = read_kept_modes(body);
   if (body.has("interface_modes")) {
     for (const Table& mode : body.tables("interface_modes")) {
-      options.interface_modes.push_back(read_interface_mode(mode, interface_nodes));
+      options.interface_modes.push_back(read_interface_mode(mode, scene));
     }
   }
   options.damping = read_damping(body);

@@ -64,9 +64,9 @@ bool read_mass_integrals(const Table& root);
 /// [reduce] sylvester
 bool read_sylvester(const Table& root);
 
-/// [body]; without the table the body is free and keeps all modes.
-mbs_export::BodyOptions read_body(const Table& root,
-                                  const std::vector<std::string>& interface_nodes);
+/// [body]; without the table the body is free and keeps all modes. Reads `interface_nodes` and
+/// `reduce` of the scene.
+mbs_export::BodyOptions read_body(const Table& root, const Scene& scene);
 
 /// [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);

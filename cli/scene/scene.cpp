@@ -67,7 +67,7 @@ Scene parse_scene(const std::string& text, const std::string& path)
     scene.mass_integrals = read_mass_integrals(root);
     scene.sylvester = read_sylvester(root);
   }
-  scene.body = read_body(root, scene.interface_nodes);
+  scene.body = read_body(root, scene);
   scene.squeal = read_squeal(root, scene);
   scene.radiation = read_radiation(root);
   scene.sound = read_sound(root, scene);

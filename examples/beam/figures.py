@@ -61,6 +61,48 @@ def frequencies(file):
         return body["modes/frequencies"][:]
 
 
+def draw_support(ax, x, clamped):
+    """Hatched wall, or triangle."""
+    if clamped:
+        ax.plot([x, x], [-0.12, 0.12], color=FULL, linewidth=2)
+        for y in np.linspace(-0.12, 0.08, 6):
+            ax.plot([x - 0.03, x], [y, y + 0.04], color=FULL, linewidth=0.7)
+    else:
+        ax.fill([x - 0.025, x + 0.025, x], [-0.1, -0.1, -0.01], facecolor="white", edgecolor=FULL)
+
+
+def draw_load(ax, case):
+    """Moment or force at B."""
+    x = case.load_dof() // 2 / beam.N_ELEMENTS
+    if case.load == "ry":
+        arrow = dict(arrowstyle="->", color=TWO, linewidth=1.4, connectionstyle="arc3,rad=0.9")
+        ax.annotate("", (x - 0.035, 0.06), (x - 0.035, -0.06), arrowprops=arrow)
+        ax.text(x - 0.09, 0.12, r"$M \cos\,\Omega t$", color=TWO)
+    else:
+        ax.annotate("", (x, 0.01), (x, 0.22), arrowprops=dict(arrowstyle="->", color=TWO, linewidth=1.4))
+        ax.text(x + 0.015, 0.16, r"$F \cos\,\Omega t$", color=TWO)
+
+
+def draw_problems(folder):
+    """The two beams with their master DOFs, from the scenes' reduced systems."""
+    figure, axes = plt.subplots(1, 2, figsize=(9, 2.2))
+    for ax, case in zip(axes, beam.CASES):
+        with h5py.File(folder / case.name / f"{case.name}.reduced.h5") as reduced:
+            x = reduced["attachment/node_positions"][:, 0]
+            masters = list(zip(reduced["masters/node"][:], reduced["masters/component"][:]))
+        ax.plot([0, 1], [0, 0], color=ONE, linewidth=3)
+        for dof in case.fixed:
+            draw_support(ax, dof // 2 / beam.N_ELEMENTS, (dof ^ 1) in case.fixed)
+        draw_load(ax, case)
+        for node, name in enumerate("ABC"):
+            numbers = [str(i + 1) for i, (n, _) in enumerate(masters) if n == node]
+            ax.plot(x[node], 0, "o", color=FULL, markersize=4)
+            ax.text(x[node] + 0.015, -0.22, f"{name}: {', '.join(numbers)}")
+        ax.set(title=case.title + ": nodes and their master DOFs", xlim=(-0.1, 1.15), ylim=(-0.3, 0.3))
+        ax.set_axis_off()
+    save(figure, folder / "problems.png")
+
+
 def draw_reduction(folder):
     case = beam.CASES[0]
     file = folder / case.name / f"{case.name}.reduced.h5"
@@ -150,6 +192,7 @@ def draw_selection(folder, case, path):
 
 
 def main(folder):
+    draw_problems(folder)
     draw_reduction(folder)
     first = beam.CASES[0]
     draw_body_modes(folder, first, "free", slice(0, 2), folder / "rigid_modes.png", ["rigid"] * 2)

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/error.hpp"
+#include "mbs_export/formats/inertia_shapes.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
@@ -75,6 +76,52 @@ std::string matrix_groups(const ModalBody& body)
          rows(body.C.size() > 0 ? body.C : MatrixXd::Zero(n, n));
 }
 
+/// Inv5_jk = int u_j x u_k dm, [3 x n^2]: k runs fastest.
+MatrixXd invariant_5(const MassIntegrals& integrals)
+{
+  const Index n = integrals.displacement.cols();
+  MatrixXd I5(3, n * n);
+  for (int c = 0; c < 3; ++c)
+    I5.row(c) = cross_product(integrals, c).reshaped<Eigen::RowMajor>().transpose();
+  return I5;
+}
+
+/// Inv8_j = -int x~ u~_j dm, [3 x 3 n].
+MatrixXd invariant_8(const MassIntegrals& integrals)
+{
+  const Index n = integrals.displacement.cols();
+  MatrixXd I8(3, 3 * n);
+  for (Index j = 0; j < n; ++j) I8.middleCols<3>(3 * j) = -position_tilde_shape(integrals, j);
+  return I8;
+}
+
+/// Inv9_jk = int u~_j u~_k dm = int u_k u_j^T - (u_j . u_k) I dm, [3 x 3 n^2]: k before j, the
+/// three columns first.
+MatrixXd invariant_9(const MassIntegrals& integrals)
+{
+  const Index n = integrals.displacement.cols();
+  const MatrixXd M = integrals.products[0] + integrals.products[1] + integrals.products[2];
+  MatrixXd I9(3, 3 * n * n);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      MatrixXd P = displacement_product(integrals, c, r);  // (r, c) of u_k u_j^T: u_c,j u_r,k
+      if (r == c) P -= M;
+      I9.row(r)(Eigen::seqN(c, n * n, 3)) = P.reshaped<Eigen::RowMajor>().transpose();
+    }
+  return I9;
+}
+
+/// How the body's momentum and inertia change with its deformation.
+std::string invariant_groups(const FloatingBody& floating)
+{
+  std::string text = group(14, "INVARIANT 3") + rows(floating.momentum) + group(15, "INVARIANT 4") +
+                     rows(floating.angular_momentum);
+  if (!floating.body.mass_integrals) return text;
+  const MassIntegrals& integrals = *floating.body.mass_integrals;
+  return text + group(16, "INVARIANT 8") + rows(invariant_8(integrals)) + group(17, "INVARIANT 5") +
+         rows(invariant_5(integrals)) + group(18, "INVARIANT 9") + rows(invariant_9(integrals));
+}
+
 }  // namespace
 
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
@@ -87,9 +134,7 @@ std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
         "body free (fixed = []), whose modes need no such coupling, or write for mbdyn-develop");
   std::string text =
       header(body, version) + node_groups(body) + mode_group(body) + matrix_groups(body);
-  if (version == MbdynVersion::develop)
-    text += group(14, "INVARIANT 3") + rows(floating.momentum) + group(15, "INVARIANT 4") +
-            rows(floating.angular_momentum);
+  if (version == MbdynVersion::develop) text += invariant_groups(floating);
   return text + "** END OF FILE\n";
 }
 

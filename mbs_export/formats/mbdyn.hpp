@@ -7,13 +7,14 @@
 namespace chladni::mbs_export::formats {
 
 /// What the reader of the file knows: MBDyn 1.7 stops at record groups beyond 13; the development
-/// version (2023 and later) reads the inertia invariants 3 and 4 from groups 14 and 15.
+/// version (2023 and later) reads the inertia invariants 3, 4, 8, 5 and 9 from groups 14 to 18.
 enum class MbdynVersion { v1_7, develop };
 
 /// A body for MBDyn's joint "modal" (*.fem), in the frame of the mesh. The inertia stands in group
 /// 12 and never in group 11, since the reader takes lumped masses in place of it; and the joint
 /// must say "origin position, null", without which the reader leaves the moments of inertia at
-/// zero. The invariants 5, 8 and 9 (inertia that changes with deformation) are not written.
+/// zero. The invariants 8, 5 and 9 (inertia that changes with deformation) are written where the
+/// body has its mass integrals.
 /// @throws chladni::Error when 1.7 cannot express the coupling of a held body with its frame.
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version);
 

@@ -1,6 +1,8 @@
 // `chladni check` and `chladni export`, run as their user does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 
 #include "mbs_export/body_file.hpp"
@@ -55,6 +57,8 @@ TEST(ReadBodyExample, ReadsWhatIsWritten)
   EXPECT_EQ(ending.exit_code, 0) << ending.err;
   EXPECT_NE(ending.out.find("wheel: 1.7 kg"), std::string::npos) << ending.out;
   EXPECT_NE(ending.out.find("ring track, radius 0.1 m"), std::string::npos) << ending.out;
+  const std::string example = read_text(CHLADNI_SOURCE_DIR "/examples/read_body.py");
+  EXPECT_LE(std::count(example.begin(), example.end(), '\n'), 20);
 }
 
 TEST(ChladniExport, WritesTheFilesOfNastran)

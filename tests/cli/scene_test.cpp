@@ -250,6 +250,20 @@ TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
       std::string::npos);
 }
 
+TEST(SceneError, RefusesResponsesOfTheWholeModelInAFreeInterfaceReduction)
+{
+  const std::string full =
+      replaced(disc, "omega0 = \"auto\" }", "omega0 = \"auto\", space = \"full\" }");
+  EXPECT_EQ(error_of(full), "no error");
+  for (const std::string method : {"rubin", "macneal"}) {
+    const std::string text = error_of(replaced(full, "craig-bampton", method));
+    EXPECT_NE(text.find("space = \"full\": responses of the whole model"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("reduce with method \"craig-bampton\""), std::string::npos) << text;
+    EXPECT_EQ(error_of(replaced(disc, "craig-bampton", method)), "no error");
+  }
+}
+
 TEST(Scene, NeedsNeitherBodyNorSqueal)
 {
   const Scene scene = parse_scene(disc.substr(0, disc.find("[body]")), "scene.toml");

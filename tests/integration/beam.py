@@ -3,7 +3,6 @@
 Usage: beam.py PROGRAM_DIR
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -12,16 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "examples/beam"))
 import beam  # noqa: E402  (beside the scenes, not a package)
 import report  # noqa: E402
 import study  # noqa: E402
-
-
-def failed_checks(programs, folder):
-    """Files that `chladni check` does not pass."""
-    for case in beam.CASES:
-        for file in (folder / case.name / f"{case.name}.reduced.h5", beam.body_file(folder, case)):
-            run = subprocess.run([programs / "chladni", "check", file], capture_output=True, text=True)
-            if run.returncode != 0:
-                print(run.stdout, run.stderr)
-                yield f"check of {file.name}"
+from checked import failed_checks  # noqa: E402
 
 
 def main(programs):

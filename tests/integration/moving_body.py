@@ -99,6 +99,32 @@ def exports(programs, folder, name):
     expect("SID_FEM: the last line ends the part", int(lines[-1].strip() != "end part"), 0)
 
 
+def picture(folder, name):
+    """The body opens as a file of VTK; with VTK's own reader where that is installed."""
+    with h5py.File(folder / f"{name}.body.h5") as file:
+        shapes = file["picture/displacements"][:]
+        fields = file["VTKHDF/PointData"]
+        expect("as many fields as modes", len(fields) - shapes.shape[1], 0)
+        error = max(np.abs(field[:].ravel() - shape).max() for field, shape in zip(fields.values(), shapes.T))
+        expect("each of which is its mode", error, 0)
+    try:
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOHDF import vtkHDFReader
+    except ImportError:
+        print("no VTK here (package python3-vtk9): its reader is not asked")
+        return
+    reader = vtkHDFReader()
+    reader.SetFileName(str(folder / f"{name}.body.h5"))
+    reader.Update()
+    grid = reader.GetOutput()
+    expect("VTK: points", 3 * grid.GetNumberOfPoints() - len(shapes), 0)
+    expect("VTK: quadrilaterals", int(grid.GetCellType(0) != 9), 0)
+    data = grid.GetPointData()
+    expect("VTK: fields", data.GetNumberOfArrays() - shapes.shape[1], 0)
+    read = [vtk_to_numpy(data.GetArray(j)).ravel() for j in range(shapes.shape[1])]
+    expect("VTK: values", max(np.abs(a - b).max() for a, b in zip(read, shapes.T)), 0)
+
+
 def checks(programs, folder, name):
     for kind in ("reduced", "body"):
         run(programs / "chladni", "check", folder / f"{name}.{kind}.h5", "--json", folder / "check.json")
@@ -108,41 +134,7 @@ def checks(programs, folder, name):
         expect("which looks at the mass integrals", names.count("mass integrals") - 1, 0)
 
 
-STRIP = """
-title = "strip"
-[mesh]
-generator = "rectangle"
-length = 0.4
-width = 0.1
-element_size = 0.05
-element_order = 2
-[material.steel]
-young = 2.1e11
-poisson = 0.0
-density = 7800.0
-[[section]]
-group = "plate"
-type = "shell"
-material = "steel"
-thickness = 0.004
-offset = 0.03
-[[coupling]]
-type = "rigid"
-name = "L"
-group = "left"
-[[coupling]]
-type = "rigid"
-name = "R"
-group = "right"
-[interface]
-nodes = ["L", "R"]
-[reduce]
-method = "craig-bampton"
-modes = 5
-resultants = ["plate"]
-[body]
-fixed = ["L"]
-"""
+STRIP = (Path(__file__).parents[1] / "data/strip.toml").read_text()
 
 
 def static_forces(file, load):
@@ -160,6 +152,7 @@ def shells(programs, folder):
     """A strip of 0.1 m between rigid edges: forces of its whole width are those of a beam."""
     name = make(programs, folder, STRIP)
     checks(programs, folder, name)
+    picture(folder, name)
     with h5py.File(folder / f"{name}.reduced.h5") as file:
         x = file["resultants/plate/positions"][:]
         expect("points stand on the mid-surface", np.abs(x[:, 2] - 0.03).max(), 1e-12)

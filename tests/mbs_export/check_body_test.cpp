@@ -181,7 +181,7 @@ TEST(CheckBody, FailsEachPropertyThatIsSpoiled)
   fails("frequencies", [](ModalBody& b) { b.free_frequencies *= 1e3; });
   fails("rigid-body energy", [](ModalBody& b) { b.preparation.rigid_residual = 1e-3; });
   fails("held displacements", [](ModalBody& b) { b.attachment_modes(74, 3) = 1e-3; });
-  fails("condition of Q_dd", [](ModalBody& b) { b.condition_Q_dd = 1e9; });
+  fails("condition of Q_dd", [](ModalBody& b) { b.preparation.condition_directions = 1e9; });
   fails("mass, kg", [](ModalBody& b) { b.mass = -1.0; });
   fails("inertia", [](ModalBody& b) { b.inertia(2, 2) *= 3.0; });
   fails("symmetry of C", [](ModalBody& b) { b.C(0, 1) = b.C(0, 0); });
@@ -190,6 +190,15 @@ TEST(CheckBody, FailsEachPropertyThatIsSpoiled)
   fails("ring rim", [](ModalBody& b) { b.attachment_nodes[4].position.z() += 0.01; });
   expect(held_wheel(), check_body, "definiteness of C", Verdict::warn,
          [](ModalBody& b) { b.C(0, 0) *= -1.0; });
+}
+
+TEST(CheckBody, TakesNoOffenceAtMetresAgainstRadians)
+{
+  ModalBody body = held_wheel();
+  body.condition_Q_dd = 1e9;
+  EXPECT_EQ(worst(check_body(body)), Verdict::pass);
+  body.preparation.condition_directions = {};  // a file that knows no better
+  EXPECT_EQ(names(check_body(body), Verdict::warn), "[condition of Q_dd]");
 }
 
 TEST(CheckBody, FailsRigidModesThatAreNoRigidMotionsOrOfAnotherBody)

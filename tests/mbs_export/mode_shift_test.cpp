@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "bending_beam.hpp"
 #include "mbs_export/constrained_modes.hpp"
@@ -79,12 +80,38 @@ TEST(ModeShift, DoesNotDependOnTheUnitOfLength)
   const auto omega = [](const ReducedSystem& system) {
     const FreeModes modes = orthogonalize(system);
     const ModeShift shift = shift_modes(modes, held_dofs(system, {"A"}));
-    return std::pair{constrained_modes(shift).omega, shift.condition_Q_dd};
+    return std::tuple{constrained_modes(shift).omega, shift.condition_Q_dd,
+                      shift.condition_directions};
   };
-  const auto [a, cond_a] = omega(beam);
-  const auto [b, cond_b] = omega(tiny);
+  const auto [a, cond_a, directions_a] = omega(beam);
+  const auto [b, cond_b, directions_b] = omega(tiny);
   EXPECT_GT(cond_b, 1e11 * cond_a);
+  EXPECT_NEAR(directions_b, directions_a, 1e-6 * directions_a);
   EXPECT_LT((b.head(50) - a.head(50)).cwiseQuotient(a.head(50)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(ModeShift, GivesTheSameBodyWhateverModesDepend)
+{
+  // The clamped beam with its rigid modes as dependent ones, and with elastic ones in their place.
+  const ReducedSystem& beam = test::regression_beam();
+  const FreeModes modes = orthogonalize(beam);
+  const HeldDofs held = held_dofs(beam, {"A"});
+  const auto shapes = [&](const ModeShift& shift) {
+    const ConstrainedModes constrained = constrained_modes(shift);
+    MatrixXd T = (modes.Q_e * (shift.Q_c * constrained.X)).leftCols(20);
+    for (Eigen::Index j = 0; j < T.cols(); ++j)
+      if (T(4, j) < 0.0) T.col(j) *= -1.0;  // w_C
+    return std::pair{Eigen::VectorXd(constrained.omega.head(20)), T};
+  };
+  const auto [omega, T] = shapes(shift_modes(modes, held));
+  for (const std::vector<int>& dependent : {std::vector{0, 2}, {1, 3}, {2, 3}, {4, 7}}) {
+    const ModeShift other = shift_modes(modes, held, dependent);
+    const auto [omega_other, T_other] = shapes(other);
+    // Round-off of K_r, 1e-6 of lambda, which other combinations of modes meet otherwise.
+    EXPECT_LT((omega_other - omega).cwiseQuotient(omega).cwiseAbs().maxCoeff(), 2e-8);
+    EXPECT_LT((T_other - T).norm(), 1e-6 * T.norm());
+    EXPECT_GT(other.condition_directions, 1.0);
+  }
 }
 
 TEST(ModeShift, RefusesDependentModesThatCannotFollow)

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bending_beam.hpp"
+#include "expect_equal.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "scratch_folder.hpp"
@@ -16,7 +17,7 @@
 namespace chladni::mbs_export {
 namespace {
 
-using test::ScratchFolder, test::error_of;
+using test::ScratchFolder, test::error_of, test::expect_equal;
 
 /// Shear and moment at two points, the second one in turned axes.
 ResultantModes two_points(Eigen::Index n_coordinates)
@@ -59,70 +60,6 @@ ReducedSystem complete_system()
                        .options = "-a 1",
                        .ranks = 3};
   return system;
-}
-
-void expect_equal(const ModeCount& a, const ModeCount& b)
-{
-  EXPECT_EQ(a.up_to, b.up_to);
-  EXPECT_EQ(a.expected, b.expected);
-  EXPECT_EQ(a.found, b.found);
-}
-
-void expect_equal(const Certificate& a, const Certificate& b)
-{
-  EXPECT_EQ(a.fixed, b.fixed);
-  EXPECT_EQ(a.frequencies, b.frequencies);
-  EXPECT_EQ(a.eta2, b.eta2);
-  EXPECT_EQ(a.bounds, b.bounds);
-  expect_equal(a.fixed_interface, b.fixed_interface);
-  expect_equal(a.range, b.range);
-  expect_equal(a.complete, b.complete);
-  EXPECT_EQ(a.n_rigid, b.n_rigid);
-  EXPECT_EQ(a.rigid_residual, b.rigid_residual);
-  EXPECT_EQ(a.condition, b.condition);
-}
-
-void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
-{
-  expect_equal(a.certificate, b.certificate);
-  EXPECT_EQ(a.title, b.title);
-  ASSERT_EQ(a.attachment_nodes.size(), b.attachment_nodes.size());
-  for (std::size_t i = 0; i < a.attachment_nodes.size(); ++i) {
-    EXPECT_EQ(a.attachment_nodes[i].number, b.attachment_nodes[i].number);
-    EXPECT_EQ(a.attachment_nodes[i].position, b.attachment_nodes[i].position);
-  }
-  ASSERT_EQ(a.sets.size(), b.sets.size());
-  for (std::size_t i = 0; i < a.sets.size(); ++i) {
-    EXPECT_EQ(a.sets[i].name, b.sets[i].name);
-    EXPECT_EQ(a.sets[i].nodes, b.sets[i].nodes);
-  }
-  ASSERT_EQ(a.masters.size(), b.masters.size());
-  for (std::size_t i = 0; i < a.masters.size(); ++i) {
-    EXPECT_EQ(a.masters[i].node, b.masters[i].node);
-    EXPECT_EQ(a.masters[i].component, b.masters[i].component);
-  }
-  EXPECT_EQ(a.K, b.K);
-  EXPECT_EQ(a.M, b.M);
-  EXPECT_EQ(a.C, b.C);
-  EXPECT_EQ(a.fixed_interface_frequencies, b.fixed_interface_frequencies);
-  EXPECT_EQ(a.picture.positions, b.picture.positions);
-  EXPECT_EQ(a.picture.cells, b.picture.cells);
-  EXPECT_EQ(a.picture.transformation, b.picture.transformation);
-  ASSERT_EQ(a.resultants.size(), b.resultants.size());
-  for (std::size_t i = 0; i < a.resultants.size(); ++i) {
-    EXPECT_EQ(a.resultants[i].name, b.resultants[i].name);
-    EXPECT_EQ(a.resultants[i].kinds, b.resultants[i].kinds);
-    EXPECT_EQ(a.resultants[i].units, b.resultants[i].units);
-    EXPECT_EQ(a.resultants[i].elements, b.resultants[i].elements);
-    EXPECT_EQ(a.resultants[i].positions, b.resultants[i].positions);
-    EXPECT_EQ(a.resultants[i].axes, b.resultants[i].axes);
-    EXPECT_EQ(a.resultants[i].S, b.resultants[i].S);
-  }
-  EXPECT_EQ(a.provenance.scene, b.provenance.scene);
-  EXPECT_EQ(a.provenance.mesh_checksum, b.provenance.mesh_checksum);
-  EXPECT_EQ(a.provenance.versions, b.provenance.versions);
-  EXPECT_EQ(a.provenance.options, b.provenance.options);
-  EXPECT_EQ(a.provenance.ranks, b.provenance.ranks);
 }
 
 TEST(ReducedFile, ReturnsWhatWasWrittenBitByBit)

@@ -135,4 +135,12 @@ ModalBody version_1_body()
   return body;
 }
 
+formats::FloatingBody version_1_floating()
+{
+  formats::FloatingBody floating{.body = version_1_body(), .momentum = {}, .angular_momentum = {}};
+  floating.momentum = floating.body.mass_integrals->displacement;
+  floating.angular_momentum = 0.5 * floating.momentum;
+  return floating;
+}
+
 }  // namespace chladni::mbs_export::test

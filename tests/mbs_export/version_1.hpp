@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mbs_export/formats/floating_body.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "mbs_export/reduced_system.hpp"
 
@@ -11,5 +12,8 @@ ReducedSystem version_1_reduced();
 
 /// What tests/data/version_1.body.h5 holds.
 ModalBody version_1_body();
+
+/// The same body as other programs get it: what their golden files, three_nodes.*, hold.
+formats::FloatingBody version_1_floating();
 
 }  // namespace chladni::mbs_export::test

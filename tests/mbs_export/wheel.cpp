@@ -104,4 +104,18 @@ ReducedSystem wheel()
   return system;
 }
 
+ReducedSystem wheel_of_points()
+{
+  ReducedSystem points = wheel();
+  MassIntegrals& integrals = *points.mass_integrals;
+  double half_J = 0.0;
+  for (Eigen::Index i = 0; i < points.M.rows(); i += 6) {
+    half_J += 0.5 * points.M(i + 3, i + 3);
+    for (Eigen::MatrixXd& S : integrals.products) S.block<3, 3>(i + 3, i + 3).setZero();
+    integrals.position_displacement.middleCols<3>(i + 3).setZero();
+  }
+  integrals.second -= half_J * Eigen::Matrix3d::Identity();
+  return points;
+}
+
 }  // namespace chladni::mbs_export::test

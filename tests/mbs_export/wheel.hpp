@@ -19,4 +19,8 @@ constexpr double hub_inertia = 4e-4;       // kg m^2, about any axis
 /// its modes come in pairs.
 ReducedSystem wheel();
 
+/// The wheel with mass integrals as if its nodes had no inertia of their own: sums over the nodes,
+/// as other programs make them, are then exact.
+ReducedSystem wheel_of_points();
+
 }  // namespace chladni::mbs_export::test

@@ -4,29 +4,24 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <map>
 
 #include "../scratch_folder.hpp"
+#include "../version_1.hpp"
 #include "../wheel.hpp"
 #include "mbs_export/hdf5.hpp"
+#include "mbs_export/hdf5_handle.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
 
 using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
-/// Its nodes without inertia of their own, so that the sums of Exudyn over the nodes are exact.
+/// With a picture: the sums of Exudyn over the nodes are exact here.
 FloatingBody wheel_of_points()
 {
-  ReducedSystem wheel = test::wheel();
-  MassIntegrals& integrals = *wheel.mass_integrals;
+  ReducedSystem wheel = test::wheel_of_points();
   const Index n = wheel.M.rows();
-  double half_J = 0.0;
-  for (Index i = 0; i < n; i += 6) {
-    half_J += 0.5 * wheel.M(i + 3, i + 3);
-    for (MatrixXd& S : integrals.products) S.block<3, 3>(i + 3, i + 3).setZero();
-    integrals.position_displacement.middleCols<3>(i + 3).setZero();
-  }
-  integrals.second -= half_J * Matrix3d::Identity();
   wheel.picture.positions.setOnes(3, 3);
   wheel.picture.cells = {{0, 1, 2, 2}, {0, 1, 1, 1}};
   wheel.picture.transformation = MatrixXd::Zero(9, n);
@@ -96,6 +91,71 @@ TEST(Exudyn, NumbersThePictureBehindTheAttachmentNodes)
   EXPECT_EQ(file.integer("infoList/item_0"), 5);
   EXPECT_EQ(file.integer("infoList/item_1"), 16);
   EXPECT_EQ(file.integer("infoList/item_5"), 12);
+}
+
+/// An object of the file as Exudyn's loader takes it: its Python type, its extents and its bytes.
+struct Entry {
+  std::string datatype;
+  std::vector<hsize_t> shape;
+  std::vector<char> bytes;
+
+  bool operator==(const Entry&) const = default;
+};
+
+std::string datatype_of(hid_t object)
+{
+  const hdf5::Handle attribute{H5Aopen(object, "datatype", H5P_DEFAULT), H5Aclose};
+  if (!attribute.valid()) return "";
+  const hdf5::Handle type{H5Aget_type(attribute.get()), H5Tclose};
+  EXPECT_GT(H5Tis_variable_str(type.get()), 0);  // what else would come as bytes
+  char* text = nullptr;
+  H5Aread(attribute.get(), type.get(), static_cast<void*>(&text));
+  std::string datatype = text;
+  H5free_memory(text);
+  return datatype;
+}
+
+herr_t add_entry(hid_t file, const char* name, const H5O_info_t* info, void* entries)
+{
+  const hdf5::Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
+  Entry entry{.datatype = datatype_of(object.get()), .shape = {}, .bytes = {}};
+  if (info->type == H5O_TYPE_DATASET) {
+    const hdf5::Handle type{H5Dget_type(object.get()), H5Tclose};
+    const hdf5::Handle space{H5Dget_space(object.get()), H5Sclose};
+    entry.shape.resize(std::size_t(H5Sget_simple_extent_ndims(space.get())));
+    H5Sget_simple_extent_dims(space.get(), entry.shape.data(), nullptr);
+    entry.bytes.resize(H5Tget_size(type.get()) *
+                       std::size_t(H5Sget_simple_extent_npoints(space.get())));
+    H5Dread(object.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, entry.bytes.data());
+  }
+  (*static_cast<std::map<std::string, Entry>*>(entries))[name] = std::move(entry);
+  return 0;
+}
+
+std::map<std::string, Entry> entries_of(const std::string& path)
+{
+  std::map<std::string, Entry> entries;
+  const hdf5::Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  EXPECT_TRUE(file.valid()) << path;
+  H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, add_entry, &entries, H5O_INFO_BASIC);
+  return entries;
+}
+
+TEST(Exudyn, IsTheSameDictionaryAsBefore)
+{
+  const test::ScratchFolder folder;
+  write_exudyn(folder.file("a.h5"), test::version_1_floating());
+  const auto found = entries_of(folder.file("a.h5"));
+  const auto golden = entries_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.exudyn.h5");
+  EXPECT_EQ(found.size(), golden.size());
+  for (const auto& [name, entry] : golden) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_TRUE(found.at(name) == entry) << name;
+  }
+  EXPECT_EQ(golden.at("modeBasis").datatype, "ndarray");
+  EXPECT_EQ(golden.at("infoList").datatype, "list");
+  EXPECT_EQ(golden.at("infoList/item_0").datatype, "int");
+  EXPECT_EQ(golden.at("rigidBodyNodeType").datatype, "str");
 }
 
 TEST(Exudyn, NeedsMassIntegralsAndLeavesNothingWithoutThem)

@@ -3,16 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <sstream>
 
 #include "../bending_beam.hpp"
 #include "../scratch_folder.hpp"
+#include "../version_1.hpp"
 #include "../wheel.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::Vector3d;
+using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d;
 
 /// What MBDyn has after reading.
 struct FemFile {
@@ -20,7 +22,7 @@ struct FemFile {
   std::vector<std::string> labels;
   MatrixXd positions;           ///< [3 x n_nodes]
   std::vector<MatrixXd> modes;  ///< [6 x n_nodes] each
-  MatrixXd M, K, C, invariant_3, invariant_4;
+  MatrixXd M, K, C, invariant_3, invariant_4, invariant_5, invariant_8, invariant_9;
   double mass = 0.0;
   Vector3d centre;
   Eigen::Matrix3d inertia;
@@ -92,6 +94,15 @@ void read_group(std::istream& file, FemFile& fem, int number)
       return;
     case 15:
       fem.invariant_4 = read_rows(file, 3, n);
+      return;
+    case 16:
+      fem.invariant_8 = read_rows(file, 3, 3 * n);
+      return;
+    case 17:
+      fem.invariant_5 = read_rows(file, 3, n * n);
+      return;
+    case 18:
+      fem.invariant_9 = read_rows(file, 3, 3 * n * n);
       return;
     default:
       FAIL() << "RECORD GROUP " << number << " unhandled";
@@ -185,6 +196,68 @@ TEST(MbdynFem, HasTheMomentaOfTheNodesThatItHolds)
   EXPECT_GT(largest, 0.1);  // a held body couples, or the test would tell nothing
 }
 
+Matrix3d tilde(const Vector3d& a)
+{
+  Matrix3d S;
+  S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return S;
+}
+
+TEST(MbdynFem, HasTheInvariantsThatItsReaderMakesOfPointMasses)
+{
+  // The reader's loop over the nodes of group 11, for masses without inertia of their own.
+  const FemFile fem =
+      read_fem(mbdyn_fem(floating_body(test::wheel_of_points(), held_hub()), MbdynVersion::develop),
+               MbdynVersion::develop);
+  const Index n = fem.n_modes;
+  MatrixXd I5 = MatrixXd::Zero(3, n * n), I8 = MatrixXd::Zero(3, 3 * n),
+           I9 = MatrixXd::Zero(3, 3 * n * n);
+  for (Index node = 0; node < fem.n_nodes; ++node) {
+    const double m = node == test::wheel_rim_nodes ? test::hub_mass : test::rim_node_mass;
+    for (Index j = 0; j < n; ++j) {
+      const Vector3d U_j = fem.modes[std::size_t(j)].col(node).head(3);
+      I8.middleCols<3>(3 * j) -= m * tilde(fem.positions.col(node)) * tilde(U_j);
+      for (Index k = 0; k < n; ++k) {
+        const Vector3d U_k = fem.modes[std::size_t(k)].col(node).head(3);
+        I5.col(j * n + k) += m * U_j.cross(U_k);
+        I9.middleCols<3>(3 * (j * n + k)) += m * tilde(U_j) * tilde(U_k);
+      }
+    }
+  }
+  // Round-off of sums of 13 terms of at most 1.
+  EXPECT_LT((fem.invariant_5 - I5).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((fem.invariant_8 - I8).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((fem.invariant_9 - I9).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_GT(std::min({I5.norm(), I8.norm(), I9.norm()}), 0.1);  // or nothing was compared
+}
+
+TEST(MbdynFem, ChangesTheInertiaAsTheDeformedPointsDo)
+{
+  // MBDyn's inertia about the origin, I7 + sum (I8_j + I8_j^T) q_j - sum I9_jk q_j q_k.
+  const FloatingBody floating = floating_body(test::wheel_of_points(), held_hub());
+  const FemFile fem = read_fem(mbdyn_fem(floating, MbdynVersion::develop), MbdynVersion::develop);
+  const Index n = fem.n_modes;
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(n, 0.01, 0.1);
+  Matrix3d exact = Matrix3d::Zero(), I7 = Matrix3d::Zero();
+  for (Index node = 0; node < fem.n_nodes; ++node) {
+    const double m = node == test::wheel_rim_nodes ? test::hub_mass : test::rim_node_mass;
+    const Vector3d x = fem.positions.col(node);
+    Vector3d moved = x;
+    for (Index j = 0; j < n; ++j) moved += q[j] * fem.modes[std::size_t(j)].col(node).head(3);
+    exact -= m * tilde(moved) * tilde(moved);
+    I7 -= m * tilde(x) * tilde(x);
+  }
+  Matrix3d found = I7;
+  for (Index j = 0; j < n; ++j) {
+    const Matrix3d I8_j = fem.invariant_8.middleCols<3>(3 * j);
+    found += q[j] * (I8_j + I8_j.transpose());
+    for (Index k = 0; k < n; ++k)
+      found -= q[j] * q[k] * fem.invariant_9.middleCols<3>(3 * (j * n + k));
+  }
+  EXPECT_LT((found - exact).norm(), 1e-13 * exact.norm());
+  EXPECT_GT((found - I7).norm(), 1e-3 * exact.norm());
+}
+
 TEST(MbdynFem, OfAFreeBodyHasNoRigidModesAndNoMomentum)
 {
   BodyOptions options;
@@ -232,6 +305,12 @@ TEST(MbdynFem, IsTheSameTextAsBefore)
   floating.angular_momentum(0, 1) = -4.0;
   EXPECT_EQ(mbdyn_fem(floating, MbdynVersion::develop),
             test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_masses.fem"));
+}
+
+TEST(MbdynFem, WithAllInvariantsIsTheSameTextAsBefore)
+{
+  EXPECT_EQ(mbdyn_fem(test::version_1_floating(), MbdynVersion::develop),
+            test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.fem"));
 }
 
 }  // namespace

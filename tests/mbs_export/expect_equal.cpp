@@ -1,0 +1,190 @@
+#include "expect_equal.hpp"
+
+#include <gtest/gtest.h>
+
+namespace chladni::mbs_export::test {
+namespace {
+
+void expect_equal(const MassIntegrals& a, const MassIntegrals& b)
+{
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.second, b.second);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.position_displacement, b.position_displacement);
+  for (std::size_t i = 0; i < a.products.size(); ++i) EXPECT_EQ(a.products[i], b.products[i]);
+}
+
+void expect_equal(const ResultantModes& a, const ResultantModes& b)
+{
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.kinds, b.kinds);
+  EXPECT_EQ(a.units, b.units);
+  EXPECT_EQ(a.elements, b.elements);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.axes, b.axes);
+  EXPECT_EQ(a.S, b.S);
+}
+
+void expect_equal(const Picture& a, const Picture& b)
+{
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.cells, b.cells);
+  EXPECT_EQ(a.transformation, b.transformation);
+}
+
+void expect_equal(const Provenance& a, const Provenance& b)
+{
+  EXPECT_EQ(a.scene, b.scene);
+  EXPECT_EQ(a.mesh_checksum, b.mesh_checksum);
+  EXPECT_EQ(a.versions, b.versions);
+  EXPECT_EQ(a.options, b.options);
+  EXPECT_EQ(a.ranks, b.ranks);
+}
+
+void expect_equal(const std::vector<SelectionStep>& a, const std::vector<SelectionStep>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].added, b[i].added);
+    EXPECT_EQ(a[i].n_modes, b[i].n_modes);
+    EXPECT_EQ(a[i].n_interface, b[i].n_interface);
+    EXPECT_EQ(a[i].error, b[i].error);
+  }
+}
+
+void expect_equal(const ModeCount& a, const ModeCount& b)
+{
+  EXPECT_EQ(a.up_to, b.up_to);
+  EXPECT_EQ(a.expected, b.expected);
+  EXPECT_EQ(a.found, b.found);
+}
+
+void expect_equal(const Certificate& a, const Certificate& b)
+{
+  EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.frequencies, b.frequencies);
+  EXPECT_EQ(a.eta2, b.eta2);
+  EXPECT_EQ(a.bounds, b.bounds);
+  expect_equal(a.fixed_interface, b.fixed_interface);
+  expect_equal(a.range, b.range);
+  expect_equal(a.complete, b.complete);
+  EXPECT_EQ(a.n_rigid, b.n_rigid);
+  EXPECT_EQ(a.rigid_residual, b.rigid_residual);
+  EXPECT_EQ(a.condition, b.condition);
+}
+
+void expect_equal(const std::vector<AttachmentNode>& a, const std::vector<AttachmentNode>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].number, b[i].number);
+    EXPECT_EQ(a[i].position, b[i].position);
+  }
+}
+
+void expect_equal(const std::vector<AttachmentSet>& a, const std::vector<AttachmentSet>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    EXPECT_EQ(a[i].nodes, b[i].nodes);
+  }
+}
+
+void expect_equal(const ContactRing& a, const ContactRing& b)
+{
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.radius, b.radius);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_EQ(a.angles, b.angles);
+  EXPECT_EQ(a.W, b.W);
+  EXPECT_EQ(a.W_r, b.W_r);
+  EXPECT_EQ(a.W_t, b.W_t);
+}
+
+void expect_equal(const Preparation& a, const Preparation& b)
+{
+  EXPECT_EQ(a.n_constrained_modes, b.n_constrained_modes);
+  EXPECT_EQ(a.n_partners, b.n_partners);
+  EXPECT_EQ(a.n_interface_dropped, b.n_interface_dropped);
+  EXPECT_EQ(a.n_massless, b.n_massless);
+  EXPECT_EQ(a.rigid_residual, b.rigid_residual);
+  EXPECT_EQ(a.condition_directions, b.condition_directions);
+}
+
+void expect_equal(const SelectionTable& a, const SelectionTable& b)
+{
+  EXPECT_EQ(a.error, b.error);
+  EXPECT_EQ(a.Omega_max, b.Omega_max);
+  EXPECT_EQ(a.loads, b.loads);
+  expect_equal(a.modes_only, b.modes_only);
+  expect_equal(a.with_interface_modes, b.with_interface_modes);
+}
+
+template <class Value>
+void expect_equal_list(const std::vector<Value>& a, const std::vector<Value>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_equal(a[i], b[i]);
+}
+
+template <class Value>
+void expect_equal_if_any(const std::optional<Value>& a, const std::optional<Value>& b)
+{
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (a) expect_equal(*a, *b);
+}
+
+}  // namespace
+
+void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
+{
+  EXPECT_EQ(a.title, b.title);
+  expect_equal(a.attachment_nodes, b.attachment_nodes);
+  expect_equal(a.sets, b.sets);
+  ASSERT_EQ(a.masters.size(), b.masters.size());
+  for (std::size_t i = 0; i < a.masters.size(); ++i) {
+    EXPECT_EQ(a.masters[i].node, b.masters[i].node);
+    EXPECT_EQ(a.masters[i].component, b.masters[i].component);
+  }
+  EXPECT_EQ(a.K, b.K);
+  EXPECT_EQ(a.M, b.M);
+  EXPECT_EQ(a.C, b.C);
+  EXPECT_EQ(a.fixed_interface_frequencies, b.fixed_interface_frequencies);
+  expect_equal(a.picture, b.picture);
+  expect_equal(a.certificate, b.certificate);
+  expect_equal_list(a.resultants, b.resultants);
+  expect_equal_if_any(a.mass_integrals, b.mass_integrals);
+  expect_equal(a.provenance, b.provenance);
+}
+
+void expect_equal(const ModalBody& a, const ModalBody& b)
+{
+  EXPECT_EQ(a.title, b.title);
+  EXPECT_EQ(a.kinds, b.kinds);
+  EXPECT_EQ(a.omega, b.omega);
+  EXPECT_EQ(a.C, b.C);
+  expect_equal(a.attachment_nodes, b.attachment_nodes);
+  expect_equal(a.sets, b.sets);
+  EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.attachment_modes, b.attachment_modes);
+  expect_equal_list(a.rings, b.rings);
+  expect_equal(a.picture, b.picture);
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.centre_of_mass, b.centre_of_mass);
+  EXPECT_EQ(a.inertia, b.inertia);
+  EXPECT_EQ(a.free_frequencies, b.free_frequencies);
+  EXPECT_EQ(a.n_rigid, b.n_rigid);
+  EXPECT_EQ(a.condition_Q_dd, b.condition_Q_dd);
+  EXPECT_EQ(a.n_free_rigid, b.n_free_rigid);
+  expect_equal(a.preparation, b.preparation);
+  expect_equal_list(a.resultants, b.resultants);
+  expect_equal_if_any(a.mass_integrals, b.mass_integrals);
+  expect_equal_if_any(a.selection, b.selection);
+  expect_equal(a.certificate, b.certificate);
+  expect_equal(a.provenance, b.provenance);
+}
+
+}  // namespace chladni::mbs_export::test
