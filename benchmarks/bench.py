@@ -78,8 +78,8 @@ def sound(out, quick):
 
 
 def script(path, quick_words=("--quick",), full_words=()):
-    """A benchmark that is one script: SCRIPT [WORDS] OUTPUT."""
-    return lambda out, quick: call([PYTHON, HERE / path, *(quick_words if quick else full_words), out])
+    """A benchmark that is one script: SCRIPT OUTPUT [WORDS]."""
+    return lambda out, quick: call([PYTHON, HERE / path, out, *(quick_words if quick else full_words)])
 
 
 # name, title, how it is run, and the stem of the .json and .md that it writes

@@ -190,7 +190,10 @@ TEST(BodyFile, IsRefusedWithANumberThatIsNoneInAnyDataset)
   for (const std::string& name : names) {
     const double before = test::replace_last(path, name, std::nan(""));
     const std::string text = error_of([&] { read_body(path); });
-    EXPECT_NE(text.find(name + ": value "), std::string::npos) << name << ": '" << text << "'";
+    // Those of VTKHDF are views of the picture.
+    const bool is_view = name.starts_with("VTKHDF/");
+    const std::string named = is_view ? "picture/displacements" : name;
+    EXPECT_NE(text.find(named + ": value "), std::string::npos) << name << ": '" << text << "'";
     EXPECT_NE(text.find("nan"), std::string::npos) << text;
     test::replace_last(path, name, before);
   }
