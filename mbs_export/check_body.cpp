@@ -97,17 +97,23 @@ void add_condition(std::vector<Check>& checks, const ModalBody& body)
   checks.push_back(check);
 }
 
+void add_held_displacements(std::vector<Check>& checks, const ModalBody& body)
+{
+  if (body.fixed.empty()) return;
+  const HeldDofs held = held_dofs(geometry_of(body), body.fixed);
+  // Where all are held, round-off is all that there is to compare them with.
+  if (std::ssize(held.rows) == body.attachment_modes.rows()) return;
+  double largest = 0.0;
+  for (const int row : held.rows)
+    largest = std::max(largest, body.attachment_modes.row(row).cwiseAbs().maxCoeff());
+  const double scale = body.attachment_modes.cwiseAbs().maxCoeff();
+  checks.push_back(bounded("held displacements", scale > 0.0 ? largest / scale : 0.0, 1e-7,
+                           "largest one over the largest of all"));
+}
+
 void add_supports(std::vector<Check>& checks, const ModalBody& body)
 {
-  if (!body.fixed.empty() && body.attachment_modes.size() > 0) {
-    const HeldDofs held = held_dofs(geometry_of(body), body.fixed);
-    double largest = 0.0;
-    for (const int row : held.rows)
-      largest = std::max(largest, body.attachment_modes.row(row).cwiseAbs().maxCoeff());
-    const double scale = body.attachment_modes.cwiseAbs().maxCoeff();
-    checks.push_back(bounded("held displacements", scale > 0.0 ? largest / scale : 0.0, 1e-7,
-                             "largest one over the largest of all"));
-  }
+  add_held_displacements(checks, body);
   add_condition(checks, body);
 }
 

@@ -69,7 +69,8 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   if (B.info() != Eigen::Success)
     throw Error(
         "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
-        " is the structure in one piece, without mechanisms, and no attachment node so close to another"
+        " is the structure in one piece, without mechanisms, and no attachment node so close to "
+        "another"
         " that round-off is all there is between them?");
   const MatrixXd L = B.matrixL();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(deflated(L, M, R));
