@@ -7,27 +7,6 @@ function(chladni_library name)
   target_link_libraries(chladni_${name} PUBLIC ${ARG_LINK})
   set_target_properties(chladni_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   chladni_warnings(chladni_${name})
-  chladni_batches(chladni_${name})
-endfunction()
-
-# chladni_batches(TARGET): with CHLADNI_BATCHES its sources are compiled several at a time, those
-# that share no hidden name (cmake/batches.py).
-function(chladni_batches target)
-  if(NOT CHLADNI_BATCHES)
-    return()
-  endif()
-  find_program(PYTHON3 python3 REQUIRED)
-  get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX "\\.cpp$")
-  execute_process(COMMAND ${PYTHON3} ${PROJECT_SOURCE_DIR}/cmake/batches.py ${sources}
-                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
-                  OUTPUT_VARIABLE numbers COMMAND_ERROR_IS_FATAL ANY)
-  foreach(source number IN ZIP_LISTS sources numbers)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${number})
-  endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # A name inside a function may be a hidden one of another source.
-  target_compile_options(${target} PRIVATE -Wno-shadow)
 endfunction()
 
 function(chladni_warnings target)
@@ -50,7 +29,6 @@ function(chladni_test name)
   target_compile_options(${name} PRIVATE -O1)  # half the build time; the libraries do the work
   target_compile_definitions(${name} PRIVATE CHLADNI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  chladni_batches(${name})
   if(NOT ARG_RANKS)
     target_link_libraries(${name} PRIVATE GTest::gtest_main)
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)

@@ -10,7 +10,7 @@
 namespace chladni::mbs_export::formats {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd;
+using Eigen::Index, Eigen::MatrixXd, Eigen::RowVectorXd;
 
 std::string group(int number, const std::string& title)
 {
@@ -106,7 +106,8 @@ MatrixXd invariant_9(const MassIntegrals& integrals)
     for (int c = 0; c < 3; ++c) {
       MatrixXd P = displacement_product(integrals, c, r);  // (r, c) of u_k u_j^T: u_c,j u_r,k
       if (r == c) P -= M;
-      I9.row(r)(Eigen::seqN(c, n * n, 3)) = P.reshaped<Eigen::RowMajor>().transpose();
+      const RowVectorXd by_rows = P.reshaped<Eigen::RowMajor>();
+      for (Index i = 0; i < n * n; ++i) I9(r, 3 * i + c) = by_rows(i);
     }
   return I9;
 }

@@ -1,15 +1,10 @@
-#!/usr/bin/python3
-"""Which sources can be compiled together, as one file that includes them.
+"""Which sources can be read together, as one file that includes them.
 
-usage: batches.py SOURCE...
-
-Headers of Eigen take most of the time of a compiler, and a batch reads them once. Sources whose unnamed
-namespaces share a name cannot be in one batch. Prints the number of the batch of each source, separated
-by semicolons as CMake has its lists.
+Headers of Eigen take most of the time of a reader, and a batch reads them once. Sources whose unnamed
+namespaces share a name cannot be in one batch.
 """
 import pathlib
 import re
-import sys
 
 MOST = 12
 HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
@@ -55,7 +50,3 @@ def batches(paths, key=lambda path: pathlib.Path(path).parent, most=MOST):
             made.append({"key": key(path), "paths": [path], "names": names})
     return [batch["paths"] for batch in made]
 
-
-if __name__ == "__main__":
-    number = {path: i for i, batch in enumerate(batches(sys.argv[1:])) for path in batch}
-    print(";".join(str(number[path]) for path in sys.argv[1:]), end="")
