@@ -46,6 +46,16 @@ def critical_speed_without_coriolis(programs, folder):
     return json.loads((folder / "without.json").read_text())["critical_speed_rad_s"] / pi
 
 
+def compare_mechanisms(programs, folder):
+    """Runs ../mechanisms on the body of the disc; whether it wrote what it found."""
+    script = EXAMPLE.parent / "mechanisms/on_the_disc.py"
+    body = next(folder.glob("*.body.h5"))
+    out = folder / "mechanisms"
+    out.mkdir()
+    subprocess.run([sys.executable, script, programs / "squeal", body, out, out], check=True)
+    return (out / "mechanisms_on_the_disc.json").exists()
+
+
 def main(programs):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -53,12 +63,15 @@ def main(programs):
         rows = report.figures(*report.read(folder))
         ratio = report.rigid_body_ratio(folder)
         unsound = list(failed_checks(programs, folder))
+        compared = compare_mechanisms(programs, folder)
         without = critical_speed_without_coriolis(programs, folder)
     # That of the reference; the frequency of the mesh is 3e-5 above it.
     rows.append(report.Figure("the same without Coriolis forces", "pi rad/s", without, 4.235183, report.TWO_MODES, 5e-4))
     report.print_table(rows)
     report.print_rigid_body_ratio(ratio)
     bad = unsound + [row.name for row in rows if row.within and not abs(row.ratio() - 1) < row.within]
+    if not compared:
+        bad.append("examples/mechanisms/on_the_disc.py")
     if not ratio < 1e-3:
         bad.append("rigid-body frequencies")
     if bad:
