@@ -113,6 +113,7 @@ TEST(CheckReduced, FailsAMechanismBeyondTheRigidMotions)
     // Two wheels that know nothing of each other: K = diag(K, K), seen as one of 26 nodes.
     const ReducedSystem one = test::wheel();
     const Eigen::Index n = one.K.rows();
+    s.mass_integrals.reset();
     s.K = s.M = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     s.K.topLeftCorner(n, n) = s.K.bottomRightCorner(n, n) = one.K;
     s.M.topLeftCorner(n, n) = s.M.bottomRightCorner(n, n) = one.M;
