@@ -86,7 +86,7 @@ def main():
     folder = build.parent.resolve() / "lint"
     folder.mkdir(parents=True, exist_ok=True)
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    flags = {pathlib.Path(entry["file"]): flags_of(entry) for entry in database}
+    flags = {pathlib.Path(entry["file"]).resolve(): flags_of(entry) for entry in database}
     # What is not built here, for want of an optional library, cannot be read either.
     paths = [p for p in (pathlib.Path(name).resolve() for name in sys.argv[2:]) if p in flags]
     paths = [p for p in paths if not (folder / key_of(p)).exists()]
