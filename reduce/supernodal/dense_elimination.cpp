@@ -15,7 +15,7 @@ constexpr int block_columns = 64;  // of a lower triangle that are updated as a 
 
 // The widest instructions of the processor at hand; Debian's baseline has two numbers in one.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-__attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
 void subtract_multiple(double factor, const double* __restrict x, int n, double* __restrict y)
 {

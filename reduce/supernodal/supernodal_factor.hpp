@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/aligned_numbers.hpp"
 #include "reduce/cholesky_factor.hpp"
 #include "reduce/supernodal/assembly_tree.hpp"
 #include "reduce/supernodal/fronts.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 
 #include "reduce/supernodal/tile_kernels.hpp"
 
@@ -37,15 +36,6 @@ std::span<const int> rows_of_tile(std::span<const int> below, int t)
 }
 
 }  // namespace
-
-AlignedNumbers aligned_numbers(std::size_t n)
-{
-  constexpr std::size_t line = 64;
-  const std::size_t n_bytes = (n * sizeof(double) / line + 1) * line;
-  AlignedNumbers numbers(static_cast<double*>(std::aligned_alloc(line, n_bytes)));
-  if (!numbers) throw std::bad_alloc();
-  return numbers;
-}
 
 std::size_t tiled_size(int n_columns, int n_below)
 {

@@ -1,21 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
 #include <span>
 
 namespace chladni::reduce {
-
-struct Free {
-  void operator()(double* values) const { std::free(values); }
-};
-
-/// Numbers from the start of a cache line on, not touched before they are written.
-using AlignedNumbers = std::unique_ptr<double, Free>;
-
-/// @throws std::bad_alloc
-AlignedNumbers aligned_numbers(std::size_t n);
 
 /// A few right-hand sides or solutions: panels of eight columns, each with its rows one after the
 /// other, aligned to cache lines.
