@@ -158,6 +158,11 @@ const TileKernels& tile_kernels()
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   if (has_avx2) return avx2::kernels;
 #endif
+  return portable_tile_kernels();
+}
+
+const TileKernels& portable_tile_kernels()
+{
   return portable::kernels;
 }
 

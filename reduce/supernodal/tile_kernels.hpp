@@ -22,4 +22,7 @@ struct TileKernels {
 /// For the processor at hand.
 const TileKernels& tile_kernels();
 
+/// For any.
+const TileKernels& portable_tile_kernels();
+
 }  // namespace chladni::reduce
