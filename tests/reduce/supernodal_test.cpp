@@ -11,6 +11,7 @@
 #include "reduce/supernodal/subtrees.hpp"
 #include "reduce/supernodal/tile_kernels.hpp"
 #include "reduce/supernodal/tiled_columns.hpp"
+#include "reduce/tall_products.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -299,6 +300,29 @@ TEST(TileKernels, OfThisProcessorDoWhatThePortableOnesDo)
     (portable.*solve)(L.data(), Y_portable.data());
     EXPECT_LT((Y_here - Y_portable).norm(), 1e-13);
   }
+}
+
+/// Columns of the basis, of the block.
+class TallProducts : public ::testing::TestWithParam<std::pair<int, int>> {};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, TallProducts,
+                         ::testing::Values(std::pair{0, 8}, std::pair{5, 1}, std::pair{12, 8},
+                                           std::pair{25, 9}, std::pair{31, 24}));
+
+TEST_P(TallProducts, AreThoseOfDenseAlgebra)
+{
+  const auto [n_basis, n_block] = GetParam();
+  const int n_rows = 600;  // two chunks and a piece
+  const MatrixXd V = random_matrix(n_rows, n_basis), Y = random_matrix(n_rows, n_block);
+  const LongColumns basis{V.data(), n_rows, n_rows, n_basis};
+  const SmallMatrix h = tall_inner_product(basis, {Y.data(), n_rows, n_rows, n_block});
+  const MatrixXd expected = V.transpose() * Y;
+  for (int j = 0; j < n_block; ++j) {
+    for (int i = 0; i < n_basis; ++i) EXPECT_NEAR(h(i, j), expected(i, j), 1e-12);
+  }
+  MatrixXd left = Y;
+  subtract_tall_product(basis, h, left.data(), n_rows);
+  EXPECT_LT((left - (Y - V * expected)).norm(), 1e-11);
 }
 
 }  // namespace
