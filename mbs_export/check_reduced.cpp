@@ -236,6 +236,18 @@ void add_free_modes(std::vector<Check>& checks, const ReducedSystem& reduced)
   }
 }
 
+/// The amplitude of a harmonic is what the displacements have of its shape: F^T (F u_m + ...) =
+/// u_m.
+void add_ring_motion(std::vector<Check>& checks, const ReducedSystem& reduced)
+{
+  if (!reduced.ring_motion) return;
+  MatrixXd amplitudes =
+      reduced.ring_motion->shapes.transpose() * reduced.ring_motion->displacements;
+  amplitudes.leftCols(reduced.n_masters()).diagonal().array() -= 1.0;
+  checks.push_back(bounded("harmonics of rings", amplitudes.cwiseAbs().maxCoeff(), 1e-8,
+                           "shapes in the displacements of the nodes against the coordinates"));
+}
+
 }  // namespace
 
 std::vector<Check> check_reduced(const ReducedSystem& reduced)
@@ -251,6 +263,7 @@ std::vector<Check> check_reduced(const ReducedSystem& reduced)
   add_fixed_interface_modes(checks, reduced);
   add_free_modes(checks, reduced);
   add_mass_integrals(checks, reduced);
+  add_ring_motion(checks, reduced);
   return checks;
 }
 
