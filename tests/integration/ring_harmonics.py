@@ -138,13 +138,16 @@ def methods(programs):
         "macneal": ('method = "craig-bampton"', 'method = "macneal"'),
         "tolerance": ("modes = 20\n", "tolerance = 1e-2\nup_to_Hz = 4000.0\n"),
     }
-    exact = np.array(Case(programs, SCENE + CLAMPED).summary("chladni", "modes")["frequencies_Hz"])
     for name, change in cases.items():
         keep = ("keep = { modes = 30 }", "keep = { modes = 8 }")
-        case = Case(programs, with_rings(track(3), change, keep))
-        f = np.array(case.summary("chladni", "run")["frequencies_Hz"])[:3]
-        yield f"{name}: {f}", np.allclose(f, exact[:3], rtol=0.05)
-        yield from ((f"{name}: {line}", False) for line in failed_checks(programs, case.path))
+        f = []
+        for rings in ("[]", track(3)):
+            case = Case(programs, with_rings(rings, change, keep))
+            f.append(np.array(case.summary("chladni", "run")["frequencies_Hz"])[:3])
+            yield from ((f"{name}: {line}", False) for line in failed_checks(programs, case.path))
+        # Up to three diameters the modes bend the ring in its first harmonics alone. Guyan's masters
+        # have to carry the rest of the disc, too: a few per cent.
+        yield f"{name}: {f[1]}", np.allclose(*f, rtol=0.05 if name == "guyan" else 1e-3)
     modes = 'keep = { modes = 8 }\ninterface_modes = [{ kind = "frm", at = "track", dofs = ["z"], space = "full" }]'
     case = Case(programs, with_rings(track(3), ("keep = { modes = 30 }", modes)))
     yield "full responses at the harmonics", len(case.summary("chladni", "run")["frequencies_Hz"]) > 8
