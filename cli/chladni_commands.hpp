@@ -39,6 +39,7 @@ struct ChladniArguments {
   std::string info_file;
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
+  std::string seal_file;
   ExportArguments exported;
   ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`

@@ -13,6 +13,7 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/scene/keys.hpp"
+#include "cli/seal.hpp"
 #include "cli/version.hpp"
 
 namespace {
@@ -105,6 +106,7 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
   cli::declare_report(app, arguments.report);
+  cli::declare_seal(app, arguments.seal_file);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  chladni scene-reference > scene_reference.md");
   app.require_subcommand(1);
@@ -118,6 +120,8 @@ void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
   if (app.got_subcommand("export")) return cli::export_command(arguments);
   if (app.got_subcommand("report"))
     return cli::on_first_rank([&] { cli::write_report(arguments.report); });
+  if (app.got_subcommand("seal"))
+    return cli::on_first_rank([&] { cli::seal(arguments.seal_file); });
   if (app.got_subcommand("scene-reference"))
     return cli::on_first_rank([] { fmt::print("{}", cli::scene_reference()); });
   if (app.got_subcommand("check")) return cli::check_command(arguments);

@@ -63,7 +63,7 @@ Subject read_subject(const std::string& path)
   if (contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     return {.title = path, .mesh = {.file = path}};
   }
-  const Scene scene = read_meshed_scene(path);
+  const Scene scene = read_meshed_scene(path, Purpose::fe_model);
   return {.title = scene.title, .mesh = scene.mesh};
 }
 

@@ -57,7 +57,7 @@ SceneGrid mode_grid(const Scene& scene, const SupportedModel& model,
 
 void modes_command(const ChladniArguments& arguments)
 {
-  const Scene scene = read_scene(arguments.scene.scene);
+  const Scene scene = read_meshed_scene(arguments.scene.scene, Purpose::fe_model);
   const ReduceProgress silent;
   Phases phases(silent);
   const SupportedModel model = supported_model(scene, phases);

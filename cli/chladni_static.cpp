@@ -124,7 +124,7 @@ VtuGrid picture(const Scene& scene, const SupportedModel& model, const Found& fo
 
 void static_command(const ChladniArguments& arguments)
 {
-  const Scene scene = read_scene(arguments.scene.scene);
+  const Scene scene = read_meshed_scene(arguments.scene.scene, Purpose::fe_model);
   check_loads(scene);
   const ReduceProgress silent;
   Phases phases(silent);

@@ -8,7 +8,7 @@
 #include "cli/scene/scene.hpp"
 #include "cli/timing.hpp"
 #include "mbs_export/reduced_system.hpp"
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 
 namespace chladni::cli {
 

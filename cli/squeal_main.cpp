@@ -8,6 +8,7 @@
 #include "cli/describe.hpp"
 #include "cli/report/report.hpp"
 #include "cli/scene/keys.hpp"
+#include "cli/seal.hpp"
 #include "cli/squeal_run.hpp"
 #include "cli/version.hpp"
 
@@ -19,6 +20,7 @@ struct SquealArguments {
   cli::SceneArguments scene;
   std::string body_file;
   std::string info_file;
+  std::string seal_file;
   cli::ReportArguments report;
 };
 
@@ -54,6 +56,7 @@ int main(int argc, char** argv)
   declare_run(app, arguments);
   declare_info(app, arguments);
   cli::declare_report(app, arguments.report);
+  cli::declare_seal(app, arguments.seal_file);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
@@ -65,6 +68,8 @@ int main(int argc, char** argv)
       cli::run_squeal(arguments.scene, arguments.body_file);
     } else if (app.got_subcommand("report")) {
       cli::write_report(arguments.report);
+    } else if (app.got_subcommand("seal")) {
+      cli::seal(arguments.seal_file);
     } else if (app.got_subcommand("scene-reference")) {
       fmt::print("{}", cli::scene_reference());
     } else {

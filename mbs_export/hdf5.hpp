@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-/// A thin layer over the HDF5 C library: atomic writing, strict reading. Paths of datasets are
-/// relative to the root ("rings/track/W"); groups on the way are created as needed.
+#include "mbs_export/replacement.hpp"
+
+/// A thin layer over the HDF5 C library: atomic writing, sealed files (seal.hpp), strict reading.
+/// Paths of datasets are relative to the root ("rings/track/W"); groups on the way are created as
+/// needed.
 namespace chladni::mbs_export::hdf5 {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -28,17 +31,16 @@ struct Column {
 };
 
 /// Writes a file under a temporary name beside the target; only `commit` gives it its name.
-/// A program that stops before leaves the old file, never half of a new one.
 class Writer {
  public:
   /// @throws chladni::Error when the folder does not exist or cannot be written.
-  explicit Writer(std::string path);
+  explicit Writer(std::string target);
   /// Removes the temporary file when there was no commit.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Flushes to disk, closes and renames. The writer takes nothing more afterwards.
+  /// Closes, seals, flushes to disk and renames. The writer takes nothing more afterwards.
   void commit();
 
   void group(const std::string& name);
@@ -91,8 +93,9 @@ class Writer {
   void write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,
                       const std::string& unit);
 
-  std::string path_;
-  std::string temporary_;
+  const std::string& path() const { return replacement_.path(); }
+
+  Replacement replacement_;
   std::int64_t file_ = -1;  ///< hid_t; negative once closed
 };
 
@@ -101,6 +104,7 @@ class Writer {
 /// Every function throws chladni::Error that names the file, the dataset and what was expected.
 class Reader {
  public:
+  /// Checks the seal before libhdf5 opens the file.
   explicit Reader(std::string path);
   ~Reader();
   Reader(const Reader&) = delete;

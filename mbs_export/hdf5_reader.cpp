@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "mbs_export/hdf5.hpp"
 #include "mbs_export/hdf5_handle.hpp"
+#include "mbs_export/seal.hpp"
 
 namespace chladni::mbs_export::hdf5 {
 namespace {
@@ -185,6 +186,7 @@ Reader::Reader(std::string path) : path_(std::move(path))
   std::error_code absent;
   size_ = std::filesystem::file_size(path_, absent);
   if (absent) throw Error(fmt::format("{}: no such file, or not readable", path_));
+  check_seal(path_);
   file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) throw Error(fmt::format("{}: not an HDF5 file, or cut short", path_));
 }

@@ -1,29 +1,15 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 #include "common/error.hpp"
 #include "mbs_export/hdf5.hpp"
 #include "mbs_export/hdf5_handle.hpp"
+#include "mbs_export/seal.hpp"
 
 namespace chladni::mbs_export::hdf5 {
 namespace {
-
-/// On disk before the rename, so that a power cut cannot leave a named but empty file.
-bool synchronise(const std::string& path)
-{
-  const int descriptor = open(path.c_str(), O_RDONLY);
-  if (descriptor < 0) return false;
-  const bool done = fsync(descriptor) == 0;
-  close(descriptor);
-  return done;
-}
 
 Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                       const std::vector<std::uint64_t>& shape)
@@ -75,34 +61,28 @@ void require(bool done, const std::string& file, const std::string& name)
 
 }  // namespace
 
-Writer::Writer(std::string path)
-    : path_(std::move(path)), temporary_(fmt::format("{}.tmp-{}", path_, getpid()))
+Writer::Writer(std::string target) : replacement_(std::move(target))
 {
   silence_errors();
-  file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
+  H5Pset_userblock(creation.get(), seal_size);
+  file_ = H5Fcreate(replacement_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
   if (file_ < 0)
     throw Error(fmt::format(
-        "{}: cannot be written; does its folder exist, and may you write there?", path_));
+        "{}: cannot be written; does its folder exist, and may you write there?", path()));
 }
 
 Writer::~Writer()
 {
-  if (file_ < 0) return;
-  H5Fclose(file_);
-  std::remove(temporary_.c_str());
+  if (file_ >= 0) H5Fclose(file_);
 }
 
 void Writer::commit()
 {
   const bool flushed = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
   const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
-  if (flushed && closed && synchronise(temporary_) &&
-      std::rename(temporary_.c_str(), path_.c_str()) == 0)
-    return;
-  const std::string reason = std::strerror(errno);
-  std::remove(temporary_.c_str());
-  throw Error(
-      fmt::format("{}: cannot be completed ({}); an older file is left as it was", path_, reason));
+  if (!flushed || !closed || !write_seal(replacement_.temporary())) replacement_.fail();
+  replacement_.commit();
 }
 
 void Writer::group(const std::string& name)
@@ -111,7 +91,7 @@ void Writer::group(const std::string& name)
   H5Pset_create_intermediate_group(links.get(), 1);
   const Handle created{H5Gcreate2(file_, name.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
                        H5Gclose};
-  require(created.valid(), path_, name);
+  require(created.valid(), path(), name);
 }
 
 void Writer::write(const std::string& name, double x, const std::string& unit)
@@ -149,13 +129,13 @@ void Writer::write(const std::string& name, const IntegerMatrix& x, const std::s
 void Writer::write(const std::string& name, std::span<const std::uint8_t> x,
                    const std::string& unit)
 {
-  require(write_dataset({file_, name, unit}, H5T_NATIVE_UINT8, {x.size()}, x.data()), path_, name);
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_UINT8, {x.size()}, x.data()), path(), name);
 }
 
 void Writer::write(const std::string& name, const std::string& text)
 {
   const Handle type = text_type(text.size());
-  require(write_dataset({file_, name, "text"}, type.get(), {}, text.c_str()), path_, name);
+  require(write_dataset({file_, name, "text"}, type.get(), {}, text.c_str()), path(), name);
 }
 
 void Writer::write(const std::string& name, const std::vector<std::string>& texts)
@@ -165,20 +145,21 @@ void Writer::write(const std::string& name, const std::vector<std::string>& text
   std::string padded;
   for (const std::string& text : texts) padded.append(text).append(size - text.size(), '\0');
   const Handle type = text_type(size);
-  require(write_dataset({file_, name, "text"}, type.get(), {texts.size()}, padded.data()), path_,
+  require(write_dataset({file_, name, "text"}, type.get(), {texts.size()}, padded.data()), path(),
           name);
 }
 
 void Writer::attribute(const std::string& object, const std::string& name, const std::string& text)
 {
   const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
-  require(owner.valid() && set_text_attribute(owner.get(), name, text), path_, object + "@" + name);
+  require(owner.valid() && set_text_attribute(owner.get(), name, text), path(),
+          object + "@" + name);
 }
 
 void Writer::attribute(const std::string& object, const std::string& name, std::int64_t number)
 {
   const Handle owner{H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose};
-  require(owner.valid() && set_attribute(owner.get(), name, H5T_NATIVE_INT64, &number), path_,
+  require(owner.valid() && set_attribute(owner.get(), name, H5T_NATIVE_INT64, &number), path(),
           object + "@" + name);
 }
 
@@ -192,13 +173,13 @@ void Writer::attribute(const std::string& object, const std::string& name,
                                     H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose};
   require(attribute.valid() && H5Awrite(attribute.get(), H5T_NATIVE_INT64, numbers.data()) >= 0,
-          path_, object + "@" + name);
+          path(), object + "@" + name);
 }
 
 void Writer::link(const std::string& name, const std::string& target)
 {
-  require(H5Lcreate_soft(target.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,
-          name);
+  require(H5Lcreate_soft(target.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0,
+          path(), name);
 }
 
 void Writer::view_column(const std::string& name, const Column& column)
@@ -216,7 +197,7 @@ void Writer::view_column(const std::string& name, const Column& column)
   const Handle made{H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, view.get(), H5P_DEFAULT,
                                creation.get(), H5P_DEFAULT),
                     H5Dclose};
-  require(made.valid(), path_, name);
+  require(made.valid(), path(), name);
 }
 
 void Writer::variable_attribute(const std::string& object, const std::string& name,
@@ -226,20 +207,20 @@ void Writer::variable_attribute(const std::string& object, const std::string& na
   const Handle type = text_type(1);
   H5Tset_size(type.get(), H5T_VARIABLE);
   const char* const characters = text.c_str();
-  require(owner.valid() && set_attribute(owner.get(), name, type.get(), &characters), path_,
+  require(owner.valid() && set_attribute(owner.get(), name, type.get(), &characters), path(),
           object + "@" + name);
 }
 
 void Writer::write_reals(const std::string& name, const double* x, const Extents& shape,
                          const std::string& unit)
 {
-  require(write_dataset({file_, name, unit}, H5T_NATIVE_DOUBLE, shape, x), path_, name);
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_DOUBLE, shape, x), path(), name);
 }
 
 void Writer::write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,
                             const std::string& unit)
 {
-  require(write_dataset({file_, name, unit}, H5T_NATIVE_INT64, shape, x), path_, name);
+  require(write_dataset({file_, name, unit}, H5T_NATIVE_INT64, shape, x), path(), name);
 }
 
 }  // namespace chladni::mbs_export::hdf5

@@ -134,8 +134,8 @@ void check_element_exists(mesh::Shape shape, int order)
   const bool triangle = shape == mesh::Shape::triangle && order >= 1 && order <= 3;
   if (quadrilateral || triangle) return;
   throw Error(fmt::format(
-      "no shell element of order {} for {}; use quadrilaterals of order 1 to 4 or triangles of "
-      "order 1 to 3",
+      "no shell element of order {} for {}; use quadrilaterals of order 1 to 4 (a structured mesh: "
+      "others keep some triangles) or triangles of order 1 to 3",
       order, shape == mesh::Shape::triangle ? "triangles" : "this shape"));
 }
 

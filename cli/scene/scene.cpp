@@ -25,15 +25,15 @@ std::string read_name(const Table& root)
 }
 
 /// A scene for `chladni static` or `chladni modes` alone needs no reduction.
-bool is_reduced(const Table& root, const Scene& scene)
+bool is_reduced(const Table& root, const Scene& scene, Purpose purpose)
 {
   if (root.has("interface") || root.has("reduce")) return true;
-  return !scene.static_solution && !scene.natural_modes;
+  return purpose == Purpose::everything && !scene.static_solution && !scene.natural_modes;
 }
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& path)
+Scene parse_scene(const std::string& text, const std::string& path, Purpose purpose)
 {
   const Table root = parse_toml(text, path);
   Scene scene;
@@ -59,7 +59,7 @@ Scene parse_scene(const std::string& text, const std::string& path)
   scene.loads = read_loads(root, scene);
   scene.static_solution = read_static(root, scene);
   scene.natural_modes = read_natural_modes(root);
-  if (is_reduced(root, scene)) {
+  if (is_reduced(root, scene, purpose)) {
     scene.interface_nodes = read_interface(root, scene);
     scene.ring_harmonics = read_ring_harmonics(root, scene);
     scene.reduce = read_reduce(root);
@@ -84,18 +84,18 @@ Scene parse_scene(const std::string& text, const std::string& path)
   return scene;
 }
 
-Scene read_scene(const std::string& path)
+Scene read_scene(const std::string& path, Purpose purpose)
 {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
-  return parse_scene(text.str(), path);
+  return parse_scene(text.str(), path, purpose);
 }
 
-Scene read_meshed_scene(const std::string& path)
+Scene read_meshed_scene(const std::string& path, Purpose purpose)
 {
-  Scene scene = read_scene(path);
+  Scene scene = read_scene(path, purpose);
   if (!scene.squeal_model) return scene;
   throw Error(
       fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));

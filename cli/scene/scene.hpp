@@ -68,16 +68,20 @@ struct Scene {
   std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
 };
 
+/// What a scene is read for; its FE model alone needs neither [interface] nor [reduce].
+enum class Purpose { everything, fe_model };
+
 /// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
 /// @throws chladni::Error naming file, line, key and value of what is wrong, and what is allowed.
-Scene parse_scene(const std::string& text, const std::string& path);
+Scene parse_scene(const std::string& text, const std::string& path,
+                  Purpose purpose = Purpose::everything);
 
 /// The scene of a file.
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
-Scene read_scene(const std::string& path);
+Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
 /// The scene of a file, for a program that needs its mesh or its body.
 /// @throws chladni::Error as read_scene, and when the scene's model has neither.
-Scene read_meshed_scene(const std::string& path);
+Scene read_meshed_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
 }  // namespace chladni::cli

@@ -49,6 +49,7 @@ TEST(SceneOfLoads, NeedsNoReduction)
   EXPECT_FALSE(scene.static_solution);
   EXPECT_TRUE(scene.interface_nodes.empty());
   EXPECT_NE(error_of(plate).find("interface is missing"), std::string::npos);
+  EXPECT_TRUE(parse_scene(plate, "scene.toml", Purpose::fe_model).interface_nodes.empty());
   EXPECT_NE(error_of(plate + "[modes]\n[interface]\nnodes = [\"outer_edge\"]\n").find("reduce"),
             std::string::npos);
 }

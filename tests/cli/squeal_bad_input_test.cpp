@@ -101,6 +101,10 @@ TEST(SquealBadInput, OfAFileIsFoundBeforeItIsUsed)
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, sizeof nan, reinterpret_cast<const char*>(&nan), sizeof nan);
   std::ofstream(folder.path() / "disc.body.h5", std::ios::binary) << bytes;
+  const Ending unsealed = run(folder, squeal_program + " run scene.toml");
+  EXPECT_EQ(unsealed.exit_code, 1);
+  EXPECT_NE(unsealed.err.find("squeal seal"), std::string::npos) << unsealed.err;
+  EXPECT_EQ(run(folder, squeal_program + " seal disc.body.h5").exit_code, 0);
   const Ending ending = run(folder, squeal_program + " run scene.toml");
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.err.find("nan"), std::string::npos) << ending.err;

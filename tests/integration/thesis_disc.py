@@ -37,6 +37,7 @@ def critical_speed_without_coriolis(programs, folder):
     shutil.copy(next(folder.glob("*.body.h5")), body)
     with h5py.File(body, "a") as file:
         del file["mass_integrals"]
+    subprocess.run([programs / "squeal", "seal", body], check=True)
     (folder / "without").mkdir()
     subprocess.run(
         [programs / "squeal", "run", folder / "critical.toml", "--body", body,

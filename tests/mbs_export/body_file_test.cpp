@@ -14,6 +14,7 @@
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/hdf5.hpp"
 #include "mbs_export/make_body.hpp"
+#include "mbs_export/seal.hpp"
 #include "scratch_folder.hpp"
 #include "version_1.hpp"
 #include "wheel.hpp"
@@ -65,6 +66,7 @@ TEST(BodyFile, SaysWhichNodeAndComponentEachRowOfItsModesIs)
   H5Lcreate_hard(changed, "modes/row_components", changed, "modes/row_nodes", H5P_DEFAULT,
                  H5P_DEFAULT);
   H5Fclose(changed);
+  hdf5::seal_file(path);
   EXPECT_NE(error_of([&] { read_body(path); }).find("modes/row_nodes: expected all six"),
             std::string::npos);
 }
@@ -79,6 +81,7 @@ TEST(BodyFile, IsReadWithDatasetsThatNobodyKnows)
   for (const char* name : {"modes/of_somebody_else", "somebody_else"})
     H5Lcreate_hard(file, "modes/damping", file, name, H5P_DEFAULT, H5P_DEFAULT);
   H5Fclose(file);
+  hdf5::seal_file(path);
   expect_equal(read_body(path), body);
 }
 

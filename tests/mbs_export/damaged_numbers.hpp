@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mbs_export/seal.hpp"
+
 namespace chladni::mbs_export::test {
 
 /// Names of all datasets of real numbers in a file.
@@ -29,7 +31,7 @@ inline std::vector<std::string> real_datasets(const std::string& path)
   return names;
 }
 
-/// Replaces the last number of a dataset.
+/// Replaces the last number of a dataset, and seals the file again.
 /// @return the number that was there
 inline double replace_last(const std::string& path, const std::string& name, double by)
 {
@@ -43,6 +45,7 @@ inline double replace_last(const std::string& path, const std::string& name, dou
   H5Sclose(space);
   H5Dclose(dataset);
   H5Fclose(file);
+  hdf5::seal_file(path);
   return before;
 }
 

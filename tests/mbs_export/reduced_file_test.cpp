@@ -11,6 +11,7 @@
 #include "expect_equal.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/make_body.hpp"
+#include "mbs_export/seal.hpp"
 #include "scratch_folder.hpp"
 #include "wheel.hpp"
 
@@ -147,6 +148,7 @@ TEST(ReducedFile, IsRefusedWithoutOneOfItsDatasets)
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(file, name, H5P_DEFAULT);
     H5Fclose(file);
+    hdf5::seal_file(path);
     expect_mention(error_of([&] { read_reduced(path); }), std::string(name) + ": is missing");
   }
 }
@@ -165,27 +167,49 @@ TEST(ReducedFile, IsRefusedInAnotherFormatOrVersion)
   H5Awrite(attribute, H5T_NATIVE_INT64, &version);
   H5Aclose(attribute);
   H5Fclose(file);
+  hdf5::seal_file(path);
   expect_mention(error_of([&] { read_reduced(path); }), "version 2");
 }
 
-TEST(ReducedFile, IsReadOrRefusedWhateverBytesAreDamaged)
+/// Cut short or with 20 other bytes.
+std::string damaged(const std::string& whole, std::mt19937& random)
+{
+  std::string bytes = whole;
+  if (random() % 2 == 0)
+    bytes.resize(random() % whole.size());
+  else
+    for (int k = 0; k < 20; ++k) bytes[random() % whole.size()] = static_cast<char>(random());
+  return bytes;
+}
+
+/// How many of n damaged files are refused; all others are read.
+int n_refused_of(int n, const std::string& whole)
 {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
-  write_reduced(path, test::reduced_beam(6, 2));
-  const std::string whole = test::bytes_of(path);
   std::mt19937 random(1);
   int n_refused = 0;
-  for (int i = 0; i < 300; ++i) {
-    std::string damaged = whole;
-    if (i % 2 == 0)
-      damaged.resize(random() % whole.size());
-    else
-      for (int k = 0; k < 20; ++k) damaged[random() % whole.size()] = static_cast<char>(random());
-    std::ofstream(path, std::ios::binary) << damaged;
+  for (int i = 0; i < n; ++i) {
+    std::ofstream(path, std::ios::binary) << damaged(whole, random);
     n_refused += !error_of([&] { read_reduced(path); }).empty();
   }
-  EXPECT_GT(n_refused, 150);  // all that are cut short, and more
+  return n_refused;
+}
+
+TEST(ReducedFile, IsRefusedWhateverBytesAreDamaged)
+{
+  const ScratchFolder folder;
+  write_reduced(folder.file("a.h5"), test::reduced_beam(6, 2));
+  EXPECT_EQ(n_refused_of(300, test::bytes_of(folder.file("a.h5"))), 300);
+}
+
+// Here libhdf5 sees the damage.
+TEST(ReducedFile, WithoutSealIsReadOrRefusedWhateverBytesAreDamaged)
+{
+  const ScratchFolder folder;
+  write_reduced(folder.file("a.h5"), test::reduced_beam(6, 2));
+  const std::string bytes = test::bytes_of(folder.file("a.h5")).substr(hdf5::seal_size);
+  EXPECT_GT(n_refused_of(300, bytes), 150);  // all that are cut short, and more
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace {
 
 class ReadGmsh : public testing::FileTest {
  protected:
-  /// A strip of 3 x 2 rectangles 3 m x 1 m, meshed at order 2, in a format of Gmsh.
-  std::string write_strip(const std::string& name, double format, bool binary) const
+  /// A strip of 3 x 2 rectangles 3 m x 1 m in a format of Gmsh.
+  std::string write_strip(const std::string& name, double format, bool binary, int order = 2) const
   {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::open(write("strip.geo", strip_geo));
     gmsh::model::mesh::generate(2);
-    gmsh::model::mesh::setOrder(2);
+    gmsh::model::mesh::setOrder(order);
     gmsh::option::setNumber("Mesh.MshFileVersion", format);
     gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
     gmsh::write(path(name));
@@ -67,6 +67,16 @@ TEST_F(ReadGmsh, ReadsVersion41)
 TEST_F(ReadGmsh, ReadsVersion41Binary)
 {
   expect_strip(generate(file_options(write_strip("a.msh", 4.1, true))));
+}
+
+TEST_F(ReadGmsh, ReadsEachOrderOfAFile)
+{
+  for (const int order : {1, 2, 3, 4}) {
+    const Mesh mesh = generate(file_options(write_strip("a.msh", 4.1, true, order)));
+    ASSERT_EQ(mesh.blocks.size(), 1u);
+    EXPECT_EQ(mesh.blocks[0].order, order);
+    EXPECT_EQ(mesh.n_nodes(), (3 * order + 1) * (2 * order + 1));
+  }
 }
 
 TEST_F(ReadGmsh, MeshesAGeometryAtTheOrderAsked)

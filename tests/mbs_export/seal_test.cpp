@@ -1,0 +1,154 @@
+#include "mbs_export/seal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mbs_export/body_file.hpp"
+#include "mbs_export/hdf5.hpp"
+#include "scratch_folder.hpp"
+
+namespace chladni::mbs_export::hdf5 {
+namespace {
+
+using test::ScratchFolder, test::bytes_of, test::error_of;
+
+void put_bytes(const std::string& path, const std::string& bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A file with n numbers; its bytes.
+std::string sealed_bytes(const std::string& path, Eigen::Index n)
+{
+  Writer writer(path);
+  writer.write("x", Eigen::VectorXd::LinSpaced(n, 0.0, 1.0), "m");
+  writer.commit();
+  return bytes_of(path);
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// Whether the seal speaks, and not libhdf5 or what reads with it.
+bool is_refused_by_the_seal(const std::string& path)
+{
+  const std::string error = error_of([&] { Reader(path).vector("x"); });
+  return contains(error, path) && (contains(error, "is not as it was written") ||
+                                   contains(error, "is neither an HDF5 file nor"));
+}
+
+TEST(Seal, IsTextBeforeAFileOfHdf5)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5");
+  put_bytes(path, golden);
+  seal_file(path);
+  EXPECT_EQ(bytes_of(path).substr(seal_size), golden);
+  const std::string seal = bytes_of(path).substr(0, seal_size);
+  EXPECT_EQ(seal.substr(0, seal.find_last_not_of(" \n") + 1),
+            "Chladni seal 1\n"
+            "bytes 28872\n"
+            "xxh64 744ed126c2961351 of all bytes behind these 512\n"
+            "What follows is an HDF5 file. When you have changed it on purpose: chladni seal FILE");
+}
+
+TEST(Seal, FindsEachDamagedByteBeforeTheFileIsOpened)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string bytes = whole;
+    bytes[i] ^= static_cast<char>(1 << (i % 8));
+    put_bytes(path, bytes);
+    ASSERT_TRUE(is_refused_by_the_seal(path)) << i;
+  }
+}
+
+TEST(Seal, FindsThatAFileIsCutShortOrTooLong)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  for (std::size_t n = 0; n < whole.size(); n += n < 600 ? 1 : 37) {
+    put_bytes(path, whole.substr(0, n));
+    ASSERT_TRUE(is_refused_by_the_seal(path)) << n;
+  }
+  put_bytes(path, whole + '\0');
+  EXPECT_TRUE(is_refused_by_the_seal(path));
+}
+
+// The digest is made of pieces of 256 KiB.
+TEST(Seal, GuardsTheLastByteOfALargeFile)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100000);
+  EXPECT_EQ(Reader(path).vector("x").size(), 100000);
+  for (const std::size_t at :
+       {whole.size() - 1, seal_size + (1u << 18), seal_size + (1u << 18) - 1}) {
+    std::string bytes = whole;
+    ++bytes[at];
+    put_bytes(path, bytes);
+    EXPECT_TRUE(is_refused_by_the_seal(path)) << at;
+  }
+}
+
+TEST(Seal, ErrorSaysHowToAcceptAChange)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  put_bytes(path, whole.substr(0, 1000));
+  EXPECT_EQ(error_of([&] { Reader reader(path); }),
+            path + ": is not as it was written: it has 1000 bytes and had " +
+                std::to_string(whole.size()) +
+                ". Make it anew or take a copy; if it was changed on purpose, `chladni seal " +
+                path + "` (or `squeal seal`) accepts it");
+}
+
+TEST(Seal, IsNotNeededWhereAFileBeginsAsHdf5Does)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  put_bytes(path, whole.substr(seal_size));
+  EXPECT_EQ(Reader(path).vector("x").size(), 100);
+  put_bytes(path, std::string(seal_size, ' ') + whole.substr(seal_size));  // for libhdf5 as good
+  EXPECT_TRUE(is_refused_by_the_seal(path));
+}
+
+TEST(SealFile, AcceptsAChangeAndMakesUpForAMissingOrDamagedSeal)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  std::string changed = whole;
+  const double last = 1.0, other = 2.0;
+  const std::string number(reinterpret_cast<const char*>(&last), sizeof last);
+  changed.replace(changed.rfind(number), sizeof other, reinterpret_cast<const char*>(&other),
+                  sizeof other);
+  put_bytes(path, changed);
+  EXPECT_TRUE(is_refused_by_the_seal(path));
+  seal_file(path);
+  EXPECT_EQ(Reader(path).vector("x")[99], 2.0);
+  for (const std::string& before : {std::string(), std::string(seal_size, '?')}) {
+    put_bytes(path, before + whole.substr(seal_size));
+    seal_file(path);
+    EXPECT_EQ(bytes_of(path), whole);
+  }
+}
+
+TEST(SealFile, LeavesWhatLibhdf5CannotOpen)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  for (const std::string& bytes : {std::string("text"), std::string(), whole.substr(0, 2000)}) {
+    put_bytes(path, bytes);
+    EXPECT_TRUE(contains(error_of([&] { seal_file(path); }), path + ": cannot be sealed"));
+    EXPECT_EQ(bytes_of(path), bytes);
+  }
+  EXPECT_TRUE(contains(error_of([&] { seal_file(folder.file("none.h5")); }), "no such file"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export::hdf5
