@@ -158,6 +158,9 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
           .n_nodes = fe.mesh.n_nodes(),
           .n_masters = static_cast<int>(blocks.masters.size()),
           .n_modes = n_modes,
+          .n_modes_asked = scene.reduce.method == reduce::Method::craig_bampton
+                               ? static_cast<int>(scene.reduce.modes.value_or(0))
+                               : 0,
           .factorization = factorization,
           .factor = reduce::factor_size(K_ss.factor()),
           .modes_residual = modes_residual};
