@@ -123,7 +123,6 @@ double budget(MPI_Comm comm, double beside_MiB)
 Factorization::Factorization(Mat A, double beside_MiB)
 {
   petsc::check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  set_default_option("-cms_mat_mumps_icntl_27", "64");
   petsc::check(KSPCreate(petsc::communicator(A), solver_.put()));
   petsc::check(KSPSetOptionsPrefix(solver_, "cms_"));
   petsc::check(KSPSetOperators(solver_, A, A));
@@ -134,6 +133,10 @@ Factorization::Factorization(Mat A, double beside_MiB)
   register_cholesky_types();
   petsc::check(PCFactorSetMatSolverType(pc, supernodal));
   petsc::check(KSPSetFromOptions(solver_));
+  MatSolverType type = nullptr;
+  petsc::check(PCFactorGetMatSolverType(pc, &type));
+  if (std::string_view(type) == MATSOLVERMUMPS)
+    set_default_option("-cms_mat_mumps_icntl_27", "64");
   petsc::check(PCFactorSetUpMatSolverType(pc));
   const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
   set_budget(factor(), budget_MiB);

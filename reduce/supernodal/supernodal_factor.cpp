@@ -158,9 +158,13 @@ double SupernodalFactor::forecast_MiB() const
 std::string SupernodalFactor::description() const
 {
   const FactorSize all = size();
+  double common = 0.0;
+  for (const int s : common_) common += tree_.n_entries(s);
   return fmt::format(
-      "supernodal, ordering by METIS: {:.3g} operations, {:.3g} entries in {} supernodes",
-      all.operations, all.entries, tree_.n_supernodes());
+      "supernodal, ordering by METIS: {:.3g} operations, {:.3g} entries in {} supernodes, "
+      "{:.0f} % of them on all ranks",
+      all.operations, all.entries, tree_.n_supernodes(),
+      100.0 * common / std::max(all.entries, 1.0));
 }
 
 void SupernodalFactor::factorize(Mat A)

@@ -8,24 +8,62 @@ namespace chladni::reduce {
 
 namespace {
 
+// How a tile of six rows stands in memory: column after column, or as six long columns of a matrix.
+
+struct Packed {
+  static constexpr std::ptrdiff_t row() { return 1; }
+  static constexpr std::ptrdiff_t column() { return tile_rows; }
+};
+
+struct Tall {
+  std::ptrdiff_t leading_dimension;
+  std::ptrdiff_t row() const { return leading_dimension; }
+  static constexpr std::ptrdiff_t column() { return 1; }
+};
+
 namespace portable {
 
-void subtract(const double* tile, int n_columns, const double* X, double* Y)
+template <typename Strides>
+void subtract_any(const double* tile, Strides strides, int n_columns, const double* X, double* Y)
 {
-  for (int c = 0; c < n_columns; ++c, tile += tile_rows, X += panel_width) {
+  for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
     for (int r = 0; r < tile_rows; ++r) {
-      for (int k = 0; k < panel_width; ++k) Y[r * panel_width + k] -= tile[r] * X[k];
+      for (int k = 0; k < panel_width; ++k)
+        Y[r * panel_width + k] -= tile[r * strides.row()] * X[k];
     }
   }
 }
 
-void subtract_transposed(const double* tile, int n_columns, const double* Y, double* X)
+template <typename Strides>
+void subtract_any_transposed(const double* tile, Strides strides, int n_columns, const double* Y,
+                             double* X)
 {
-  for (int c = 0; c < n_columns; ++c, tile += tile_rows, X += panel_width) {
+  for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
     for (int r = 0; r < tile_rows; ++r) {
-      for (int k = 0; k < panel_width; ++k) X[k] -= tile[r] * Y[r * panel_width + k];
+      for (int k = 0; k < panel_width; ++k)
+        X[k] -= tile[r * strides.row()] * Y[r * panel_width + k];
     }
   }
+}
+
+void subtract(const double* tile, int n_columns, const double* X, double* Y)
+{
+  subtract_any(tile, Packed{}, n_columns, X, Y);
+}
+
+void subtract_transposed(const double* tile, int n_columns, const double* Y, double* X)
+{
+  subtract_any_transposed(tile, Packed{}, n_columns, Y, X);
+}
+
+void subtract_tall(const double* V, std::ptrdiff_t ld, int n, const double* X, double* Y)
+{
+  subtract_any(V, Tall{ld}, n, X, Y);
+}
+
+void subtract_tall_transposed(const double* V, std::ptrdiff_t ld, int n, const double* Y, double* X)
+{
+  subtract_any_transposed(V, Tall{ld}, n, Y, X);
 }
 
 void solve(const double* L, double* Y)
@@ -48,7 +86,9 @@ void solve_transposed(const double* L, double* Y)
   }
 }
 
-constexpr TileKernels kernels{subtract, subtract_transposed, solve, solve_transposed};
+constexpr TileKernels kernels{subtract,      subtract_transposed,
+                              subtract_tall, subtract_tall_transposed,
+                              solve,         solve_transposed};
 
 }  // namespace portable
 
@@ -57,8 +97,9 @@ namespace avx2 {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): registers
 
-[[gnu::target("avx2,fma")]] void subtract(const double* tile, int n_columns, const double* X,
-                                          double* Y)
+template <typename Strides>
+[[gnu::target("avx2,fma")]] void subtract_any(const double* tile, Strides strides, int n_columns,
+                                              const double* X, double* Y)
 {
   __m256d left[tile_rows], right[tile_rows];
 #pragma GCC unroll 6
@@ -66,11 +107,11 @@ namespace avx2 {
     left[r] = _mm256_loadu_pd(Y + r * panel_width);
     right[r] = _mm256_loadu_pd(Y + r * panel_width + 4);
   }
-  for (int c = 0; c < n_columns; ++c, tile += tile_rows, X += panel_width) {
+  for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
     const __m256d x_left = _mm256_loadu_pd(X), x_right = _mm256_loadu_pd(X + 4);
 #pragma GCC unroll 6
     for (int r = 0; r < tile_rows; ++r) {
-      const __m256d factor = _mm256_broadcast_sd(tile + r);
+      const __m256d factor = _mm256_broadcast_sd(tile + r * strides.row());
       left[r] = _mm256_fnmadd_pd(factor, x_left, left[r]);
       right[r] = _mm256_fnmadd_pd(factor, x_right, right[r]);
     }
@@ -82,8 +123,9 @@ namespace avx2 {
   }
 }
 
-[[gnu::target("avx2,fma")]] void subtract_transposed(const double* tile, int n_columns,
-                                                     const double* Y, double* X)
+template <typename Strides>
+[[gnu::target("avx2,fma")]] void subtract_any_transposed(const double* tile, Strides strides,
+                                                         int n_columns, const double* Y, double* X)
 {
   __m256d left[tile_rows], right[tile_rows];
 #pragma GCC unroll 6
@@ -91,17 +133,41 @@ namespace avx2 {
     left[r] = _mm256_loadu_pd(Y + r * panel_width);
     right[r] = _mm256_loadu_pd(Y + r * panel_width + 4);
   }
-  for (int c = 0; c < n_columns; ++c, tile += tile_rows, X += panel_width) {
+  for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
     __m256d x_left = _mm256_loadu_pd(X), x_right = _mm256_loadu_pd(X + 4);
 #pragma GCC unroll 6
     for (int r = 0; r < tile_rows; ++r) {
-      const __m256d factor = _mm256_broadcast_sd(tile + r);
+      const __m256d factor = _mm256_broadcast_sd(tile + r * strides.row());
       x_left = _mm256_fnmadd_pd(factor, left[r], x_left);
       x_right = _mm256_fnmadd_pd(factor, right[r], x_right);
     }
     _mm256_storeu_pd(X, x_left);
     _mm256_storeu_pd(X + 4, x_right);
   }
+}
+
+[[gnu::target("avx2,fma")]] void subtract(const double* tile, int n_columns, const double* X,
+                                          double* Y)
+{
+  subtract_any(tile, Packed{}, n_columns, X, Y);
+}
+
+[[gnu::target("avx2,fma")]] void subtract_transposed(const double* tile, int n_columns,
+                                                     const double* Y, double* X)
+{
+  subtract_any_transposed(tile, Packed{}, n_columns, Y, X);
+}
+
+[[gnu::target("avx2,fma")]] void subtract_tall(const double* V, std::ptrdiff_t ld, int n,
+                                               const double* X, double* Y)
+{
+  subtract_any(V, Tall{ld}, n, X, Y);
+}
+
+[[gnu::target("avx2,fma")]] void subtract_tall_transposed(const double* V, std::ptrdiff_t ld, int n,
+                                                          const double* Y, double* X)
+{
+  subtract_any_transposed(V, Tall{ld}, n, Y, X);
 }
 
 [[gnu::target("avx2,fma")]] void solve(const double* L, double* Y)
@@ -145,7 +211,9 @@ namespace avx2 {
 
 // NOLINTEND(modernize-avoid-c-arrays)
 
-constexpr TileKernels kernels{subtract, subtract_transposed, solve, solve_transposed};
+constexpr TileKernels kernels{subtract,      subtract_transposed,
+                              subtract_tall, subtract_tall_transposed,
+                              solve,         solve_transposed};
 
 }  // namespace avx2
 #endif
@@ -158,6 +226,11 @@ const TileKernels& tile_kernels()
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   if (has_avx2) return avx2::kernels;
 #endif
+  return portable_tile_kernels();
+}
+
+const TileKernels& portable_tile_kernels()
+{
   return portable::kernels;
 }
 
