@@ -91,7 +91,7 @@ BENCHMARKS = [
      "reduction_accuracy"),
     ("methods", "Craig-Bampton, Rubin and MacNeal", script("reduction/methods.py"), "reduction_methods"),
     ("rings", "Harmonics of a ring as masters",
-     script("reduction/ring_harmonics.py", ("--size", "0.03", "--harmonics", "4")), "ring_harmonics"),
+     script("reduction/ring_harmonics.py", ("--size", "0.03", "--harmonics", "4", "--larger")), "ring_harmonics"),
     ("peers", "Reduction beside other programs",
      script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
     ("calculix", "Modes beside CalculiX",

@@ -48,12 +48,13 @@ def system(folder, scene, programs):
 
 
 def frequencies(K, M, n_rigid):
-    """Elastic ones in Hz. Of the inverse problem, since MacNeal's mass is singular."""
+    """Elastic ones in Hz. Of the inverse problem, since MacNeal's mass is singular, with a shift of the size
+    of the first ones, or rigid motions would cost the digits of all others."""
     from scipy.linalg import eigh
     shift = 0.0
     if n_rigid:
         positive = M.diagonal() > 0
-        shift = 1e-6 * np.min((K.diagonal()[positive] / M.diagonal()[positive]))
+        shift = np.min(K.diagonal()[positive] / M.diagonal()[positive])
     mu = eigh(M, K + shift * M, eigvals_only=True)[::-1]
     squares = 1 / mu[mu > 1e-13 * mu[0]] - shift
     return np.sqrt(np.maximum(squares[n_rigid:], 0)) / (2 * np.pi)
