@@ -8,10 +8,10 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "common/error.hpp"
+#include "mesh/geo_code.hpp"
 
 namespace chladni::mesh {
 
@@ -24,16 +24,7 @@ std::string read_all(const std::string& file)
   return text.str();
 }
 
-/// Without comments, which may say anything.
-std::string code_of(const std::string& geo)
-{
-  return std::regex_replace(geo, std::regex(R"(//[^\n]*|/\*(.|\n)*?\*/)"), " ");
-}
-
-bool has_word(const std::string& text, const std::string& word)
-{
-  return std::regex_search(text, std::regex("\\b" + word + "\\b"));
-}
+using Statements = std::vector<std::string>;
 
 /// A .geo that sets the parameters before it includes another one, and reads them afterwards;
 /// Gmsh's own -setnumber would hold for the whole process. Gone at the end of its scope.
@@ -68,7 +59,7 @@ class GeoWithParameters {
   std::string path_;
 };
 
-void check_parameters_are_used(const MeshOptions& options, const std::string& code)
+void check_parameters_are_used(const MeshOptions& options, const Statements& code)
 {
   for (const auto& [name, value] : options.parameters) {
     if (has_word(code, name) || has_word(code, "Include") || has_word(code, "Merge")) continue;
@@ -90,12 +81,11 @@ void check_parameters_held(const MeshOptions& options)
 }
 
 /// @return a note, if the algorithm was replaced
-std::vector<std::string> replace_algorithm_8(const std::string& code)
+std::vector<std::string> replace_algorithm_8(const Statements& code)
 {
   double algorithm = 0.0;
   gmsh::option::getNumber("Mesh.Algorithm", algorithm);
-  const bool of_a_surface =
-      std::regex_search(code, std::regex(R"(MeshAlgorithm\s+Surface\s*\{[^}]*\}\s*=\s*8\b)"));
+  const bool of_a_surface = sets_algorithm_8_of_a_surface(code);
   if (algorithm != 8.0 && !of_a_surface) return {};
   gmsh::option::setNumber("Mesh.Algorithm", 6);
   std::vector<std::pair<int, int>> surfaces;
@@ -104,11 +94,9 @@ std::vector<std::string> replace_algorithm_8(const std::string& code)
   return {"the .geo asks for Mesh.Algorithm 8, which crashes in Gmsh 4.8.4; it was meshed by 6"};
 }
 
-void check_does_not_mesh_itself(const std::string& file, const std::string& code)
+void check_does_not_mesh_itself(const std::string& file, const Statements& code)
 {
-  const bool meshes = std::regex_search(code, std::regex(R"((^|[;\n])\s*Mesh\s+[123]\s*;)"));
-  const bool algorithm_8 = std::regex_search(code, std::regex(R"(Algorithm\b[^;]*=\s*8\b)"));
-  if (!meshes || !algorithm_8) return;
+  if (!has_mesh_command(code) || !sets_algorithm_8(code)) return;
   throw Error(
       fmt::format("mesh file {} meshes itself by Mesh.Algorithm 8, which crashes in Gmsh "
                   "4.8.4; take out its command \"Mesh 2;\" or use algorithm 6",
@@ -138,7 +126,7 @@ void check_msh_is_whole(const std::string& file)
 std::vector<std::string> open_geo(const MeshOptions& options)
 {
   const std::string& file = *options.file;
-  const std::string code = code_of(read_all(file));
+  const Statements code = geo_statements(read_all(file));
   check_does_not_mesh_itself(file, code);
   check_parameters_are_used(options, code);
   if (options.parameters.empty()) {

@@ -21,6 +21,7 @@ READERS = {
     "body": "damaged `*.body.h5`, then `check_body`",
     "reduced": "damaged `*.reduced.h5`, then `check_reduced`",
     "scene": "scene files",
+    "geo": "what is asked of `.geo` files before Gmsh reads them",
     "mesh": "the check of `.msh` files before Gmsh reads them",
 }
 OPTIONS = ("-timeout=20", "-rss_limit_mb=1024", "-malloc_limit_mb=64", "-detect_leaks=0", "-max_len=65536",
@@ -31,7 +32,8 @@ def seeds(reader):
     """Whole files beside the small inputs of tests/fuzz/corpus."""
     if reader in ("body", "reduced"):
         return [ROOT / f"tests/data/version_1.{reader}.h5"]
-    return sorted(ROOT.glob("examples/*/*.toml")) if reader == "scene" else []
+    pattern = {"scene": "examples/*/*.toml", "geo": "examples/*/*.geo"}.get(reader)
+    return sorted(ROOT.glob(pattern)) if pattern else []
 
 
 def fuzz(programs, reader, seconds):

@@ -1,0 +1,55 @@
+#include "mesh/geo_code.hpp"
+
+#include <gtest/gtest.h>
+
+namespace chladni::mesh {
+namespace {
+
+using Statements = std::vector<std::string>;
+
+TEST(GeoCode, IsStatementsWithoutCommentsAndTexts)
+{
+  EXPECT_EQ(geo_statements("a = 1;// ; b\n\n  Point(1)\t= {0, /* ; */ 0};"),
+            (Statements{"a = 1", "Point(1) = {0, 0}", ""}));
+  EXPECT_EQ(geo_statements("Printf(\"Mesh 2; // no\");x"), (Statements{"Printf(\"\")", "x"}));
+  EXPECT_EQ(geo_statements("a /* without end"), Statements{"a"});
+  EXPECT_EQ(geo_statements("\"without end"), Statements{"\"\""});
+  EXPECT_EQ(geo_statements(""), Statements{""});
+}
+
+TEST(GeoCode, HasWordsOutsideOfLongerOnes)
+{
+  const Statements code = geo_statements("lc_max = 2 * width;");
+  EXPECT_TRUE(has_word(code, "width"));
+  EXPECT_TRUE(has_word(code, "lc_max"));
+  EXPECT_FALSE(has_word(code, "lc"));
+  EXPECT_FALSE(has_word(code, "wid"));
+  EXPECT_TRUE(has_word(geo_statements("widths = width;"), "width"));
+}
+
+TEST(GeoCode, KnowsTheCommandThatMeshes)
+{
+  EXPECT_TRUE(has_mesh_command(geo_statements("Mesh 2;")));
+  EXPECT_TRUE(has_mesh_command(geo_statements("If (a)\nMesh\n2 ;\nEndIf")));
+  EXPECT_FALSE(has_mesh_command(geo_statements("RefineMesh 2; Mesh.ElementOrder = 2;")));
+}
+
+TEST(GeoCode, KnowsWhereAlgorithm8IsSet)
+{
+  EXPECT_TRUE(sets_algorithm_8(geo_statements("Mesh.Algorithm=8 ;")));
+  EXPECT_FALSE(
+      sets_algorithm_8(geo_statements("Mesh.Algorithm = 6; a = 8; Mesh.Algorithm3D = 8;")));
+  EXPECT_FALSE(sets_algorithm_8(geo_statements("Mesh.Algorithm = 88;")));
+  const Statements of_a_surface = geo_statements("MeshAlgorithm  Surface {1, 2} = 8;");
+  EXPECT_TRUE(sets_algorithm_8(of_a_surface));
+  EXPECT_TRUE(sets_algorithm_8_of_a_surface(of_a_surface));
+}
+
+TEST(GeoCode, MayHaveAMillionBlanksOrCharactersInAComment)
+{
+  const std::string million(1000000, ' ');
+  EXPECT_EQ(geo_statements("a /*" + million + "*/ b" + million + "c"), Statements{"a b c"});
+}
+
+}  // namespace
+}  // namespace chladni::mesh
