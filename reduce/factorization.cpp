@@ -135,8 +135,7 @@ Factorization::Factorization(Mat A, double beside_MiB)
   petsc::check(KSPSetFromOptions(solver_));
   MatSolverType type = nullptr;
   petsc::check(PCFactorGetMatSolverType(pc, &type));
-  if (std::string_view(type) == MATSOLVERMUMPS)
-    set_default_option("-cms_mat_mumps_icntl_27", "64");
+  if (std::string_view(type) == MATSOLVERMUMPS) set_default_option("-cms_mat_mumps_icntl_27", "64");
   petsc::check(PCFactorSetUpMatSolverType(pc));
   const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
   set_budget(factor(), budget_MiB);
