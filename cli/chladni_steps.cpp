@@ -69,13 +69,26 @@ Cost cost_of_all_ranks(const std::vector<PhaseTime>& phases)
   return cost;
 }
 
+namespace {
+
+/// "101 (100 asked; 1 more of the same frequency)": what a disc has twice is not parted.
+std::string number_of_modes(const ReduceSummary& summary)
+{
+  const int n_more = summary.n_modes - summary.n_modes_asked;
+  if (summary.n_modes_asked == 0 || n_more == 0) return fmt::format("{}", summary.n_modes);
+  return fmt::format("{} ({} asked; {} more of the same frequency)", summary.n_modes,
+                     summary.n_modes_asked, n_more);
+}
+
+}  // namespace
+
 TextTable reduction_table(const ReduceSummary& summary)
 {
   TextTable table{.header = {"reduction", "value"}, .rows = {}};
   table.rows.push_back({"nodes of the mesh", fmt::format("{}", summary.n_nodes)});
   table.rows.push_back({"DOFs", fmt::format("{}", summary.n_dofs)});
   table.rows.push_back({"masters", fmt::format("{}", summary.n_masters)});
-  table.rows.push_back({"fixed-interface modes", fmt::format("{}", summary.n_modes)});
+  table.rows.push_back({"fixed-interface modes", number_of_modes(summary)});
   const mbs_export::Certificate& certificate = summary.reduced.certificate;
   if (const Eigen::Index n = certificate.eta2.size(); n > 0) {
     table.rows.push_back({fmt::format("error of the frequencies up to {:.0f} Hz",

@@ -94,6 +94,19 @@ std::string titled(const Object& object)
   return object.title + "\n\n" + format_table(describe(object));
 }
 
+/// The highest harmonic of each ring that has harmonics as masters.
+void add_harmonics(TextTable& table, const mbs_export::ReducedSystem& reduced)
+{
+  for (std::size_t set = 0; set < reduced.sets.size(); ++set) {
+    int highest = -1;
+    for (const mbs_export::MasterDof& dof : reduced.masters)
+      if (dof.harmonic && dof.harmonic->set == static_cast<int>(set))
+        highest = std::max(highest, dof.harmonic->order);
+    if (highest >= 0)
+      add_count(table, "harmonics of " + reduced.sets[set].name + " up to", highest);
+  }
+}
+
 }  // namespace
 
 TextTable describe(const mbs_export::ReducedSystem& reduced)
@@ -101,6 +114,7 @@ TextTable describe(const mbs_export::ReducedSystem& reduced)
   TextTable table = quantities();
   add_count(table, "attachment nodes", static_cast<Eigen::Index>(reduced.attachment_nodes.size()));
   add_sets(table, reduced.sets);
+  add_harmonics(table, reduced);
   add_count(table, "masters", reduced.n_masters());
   const Eigen::VectorXd f_Hz = reduced.fixed_interface_frequencies / (2.0 * pi);
   add_count(table, "fixed-interface modes", f_Hz.size());

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "reduce/full_responses.hpp"
@@ -28,29 +29,54 @@ double automatic_omega0(const ReducedSystem& system)
   return omega0;
 }
 
-int row_of(const ReducedSystem& system, const InterfaceModes& wanted, int node, int component)
+/// The loads of a ring of harmonics: its harmonics along or about its axis.
+void add_axial_harmonics(const ReducedSystem& system, int set, int component, std::set<int>& rows)
 {
-  const auto found = std::ranges::find_if(system.masters, [&](const mbs_export::MasterDof& dof) {
-    return dof.node == node && dof.component == component;
-  });
-  if (found != system.masters.end()) return static_cast<int>(found - system.masters.begin());
-  throw Error(fmt::format("interface_modes at \"{}\": component {} is no DOF of the model",
-                          wanted.at, plate::component_names[std::size_t(component)]));
+  for (std::size_t row = 0; row < system.masters.size(); ++row) {
+    const mbs_export::MasterDof& dof = system.masters[row];
+    if (dof.harmonic && dof.harmonic->set == set && dof.component == component)
+      rows.insert(static_cast<int>(row));
+  }
+}
+
+/// Rows of K_r of one component of the loaded set.
+void add_loads(const ReducedSystem& system, const InterfaceModes& wanted, int component,
+               std::set<int>& rows)
+{
+  const mbs_export::AttachmentSet& set = mbs_export::find_set(system, wanted.at);
+  const char* name = plate::component_names[std::size_t(component)];
+  const auto index = static_cast<int>(&set - system.sets.data());
+  const bool is_ring = std::ranges::any_of(
+      system.masters, [&](const auto& dof) { return dof.harmonic && dof.harmonic->set == index; });
+  if (is_ring && component % 3 == 2) return add_axial_harmonics(system, index, component, rows);
+  for (const int node : set.nodes) {
+    if (const auto row = mbs_export::master_row(system, node, component))
+      rows.insert(*row);
+    else if (mbs_export::has_component(system, node, component))
+      throw Error(
+          fmt::format("interface_modes at \"{}\": with space = \"full\", nodes of a ring of "
+                      "harmonics are loaded "
+                      "along z and rz only, not along {}; use space = \"reduced\"",
+                      wanted.at, name));
+    else
+      throw Error(fmt::format("interface_modes at \"{}\": component {} is no DOF of the model",
+                              wanted.at, name));
+  }
 }
 
 Loads loads_of(const Scene& scene, const ReducedSystem& system)
 {
   const mbs_export::HeldDofs held = mbs_export::held_dofs(system, scene.body.fixed);
+  if (!held.are_masters())
+    throw Error(
+        "interface_modes: with space = \"full\" nodes of a ring of harmonics cannot be held; use "
+        "space = \"reduced\"");
   Loads loads;
   for (const InterfaceModes& wanted : scene.body.interface_modes) {
     if (wanted.space != InterfaceModes::Space::full) continue;
     std::set<int>& rows = loads[wanted.omega0 ? *wanted.omega0 : automatic_omega0(system)];
     rows.insert(held.rows.begin(), held.rows.end());
-    for (const int node : mbs_export::find_set(system, wanted.at).nodes) {
-      for (const int component : wanted.components) {
-        rows.insert(row_of(system, wanted, node, component));
-      }
-    }
+    for (const int component : wanted.components) add_loads(system, wanted, component, rows);
   }
   return loads;
 }

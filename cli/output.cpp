@@ -131,20 +131,27 @@ void ProgressLine::wipe()
 
 void ProgressLine::show(const std::string& phase, double fraction)
 {
+  if (::isatty(STDERR_FILENO) == 0) return;
   const Clock::time_point now = Clock::now();
-  if (phase != phase_) {
-    wipe();
+  if (phase != phase_) {  // its name at once: a factorisation says nothing until it is done
     phase_ = phase;
     start_ = now;
+    put(phase + " ...");
+    return;
   }
   constexpr std::chrono::milliseconds pause{200};
-  if (now - shown_ < pause || ::isatty(STDERR_FILENO) == 0) return;
+  if (now - shown_ < pause || fraction >= 1.0) return;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const std::optional<std::string> text = progress_text(phase, fraction, elapsed_s);
   if (!text) return;
-  fmt::print(stderr, "\r\033[K{}", *text);
-  std::fflush(stderr);
+  put(*text);
   shown_ = now;
+}
+
+void ProgressLine::put(const std::string& text)
+{
+  fmt::print(stderr, "\r\033[K{}", text);
+  std::fflush(stderr);
   visible_ = true;
 }
 

@@ -47,6 +47,7 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
 
   void wipe();
+  void put(const std::string& text);
 
   std::string phase_;
   Clock::time_point start_;

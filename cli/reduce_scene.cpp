@@ -14,6 +14,7 @@
 #include "cli/section_forces.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
+#include "plate/ring_harmonics.hpp"
 #include "reduce/condition_estimate.hpp"
 
 namespace chladni::cli {
@@ -35,6 +36,7 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
   plate::DofMap dofs =
       plate::make_dof_map(mesh, scene.couplings, mesh::node_owners(mesh, n_ranks()), n_ranks());
   dofs.components = scene.components;
+  dofs = plate::with_ring_harmonics(mesh, std::move(dofs), scene.ring_harmonics);
   Attachments attachments = find_attachments(mesh, dofs, scene.interface_nodes);
   plate::System system =
       plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
@@ -93,6 +95,10 @@ Reduced with_what_bodies_need(const Scene& scene, const FeModel& fe, const Parti
         "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, blocks, reduced); });
   }
   const RowsOf rows = rows_of(blocks, reduced);
+  if (reduced.system.ring_motion) {
+    reduced.system.ring_motion->displacements =
+        node_rows(fe.attachments.nodes, fe.system.dofs, rows);
+  }
   reduced.system.picture = phases.run("pictures", [&] {
     return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
   });
@@ -127,8 +133,8 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  system.certificate =
-      phases.run("error estimates", [&] { return certify_scene(scene, blocks, K_ss, reduced); });
+  system.certificate = phases.run("error estimates",
+                                  [&] { return certify_scene(scene, fe, blocks, K_ss, reduced); });
   const double modes_residual = phases.run("residuals", [&] {
     return reduced.Q_CB.modes && !is_free_interface(scene.reduce.method)
                ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
@@ -152,6 +158,9 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
           .n_nodes = fe.mesh.n_nodes(),
           .n_masters = static_cast<int>(blocks.masters.size()),
           .n_modes = n_modes,
+          .n_modes_asked = scene.reduce.method == reduce::Method::craig_bampton
+                               ? static_cast<int>(scene.reduce.modes.value_or(0))
+                               : 0,
           .factorization = factorization,
           .factor = reduce::factor_size(K_ss.factor()),
           .modes_residual = modes_residual};

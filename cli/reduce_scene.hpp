@@ -8,7 +8,7 @@
 #include "cli/scene/scene.hpp"
 #include "cli/timing.hpp"
 #include "mbs_export/reduced_system.hpp"
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 
 namespace chladni::cli {
 
@@ -20,6 +20,7 @@ struct ReduceSummary {
   std::int64_t n_nodes;               ///< of the mesh
   int n_masters;
   int n_modes;              ///< fixed-interface modes
+  int n_modes_asked;        ///< of these, by their number; 0 where something else has chosen them
   PhaseTime factorization;  ///< of K_ss, on this rank; part of one of the phases
   reduce::FactorSize factor;
   double modes_residual;  ///< largest of the fixed-interface modes; 0 without any

@@ -11,16 +11,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// The master DOFs in the order of the scene, as global DOFs of K.
-std::vector<PetscInt> master_dofs(const Attachments& attachments, const plate::DofMap& dofs)
-{
-  std::vector<PetscInt> masters;
-  for (const int node : attachments.nodes) {
-    for (const int c : dofs.components) masters.push_back(dofs.dof(node, c).value());
-  }
-  return masters;
-}
-
 petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
 {
   PetscInt first = 0;
@@ -72,14 +62,17 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
   mbs_export::ReducedSystem reduced;
   reduced.title = scene.title;
   reduced.sets = fe.attachments.sets;
-  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
-    const int node = fe.attachments.nodes[i];
+  for (const int node : fe.attachments.nodes) {
     const auto& x = fe.system.dofs.positions[node];
     reduced.attachment_nodes.push_back(
         {.number = node_number(fe.mesh, fe.system.dofs, node), .position = {x[0], x[1], x[2]}});
-    for (const int c : fe.system.dofs.components) {
-      reduced.masters.push_back({.node = static_cast<int>(i), .component = c});
-    }
+  }
+  reduced.masters = fe.attachments.masters;
+  if (!fe.system.dofs.harmonic_rings.empty()) {
+    const MatrixXd F = master_shapes(fe.attachments, fe.system.dofs);
+    reduced.ring_motion = {.shapes = F,
+                           .displacements = MatrixXd::Zero(F.rows(), std::ssize(places))};
+    reduced.ring_motion->displacements.leftCols(F.cols()) = F;  // the rest follows with the basis
   }
   reduced.K = as_eigen(model.K)(places, places);
   reduced.M = as_eigen(model.M)(places, places);
@@ -98,7 +91,8 @@ plate::Structure structure_of(const Scene& scene)
 
 Partitioned partition_scene(const FeModel& fe)
 {
-  std::vector<PetscInt> masters = master_dofs(fe.attachments, fe.system.dofs);
+  std::vector<PetscInt> masters(fe.attachments.master_dofs.begin(),
+                                fe.attachments.master_dofs.end());
   const petsc::IndexSet own = own_masters(fe.system.K, masters);
   view_from_options(fe, own);
   reduce::DofPartition rows = reduce::partition(fe.system.K, own);
@@ -153,19 +147,33 @@ ModeRange certified_range(const Scene& scene, double omega_last)
   return {.omega_max = omega_last, .most = 100};  // bounds the block solve
 }
 
-mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
-                                      const reduce::Factorization& K_ss, const Reduced& reduced)
+std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe)
+{
+  std::vector<std::string> support;
+  for (const std::string& fixed : scene.body.fixed) {
+    const bool is_master = std::ranges::none_of(fe.attachments.sets, [&](const auto& set) {
+      const bool is_meant = fixed == set.name || fixed.substr(0, fixed.rfind('.')) == set.name;
+      return is_meant && has_ring_nodes(fe.attachments, fe.system.dofs, set);
+    });
+    if (is_master) support.push_back(fixed);
+  }
+  return support;
+}
+
+mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
+                                      const Partitioned& blocks, const reduce::Factorization& K_ss,
+                                      const Reduced& reduced)
 {
   if (scene.reduce.method == reduce::Method::macneal) {  // no projection: residuals mean nothing
     mbs_export::Certificate none;
-    none.fixed = scene.body.fixed;
+    none.fixed = certified_support(scene, fe);
     return none;
   }
   const auto& frequencies = reduced.system.fixed_interface_frequencies;
   const Eigen::Index n = frequencies.size();
-  return certify(reduced.system,
-                 {.K_ss = K_ss, .Q_CB = reduced.Q_CB, .M = blocks.M, .places = reduced.places},
-                 scene.body.fixed, certified_range(scene, n > 0 ? frequencies[n - 1] : 0.0));
+  return certify(
+      reduced.system, {.K_ss = K_ss, .Q_CB = reduced.Q_CB, .M = blocks.M, .places = reduced.places},
+      certified_support(scene, fe), certified_range(scene, n > 0 ? frequencies[n - 1] : 0.0));
 }
 
 }  // namespace chladni::cli

@@ -91,9 +91,14 @@ Reduced project_blocks(const Scene& scene, const FeModel& fe, const Partitioned&
 /// @param omega_last  of that one, rad/s; 0 without any
 ModeRange certified_range(const Scene& scene, double omega_last);
 
+/// The supports of the scene's body that hold masters: those that hold nodes of a ring of harmonics
+/// leave a residual that the certificate does not know.
+std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe);
+
 /// Estimates up to the frequency that the scene promises.
-mbs_export::Certificate certify_scene(const Scene& scene, const Partitioned& blocks,
-                                      const reduce::Factorization& K_ss, const Reduced& reduced);
+mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
+                                      const Partitioned& blocks, const reduce::Factorization& K_ss,
+                                      const Reduced& reduced);
 
 /// In the order of the file, without picture and certificate.
 mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,

@@ -11,7 +11,7 @@ reduce::FixedInterfaceModes modes_to_tolerance(const Scene& scene, const FeModel
   const auto pairs_in_range = [&](const reduce::ReducedModel& model) {
     const std::vector<int> places =
         coordinate_places(masters, static_cast<PetscInt>(model.omega.size()));
-    return held_pairs(to_file_order(scene, fe, model, places), places, scene.body.fixed,
+    return held_pairs(to_file_order(scene, fe, model, places), places, certified_support(scene, fe),
                       certified_range(scene, 0.0))
         .pairs;
   };

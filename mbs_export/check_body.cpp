@@ -102,9 +102,9 @@ void add_held_displacements(std::vector<Check>& checks, const ModalBody& body)
   if (body.fixed.empty()) return;
   const HeldDofs held = held_dofs(geometry_of(body), body.fixed);
   // Where all are held, round-off is all that there is to compare them with.
-  if (std::ssize(held.rows) == body.attachment_modes.rows()) return;
+  if (std::ssize(held.dofs) == body.attachment_modes.rows()) return;
   double largest = 0.0;
-  for (const int row : held.rows)
+  for (const int row : held.dofs)
     largest = std::max(largest, body.attachment_modes.row(row).cwiseAbs().maxCoeff());
   const double scale = body.attachment_modes.cwiseAbs().maxCoeff();
   checks.push_back(bounded("held displacements", scale > 0.0 ? largest / scale : 0.0, 1e-7,

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "mbs_export/attachment_motion.hpp"
+
 namespace chladni::mbs_export {
 namespace {
 
@@ -23,10 +25,8 @@ double angle_of(const Eigen::Vector3d& position)
 
 bool has_out_of_plane_dofs(const ReducedSystem& reduced, int node)
 {
-  const auto n = std::ranges::count_if(reduced.masters, [&](const MasterDof& dof) {
-    return dof.node == node && dof.component >= 2 && dof.component <= 4;
-  });
-  return n == 3;
+  return has_component(reduced, node, 2) && has_component(reduced, node, 3) &&
+         has_component(reduced, node, 4);
 }
 
 /// The geometry of a ring without its modes, when the set is one.

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <set>
 
 #include "common/error.hpp"
+#include "mbs_export/attachment_motion.hpp"
 
 namespace chladni::mbs_export {
 namespace {
-
-constexpr std::array component_names{"x", "y", "z", "rx", "ry", "rz"};
 
 /// An entry of `fixed`, taken apart. A set whose own name contains a dot is found first.
 struct Specification {
@@ -25,59 +23,61 @@ Specification parse(const ReducedSystem& reduced, const std::string& text)
   if (whole != reduced.sets.end()) return {*whole, -1};
   const std::size_t dot = text.rfind('.');
   const AttachmentSet& set = find_set(reduced, text.substr(0, dot));
-  const auto component = std::ranges::find(component_names, text.substr(dot + 1));
-  if (component == component_names.end())
-    throw Error(fmt::format("'{}': no component '{}'; there is x, y, z, rx, ry, rz", text,
-                            text.substr(dot + 1)));
-  return {set, static_cast<int>(component - component_names.begin())};
+  for (int component = 0; component < 6; ++component)
+    if (component_name(component) == text.substr(dot + 1)) return {set, component};
+  throw Error(fmt::format("'{}': no component '{}'; there is x, y, z, rx, ry, rz", text,
+                          text.substr(dot + 1)));
 }
 
-std::string dof_name(const ReducedSystem& reduced, const AttachmentSet& set, MasterDof dof)
+std::string dof_name(const ReducedSystem& reduced, const AttachmentSet& set, int node,
+                     int component)
 {
-  const std::string name = fmt::format("{}.{}", set.name, component_name(dof.component));
+  const std::string name = fmt::format("{}.{}", set.name, component_name(component));
   if (set.nodes.size() == 1) return name;
-  const auto& node = reduced.attachment_nodes[static_cast<std::size_t>(dof.node)];
-  return fmt::format("{} (node {})", name, node.number);
+  return fmt::format("{} (node {})", name,
+                     reduced.attachment_nodes[static_cast<std::size_t>(node)].number);
 }
+
+/// A DOF that is held, and its row of K_r or -1.
+struct Held {
+  int dof;
+  int row;
+  std::string name;
+};
 
 }  // namespace
 
-const char* component_name(int component)
+Eigen::MatrixXd HeldDofs::displacements(const Eigen::MatrixXd& Q) const
 {
-  return component_names[static_cast<std::size_t>(component)];
-}
-
-int master_row(const ReducedSystem& reduced, int node, int component)
-{
-  const auto found = std::ranges::find_if(reduced.masters, [&](const MasterDof& dof) {
-    return dof.node == node && dof.component == component;
-  });
-  if (found != reduced.masters.end()) return static_cast<int>(found - reduced.masters.begin());
-  throw Error(fmt::format(
-      "component {} of attachment node {} is not part of the reduced system; reduce again with it "
-      "in the scene's [interface]",
-      component_name(component), reduced.attachment_nodes[static_cast<std::size_t>(node)].number));
+  if (are_masters()) return Q(rows, Eigen::all);
+  return forms * Q;
 }
 
 HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
 {
-  std::map<int, std::string> names;  // by row; the first name of a DOF that is held twice
+  std::vector<Held> all;
+  std::set<int> seen;  // the first name of a DOF that is held twice
   for (const std::string& text : fixed) {
     const auto [set, component] = parse(reduced, text);
     for (const int node : set.nodes) {
-      if (component >= 0) master_row(reduced, node, component);
-      for (std::size_t row = 0; row < reduced.masters.size(); ++row) {
-        const MasterDof dof = reduced.masters[row];
-        if (dof.node == node && (component < 0 || dof.component == component))
-          names.emplace(static_cast<int>(row), dof_name(reduced, set, dof));
+      for (int c = 0; c < 6; ++c) {
+        if (component >= 0 ? c != component : !has_component(reduced, node, c)) continue;
+        const int dof = attachment_dof(reduced, node, c);
+        if (!seen.insert(dof).second) continue;
+        all.push_back(
+            {dof, master_row(reduced, node, c).value_or(-1), dof_name(reduced, set, node, c)});
       }
     }
   }
+  std::ranges::stable_sort(all, {}, &Held::row);
   HeldDofs held;
-  for (const auto& [row, name] : names) {
-    held.rows.push_back(row);
-    held.names.push_back(name);
+  for (const Held& one : all) {
+    held.dofs.push_back(one.dof);
+    held.rows.push_back(one.row);
+    held.names.push_back(one.name);
   }
+  if (!held.rows.empty() && held.rows.front() < 0)
+    held.forms = reduced.ring_motion->displacements(held.dofs, Eigen::all);
   return held;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -7,22 +8,22 @@
 
 namespace chladni::mbs_export {
 
-/// Masters whose displacement is prescribed to be zero.
+/// DOFs of attachment nodes whose displacement is prescribed to be zero.
 struct HeldDofs {
-  std::vector<int> rows;           ///< of K_r, ascending, each once
+  std::vector<int> dofs;           ///< 6 node + component, each once
   std::vector<std::string> names;  ///< "hub.rx", or "track.z (node 17)" in a set of several nodes
+  /// Rows of K_r that are these DOFs, ascending; -1 for a DOF of a ring of harmonics, first
+  std::vector<int> rows;
+  Eigen::MatrixXd forms;  ///< [n_c x n_FE] the displacements where some row is -1; else empty
+
+  bool are_masters() const { return forms.size() == 0; }
+  /// The held displacements of modes Q [n_FE x n].
+  Eigen::MatrixXd displacements(const Eigen::MatrixXd& Q) const;
 };
 
-/// The masters of "SET" (all components) or "SET.x|y|z|rx|ry|rz" in each entry of `fixed`.
+/// The DOFs of "SET" (all components) or "SET.x|y|z|rx|ry|rz" in each entry of `fixed`.
 /// @throws chladni::Error naming what exists, for an unknown set or component, or a component
-///         that is no master.
+///         that is not part of the system.
 HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>& fixed);
-
-/// The row of K_r of one component of an attachment node.
-/// @throws chladni::Error when it is no master.
-int master_row(const ReducedSystem& reduced, int node, int component);
-
-/// "x", "y", "z", "rx", "ry", "rz" of component 0..5.
-const char* component_name(int component);
 
 }  // namespace chladni::mbs_export

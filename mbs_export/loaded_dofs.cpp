@@ -6,6 +6,7 @@
 #include <array>
 
 #include "common/error.hpp"
+#include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/contact_rings.hpp"
 
 namespace chladni::mbs_export {
@@ -43,19 +44,18 @@ std::vector<SetLoad> loads_of(const std::vector<InterfaceModes>& wanted)
   return loads;
 }
 
-/// Components that are masters of all nodes of a set and held at none.
+/// Components that all nodes of a set have and that are held at none.
 std::vector<int> free_components(const ReducedSystem& reduced, const HeldDofs& held,
                                  const AttachmentSet& set)
 {
-  std::array<std::size_t, 6> n_free{};
-  for (std::size_t row = 0; row < reduced.masters.size(); ++row) {
-    const MasterDof dof = reduced.masters[row];
-    if (!std::ranges::binary_search(held.rows, static_cast<int>(row)))
-      n_free[std::size_t(dof.component)] += std::size_t(std::ranges::count(set.nodes, dof.node));
-  }
+  const auto is_free = [&](int node, int component) {
+    return has_component(reduced, node, component) &&
+           std::ranges::find(held.dofs, 6 * node + component) == held.dofs.end();
+  };
   std::vector<int> components;
   for (int component = 0; component < 6; ++component)
-    if (!set.nodes.empty() && n_free[std::size_t(component)] == set.nodes.size())
+    if (!set.nodes.empty() &&
+        std::ranges::all_of(set.nodes, [&](int node) { return is_free(node, component); }))
       components.push_back(component);
   return components;
 }
@@ -86,24 +86,24 @@ MatrixXd harmonic(const VectorXd& angles, Index n)
 }
 
 /// Places of these DOFs among the loads; new ones are appended.
-std::vector<Index> enlist(LoadedDofs& loads, const std::vector<int>& rows, int component)
+std::vector<Index> enlist(LoadedDofs& loads, const std::vector<int>& dofs, int component)
 {
   std::vector<Index> places;
-  for (const int row : rows) {
-    places.push_back(std::ranges::find(loads.rows, row) - loads.rows.begin());
-    if (places.back() < Index(loads.rows.size())) continue;
-    loads.rows.push_back(row);
+  for (const int dof : dofs) {
+    places.push_back(std::ranges::find(loads.dofs, dof) - loads.dofs.begin());
+    if (places.back() < Index(loads.dofs.size())) continue;
+    loads.dofs.push_back(dof);
     loads.is_moment.push_back(component >= 3);
   }
   return places;
 }
 
-std::vector<int> rows_of(const ReducedSystem& reduced, const HeldDofs& held,
+std::vector<int> dofs_of(const ReducedSystem& reduced, const HeldDofs& held,
                          const std::vector<int>& nodes, int component)
 {
-  std::vector<int> rows;
-  for (const int node : nodes) rows.push_back(loaded_row(reduced, held, {node, component}));
-  return rows;
+  std::vector<int> dofs;
+  for (const int node : nodes) dofs.push_back(loaded_dof(reduced, held, {node, component}));
+  return dofs;
 }
 
 /// The harmonics of those components of a load that turn together.
@@ -131,7 +131,7 @@ std::vector<Pattern> add_ring(LoadedDofs& loads, const ReducedSystem& reduced, c
     for (const int component : load.components) {
       if (component < bundle[0] || component > bundle[1]) continue;
       together.name += component_name(component);
-      for (const Index i : enlist(loads, rows_of(reduced, held, ring.nodes, component), component))
+      for (const Index i : enlist(loads, dofs_of(reduced, held, ring.nodes, component), component))
         together.loads.push_back(i);
     }
     if (together.loads.empty()) continue;
@@ -147,7 +147,7 @@ std::vector<Pattern> add_set(LoadedDofs& loads, const ReducedSystem& reduced, co
   const std::vector<int>& nodes = find_set(reduced, load.set).nodes;
   for (const int component : load.components) {
     const std::vector<Index> places =
-        enlist(loads, rows_of(reduced, held, nodes, component), component);
+        enlist(loads, dofs_of(reduced, held, nodes, component), component);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       std::string name = fmt::format("{}.{}", load.set, component_name(component));
       if (nodes.size() > 1)
@@ -168,14 +168,14 @@ LoadGroup group_of(const Pattern& pattern, Index n_loads)
 
 }  // namespace
 
-int loaded_row(const ReducedSystem& reduced, const HeldDofs& held, MasterDof dof)
+int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loaded)
 {
-  const int row = master_row(reduced, dof.node, dof.component);
-  const auto found = std::ranges::find(held.rows, row);
-  if (found != held.rows.end())
+  const int dof = attachment_dof(reduced, loaded.node, loaded.component);
+  const auto found = std::ranges::find(held.dofs, dof);
+  if (found != held.dofs.end())
     throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
-                            held.names[std::size_t(found - held.rows.begin())]));
-  return row;
+                            held.names[std::size_t(found - held.dofs.begin())]));
+  return dof;
 }
 
 LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
@@ -194,15 +194,15 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
     for (const int component : load.components)
       loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
   }
-  if (loads.rows.empty())
+  if (loads.dofs.empty())
     throw Error("keep: a tolerance is about loads, and every attachment DOF is held");
-  if (loads.rows.size() > most_loads)
+  if (loads.dofs.size() > most_loads)
     throw Error(
         fmt::format("keep: {} loaded DOFs are more than the {} that a tolerance can compare; "
                     "name those that matter by interface_modes",
-                    loads.rows.size(), most_loads));
+                    loads.dofs.size(), most_loads));
   for (const Pattern& pattern : patterns)
-    loads.groups.push_back(group_of(pattern, Index(loads.rows.size())));
+    loads.groups.push_back(group_of(pattern, Index(loads.dofs.size())));
   return loads;
 }
 

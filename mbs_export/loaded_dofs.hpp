@@ -21,7 +21,7 @@ struct LoadGroup {
 
 /// Attachment DOFs at which the scene loads the body.
 struct LoadedDofs {
-  std::vector<int> rows;           ///< of K_r, each once
+  std::vector<int> dofs;           ///< 6 node + component, each once
   std::vector<char> is_moment;     ///< [n_loads]
   std::vector<std::string> names;  ///< "track.z" stands for all nodes of the set
   std::vector<LoadGroup> groups;
@@ -34,8 +34,8 @@ struct LoadedDofs {
 LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
                        const std::vector<InterfaceModes>& wanted);
 
-/// The row of K_r of a DOF that is to be loaded.
-/// @throws chladni::Error when it is held or no master.
-int loaded_row(const ReducedSystem& reduced, const HeldDofs& held, MasterDof dof);
+/// 6 node + component of a DOF that is to be loaded.
+/// @throws chladni::Error when it is held or not part of the system.
+int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loaded);
 
 }  // namespace chladni::mbs_export

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
+#include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/held_dofs.hpp"
@@ -28,6 +29,7 @@ struct HeldModes {
   const HeldDofs& held;
   const VectorXd& omega;
   MatrixXd T;  ///< Q_e Q_c X, [n_FE x n]
+  MatrixXd U;  ///< [6 n_nodes x n] of the attachment nodes
 };
 
 /// The final modes: kept ones and interface modes, in ascending order of frequency.
@@ -44,14 +46,14 @@ struct Choice {
   std::optional<SelectionTable> table;  ///< when a tolerance has chosen
 };
 
-/// Rows of K_r of the loaded DOFs of one specification of interface modes.
-std::vector<int> loaded_rows(const HeldModes& modes, const InterfaceModes& wanted)
+/// The loaded attachment DOFs of one specification of interface modes.
+std::vector<int> dofs_loaded_by(const HeldModes& modes, const InterfaceModes& wanted)
 {
-  std::vector<int> rows;
+  std::vector<int> dofs;
   for (const int node : find_set(modes.reduced, wanted.at).nodes)
     for (const int component : wanted.components)
-      rows.push_back(loaded_row(modes.reduced, modes.held, {node, component}));
-  return rows;
+      dofs.push_back(loaded_dof(modes.reduced, modes.held, {node, component}));
+  return dofs;
 }
 
 /// Omega_0 of one specification, rad/s: half the first elastic free frequency when left open.
@@ -76,7 +78,7 @@ Choice choose_by_hand(const HeldModes& modes, const BodyOptions& options)
   const VectorXd omega_n = modes.omega(selection.neglected);
   MatrixXd responses(omega_n.size(), 0);
   for (const InterfaceModes& one : options.interface_modes) {
-    const MatrixXd g = modes.T(loaded_rows(modes, one), selection.neglected).transpose();
+    const MatrixXd g = modes.U(dofs_loaded_by(modes, one), selection.neglected).transpose();
     responses = beside(responses, response_modes(omega_n, g, load_frequency(modes.free, one)));
   }
   InterfaceBasis basis = interface_basis(omega_n, responses);
@@ -88,7 +90,7 @@ Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
   if (options.keep.count || options.keep.up_to_Hz || options.keep.list)
     throw Error("keep: a tolerance chooses the modes itself; give nothing else with it");
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
-  const MatrixXd B = modes.T(loads.rows, Eigen::all).transpose();
+  const MatrixXd B = modes.U(loads.dofs, Eigen::all).transpose();
   ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
   const VectorXd omega_n = modes.omega(chosen.neglected);
   MatrixXd responses(omega_n.size(), 0);
@@ -145,17 +147,6 @@ MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
   return VectorXd(2.0 * zeta.array() * modes.omega.array()).asDiagonal();
 }
 
-/// Displacement and rotation of each attachment node; components that are no masters are zero.
-MatrixXd attachment_modes(const ReducedSystem& reduced, const MatrixXd& T)
-{
-  MatrixXd modes = MatrixXd::Zero(6 * Index(reduced.attachment_nodes.size()), T.cols());
-  for (Index row = 0; row < reduced.n_masters(); ++row) {
-    const auto [node, component] = reduced.masters[static_cast<std::size_t>(row)];
-    modes.row(6 * node + component) = T.row(row);
-  }
-  return modes;
-}
-
 Picture picture_modes(const Picture& picture, const MatrixXd& T)
 {
   if (picture.positions.rows() == 0) return {};
@@ -179,7 +170,7 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .attachment_nodes = reduced.attachment_nodes,
                  .sets = reduced.sets,
                  .fixed = options.fixed,
-                 .attachment_modes = attachment_modes(reduced, modes.T),
+                 .attachment_modes = attachment_motion(reduced, modes.T),
                  .rings = {},
                  .picture = picture_modes(reduced.picture, modes.T),
                  .mass = rigid.mass,
@@ -205,8 +196,8 @@ ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
   const HeldDofs held = held_dofs(reduced, options.fixed);
   const ModeShift shift = shift_modes(free, held);
   const ConstrainedModes constrained = constrained_modes(shift);
-  const HeldModes modes{reduced, free, held, constrained.omega,
-                        free.Q_e * (shift.Q_c * constrained.X)};
+  const MatrixXd T = free.Q_e * (shift.Q_c * constrained.X);
+  const HeldModes modes{reduced, free, held, constrained.omega, T, attachment_motion(reduced, T)};
   const Choice choice =
       options.keep.tolerance ? choose_by_tolerance(modes, options) : choose_by_hand(modes, options);
   ModalBody body = assemble(reduced, options, merge(modes, choice.selection, choice.basis));

@@ -107,13 +107,13 @@ MatrixXd free_rigid_motions(const MatrixXd& Q_held, Index n_rigid)
 
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
 {
-  const MatrixXd Q_held = rows_of_unit_length(modes.Q_e(held.rows, Eigen::all));
+  const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
   std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
   const bool complete = Index(dependent.size()) == Q_held.rows();
   if (!complete ||
       condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
-    if (dependent.size() < held.rows.size())
+    if (dependent.size() < held.dofs.size())
       throw Error(fmt::format(
           "mode shifting: the modes cannot hold {} apart from the other held displacements; fix "
           "fewer, or reduce with more masters or modes",
@@ -126,10 +126,10 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
                       const std::vector<int>& dependent)
 {
-  if (dependent.size() != held.rows.size())
+  if (dependent.size() != held.dofs.size())
     throw Error(fmt::format("mode shifting: {} dependent modes for {} held displacements",
-                            dependent.size(), held.rows.size()));
-  const MatrixXd Q_held = modes.Q_e(held.rows, Eigen::all);
+                            dependent.size(), held.dofs.size()));
+  const MatrixXd Q_held = held.displacements(modes.Q_e);
   const std::vector<int> independent = complement(dependent, modes.omega.size());
   const MatrixXd Q_dd = Q_held(Eigen::all, dependent);
   const double directions = condition(rows_of_unit_length(Q_dd));

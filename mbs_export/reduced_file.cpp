@@ -7,6 +7,7 @@
 
 #include "mbs_export/certificate_file.hpp"
 #include "mbs_export/file_parts.hpp"
+#include "mbs_export/ring_masters_file.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -38,7 +39,7 @@ MatrixXd read_symmetric(const hdf5::Reader& file, const std::string& name, Index
   return A;
 }
 
-std::vector<MasterDof> read_masters(const hdf5::Reader& file, Index n_nodes)
+std::vector<MasterDof> read_node_masters(const hdf5::Reader& file, Index n_nodes)
 {
   const auto nodes = file_parts::read_indices(file, "masters/node", n_nodes);
   const auto components =
@@ -64,12 +65,13 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   file.attribute("/", "title", reduced.title);
   file_parts::write_attachment(file, reduced.attachment_nodes, reduced.sets);
   std::vector<int> nodes, components;
-  for (const auto [node, component] : reduced.masters) {
-    nodes.push_back(node);
-    components.push_back(component);
+  for (const MasterDof& dof : reduced.masters) {
+    nodes.push_back(dof.node);
+    components.push_back(dof.component);
   }
   file.write("masters/node", std::span<const int>(nodes), "1");
   file.write("masters/component", std::span<const int>(components), "1");
+  write_ring_masters(file, reduced);
   file.write("matrices/stiffness", reduced.K, "N/m, N, N m; 1/s^2 of fixed-interface modes");
   file.write("matrices/mass", reduced.M, "kg, kg m, kg m^2; 1 of fixed-interface modes");
   if (reduced.C.size() > 0)
@@ -88,7 +90,8 @@ ReducedSystem read_reduced(const std::string& path)
   const hdf5::Reader file(path);
   file.expect_format(format, version);
   auto [nodes, sets] = file_parts::read_attachment(file);
-  auto masters = read_masters(file, Index(nodes.size()));
+  auto masters = has_ring_masters(file) ? read_ring_masters(file, Index(nodes.size()), sets)
+                                        : read_node_masters(file, Index(nodes.size()));
   Eigen::VectorXd frequencies = file.vector("fixed_interface_frequencies");
   if (frequencies.size() > 0 && frequencies.minCoeff() <= 0.0)
     file.fail("fixed_interface_frequencies", "has a value that is not positive");
@@ -97,10 +100,12 @@ ReducedSystem read_reduced(const std::string& path)
     file.fail("masters", "are none, and there is no fixed-interface mode: nothing to read");
   MatrixXd C;
   if (file.contains("matrices/damping")) C = file.matrix("matrices/damping", {n, n});
+  auto ring_motion = read_ring_motion(file, {6 * Index(nodes.size()), Index(masters.size())}, n);
   return {.title = file.text_attribute("/", "title"),
           .attachment_nodes = std::move(nodes),
           .sets = std::move(sets),
           .masters = std::move(masters),
+          .ring_motion = std::move(ring_motion),
           .K = read_symmetric(file, "matrices/stiffness", n),
           .M = read_symmetric(file, "matrices/mass", n),
           .C = std::move(C),

@@ -12,7 +12,8 @@
 
 namespace chladni::mbs_export {
 
-/// A node at which loads, supports and contacts may act (all of its DOFs are masters).
+/// A node at which loads, supports and contacts may act: its DOFs are masters, or those of a ring
+/// together have some of their circumferential harmonics as masters.
 struct AttachmentNode {
   std::int64_t number;       ///< node number of the mesh; a reference node has one of its own
   Eigen::Vector3d position;  ///< m
@@ -24,11 +25,29 @@ struct AttachmentSet {
   std::vector<int> nodes;  ///< indices into `attachment_nodes`; a ring is ordered by angle
 };
 
+/// A circumferential harmonic of the motion of a ring: cos(n phi) or sin(n phi).
+struct RingHarmonic {
+  int set;    ///< index in `sets`
+  int order;  ///< n
+  bool is_sine;
+};
+
 /// The DOF of one row of K_r: attachment node and component (0..2 displacement x, y, z in m;
-/// 3..5 rotation about x, y, z in rad).
+/// 3..5 rotation about x, y, z in rad). Or the amplitude of a harmonic of a ring: no node (-1), and
+/// components along and about the radial, the tangential direction and the axis of the ring.
 struct MasterDof {
   int node;
   int component;
+  std::optional<RingHarmonic> harmonic = {};
+};
+
+/// How the attachment nodes move where harmonics of rings are masters. Rows: all six components of
+/// each node in turn.
+struct RingMotion {
+  /// F [6 n_nodes x n_m], orthonormal columns: the motion that each master is the amplitude of
+  Eigen::MatrixXd shapes;
+  /// [6 n_nodes x n_FE] F u_m and what harmonics that are no masters add to it
+  Eigen::MatrixXd displacements;
 };
 
 /// Surface for pictures: some nodes of the mesh, triangles and quadrilaterals over them, and the
@@ -70,6 +89,7 @@ struct ReducedSystem {
   std::vector<AttachmentNode> attachment_nodes;
   std::vector<AttachmentSet> sets;
   std::vector<MasterDof> masters;               ///< [n_m]
+  std::optional<RingMotion> ring_motion = {};   ///< absent where each master is a DOF of a node
   Eigen::MatrixXd K;                            ///< [n_FE x n_FE], N/m, N, N m
   Eigen::MatrixXd M;                            ///< [n_FE x n_FE], kg, kg m, kg m^2
   Eigen::MatrixXd C;                            ///< [n_FE x n_FE] or [0 x 0] when undamped

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mbs_export/attachment_motion.hpp"
+
 namespace chladni::mbs_export {
 namespace {
 
@@ -26,15 +28,16 @@ Eigen::Vector3d centre_from_origin(const Eigen::Matrix<double, 6, 6>& J, double 
 
 SixVectors rigid_body_vectors(const ReducedSystem& reduced, const Eigen::Vector3d& point)
 {
-  SixVectors R = SixVectors::Zero(reduced.M.rows(), 6);
-  for (Eigen::Index row = 0; row < reduced.n_masters(); ++row) {
-    const auto [node, component] = reduced.masters[static_cast<std::size_t>(row)];
-    R(row, component) = 1.0;
-    if (component >= 3) continue;
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(6 * std::ssize(reduced.attachment_nodes), 6);
+  for (Eigen::Index node = 0; node < std::ssize(reduced.attachment_nodes); ++node) {
+    motion.middleRows<6>(6 * node).setIdentity();
     const Eigen::Vector3d arm =
         reduced.attachment_nodes[static_cast<std::size_t>(node)].position - point;
-    for (int k = 0; k < 3; ++k) R(row, 3 + k) = Eigen::Vector3d::Unit(k).cross(arm)[component];
+    for (int k = 0; k < 3; ++k)
+      motion.block<3, 1>(6 * node, 3 + k) = Eigen::Vector3d::Unit(k).cross(arm);
   }
+  SixVectors R = SixVectors::Zero(reduced.M.rows(), 6);
+  R.topRows(reduced.n_masters()) = masters_of_motion(reduced, motion);
   return R;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -23,10 +24,34 @@ struct MotionTerm {
   Matrix6d T;
 };
 
-/// The motion of a node that an averaging coupling has made a combination of others.
+/// The motion of a node as a combination of DOFs that stand elsewhere: by an averaging coupling, or
+/// as sum of the harmonics of a ring.
 struct CombinedMotion {
   std::vector<MotionTerm> terms;
   std::array<int, 6> dof;  ///< the DOF that is this component of the motion, -1 where none is
+};
+
+/// A circumferential harmonic of a ring: cos(n phi), or sin(n phi).
+struct Harmonic {
+  int order;  ///< n
+  bool is_sine;
+};
+
+/// Harmonics are counted 1, cos(phi), sin(phi), cos(2 phi), ...
+constexpr Harmonic harmonic_of(int k)
+{
+  return {.order = (k + 1) / 2, .is_sine = k > 0 && k % 2 == 0};
+}
+
+/// A ring whose nodes have the harmonics of their motion as DOFs (ring_harmonics.hpp).
+struct HarmonicRing {
+  std::string name;
+  int up_to;                 ///< highest harmonic that is wanted as a master
+  std::vector<int> nodes;    ///< [N] by angle
+  std::vector<int> numbers;  ///< [N] active number at which harmonic k stands
+
+  /// Harmonics 0 .. up_to with cosine and sine, as far as N nodes tell them apart.
+  int n_wanted() const { return std::min(2 * up_to + 1, static_cast<int>(nodes.size())); }
 };
 
 /// The nodes of the FE system: those of the mesh, then a reference node for each rigid and
@@ -34,7 +59,8 @@ struct CombinedMotion {
 /// reference node of a coupling or the node at the end of its links, as a rigid body,
 ///   u = u_ref + theta_ref x arm,  theta = theta_ref.
 /// An averaging coupling replaces six displacements of nodes of its group by the motion of its
-/// reference node, whose DOFs stand where these were.
+/// reference node, whose DOFs stand where these were. Where a ring has its harmonics as DOFs, these
+/// stand where the DOFs of its nodes were.
 /// Active nodes are numbered so that each rank owns a contiguous range; the map is the same on
 /// every rank. DOF `6 * number + component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or
 /// correspondingly fewer where the nodes have only some of the components.
@@ -50,6 +76,7 @@ struct DofMap {
   std::vector<std::string> followed;  ///< [n] name of what a node depends on; empty for none
   std::vector<int> combined;          ///< [n] index into `combined_motions`, -1 for none
   std::vector<CombinedMotion> combined_motions;
+  std::vector<HarmonicRing> harmonic_rings = {};
   std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero
 
   int n_nodes() const { return static_cast<int>(number.size()); }

@@ -1,6 +1,7 @@
 #include "plate/element_motion.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/SparseCore>
 
 namespace chladni::plate {
 
@@ -59,6 +60,15 @@ std::vector<PetscInt> followed_numbers(const DofMap& dofs)
   return numbers;
 }
 
+/// T_e^T A_e T_e. Where nodes move by all harmonics of a ring there are many columns, mostly of
+/// zeros.
+MatrixXd congruent(const MatrixXd& A_e, const MatrixXd& T_e)
+{
+  if (T_e.cols() < 2 * T_e.rows()) return T_e.transpose() * A_e * T_e;
+  const Eigen::SparseMatrix<double> T = T_e.sparseView();
+  return T.transpose() * MatrixXd(A_e * T);
+}
+
 }  // namespace
 
 std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
@@ -103,7 +113,7 @@ void add(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, const DofMap& 
          std::span<const std::ptrdiff_t> places)
 {
   const MatrixXd& T_e = motion.T_e;
-  if (T_e.size() > 0) A_e = T_e.transpose() * A_e * T_e;
+  if (T_e.size() > 0) A_e = congruent(A_e, T_e);
   if (dofs.n_components() < 6) A_e = only_components(A_e, dofs);
   A.add(A_e, places);
 }

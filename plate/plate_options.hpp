@@ -113,4 +113,10 @@ struct Coupling {
 
 using RigidCoupling = Coupling;  ///< one of the kind that it has when none is given
 
+/// A ring of nodes whose circumferential harmonics 0 .. `up_to` are to be coordinates.
+struct RingHarmonics {
+  std::string ring;
+  int up_to;  ///< 1 .. floor(N / 2) of N nodes
+};
+
 }  // namespace chladni::plate

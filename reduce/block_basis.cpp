@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reduce/log_event.hpp"
+#include "reduce/tall_products.hpp"
 
 // LAPACK's symbol: PETSc declares dsyev only, which is several times slower with vectors.
 extern "C" void dsyevd_(const char* jobz,
@@ -188,8 +189,15 @@ SmallMatrix BlockBasis::project_out_newest(Mat block, Mat M_block)
 SmallMatrix BlockBasis::project_out(Mat block, Mat M_block)
 {
   if (n_columns_ == 0) return {0, LocalRows(block).n_cols()};
-  const SmallMatrix h = inner_product(columns(0, n_columns_), M_block);
-  subtract_product(columns(0, n_columns_), h, block);
+  const LongColumns V{values_.get(), n_local_, n_local_, n_columns_};
+  const LocalRows rows(M_block);
+  SmallMatrix h =
+      tall_inner_product(V, {rows.values(), rows.leading_dimension(), n_local_, rows.n_cols()});
+  sum_over_ranks(h, petsc::communicator(M_));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(block, &values));
+  subtract_tall_product(V, h, values, n_local_);
+  petsc::check(MatDenseRestoreArray(block, &values));
   return h;
 }
 

@@ -21,7 +21,7 @@ PetscInt capacity(PetscInt n_pairs, PetscInt n_rows, const BlockLanczosOptions& 
 {
   const PetscInt b = options.block_size;
   const PetscInt wanted = options.max_subspace > 0 ? std::max(options.max_subspace, n_pairs + 4 * b)
-                                                   : 2 * n_pairs + 16 * b;
+                                                   : 2 * n_pairs + 24 * b;
   return std::min(wanted, n_rows) + b;
 }
 

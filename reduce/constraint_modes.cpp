@@ -1,10 +1,9 @@
 #include "reduce/constraint_modes.hpp"
 
 #include <algorithm>
-#include <string_view>
 
+#include "reduce/cholesky_types.hpp"
 #include "reduce/dense.hpp"
-#include "reduce/mumps_metis.hpp"
 
 namespace chladni::reduce {
 
@@ -43,14 +42,6 @@ void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
   }
 }
 
-/// Whether the factor keeps right-hand sides and solutions distributed.
-bool takes_distributed(Mat factor)
-{
-  MatSolverType package = nullptr;
-  petsc::check(MatFactorGetSolverType(factor, &package));
-  return std::string_view(package) == mumps_metis;
-}
-
 }  // namespace
 
 petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
@@ -58,7 +49,7 @@ petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
   PetscInt n_m = 0;
   petsc::check(MatGetSize(K.ms, &n_m, nullptr));
   petsc::Matrix Psi = uninitialized_dense(K.ss, n_m);
-  if (petsc::size(petsc::communicator(K.ms)) == 1 || takes_distributed(K_ss.factor())) {
+  if (petsc::size(petsc::communicator(K.ms)) == 1 || is_ours(K_ss.factor())) {
     petsc::Matrix minus_K_ms;
     petsc::check(MatDuplicate(K.ms, MAT_COPY_VALUES, minus_K_ms.put()));
     petsc::check(MatScale(minus_K_ms, -1.0));

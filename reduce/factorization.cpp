@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 #include "reduce/softest_motion.hpp"
 
 namespace chladni::reduce {
@@ -24,14 +24,15 @@ void check_memory(Mat factor, MatFactorError error, double budget_MiB)
                        : "modes and constraint modes alone need more than there is"));
 }
 
+/// Zero where the package does not tell.
 PetscInt n_negative_pivots(Mat factor)
 {
+  if (is_ours(factor)) return our_negative_pivots(factor);
   MatSolverType package = nullptr;
   PetscInt negative = 0;
   petsc::check(MatFactorGetSolverType(factor, &package));
-  if (std::string_view(package) == MATSOLVERMUMPS || std::string_view(package) == mumps_metis) {
+  if (std::string_view(package) == MATSOLVERMUMPS)
     petsc::check(MatMumpsGetInfog(factor, 12, &negative));
-  }
   return negative;
 }
 
@@ -57,7 +58,7 @@ PetscInt row_of_free_motion(Mat A)
   petsc::check(VecScale(diagonal, far_above_round_off));
   petsc::check(MatDiagonalSet(stiffer, diagonal, ADD_VALUES));
   petsc::Matrix factor;
-  petsc::check(MatGetFactor(stiffer, mumps_metis, MAT_FACTOR_CHOLESKY, factor.put()));
+  petsc::check(MatGetFactor(stiffer, supernodal, MAT_FACTOR_CHOLESKY, factor.put()));
   petsc::check(MatCholeskyFactorSymbolic(factor, stiffer, nullptr, nullptr));
   petsc::check(MatCholeskyFactorNumeric(factor, stiffer, nullptr));
   MatFactorError error = MAT_FACTOR_NOERROR;
@@ -122,7 +123,6 @@ double budget(MPI_Comm comm, double beside_MiB)
 Factorization::Factorization(Mat A, double beside_MiB)
 {
   petsc::check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  set_default_option("-cms_mat_mumps_icntl_27", "64");
   petsc::check(KSPCreate(petsc::communicator(A), solver_.put()));
   petsc::check(KSPSetOptionsPrefix(solver_, "cms_"));
   petsc::check(KSPSetOperators(solver_, A, A));
@@ -130,9 +130,12 @@ Factorization::Factorization(Mat A, double beside_MiB)
   PC pc = nullptr;
   petsc::check(KSPGetPC(solver_, &pc));
   petsc::check(PCSetType(pc, PCCHOLESKY));
-  register_mumps_metis();
-  petsc::check(PCFactorSetMatSolverType(pc, mumps_metis));
+  register_cholesky_types();
+  petsc::check(PCFactorSetMatSolverType(pc, supernodal));
   petsc::check(KSPSetFromOptions(solver_));
+  MatSolverType type = nullptr;
+  petsc::check(PCFactorGetMatSolverType(pc, &type));
+  if (std::string_view(type) == MATSOLVERMUMPS) set_default_option("-cms_mat_mumps_icntl_27", "64");
   petsc::check(PCFactorSetUpMatSolverType(pc));
   const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
   set_budget(factor(), budget_MiB);

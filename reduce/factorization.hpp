@@ -24,7 +24,8 @@ class Factorization {
   ///         energy of round-off, z^T A z < 32 eps z^T diag(A) z.
   /// @throws chladni::Error, before any arithmetic, when the factor does not fit into the memory
   ///         that is free or that -cms_memory allows.
-  /// Options: `-cms_memory <MiB>`, `-cms_pc_factor_mat_solver_type mumps-metis|mumps|...`,
+  /// Options: `-cms_memory <MiB>`, `-cms_pc_factor_mat_solver_type
+  /// supernodal|mumps-metis|mumps|...`,
   /// `-cms_pc_...`, `-cms_mat_mumps_...`
   explicit Factorization(Mat A, double beside_MiB = 0.0);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reduce/block_basis.hpp"
+#include "reduce/quiet_mumps.hpp"
 #include "reduce/sylvester.hpp"
 
 namespace chladni::reduce {
@@ -41,6 +42,7 @@ petsc::LinearSolver indefinite_factor(Mat A)
   petsc::check(PCSetType(pc, PCCHOLESKY));
   petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check(KSPSetFromOptions(solver));
+  quiet_mumps(pc);
   petsc::check(KSPSetUp(solver));
   return solver;
 }

@@ -29,4 +29,17 @@ std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm com
   return all;
 }
 
+/// The same on all ranks.
+template <typename T>
+std::vector<T> gather_on_all(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
+{
+  const auto n = static_cast<int>(own.size());
+  std::vector<int> counts(petsc::size(comm));
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  const std::vector<int> at = offsets(counts);
+  std::vector<T> all(at.back() + counts.back());
+  MPI_Allgatherv(own.data(), n, type, all.data(), counts.data(), at.data(), type, comm);
+  return all;
+}
+
 }  // namespace chladni::reduce

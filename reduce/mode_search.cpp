@@ -94,15 +94,6 @@ PetscInt integer_option(const char* name, PetscInt otherwise)
   return otherwise;
 }
 
-/// Larger blocks solve a column faster and need more columns: measured optima, flat ones.
-PetscInt fastest_block_size(Mat M_ss)
-{
-  PetscInt n = 0;
-  petsc::check(MatGetSize(M_ss, &n, nullptr));
-  constexpr PetscInt large = 100000;
-  return n < large ? 8 : 12;
-}
-
 /// The value of an option, or what stands there without it.
 double real_option(const char* name, double otherwise)
 {
@@ -110,11 +101,12 @@ double real_option(const char* name, double otherwise)
   return otherwise;
 }
 
-BlockLanczosOptions lanczos_options(Mat M_ss)
+BlockLanczosOptions lanczos_options()
 {
+  constexpr PetscInt block_size = 8;  // a panel of the factor; wider blocks need more columns
   const BlockLanczosOptions options{
       .n_pairs = 0,
-      .block_size = integer_option("-cms_lanczos_block_size", fastest_block_size(M_ss)),
+      .block_size = integer_option("-cms_lanczos_block_size", block_size),
       .max_subspace = integer_option("-cms_lanczos_subspace", 0),
       .tolerance = real_option("-cms_lanczos_tolerance", tolerance)};
   if (options.block_size < 1 || !(options.tolerance > 0.0)) {
@@ -140,7 +132,7 @@ double angular_frequency(double lambda)
 ModeSearch::ModeSearch(const Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
-  if (!uses_krylov_schur()) lanczos_.emplace(K_ss.factor(), M_ss, lanczos_options(M_ss));
+  if (!uses_krylov_schur()) lanczos_.emplace(K_ss.factor(), M_ss, lanczos_options());
 }
 
 void ModeSearch::find_by_krylov_schur(PetscInt n)

@@ -27,7 +27,7 @@ constexpr int analysis_by_blocks = 15;
 constexpr int entry_format = 18;
 constexpr int right_hand_side_format = 20;
 constexpr int solution_format = 21;
-constexpr int columns_at_a_time = 27;
+constexpr int columns_in_a_block = 27;
 
 /// @param rows  [n] global rows from 1 of what MUMPS left on this rank.
 RowExchange plan_exchange(const std::vector<int>& rows, const std::vector<PetscInt>& first_rows,
@@ -95,7 +95,7 @@ MumpsFactor::MumpsFactor(MPI_Comm comm)
   set_control(entry_format, 3);  // distributed
   set_control(root_on_one_rank, 1);
   constexpr int fastest_columns = 64;
-  set_control(columns_at_a_time, fastest_columns);
+  set_control(columns_in_a_block, fastest_columns);
 }
 
 MumpsFactor::~MumpsFactor()
@@ -180,14 +180,46 @@ void MumpsFactor::analyze(Mat A)
 double MumpsFactor::forecast_MiB() const
 {
   constexpr int forecast = 15;  // INFO
-  const double own = mumps_.info[forecast - 1];
-  double machine = own, fullest = 0.0;
-  MPI_Comm same_memory = MPI_COMM_NULL;
-  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &same_memory);
-  MPI_Allreduce(&own, &machine, 1, MPI_DOUBLE, MPI_SUM, same_memory);
-  MPI_Comm_free(&same_memory);
-  MPI_Allreduce(&machine, &fullest, 1, MPI_DOUBLE, MPI_MAX, comm_);
-  return fullest;
+  return fullest_machine(mumps_.info[forecast - 1], comm_);
+}
+
+/// What went wrong, in PETSc's words.
+MatFactorError MumpsFactor::error() const
+{
+  const int code = info(1);
+  if (code >= 0) return MAT_FACTOR_NOERROR;
+  if (code == -10 || code == -6 || code == -40) return MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  if (code == -7 || code == -8 || code == -9 || code == -11 || code == -13 || code == -19) {
+    return MAT_FACTOR_OUTMEMORY;
+  }
+  return MAT_FACTOR_OTHER;
+}
+
+PetscInt MumpsFactor::n_negative_pivots() const
+{
+  constexpr int negative_pivots = 12;  // INFOG
+  return info(negative_pivots);
+}
+
+/// On one rank MUMPS works in place, block by block; two of them between reports of progress.
+PetscInt MumpsFactor::columns_at_a_time() const
+{
+  const int n_blocks = petsc::size(comm_) == 1 ? 2 : 1;
+  return n_blocks * std::max(control(columns_in_a_block), 1);
+}
+
+FactorSize MumpsFactor::size() const
+{
+  constexpr int operations = 3;          // RINFOG
+  constexpr int entries_of_factor = 29;  // INFOG; a large number in millions, with a minus
+  const int entries = info(entries_of_factor);
+  return {.operations = real_info(operations), .entries = entries < 0 ? -1e6 * entries : entries};
+}
+
+std::string MumpsFactor::description() const
+{
+  return fmt::format("MUMPS, ordering {}: {:.3g} operations, {} MiB on all ranks",
+                     control(ordering) == 1 ? "by METIS" : "by MUMPS", real_info(3), info(19));
 }
 
 void MumpsFactor::factorize(Mat A)

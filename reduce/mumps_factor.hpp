@@ -2,30 +2,12 @@
 
 #include <dmumps_c.h>
 
-#include <limits>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/petsc.hpp"
+#include "reduce/cholesky_factor.hpp"
 
 namespace chladni::reduce {
-
-/// Sparse right-hand sides by columns; on rank 0 all of them, on the other ranks the number only.
-struct SparseColumns {
-  int n_columns = 0;
-  std::vector<int> starts;     ///< [n_columns + 1] from 0
-  std::vector<int> rows;       ///< [non-zeros] from 0
-  std::vector<double> values;  ///< [non-zeros]
-};
-
-/// Columns of the rows of this rank, one after the other.
-struct LocalColumns {
-  double* values;
-  PetscInt leading_dimension;
-  PetscInt n_columns;
-};
 
 /// Where the rows of a solution that MUMPS leaves distributed go to.
 struct RowExchange {
@@ -37,12 +19,10 @@ struct RowExchange {
 /// Cholesky factor by MUMPS through its C interface: nested dissection by METIS, matrix,
 /// right-hand sides and solutions distributed. Debian's MUMPS has no METIS inside, and what PETSc
 /// gathers for several right-hand sides on several ranks costs more than the solve.
-class MumpsFactor {
+class MumpsFactor : public CholeskyFactor {
  public:
   explicit MumpsFactor(MPI_Comm comm);
-  ~MumpsFactor();
-  MumpsFactor(const MumpsFactor&) = delete;
-  MumpsFactor& operator=(const MumpsFactor&) = delete;
+  ~MumpsFactor() override;
 
   /// ICNTL(index) = value, from 1 as in MUMPS' manual.
   void set_control(int index, int value) { mumps_.icntl[index - 1] = value; }
@@ -51,20 +31,16 @@ class MumpsFactor {
   /// INFOG(index), from 1.
   int info(int index) const { return mumps_.infog[index - 1]; }
   double real_info(int index) const { return mumps_.rinfog[index - 1]; }
-  /// Ordering and symbolic factorisation.
-  void analyze(Mat A);
-  /// MiB that the ranks of the fullest machine need together for the factorisation, by the
-  /// analysis.
-  /// @note   Collective.
-  double forecast_MiB() const;
-  /// What the factor may take on one machine; infinite at first.
-  double budget_MiB = std::numeric_limits<double>::infinity();
-  /// Numerical factorisation; info(1) < 0 tells of failure.
-  void factorize(Mat A);
-  /// X <- A^-1 X in place.
-  void solve(LocalColumns X);
-  /// X <- A^-1 B; the forward elimination uses the zeros of B.
-  void solve(const SparseColumns& B, LocalColumns X);
+  void analyze(Mat A) override;
+  void factorize(Mat A) override;
+  MatFactorError error() const override;
+  PetscInt n_negative_pivots() const override;
+  void solve(LocalColumns X) override;
+  void solve(const SparseColumns& B, LocalColumns X) override;
+  PetscInt columns_at_a_time() const override;
+  double forecast_MiB() const override;
+  FactorSize size() const override;
+  std::string description() const override;
 
  private:
   void call(int job);

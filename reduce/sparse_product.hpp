@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/aligned_numbers.hpp"
 
 namespace chladni::reduce {
 
@@ -45,7 +46,8 @@ class SparseProduct {
   PetscInt n_ghosts_ = 0;
   Rows own_, other_;  ///< columns of this rank, and of others (by place among the ghosts)
   std::vector<int> send_rows_, send_counts_, receive_counts_;
-  mutable std::vector<double> panel_, product_, outbox_;
+  AlignedNumbers panel_, product_;
+  mutable std::vector<double> outbox_;
 };
 
 }  // namespace chladni::reduce

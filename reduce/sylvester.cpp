@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reduce/quiet_mumps.hpp"
+
 namespace chladni::reduce {
 
 namespace {
@@ -55,15 +57,18 @@ PetscInt eigenvalues_below(Mat K, Mat M, double sigma)
   petsc::check(PCSetType(pc, PCCHOLESKY));
   petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check(KSPSetFromOptions(solver));
+  quiet_mumps(pc);
   petsc::check(KSPSetUp(solver));
   petsc::check(PCFactorGetMatrix(pc, &factor));
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
   if (error != MAT_FACTOR_NOERROR) {
+    PetscInt code = 0;
+    petsc::check(MatMumpsGetInfog(factor, 1, &code));
     throw Error(
-        fmt::format("eigenvalues_below: K - sigma M has no factor at sigma = {:.15g}; "
-                    "sigma is an eigenvalue, or the memory does not suffice",
-                    sigma));
+        fmt::format("eigenvalues_below: K - sigma M has no factor at sigma = {:.15g} (MUMPS: "
+                    "INFOG(1) = {}); sigma is an eigenvalue, or the memory does not suffice",
+                    sigma, code));
   }
   PetscInt negative = 0;
   petsc::check(MatMumpsGetInfog(factor, 12, &negative));

@@ -144,13 +144,16 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
   return read_file(mesh, scene_path);
 }
 
+const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh)
+{
+  if (mesh.annulus) return mesh.annulus->rings;
+  return mesh.hat_disc ? mesh.hat_disc->rings : mesh.rings;
+}
+
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh)
 {
-  const auto& rings = mesh.annulus    ? mesh.annulus->rings
-                      : mesh.hat_disc ? mesh.hat_disc->rings
-                                      : mesh.rings;
   std::vector<std::string> names;
-  for (const mesh::RingOptions& ring : rings) names.push_back(ring.name);
+  for (const mesh::RingOptions& ring : rings_of(mesh)) names.push_back(ring.name);
   return names;
 }
 

@@ -64,6 +64,30 @@ std::vector<std::string> read_interface(const Table& root, const Scene& scene)
   return nodes;
 }
 
+std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene)
+{
+  const Table interface = root.table("interface");
+  std::vector<plate::RingHarmonics> rings;
+  if (!interface.has("rings")) return rings;
+  for (const Table& ring : interface.tables("rings")) {
+    plate::RingHarmonics wanted{.ring = ring.text("name"), .up_to = ring.integer("harmonics")};
+    if (!contains(scene.interface_nodes, wanted.ring)) {
+      ring.refuse("name", no_such_name("interface node", wanted.ring, scene.interface_nodes));
+    }
+    if (std::ranges::find(rings, wanted.ring, &plate::RingHarmonics::ring) != rings.end()) {
+      ring.refuse("name", "is given twice");
+    }
+    const auto& made = rings_of(scene.mesh);
+    const auto known = std::ranges::find(made, wanted.ring, &mesh::RingOptions::name);
+    if (known != made.end() && 2 * wanted.up_to > known->nodes) {
+      ring.refuse("harmonics", fmt::format("a ring of {} nodes has the harmonics 1 to {}",
+                                           known->nodes, known->nodes / 2));
+    }
+    rings.push_back(std::move(wanted));
+  }
+  return rings;
+}
+
 reduce::ReduceOptions read_reduce(const Table& root)
 {
   const Table table = root.table("reduce");

@@ -48,6 +48,9 @@ std::optional<ModesOptions> read_natural_modes(const Table& root);
 /// [interface] nodes; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
+/// [interface] rings; needs the nodes of the interface, too.
+std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
+
 /// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
 /// `mass_integrals` and `sylvester`.
 reduce::ReduceOptions read_reduce(const Table& root);
@@ -82,6 +85,7 @@ std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& sc
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 
 /// The names of the rings of a mesh.
+const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh);
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 
 /// The groups of a mesh, its rings among them; empty for a mesh file, which alone knows them.

@@ -61,6 +61,7 @@ Scene parse_scene(const std::string& text, const std::string& path, Purpose purp
   scene.natural_modes = read_natural_modes(root);
   if (is_reduced(root, scene, purpose)) {
     scene.interface_nodes = read_interface(root, scene);
+    scene.ring_harmonics = read_ring_harmonics(root, scene);
     scene.reduce = read_reduce(root);
     scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);

@@ -55,6 +55,7 @@ struct Scene {
   std::optional<ModesOptions> natural_modes;
   std::vector<std::string> interface_nodes;  ///< rings, couplings or groups, all DOFs of each node;
                                              ///< empty in a scene for `static` or `modes` alone
+  std::vector<plate::RingHarmonics> ring_harmonics;  ///< of interface nodes that are rings
   PictureChoice pictures = PictureChoice::vertices;
   ResultantChoice resultants;
   reduce::ReduceOptions reduce;

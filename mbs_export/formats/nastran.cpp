@@ -60,8 +60,8 @@ Ordered in_nastran_order(const ReducedSystem& reduced, const NastranNumbers& num
 {
   const auto n_m = static_cast<std::size_t>(reduced.n_masters());
   std::vector<NastranDof> dofs;
-  for (const auto [node, component] : reduced.masters)
-    dofs.push_back({numbers.grids[std::size_t(node)], component + 1});
+  for (const MasterDof& dof : reduced.masters)
+    dofs.push_back({numbers.grids[std::size_t(dof.node)], dof.component + 1});
   for (Index i = 0; i < reduced.fixed_interface_frequencies.size(); ++i)
     dofs.push_back({numbers.first_spoint + static_cast<int>(i), 0});
   Ordered ordered{.dofs = {}, .rows = std::vector<int>(dofs.size())};
@@ -124,8 +124,12 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
   return rule("FIXED-INTERFACE MODES") + card("SPOINT", spoint_range(reduced, numbers));
 }
 
-void require_symmetric_damping(const ReducedSystem& reduced)
+void require_writable(const ReducedSystem& reduced)
 {
+  if (reduced.ring_motion)
+    throw Error(
+        "Nastran: its grids have displacements as coordinates, not harmonics of a ring; take the "
+        "rings out of interface.rings and reduce again");
   if (reduced.C.size() > 0 && check_parts::asymmetry(reduced.C) > 1e-8)
     throw Error("Nastran: the damping matrix is not symmetric; B2GG and BAA must be");
 }
@@ -253,7 +257,7 @@ NastranNumbers nastran_numbers(const ReducedSystem& reduced)
 
 std::string nastran_dmig(const ReducedSystem& reduced)
 {
-  require_symmetric_damping(reduced);
+  require_writable(reduced);
   const NastranNumbers numbers = nastran_numbers(reduced);
   const Ordered ordered = in_nastran_order(reduced, numbers);
   std::string text = "$ REDUCED SYSTEM IN SI UNITS. CASE CONTROL:\n$ K2GG = KRED\n$ M2GG = MRED\n";
@@ -269,7 +273,7 @@ NastranSuperelement nastran_superelement(const ReducedSystem& reduced, int numbe
 {
   if (number < 1 || number > 9999)
     throw Error(fmt::format("Nastran: {} is no number for a superelement; 1 .. 9999 are", number));
-  require_symmetric_damping(reduced);
+  require_writable(reduced);
   const NastranNumbers numbers = nastran_numbers(reduced);
   return {.op4 = op4_file(reduced, in_nastran_order(reduced, numbers)),
           .assembly = assembly_file(reduced, numbers, number),

@@ -49,14 +49,26 @@ void view_modes(const Result& result, PetscViewer viewer)
   }
 }
 
-void view_result(const Result& result, PetscViewer viewer)
+/// Modes beyond the number asked for belong to the last one: a frequency that a disc has twice is
+/// not parted.
+std::string partners(const chladni::reduce::ReduceOptions& wanted, std::size_t n_modes)
+{
+  const auto n_asked = static_cast<std::size_t>(wanted.modes.value_or(0));
+  if (wanted.method != chladni::reduce::Method::craig_bampton || n_asked == 0 || n_modes <= n_asked)
+    return "";
+  return fmt::format(" ({} asked; {} more of the same frequency)", n_asked, n_modes - n_asked);
+}
+
+void view_result(const Result& result, const chladni::reduce::ReduceOptions& wanted,
+                 PetscViewer viewer)
 {
   const CMSQuality& quality = result.quality;
   constexpr double two_pi = 2.0 * std::numbers::pi;
   const std::vector<double>& omega = result.model.omega;
   if (!omega.empty()) {
-    print(viewer, fmt::format("modes with held masters: {}, from {:.6g} to {:.6g} Hz", omega.size(),
-                              omega.front() / two_pi, omega.back() / two_pi));
+    print(viewer, fmt::format("modes with held masters: {}{}, from {:.6g} to {:.6g} Hz",
+                              omega.size(), partners(wanted, omega.size()), omega.front() / two_pi,
+                              omega.back() / two_pi));
   }
   print(viewer, fmt::format("condition of K_ss (estimate): {:.2e}", quality.condition));
   print(viewer,
@@ -80,7 +92,7 @@ void view_state(CMS cms, PetscViewer viewer)
     print(viewer, fmt::format("rows: {}, masters: {}", n, in.set_up->masters.size()));
   }
   if (in.result) {
-    view_result(*in.result, viewer);
+    view_result(*in.result, in.settings.options, viewer);
   } else {
     print(viewer, "not solved yet");
   }

@@ -1,5 +1,5 @@
 // What -dll_append finds in libchladni_petsc.so.
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 #include "reduce/plugin/chladni_cms.h"
 #include "reduce/plugin/guard.hpp"
 
@@ -12,6 +12,6 @@ PetscErrorCode PetscDLLibraryRegister_chladni_petsc()
   PetscCall(CMSInitializePackage());
   PetscCall(CMSRegisterEPS());
   PetscCall(chladni::reduce::plugin::guarded(nullptr, __func__,
-                                             [] { chladni::reduce::register_mumps_metis(); }));
+                                             [] { chladni::reduce::register_cholesky_types(); }));
   PetscFunctionReturn(0);
 }

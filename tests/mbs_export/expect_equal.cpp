@@ -148,6 +148,14 @@ void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
   for (std::size_t i = 0; i < a.masters.size(); ++i) {
     EXPECT_EQ(a.masters[i].node, b.masters[i].node);
     EXPECT_EQ(a.masters[i].component, b.masters[i].component);
+    const auto &p = a.masters[i].harmonic, &q = b.masters[i].harmonic;
+    ASSERT_EQ(p.has_value(), q.has_value());
+    EXPECT_TRUE(!p || (p->set == q->set && p->order == q->order && p->is_sine == q->is_sine));
+  }
+  ASSERT_EQ(a.ring_motion.has_value(), b.ring_motion.has_value());
+  if (a.ring_motion) {
+    EXPECT_EQ(a.ring_motion->shapes, b.ring_motion->shapes);
+    EXPECT_EQ(a.ring_motion->displacements, b.ring_motion->displacements);
   }
   EXPECT_EQ(a.K, b.K);
   EXPECT_EQ(a.M, b.M);

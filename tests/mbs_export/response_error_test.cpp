@@ -28,7 +28,7 @@ MatrixXd shapes()
 
 LoadedDofs two_forces()
 {
-  return {.rows = {0, 1}, .is_moment = {0, 0}, .names = {}, .groups = {}};
+  return {.dofs = {0, 1}, .is_moment = {0, 0}, .names = {}, .groups = {}};
 }
 
 ReferenceResponse reference(double up_to)
@@ -132,7 +132,7 @@ TEST(ReferenceResponse, IsDampedByOnePerCentOfTheCriticalDamping)
 {
   const VectorXd one{{4.0}};
   const ReferenceResponse complete = reference_response(
-      one, MatrixXd::Ones(1, 1), {.rows = {0}, .is_moment = {0}, .names = {}, .groups = {}},
+      one, MatrixXd::Ones(1, 1), {.dofs = {0}, .is_moment = {0}, .names = {}, .groups = {}},
       {.error = 1e-3, .up_to_Hz = 4.0 / hertz});
   // At resonance the response is the static one over 2 zeta.
   const double static_response = std::abs(complete.H.front()(0, 0));

@@ -1,4 +1,4 @@
-#include "reduce/mumps_metis_solve.hpp"
+#include "reduce/cholesky_callbacks.hpp"
 
 #include <petsc/private/matimpl.h>
 
@@ -73,9 +73,9 @@ SparseColumns slice(const SparseColumns& B, int first, int last)
 
 }  // namespace
 
-MumpsFactor& factor_of(Mat F)
+CholeskyFactor& factor_of(Mat F)
 {
-  return *static_cast<MumpsFactor*>(F->data);
+  return *static_cast<CholeskyFactor*>(F->data);
 }
 
 PetscErrorCode solve_vector(Mat F, Vec b, Vec x)
@@ -101,14 +101,11 @@ PetscErrorCode solve_block(Mat F, Mat B, Mat X)
 PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X)
 {
   return guarded([&] {
-    MumpsFactor& factor = factor_of(F);
+    CholeskyFactor& factor = factor_of(F);
     const SparseColumns B = columns_of_transpose(B_t);
     const LocalArray array(X);
     const LocalColumns all = array.columns();
-    constexpr int columns_at_a_time = 27;
-    // On one rank MUMPS works in place, block by block; two of them between reports of progress.
-    const int n_blocks = petsc::size(petsc::communicator(F)) == 1 ? 2 : 1;
-    const int most = n_blocks * std::max(factor.control(columns_at_a_time), 1);
+    const int most = factor.columns_at_a_time();
     for (int first = 0; first < B.n_columns; first += most) {
       report_progress(double(first) / B.n_columns);
       const int last = std::min(first + most, B.n_columns);

@@ -1,32 +1,23 @@
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 
 #include <petsc/private/matimpl.h>
 
 #include <memory>
 #include <string_view>
 
-#include "reduce/mumps_metis_solve.hpp"
+#include "reduce/cholesky_callbacks.hpp"
+#include "reduce/mumps_factor.hpp"
+#include "reduce/supernodal/supernodal_factor.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-/// What went wrong, in PETSc's words.
-MatFactorError failure(int info)
-{
-  if (info >= 0) return MAT_FACTOR_NOERROR;
-  if (info == -10 || info == -6 || info == -40) return MAT_FACTOR_NUMERIC_ZEROPIVOT;
-  if (info == -7 || info == -8 || info == -9 || info == -11 || info == -13 || info == -19) {
-    return MAT_FACTOR_OUTMEMORY;
-  }
-  return MAT_FACTOR_OTHER;
-}
-
 PetscErrorCode factorize(Mat F, Mat A, const MatFactorInfo*)
 {
   return guarded([&] {
     factor_of(F).factorize(A);
-    F->factorerrortype = failure(factor_of(F).info(1));
+    F->factorerrortype = factor_of(F).error();
     F->assembled = PETSC_TRUE;
     F->ops->solve = solve_vector;
     F->ops->solvetranspose = solve_vector;
@@ -40,16 +31,16 @@ PetscErrorCode analyze(Mat F, Mat A, IS, const MatFactorInfo*)
 {
   F->ops->choleskyfactornumeric = factorize;
   return guarded([&] {
-    MumpsFactor& factor = factor_of(F);
+    CholeskyFactor& factor = factor_of(F);
     factor.analyze(A);
-    F->factorerrortype = failure(factor.info(1));
+    F->factorerrortype = factor.error();
     if (factor.forecast_MiB() > factor.budget_MiB) F->factorerrortype = MAT_FACTOR_OUTMEMORY;
   });
 }
 
 PetscErrorCode destroy(Mat F)
 {
-  delete static_cast<MumpsFactor*>(F->data);
+  delete static_cast<CholeskyFactor*>(F->data);
   F->data = nullptr;
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
                                        nullptr));
@@ -58,41 +49,28 @@ PetscErrorCode destroy(Mat F)
   return 0;
 }
 
-PetscErrorCode solver_type(Mat, MatSolverType* type)
+PetscErrorCode solver_type(Mat F, MatSolverType* type)
 {
-  *type = mumps_metis;
+  *type = F->solvertype;
   return 0;
 }
 
 PetscErrorCode get_infog(Mat F, PetscInt index, PetscInt* value)
 {
-  *value = factor_of(F).info(index);
+  *value = dynamic_cast<const MumpsFactor&>(factor_of(F)).info(index);
   return 0;
-}
-
-/// MUMPS gives a large number of entries in millions, with a minus.
-double n_entries(const MumpsFactor& factor)
-{
-  constexpr int entries_of_factor = 29;  // INFOG
-  const int entries = factor.info(entries_of_factor);
-  return entries < 0 ? -1e6 * entries : entries;
 }
 
 PetscErrorCode get_info(Mat F, MatInfoType, MatInfo* info)
 {
   *info = {};
-  info->nz_used = info->nz_allocated = n_entries(factor_of(F));
+  info->nz_used = info->nz_allocated = factor_of(F).size().entries;
   return 0;
 }
 
 PetscErrorCode view(Mat F, PetscViewer viewer)
 {
-  const MumpsFactor& factor = factor_of(F);
-  constexpr int ordering_used = 7;
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-                                   "MUMPS, ordering %s: %.3g operations, %d MiB on all ranks\n",
-                                   factor.control(ordering_used) == 1 ? "by METIS" : "by MUMPS",
-                                   factor.real_info(3), factor.info(19)));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", factor_of(F).description().c_str()));
   return 0;
 }
 
@@ -115,20 +93,28 @@ void set_from_options(MumpsFactor& factor, const char* prefix)
   }
 }
 
-PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
+std::unique_ptr<CholeskyFactor> new_mumps_factor(Mat A)
+{
+  auto factor = std::make_unique<MumpsFactor>(petsc::communicator(A));
+  set_from_options(*factor,
+                   A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix);
+  return factor;
+}
+
+std::unique_ptr<CholeskyFactor> new_supernodal_factor(Mat A)
+{
+  return std::make_unique<SupernodalFactor>(petsc::communicator(A));
+}
+
+PetscErrorCode create_factor(Mat A, MatFactorType type, const char* name,
+                             std::unique_ptr<CholeskyFactor> (*make)(Mat), Mat* F)
 {
   Mat B = nullptr;
   PetscCall(MatCreate(petsc::communicator(A), &B));
   PetscCall(MatSetSizes(B, A->rmap->n, A->cmap->n, A->rmap->N, A->cmap->N));
-  PetscCall(PetscStrallocpy(mumps_metis, &reinterpret_cast<PetscObject>(B)->type_name));
+  PetscCall(PetscStrallocpy(name, &reinterpret_cast<PetscObject>(B)->type_name));
   PetscCall(MatSetUp(B));
-  const PetscErrorCode code = guarded([&] {
-    auto factor = std::make_unique<MumpsFactor>(petsc::communicator(A));
-    set_from_options(*factor,
-                     A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix);
-    B->data = factor.release();
-  });
-  PetscCall(code);
+  PetscCall(guarded([&] { B->data = make(A).release(); }));
   B->ops->choleskyfactorsymbolic = analyze;
   B->ops->destroy = destroy;
   B->ops->view = view;
@@ -137,44 +123,66 @@ PetscErrorCode create_factor(Mat A, MatFactorType type, Mat* F)
   B->canuseordering = PETSC_FALSE;
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatFactorGetSolverType_C",
                                        solver_type));
-  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatMumpsGetInfog_C",
-                                       get_infog));
   PetscCall(PetscFree(B->solvertype));
-  PetscCall(PetscStrallocpy(mumps_metis, &B->solvertype));
+  PetscCall(PetscStrallocpy(name, &B->solvertype));
   *F = B;
   return 0;
 }
 
-/// The C++ object behind a factor of our type, otherwise null.
-MumpsFactor* ours(Mat F)
+PetscErrorCode create_mumps_metis(Mat A, MatFactorType type, Mat* F)
+{
+  PetscCall(create_factor(A, type, mumps_metis, new_mumps_factor, F));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsGetInfog_C",
+                                       get_infog));
+  return 0;
+}
+
+PetscErrorCode create_supernodal(Mat A, MatFactorType type, Mat* F)
+{
+  PetscCall(create_factor(A, type, supernodal, new_supernodal_factor, F));
+  return 0;
+}
+
+/// The C++ object behind a factor of our types, otherwise null.
+CholeskyFactor* ours(Mat F)
 {
   MatSolverType type = nullptr;
   petsc::check(MatFactorGetSolverType(F, &type));
-  return std::string_view(type) == mumps_metis ? &factor_of(F) : nullptr;
+  const bool is_ours =
+      std::string_view(type) == mumps_metis || std::string_view(type) == supernodal;
+  return is_ours ? &factor_of(F) : nullptr;
 }
 
 }  // namespace
 
+bool is_ours(Mat F)
+{
+  return ours(F) != nullptr;
+}
+
 void set_budget(Mat F, double MiB)
 {
-  if (MumpsFactor* factor = ours(F)) factor->budget_MiB = MiB;
+  if (CholeskyFactor* factor = ours(F)) factor->budget_MiB = MiB;
+}
+
+PetscInt our_negative_pivots(Mat F)
+{
+  return factor_of(F).n_negative_pivots();
 }
 
 FactorSize factor_size(Mat F)
 {
-  const MumpsFactor* factor = ours(F);
-  if (factor == nullptr) return {.operations = 0.0, .entries = 0.0};
-  constexpr int operations = 3;  // RINFOG
-  return {.operations = factor->real_info(operations), .entries = n_entries(*factor)};
+  const CholeskyFactor* factor = ours(F);
+  return factor ? factor->size() : FactorSize{.operations = 0.0, .entries = 0.0};
 }
 
 double forecast_MiB(Mat F)
 {
-  const MumpsFactor* factor = ours(F);
+  const CholeskyFactor* factor = ours(F);
   return factor ? factor->forecast_MiB() : 0.0;
 }
 
-void register_mumps_metis()
+void register_cholesky_types()
 {
   static bool registered = false;
   if (registered) return;
@@ -182,7 +190,8 @@ void register_mumps_metis()
   // of its own ones where this is that call, as under -dll_append.
   petsc::check(MatInitializePackage());
   for (const MatType type : {MATSEQAIJ, MATMPIAIJ}) {
-    petsc::check(MatSolverTypeRegister(mumps_metis, type, MAT_FACTOR_CHOLESKY, create_factor));
+    petsc::check(MatSolverTypeRegister(mumps_metis, type, MAT_FACTOR_CHOLESKY, create_mumps_metis));
+    petsc::check(MatSolverTypeRegister(supernodal, type, MAT_FACTOR_CHOLESKY, create_supernodal));
   }
   registered = true;
 }

@@ -4,13 +4,13 @@
 
 #include <exception>
 
-#include "reduce/mumps_factor.hpp"
+#include "reduce/cholesky_factor.hpp"
 
-/// What PETSc calls on a factor of type "mumps-metis".
+/// What PETSc calls on a Cholesky factor of ours.
 namespace chladni::reduce {
 
-/// The C++ object in a factor of that type.
-MumpsFactor& factor_of(Mat F);
+/// The C++ object in such a factor.
+CholeskyFactor& factor_of(Mat F);
 
 /// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error.
 template <typename Work>

@@ -1,4 +1,4 @@
-#include "reduce/mumps_metis.hpp"
+#include "reduce/cholesky_types.hpp"
 
 #include <gtest/gtest.h>
 
@@ -96,13 +96,32 @@ TEST(EliminationOrder, TakesAMatrixWithoutBlocksAndWithoutEdges)
   EXPECT_EQ(of_diagonal.size(), n);
 }
 
-TEST(MumpsMetis, SolvesABlockOfColumns)
+/// A factorisation of each of our types.
+class CholeskyType : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override
+  {
+    petsc::check(PetscOptionsSetValue(nullptr, "-cms_pc_factor_mat_solver_type", GetParam()));
+  }
+  void TearDown() override
+  {
+    petsc::check(PetscOptionsClearValue(nullptr, "-cms_pc_factor_mat_solver_type"));
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Ours, CholeskyType, ::testing::Values(supernodal, mumps_metis),
+                         [](const auto& type) {
+                           return std::string(type.param == std::string(supernodal) ? "Supernodal"
+                                                                                    : "MumpsMetis");
+                         });
+
+TEST_P(CholeskyType, SolvesABlockOfColumns)
 {
   const petsc::Matrix A = membranes(20);
   const Factorization factorization(A);
   MatSolverType type = nullptr;
   petsc::check(MatFactorGetSolverType(factorization.factor(), &type));
-  EXPECT_STREQ(type, mumps_metis);
+  EXPECT_STREQ(type, GetParam());
   const petsc::Matrix X = columns(A, 5);
   petsc::Matrix B = uninitialized_dense(A, 5), solution = uninitialized_dense(A, 5);
   SparseProduct(A).apply(X, B);
@@ -110,7 +129,7 @@ TEST(MumpsMetis, SolvesABlockOfColumns)
   EXPECT_LT(difference(solution, X), round_off);
 }
 
-TEST(MumpsMetis, SolvesSparseRightHandSidesOfWhichSomeAreEmpty)
+TEST_P(CholeskyType, SolvesSparseRightHandSidesOfWhichSomeAreEmpty)
 {
   const petsc::Matrix A = membranes(20);
   const Factorization factorization(A);
@@ -136,7 +155,7 @@ TEST(MumpsMetis, SolvesSparseRightHandSidesOfWhichSomeAreEmpty)
   EXPECT_LT(difference(product, dense_B), round_off);
 }
 
-TEST(MumpsMetis, RefusesAFactorBeyondTheMemoryAllowed)
+TEST_P(CholeskyType, RefusesAFactorBeyondTheMemoryAllowed)
 {
   const petsc::Matrix A = membranes(20);
   petsc::check(PetscOptionsSetValue(nullptr, "-cms_memory", "1"));
@@ -150,7 +169,7 @@ TEST(MumpsMetis, RefusesAFactorBeyondTheMemoryAllowed)
   petsc::check(PetscOptionsClearValue(nullptr, "-cms_memory"));
 }
 
-TEST(MumpsMetis, AgreesWithPetscsOwnInterface)
+TEST_P(CholeskyType, AgreesWithPetscsOwnInterface)
 {
   const petsc::Matrix A = membranes(20);
   const petsc::Matrix B = columns(A, 3);
@@ -160,6 +179,15 @@ TEST(MumpsMetis, AgreesWithPetscsOwnInterface)
   petsc::check(MatMatSolve(Factorization(A).factor(), B, Y));
   petsc::check(PetscOptionsClearValue(nullptr, "-cms_pc_factor_mat_solver_type"));
   EXPECT_LT(difference(X, Y), round_off);
+}
+
+TEST(CholeskyTypes, TakeTheSupernodalOneWithoutAnOption)
+{
+  const petsc::Matrix A = membranes(4);
+  const Factorization factorization(A);
+  MatSolverType type = nullptr;
+  petsc::check(MatFactorGetSolverType(factorization.factor(), &type));
+  EXPECT_STREQ(type, supernodal);
 }
 
 /// One column narrower than, as wide as, and wider than the panels.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "reduce/cholesky_factor.hpp"
+
+namespace chladni::reduce {
+
+/// PETSc's names of our Cholesky factorisations, `-pc_factor_mat_solver_type <name>`: one of our
+/// own for plates and shells with many right-hand sides, and MUMPS with METIS' ordering.
+inline constexpr const char* supernodal = "supernodal";
+inline constexpr const char* mumps_metis = "mumps-metis";
+
+/// Registers them with PETSc for AIJ matrices, once in a process. MatSolve, MatMatSolve and
+/// MatMatTransposeSolve (sparse right-hand sides) take matrices distributed by rows as they are.
+/// For mumps-metis the options `-<prefix>mat_mumps_icntl_<i>` and `-<prefix>mat_mumps_cntl_<i>` are
+/// those of PETSc's own interface to MUMPS, and MatMumpsGetInfog works on the factor.
+/// @throws chladni::Error when PETSc does.
+void register_cholesky_types();
+
+/// Whether a factor is of one of these types; only then do the following have an effect.
+bool is_ours(Mat F);
+
+/// What the factor may take of one machine's memory: a symbolic factorisation that needs more ends
+/// with MAT_FACTOR_OUTMEMORY.
+void set_budget(Mat F, double MiB);
+
+PetscInt our_negative_pivots(Mat F);
+
+/// Zero for other types.
+FactorSize factor_size(Mat F);
+
+/// What the numerical factorisation needs on the fullest machine, by the symbolic one; 0 for other
+/// types.
+/// @note   Collective.
+double forecast_MiB(Mat F);
+
+}  // namespace chladni::reduce

@@ -1,0 +1,312 @@
+#include "reduce/supernodal/supernodal_factor.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "reduce/elimination_order.hpp"
+#include "reduce/log_event.hpp"
+#include "reduce/supernodal/subtrees.hpp"
+#include "reduce/supernodal/tile_kernels.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+/// The rows of a matrix that this rank eliminates, from wherever they are.
+class GatheredRows {
+ public:
+  /// @param is_needed  [n rows]
+  /// @note   Collective.
+  GatheredRows(Mat A, const std::vector<char>& is_needed)
+  {
+    std::vector<PetscInt> rows;
+    for (std::size_t row = 0; row < is_needed.size(); ++row) {
+      if (is_needed[row] != 0) rows.push_back(static_cast<PetscInt>(row));
+    }
+    matrix_ = A;
+    if (petsc::size(petsc::communicator(A)) > 1) {
+      petsc::IndexSet needed, all;
+      petsc::check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(rows.size()), rows.data(),
+                                   PETSC_USE_POINTER, needed.put()));
+      petsc::check(ISCreateStride(PETSC_COMM_SELF, static_cast<PetscInt>(is_needed.size()), 0, 1,
+                                  all.put()));
+      IS row_set = needed, column_set = all;
+      petsc::check(
+          MatCreateSubMatrices(A, 1, &row_set, &column_set, MAT_INITIAL_MATRIX, &gathered_));
+      matrix_ = gathered_[0];
+    }
+    PetscInt n = 0;
+    PetscBool done = PETSC_FALSE;
+    petsc::check(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts,
+                             &rows_.columns, &done));
+    if (!done) throw Error("supernodal: the matrix is not of type AIJ; convert it with MatConvert");
+    petsc::check(MatSeqAIJGetArrayRead(matrix_, &rows_.values));
+    rows_.place.assign(is_needed.size(), -1);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows_.place[rows[i]] = static_cast<int>(i);
+  }
+  ~GatheredRows()
+  {
+    PetscInt n = 0;
+    PetscBool done = PETSC_FALSE;
+    MatSeqAIJRestoreArrayRead(matrix_, &rows_.values);
+    MatRestoreRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.starts, &rows_.columns, &done);
+    if (gathered_ != nullptr) MatDestroySubMatrices(1, &gathered_);
+  }
+  GatheredRows(const GatheredRows&) = delete;
+  GatheredRows& operator=(const GatheredRows&) = delete;
+  const MatrixRows& rows() const { return rows_; }
+
+ private:
+  Mat matrix_ = nullptr;
+  Mat* gathered_ = nullptr;
+  MatrixRows rows_{};
+};
+
+int n_panels(PetscInt n_columns)
+{
+  return (n_columns + panel_width - 1) / panel_width;
+}
+
+}  // namespace
+
+SupernodalFactor::SupernodalFactor(MPI_Comm comm)
+{
+  MPI_Comm_dup(comm, &comm_);
+  rank_ = petsc::rank(comm_);
+}
+
+SupernodalFactor::~SupernodalFactor()
+{
+  MPI_Comm_free(&comm_);
+}
+
+void SupernodalFactor::analyze(Mat A)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  std::vector<int> places;
+  {
+    const LogEvent event(Event::ordering);
+    places = elimination_order(A);
+    places.resize(n);
+    MPI_Bcast(places.data(), n, MPI_INT, 0, comm_);
+  }
+  const LogEvent event(Event::analysis);
+  tree_ = assembly_tree(quotient_graph(A), places);
+  owner_ = share_subtrees(tree_, petsc::size(comm_));
+  own_.clear();
+  common_.clear();
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    if (owner_[s] == rank_) own_.push_back(s);
+    if (owner_[s] == all_ranks) common_.push_back(s);
+  }
+  number_slots();
+  std::vector<int> owner_of_row(n), slot_of_row(n);
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) {
+      owner_of_row[tree_.row[p]] = owner_[s];
+      slot_of_row[tree_.row[p]] = slot_[p];
+    }
+  }
+  exchange_ = SlotExchange(A, owner_of_row, slot_of_row);
+}
+
+/// Own supernodes first, then those of all ranks.
+void SupernodalFactor::number_slots()
+{
+  slot_.assign(tree_.row.size(), -1);
+  tile_starts_.assign(tree_.n_supernodes() + 1, 0);
+  n_slots_ = 0;
+  for (const std::vector<int>* supernodes : {&own_, &common_}) {
+    for (const int s : *supernodes) {
+      for (int p = tree_.first_column[s]; p < tree_.first_column[s + 1]; ++p) slot_[p] = n_slots_++;
+      tile_starts_[s + 1] = tiled_size(tree_.n_columns(s), static_cast<int>(tree_.below(s).size()));
+    }
+    if (supernodes == &own_) n_own_slots_ = n_slots_;
+  }
+  std::inclusive_scan(tile_starts_.begin(), tile_starts_.end(), tile_starts_.begin());
+  below_slots_.clear();
+  for (const int position : tree_.below_rows) below_slots_.push_back(slot_[position]);
+}
+
+FactorSize SupernodalFactor::size() const
+{
+  FactorSize size{.operations = 0.0, .entries = 0.0};
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    size.operations += tree_.n_operations(s);
+    size.entries += tree_.n_entries(s);
+  }
+  return size;
+}
+
+double SupernodalFactor::forecast_MiB() const
+{
+  double front = 0.0;
+  for (const std::vector<int>* supernodes : {&own_, &common_}) {
+    for (const int s : *supernodes) {
+      const double w = tree_.n_columns(s);
+      front = std::max(front, w * (w + double(tree_.below(s).size())));
+    }
+  }
+  std::vector<int> all = own_;
+  all.insert(all.end(), common_.begin(), common_.end());
+  const double numbers = double(tile_starts_.back()) + front + peak_of_left_overs(tree_, all) +
+                         double(n_slots_) * most_columns;
+  return fullest_machine(numbers * sizeof(double) / 1048576.0, comm_);
+}
+
+std::string SupernodalFactor::description() const
+{
+  const FactorSize all = size();
+  double common = 0.0;
+  for (const int s : common_) common += tree_.n_entries(s);
+  return fmt::format(
+      "supernodal, ordering by METIS: {:.3g} operations, {:.3g} entries in {} supernodes, "
+      "{:.0f} % of them on all ranks",
+      all.operations, all.entries, tree_.n_supernodes(),
+      100.0 * common / std::max(all.entries, 1.0));
+}
+
+void SupernodalFactor::factorize(Mat A)
+{
+  const LogEvent event(Event::factorization);
+  if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
+  error_ = eliminate(A) ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
+}
+
+void SupernodalFactor::keep(const Fronts& fronts, int s)
+{
+  store_tiles(fronts.columns(), tree_.n_columns(s), static_cast<int>(tree_.below(s).size()),
+              tiles_.get() + tile_starts_[s]);
+}
+
+bool SupernodalFactor::eliminate(Mat A)
+{
+  std::vector<char> is_needed(tree_.row.size());
+  for (std::size_t p = 0; p < slot_.size(); ++p) is_needed[tree_.row[p]] = slot_[p] != -1;
+  const GatheredRows rows(A, is_needed);
+  Fronts fronts(tree_, rows.rows());
+  int n_negative = 0, n_failed = 0;
+  for (const int s : own_) {
+    const int n = fronts.eliminate(s);
+    n_failed = n < 0 ? 1 : 0;
+    if (n_failed == 1) break;
+    n_negative += n;
+    keep(fronts, s);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, &n_negative, 1, MPI_INT, MPI_SUM, comm_);
+  if (n_failed > 0) return false;
+  for (const int s : common_) {
+    const int n = eliminate_common(fronts, s);
+    if (n < 0) return false;
+    n_negative += n;
+  }
+  n_negative_ = n_negative;
+  return true;
+}
+
+/// On all ranks alike, with what the children left on one of them.
+int SupernodalFactor::eliminate_common(Fronts& fronts, int s)
+{
+  for (int child = 0; child < s; ++child) {
+    if (tree_.parent[child] != s || owner_[child] == all_ranks) continue;
+    const std::size_t n = tree_.below(child).size();
+    double* values = fronts.left_over(child);
+    for (std::size_t j = 0; j < n; ++j)
+      MPI_Bcast(values + j * n, static_cast<int>(n), MPI_DOUBLE, owner_[child], comm_);
+  }
+  const int n_negative = fronts.eliminate(s);
+  if (n_negative >= 0) keep(fronts, s);
+  return n_negative;
+}
+
+TiledColumns SupernodalFactor::tiles(int s) const
+{
+  const std::size_t first = tree_.below_starts[s], n = tree_.below_starts[s + 1] - first;
+  return {.values = tiles_.get() + tile_starts_[s],
+          .n_columns = tree_.n_columns(s),
+          .first = slot_[tree_.first_column[s]],
+          .below = std::span(below_slots_).subspan(first, n)};
+}
+
+Panels SupernodalFactor::panels(int n_columns)
+{
+  const std::size_t stride = std::size_t(n_slots_) * panel_width;
+  if (!panel_values_) panel_values_ = aligned_numbers(stride * n_panels(most_columns));
+  return {.values = panel_values_.get(), .stride = stride, .n_panels = n_panels(n_columns)};
+}
+
+/// X <- A^-1 X; forward only where right-hand sides are not zero.
+void SupernodalFactor::sweep(Panels X, const std::vector<char>& is_active) const
+{
+  for (const int s : own_) {
+    if (is_active[s] != 0) solve_forward(tiles(s), X);
+  }
+  const auto n_common = (n_slots_ - n_own_slots_) * panel_width;
+  for (int p = 0; p < X.n_panels && n_common > 0; ++p) {
+    double* common = X.values + p * X.stride + std::size_t(n_own_slots_) * panel_width;
+    MPI_Allreduce(MPI_IN_PLACE, common, n_common, MPI_DOUBLE, MPI_SUM, comm_);
+  }
+  for (const int s : common_) solve_forward(tiles(s), X);
+  for (auto s = common_.rbegin(); s != common_.rend(); ++s) solve_backward(tiles(*s), X);
+  for (auto s = own_.rbegin(); s != own_.rend(); ++s) solve_backward(tiles(*s), X);
+}
+
+void SupernodalFactor::solve(LocalColumns X)
+{
+  const LogEvent event(Event::solution);
+  const std::vector<char> all(tree_.n_supernodes(), 1);
+  for (PetscInt first = 0; first < X.n_columns; first += most_columns) {
+    const Panels block = panels(std::min(most_columns, X.n_columns - first));
+    exchange_.to_slots(X, first, block);
+    sweep(block, all);
+    exchange_.to_rows(block, first, X);
+  }
+}
+
+/// Columns from `first` on; the supernodes where they are not zero, and those above.
+std::vector<char> SupernodalFactor::take(const SparseColumns& B, int first, Panels block) const
+{
+  const int last = std::min(first + block.n_panels * panel_width, B.n_columns);
+  std::fill_n(block.values, block.stride * block.n_panels, 0.0);
+  std::vector<char> is_active(tree_.n_supernodes(), 0);
+  for (int j = first; j < last; ++j) {
+    const std::size_t panel = (j - first) / panel_width, column = (j - first) % panel_width;
+    for (int k = B.starts[j]; k < B.starts[j + 1]; ++k) {
+      const int p = tree_.position[B.rows[k]];
+      const bool is_common = slot_[p] >= n_own_slots_;
+      if (slot_[p] == -1 || (is_common && rank_ != 0)) continue;
+      block.values[panel * block.stride + std::size_t(slot_[p]) * panel_width + column] =
+          B.values[k];
+      const auto behind = std::ranges::upper_bound(tree_.first_column, p);
+      is_active[behind - tree_.first_column.begin() - 1] = 1;
+    }
+  }
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    if (is_active[s] != 0 && tree_.parent[s] != -1) is_active[tree_.parent[s]] = 1;
+  }
+  return is_active;
+}
+
+void SupernodalFactor::solve(const SparseColumns& on_first_rank, LocalColumns X)
+{
+  const LogEvent event(Event::solution);
+  SparseColumns B = on_first_rank;
+  int n_entries = static_cast<int>(B.values.size());
+  MPI_Bcast(&n_entries, 1, MPI_INT, 0, comm_);
+  B.starts.resize(B.n_columns + 1);
+  B.rows.resize(n_entries);
+  B.values.resize(n_entries);
+  MPI_Bcast(B.starts.data(), B.n_columns + 1, MPI_INT, 0, comm_);
+  MPI_Bcast(B.rows.data(), n_entries, MPI_INT, 0, comm_);
+  MPI_Bcast(B.values.data(), n_entries, MPI_DOUBLE, 0, comm_);
+  for (int first = 0; first < B.n_columns; first += most_columns) {
+    const Panels block = panels(std::min<int>(most_columns, B.n_columns - first));
+    const std::vector<char> is_active = take(B, first, block);
+    sweep(block, is_active);
+    exchange_.to_rows(block, first, X);
+  }
+}
+
+}  // namespace chladni::reduce
