@@ -9,6 +9,7 @@
 #include "mbs_export/hdf5.hpp"
 #include "mbs_export/hdf5_handle.hpp"
 #include "mbs_export/seal.hpp"
+#include "mbs_export/trial_reading.hpp"
 
 namespace chladni::mbs_export::hdf5 {
 namespace {
@@ -186,7 +187,9 @@ Reader::Reader(std::string path) : path_(std::move(path))
   std::error_code absent;
   size_ = std::filesystem::file_size(path_, absent);
   if (absent) throw Error(fmt::format("{}: no such file, or not readable", path_));
-  check_seal(path_);
+  if (!check_seal(path_) && !survives_reading(path_))
+    throw Error(fmt::format(
+        "{}: is so damaged that libhdf5 ends over it; make it anew or take a copy", path_));
   file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) throw Error(fmt::format("{}: not an HDF5 file, or cut short", path_));
 }

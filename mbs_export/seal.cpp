@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "mbs_export/hdf5_handle.hpp"
 #include "mbs_export/replacement.hpp"
+#include "mbs_export/trial_reading.hpp"
 #include "mbs_export/xxh64.hpp"
 
 namespace chladni::mbs_export::hdf5 {
@@ -74,7 +75,8 @@ std::uint64_t sealed_length(std::string_view seal)
 bool opens(const std::string& path)
 {
   silence_errors();
-  return Handle{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}.valid();
+  return survives_reading(path) &&
+         Handle{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}.valid();
 }
 
 /// Where HDF5 begins: at once, or behind a seal, which may be damaged.
@@ -103,12 +105,12 @@ bool write_seal(const std::string& path)
   return file.good();
 }
 
-void check_seal(const std::string& path)
+bool check_seal(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("{}: no such file, or not readable", path));
   const std::string seal = beginning(file);
-  if (seal.starts_with(hdf5_begins)) return;
+  if (seal.starts_with(hdf5_begins)) return false;
   if (!seal.starts_with(seal_begins))
     throw Error(fmt::format(
         "{}: is neither an HDF5 file nor one that Chladni sealed, or its beginning is damaged",
@@ -118,6 +120,7 @@ void check_seal(const std::string& path)
     refuse(path, fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
   if (seal != seal_text(length, digest_of(file)))
     refuse(path, "its bytes are not those that were sealed");
+  return true;
 }
 
 void seal_file(const std::string& path)
@@ -132,7 +135,7 @@ void seal_file(const std::string& path)
   }
   if (!write_seal(replacement.temporary())) replacement.fail();
   if (!opens(replacement.temporary()))
-    throw Error(fmt::format("{}: cannot be sealed: libhdf5 cannot open it either", path));
+    throw Error(fmt::format("{}: cannot be sealed: libhdf5 cannot read it either", path));
   replacement.commit();
 }
 

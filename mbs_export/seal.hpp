@@ -15,14 +15,15 @@ constexpr std::size_t seal_size = 512;  ///< bytes; the least that HDF5 leaves f
 /// @return whether it could be read and written
 bool write_seal(const std::string& path);
 
-/// Does nothing when the file is as it was sealed, or begins as HDF5 does and so has no seal: files
-/// of the first releases, and of others.
+/// Compares a file with its seal.
+/// @return whether it has one; without it a file must begin as HDF5 does, as those of the first
+///         release and of other programs do
 /// @throws chladni::Error when it was damaged, cut short or changed since, or begins in another
 /// way.
-void check_seal(const std::string& path);
+bool check_seal(const std::string& path);
 
 /// Seals what a file holds now, with or without an older seal; replaces it as a whole.
-/// @throws chladni::Error when libhdf5 cannot open it, or it cannot be written.
+/// @throws chladni::Error when libhdf5 cannot read it, or it cannot be written.
 void seal_file(const std::string& path);
 
 }  // namespace chladni::mbs_export::hdf5
