@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "reduce/log_event.hpp"
 #include "reduce/tall_products.hpp"

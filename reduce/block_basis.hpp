@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/aligned_numbers.hpp"
 #include "reduce/dense.hpp"
 #include "reduce/sparse_product.hpp"
 
@@ -57,11 +57,8 @@ class BlockBasis {
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_ = 0;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;       ///< M times the last block
-  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
-  struct Free {
-    void operator()(double* values) const { std::free(values); }
-  };
+  petsc::Matrix newest_M_;                ///< M times the last block
+  petsc::Matrix second_last_M_;           ///< M times the block before; empty after compress
   std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
 };
 
