@@ -116,13 +116,24 @@ def versions():
     return dict(line.split() for line in done.stdout.splitlines())
 
 
+def setting(path):
+    """What the kernel has been told, of a list in brackets the choice; empty where it has no such file."""
+    try:
+        text = pathlib.Path(path).read_text(encoding="ascii").strip()
+    except OSError:
+        return ""
+    return text[text.index("[") + 1:text.index("]")] if "[" in text else text
+
+
 def machine():
     with open("/proc/cpuinfo", encoding="ascii") as file:
         model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")),
                      platform.machine())
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     return {"processor": model, "cores": os.cpu_count(), "memory_GiB": round(memory, 1),
-            "system": platform.platform()}
+            "system": platform.platform(),
+            "huge_pages": setting("/sys/kernel/mm/transparent_hugepage/enabled"),
+            "page_reporting_order": setting("/sys/module/page_reporting/parameters/page_reporting_order")}
 
 
 def commit():
@@ -161,6 +172,8 @@ def markdown(results):
              f"| commit | {results['commit']} |", f"| date | {results['date']} |",
              f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
              f"| system | {about['system']} |",
+             f"| memory | transparent huge pages: {about['huge_pages'] or 'none'}; page_reporting_order "
+             f"{about['page_reporting_order'] or 'none'} (above 10: a virtual machine keeps the pages it frees) |",
              f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", "",
              "## In short", "", "The same table stands in README.md.", "", *claims.table(results["benchmarks"]), ""]
     for found in results["benchmarks"].values():

@@ -39,10 +39,10 @@ def accuracy(found):
 
 
 def peers(found):
+    cases = "; ".join(f"366 masters and {r['modes']} modes {r['ratio']:.1f} times less than with one factor, "
+                      f"{r['ratio_alone']:.1f} times less than with eigsh as documented" for r in found["runs"])
     return [("Beside scipy",
-             "the reduction costs " + " and ".join(f"1/{r['ratio']:.1f} (366 masters + {r['modes']} modes)"
-                                                    for r in found["runs"])
-             + f" of the CPU time of scipy with its sparse LU, at {found['runs'][0]['dofs']:,} DOFs")]
+             f"CPU time of a reduction of {found['runs'][0]['dofs']:,} DOFs: {cases}")]
 
 
 def calculix(found):

@@ -1,5 +1,7 @@
 #include "cli/picture.hpp"
 
+#include <algorithm>
+
 namespace chladni::cli {
 namespace {
 
@@ -66,17 +68,22 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, PictureChoice choice)
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
                                  const RowsOf& rows_of)
 {
-  const Eigen::MatrixXd rows = node_rows(chosen.nodes, dofs, rows_of);
-  const auto n = static_cast<Eigen::Index>(chosen.nodes.size());
+  const auto n = std::ssize(chosen.nodes);
   mbs_export::Picture picture;
   picture.positions.resize(n, 3);
   picture.cells = chosen.cells;
-  picture.transformation = Eigen::MatrixXd::Zero(3 * n, rows.cols());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const int node = chosen.nodes[static_cast<std::size_t>(k)];
-    const auto& x = dofs.positions[static_cast<std::size_t>(node)];
-    picture.positions.row(k) << x[0], x[1], x[2];
-    picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * k);
+  picture.transformation.resize(3 * n, rows_of({}).cols());
+  // A few nodes at a time: the rows of all of them would be larger than the picture.
+  constexpr std::ptrdiff_t most_at_once = 256;
+  for (std::ptrdiff_t begin = 0; begin < n; begin += most_at_once) {
+    const std::ptrdiff_t end = std::min(begin + most_at_once, n);
+    const std::vector<int> nodes(chosen.nodes.begin() + begin, chosen.nodes.begin() + end);
+    const Eigen::MatrixXd rows = node_rows(nodes, dofs, rows_of);
+    for (std::ptrdiff_t k = begin; k < end; ++k) {
+      const auto& x = dofs.positions[static_cast<std::size_t>(nodes[k - begin])];
+      picture.positions.row(k) << x[0], x[1], x[2];
+      picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * (k - begin));
+    }
   }
   return picture;
 }

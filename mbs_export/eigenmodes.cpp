@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 
 #include "common/error.hpp"
@@ -30,6 +31,21 @@ MatrixXd without_zero_energy(const MatrixXd& K, const MatrixXd& MR, const Matrix
   MatrixXd K_d = K - MR * KR.transpose() - KR * MR.transpose();
   K_d += MR * (R.transpose() * KR) * MR.transpose();
   return 0.5 * (K_d + K_d.transpose());
+}
+
+/// Cholesky factor of K + sigma M R R^T M, without what round-off leaves of K along R.
+Eigen::LLT<MatrixXd> factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  const MatrixXd MR = M * R;
+  const MatrixXd K_d = without_zero_energy(K, MR, R);
+  Eigen::LLT<MatrixXd> B(K_d + deflation_shift(K_d, M) * MR * MR.transpose());
+  if (B.info() != Eigen::Success)
+    throw Error(
+        "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
+        " is the structure in one piece, without mechanisms, and no attachment node so close to "
+        "another"
+        " that round-off is all there is between them?");
+  return B;
 }
 
 /// L^-1 M L^-T without the directions L^T R of the zero-energy vectors.
@@ -63,15 +79,7 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
 {
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
-  const MatrixXd MR = M * R;
-  const MatrixXd K_d = without_zero_energy(K, MR, R);
-  const Eigen::LLT<MatrixXd> B(K_d + deflation_shift(K_d, M) * MR * MR.transpose());
-  if (B.info() != Eigen::Success)
-    throw Error(
-        "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
-        " is the structure in one piece, without mechanisms, and no attachment node so close to "
-        "another"
-        " that round-off is all there is between them?");
+  const Eigen::LLT<MatrixXd> B = factor(K, M, R);
   const MatrixXd L = B.matrixL();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(deflated(L, M, R));
   const VectorXd mu = solver.eigenvalues().reverse();
@@ -83,6 +91,27 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
   X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
   return {mu.head(k).cwiseInverse(), orthonormalized(X, M, R), static_cast<int>(n - r - k)};
+}
+
+double first_eigenvalue(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  if (K.rows() <= R.cols()) return 0.0;
+  const Eigen::LLT<MatrixXd> B = factor(K, M, R);
+  constexpr int n_iterations = 30;
+  // All coordinates take part, none in a pattern that a mode may have too.
+  VectorXd x = VectorXd::NullaryExpr(
+      K.rows(), [](Index i) { return std::cos(1.0 + static_cast<double>(i) * std::sqrt(2.0)); });
+  double largest = 0.0;  // 1 / lambda, by the quotient of Rayleigh
+  for (int i = 0; i < n_iterations; ++i) {
+    x -= R * (R.transpose() * (M * x));
+    const VectorXd Mx = M * x;
+    const double mass = x.dot(Mx);
+    if (!(mass > 0.0)) return 0.0;
+    x = B.solve(Mx);
+    largest = x.dot(Mx) / mass;
+    x.normalize();
+  }
+  return largest > 0.0 ? 1.0 / largest : 0.0;
 }
 
 }  // namespace chladni::mbs_export

@@ -20,4 +20,10 @@ struct Eigenmodes {
 /// @throws chladni::Error when K has more zero-energy vectors than R, or M is not semidefinite.
 Eigenmodes eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& R);
 
+/// The first of these lambda alone, from above and to a few per cent: by inverse iteration, for a
+/// scale; 0 where there is none.
+/// @throws chladni::Error as eigenmodes where K is singular beyond R.
+double first_eigenvalue(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
+                        const Eigen::MatrixXd& R);
+
 }  // namespace chladni::mbs_export

@@ -1,23 +1,62 @@
 #include "mbs_export/held_modes.hpp"
 
+#include <algorithm>
+
 #include "mbs_export/constrained_modes.hpp"
+#include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/mode_shift.hpp"
 #include "mbs_export/orthogonalize.hpp"
 
 namespace chladni::mbs_export {
+namespace {
 
-HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// Where a held displacement is a combination of coordinates.
+HeldModeShapes by_mode_shift(const ReducedSystem& reduced, const HeldDofs& held)
 {
   const FreeModes free = orthogonalize(reduced);
-  const ModeShift shift = shift_modes(free, held_dofs(reduced, fixed));
+  const ModeShift shift = shift_modes(free, held);
   const ConstrainedModes modes = constrained_modes(shift);
-  const Eigen::Index n_elastic = modes.omega.size() - modes.n_rigid;
+  const Index n_elastic = modes.omega.size() - modes.n_rigid;
   return {.omega = modes.omega.tail(n_elastic),
           .X = free.Q_e * (shift.Q_c * modes.X.rightCols(n_elastic)),
           .n_rigid = modes.n_rigid,
           .n_free_rigid = free.n_rigid,
           .rigid_residual = free.rigid_residual};
+}
+
+std::vector<int> other_rows(const std::vector<int>& rows, Index n)
+{
+  std::vector<int> others;
+  for (int i = 0; i < n; ++i)
+    if (!std::ranges::binary_search(rows, i)) others.push_back(i);
+  return others;
+}
+
+}  // namespace
+
+HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
+{
+  const HeldDofs held = held_dofs(reduced, fixed);
+  if (!held.are_masters()) return by_mode_shift(reduced, held);
+  const RigidModes rigid = rigid_modes(reduced);
+  const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, Eigen::all));
+  const std::vector<int> rows = other_rows(held.rows, reduced.K.rows());
+  const Eigenmodes elastic =
+      eigenmodes(reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, Eigen::all));
+  HeldModeShapes shapes{.omega = elastic.lambda.cwiseSqrt(),
+                        .X = MatrixXd::Zero(reduced.K.rows(), elastic.X.cols()),
+                        .n_rigid = static_cast<int>(unheld.cols()),
+                        .n_free_rigid = static_cast<int>(rigid.R.cols()),
+                        .rigid_residual = 0.0};
+  shapes.X(rows, Eigen::all) = elastic.X;
+  if (rigid.R.cols() > 0) {
+    const double first = first_eigenvalue(reduced.K, reduced.M, rigid.R);
+    shapes.rigid_residual = first > 0.0 ? rigid.largest_energy / first : 0.0;
+  }
+  return shapes;
 }
 
 }  // namespace chladni::mbs_export

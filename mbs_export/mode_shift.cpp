@@ -92,18 +92,16 @@ std::string dependent_names(const MatrixXd& Q_dd, const HeldDofs& held)
   return fmt::format("{}", fmt::join(names.empty() ? held.names : names, ", "));
 }
 
-/// Combinations of the rigid modes with Q_held q = 0, as orthonormal columns [n_modes x k].
-MatrixXd free_rigid_motions(const MatrixXd& Q_held, Index n_rigid)
-{
-  MatrixXd q = MatrixXd::Identity(Q_held.cols(), n_rigid);
-  if (Q_held.rows() == 0 || n_rigid == 0) return q;
-  Eigen::JacobiSVD<MatrixXd> svd(rows_of_unit_length(Q_held.leftCols(n_rigid)),
-                                 Eigen::ComputeFullV);
-  svd.setThreshold(1.0 / largest_condition);
-  return q * svd.matrixV().rightCols(n_rigid - svd.rank());
-}
-
 }  // namespace
+
+MatrixXd unheld_combinations(const MatrixXd& held_displacements)
+{
+  const Index n_rigid = held_displacements.cols();
+  if (held_displacements.size() == 0) return MatrixXd::Identity(n_rigid, n_rigid);
+  Eigen::JacobiSVD<MatrixXd> svd(rows_of_unit_length(held_displacements), Eigen::ComputeFullV);
+  svd.setThreshold(1.0 / largest_condition);
+  return svd.matrixV().rightCols(n_rigid - svd.rank());
+}
 
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
 {
@@ -154,7 +152,10 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
   shift.Q_c(independent, Eigen::all).setIdentity();
   shift.K_c.diagonal() += lambda(independent);
   shift.M_c.diagonal().array() += 1.0;
-  shift.R_c = free_rigid_motions(Q_held, modes.n_rigid)(independent, Eigen::all);
+  const MatrixXd left = unheld_combinations(Q_held.leftCols(modes.n_rigid));
+  MatrixXd q = MatrixXd::Zero(modes.omega.size(), left.cols());
+  q.topRows(modes.n_rigid) = left;
+  shift.R_c = q(independent, Eigen::all);
   return shift;
 }
 

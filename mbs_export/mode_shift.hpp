@@ -27,6 +27,10 @@ struct ModeShift {
 /// @throws chladni::Error naming the DOFs when no choice has cond(Q_dd) below 1e6.
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held);
 
+/// Combinations of rigid motions that leave the held DOFs at rest, orthonormal: [n_rigid x k].
+/// @param held_displacements  [n_c x n_rigid] of each motion
+Eigen::MatrixXd unheld_combinations(const Eigen::MatrixXd& held_displacements);
+
 /// The same with a choice of dependent modes by hand.
 /// @param dependent  [n_c] indices of free modes, ascending
 /// @throws chladni::Error when cond(Q_dd) > 1e6, naming the DOFs.

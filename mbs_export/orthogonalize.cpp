@@ -37,11 +37,6 @@ MatrixXd rigid_basis(const ReducedSystem& reduced)
   return MR.matrixL().solve(basis.transpose()).transpose();
 }
 
-struct RigidModes {
-  MatrixXd R;             ///< [n_FE x n_rigid], M_r-orthonormal
-  double largest_energy;  ///< of phi_r^T K_r phi_r, rad^2/s^2
-};
-
 /// Largest energy that is no support's: round-off in K_r leaves 1e-16 of the largest
 /// stiffness-to-mass ratio of the FE model, of which a system with few modes shows nothing. There
 /// the least ratio stands for the elastic modes: a mount at 1/1000 of their frequency is still one.
@@ -68,9 +63,14 @@ RigidModes unresisted(const ReducedSystem& reduced, const MatrixXd& basis)
 
 }  // namespace
 
+RigidModes rigid_modes(const ReducedSystem& reduced)
+{
+  return unresisted(reduced, rigid_basis(reduced));
+}
+
 FreeModes orthogonalize(const ReducedSystem& reduced)
 {
-  const RigidModes rigid = unresisted(reduced, rigid_basis(reduced));
+  const RigidModes rigid = rigid_modes(reduced);
   const Eigenmodes elastic = eigenmodes(reduced.K, reduced.M, rigid.R);
   const Index n_rigid = rigid.R.cols(), n_elastic = elastic.lambda.size();
   FreeModes modes{.omega = VectorXd::Zero(n_rigid + n_elastic),

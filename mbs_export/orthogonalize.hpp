@@ -16,6 +16,16 @@ struct FreeModes {
       rigid_residual;  ///< largest phi_r^T K_r phi_r over the first elastic omega^2; 0 is perfect
 };
 
+/// The rigid-body motions that K_r does not resist.
+struct RigidModes {
+  Eigen::MatrixXd R;      ///< [n_FE x n_rigid], M_r-orthonormal
+  double largest_energy;  ///< of phi_r^T K_r phi_r, rad^2/s^2
+};
+
+/// The rigid-body vectors of the geometry that K_r does not resist.
+/// @throws chladni::Error when M_r gives one of the rigid-body motions no mass.
+RigidModes rigid_modes(const ReducedSystem& reduced);
+
 /// Solves (K_r - omega^2 M_r) phi = 0. The rigid modes are not looked for among small frequencies:
 /// they are the rigid-body vectors of the geometry that K_r does not resist, and are deflated.
 /// Assumes K_r, M_r symmetric positive semidefinite, and no zero-energy motion but rigid ones.

@@ -55,12 +55,16 @@ SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_o
   const PetscInt first_master = masters_before(rows_of.masters);
   const PetscInt n_m = Psi.n_cols();
   SmallMatrix rows(static_cast<PetscInt>(dofs.size()), n_m + Q_CB.n_modes());
+  std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
   for (PetscInt i = 0; i < rows.n_rows; ++i) {
     if (const auto m = masters.find(dofs[i])) rows(i, first_master + *m) = 1.0;
-    const auto s = slaves.find(dofs[i]);
-    if (!s) continue;
-    for (PetscInt j = 0; j < n_m; ++j) rows(i, j) = Psi(*s, j);
-    for (PetscInt j = 0; j < Q_CB.n_modes(); ++j) rows(i, n_m + j) = (*Phi)(*s, j);
+    if (const auto s = slaves.find(dofs[i])) own.emplace_back(i, *s);
+  }
+  for (PetscInt j = 0; j < n_m; ++j) {
+    for (const auto& [i, s] : own) rows(i, j) = Psi(s, j);
+  }
+  for (PetscInt j = 0; j < Q_CB.n_modes(); ++j) {
+    for (const auto& [i, s] : own) rows(i, n_m + j) = (*Phi)(s, j);
   }
   sum_over_ranks(rows, petsc::communicator(Q_CB.Psi));
   return rows;

@@ -62,12 +62,4 @@ class BlockBasis {
   std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
 };
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix (LAPACK
-/// dsyevd).
-struct SymmetricEigen {
-  std::vector<double> values;
-  SmallMatrix vectors;
-};
-SymmetricEigen symmetric_eigen(SmallMatrix A);
-
 }  // namespace chladni::reduce

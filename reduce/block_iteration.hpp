@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "reduce/block_basis.hpp"
+#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/block_basis.hpp"
 #include "reduce/guyan.hpp"
 #include "reduce/sparse_product.hpp"
 #include "reduce/supported_solutions.hpp"
+#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 

@@ -8,6 +8,7 @@
 #include "reduce/block_basis.hpp"
 #include "reduce/quiet_mumps.hpp"
 #include "reduce/sylvester.hpp"
+#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 

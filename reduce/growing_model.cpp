@@ -64,7 +64,8 @@ GrowingModel::GrowingModel(const System& system)
       G_(0, 0)
 {}
 
-/// G = (Psi - Phi P)^T M_ss Z + M_ms Z with Z = K_ss^-1 (M_ss (Psi - Phi P) + M_sm).
+/// G = (Psi - Phi P)^T M_ss Z + M_ms Z with Z = K_ss^-1 (M_ss (Psi - Phi P) + M_sm): symmetric, its
+/// upper triangle is computed.
 void GrowingModel::start_errors(Mat Phi)
 {
   const PetscInt n_m = K_G_.n_rows;
@@ -79,14 +80,14 @@ void GrowingModel::start_errors(Mat Phi)
     petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
     const petsc::Matrix MZ = uninitialized_dense(system_.M.ss, last - first);
     SparseProduct(system_.M.ss).apply(Z, MZ);
-    const SmallMatrix Psi_MZ = inner_product(system_.Psi, MZ);
+    const SmallMatrix Psi_MZ = inner_product(ColumnRange(system_.Psi, 0, last), MZ);
     const SmallMatrix Phi_MZ = inner_product(Phi, MZ);
     const SmallMatrix Z_M_sm = inner_product_sparse(Z, system_.M.sm);
     for (PetscInt j = first; j < last; ++j) {
-      for (PetscInt i = 0; i < n_m; ++i) {
+      for (PetscInt i = 0; i <= j; ++i) {
         double deflation = 0.0;
         for (PetscInt k = 0; k < n_first_; ++k) deflation += P_(k, i) * Phi_MZ(k, j - first);
-        G_(i, j) = Psi_MZ(i, j - first) - deflation + Z_M_sm(j - first, i);
+        G_(i, j) = G_(j, i) = Psi_MZ(i, j - first) - deflation + Z_M_sm(j - first, i);
       }
     }
   }

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduce/block_basis.hpp"
 #include "reduce/guyan.hpp"
 #include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
+#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 

@@ -72,6 +72,7 @@ bool ToleranceSearch::is_enough()
   const double last_error = error(model_->n_modes());
   if (last_error > tolerance_) {
     n_asked_ = prediction(last_error);
+    too_few_ = {.n = model_->n_modes(), .error = last_error};
     return false;
   }
   n_enough_ = search_.complete_cluster(least());
@@ -81,7 +82,7 @@ bool ToleranceSearch::is_enough()
 /// By bisection to 1 % or one mode.
 PetscInt ToleranceSearch::least() const
 {
-  PetscInt too_few = 0;
+  PetscInt too_few = too_few_.n;
   PetscInt enough = model_->n_modes();
   while (enough - too_few > std::max<PetscInt>(1, enough / 100)) {
     const PetscInt n = (enough + too_few) / 2;
@@ -91,12 +92,14 @@ PetscInt ToleranceSearch::least() const
 }
 
 /// A number of modes that keeps the tolerance if the error goes on to fall as a power of it, from
-/// the errors with half of the modes and with all; between 1.15 and 1.5 times as many: the error
-/// falls in jumps.
+/// the errors of the last step, or with half of the modes, and with all; between 1.15 and 1.5 times
+/// as many: the error falls in jumps.
 PetscInt ToleranceSearch::prediction(double last_error) const
 {
   const PetscInt n = model_->n_modes();
-  const double power = std::max(0.5, std::log2(error(n / 2) / last_error));
+  const Tried before = too_few_.n > 0 ? too_few_ : Tried{.n = n / 2, .error = error(n / 2)};
+  const double fallen = std::log(before.error / last_error) / std::log(double(n) / before.n);
+  const double power = std::max(0.5, fallen);
   const double predicted = 1.1 * n * std::pow(last_error / tolerance_, 1.0 / power);
   return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, 1.5 * n)) + 1;
 }

@@ -31,6 +31,11 @@ class ToleranceSearch {
   FixedInterfaceModes modes() const { return search_.leading(n_enough_); }
 
  private:
+  struct Tried {
+    PetscInt n;
+    double error;
+  };
+
   double error(PetscInt n) const;
   PetscInt least() const;
   PetscInt prediction(double last_error) const;
@@ -42,6 +47,7 @@ class ToleranceSearch {
   ModeSearch search_;
   std::optional<GrowingModel> model_;
   PetscInt n_asked_;
+  Tried too_few_{.n = 0, .error = 0.0};
   PetscInt n_enough_ = 0;
 };
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -445,6 +447,26 @@ TEST(CMS, WritesTheReducedFileThroughAViewer)
   EXPECT_GT(file.certificate.eta2.size(), 0);
   MPI_Barrier(PETSC_COMM_WORLD);
   if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
+}
+
+TEST(CMS, SaysThatItKeepsThePartnerOfTheLastMode)
+{
+  Solver solver;
+  solver.chain = free_chain(2 * n + 1);  // held in its middle: two equal halves
+  solver.masters = master_set(solver.chain.K, {0, n, 2 * n});
+  petsc::check(CMSSetDimensions(solver.cms, 5));
+  petsc::check(solver.solve());
+  const std::string path = std::filesystem::temp_directory_path() /
+                           fmt::format("chladni-{}.txt", petsc::size(PETSC_COMM_WORLD));
+  PetscViewer viewer = nullptr;
+  petsc::check(PetscViewerASCIIOpen(PETSC_COMM_WORLD, path.c_str(), &viewer));
+  petsc::check(CMSView(solver.cms, viewer));
+  petsc::check(PetscViewerDestroy(&viewer));
+  if (petsc::rank(PETSC_COMM_WORLD) != 0) return;
+  std::ifstream file(path);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  std::filesystem::remove(path);
+  EXPECT_NE(text.find(": 6 (5 asked; 1 more of the same frequency)"), std::string::npos) << text;
 }
 
 TEST(CMS, KeepsTheGeometryOfItsInterfaceForTheFile)
