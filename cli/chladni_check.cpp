@@ -17,13 +17,14 @@ namespace {
 
 using mbs_export::Check, mbs_export::Verdict;
 
-std::vector<Check> checks_of(const std::string& file)
+std::vector<Check> checks_of(const std::string& path)
 {
-  const std::string format = mbs_export::hdf5::Reader(file).text_attribute("/", "format");
-  if (format == "chladni-reduced") return check_reduced(mbs_export::read_reduced(file));
-  if (format == "chladni-body") return check_body(mbs_export::read_body(file));
+  const mbs_export::hdf5::Reader file(path);
+  const std::string format = file.text_attribute("/", "format");
+  if (format == mbs_export::reduced_format) return check_reduced(mbs_export::read_reduced(file));
+  if (format == mbs_export::body_format) return check_body(mbs_export::read_body(file));
   throw Error(fmt::format(
-      "{}: a file of format '{}' has no checks; *.reduced.h5 and *.body.h5 have", file, format));
+      "{}: a file of format '{}' has no checks; *.reduced.h5 and *.body.h5 have", path, format));
 }
 
 const char* name_of(Verdict verdict)

@@ -171,15 +171,16 @@ std::string describe_selection(const mbs_export::ModalBody& body)
       body.n_modes() - n_interface, n_interface, error);
 }
 
-std::string describe_file(const std::filesystem::path& file)
+std::string describe_file(const std::filesystem::path& path)
 {
-  const std::string format = mbs_export::hdf5::Reader(file.string()).text_attribute("/", "format");
-  if (format == "chladni-reduced") {
+  const mbs_export::hdf5::Reader file(path.string());  // one for all: its seal is a digest of it
+  const std::string format = file.text_attribute("/", "format");
+  if (format == mbs_export::reduced_format) {
     const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
     const std::string certificate = describe_certificate(reduced.certificate);
     return titled(reduced) + (certificate.empty() ? "" : "\n" + certificate);
   }
-  if (format == "chladni-body") {
+  if (format == mbs_export::body_format) {
     const mbs_export::ModalBody body = mbs_export::read_body(file);
     const std::string selection = describe_selection(body);
     const bool is_certified = body.fixed == body.certificate.fixed;  // or it is of other modes
@@ -188,9 +189,9 @@ std::string describe_file(const std::filesystem::path& file)
            (selection.empty() ? "" : "\n" + selection) +
            (certificate.empty() ? "" : "\n" + certificate);
   }
-  if (format == "chladni-squeal") return format_table(describe(squeal::read_results(file)));
+  if (format == squeal::results_format) return format_table(describe(squeal::read_results(file)));
   throw Error(
-      fmt::format("{}: holds \"{}\", which this program does not know", file.string(), format));
+      fmt::format("{}: holds \"{}\", which this program does not know", file.path(), format));
 }
 
 }  // namespace chladni::cli

@@ -24,6 +24,6 @@ std::string describe_selection(const mbs_export::ModalBody& body);
 
 /// Says what any file of Chladni holds: a reduced system, a modal body or the results of squeal.
 /// @throws chladni::Error when the file is none of these or is damaged.
-std::string describe_file(const std::filesystem::path& file);
+std::string describe_file(const std::filesystem::path& path);
 
 }  // namespace chladni::cli

@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr auto format = "chladni-body";
 constexpr std::int64_t version = 1;
 constexpr auto frame =
     "axes and origin of the mesh; displacements relative to the undeformed body, small rotations "
@@ -218,7 +217,7 @@ int read_n_rigid(const hdf5::Reader& file, const VectorXd& free_frequencies)
 void write_body(const std::string& path, const ModalBody& body)
 {
   hdf5::Writer file(path);
-  file.attribute("/", "format", format);
+  file.attribute("/", "format", body_format);
   file.attribute("/", "version", version);
   file.attribute("/", "title", body.title);
   file.attribute("/", "frame", frame);
@@ -247,8 +246,12 @@ void write_body(const std::string& path, const ModalBody& body)
 
 ModalBody read_body(const std::string& path)
 {
-  const hdf5::Reader file(path);
-  file.expect_format(format, version);
+  return read_body(hdf5::Reader(path));
+}
+
+ModalBody read_body(const hdf5::Reader& file)
+{
+  file.expect_format(body_format, version);
   auto [nodes, sets] = file_parts::read_attachment(file);
   VectorXd omega = read_frequencies(file, "modes/frequencies");
   VectorXd free_frequencies = read_frequencies(file, "free_body/frequencies");

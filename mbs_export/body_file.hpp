@@ -2,9 +2,13 @@
 
 #include <string>
 
+#include "mbs_export/hdf5.hpp"
 #include "mbs_export/modal_body.hpp"
 
 namespace chladni::mbs_export {
+
+/// The attribute `format` of such a file.
+inline constexpr auto body_format = "chladni-body";
 
 /// Writes *.body.h5, format "chladni-body" version 1 (docs/file_formats.md), in full precision,
 /// with the circumferential Fourier coefficients of each contact ring for other programs. The file
@@ -15,5 +19,6 @@ void write_body(const std::string& path, const ModalBody& body);
 /// Reads what `write_body` wrote, bit by bit, and any file that keeps to the format.
 /// @throws chladni::Error naming the file, the dataset and what was expected.
 ModalBody read_body(const std::string& path);
+ModalBody read_body(const hdf5::Reader& file);
 
 }  // namespace chladni::mbs_export

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-constexpr auto format = "chladni-reduced";
 constexpr std::int64_t version = 1;
 
 /// |A_ij - A_ji| beyond 1e-8 of sqrt(A_ii A_jj), the bound of a semidefinite A, is no round-off.
@@ -60,7 +59,7 @@ std::vector<MasterDof> read_node_masters(const hdf5::Reader& file, Index n_nodes
 void write_reduced(const std::string& path, const ReducedSystem& reduced)
 {
   hdf5::Writer file(path);
-  file.attribute("/", "format", format);
+  file.attribute("/", "format", reduced_format);
   file.attribute("/", "version", version);
   file.attribute("/", "title", reduced.title);
   file_parts::write_attachment(file, reduced.attachment_nodes, reduced.sets);
@@ -87,8 +86,12 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
 
 ReducedSystem read_reduced(const std::string& path)
 {
-  const hdf5::Reader file(path);
-  file.expect_format(format, version);
+  return read_reduced(hdf5::Reader(path));
+}
+
+ReducedSystem read_reduced(const hdf5::Reader& file)
+{
+  file.expect_format(reduced_format, version);
   auto [nodes, sets] = file_parts::read_attachment(file);
   auto masters = has_ring_masters(file) ? read_ring_masters(file, Index(nodes.size()), sets)
                                         : read_node_masters(file, Index(nodes.size()));

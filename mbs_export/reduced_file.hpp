@@ -2,9 +2,13 @@
 
 #include <string>
 
+#include "mbs_export/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 
 namespace chladni::mbs_export {
+
+/// The attribute `format` of such a file.
+inline constexpr auto reduced_format = "chladni-reduced";
 
 /// Writes *.reduced.h5, format "chladni-reduced" version 1 (docs/file_formats.md), in full
 /// precision. The file appears complete or not at all.
@@ -16,5 +20,6 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced);
 ///         version, a missing dataset, a wrong type or shape, a value that is not finite, an index
 ///         out of range, K or M unsymmetric beyond round-off.
 ReducedSystem read_reduced(const std::string& path);
+ReducedSystem read_reduced(const hdf5::Reader& file);
 
 }  // namespace chladni::mbs_export

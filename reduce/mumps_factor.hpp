@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "reduce/cholesky_factor.hpp"
+#include "reduce/row_exchange.hpp"
 
 namespace chladni::reduce {
-
-/// Where the rows of a solution that MUMPS leaves distributed go to.
-struct RowExchange {
-  std::vector<int> send_rows;  ///< rows of MUMPS' solution, by rank that owns them
-  std::vector<int> send_counts, receive_counts;
-  std::vector<int> receive_rows;  ///< own rows, by rank that sends them
-};
 
 /// Cholesky factor by MUMPS through its C interface: nested dissection by METIS, matrix,
 /// right-hand sides and solutions distributed. Debian's MUMPS has no METIS inside, and what PETSc

@@ -14,7 +14,6 @@ namespace {
 using mbs_export::hdf5::Reader;
 using mbs_export::hdf5::Writer;
 
-constexpr const char* file_format = "chladni-squeal";
 constexpr std::int64_t file_version = 1;
 
 Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
@@ -142,7 +141,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
                    const mbs_export::Provenance& provenance)
 {
   Writer file(path.string());
-  file.attribute("/", "format", file_format);
+  file.attribute("/", "format", results_format);
   file.attribute("/", "version", file_version);
   write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
@@ -165,8 +164,12 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
 
 SquealResults read_results(const std::filesystem::path& path)
 {
-  const Reader file(path.string());
-  file.expect_format(file_format, file_version);
+  return read_results(Reader(path.string()));
+}
+
+SquealResults read_results(const Reader& file)
+{
+  file.expect_format(results_format, file_version);
   SquealResults results;
   results.largest_split = read_optional(file, "largest_split");
   if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);

@@ -2,10 +2,14 @@
 
 #include <filesystem>
 
+#include "mbs_export/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "squeal/results.hpp"
 
 namespace chladni::squeal {
+
+/// The attribute `format` of such a file.
+inline constexpr auto results_format = "chladni-squeal";
 
 /// Writes `*.squeal.h5`: written to a temporary name, flushed and renamed.
 /// @throws chladni::Error when the file cannot be written.
@@ -15,6 +19,7 @@ void write_results(const std::filesystem::path& file, const SquealResults& resul
 /// Reads what `write_results` wrote.
 /// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
 /// finite.
-SquealResults read_results(const std::filesystem::path& file);
+SquealResults read_results(const std::filesystem::path& path);
+SquealResults read_results(const mbs_export::hdf5::Reader& file);
 
 }  // namespace chladni::squeal

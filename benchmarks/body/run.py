@@ -13,7 +13,6 @@ import json
 import os
 import platform
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -26,37 +25,8 @@ sys.path.insert(0, str(ROOT / "examples/beam"))
 import figures as beam_figures  # noqa: E402  (beside the scenes, not a package)
 import report as beam_report  # noqa: E402
 import study as beam_study  # noqa: E402
-
-CHLADNI = ROOT / "build/release/bin/chladni"
-ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
-                   OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-
-
-def run(command, folder, text):
-    """One command on a scene; returns its summary, or the message with which it refused."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scene.toml").write_text(text)
-    done = subprocess.run([CHLADNI, command, folder / "scene.toml", "--output", folder, "--json", folder / "out.json"],
-                          env=ENVIRONMENT, capture_output=True, text=True, check=False)
-    return json.loads((folder / "out.json").read_text()) if done.returncode == 0 else done.stderr.strip()
-
-
-def only(folder, pattern):
-    return next(folder.glob(pattern))
-
-
-def beam(elements=300, modes=100, body='fixed = ["A"]\nkeep = { modes = 40 }', length=1.0, beside_A=None):
-    """The beam of the examples; `beside_A` is the distance of a fourth attachment node D from A, over the length."""
-    text = (ROOT / "examples/beam/cantilever.toml").read_text()
-    text = text[:text.index("[body]")].replace("elements = 300", f"elements = {elements}")
-    text = text.replace("modes = 100", f"modes = {modes}").replace('resultants = ["beam"]', 'pictures = "none"')
-    text = text.replace("end = [1.0,", f"end = [{length},").replace("0.3333333333333333", str(length / 3))
-    text = text.replace('{ name = "C", distance = 1.0 },', f'{{ name = "C", distance = {length} }},')
-    if beside_A:
-        text = text.replace(f"elements = {elements}", f"element_size = {length / elements!r}")
-        text = text.replace('{ name = "B"', f'{{ name = "D", distance = {beside_A * length!r} }},\n  {{ name = "B"')
-        text = text.replace('nodes = ["A", "B", "C"]', 'nodes = ["A", "B", "C", "D"]')
-    return text + f"[body]\n{body}\n"
+from cases import CHLADNI, beam, only, run  # noqa: E402
+from conditioning import conditioning  # noqa: E402
 
 
 def chain(folder, quick):
@@ -138,73 +108,6 @@ def forces(folder):
             found = harmonic(only(folder, "*.body.h5"), Omega)
             rows.append({"n_h": n_h, "frm": int(frm), **{
                 kind: float(np.linalg.norm(found[kind] - exact[kind]) / np.linalg.norm(exact[kind])) for kind in exact}})
-    return rows
-
-
-def verdict(case, summary, value="", digits=None):
-    """One row of the table of hard cases."""
-    refused = isinstance(summary, str)
-    return {"case": case, "outcome": "refused" if refused else "solved",
-            "condition": None if refused else summary["condition_Q_dd"],
-            "unit rows": None if refused else summary["condition_directions"], "value": value,
-            "digits_lost": digits, "message": summary if refused else ""}
-
-
-def lost(found, exact):
-    """Of sixteen digits."""
-    error = np.abs(np.array(found) / np.array(exact) - 1).max()
-    return float(max(0.0, 16 + np.log10(max(error, 1e-16))))
-
-
-def struck_out(path, held):
-    """Frequencies in Hz of the reduced matrices without the rows and columns of the held (node, component)."""
-    with h5py.File(path) as file:
-        K, M = file["matrices/stiffness"][:], file["matrices/mass"][:]
-        masters = list(zip(file["masters/node"][:], file["masters/component"][:]))
-    kept = [i for i in range(len(K)) if i >= len(masters) or masters[i] not in held]
-    s = 1 / np.sqrt(np.diag(M)[kept])
-    L = np.linalg.inv(np.linalg.cholesky(s[:, None] * M[np.ix_(kept, kept)] * s))
-    return np.sqrt(np.linalg.eigvalsh(L @ (s[:, None] * K[np.ix_(kept, kept)] * s) @ L.T)) / (2 * np.pi)
-
-
-def conditioning(folder):
-    rows = []
-    first = run("run", folder / "L1", beam())["frequencies_Hz"][:5]
-    for distance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7):
-        # Two heights that come to mean one: Q_dd = [1, x_A; 1, x_D].
-        made = run("run", folder / f"D{distance}", beam(body='fixed = ["A.z", "D.z"]\nkeep = { modes = 40 }', beside_A=distance))
-        digits = None
-        if not isinstance(made, str):
-            exact = struck_out(only(folder / f"D{distance}", "*.reduced.h5"), [(0, 2), (3, 2)])
-            digits = lost(made["frequencies_Hz"][:5], exact[:5])
-        rows.append(verdict(f"supports {distance:g} of the length apart", made, digits=digits))
-    for length in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12):
-        # Frequencies go with 1 / L^2, cond(Q_dd) with 1 / L.
-        made = run("run", folder / f"L{length}", beam(length=length))
-        digits = None if isinstance(made, str) else lost(np.array(made["frequencies_Hz"][:5]) * length**2, first)
-        rows.append(verdict(f"clamped beam of length {length:g} m", made, digits=digits))
-    text = beam()
-    run("reduce", folder / "near", text)
-    base = run("body", folder / "near", beam(body='fixed = ["A"]'))["frequencies_Hz"]
-    omega_n = 2 * np.pi * base[7]
-    for distance in (1e-2, 1e-6, 1e-10, 1e-14):
-        body = 'fixed = ["A"]\nkeep = { modes = 5 }\ninterface_modes = [{ kind = "frm", at = "B", dofs = ["ry"], ' \
-               f'omega0 = {omega_n * (1 + distance):.17g} }}]'
-        made = run("body", folder / "near", beam(body=body))
-        digits = None if isinstance(made, str) else lost(made["frequencies_Hz"][:5], base[:5])
-        rows.append(verdict(f"FRM at a neglected frequency (1 + {distance:g})", made, digits=digits))
-    disc = (ROOT / "tests/data/coarse_disc.toml").read_text().replace("nodes = 12", "nodes = 60")
-    disc = disc[:disc.index("[body]")]
-    run("reduce", folder / "disc", disc)
-    for frequencies in ("", ", omega0 = 5000.0"):
-        made = run("body", folder / "disc", disc + '[body]\nfixed = ["hub"]\nkeep = { modes = 20 }\n'
-                   f'interface_modes = [{{ kind = "frm", at = "track", dofs = ["z"]{frequencies} }}]\n')
-        value = "" if isinstance(made, str) else f"{made['interface_modes_dropped']} of 60 dropped"
-        rows.append(verdict("60 FRMs on one ring" + frequencies, made, value))
-    for fixed in ('"hub.x"', '"hub.x", "hub.y", "hub.z"', '"hub", "track"'):
-        made = run("body", folder / "disc", disc + f"[body]\nfixed = [{fixed}]\nkeep = {{ modes = 20 }}\n")
-        value = "" if isinstance(made, str) else f"{sum(f == 0 for f in made['frequencies_Hz'])} rigid motions left"
-        rows.append(verdict(f"supports {fixed.replace(chr(34), '')}", made, value))
     return rows
 
 

@@ -15,9 +15,7 @@ An estimate belongs to a mode, and is compared with that which it approximates; 
 place in the order.
 """
 import argparse
-import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -27,16 +25,6 @@ import run
 
 SUPPORT = '\n[[support]]\ngroup = "hub"\ntype = "clamped"\n[modes]\ncount = COUNT\n'
 LOWEST, HIGHEST = 0.5, 10.0
-
-
-def chladni(programs, command, scene, folder):
-    summary = folder / f"{command}.json"
-    done = subprocess.run([str(programs / "chladni"), command, str(scene), "--output", str(folder),
-                           "--json", str(summary)], env=run.ENVIRONMENT, capture_output=True,
-                          text=True, check=False)
-    if done.returncode != 0:
-        raise SystemExit(f"chladni {command}: {done.stderr}")
-    return json.loads(summary.read_text())
 
 
 def scene(folder, arguments, modes, count=1):
@@ -142,10 +130,10 @@ def draw(result, path):
 def measure(arguments):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        reduced = [chladni(arguments.programs, "reduce", scene(folder, arguments, modes), folder)
+        reduced = [run.summary(arguments.programs / "chladni", "reduce", scene(folder, arguments, modes), folder)
                    for modes in arguments.modes]
         count = max(len(r["certified_frequencies_Hz"]) for r in reduced) + 10
-        full = chladni(arguments.programs, "modes", scene(folder, arguments, 1, count), folder)
+        full = run.summary(arguments.programs / "chladni", "modes", scene(folder, arguments, 1, count), folder)
     cases = [compare(r, np.array(full["frequencies_Hz"])) for r in reduced]
     # A Ritz value is never below its eigenvalue: how far it seems so is the reference's error.
     below = -min(min(case["error_in_order"]) for case in cases)
@@ -168,9 +156,7 @@ def main():
     text = table(result)
     print(text)
     if arguments.output:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        (arguments.output / "reduction_accuracy.json").write_text(json.dumps(result, indent=1))
-        (arguments.output / "reduction_accuracy.md").write_text(text)
+        run.publish(arguments.output, "reduction_accuracy", result, text)
         draw(result, arguments.output / "reduction_accuracy.png")
     good = [case["judgement"]["holds"] and case["judgement"]["bounds_hold"] and
             case["judgement"]["measurable"] > 0 for case in result["cases"]]

@@ -172,9 +172,7 @@ def main():
         runs = [measure(pathlib.Path(name), arguments, modes) for modes in arguments.modes]
     result = {"machine": run.machine(), "ccx": version.splitlines()[-1] if version else "ccx",
               "runs": runs}
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    (arguments.output / "reduction_calculix.json").write_text(json.dumps(result, indent=1))
-    (arguments.output / "reduction_calculix.md").write_text(table(result))
+    run.publish(arguments.output, "reduction_calculix", result, table(result))
     print(table(result))
 
 

@@ -159,9 +159,7 @@ def main():
         for modes in arguments.modes:
             cases.append(measure(folder, arguments, modes))
     result = {"machine": run.machine(), "slaves": K.shape[0], "cases": cases}
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    (arguments.output / "reduction_many_modes.json").write_text(json.dumps(result, indent=1))
-    (arguments.output / "reduction_many_modes.md").write_text(table(result))
+    run.publish(arguments.output, "reduction_many_modes", result, table(result))
     print(table(result))
 
 

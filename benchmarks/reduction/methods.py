@@ -11,12 +11,10 @@ and MacNeal those of the free body. Writes OUTPUT/reduction_methods.json, .md an
 - a free frequency that went into Rubin's basis does not come out.
 """
 import argparse
-import json
 import pathlib
 import sys
 import tempfile
 
-import accuracy
 import numpy as np
 
 import run
@@ -41,7 +39,7 @@ def system(folder, scene, programs):
     """K_r, M_r and the sets of the master DOFs."""
     import h5py
     (folder / "scene.toml").write_text(scene)
-    accuracy.chladni(programs, "reduce", folder / "scene.toml", folder)
+    run.summary(programs / "chladni", "reduce", folder / "scene.toml", folder)
     with h5py.File(next(folder.glob("*.reduced.h5"))) as file:
         sets = {name: file["attachment/sets/" + name][()] for name in file["attachment/set_names"].asstr()}
         return file["matrices/stiffness"][()], file["matrices/mass"][()], file["masters/node"][()], sets
@@ -65,7 +63,7 @@ def fe_frequencies(scene, held, count, programs):
     with tempfile.TemporaryDirectory() as name:
         path = pathlib.Path(name) / "scene.toml"
         path.write_text(scene + support + f"[modes]\ncount = {count}\n")
-        return np.array(accuracy.chladni(programs, "modes", path, pathlib.Path(name))["frequencies_Hz"])
+        return np.array(run.summary(programs / "chladni", "modes", path, pathlib.Path(name))["frequencies_Hz"])
 
 
 def compare(name, model, programs):
@@ -155,9 +153,7 @@ def main():
     text = table(cases)
     print(text)
     if arguments.output:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        (arguments.output / "reduction_methods.json").write_text(json.dumps({"cases": cases}, indent=1))
-        (arguments.output / "reduction_methods.md").write_text(text)
+        run.publish(arguments.output, "reduction_methods", {"cases": cases}, text)
         draw(cases, arguments.output / "reduction_methods.png")
     # The eigen-solvers of the mesh and of the small matrices leave this much of a frequency.
     sys.exit("\n".join(faults(cases, noise=1e-7)) or 0)

@@ -9,9 +9,7 @@ the largest growth rate against the disc with all DOFs. Beside it what a ring wo
 but by these harmonics: the same matrices, projected. Then the cost of 10 harmonics on larger meshes. Writes OUTPUT/ring_harmonics.json, .md and .png.
 """
 import argparse
-import json
 import pathlib
-import subprocess
 import tempfile
 
 import numpy as np
@@ -35,13 +33,7 @@ PHASES = ("assembly", "factorization", "fixed-interface modes", "constraint mode
 
 
 def program(arguments, name, command, folder):
-    summary = folder / f"{name}_{command}.json"
-    done = subprocess.run([str(arguments.programs / name), command, str(folder / "scene.toml"),
-                           "--output", str(folder), "--json", str(summary)], env=run.ENVIRONMENT,
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SystemExit(f"{name} {command}: {done.stderr}")
-    return json.loads(summary.read_text())
+    return run.summary(arguments.programs / name, command, folder / "scene.toml", folder)
 
 
 def read(folder):
@@ -215,9 +207,7 @@ def main():
     text = table(result)
     print(text)
     if arguments.output:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        (arguments.output / "ring_harmonics.json").write_text(json.dumps(result, indent=1))
-        (arguments.output / "ring_harmonics.md").write_text(text)
+        run.publish(arguments.output, "ring_harmonics", result, text)
         draw(result, arguments.output / "ring_harmonics.png")
 
 

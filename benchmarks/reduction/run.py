@@ -1,4 +1,4 @@
-"""Runs chladni on the benchmark disc; shared by scale.py and peers.py."""
+"""Runs chladni on the benchmark disc, and writes what was found; shared by the scripts of this folder."""
 import json
 import os
 import pathlib
@@ -44,6 +44,23 @@ def reduce(folder, path, ranks=1, options=()):
             events[name] = {"count": int(count), "wall_s": float(seconds)}
     summary = json.loads((folder / "summary.json").read_text())
     return {**summary, "events": events}
+
+
+def summary(program, command, scene_file, folder):
+    """That of a run that must succeed."""
+    file = folder / f"{program.name}_{command}.json"
+    words = [str(word) for word in (program, command, scene_file, "--output", folder, "--json", file)]
+    done = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise SystemExit(f"{program.name} {command}: {done.stderr}")
+    return json.loads(file.read_text())
+
+
+def publish(output, name, result, text):
+    """Writes OUTPUT/NAME.json and .md."""
+    output.mkdir(parents=True, exist_ok=True)
+    (output / f"{name}.json").write_text(json.dumps(result, indent=1))
+    (output / f"{name}.md").write_text(text)
 
 
 def machine():

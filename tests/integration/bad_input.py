@@ -3,10 +3,11 @@
 Usage: bad_input.py PROGRAM_DIR
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from running import start
 
 GOOD = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
 
@@ -177,7 +178,7 @@ def passes(name, scene, command, code, words):
             (folder / "scene.toml").write_text(scene)
         for file, text in MESH_FILES.items():
             (folder / file).write_text(text)
-        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100)
+        run = start(*command, cwd=folder, timeout=100)
         bad = list(complaints(run, folder, code, words))
     print(f"{'FAILED' if bad else 'ok':8}{name}: {'; '.join(bad)}\n{run.stderr.rstrip()}\n")
     return not bad

@@ -3,14 +3,14 @@
 Usage: certificate.py PROGRAM_DIR
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import changed, run, summary
 
 SCENE = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
 
@@ -19,26 +19,21 @@ def certificate(programs, modes):
     """The group of the file, and what `chladni info` says of it."""
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "scene.toml"
-        assert SCENE.count("modes = 20\n") == 1
-        scene.write_text(SCENE.replace("modes = 20\n", f"modes = {modes}\nsylvester = true\n"))
-        subprocess.run([programs / "chladni", "reduce", scene, "--output", folder],
-                       check=True, stdout=subprocess.DEVNULL)  # fmt: skip
+        scene.write_text(changed(SCENE, ("modes = 20\n", f"modes = {modes}\nsylvester = true\n")))
+        run(programs / "chladni", "reduce", scene, "--output", folder)
         file = next(Path(folder).glob("*.reduced.h5"))
-        info = subprocess.run([programs / "chladni", "info", file],
-                              check=True, capture_output=True, text=True)  # fmt: skip
+        info = run(programs / "chladni", "info", file)
         with h5py.File(file) as reduced:
             group = reduced["certificate"]
             names = ("frequencies", "eta2", "bounds", "rigid_modes", "counts/up_to",
                      "counts/expected", "counts/found")  # fmt: skip
-            return {name: group[name][()] for name in names}, info.stdout
+            return {name: group[name][()] for name in names}, info
 
 
 def frequencies(programs, command, folder):
     """Elastic ones in Hz, of the body or of the FE model."""
-    summary = folder / f"{command}.json"
-    subprocess.run([programs / "chladni", command, folder / "scene.toml", "--output", folder, "--json", summary],
-                   check=True, stdout=subprocess.DEVNULL)  # fmt: skip
-    found = np.array(json.loads(summary.read_text())["frequencies_Hz"])
+    made = summary(programs / "chladni", command, folder / "scene.toml", "--output", folder)
+    found = np.array(made["frequencies_Hz"])
     return found[found > 0.0]
 
 
@@ -46,7 +41,7 @@ def held_directly(programs, fixed, support):
     """The modes of the body under a support are those of the FE model under it, within eta."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        text = SCENE.replace('fixed = ["hub"]', f"fixed = {fixed}").replace("modes = 20\n", "modes = 60\n")
+        text = changed(SCENE, ('fixed = ["hub"]', f"fixed = {fixed}"), ("modes = 20\n", "modes = 60\n"))
         (folder / "scene.toml").write_text(text + support + "[modes]\ncount = 20\n")
         body, full = frequencies(programs, "run", folder), frequencies(programs, "modes", folder)
         with h5py.File(next(folder.glob("*.body.h5"))) as file:
@@ -67,9 +62,8 @@ def partner_is_said(programs):
     """The fortieth mode of the held ring has a partner, which is kept too."""
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "scene.toml"
-        scene.write_text(SCENE.replace("modes = 20\n", "modes = 40\n"))
-        printed = subprocess.run([programs / "chladni", "reduce", scene, "--output", folder],
-                                 check=True, capture_output=True, text=True).stdout  # fmt: skip
+        scene.write_text(changed(SCENE, ("modes = 20\n", "modes = 40\n")))
+        printed = run(programs / "chladni", "reduce", scene, "--output", folder)
     return "41 (40 asked; 1 more of the same frequency)" in printed
 
 

@@ -1,9 +1,10 @@
 """What `chladni check` says of all files that a run has left."""
 
 import json
-import subprocess
 import tempfile
 from pathlib import Path
+
+from running import start
 
 
 def failed_checks(programs, folder):
@@ -14,8 +15,7 @@ def failed_checks(programs, folder):
     with tempfile.TemporaryDirectory() as name:
         table = Path(name) / "check.json"
         for file in files:
-            run = subprocess.run([programs / "chladni", "check", file, "--json", table],
-                                 capture_output=True, text=True, check=False)  # fmt: skip
+            run = start(programs / "chladni", "check", file, "--json", table)
             if not table.exists():
                 yield f"check of {file.name}: {run.stderr.strip()}"
                 continue

@@ -6,11 +6,11 @@ the frequency with three nodal diameters of thin annular plates, clamped inside,
 Usage: edge_row.py PROGRAM_DIR
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from running import summary
 
 # Outer radius over thickness -> Hz; annular Reissner-Mindlin plate, shear factor 5/6, with the
 # bending stiffness, the mass per area and the radii of the thesis disc: Fourier series in the angle.
@@ -52,15 +52,9 @@ modes = 14
 def error(programs, folder, ratio, text):
     """Relative, of the frequency next to the exact one; and the number of DOFs."""
     (folder / "scene.toml").write_text(text)
-    subprocess.run(
-        [programs / "chladni", "reduce", folder / "scene.toml", "--output", folder, "--json",
-         folder / "summary.json"],
-        check=True,
-        stdout=subprocess.DEVNULL,
-    )  # fmt: skip
-    summary = json.loads((folder / "summary.json").read_text())
-    ratios = [f / EXACT[ratio] - 1 for f in summary["frequencies_Hz"]]
-    return min(ratios, key=abs), summary["n_dofs"]
+    found = summary(programs / "chladni", "reduce", folder / "scene.toml", "--output", folder)
+    ratios = [f / EXACT[ratio] - 1 for f in found["frequencies_Hz"]]
+    return min(ratios, key=abs), found["n_dofs"]
 
 
 def main(programs):

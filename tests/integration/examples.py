@@ -1,9 +1,10 @@
 """The examples that no other test runs; and none of the folder is forgotten. Usage: examples.py PROGRAM_DIR"""
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from running import run
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 # Folder or file -> the test that runs it.
@@ -18,10 +19,8 @@ ELSEWHERE = {
 HERE = {"mechanisms", "oscillator", "rigid_disc"}
 
 
-def run(*command):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
-    if done.returncode:
-        sys.exit(f"FAILED: {command}\n{done.stdout}{done.stderr}")
+def works(*command):
+    run(*command)
     print(f"ok      {' '.join(str(word) for word in command[1:])}", flush=True)
 
 
@@ -35,8 +34,8 @@ def main(programs):
             sys.exit(f"FAILED: {test} does not run {name}")
     with tempfile.TemporaryDirectory() as folder:
         for name in ("oscillator", "rigid_disc"):
-            run(programs / "squeal", "run", EXAMPLES / name / "scene.toml", "--output", folder)
-        run(sys.executable, EXAMPLES / "mechanisms/compare.py", programs / "squeal", folder, folder)
+            works(programs / "squeal", "run", EXAMPLES / name / "scene.toml", "--output", folder)
+        works(sys.executable, EXAMPLES / "mechanisms/compare.py", programs / "squeal", folder, folder)
 
 
 if __name__ == "__main__":

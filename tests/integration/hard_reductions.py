@@ -14,6 +14,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from running import changed, start
+
 SCENE = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
 
 TWO_PLATES = """
@@ -26,13 +28,6 @@ Mesh.MeshSizeMax = 0.05;
 """
 
 
-def changed(text, *changes):
-    for old, new in changes:
-        assert text.count(old) == 1, f"{old!r} must stand once in the scene"
-        text = text.replace(old, new)
-    return text
-
-
 def two_plates():
     annulus = SCENE[SCENE.index('generator = "annulus"') : SCENE.index("[material.iron]")]
     return changed(SCENE, (annulus, 'file = "two.geo"\nelement_order = 2\n'),
@@ -43,9 +38,8 @@ class Programs:
     def __init__(self, programs, mpirun):
         self.chladni, self.mpirun = programs / "chladni", mpirun
 
-    def command(self, ranks, folder, options):
-        launcher = [self.mpirun, "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
-        return [*launcher, self.chladni, "reduce", folder / "scene.toml", "--output", folder / "out",
+    def command(self, folder, options=()):
+        return [self.chladni, "reduce", folder / "scene.toml", "--output", folder / "out",
                 "--json", folder / "summary.json", "--", *options]  # fmt: skip
 
     def run(self, scene, ranks=1, options=(), folder=None):
@@ -54,8 +48,7 @@ class Programs:
             folder = Path(folder or name)
             (folder / "scene.toml").write_text(scene)
             (folder / "two.geo").write_text(TWO_PLATES)
-            run = subprocess.run(self.command(ranks, folder, options), capture_output=True, text=True,
-                                 timeout=100, cwd=folder)  # fmt: skip
+            run = start(*self.command(folder, options), mpirun=self.mpirun, ranks=ranks, cwd=folder, timeout=100)
             if run.returncode != 0:
                 return run, None, None
             with h5py.File(next((folder / "out").glob("*.reduced.h5"))) as file:
@@ -143,7 +136,7 @@ def interruption(programs):
         folder = Path(folder)
         (folder / "scene.toml").write_text(SCENE)
         for after_s in (0.05, 0.3, 0.6, 1.0):
-            process = subprocess.Popen(programs.command(1, folder, ()), stdout=subprocess.DEVNULL,
+            process = subprocess.Popen(programs.command(folder), stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)  # fmt: skip
             time.sleep(after_s)
             process.send_signal(signal.SIGKILL)

@@ -1,12 +1,13 @@
 """Each command explains itself with an example. Usage: help.py PROGRAM..."""
 
 import re
-import subprocess
 import sys
+
+from running import start
 
 
 def help_of(*command):
-    done = subprocess.run([*command, "--help"], capture_output=True, text=True)
+    done = start(*command, "--help")
     if done.returncode or "Example" not in done.stdout:
         sys.exit(f"FAILED: {' '.join(command)} --help ends with {done.returncode}, without an example:\n{done.stdout}")
     return done.stdout

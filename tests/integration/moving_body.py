@@ -5,13 +5,14 @@ Usage: moving_body.py PROGRAM_DIR SOURCE_DIR
 """
 
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import run
 
 failures = []
 
@@ -22,13 +23,6 @@ def expect(claim, value, limit):
     print(f"{'ok    ' if good else 'FAILED'} {claim}: {value:.3g} (limit {limit:g})")
     if not good:
         failures.append(claim)
-
-
-def run(*command, code=0):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-    if done.returncode != code:
-        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout + done.stderr
 
 
 def make(programs, folder, text):

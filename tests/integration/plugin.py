@@ -15,6 +15,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import start
 from checked import failed_checks
 
 SOURCE = Path(__file__).parents[2]
@@ -32,15 +34,8 @@ class Plugin:
 
     def run(self, command, ranks=1, options="", code=0, folder=None):
         """Output and errors of a run; words in `options` go the way of PETSC_OPTIONS."""
-        launcher = [self.mpirun, "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
-        run = subprocess.run(
-            [*launcher, *map(str, command)],
-            capture_output=True,
-            text=True,
-            timeout=100,
-            cwd=folder,
-            env={**os.environ, "PETSC_OPTIONS": options},
-        )
+        environment = {**os.environ, "PETSC_OPTIONS": options}
+        run = start(*command, mpirun=self.mpirun, ranks=ranks, cwd=folder, env=environment, timeout=100)
         if (run.returncode == 0) != (code == 0):
             sys.exit(f"FAILED: {command} ended with {run.returncode}\n{run.stdout}\n{run.stderr}")
         return run.stdout + run.stderr

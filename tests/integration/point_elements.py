@@ -3,14 +3,14 @@
 Usage: point_elements.py PROGRAM_DIR MPIRUN
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import run, summary
 
 N = 30  # elements
 MASS, INERTIA, ARM = 0.4, 0.02, 0.1  # at the tip; the arm along the beam
@@ -96,10 +96,7 @@ def own_frequencies():
 def body(programs, mpirun, ranks, folder):
     """Frequencies, damping matrix and the modes' displacement of the middle."""
     (folder / "scene.toml").write_text(SCENE)
-    command = [programs / "chladni", "run", folder / "scene.toml", "--output", folder]
-    if ranks > 1:
-        command = [mpirun, "--oversubscribe", "-n", str(ranks), *command]
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    run(programs / "chladni", "run", folder / "scene.toml", "--output", folder, mpirun=mpirun, ranks=ranks)
     with h5py.File(folder / "beam.body.h5") as f:
         x, u = f["picture/positions"][:, 0], f["picture/displacements"][2::3]
         return f["modes/frequencies"][:], f["modes/damping"][:], u[np.abs(x - 0.5).argmin()]
@@ -110,12 +107,8 @@ def direct(programs, mpirun, ranks, folder):
     held = '[[support]]\ngroup = "start"\ntype = "clamped"\n[modes]\ncount = 5\n'
     load = '[[load]]\ntype = "force"\ngroup = "end"\nforce = [0.0, 0.0, 1.0]\n[static]\nreport = ["end"]\n'
     (folder / "scene.toml").write_text(SCENE[: SCENE.index("[interface]")] + held + load)
-    found = {}
-    for command in ("modes", "static"):
-        call = [mpirun, "--oversubscribe", "-n", str(ranks), programs / "chladni", command, "scene.toml",
-                "--json", f"{command}.json"]  # fmt: skip
-        subprocess.run(call, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        found[command] = json.loads((folder / f"{command}.json").read_text())
+    found = {command: summary(programs / "chladni", command, "scene.toml", cwd=folder, mpirun=mpirun, ranks=ranks)
+             for command in ("modes", "static")}  # fmt: skip
     omega = 2 * np.pi * np.array(found["modes"]["frequencies_Hz"])
     return omega, found["static"]["motions"]["end"][0]["motion"][2]
 

@@ -3,13 +3,14 @@
 Usage: rank_independence.py PROGRAM_DIR MPIRUN
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import run
 
 SCENE = Path(__file__).parents[1] / "data/coarse_disc.toml"
 # K and M are equal to the last bit; factorisations and reductions add in another order, which
@@ -19,12 +20,7 @@ TOLERANCE = 1e-9
 
 def frequencies(programs, mpirun, ranks):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(
-            [mpirun, "--oversubscribe", "-n", str(ranks), programs / "chladni", "run", SCENE,
-             "--output", folder],
-            check=True,
-            stdout=subprocess.DEVNULL,
-        )  # fmt: skip
+        run(programs / "chladni", "run", SCENE, "--output", folder, mpirun=mpirun, ranks=ranks)
         with h5py.File(next(Path(folder).glob("*.body.h5"))) as body:
             return body["modes/frequencies"][:]
 

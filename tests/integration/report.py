@@ -5,10 +5,11 @@ Usage: report.py PROGRAM_DIR [CHROMIUM [SCREENSHOT]]
 
 import json
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from running import start
 
 ROOT = Path(__file__).parents[2]
 SQUEAL = """
@@ -54,7 +55,7 @@ def require(condition, what):
 
 
 def run(program, *arguments, code=0):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    done = start(program, *arguments)
     require(done.returncode == code, f"{program.name} {arguments[0]} ends with {code}: {done.stderr.strip()}")
     return done
 
@@ -113,7 +114,7 @@ def browse(chromium, page, *more):
                "--disable-background-networking", "--disable-component-update", "--disable-sync",
                "--enable-logging=stderr", "--virtual-time-budget=3000", "--window-size=1280,3000",
                f"--user-data-dir={profile}", *more, page.as_uri()]  # fmt: skip
-    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+    return start(*command, timeout=120)
 
 
 def draw(chromium, page, needed):

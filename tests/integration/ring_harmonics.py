@@ -3,14 +3,14 @@
 Usage: ring_harmonics.py PROGRAM_DIR MPIRUN
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import changed, run, start, summary
 
 from checked import failed_checks
 
@@ -31,11 +31,7 @@ CLAMPED = '[[support]]\ngroup = "hub"\ntype = "clamped"\n[modes]\ncount = 30\n'
 
 
 def with_rings(harmonics, *changes):
-    text = SCENE.replace(NODES, NODES + f"rings = {harmonics}\n")
-    for old, new in changes:
-        assert text.count(old) == 1, f"{old!r} must stand once in the scene"
-        text = text.replace(old, new)
-    return text
+    return changed(SCENE, (NODES, NODES + f"rings = {harmonics}\n"), *changes)
 
 
 def track(n):
@@ -50,17 +46,14 @@ class Case:
         self.folder = tempfile.TemporaryDirectory()
         self.path = Path(self.folder.name)
         (self.path / "scene.toml").write_text(scene)
-        self.launcher = [mpirun, "--oversubscribe", "-n", "2"] if mpirun else []
+        self.mpirun = mpirun
 
-    def run(self, program, *command):
-        return subprocess.run([*(self.launcher if program == "chladni" else []), self.programs / program, *command,
-                               self.path / "scene.toml", "--output", self.path, "--json", self.path / "summary.json"],
-                              capture_output=True, text=True, check=False)  # fmt: skip
+    def command(self, program, *words):
+        return [self.programs / program, *words, self.path / "scene.toml", "--output", self.path]
 
-    def summary(self, program, *command):
-        done = self.run(program, *command)
-        assert done.returncode == 0, f"{command}: {done.stderr}"
-        return json.loads((self.path / "summary.json").read_text())
+    def summary(self, program, *words):
+        ranks = 2 if self.mpirun and program == "chladni" else 1
+        return summary(*self.command(program, *words), mpirun=self.mpirun, ranks=ranks)
 
     def read(self, kind, *names):
         with h5py.File(next(self.path.glob(f"*.{kind}.h5"))) as file:
@@ -94,8 +87,7 @@ def few_harmonics(programs):
     case = Case(programs, scene + CLAMPED)
     full = np.array(case.summary("chladni", "modes")["frequencies_Hz"])
     reduced = case.summary("chladni", "reduce")
-    info = subprocess.run([programs / "chladni", "info", next(case.path.glob("*.reduced.h5"))],
-                          capture_output=True, text=True, check=True).stdout  # fmt: skip
+    info = run(programs / "chladni", "info", next(case.path.glob("*.reduced.h5")))
     case.summary("chladni", "body")
     yield "masters: 7 harmonics and the hub", reduced["n_masters"] == 6 * 7 + 6
     yield "info names the harmonics", "harmonics of track up to" in info
@@ -186,7 +178,7 @@ def refusals(programs):
     )  # fmt: skip
     for scene, words in cases:
         case = Case(programs, scene)
-        done = case.run("chladni", "run")
+        done = start(*case.command("chladni", "run"))
         message = done.stderr.strip()
         print(message)
         good = done.returncode == 1 and all(word in message for word in words) and message.count("\n") < 3

@@ -3,8 +3,6 @@
 Usage: sound.py PROGRAM_DIR
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 import wave
@@ -12,6 +10,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+
+from running import start, summary
 
 DISC = (Path(__file__).parents[1] / "data/coarse_disc.toml").read_text()
 SQUEAL = """
@@ -43,16 +43,11 @@ class Case:
         self.scene.write_text(scene)
 
     def run(self, program, *arguments):
-        return subprocess.run(
-            [self.programs / program, *arguments, "--output", self.folder], capture_output=True, text=True
-        )
+        return start(self.programs / program, *arguments, "--output", self.folder)
 
     def works(self, program, command, *arguments):
         """The summary of a run that must succeed."""
-        file = self.folder / "summary.json"
-        run = self.run(program, command, self.scene, "--json", file, *arguments)
-        assert run.returncode == 0, run.stderr
-        return json.loads(file.read_text())
+        return summary(self.programs / program, command, self.scene, *arguments, "--output", self.folder)
 
     def fails(self, program, command, *words):
         run = self.run(program, command, self.scene)

@@ -4,14 +4,14 @@ Usage: static_and_modes.py PROGRAM_DIR MPIRUN
 """
 
 import base64
-import json
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
+
+from running import summary
 
 # A strip without Poisson's effect is a Timoshenko beam, whatever its width.
 LENGTH, WIDTH, THICKNESS, YOUNG, DENSITY = 2.0, 0.5, 0.1, 2e11, 8000.0
@@ -58,12 +58,7 @@ DISC_Hz = [542.5079495233] * 2 + [638.0761173813] + [794.519920463] * 2 + [1045.
 def run(program, mpirun, ranks, folder, scene, command):
     (folder / "scene.toml").write_text(scene)
     (folder / "strip.geo").write_text(STRIP_GEO)
-    subprocess.run(
-        [mpirun, "--oversubscribe", "-n", str(ranks), program / "chladni", command, "scene.toml",
-         "--json", "summary.json"],
-        cwd=folder, check=True, stdout=subprocess.DEVNULL,
-    )  # fmt: skip
-    return json.loads((folder / "summary.json").read_text())
+    return summary(program / "chladni", command, "scene.toml", cwd=folder, mpirun=mpirun, ranks=ranks)
 
 
 def arrays(file):

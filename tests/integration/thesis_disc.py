@@ -3,9 +3,7 @@
 Usage: thesis_disc.py PROGRAM_DIR
 """
 
-import json
 import shutil
-import subprocess
 import sys
 import tempfile
 from math import pi
@@ -17,15 +15,12 @@ EXAMPLE = Path(__file__).parents[2] / "examples/thesis_disc"
 sys.path.insert(0, str(EXAMPLE))
 import report  # noqa: E402  (beside the scene, not a package)
 from checked import failed_checks  # noqa: E402
+from running import run, summary  # noqa: E402
 
 
-def run(programs, folder):
+def make(programs, folder):
     for program in ("chladni", "squeal"):
-        subprocess.run(
-            [programs / program, "run", EXAMPLE / "scene.toml", "--output", folder,
-             "--json", folder / f"{program}.json"],
-            check=True,
-        )  # fmt: skip
+        run(programs / program, "run", EXAMPLE / "scene.toml", "--output", folder, "--json", folder / f"{program}.json")
 
 
 def critical_speed_without_coriolis(programs, folder):
@@ -37,14 +32,10 @@ def critical_speed_without_coriolis(programs, folder):
     shutil.copy(next(folder.glob("*.body.h5")), body)
     with h5py.File(body, "a") as file:
         del file["mass_integrals"]
-    subprocess.run([programs / "squeal", "seal", body], check=True)
+    run(programs / "squeal", "seal", body)
     (folder / "without").mkdir()
-    subprocess.run(
-        [programs / "squeal", "run", folder / "critical.toml", "--body", body,
-         "--output", folder / "without", "--json", folder / "without.json"],
-        check=True,
-    )  # fmt: skip
-    return json.loads((folder / "without.json").read_text())["critical_speed_rad_s"] / pi
+    found = summary(programs / "squeal", "run", folder / "critical.toml", "--body", body, "--output", folder / "without")
+    return found["critical_speed_rad_s"] / pi
 
 
 def compare_mechanisms(programs, folder):
@@ -53,14 +44,14 @@ def compare_mechanisms(programs, folder):
     body = next(folder.glob("*.body.h5"))
     out = folder / "mechanisms"
     out.mkdir()
-    subprocess.run([sys.executable, script, programs / "squeal", body, out, out], check=True)
+    run(sys.executable, script, programs / "squeal", body, out, out)
     return (out / "mechanisms_on_the_disc.json").exists()
 
 
 def main(programs):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        run(programs, folder)
+        make(programs, folder)
         rows = report.figures(*report.read(folder))
         ratio = report.rigid_body_ratio(folder)
         unsound = list(failed_checks(programs, folder))

@@ -6,6 +6,7 @@
 #include "expect_equal.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/reduced_file.hpp"
+#include "scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -26,6 +27,15 @@ TEST(Version1, OfABodyIsReadBitByBit)
   const ModalBody b = read_body(CHLADNI_SOURCE_DIR "/tests/data/version_1.body.h5");
   ASSERT_EQ(b.attachment_nodes.size(), 3u);
   expect_equal(a, b);
+}
+
+TEST(Version1, IsWhatIsStillWritten)
+{
+  const test::ScratchFolder folder;
+  write_reduced(folder.file("a.reduced.h5"), test::version_1_reduced());
+  expect_equal(read_reduced(folder.file("a.reduced.h5")), test::version_1_reduced());
+  write_body(folder.file("a.body.h5"), test::version_1_body());
+  expect_equal(read_body(folder.file("a.body.h5")), test::version_1_body());
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// Each sweep on several threads, small enough for the thread sanitizer without optimisation.
+#include <gtest/gtest.h>
+
+#include "analytic_body.hpp"
+#include "squeal/inertial_frame.hpp"
+#include "squeal/parallel.hpp"
+#include "squeal/rotation_stability.hpp"
+#include "squeal/stability_map.hpp"
+#include "squeal/transient.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+Disc reference_disc()
+{
+  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
+}
+
+TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
+{
+  SquealOptions options = reference_options();
+  options.speeds.count = 7;
+  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  const InertialDisc disc = inertial_disc(reference_disc());
+  const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
+  EXPECT_EQ(one.growth, three.growth);
+  EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
+}
+
+// A rotation at 8000 1/min takes 7 ms, a hundredth of what it takes where a brake squeals.
+TEST(SweepOnThreads, OfTheRotationIsThatOnOne)
+{
+  SquealOptions options = reference_options();
+  options.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
+  const RotationStability one = rotation_stability(reference_disc(), options, 1);
+  const RotationStability three = rotation_stability(reference_disc(), options, 3);
+  EXPECT_EQ(one.growth, three.growth);
+  EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
+}
+
+TEST(SweepOnThreads, OfTransientsIsThatOnOne)
+{
+  const Disc disc = reference_disc();
+  const SquealOptions options = reference_options(ContactLaw::unilateral);
+  const std::vector<double> speeds{4.0 * pi, 5.0 * pi, 6.0 * pi};
+  const auto rates = [&](unsigned n_threads) {
+    std::vector<double> found(speeds.size());
+    const auto put = [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      found[at] = growth(disc, options, speeds[at], 0.05).rate;
+    };
+    for_each_index(3, put, n_threads);
+    return found;
+  };
+  EXPECT_EQ(rates(1), rates(3));
+}
+
+}  // namespace
+}  // namespace chladni::squeal
