@@ -61,6 +61,7 @@ def main(output):
             print(f"{seconds:8.1f} s  {code}  {command}", flush=True)
             if code:
                 break
+    report[4:4] = [""]
     report.insert(len(report) if code else 4, f"All commands ended well, after {total / 60:.0f} minutes in all." if not code
                   else f"The last command failed with exit code {code}.")  # fmt: skip
     Path(output).write_text("\n".join(report).rstrip() + "\n")
