@@ -143,6 +143,7 @@ def draw(result, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
     figure, axes = plt.subplots(1, len(result["studies"]), figsize=(4.4 * len(result["studies"]), 4.0),
                                 layout="constrained", squeeze=False)
     for axis, study_ in zip(axes[0], result["studies"]):
@@ -158,6 +159,11 @@ def draw(result, path):
             axis.plot(c["cpu_s"], c["tolerance"], "_", color="#b2182b", markersize=10)
         axis.set_title(f"{study_['case']}, to {study_['up_to_Hz']:g} Hz", fontsize=10)
         axis.set_xlabel("CPU time of the whole program, s")
+        costs = [c["cpu_s"] for c in hand + chosen]
+        axis.set_xlim(0.7 * min(costs), max(1.4 * max(costs), 3.0 * min(costs)))  # noise stays small
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="both", alpha=0.25)
     axes[0][0].set_ylabel("relative error of the frequencies")
     axes[0][-1].legend(fontsize=8)
