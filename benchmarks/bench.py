@@ -146,8 +146,13 @@ def commit():
 def run_one(name, title, work, stem, out, quick):
     print(f"== {title}", flush=True)
     start, load = time.time(), os.getloadavg()[0]
+    written = [out / f"{stem}.md", out / f"{stem}.json"]
+    before = {path: path.stat().st_mtime_ns for path in written if path.exists()}
     try:
         work(out, quick)
+        for path in written:  # a result of another run is none of this one
+            if not path.exists() or path.stat().st_mtime_ns == before.get(path):
+                raise RuntimeError(f"{path} was not written")
     except RuntimeError as error:
         print(f"bench.py: {name}: {error}", file=sys.stderr)
         return {"title": title, "failed": str(error)}

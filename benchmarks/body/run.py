@@ -9,6 +9,7 @@
 Usage: run.py [--quick] OUTPUT     with the programs in build/release/bin; --quick leaves the largest sizes out
 """
 
+import argparse
 import json
 import os
 import platform
@@ -201,4 +202,8 @@ def main(quick, output):
 
 
 if __name__ == "__main__":
-    main("--quick" in sys.argv[1:], Path(sys.argv[-1]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("output", type=Path)
+    arguments = parser.parse_args()
+    main(arguments.quick, arguments.output)
