@@ -11,7 +11,7 @@
 namespace chladni::mbs_export {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using Eigen::Index, Eigen::MatrixXd;
 
 /// Where a held displacement is a combination of coordinates.
 HeldModeShapes by_mode_shift(const ReducedSystem& reduced, const HeldDofs& held)
