@@ -1,8 +1,9 @@
 #include "mbs_export/check_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "common/error.hpp"
 #include "mbs_export/check_body.hpp"
 #include "mbs_export/check_parts.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "mbs_export/rigid_body.hpp"
@@ -46,7 +45,7 @@ double indefiniteness(const VectorXd& relative)
 double stiffness_of_massless(const ReducedSystem& reduced)
 {
   const MatrixXd M = mass_in_kg(reduced), K = check_parts::unit_diagonal(reduced.K);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(0.5 * (M + M.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(MatrixXd(0.5 * (M + M.transpose())));
   const Index n = (mass.eigenvalues().array() <= massless * mass.eigenvalues().maxCoeff()).count();
   if (n == 0) return 1.0;
   const MatrixXd Z = mass.eigenvectors().leftCols(n);
@@ -86,10 +85,10 @@ std::optional<MatrixXd> rigid_basis(const ReducedSystem& reduced)
 {
   MatrixXd R = rigid_body_vectors(reduced, centre_of_nodes(reduced));
   R.rightCols(3) /= check_parts::characteristic_length(reduced.attachment_nodes);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(R.transpose() * R);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(MatrixXd(R.transpose() * R));
   const Index rank = (gram.eigenvalues().array() > 1e-12 * gram.eigenvalues().maxCoeff()).count();
   const MatrixXd basis = R * gram.eigenvectors().rightCols(rank);
-  const Eigen::LLT<MatrixXd> mass(basis.transpose() * reduced.M * basis);
+  const Eigen::LLT<MatrixXd> mass(MatrixXd(basis.transpose() * reduced.M * basis));
   if (mass.info() != Eigen::Success) return std::nullopt;
   return MatrixXd(mass.matrixL().solve(basis.transpose()).transpose());
 }
@@ -188,7 +187,8 @@ void add_rigid_motions(std::vector<Check>& checks, const ReducedSystem& reduced)
     return;
   }
   const MatrixXd energy = B->transpose() * reduced.K * *B;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (energy + energy.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+      MatrixXd(0.5 * (energy + energy.transpose())));
   const Eigen::ArrayXd ratio = solver.eigenvalues().array().abs() / first_elastic(reduced, *B);
   const Index n_held = (ratio > held_motion).count();
   checks.push_back(bounded("rigid-body energy", (ratio > held_motion).select(0.0, ratio).maxCoeff(),

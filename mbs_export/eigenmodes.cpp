@@ -1,11 +1,10 @@
 #include "mbs_export/eigenmodes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -38,7 +37,7 @@ Eigen::LLT<MatrixXd> factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd
 {
   const MatrixXd MR = M * R;
   const MatrixXd K_d = without_zero_energy(K, MR, R);
-  Eigen::LLT<MatrixXd> B(K_d + deflation_shift(K_d, M) * MR * MR.transpose());
+  Eigen::LLT<MatrixXd> B(MatrixXd(K_d + deflation_shift(K_d, M) * MR * MR.transpose()));
   if (B.info() != Eigen::Success)
     throw Error(
         "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
@@ -56,8 +55,10 @@ MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
   MatrixXd A = lower.solve(half.transpose());
   if (R.cols() > 0) {
     const MatrixXd LtR = L.transpose() * R;
-    const MatrixXd Y_r =
-        Eigen::LLT<MatrixXd>(LtR.transpose() * LtR).matrixL().solve(LtR.transpose()).transpose();
+    const MatrixXd Y_r = Eigen::LLT<MatrixXd>(MatrixXd(LtR.transpose() * LtR))
+                             .matrixL()
+                             .solve(LtR.transpose())
+                             .transpose();
     A -= Y_r * (Y_r.transpose() * A);
     A -= (A * Y_r) * Y_r.transpose();
   }
@@ -69,7 +70,7 @@ MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
 MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R)
 {
   const MatrixXd X_0 = X - R * (R.transpose() * M * X);
-  const Eigen::LLT<MatrixXd> MX(X_0.transpose() * M * X_0);
+  const Eigen::LLT<MatrixXd> MX(MatrixXd(X_0.transpose() * M * X_0));
   return MX.matrixL().solve(X_0.transpose()).transpose();
 }
 

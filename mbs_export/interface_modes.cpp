@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -48,8 +46,8 @@ InterfaceBasis interface_basis(const VectorXd& omega_n, const MatrixXd& response
   Eigen::ColPivHouseholderQR<MatrixXd> qr(P);
   qr.setThreshold(1e-8);
   const MatrixXd V = qr.householderQ() * MatrixXd::Identity(P.rows(), qr.rank());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(V.transpose() *
-                                                       omega_n.cwiseAbs2().asDiagonal() * V);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+      MatrixXd(V.transpose() * omega_n.cwiseAbs2().asDiagonal() * V));
   return {V * solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(),
           static_cast<int>(P.cols() - qr.rank())};
 }

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 namespace {

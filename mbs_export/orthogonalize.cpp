@@ -1,11 +1,9 @@
 #include "mbs_export/orthogonalize.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/rigid_body.hpp"
 
@@ -29,7 +27,7 @@ MatrixXd rigid_basis(const ReducedSystem& reduced)
   qr.setThreshold(1e-10);
   if (qr.rank() == 0) return MatrixXd(R.rows(), 0);
   const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
-  const Eigen::LLT<MatrixXd> MR(basis.transpose() * reduced.M * basis);
+  const Eigen::LLT<MatrixXd> MR(MatrixXd(basis.transpose() * reduced.M * basis));
   if (MR.info() != Eigen::Success)
     throw Error(
         "orthogonalize: the mass matrix gives a rigid-body motion no mass; has every material "
@@ -53,7 +51,8 @@ double energy_of_round_off(const ReducedSystem& reduced)
 RigidModes unresisted(const ReducedSystem& reduced, const MatrixXd& basis)
 {
   if (basis.cols() == 0) return {basis, 0.0};
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> energies(basis.transpose() * reduced.K * basis);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> energies(
+      MatrixXd(basis.transpose() * reduced.K * basis));
   const auto free = energies.eigenvalues().array().abs() <= energy_of_round_off(reduced);
   const Index n_rigid = free.count();
   // Ascending: what is free comes first, up to negative round-off.

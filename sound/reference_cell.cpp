@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -1,8 +1,9 @@
 #include "squeal/branch_arc.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <memory>
+
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

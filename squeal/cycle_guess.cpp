@@ -1,10 +1,10 @@
 #include "squeal/cycle_guess.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {
@@ -49,7 +49,7 @@ UnstableMotion unstable_motion(AutonomousMotion& motion, const Eigen::MatrixXd& 
                                double compression)
 {
   const EigenPair right = least_stable_pair(A);
-  const Eigen::EigenSolver<Eigen::MatrixXd> left(A.transpose());
+  const Eigen::EigenSolver<Eigen::MatrixXd> left(Eigen::MatrixXd(A.transpose()));
   Eigen::Index i = 0;
   (left.eigenvalues().array() - right.lambda).abs().minCoeff(&i);
   UnstableMotion result{right.lambda, Eigen::VectorXcd::Zero(motion.size()),

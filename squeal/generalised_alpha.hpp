@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/LU>
-
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/integrator.hpp"
 
 namespace chladni::squeal {

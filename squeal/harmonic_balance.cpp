@@ -1,10 +1,11 @@
 #include "squeal/harmonic_balance.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,12 +1,12 @@
 #include "squeal/mode_sensitivity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
 

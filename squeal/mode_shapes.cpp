@@ -1,8 +1,8 @@
 #include "squeal/mode_shapes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <complex>
 
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/stability.hpp"

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/derivative.hpp"
 #include "squeal/pads.hpp"
 

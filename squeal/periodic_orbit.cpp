@@ -1,7 +1,5 @@
 #include "squeal/periodic_orbit.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/dormand_prince.hpp"
 
 namespace chladni::squeal {

@@ -1,9 +1,9 @@
 #include "squeal/rotation_stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/oscillator_flow.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/parallel.hpp"

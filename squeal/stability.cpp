@@ -1,6 +1,5 @@
 #include "squeal/stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/hopf.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/root.hpp"

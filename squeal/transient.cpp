@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"
@@ -50,8 +50,8 @@ FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, do
   if (kick.pads().n_modes() == 0) return range;
   const Eigen::MatrixXd K =
       brake.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (K + K.transpose()),
-                                                             Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      Eigen::MatrixXd(0.5 * (K + K.transpose())), Eigen::EigenvaluesOnly);
   range.highest = std::max(range.highest, std::sqrt(modes.eigenvalues().maxCoeff()));
   return range;
 }

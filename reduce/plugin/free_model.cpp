@@ -1,10 +1,9 @@
 #include "reduce/plugin/free_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numbers>
 
+#include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/eigenmodes.hpp"
 #include "reduce/plugin/check_operators.hpp"
 
@@ -31,7 +30,8 @@ MatrixXd zero_energy_motions(const MatrixXd& K, const MatrixXd& M)
 {
   const VectorXd scale =
       (K.diagonal().array() > 0.0).select(K.diagonal().array().rsqrt(), 1.0).matrix();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * K * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+      MatrixXd(scale.asDiagonal() * K * scale.asDiagonal()));
   const VectorXd& energy = solver.eigenvalues();
   const double largest = energy[energy.size() - 1];
   if (energy[0] < -indefinite * largest) {
@@ -43,7 +43,7 @@ MatrixXd zero_energy_motions(const MatrixXd& K, const MatrixXd& M)
   const Index r = (energy.array() <= zero_energy * largest).count();
   if (r == 0) return MatrixXd(K.rows(), 0);
   const MatrixXd Z = scale.asDiagonal() * solver.eigenvectors().leftCols(r);
-  const Eigen::LLT<MatrixXd> mass(Z.transpose() * M * Z);
+  const Eigen::LLT<MatrixXd> mass(MatrixXd(Z.transpose() * M * Z));
   if (mass.info() != Eigen::Success) {
     throw Error("CMSSolve: a motion has neither stiffness nor mass; the pencil (K, M) is singular");
   }

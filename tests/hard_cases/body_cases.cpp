@@ -1,9 +1,9 @@
 // Mode shifting, mode selection and interface modes where they are badly conditioned.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "hard_case.hpp"
 #include "mbs_export/constrained_modes.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/interface_modes.hpp"
 #include "mbs_export/make_body.hpp"

@@ -1,9 +1,9 @@
 // Thin, warped, skew and distorted shells, on grids that are coarse for them.
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "hard_case.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "plate/shell_element.hpp"
 #include "tests/plate/obstacle_course.hpp"
 #include "tests/plate/sample_elements.hpp"

@@ -1,8 +1,8 @@
 #include "bending_beam.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "mbs_export/dense_solvers.hpp"
 
 namespace chladni::mbs_export::test {
 namespace {

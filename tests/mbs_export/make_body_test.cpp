@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <numeric>
 
 #include "bending_beam.hpp"
 #include "mbs_export/body_file.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "scratch_folder.hpp"
 #include "wheel.hpp"
 
@@ -67,7 +67,7 @@ TEST(MakeBody, WithAllModesReproducesTheReducedStaticResponse)
   const ModalBody body = make_body(wheel, options);
   const Index n = 6 * test::wheel_rim_nodes;
   const MatrixXd flexibility =
-      Eigen::LLT<MatrixXd>(wheel.K.topLeftCorner(n, n)).solve(MatrixXd::Identity(n, n));
+      Eigen::LLT<MatrixXd>(MatrixXd(wheel.K.topLeftCorner(n, n))).solve(MatrixXd::Identity(n, n));
   const MatrixXd modal = body.attachment_modes.topRows(n) *
                          body.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
                          body.attachment_modes.topRows(n).transpose();

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "chain.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
 
 namespace chladni::reduce {

@@ -1,12 +1,12 @@
 // Structures on which a reduction may go wrong in silence.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "chain.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
 
 namespace chladni::reduce {
