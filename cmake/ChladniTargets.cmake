@@ -26,7 +26,7 @@ function(chladni_test name)
   add_executable(${name} ${ARG_SOURCES})
   chladni_warnings(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
-  target_compile_options(${name} PRIVATE -O1)  # half the build time; the libraries do the work
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # half the build time; the libraries do the work
   target_compile_definitions(${name} PRIVATE CHLADNI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   if(NOT ARG_RANKS)

@@ -4,7 +4,8 @@ Usage: run.py PROGRAM_DIR SECONDS TABLE.md [READER...]
 
 Each reader gets so many seconds; what a reader may take is bounded by the files, which are small. Inputs
 that are worth keeping stay in PROGRAM_DIR/../corpus for the next time; what breaks a reader stops it and
-stands in PROGRAM_DIR. Put that into tests/fuzz/corpus, where the ordinary tests replay it.
+stands in PROGRAM_DIR. Put that into tests/fuzz/corpus, where the ordinary tests replay it: what takes a
+reader seconds into a folder slow_READER, which no fuzzer starts from, since its children are as slow.
 What leaks is libhdf5's own, a few hundred bytes for some damaged files.
 """
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "common/error.hpp"
 #include "expect_equal.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/check_body.hpp"
@@ -19,6 +18,7 @@ namespace chladni::mbs_export {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
+using test::error_of;
 
 constexpr Index n_rim = test::wheel_rim_nodes;
 
@@ -61,16 +61,6 @@ ReducedSystem harmonic_wheel(Index up_to)
   system.mass_integrals = in_coordinates(*system.mass_integrals, F);
   system.ring_motion = RingMotion{.shapes = F, .displacements = F};
   return system;
-}
-
-std::string error_of(const auto& work)
-{
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(RingMotion, OfAllHarmonicsIsTheWheel)

@@ -125,11 +125,11 @@ TEST(Exterior, RigidDiscHasTheImpedanceOfTheSpectralSolution)
 }
 
 /// Points (r, z), m, and pressures, Pa, of the squealing disc at unit velocity of the rim.
-struct Heard {
+struct PressureAt {
   double r, z, p;
 };
 
-Eigen::MatrixX3d positions(const std::vector<Heard>& heard)
+Eigen::MatrixX3d positions(const std::vector<PressureAt>& heard)
 {
   Eigen::MatrixX3d x(static_cast<Eigen::Index>(heard.size()), 3);
   for (Eigen::Index i = 0; i < x.rows(); ++i)
@@ -139,7 +139,7 @@ Eigen::MatrixX3d positions(const std::vector<Heard>& heard)
 
 TEST(Exterior, ThinSquealingDiscSoundsAsTheSpectralSolution)
 {
-  const std::vector<Heard> spectral = {
+  const std::vector<PressureAt> spectral = {
       {0.1, 0.05, 165.18316681632595}, {0.13, 0.03, 260.7557156384101},
       {0.2, 0.1, 103.63723483838731},  {0.3, 0.2, 59.45644160575291},
       {0.4, 0.3, 42.192066864217914},  {0.5, 0.5, 27.986477290737756},
@@ -181,7 +181,7 @@ Field ThickDisc::field_;
 TEST_F(ThickDisc, SoundsAsTheReference)
 {
   // Another program with Fourier elements of order 6, which gives four digits of the largest ones.
-  const std::vector<Heard> reference = {
+  const std::vector<PressureAt> reference = {
       {0.1, 0.05, 220.09544957135003}, {0.13, 0.03, 358.7292514048472},
       {0.2, 0.1, 144.5783985243838},   {0.3, 0.2, 82.96728350988188},
       {0.4, 0.3, 58.945364422226156},  {0.5, 0.5, 39.25217704805253},

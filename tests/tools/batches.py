@@ -1,16 +1,19 @@
 """Which sources can be read together, as one file that includes them.
 
+usage: batches.py SOURCE...    prints a line for each batch
+
 Headers of Eigen take most of the time of a reader, and a batch reads them once. Sources whose unnamed
 namespaces share a name cannot be in one batch.
 """
 import pathlib
 import re
+import sys
 
 MOST = 12
 HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)")
 ALIAS = re.compile(r"using (\w+) = (.*);")
-USING = re.compile(r"^using ([\w:]+::(\w+));", re.M)
+USING = re.compile(r"^using (\w+::[\w:, ]+);", re.M)
 CONSTANT = re.compile(r"(\w+)(?: = |\{|\[)")
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 
@@ -18,7 +21,7 @@ FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 def hidden_names(path):
     """{name: what it is} of what a file declares for itself; equal aliases may stand in two files."""
     whole = pathlib.Path(path).read_text(encoding="utf-8")
-    names = {name: what for what, name in USING.findall(whole)}
+    names = {what.split("::")[-1]: what for used in USING.findall(whole) for what in used.split(", ")}
     for text in HIDDEN.findall(whole):
         for line in text.splitlines():
             if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):
@@ -50,3 +53,8 @@ def batches(paths, key=lambda path: pathlib.Path(path).parent, most=MOST):
             made.append({"key": key(path), "paths": [path], "names": names})
     return [batch["paths"] for batch in made]
 
+
+
+if __name__ == "__main__":
+    for batch in batches(sys.argv[1:]):
+        print(*batch)
