@@ -1,12 +1,15 @@
-# Compiles the sources of each target several at a time, for builds that are made once and thrown
-# away: the headers of Eigen are read once for a dozen sources. tests/tools/batches.py finds out
-# which sources can stand together.
+# Compiles the sources of each target several at a time, for what is built once: the headers of
+# Eigen are read, and its templates filled in, once for a dozen sources. tests/tools/batches.py finds
+# out which sources can stand together. A batch names them relative to the project, so that compiler
+# caches know it again in other folders.
 
 function(chladni_batch target)
   get_target_property(folder ${target} SOURCE_DIR)
   get_target_property(sources ${target} SOURCES)
+  set(others ${sources})
+  list(FILTER others EXCLUDE REGEX "\\.cpp$")
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
-  if(NOT sources)
+  if(NOT sources OR sources MATCHES "^${PROJECT_BINARY_DIR}/batches/")  # which has been done
     return()
   endif()
   list(TRANSFORM sources PREPEND ${folder}/ REGEX "^[^/]")
@@ -14,14 +17,21 @@ function(chladni_batch target)
                   OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE
                   COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" batches "${batches}")
-  set(n 0)
+  set(files "")
   foreach(batch IN LISTS batches)
     string(REPLACE " " ";" batch "${batch}")
-    math(EXPR n "${n} + 1")
-    set_source_files_properties(${batch} TARGET_DIRECTORY ${target}
-                                PROPERTIES UNITY_GROUP ${target}_${n})
+    set(text "")
+    foreach(source IN LISTS batch)
+      cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+      string(APPEND text "#include \"${source}\"\n")
+    endforeach()
+    list(LENGTH files n)
+    set(file ${PROJECT_BINARY_DIR}/batches/${target}_${n}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY)
+    list(APPEND files ${file})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES SOURCES "${files};${others}")
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
 
 # Of a folder and those below it.

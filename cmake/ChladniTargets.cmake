@@ -10,8 +10,9 @@ function(chladni_library name)
 endfunction()
 
 function(chladni_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                                           -Wno-sign-conversion
+  # In a batch a source sees what others before it declare for themselves.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
+                                           $<IF:$<BOOL:${CHLADNI_BATCHES}>,-Wshadow=local,-Wshadow>
                                            # GCC 12 warns of these falsely inside Eigen.
                                            -Wno-maybe-uninitialized -Wno-free-nonheap-object)
   if(CHLADNI_WERROR)

@@ -26,14 +26,14 @@ GIVEN = [
 
 
 def flags(build):
-    """Definitions and include folders of the file that sees all of the FE side."""
+    """Definitions and include folders of the program that sees all of the FE side."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        if entry["file"].endswith("cli/reduce_scene.cpp"):
+        if "CMakeFiles/chladni.dir/" in entry["command"]:
             words = shlex.split(entry["command"])
             pairs = zip(words, words[1:])
             systems = [word for flag, path in pairs if flag == "-isystem" for word in (flag, path)]
             return systems + [word for word in words if re.match("-[ID]|-std", word)]
-    sys.exit("cli/reduce_scene.cpp is not in the compile database")
+    sys.exit("no source of chladni is in the compile database")
 
 
 def main(build):

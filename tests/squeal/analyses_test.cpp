@@ -64,8 +64,8 @@ TEST(CriticalValue, DividesStableFromUnstable)
     const CriticalValue found = critical_value(
         disc, options, {.parameter = parameter, .from = from, .to = to, .speed = speed});
     ASSERT_TRUE(found.value) << found.parameter;
-    const auto growth = [&](double value) {
-      return least_stable_eigenvalue(disc, with_parameter(options, parameter, value), speed).real();
+    const auto growth = [&, varied = parameter](double value) {
+      return least_stable_eigenvalue(disc, with_parameter(options, varied, value), speed).real();
     };
     EXPECT_LT(growth(*found.value * (1.0 - 1e-7)) * growth(*found.value * (1.0 + 1e-7)), 0.0);
     EXPECT_NEAR(growth(*found.value), 0.0, 1e-8);  // 1e-12 of omega

@@ -3,7 +3,7 @@
 usage: batches.py SOURCE...    prints a line for each batch
 
 Headers of Eigen take most of the time of a reader, and a batch reads them once. Sources whose unnamed
-namespaces share a name cannot be in one batch.
+namespaces share a name, or that open different namespaces, cannot be in one batch.
 """
 import pathlib
 import re
@@ -13,6 +13,7 @@ MOST = 12
 HIDDEN = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.S | re.M)
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)")
 ALIAS = re.compile(r"using (\w+) = (.*);")
+OPENED = re.compile(r"^using namespace ([\w:]+);", re.M)
 USING = re.compile(r"^using (\w+::[\w:, ]+);", re.M)
 CONSTANT = re.compile(r"(\w+)(?: = |\{|\[)")
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
@@ -22,6 +23,8 @@ def hidden_names(path):
     """{name: what it is} of what a file declares for itself; equal aliases may stand in two files."""
     whole = pathlib.Path(path).read_text(encoding="utf-8")
     names = {what.split("::")[-1]: what for used in USING.findall(whole) for what in used.split(", ")}
+    if OPENED.search(whole):
+        names["using namespace"] = " ".join(OPENED.findall(whole))
     for text in HIDDEN.findall(whole):
         for line in text.splitlines():
             if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):

@@ -5,9 +5,11 @@ usage: tidy.py BUILD_FOLDER SOURCE...
 
 Most of the time goes into the headers of Eigen and of the standard library, which a batch reads only
 once. What a batch complains of is asked again file by file, so that nothing is reported that is not
-there when a file is alone. A file has passed when its text, its headers and the rules are the same.
+there when a file is alone. A file has passed when its text, its headers, the rules and the tool are
+the same; all checkouts of a user share what has passed.
 """
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -20,6 +22,7 @@ import sys
 from batches import batches
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PASSED = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "chladni" / "lint"
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 
@@ -33,12 +36,18 @@ def headers_of(path, seen):
             headers_of((folder / name).resolve(), seen)
 
 
-def key_of(path):
+@functools.cache
+def tool():
+    return subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
+
+
+def mark_of(path):
+    """The file that stands for the state in which this one has passed."""
     seen = set()
     headers_of(path, seen)
     rules = [folder / ".clang-tidy" for folder in [ROOT, *path.parents] if (folder / ".clang-tidy").is_file()]
     text = b"".join(p.read_bytes() for p in [*sorted(seen), *rules, pathlib.Path(__file__)])
-    return hashlib.sha256(str(path.relative_to(ROOT)).encode() + text).hexdigest()[:32]
+    return PASSED / hashlib.sha256(str(path.relative_to(ROOT)).encode() + tool() + text).hexdigest()[:32]
 
 
 def flags_of(entry):
@@ -77,19 +86,20 @@ def tidy(paths, flags, folder):
         wrong = {path: complaints(path, flags[path]) for path in paths}
     for path in paths:
         if not wrong[path]:
-            (folder / key_of(path)).touch()
+            mark_of(path).touch()
     return "".join(wrong.values())
 
 
 def main():
     build = pathlib.Path(sys.argv[1])
-    folder = build.parent.resolve() / "lint"
+    folder = build.resolve() / "together"
     folder.mkdir(parents=True, exist_ok=True)
+    PASSED.mkdir(parents=True, exist_ok=True)
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     flags = {pathlib.Path(entry["file"]).resolve(): flags_of(entry) for entry in database}
     # What is not built here, for want of an optional library, cannot be read either.
     paths = [p for p in (pathlib.Path(name).resolve() for name in sys.argv[2:]) if p in flags]
-    paths = [p for p in paths if not (folder / key_of(p)).exists()]
+    paths = [p for p in paths if not mark_of(p).exists()]
     groups = batches(paths, lambda path: (path.parent, *flags[path]))
     wrong = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
