@@ -18,11 +18,6 @@ double seconds_of(const Work& work)
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-inline Disc disc_of(const std::vector<test::PlatePair>& pairs)
-{
-  return make_disc(test::analytic_body(pairs), "track", {});
-}
-
 /// A target and what was measured; a limit of 0 means that there is none.
 struct Target {
   std::string name, unit;

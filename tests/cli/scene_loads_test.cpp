@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "cli/scene/scene.hpp"
-#include "common/error.hpp"
+#include "tests/cli/scene_texts.hpp"
 
 namespace chladni::cli {
 namespace {
+
+using test::error_of;
+using test::replaced;
 
 const std::string plate = R"([mesh]
 generator = "annulus"
@@ -22,24 +25,6 @@ type = "shell"
 material = "iron"
 thickness = 0.02
 )";
-
-std::string replaced(const std::string& text, const std::string& old_part,
-                     const std::string& new_part)
-{
-  const std::size_t at = text.find(old_part);
-  EXPECT_NE(at, std::string::npos) << old_part;
-  return text.substr(0, at) + new_part + text.substr(at + old_part.size());
-}
-
-std::string error_of(const std::string& text)
-{
-  try {
-    parse_scene(text, "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(SceneOfLoads, NeedsNoReduction)
 {

@@ -3,10 +3,12 @@
 #include <numbers>
 
 #include "cli/scene/scene.hpp"
-#include "common/error.hpp"
+#include "tests/cli/scene_texts.hpp"
 
 namespace chladni::cli {
 namespace {
+
+using test::error_of;
 
 /// A scene with this [mesh] and a section for `group`.
 std::string scene_of(const std::string& mesh, const std::string& group)
@@ -29,14 +31,9 @@ mesh::MeshOptions options_of(const std::string& mesh, const std::string& group)
   return parse_scene(scene_of(mesh, group), "folder/scene.toml").mesh;
 }
 
-std::string error_of(const std::string& mesh, const std::string& group = "disc")
+std::string mesh_error(const std::string& mesh, const std::string& group = "disc")
 {
-  try {
-    parse_scene(scene_of(mesh, group), "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of(scene_of(mesh, group));
 }
 
 /// Lines 2 to 8.
@@ -109,27 +106,28 @@ TEST(SceneMesh, HoldsTheRectangle)
 
 TEST(SceneMeshError, NamesWhatAGeneratorDoesNotAdmit)
 {
-  EXPECT_EQ(error_of("generator = \"sphere\"\n"),
+  EXPECT_EQ(mesh_error("generator = \"sphere\"\n"),
             "scene.toml:2: mesh.generator = \"sphere\": must be one of \"annulus\", \"hat_disc\", "
             "\"pad\", \"rectangle\", \"beam\"");
-  EXPECT_EQ(error_of(hat + "inner_radius = 0.09\n"),
+  EXPECT_EQ(mesh_error(hat + "inner_radius = 0.09\n"),
             "scene.toml:9: mesh.inner_radius = 0.09: must be > 0 and <= 0.08 (m)");
-  EXPECT_EQ(error_of(hat + "foot = 0.05\n"),
+  EXPECT_EQ(mesh_error(hat + "foot = 0.05\n"),
             "scene.toml:9: mesh.foot = 0.05: must be >= 0 and < 0.05 (m)");
-  EXPECT_EQ(error_of(hat + "edge_row = 0.04\n"),
+  EXPECT_EQ(mesh_error(hat + "edge_row = 0.04\n"),
             "scene.toml:9: mesh.edge_row = 0.04: must be > 0 and < 0.04 (m, half of the width)");
-  EXPECT_EQ(error_of(hat + "pattern = \"spiral\"\n"),
+  EXPECT_EQ(mesh_error(hat + "pattern = \"spiral\"\n"),
             "scene.toml:9: mesh.pattern = \"spiral\": must be one of \"structured\", "
             "\"unstructured\", \"triangles\"");
-  EXPECT_EQ(error_of(hat + "pattern = \"structured\"\nbolts = { count = 5 }\n").substr(0, 24),
+  EXPECT_EQ(mesh_error(hat + "pattern = \"structured\"\nbolts = { count = 5 }\n").substr(0, 24),
             "scene.toml:10: mesh.bolt");
-  EXPECT_NE(error_of(hat, "plate").find("there are: \"disc\", \"wall\", \"flange\""),
+  EXPECT_NE(mesh_error(hat, "plate").find("there are: \"disc\", \"wall\", \"flange\""),
             std::string::npos);
-  EXPECT_NE(error_of("generator = \"rectangle\"\nlength = 0.3\nwidth = 0.2\nelement_size = 0.25\n")
-                .find("element_size = 0.25"),
-            std::string::npos);
-  EXPECT_NE(error_of("generator = \"pad\"\ninner_radius = 0.1\nouter_radius = 0.15\n"
-                     "angle_deg = 180.0\nelement_size = 0.01\n")
+  EXPECT_NE(
+      mesh_error("generator = \"rectangle\"\nlength = 0.3\nwidth = 0.2\nelement_size = 0.25\n")
+          .find("element_size = 0.25"),
+      std::string::npos);
+  EXPECT_NE(mesh_error("generator = \"pad\"\ninner_radius = 0.1\nouter_radius = 0.15\n"
+                       "angle_deg = 180.0\nelement_size = 0.01\n")
                 .find("angle_deg = 180"),
             std::string::npos);
 }
@@ -160,24 +158,24 @@ TEST(SceneMesh, HoldsWhatAFileNeeds)
 
 TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
 {
-  EXPECT_EQ(error_of("file = \"a.iges\"\n"),
+  EXPECT_EQ(mesh_error("file = \"a.iges\"\n"),
             "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo or .step file");
-  EXPECT_EQ(error_of("file = \"a.msh\"\nelement_order = 2\n"),
+  EXPECT_EQ(mesh_error("file = \"a.msh\"\nelement_order = 2\n"),
             "scene.toml:3: mesh.element_order = 2: a .msh file has its own order; take this key "
             "out");
-  EXPECT_EQ(error_of("file = \"a.geo\"\nelement_size = 0.1\n"),
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nelement_size = 0.1\n"),
             "scene.toml:3: mesh.element_size = 0.1: is for .step files; a .geo has its own sizes");
-  EXPECT_EQ(error_of("file = \"a.step\"\nelement_size = 0.1\nlength_unit = \"mm\"\n"),
+  EXPECT_EQ(mesh_error("file = \"a.step\"\nelement_size = 0.1\nlength_unit = \"mm\"\n"),
             "scene.toml:4: mesh.length_unit = \"mm\": a .step file tells its own unit");
-  EXPECT_NE(error_of("file = \"a.step\"\n").find("element_size"), std::string::npos);
-  EXPECT_EQ(error_of("file = \"a.geo\"\nparameters = { \"a-b\" = 1.0 }\n").substr(0, 13),
+  EXPECT_NE(mesh_error("file = \"a.step\"\n").find("element_size"), std::string::npos);
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nparameters = { \"a-b\" = 1.0 }\n").substr(0, 13),
             "scene.toml:3:");
-  EXPECT_EQ(error_of("file = \"a.geo\"\nlength_unit = \"yard\"\n"),
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nlength_unit = \"yard\"\n"),
             "scene.toml:3: mesh.length_unit = \"yard\": must be one of \"m\", \"cm\", \"mm\", "
             "\"inch\"");
-  EXPECT_NE(error_of("file = \"a.geo\"\ngroups = { disc = [] }\n").find("surface_1"),
+  EXPECT_NE(mesh_error("file = \"a.geo\"\ngroups = { disc = [] }\n").find("surface_1"),
             std::string::npos);
-  EXPECT_NE(error_of("file = \"a.geo\"\ncoincident_nodes = \"glue\"\n").find("\"keep\""),
+  EXPECT_NE(mesh_error("file = \"a.geo\"\ncoincident_nodes = \"glue\"\n").find("\"keep\""),
             std::string::npos);
 }
 

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "cli/scene/scene.hpp"
-#include "common/error.hpp"
+#include "tests/cli/scene_texts.hpp"
 
 namespace chladni::cli {
 namespace {
+
+using test::error_of;
 
 const std::string disc = R"([mesh]
 generator = "annulus"
@@ -45,19 +47,9 @@ analyses = ["eigenvalues"]
 const std::string microphones =
     "[sound]\nmicrophones = [{ name = \"a\", position = [0.5, 0.0, 0.5] }]\n";
 
-std::string error_of(const std::string& text)
-{
-  try {
-    parse_scene(text, "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 void expect_words(const std::string& error, const std::vector<std::string>& words)
 {
-  EXPECT_FALSE(error.empty());
+  EXPECT_NE(error, "no error");
   for (const std::string& word : words)
     EXPECT_NE(error.find(word), std::string::npos) << word << " in " << error;
 }

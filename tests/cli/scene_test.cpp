@@ -7,10 +7,13 @@
 #include <regex>
 #include <sstream>
 
-#include "common/error.hpp"
+#include "tests/cli/scene_texts.hpp"
 
 namespace chladni::cli {
 namespace {
+
+using test::error_of;
+using test::replaced;
 
 /// The thesis disc, short; the numbers of its lines stand in the tests below.
 const std::string disc = R"(title = "Disc"
@@ -56,24 +59,6 @@ analyses = ["eigenvalues", "growth", "transient"]
 transient = { speed_rad_s = 19.0, duration_s = 6.0, initial_pad_displacement = 7e-8 }
 growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }
 )";
-
-std::string replaced(const std::string& text, const std::string& old_part,
-                     const std::string& new_part)
-{
-  const std::size_t at = text.find(old_part);
-  if (at == std::string::npos) throw Error("the test replaces what is not there: " + old_part);
-  return text.substr(0, at) + new_part + text.substr(at + old_part.size());
-}
-
-std::string error_of(const std::string& text)
-{
-  try {
-    parse_scene(text, "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 /// A change of the disc and the whole message that it must give.
 struct Mistake {

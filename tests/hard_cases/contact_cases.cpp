@@ -18,11 +18,6 @@ namespace {
 using namespace squeal;
 using namespace squeal::test;
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 double growth_of(const PlatePair& pair, double speed)
 {
   return least_stable_eigenvalue(inertial_disc(disc_of({pair})), reference_options(), speed).real();

@@ -55,11 +55,6 @@ double stop_error(double stop, int n)
   return std::abs(integrator.at(n * period)[0] - 2.0);
 }
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 /// Error of the growth rate that a transient shows, 1/s.
 double growth_error(IntegratorKind kind, double speed, const std::vector<PlatePair>& pairs,
                     double duration)

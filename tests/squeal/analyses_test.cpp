@@ -22,11 +22,6 @@ namespace {
 
 using namespace test;
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 /// Two pairs whose free vibrations decay by 1 1/s.
 Disc damped_disc()
 {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mbs_export/modal_body.hpp"
+#include "squeal/disc.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal::test {
@@ -91,6 +92,12 @@ inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
   }
   body.rings.push_back(ring);
   return body;
+}
+
+/// The flexible disc of that body, undamped.
+inline Disc disc_of(const std::vector<PlatePair>& pairs)
+{
+  return make_disc(analytic_body(pairs), "track", {});
 }
 
 /// One pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad damping.

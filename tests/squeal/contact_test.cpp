@@ -64,7 +64,7 @@ TEST(Contact, ReproducesTheReferenceStateOfOnePair)
 {
   // SQUEAL reference values: an independent implementation in the inertial frame. The tolerances
   // are the rounding of sums of forces that are 1e4 times larger than the smallest result.
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   const Shapes shapes = shapes_at(disc, 0.0);
   const double m = kirchhoff_3().mass;
   const PlateState x{Eigen::Vector2d{m, m}, Eigen::Vector2d{1e-3, -5e-4},
@@ -86,7 +86,7 @@ TEST(Contact, ReproducesTheReferenceStateOfThreePairs)
   // SQUEAL reference values: an independent implementation in the rotating frame, pairs (2,0),
   // (3,0), (4,0) scaled to 1 at the rim.
   const std::vector<PlatePair> pairs{kirchhoff_2(), kirchhoff_3(), kirchhoff_4()};
-  const Shapes shapes = shapes_at(make_disc(analytic_body(pairs), "track", {}), 0.0);
+  const Shapes shapes = shapes_at(disc_of(pairs), 0.0);
   PlateState x{Eigen::VectorXd(6), Eigen::VectorXd(6), Eigen::VectorXd(6)};
   x.q << 0.000172792096032393, 0.0004108090717505792, 0.00016521853809169356,
       -0.0006515786158021805, 0.0004526779333365589, 0.00022318728618200565;

@@ -64,7 +64,7 @@ TEST(Friction, OfTheLinearisedContactIsTheDerivativeOfItsForce)
   for (const ContactLaw law : {ContactLaw::bilateral, ContactLaw::unilateral}) {
     SquealOptions options = stribeck_options(law);
     options.pads[0].cubic_stiffness = 1e13;
-    const InertialDisc disc = inertial_disc(make_disc(analytic_body({kirchhoff_3()}), "track", {}));
+    const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
     SlidingDisc motion(disc, options, 20.0);
     const Eigen::VectorXd x = Eigen::Vector4d{6.0, -3.0, 2.0, 5.0};
     const double time = 1e-7;
@@ -130,7 +130,7 @@ TEST(PadSpring, ThatStiffensRaisesTheFrequencyOfTheLimitCycleAlsoWithContactLoss
 {
   // The multiplier along the cycle is 1, which takes the derivative of the flow through the loss of
   // contact, the cubic spring and the falling friction coefficient to be right.
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = stribeck_options(ContactLaw::unilateral);
   options.friction = 0.6;
   options.friction_rise = 0.05;

@@ -19,16 +19,11 @@ namespace {
 
 using namespace test;
 
-Disc pair_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 TEST(HardCase, SlipNearZeroIsBoundedByTheRegularisation)
 {
   // The signed law at 7 pi reaches 0.017 m/s; a disc that starts beyond its limit cycle at low
   // speed reverses the direction of sliding. Friction stays bounded and the run finite.
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::signed_force);
   options.slip_regularisation = 1e-3;
   const Transient run = transient(disc, options,
@@ -46,8 +41,8 @@ TEST(HardCase, SlidingThatNearlyStopsInEachPeriodHasItsLimitCycle)
 {
   // SQUEAL reference value: the slip of the signed law at 7 pi falls to 0.017 m/s, where friction
   // turns about within microseconds; the samples about the minimum are 0.1 us apart.
-  const auto cycle =
-      limit_cycle_direct(pair_disc(), reference_options(ContactLaw::signed_force), 7.0 * pi);
+  const auto cycle = limit_cycle_direct(disc_of({kirchhoff_3()}),
+                                        reference_options(ContactLaw::signed_force), 7.0 * pi);
   EXPECT_LT(cycle.slip_speed_min, 0.025);
   EXPECT_GT(cycle.slip_speed_min, 0.016);
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -58,7 +53,7 @@ TEST(HardCase, SlowGrowthNearTheCriticalSpeedIsInTheTransientToo)
 {
   // 1.5e-6 of the frequency. The integration is exact for small motions; the fit leaves 1e-4.
   const TransientCase run{.speed = 4.28 * pi, .duration = 3.0, .initial_pad_displacement = 1e-8};
-  const Transient result = transient(pair_disc(), reference_options(), run);
+  const Transient result = transient(disc_of({kirchhoff_3()}), reference_options(), run);
   EXPECT_EQ(result.integrator, "exponential");
   EXPECT_NEAR(result.growth_rate.value(), 0.01653109890077859, 1e-4);
 }
@@ -68,7 +63,7 @@ TEST(HardCase, SpeedToZeroIsOverdampedInTheEigenvalues)
   // SQUEAL reference values. C_11 grows with 1 / Omega: below 0.00625 rad/s the radial slip no
   // longer oscillates, while the other wave grows a little. Rounding of 1e-16 of 4e5 1/s, times
   // the condition of the eigenvalues.
-  const InertialDisc disc = inertial_disc(pair_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const auto lambda_at = [&](double speed_by_pi) {
     return state_matrix(disc, reference_options(), speed_by_pi * pi).eigenvalues().eval();
   };
@@ -104,7 +99,7 @@ TEST(HardCase, SlowSpeedsTakeTheStiffIntegrator)
   // Something decays faster than the mode oscillates, and a pad sticks each time that the disc
   // moves as fast along it as it slides. Sticking costs no more steps than it has events: a scheme
   // that rings in it takes 1e5 evaluations and more.
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const Transient run = transient(disc, reference_options(), slow_run());
   EXPECT_EQ(run.integrator, "generalised-alpha");
   EXPECT_TRUE(run.finished);
@@ -120,7 +115,7 @@ TEST(HardCase, SticksAtSlowSpeedsAsCvodeSays)
   if (!has_cvode) GTEST_SKIP() << "built without SUNDIALS";
   // BDF with 1e-9 on the same friction. A step of the transient may err by 3e-4 of |y|; the fast
   // motions that would add the errors up are damped.
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const TransientCase run = slow_run();
   const Transient result = transient(disc, reference_options(), run);
   RotatingDisc motion(disc, with_friction_at_rest(reference_options(), disc, run.speed), run.speed);
@@ -135,7 +130,7 @@ TEST(HardCase, PadsThatMayStickTakeTheStiffIntegratorAtAnySpeed)
 {
   // At 0.5 rad/s the disc slides at 0.065 m/s and decays slowly; from 2e-4 m of pad displacement on
   // the contact planes move faster. With the damper mu N_0 / eps of 1 m/s nothing is stiff.
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const auto chosen = [&](double displacement, double eps) {
     SquealOptions options = reference_options();
     options.slip_regularisation = eps;
@@ -152,14 +147,14 @@ TEST(HardCase, StiffPadsHoldTheDisc)
 {
   // k to infinity pins the cosine mode under the pad, the sine mode is left: its frequency is that
   // of the free pair to N_0 h and the friction, and the other one rises with the root of k.
-  const InertialDisc disc = inertial_disc(pair_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   SquealOptions options = reference_options();
   options.pads[0].stiffness = 6e12;
   const Eigen::VectorXcd lambda = state_matrix(disc, options, 6.0 * pi).eigenvalues();
   const double pinned = std::sqrt(2.0 * 6e12) * disc.rings[0].U[0];
   EXPECT_NEAR(lambda.imag().maxCoeff() / pinned, 1.0, 1e-4);
   const Transient run =
-      transient(pair_disc(), options,
+      transient(disc_of({kirchhoff_3()}), options,
                 {.speed = 6.0 * pi, .duration = 0.01, .initial_pad_displacement = 1e-12});
   EXPECT_TRUE(run.finished);
 }

@@ -10,11 +10,6 @@ namespace {
 
 using namespace test;
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 std::string complaint(const Disc& disc)
 {
   try {

@@ -13,11 +13,6 @@ namespace {
 
 using namespace test;
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 TEST(IntegratorChoice, FollowsTheDiscAndTheErrorAllowed)
 {
   const auto chosen = [](const std::vector<PlatePair>& pairs, double growth_error,

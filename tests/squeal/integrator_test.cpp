@@ -29,11 +29,6 @@ constexpr IntegratorKind all_kinds[] = {IntegratorKind::splitting, IntegratorKin
                                         IntegratorKind::dormand_prince,
                                         IntegratorKind::generalised_alpha};
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 TEST(Integrator, OfAnyKindGrowsAsTheEigenvaluesSay)
 {
   // growth_error is what each of them promises; the fit of the envelope adds less than 1e-4. Just

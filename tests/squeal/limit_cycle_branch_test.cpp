@@ -13,16 +13,11 @@ namespace {
 
 using namespace test;
 
-Disc reference_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 LimitCycleBranch branch_over(ContactLaw law, const SpeedRange& speeds)
 {
   SquealOptions options = reference_options(law);
   options.speeds = speeds;
-  return limit_cycle_branch(reference_disc(), options);
+  return limit_cycle_branch(disc_of({kirchhoff_3()}), options);
 }
 
 const SpeedRange onset{.from = 4.25 * pi, .to = 5.0 * pi, .count = 31};
@@ -93,12 +88,13 @@ TEST(LimitCycleBranch, IsThatOfTheReferenceWithUnilateralContact)
 TEST(LimitCycleBranch, HoldsTheEndOfATransient)
 {
   // 80 steps per period leave 1e-5 of the velocity to the splitting.
-  const LimitCycle end = limit_cycle(
-      reference_disc(), transient(reference_disc(), reference_options(ContactLaw::unilateral),
-                                  {.speed = 8.0 * pi,
-                                   .duration = 4.0,
-                                   .initial_pad_displacement = 1e-3,
-                                   .steps_per_period = 80}));
+  const LimitCycle end =
+      limit_cycle(disc_of({kirchhoff_3()}),
+                  transient(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral),
+                            {.speed = 8.0 * pi,
+                             .duration = 4.0,
+                             .initial_pad_displacement = 1e-3,
+                             .steps_per_period = 80}));
   const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
   ASSERT_EQ(branch.points.size(), 8u);
   EXPECT_NEAR(branch.points[1].pad_velocity, end.pad_velocity, 2e-5 * end.pad_velocity);
@@ -121,8 +117,8 @@ TEST(LimitCycleBranch, IsTheSameFromAboveAndFromTheEigenvector)
   // Both are integrated until the multiplier along the cycle is 1 to 1e-6; the other multipliers
   // near 1 magnify what is left, about 1e-8 per period, by 500.
   const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
-  const DirectLimitCycle cycle =
-      limit_cycle_direct(reference_disc(), reference_options(ContactLaw::unilateral), 6.0 * pi);
+  const DirectLimitCycle cycle = limit_cycle_direct(
+      disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral), 6.0 * pi);
   EXPECT_NEAR(branch.points.front().pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity);
 }
 

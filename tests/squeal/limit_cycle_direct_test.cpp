@@ -16,7 +16,7 @@ using namespace test;
 
 Disc reference_disc(double f_Hz = 1672.13)
 {
-  return make_disc(analytic_body({kirchhoff_3(f_Hz)}), "track", {});
+  return disc_of({kirchhoff_3(f_Hz)});
 }
 
 /// SQUEAL reference values at 6 pi, 1672.13 Hz: shooting with DOP853 at fixed steps across the
@@ -136,8 +136,7 @@ TEST(DirectLimitCycle, IsWhereATransientEnds)
 TEST(DirectLimitCycle, TakesModesThatTakeNoPart)
 {
   // The (2,0) and (4,0) pairs move with the contact only; the cycle shifts by their compliance.
-  const Disc disc =
-      make_disc(analytic_body({kirchhoff_2(), kirchhoff_3(1672.13), kirchhoff_4()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3(1672.13), kirchhoff_4()});
   SquealOptions options = reference_options();
   const auto cycle = limit_cycle_direct(disc, options, 6.0 * pi);
   EXPECT_EQ(cycle.multipliers.size(), 12);

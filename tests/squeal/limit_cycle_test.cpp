@@ -13,11 +13,6 @@ namespace {
 
 using namespace test;
 
-Disc reference_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3(1672.13)}), "track", {});
-}
-
 TransientCase reference_run(double duration = 7.7, int steps_per_period = 40)
 {
   return {.speed = 6.0 * pi,
@@ -29,7 +24,7 @@ TransientCase reference_run(double duration = 7.7, int steps_per_period = 40)
 
 LimitCycle cycle_of(ContactLaw law, const TransientCase& run)
 {
-  const Disc disc = reference_disc();
+  const Disc disc = disc_of({kirchhoff_3(1672.13)});
   return limit_cycle(disc, transient(disc, reference_options(law), run));
 }
 
@@ -79,7 +74,7 @@ TEST(LimitCycle, HasAFundamentalThatMovesThePad)
 {
   // The displacement under the pad at angle 0 from the complex amplitudes, against that of the pad:
   // harmonics are below 1e-3 of it, and the pad leaves the surface by h (s - 1) / 2 < 1e-3 of it.
-  const Disc disc = reference_disc();
+  const Disc disc = disc_of({kirchhoff_3(1672.13)});
   const LimitCycle cycle = cycle_of(ContactLaw::bilateral, reference_run());
   ASSERT_EQ(cycle.amplitude.size(), 2);
   EXPECT_EQ(cycle.mode_numbers, disc.mode_numbers);
@@ -101,7 +96,7 @@ TEST(LimitCycle, TurnsWithTheEigenvectors)
   PlatePair turned = kirchhoff_3(1672.13);
   turned.turn = 0.4;
   turned.sign = -1.0;
-  const Disc disc = make_disc(analytic_body({turned}), "track", {});
+  const Disc disc = disc_of({turned});
   const LimitCycle other = limit_cycle(disc, transient(disc, reference_options(), reference_run()));
   const LimitCycle cycle = cycle_of(ContactLaw::bilateral, reference_run());
   const auto modulus_at = [](const Disc& of, const LimitCycle& motion, double phi) {
@@ -109,7 +104,8 @@ TEST(LimitCycle, TurnsWithTheEigenvectors)
         (shapes_at(of, phi).W.cast<std::complex<double>>().transpose() * motion.amplitude)[0]);
   };
   for (const double phi : {0.0, 0.3, 0.7})
-    EXPECT_NEAR(modulus_at(disc, other, phi), modulus_at(reference_disc(), cycle, phi), 1e-9);
+    EXPECT_NEAR(modulus_at(disc, other, phi),
+                modulus_at(disc_of({kirchhoff_3(1672.13)}), cycle, phi), 1e-9);
 }
 
 TEST(LimitCycle, SaysWhenItHasNotSettled)
@@ -120,7 +116,7 @@ TEST(LimitCycle, SaysWhenItHasNotSettled)
 TEST(LimitCycle, RefusesRunsThatCannotHoldOne)
 {
   EXPECT_THROW(cycle_of(ContactLaw::bilateral, reference_run(0.004)), Error);
-  const Disc disc = reference_disc();
+  const Disc disc = disc_of({kirchhoff_3(1672.13)});
   Transient diverged = transient(disc, reference_options(), reference_run(0.1));
   diverged.finished = false;
   EXPECT_THROW(limit_cycle(disc, diverged), Error);

@@ -18,11 +18,6 @@ namespace {
 
 using namespace test;
 
-Disc pair_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 SquealOptions options_with(const PadPair& pad, ContactLaw law = ContactLaw::bilateral)
 {
   SquealOptions options = reference_options(law);
@@ -55,7 +50,7 @@ TEST(PadGrid, SharesStiffnessAndPreloadAmongPointsInTheMiddleOfEqualParts)
 
 TEST(PadGrid, OfOnePointOrNoWidthIsThePadOfOnePoint)
 {
-  const InertialDisc disc = inertial_disc(pair_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const Eigen::MatrixXd one = state_matrix(disc, reference_options(), 18.0);
   for (const PadPair& pad : {grid_pad(0.5, 1), grid_pad(1e-9, 7)})
     EXPECT_LT((state_matrix(disc, options_with(pad), 18.0) - one).norm(), 1e-8 * one.norm());
@@ -67,7 +62,7 @@ TEST(PadGrid, ConvergesToTheIntegralOverTheSector)
   // midpoint rule converges to it with the square of the spacing.
   const double sector = 0.7;
   const double mean = 0.5 + std::sin(3.0 * sector) / (6.0 * sector);
-  const InertialDisc disc = inertial_disc(pair_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const auto stiffness = [&](int points) {
     SquealOptions options = options_with(grid_pad(sector, points));
     options.friction = 0.0;
@@ -84,7 +79,7 @@ TEST(PadGrid, ConvergesToTheIntegralOverTheSector)
 TEST(PadGrid, LosesContactPointByPoint)
 {
   // Tilted so that one end of the face leaves while the other one presses.
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const SquealOptions options = options_with(grid_pad(0.6, 4), ContactLaw::unilateral);
   ContactKick kick(disc, options, 18.0);
   ModalState x{Eigen::Vector2d(0.0, 1.5e-3), Eigen::Vector2d::Zero()};

@@ -20,11 +20,6 @@ namespace {
 
 using namespace test;
 
-Disc pair_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 /// A plate with all six degrees of freedom, 0.3 kg.
 PadBody full_body()
 {
@@ -83,7 +78,7 @@ TEST(PadBody, WithoutMassIsTheMasslessPadOnItsLiningAndSuspensionInSeries)
 {
   // A light plate follows: 1 / k = 1 / k_lining + 1 / k_suspension. The error is of the order of
   // the inertia of the plate against its springs, m omega^2 / (k_l + k_s) = 6e-6 for 1 g.
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const InertialDisc inertial = inertial_disc(disc);
   const SquealOptions massless = reference_options();
   PadPair pad = reference_pad();
@@ -101,7 +96,7 @@ TEST(PadBody, WithoutMassIsTheMasslessPadOnItsLiningAndSuspensionInSeries)
 
 TEST(PadBody, OnStiffSuspensionsIsTheMasslessPad)
 {
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   const auto expected = least_stable_eigenvalue(inertial, reference_options(), 6.0 * pi);
   PadPair pad = grid_pad(1e-9, 3);
   pad.body = full_body();
@@ -118,7 +113,7 @@ TEST(PadBody, OnStiffSuspensionsIsTheMasslessPad)
 
 TEST(PadBody, IsInEquilibriumAtRest)
 {
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   PadPair pad = grid_pad(0.6, 4);
   pad.body = full_body();
   SlidingDisc motion(inertial, options_with(pad), 6.0 * pi);
@@ -128,7 +123,7 @@ TEST(PadBody, IsInEquilibriumAtRest)
 
 TEST(PadBody, HasOneLinearisationInMatrixFlowAndForce)
 {
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   PadPair pad = grid_pad(0.6, 4);
   pad.body = full_body();
   pad.caliper = Caliper{.mass = 2.0, .axial = {4e6, 10.0}};
@@ -159,7 +154,7 @@ TEST(PadBody, HasOneLinearisationInMatrixFlowAndForce)
 
 TEST(PadBody, GrowsInTimeAsItsEigenvaluesSay)
 {
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   PadPair pad = grid_pad(0.3, 3);
   pad.stiffness = 2e7;
   pad.body = full_body();
@@ -186,7 +181,7 @@ TEST(PadBody, GrowsInTimeAsItsEigenvaluesSay)
 
 TEST(PadBody, HasALimitCycleWithContactLoss)
 {
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   PadPair pad = reference_pad();
   pad.stiffness = 2e7;
   pad.body = PadBody{.mass = 0.1, .axial = Suspension{9e6, 2.0}};
@@ -205,7 +200,7 @@ TEST(PadBody, HasALimitCycleWithContactLoss)
 TEST(PadBody, GainsTheEnergyThatTheSourcesPutIn)
 {
   // d/dt |x|^2 / 2 = x^T f(x) at any state, also where pads are off.
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   PadPair pad = grid_pad(0.6, 4);
   pad.body = full_body();
   pad.caliper = Caliper{.mass = 2.0, .axial = {4e6, 10.0}};
@@ -233,7 +228,7 @@ TEST(PadBody, GainsTheEnergyThatTheSourcesPutIn)
 
 TEST(PadBody, HasItsPartInTheModeShapes)
 {
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   PadPair pad = grid_pad(0.6, 4);
   pad.body = full_body();
   SquealOptions options = options_with(pad);
@@ -256,7 +251,7 @@ TEST(PadBody, HasItsPartInTheModeShapes)
 
 TEST(PadGrid, HasEventsOfEveryPointUnderItsPad)
 {
-  const Disc disc = pair_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = options_with(grid_pad(0.6, 3), ContactLaw::unilateral);
   options.pads.push_back(grid_pad(0.6, 3));
   options.pads[1].angle = 2.0;
@@ -275,7 +270,7 @@ TEST(PadBody, LosesEnergyOnlyToItsDampersWithoutFriction)
 {
   // Disc, plates and caliper vibrate freely in contact: the eigenvalues of a conservative system
   // are imaginary, those of a damped one have falling amplitudes.
-  const InertialDisc inertial = inertial_disc(pair_disc());
+  const InertialDisc inertial = inertial_disc(disc_of({kirchhoff_3()}));
   PadPair pad = grid_pad(0.4, 3);
   pad.body = full_body();
   for (auto* spring : {&*pad.body->radial, &*pad.body->tangential, &*pad.body->axial})
@@ -305,7 +300,7 @@ TEST(Pads, AtDifferentAnglesAddTheirForces)
 {
   // Two pad pairs a quarter period of the mode apart, 30 degrees, hold both modes alike: without
   // friction the frequencies of the pair stay together.
-  const InertialDisc disc = inertial_disc(pair_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   SquealOptions options = reference_options();
   options.friction = 0.0;
   options.pads.push_back(options.pads[0]);

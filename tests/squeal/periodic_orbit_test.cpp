@@ -76,7 +76,7 @@ TEST(PeriodicOrbit, IsThatOfVanDerPolWithTheMultipliersOfLiouville)
 TEST(PeriodicOrbit, HasTheDerivativeOfItsFlow)
 {
   // Central differences of an integration to 1e-12, with contact loss within the period.
-  const Disc disc = make_disc(analytic_body({kirchhoff_2(), kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   const auto motion =
       cycle_problem(disc, reference_options(ContactLaw::unilateral)).motion(6.0 * pi);
   const CycleStart start{Eigen::VectorXd::LinSpaced(8, 6.0, -5.0), 1.0 / 1750.0};

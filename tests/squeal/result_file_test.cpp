@@ -35,7 +35,7 @@ SquealResults complete_results()
   options.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
   options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
-  return run(make_disc(analytic_body({kirchhoff_3()}), "track", {}), options);
+  return run(disc_of({kirchhoff_3()}), options);
 }
 
 TEST(ResultFile, ReturnsEveryValueItWasGiven)

@@ -19,13 +19,13 @@ Disc split_disc(double split_Hz, double turn = 0.3)
   pair.f_Hz -= 0.5 * split_Hz;
   pair.split = split_Hz / pair.f_Hz;
   pair.turn = turn;
-  return make_disc(analytic_body({pair}), "track", {});
+  return disc_of({pair});
 }
 
 TEST(RotationStability, IsThatOfTheEigenvaluesOnAnAxisymmetricDisc)
 {
   // The disc in its own frame against the inertial frame; the extrapolation leaves 1e-5 1/s.
-  const Disc disc = make_disc(analytic_body({kirchhoff_2(), kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   for (const double speed : {4.0 * pi, 6.0 * pi, 12.0 * pi}) {
     const auto lambda = least_stable_eigenvalue(inertial_disc(disc), reference_options(), speed);
     const RotationGrowth at = rotation_growth(disc, reference_options(), speed);

@@ -12,16 +12,11 @@ namespace {
 
 using namespace test;
 
-Disc reference_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 TEST(Run, YieldsWhatWasAskedForAndNothingElse)
 {
   SquealOptions options = reference_options();
   options.analyses = {"critical-speed"};
-  const SquealResults results = run(reference_disc(), options);
+  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
   EXPECT_TRUE(results.searched_critical_speed);
   EXPECT_TRUE(results.critical_speed);
   EXPECT_FALSE(results.eigenvalues || results.transient || results.limit_cycle);
@@ -36,8 +31,8 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 1e-4};
   options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
   std::set<std::string> names;
-  const SquealResults results =
-      run(reference_disc(), options, [&](const std::string& name, double) { names.insert(name); });
+  const SquealResults results = run(disc_of({kirchhoff_3()}), options,
+                                    [&](const std::string& name, double) { names.insert(name); });
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
   EXPECT_FALSE(results.searched_critical_speed);
@@ -49,7 +44,7 @@ TEST(Run, FindsALimitCycleWithoutATransient)
   SquealOptions options = reference_options();
   options.analyses = {"limit-cycle-direct"};
   options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
-  const SquealResults results = run(reference_disc(), options);
+  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
   EXPECT_TRUE(results.limit_cycle_direct);
   EXPECT_FALSE(results.transient || results.limit_cycle || results.limit_cycle_branch);
 }
@@ -72,7 +67,7 @@ TEST(Run, ValidatesTheOptionsFirst)
 {
   SquealOptions options = reference_options();
   options.friction = -1.0;
-  EXPECT_THROW(run(reference_disc(), options), Error);
+  EXPECT_THROW(run(disc_of({kirchhoff_3()}), options), Error);
 }
 
 }  // namespace

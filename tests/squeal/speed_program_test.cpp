@@ -34,7 +34,7 @@ TEST(SpeedProgram, TurnsByTheIntegralOfItsSpeeds)
 
 TEST(SpeedProgram, OfOneSpeedIsAConstantSpeed)
 {
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   TransientCase run{.speed = 18.0,
                     .duration = 0.1,
                     .initial_pad_displacement = 1e-6,
@@ -51,7 +51,7 @@ TEST(SpeedProgram, OfOneSpeedIsAConstantSpeed)
 TEST(SpeedProgram, BrakesToStandstillWithRegularisedFriction)
 {
   // At rest friction damps: the regularised law is a damper of mu N_0 / eps.
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::unilateral);
   EXPECT_THROW(transient(disc, options, braking()), Error);
   options.slip_regularisation = 1e-3;
@@ -67,7 +67,7 @@ TEST(SpeedProgram, BrakesToStandstillWithRegularisedFriction)
 
 TEST(SpeedProgram, NeedsTheSplitting)
 {
-  const Disc disc = make_disc(analytic_body({kirchhoff_3()}), "track", {});
+  const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options();
   options.slip_regularisation = 1e-3;
   TransientCase run = braking();

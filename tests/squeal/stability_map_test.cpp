@@ -15,7 +15,7 @@ using namespace test;
 
 InertialDisc reference_disc()
 {
-  return inertial_disc(make_disc(analytic_body({kirchhoff_3()}), "track", {}));
+  return inertial_disc(disc_of({kirchhoff_3()}));
 }
 
 SquealOptions map_options(const MapCase& map)

@@ -14,7 +14,7 @@ using namespace test;
 
 InertialDisc inertial_of(const std::vector<PlatePair>& pairs)
 {
-  return inertial_disc(make_disc(analytic_body(pairs), "track", {}));
+  return inertial_disc(disc_of(pairs));
 }
 
 /// x = (diag(omega) a, p) of the state matrix back in M a'' + C a' + K a = 0 of the plate.

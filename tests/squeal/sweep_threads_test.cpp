@@ -13,17 +13,12 @@ namespace {
 
 using namespace test;
 
-Disc reference_disc()
-{
-  return make_disc(analytic_body({kirchhoff_3()}), "track", {});
-}
-
 TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 {
   SquealOptions options = reference_options();
   options.speeds.count = 7;
   options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
-  const InertialDisc disc = inertial_disc(reference_disc());
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
   EXPECT_EQ(one.growth, three.growth);
   EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
@@ -34,15 +29,15 @@ TEST(SweepOnThreads, OfTheRotationIsThatOnOne)
 {
   SquealOptions options = reference_options();
   options.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
-  const RotationStability one = rotation_stability(reference_disc(), options, 1);
-  const RotationStability three = rotation_stability(reference_disc(), options, 3);
+  const RotationStability one = rotation_stability(disc_of({kirchhoff_3()}), options, 1);
+  const RotationStability three = rotation_stability(disc_of({kirchhoff_3()}), options, 3);
   EXPECT_EQ(one.growth, three.growth);
   EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
 }
 
 TEST(SweepOnThreads, OfTransientsIsThatOnOne)
 {
-  const Disc disc = reference_disc();
+  const Disc disc = disc_of({kirchhoff_3()});
   const SquealOptions options = reference_options(ContactLaw::unilateral);
   const std::vector<double> speeds{4.0 * pi, 5.0 * pi, 6.0 * pi};
   const auto rates = [&](unsigned n_threads) {

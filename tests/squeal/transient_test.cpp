@@ -16,11 +16,6 @@ namespace {
 
 using namespace test;
 
-Disc disc_of(const std::vector<PlatePair>& pairs)
-{
-  return make_disc(analytic_body(pairs), "track", {});
-}
-
 TransientCase short_run(double duration = 0.05)
 {
   return {.speed = 6.0 * pi,

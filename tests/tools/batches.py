@@ -15,7 +15,7 @@ TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)")
 ALIAS = re.compile(r"using (\w+) = (.*);")
 OPENED = re.compile(r"^using namespace ([\w:]+);", re.M)
 USING = re.compile(r"^using (\w+::[\w:, ]+);", re.M)
-CONSTANT = re.compile(r"(\w+)(?: = |\{|\[)")
+CONSTANT = re.compile(r"(?<![.\w])(\w+)(?: = |\{|\[)")  # not a member that is set
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 
 
@@ -34,14 +34,14 @@ def hidden_names(path):
                 names[alias[1]] = alias[2]
             elif kind:
                 names[kind[1]] = path
-            elif line.startswith("constexpr") or line.startswith("const ") and "(" not in line:
+            elif line.startswith(("constexpr ", "const ")) and CONSTANT.search(line.split("(")[0]):
                 names.update((name, path) for name in CONSTANT.findall(line))
             elif FUNCTION.match(line):
                 names[FUNCTION.match(line)[1]] = path
     return names
 
 
-def batches(paths, key=lambda path: pathlib.Path(path).parent, most=MOST):
+def batches(paths, key=lambda path: None, most=MOST):
     """Lists of paths of one key and without names that mean two things."""
     made = []
     for path in paths:
@@ -55,7 +55,6 @@ def batches(paths, key=lambda path: pathlib.Path(path).parent, most=MOST):
         else:
             made.append({"key": key(path), "paths": [path], "names": names})
     return [batch["paths"] for batch in made]
-
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ constexpr Admissible spring{.above = 0.0, .unit = "N/m"};
 constexpr Admissible damper{.at_least = 0.0, .unit = "N s/m"};
 constexpr Admissible inertia{.above = 0.0, .unit = "kg m^2"};
 
-constexpr Key rows[] = {
+constexpr Key brake_rows[] = {
     {"squeal.friction",
      number,
      "required",
@@ -125,7 +125,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> brake_keys()
 {
-  return rows;
+  return brake_rows;
 }
 
 }  // namespace chladni::cli

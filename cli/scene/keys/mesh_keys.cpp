@@ -8,7 +8,7 @@ using enum KeyKind;
 constexpr Admissible length{.above = 0.0, .unit = "m"};
 constexpr Admissible place{.unit = "m"};
 
-constexpr Key rows[] = {
+constexpr Key mesh_rows[] = {
     {"name", text, "disc", "stem of the files that the programs write; letters, digits, _ and -"},
     {"title", text, "the name", "for people"},
     {"mesh", table, "required, but for models without a body", "[meshes](meshes.md)"},
@@ -98,7 +98,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> mesh_keys()
 {
-  return rows;
+  return mesh_rows;
 }
 
 }  // namespace chladni::cli

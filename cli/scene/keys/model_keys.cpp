@@ -12,7 +12,7 @@ constexpr Admissible stiffness{.at_least = 0.0, .unit = "N/m, N m/rad"};
 constexpr Admissible damping{.at_least = 0.0, .unit = "N s/m, N m s/rad"};
 constexpr std::string_view components = "x | y | z | rx | ry | rz";
 
-constexpr Key rows[] = {
+constexpr Key model_rows[] = {
     {"model", table, "six components", "[fewer DOFs at a node](beams.md)"},
     {"model.dofs", texts, "required", "components that every node has", {}, components},
     {"material", table, "required", "`[material.NAME]` for each material; isotropic, elastic"},
@@ -102,7 +102,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> model_keys()
 {
-  return rows;
+  return model_rows;
 }
 
 }  // namespace chladni::cli

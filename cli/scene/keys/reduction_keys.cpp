@@ -9,7 +9,7 @@ constexpr Admissible frequency{.above = 0.0, .unit = "Hz"};
 constexpr Admissible tolerance{.above = 0.0, .below = 1.0};
 constexpr std::string_view components = "x | y | z | rx | ry | rz";
 
-constexpr Key rows[] = {
+constexpr Key reduction_rows[] = {
     {"interface", table, "required for a reduction", "where loads, supports and pads may act"},
     {"interface.nodes", texts, "required",
      "rings, edges, points and couplings; all DOFs are masters"},
@@ -111,7 +111,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> reduction_keys()
 {
-  return rows;
+  return reduction_rows;
 }
 
 }  // namespace chladni::cli

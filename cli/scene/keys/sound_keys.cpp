@@ -7,7 +7,7 @@ using enum KeyKind;
 
 constexpr Admissible length{.above = 0.0, .unit = "m"};
 
-constexpr Key rows[] = {
+constexpr Key sound_rows[] = {
     {"sound", table, "not asked for", "what `chladni sound` does, [sound](sound.md)"},
     {"sound.microphones", tables, "none", "where the sound is listened to"},
     {"sound.microphones.name", text, "required", "each another one"},
@@ -94,7 +94,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> sound_keys()
 {
-  return rows;
+  return sound_rows;
 }
 
 }  // namespace chladni::cli

@@ -9,7 +9,7 @@ constexpr Admissible speed{.above = 0.0, .unit = "rad/s"};
 constexpr Admissible duration{.above = 0.0, .unit = "s"};
 constexpr std::string_view parameters = "friction | preload | stiffness";
 
-constexpr Key rows[] = {
+constexpr Key squeal_rows[] = {
     {"squeal", table, "not asked for", "what `squeal run` does, [squeal](squeal.md)"},
     {"squeal.model",
      word,
@@ -102,7 +102,7 @@ constexpr Key rows[] = {
 
 std::span<const Key> squeal_keys()
 {
-  return rows;
+  return squeal_rows;
 }
 
 }  // namespace chladni::cli
