@@ -15,6 +15,7 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr double largest_condition = 1e6;
+constexpr double largest_rounding = 1e-6;  // of the lowest eigenvalue
 
 double condition(const MatrixXd& Q_dd)
 {
@@ -102,26 +103,9 @@ MatrixXd unheld_combinations(const MatrixXd& held_displacements)
   return svd.matrixV().rightCols(n_rigid - svd.rank());
 }
 
-ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
-{
-  const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
-  std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
-  const bool complete = Index(dependent.size()) == Q_held.rows();
-  if (!complete ||
-      condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
-    dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
-    if (dependent.size() < held.dofs.size())
-      throw Error(fmt::format(
-          "mode shifting: the modes cannot hold {} apart from the other held displacements; fix "
-          "fewer, or reduce with more masters or modes",
-          dependent_names(Q_held, held)));
-  }
-  std::ranges::sort(dependent);
-  return shift_modes(modes, held, dependent);
-}
+namespace {
 
-ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
-                      const std::vector<int>& dependent)
+ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vector<int>& dependent)
 {
   if (dependent.size() != held.dofs.size())
     throw Error(fmt::format("mode shifting: {} dependent modes for {} held displacements",
@@ -155,6 +139,50 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
   MatrixXd q = MatrixXd::Zero(modes.omega.size(), left.cols());
   q.topRows(modes.n_rigid) = left;
   shift.R_c = q(independent, Eigen::all);
+  return shift;
+}
+
+/// Stiff dependent modes that move a lot bury the soft modes of the result in rounding.
+void refuse_cancellation(const ModeShift& shift, const FreeModes& modes)
+{
+  if (modes.n_rigid >= modes.omega.size() || shift.Q_c.cols() == 0) return;
+  const MatrixXd G = shift.Q_c(shift.dependent, Eigen::all);
+  const VectorXd lambda = modes.omega(shift.dependent).cwiseAbs2();
+  const double stiffest = (G.cwiseAbs2().transpose() * lambda).maxCoeff();
+  const double softest = modes.omega[modes.n_rigid] * modes.omega[modes.n_rigid];
+  const double lost = std::numeric_limits<double>::epsilon() * stiffest / softest;
+  if (lost > largest_rounding)
+    throw Error(fmt::format(
+        "mode shifting: with the dependent modes {} the lowest eigenvalues are rounded by {:.0e}; "
+        "choose dependent modes of lower frequency",
+        fmt::join(shift.dependent, ", "), lost));
+}
+
+}  // namespace
+
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
+{
+  const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
+  std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
+  const bool complete = Index(dependent.size()) == Q_held.rows();
+  if (!complete ||
+      condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
+    dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
+    if (dependent.size() < held.dofs.size())
+      throw Error(fmt::format(
+          "mode shifting: the modes cannot hold {} apart from the other held displacements; fix "
+          "fewer, or reduce with more masters or modes",
+          dependent_names(Q_held, held)));
+  }
+  std::ranges::sort(dependent);
+  return shift_by(modes, held, dependent);
+}
+
+ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
+                      const std::vector<int>& dependent)
+{
+  ModeShift shift = shift_by(modes, held, dependent);
+  refuse_cancellation(shift, modes);
   return shift;
 }
 

@@ -33,7 +33,8 @@ Eigen::MatrixXd unheld_combinations(const Eigen::MatrixXd& held_displacements);
 
 /// The same with a choice of dependent modes by hand.
 /// @param dependent  [n_c] indices of free modes, ascending
-/// @throws chladni::Error when cond(Q_dd) > 1e6, naming the DOFs.
+/// @throws chladni::Error when cond(Q_dd) > 1e6, in rows of unit length, naming the DOFs, and when
+///         modes too stiff leave the lowest eigenvalue to rounding.
 ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held,
                       const std::vector<int>& dependent);
 

@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include "hard_case.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/pads.hpp"
+#include "squeal/rotation_stability.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
 #include "tests/squeal/analytic_body.hpp"
@@ -69,12 +71,57 @@ double motion_left_at_standstill()
   return run.finished ? std::abs(run.history.pad_velocity.back()) / largest : 1.0;
 }
 
+/// Largest error of the growth at 6 pi of the pair with frequencies 1, 3 and 10 Hz apart.
+double growth_error_of_split_pairs()
+{
+  double worst = 0.0;
+  for (const auto& [split_Hz, growth] :
+       {std::pair{1.0, 2.681}, std::pair{3.0, 2.619}, std::pair{10.0, 2.265}}) {
+    PlatePair pair = kirchhoff_3();
+    pair.f_Hz -= 0.5 * split_Hz;
+    pair.split = split_Hz / pair.f_Hz;
+    pair.turn = 0.3;
+    const double found = rotation_growth(disc_of({pair}), reference_options(), 6.0 * pi).growth;
+    worst = std::max(worst, std::abs(found - growth));
+  }
+  return worst;
+}
+
+/// The fastest decay of the pair, 1/s.
+double fastest_decay(double speed)
+{
+  const Eigen::MatrixXd A =
+      state_matrix(inertial_disc(disc_of({kirchhoff_3()})), reference_options(), speed);
+  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues().real().minCoeff();
+}
+
 }  // namespace
 
 std::vector<HardCase> contact_cases()
 {
   const std::string area = "contact";
   return {
+      {area, "pair whose frequencies a mesh parts by 1, 3 and 10 Hz",
+       "the disc is no longer axisymmetric: no eigenvalues in the inertial frame",
+       "error of the growth rate, 1/s", 1e-3, growth_error_of_split_pairs},
+      {area, "creeping at 1e-4 pi rad/s",
+       "friction damps like 1 / speed: one rate is 1e4 times the others",
+       "relative error of the fastest decay", 0.01,
+       [] { return relative_error(fastest_decay(1e-4 * pi), -4.4e5); }},
+      {area, "creeping at 0.01 pi rad/s", "the growth is 1e-8 of omega",
+       "error of the growth rate, 1/s", 5e-5,
+       [] { return std::abs(growth_of(kirchhoff_3(), 0.01 * pi) - 1e-4); }},
+      {area, "signed friction at 7 pi rad/s",
+       "the relative velocity falls to 0.02 m/s, where friction turns within microseconds",
+       "energy that 128 samples of a period leave over, of the work of friction", 0.02,
+       [] {
+         const CycleEnergy energy =
+             limit_cycle_direct(disc_of({kirchhoff_3()}),
+                                reference_options(ContactLaw::signed_force), 7.0 * pi)
+                 .energy;
+         const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
+         return std::abs(sum) / energy.friction.cwiseAbs().sum();
+       }},
       {area, "limit cycle that loses contact", "the force has a kink, 12 m/s at the pad",
        "error of the frequency, Hz", 1e-5,
        [] { return cycle_frequency_error(ContactLaw::unilateral, 1691.1221391516015); }},

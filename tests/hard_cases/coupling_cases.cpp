@@ -5,6 +5,8 @@
 
 #include "hard_case.hpp"
 #include "plate/assemble.hpp"
+#include "plate/free_motions.hpp"
+#include "plate/supports.hpp"
 #include "tests/plate/small_disc.hpp"
 #include "tests/plate/square_plate.hpp"
 
@@ -83,6 +85,40 @@ const std::vector<ShellSection> plate_section{
      .material = {.young = 2e11, .poisson = 0.3, .density = 8000.0},
      .thickness = 0.1}};
 
+/// What is said of a support on these nodes of the rectangle, whose bottom follows "base".
+double refusal_of_support(const std::string& group, const std::vector<std::string>& words)
+{
+  const mesh::Mesh mesh = rectangle();
+  const DofMap dofs = map_of(mesh, {{.name = "base", .group = "bottom"}});
+  return words_missing(
+      [&] { held_dofs(mesh, dofs, std::vector<Support>{{.group = group, .components = {2}}}); },
+      words);
+}
+
+/// Free motions that are not found of a rectangle hinged along one edge.
+double missing_free_motions()
+{
+  const mesh::Mesh mesh = rectangle();
+  const DofMap dofs = map_of(mesh, {});
+  const auto parts = free_parts(
+      mesh, dofs,
+      held_dofs(mesh, dofs, std::vector<Support>{{.group = "left", .components = {0, 1, 2}}}));
+  return std::abs(n_free_motions(parts) - 1.0);
+}
+
+/// A reference node whose nodes belong to no element.
+double refusal_of_reference_without_stiffness()
+{
+  mesh::Mesh mesh = rectangle();
+  mesh.positions.push_back({0.0, 0.0, 1.0});
+  mesh.node_numbers.push_back(4711);
+  mesh.groups.push_back({.name = "loose", .dimension = 0, .nodes = {mesh.n_nodes() - 1}});
+  const std::vector<int> owners(mesh.n_nodes(), 0);
+  const DofMap dofs =
+      make_dof_map(mesh, std::vector<Coupling>{{.name = "tip", .group = "loose"}}, owners, 1);
+  return words_missing([&] { check_stiffness_of_all_nodes(mesh, dofs); }, {"\"tip\"", "element"});
+}
+
 }  // namespace
 
 std::vector<HardCase> coupling_cases()
@@ -136,6 +172,13 @@ std::vector<HardCase> coupling_cases()
               .offset = {Coordinate::x, {0.0, 2.0}, {0.05, 0.15}}}};
          return force_of_rigid_motions(rectangle(), tapered, {});
        }},
+      {area, "reference node of nodes without element", "a DOF without stiffness: K is singular",
+       words, 0.0, refusal_of_reference_without_stiffness},
+      {area, "support on nodes that follow a coupling", "an attachment node that is dependent",
+       words, 0.0, [] { return refusal_of_support("bottom", {"\"base\" instead"}); }},
+      {area, "plate hinged along one edge",
+       "free to turn about it, though three DOFs of each node are held", "free motions not found",
+       0.0, missing_free_motions},
   };
 }
 

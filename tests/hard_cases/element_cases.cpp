@@ -6,6 +6,7 @@
 #include "mbs_export/dense_solvers.hpp"
 #include "plate/shell_element.hpp"
 #include "tests/plate/obstacle_course.hpp"
+#include "tests/plate/patch.hpp"
 #include "tests/plate/sample_elements.hpp"
 
 namespace chladni::hard_cases {
@@ -74,6 +75,29 @@ double change_by_turning_a_thin_element()
   return (T * here * T.transpose() - there).norm() / here.norm();
 }
 
+/// Over the patches of all shapes and orders.
+double worst_patch(const Field& exact)
+{
+  double worst = 0.0;
+  for (const auto& [shape, order] : patch_elements())
+    worst = std::max(worst, patch_error(make_patch(shape, order), exact));
+  return worst;
+}
+
+/// How many zero eigenvalues a free patch of any shape and order has beside its six rigid motions.
+double needless_zero_modes()
+{
+  double most = 0.0;
+  for (const auto& [shape, order] : patch_elements()) {
+    const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                       make_patch(shape, order).K, Eigen::EigenvaluesOnly)
+                                       .eigenvalues();
+    const auto n_zero = (lambda.array().abs() < 1e-12 * lambda.maxCoeff()).count();
+    most = std::max(most, std::abs(double(n_zero) - 6.0));
+  }
+  return most;
+}
+
 }  // namespace
 
 double relative_error(double value, double exact)
@@ -135,6 +159,16 @@ std::vector<HardCase> element_cases()
       {area, "thin warped element, turned",
        "bending is 1e-6 of stretching: round-off of a rotation", "relative change of K", 1e-12,
        change_by_turning_a_thin_element},
+      {area, "distorted patches of all shapes and orders, stretched",
+       "assumed membrane strains need their mean corrected", "relative error inside", 1e-10,
+       [] { return worst_patch(constant_membrane_strain); }},
+      {area, "the same, bent and twisted", "S8R fails it by 0.24", "relative error inside", 1e-10,
+       [] { return worst_patch(constant_curvature); }},
+      {area, "the same, free", "reduced integration and free drilling leave hourglass modes",
+       "zero modes beside the rigid ones, or missing", 0.0, needless_zero_modes},
+      {area, "annulus, h/r_a = 1e-4, order 3, 30 DOFs along the radius",
+       "shear locking is a factor of 10 to 100 here", "relative error of the frequency", 1e-4,
+       [] { return relative_error(thin_annulus(3), thin_annulus_Hz); }},
   };
 }
 

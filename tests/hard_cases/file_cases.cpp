@@ -8,14 +8,20 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "hard_case.hpp"
 #include "mbs_export/body_file.hpp"
 #include "mbs_export/make_body.hpp"
+#include "mbs_export/reduced_file.hpp"
 #include "mbs_export/seal.hpp"
+#include "squeal/result_file.hpp"
+#include "squeal/run.hpp"
+#include "tests/mbs_export/bending_beam.hpp"
 #include "tests/mbs_export/scratch_folder.hpp"
 #include "tests/mbs_export/wheel.hpp"
+#include "tests/squeal/analytic_body.hpp"
 
 namespace chladni::hard_cases {
 namespace {
@@ -91,36 +97,83 @@ Ends ends_of_flipped_files(const std::string& sound)
   });
 }
 
-/// Writes bodies of 6 and 60 modes in turn until it is killed.
-[[noreturn]] void write_for_ever(const std::string& path)
-{
-  const ModalBody bodies[] = {wheel_body(6), wheel_body(60)};
-  for (int i = 0;; ++i) write_body(path, bodies[i % 2]);
-}
+/// Two contents that a file may have: how each is written, and which of them, 0 or 1, is read;
+/// another number, or an error, for a file that is neither.
+struct Contents {
+  std::function<void(const std::string& path, int which)> write;
+  std::function<int(const std::string& path)> read;
+};
 
-/// Kills a writer at random moments; how often the file is neither the old nor the new one.
-double half_files(int n_kills)
+/// Kills a writer that writes both in turn, at random moments; how often the file is neither, and
+/// one more for each content that was never found.
+double half_files(int n_kills, const Contents& contents)
 {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
-  write_body(path, wheel_body(6));
+  contents.write(path, 0);
   std::mt19937 generator(1);
-  std::uniform_int_distribution<int> microseconds(0, 20000);
+  std::uniform_int_distribution<int> microseconds(5000, 25000);
   double half = 0.0;
+  std::set<int> found;
   for (int i = 0; i < n_kills; ++i) {
     const pid_t writer = fork();
-    if (writer == 0) write_for_ever(path);
-    std::this_thread::sleep_for(std::chrono::microseconds(20000 + microseconds(generator)));
+    if (writer == 0)
+      for (int which = i % 2;; which = 1 - which) contents.write(path, which);
+    std::this_thread::sleep_for(std::chrono::microseconds(microseconds(generator)));
     kill(writer, SIGKILL);
     waitpid(writer, nullptr, 0);
     try {
-      const auto n_modes = read_body(path).n_modes();
-      half += n_modes != 6 && n_modes != 60;
+      const int which = contents.read(path);
+      half += which != 0 && which != 1;
+      found.insert(which);
     } catch (const Error&) {
       ++half;
     }
   }
-  return half;
+  return half + double(!found.contains(0)) + double(!found.contains(1));
+}
+
+/// Bodies of 6 and 60 modes.
+Contents bodies()
+{
+  const std::vector<ModalBody> both{wheel_body(6), wheel_body(60)};
+  return {
+      [both](const std::string& path, int which) { write_body(path, both[std::size_t(which)]); },
+      [](const std::string& path) {
+        const auto n = read_body(path).n_modes();
+        return n == 6 ? 0 : n == 60 ? 1 : -1;
+      }};
+}
+
+/// The wheel and the beam.
+Contents reduced_systems()
+{
+  const std::vector<ReducedSystem> both{test::wheel(), test::regression_beam()};
+  return {
+      [both](const std::string& path, int which) { write_reduced(path, both[std::size_t(which)]); },
+      [sizes = std::pair{both[0].K.rows(), both[1].K.rows()}](const std::string& path) {
+        const auto n = read_reduced(path).K.rows();
+        return n == sizes.first ? 0 : n == sizes.second ? 1 : -1;
+      }};
+}
+
+/// Eigenvalues at 5 and at 50 speeds.
+Contents squeal_results()
+{
+  std::vector<squeal::SquealResults> both;
+  for (const int n_speeds : {5, 50}) {
+    squeal::SquealOptions options = squeal::test::reference_options();
+    options.speeds.count = n_speeds;
+    options.analyses = {"eigenvalues"};
+    both.push_back(run(squeal::test::disc_of({squeal::test::kirchhoff_3()}), options));
+  }
+  return {[both](const std::string& path, int which) {
+            squeal::write_results(path, both[std::size_t(which)], {});
+          },
+          [](const std::string& path) {
+            const auto n = squeal::read_results(path).eigenvalues->speeds.size();
+            return n == 5 ? 0 : n == 50 ? 1 : -1;
+          }};
 }
 
 }  // namespace
@@ -128,7 +181,8 @@ double half_files(int n_kills)
 std::vector<HardCase> file_cases()
 {
   const std::string area = "files", read = "files not refused",
-                    unexpected = "files neither read nor refused";
+                    unexpected = "files neither read nor refused",
+                    half = "files neither old nor new, or never old or never new";
   return {
       {area, "body file cut at 300 places", "lengths and offsets point beyond its end", read, 0.0,
        [] {
@@ -145,8 +199,12 @@ std::vector<HardCase> file_cases()
        0.0, [] { return ends_of_cut_files(body_bytes_without_seal()).unexpected; }},
       {area, "the same 2000 without seal", "sizes that overflow, types and shapes that do not fit",
        unexpected, 0.0, [] { return ends_of_flipped_files(body_bytes_without_seal()).unexpected; }},
-      {area, "writer killed 200 times at random moments", "a file may be half written",
-       "files neither old nor new", 0.0, [] { return half_files(200); }},
+      {area, "writer of bodies killed 200 times at random moments", "a file may be half written",
+       half, 0.0, [] { return half_files(200, bodies()); }},
+      {area, "writer of reduced systems killed 200 times", "the same", half, 0.0,
+       [] { return half_files(200, reduced_systems()); }},
+      {area, "writer of squeal's results killed 200 times", "the same", half, 0.0,
+       [] { return half_files(200, squeal_results()); }},
       {area, "body with NaN", "poisons every later result in silence",
        "words missing in the refusal", 0.0,
        [] {

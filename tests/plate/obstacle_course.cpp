@@ -189,4 +189,24 @@ double clamped_hypar(const Grid& grid, double thickness)
   return -u[6 * node_at(model, {1.0, 0.5}) + 2];
 }
 
+double thin_annulus(int order)
+{
+  const double h = 0.162e-4;
+  const Material material{
+      .young = 12.0 * 67100.0 * 0.91 / (h * h * h), .poisson = 0.3, .density = 126.0 / h};
+  const Surface annulus = [](double u, double v) {
+    const double angle = 2.0 * std::numbers::pi * u;
+    const double r = 0.025 + 0.137 * v;
+    return Vector3d(r * std::cos(angle), r * std::sin(angle), 0.0);
+  };
+  const ShellModel plate = shell_model(
+      {annulus},
+      {.shape = mesh::Shape::quadrilateral, .order = order, .n_u = 54 / order, .n_v = 30 / order},
+      material, h);
+  return frequencies(plate,
+                     free_dofs(plate, {{[](const Eigen::Vector2d&) { return true; }, {0, 1, 5}},
+                                       {on(1, 0.0), {2, 3, 4}}}),
+                     6)[5];
+}
+
 }  // namespace chladni::plate::testing

@@ -39,4 +39,13 @@ double morley_rhombus(const Grid& grid);
 /// 3.6e8 t^3 per area.
 double clamped_hypar(const Grid& grid, double thickness);
 
+/// The annular plate of thickness r_a / 1e4 and bending stiffness 67100 N m, 126 kg/m^2, clamped
+/// inside, with fewer than 5000 DOFs.
+/// @return its sixth frequency, the first with three nodal diameters, Hz
+double thin_annulus(int order);
+
+/// The exact Mindlin value, root of a determinant of Bessel functions. Shear locking would show as
+/// a factor.
+inline constexpr double thin_annulus_Hz = 1749.730718956;
+
 }  // namespace chladni::plate::testing
