@@ -61,6 +61,15 @@ TEST(DamagedFiles, ThatOnceBrokeAReaderEndInAClearError)
   EXPECT_GT(replay_corpus("slow_reduced", feed_reduced), 0);  // as long as trials may take
 }
 
+TEST(DamagedFiles, AreReadWhereNothingIsDoneToThem)
+{
+  // Otherwise all that follows them would be refused, and nothing tested.
+  bool read = false;
+  fuzz::feed({}, CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5",
+             [&](const std::string& path) { read = read_reduced(path).n_masters() > 0; });
+  EXPECT_TRUE(read);
+}
+
 TEST(DamagedFiles, EndInAValueOrAClearError)
 {
   feed_random_damage(feed_body, 200);
