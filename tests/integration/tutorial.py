@@ -1,8 +1,10 @@
-"""Runs docs/tutorial.md: writes its files, runs its commands. --update also writes what they print into it.
+"""Runs docs/tutorial.md: writes its files, runs its commands. What they print must be what stands there, but
+for the digits of numbers; --update writes it into the tutorial instead.
 
 Usage: tutorial.py PROGRAM_DIR [--update]
 """
 
+import difflib
 import os
 import re
 import subprocess
@@ -38,6 +40,11 @@ def perform(block, folder, programs):
     return shown(run.stdout + run.stderr)
 
 
+def without_numbers(text):
+    """Words and the order of the lines: the last digits differ from machine to machine."""
+    return [re.sub(r"[-+]?\d[\d.,]*(e[-+]?\d+)?", "#", " ".join(line.split())) for line in text.splitlines()]
+
+
 def main(programs, update=False):
     tutorial = TUTORIAL.read_text()
     with tempfile.TemporaryDirectory() as folder:
@@ -50,6 +57,10 @@ def main(programs, update=False):
         written = BLOCK.sub(replaced, tutorial)
     if update:
         TUTORIAL.write_text(written)
+        return
+    changes = list(difflib.unified_diff(without_numbers(tutorial), without_numbers(written), "tutorial", "printed", n=0))
+    if changes:
+        sys.exit("FAILED: the programs print something else; ./dev docs writes it anew\n" + "\n".join(changes))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,26 @@
+"""The scene of the README is one that `chladni` reads. Usage: readme_scene.py PROGRAM_DIR"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+
+def main(programs):
+    readme = (Path(__file__).parents[2] / "README.md").read_text()
+    scenes = re.findall(r"```toml\n(.*?)```", readme, flags=re.S)
+    if not scenes:
+        sys.exit("FAILED: the README has no scene")
+    for scene in scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.toml"
+            path.write_text(scene)
+            run = subprocess.run([programs / "chladni", "mesh", path], capture_output=True, text=True)
+            print(run.stdout + run.stderr)
+            if run.returncode:
+                sys.exit("FAILED: chladni refuses the scene of the README")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
