@@ -12,7 +12,6 @@ import json
 import os
 import pathlib
 import platform
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -66,8 +65,9 @@ def squeal(out, quick):
     with tempfile.TemporaryDirectory() as name:
         result = pathlib.Path(name) / "squeal_benchmarks.json"
         call([program("squeal_work_precision"), *(["--smallest"] if quick else []), result])
-        call([PYTHON, HERE / "squeal/report.py", result, out])
-        shutil.copy(result, out / "squeal_benchmarks.json")
+        modes = pathlib.Path(name) / "modes.json"
+        call([PYTHON, HERE / "squeal/modes.py", *(["--quick"] if quick else []), modes])
+        call([PYTHON, HERE / "squeal/report.py", result, modes, out])
 
 
 def sound(out, quick):
