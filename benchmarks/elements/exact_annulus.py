@@ -45,10 +45,10 @@ def hierarchical(degree, x):
     return np.array(values), np.array(slopes)
 
 
-def frequencies(n, h, degree=14, count=N_CIRCLES):
-    """The lowest ones in bending with n nodal diameters."""
+def frequencies(n, h, degree=14, count=N_CIRCLES, kappa=5 / 6):
+    """The lowest ones in bending with n nodal diameters; kappa is the shear correction."""
     E = 12 * D * (1 - NU**2) / h**3
-    shear, rho = 5 / 6 * E / (2 * (1 + NU)) * h, GAMMA / h
+    shear, rho = kappa * E / (2 * (1 + NU)) * h, GAMMA / h
     ends = breakpoints(h)
     x, weight = legendre.leggauss(degree + 6)
     N, dN = hierarchical(degree, x)
@@ -117,13 +117,13 @@ def plane_frequencies(n, h, degree=14, count=N_CIRCLES):
     return frequencies_of(B[:, free], H[:, free], count)
 
 
-def all_frequencies(h, count):
+def all_frequencies(h, count, kappa=5 / 6):
     """The lowest of the clamped annulus as a plate with six DOFs at each point, in bending and in its plane, in Hz and
     in order, those with nodal diameters twice."""
     found, n = [], 0
     limit = np.inf  # above it there are `count` already
     while True:
-        own = np.concatenate([frequencies(n, h, count=12), plane_frequencies(n, h, count=12)])
+        own = np.concatenate([frequencies(n, h, count=12, kappa=kappa), plane_frequencies(n, h, count=12)])
         if own.min() > limit and n > 1:
             return np.sort(found)[:count]
         # n = 0: radial and torsional motion come from one problem, each frequency once.

@@ -66,11 +66,11 @@ def timed(command, folder):
     return {"wall_s": wall, "cpu_s": usage.ru_utime + usage.ru_stime, "peak_MiB": usage.ru_maxrss / 1024, "printed": text}
 
 
-def exact_frequencies(theory, count):
+def exact_frequencies(theory, count, **more):
     """The lowest of the clamped disc, in Hz: of the "annulus", bending of the Reissner-Mindlin plate and motion in its
-    plane, or of the elastic "solid" (benchmarks/elements/exact_annulus.py and exact_solid.py)."""
+    plane, or of the elastic "solid" (benchmarks/elements/exact_annulus.py and exact_solid.py); `more` goes to these."""
     sys.path.insert(0, str(ROOT / "benchmarks/elements"))
-    return importlib.import_module(f"exact_{theory}").all_frequencies(0.02, count)
+    return importlib.import_module(f"exact_{theory}").all_frequencies(0.02, count, **more)
 
 
 def errors_of(f_Hz, exact):
