@@ -65,12 +65,13 @@ def reduced_shapes(file):
 
 def partners(X, full, shapes):
     """The FE frequency of the mode that each column of X is, each one once: the assignment with the largest sum of
-    |Q_c^T x|^2 / |x|^2, Q_c an orthonormal basis of the shapes of its cluster; and these shares. A cluster is a pair of the disc: the mesh
-    splits them by less than 1e-5, and other modes may be 1e-4 apart."""
+    |Q_c^T x|^2 / |x|^2, Q_c an orthonormal basis of the shapes of its cluster; and these shares. A
+    cluster is a pair of the disc: the mesh splits them by less than 1e-5, and other modes may be 1e-4 apart."""
     from scipy.optimize import linear_sum_assignment
     cluster = np.concatenate([[0], np.cumsum(np.diff(full) > 1e-5 * full[:-1])])
     X = X / np.linalg.norm(X, axis=0)
-    share = np.stack([np.sum((np.linalg.qr(shapes[:, cluster == c])[0].T @ X) ** 2, 0) for c in range(cluster[-1] + 1)], 1)
+    bases = [np.linalg.qr(shapes[:, cluster == c])[0] for c in range(cluster[-1] + 1)]
+    share = np.stack([np.sum((Q_c.T @ X) ** 2, 0) for Q_c in bases], 1)
     rows, columns = linear_sum_assignment(-share[:, cluster])
     found = cluster[columns[np.argsort(rows)]]
     taken = np.zeros(cluster[-1] + 1, int)
@@ -91,7 +92,8 @@ def compare(reduced, full, X, shapes):
     return {"modes": reduced["n_modes"], "cutoff_Hz": reduced["frequencies_Hz"][-1],
             "frequencies_Hz": list(f[:n]), "true_error": list((f[:n] / partner) ** 2 - 1),
             "error_in_order": list((f[:n] / full[:n]) ** 2 - 1),
-            "share_of_shape": list(share), "eta2": reduced["eta2"][:n], "bounds": [None if np.isnan(b) else b for b in bounds],
+            "share_of_shape": list(share), "eta2": reduced["eta2"][:n],
+            "bounds": [None if np.isnan(b) else b for b in bounds],
             "expected": reduced["modes_expected"], "found": reduced["modes_found"]}
 
 
@@ -147,11 +149,12 @@ def draw(result, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     cases = result["cases"]
-    figure, axes = plt.subplots(2, len(cases), figsize=(3.4 * len(cases), 5.6), layout="constrained", sharey="row", squeeze=False,
-                                height_ratios=(2, 1))
+    figure, axes = plt.subplots(2, len(cases), figsize=(3.4 * len(cases), 5.6), layout="constrained", sharey="row",
+                                squeeze=False, height_ratios=(2, 1))
     for (above, below), case in zip(axes.T, cases):
         f, error, eta2 = np.array(case["frequencies_Hz"]) / 1000, np.array(case["true_error"]), np.array(case["eta2"])
-        above.semilogy(f, [np.nan if b is None else b for b in case["bounds"]], "^", ms=5, mfc="none", color="0.5", label="bound")
+        bounds = [np.nan if b is None else b for b in case["bounds"]]
+        above.semilogy(f, bounds, "^", ms=5, mfc="none", color="0.5", label="bound")
         above.semilogy(f, np.where(error > 0, error, np.nan), "o", ms=6, mfc="none", color="C0", label="true error")
         above.semilogy(f, eta2, ".", ms=4, color="C3", label="estimate eta^2")
         known = (np.array(case["share_of_shape"]) > 0.5) & (error > 20 * result["noise"])

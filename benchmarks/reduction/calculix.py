@@ -6,7 +6,8 @@ usage: calculix.py [--modes 50 200] [--around 120] [--across 25] OUTPUT
 CalculiX (Debian: calculix-ccx) expands its S8R shells into solid elements and solves by ARPACK with
 SPOOLES; Chladni completes the quadrilaterals by a node in the middle. Seconds and memory are those of whole
 processes with one thread: `chladni modes`, and `chladni reduce` to 366 masters with as many
-fixed-interface modes and its certificate. Errors are against the exact plate and the exact solid. Writes OUTPUT/reduction_calculix.json and .md.
+fixed-interface modes and its certificate. Errors are against the exact plate and the exact solid.
+Writes OUTPUT/reduction_calculix.json and .md.
 """
 import argparse
 import json

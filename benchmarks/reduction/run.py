@@ -47,7 +47,7 @@ def reduce(folder, path, ranks=1, options=()):
             name, count, _, seconds, *_ = line.split()
             events[name] = {"count": int(count), "wall_s": float(seconds)}
     summary = json.loads((folder / "summary.json").read_text())
-    return {**summary, "events": events}
+    return {**summary, "events": events, "printed": done.stdout}
 
 
 def timed(command, folder):
