@@ -24,7 +24,7 @@ def best(work):
     for _ in range(5):
         start = time.perf_counter(); work(); times.append(time.perf_counter() - start)
     return min(times)
-print(2e-9 * 2000**3 / best(lambda: a @ a), 8e-9 * b.size / best(lambda: b.sum()), 8e-9 * b.size / best(lambda: b.fill(2.0)),
+print(2e-9 * 2000**3 / best(lambda: a @ a), 8e-9 * b.size / best(lambda: b @ b), 8e-9 * b.size / best(lambda: b.fill(2.0)),
       8e-9 * b.size / best(fresh))
 """
 # phase: how it is bounded, or why it is not

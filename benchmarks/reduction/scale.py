@@ -68,8 +68,8 @@ def conclusions(runs):
 
 def bounded(runs, rate):
     """The runs on one rank with their bounds."""
-    return [{**r, "bounds_s": bounds.phases(r, rate), "event_bounds_s": bounds.events(r, rate), "bound_MiB": bounds.memory_MiB(r)}
-            if r["ranks"] == 1 else r for r in runs]
+    own = lambda r: {"bounds_s": bounds.phases(r, rate), "event_bounds_s": bounds.events(r, rate), "bound_MiB": bounds.memory_MiB(r)}
+    return [{**r, **own(r)} if r["ranks"] == 1 else r for r in runs]
 
 
 def shares(runs):
@@ -77,9 +77,9 @@ def shares(runs):
     single = [r for r in runs if r["ranks"] == 1]
     names = " | ".join(f"{r['disc']}: s, bound, share" for r in single)
     lines = ["", "## Each phase against its bound", "",
-             "One rank: measured seconds, the least that one core could need, and its share (1 = as fast as the bound allows). n are the "
-             "slaves, m the masters, k the fixed-interface modes, p the pairs with an estimate, l the entries of the factor, V the vectors of "
-             "the eigen-solve (`benchmarks/reduction/bounds.py`).", "",
+             "One rank: measured seconds, the least that one core could need, and its share (1 = as fast as the bound "
+             "allows). n are the slaves, m the masters, k the fixed-interface modes, p the pairs with an estimate, l the entries "
+             "of the factor, V the vectors of the eigen-solve (`benchmarks/reduction/bounds.py`).", "",
              f"| phase | {names} | bound |", "|---" * (len(single) + 2) + "|"]
     cell = lambda seconds, bound: f"{seconds:.2f}, {bound:.2f}, {bound / seconds:.2f}" if bound else f"{seconds:.2f}, -, -"
     for phase, meaning in bounds.MEANING.items():
@@ -106,7 +106,8 @@ def table(runs, found, rate):
              f"{rate['machine']['commit']}; one core: dgemm "
              f"{rate['dgemm_GFLOP_per_s']:.1f} GFLOP/s, reading memory "
              f"{rate['memory_GB_per_s']:.1f} GB/s, writing "
-             f"it {rate['memory_write_GB_per_s']:.1f} GB/s, {rate['memory_fresh_GB_per_s']:.1f} GB/s where it was never touched, a file {rate['file_GB_per_s']:.1f} GB/s.", "",
+             f"it {rate['memory_write_GB_per_s']:.1f} GB/s, {rate['memory_fresh_GB_per_s']:.1f} GB/s where it was never touched, "
+             f"a file {rate['file_GB_per_s']:.1f} GB/s.", "",
              "| disc | ranks | DOFs | " + " | ".join(PHASES) + " | whole | peak MiB per rank |",
              "|---" * (len(PHASES) + 5) + "|"]
     for r in runs:
@@ -121,11 +122,12 @@ def table(runs, found, rate):
 
 
 def draw(runs, path):
-    """Above time of the phases with their bounds and of the whole, below memory."""
+    """Time of the phases with their bounds, time of the whole, memory."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, (phases, whole, memory) = plt.subplots(1, 3, figsize=(13, 4.6), layout="constrained")
+    from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, NullLocator, StrMethodFormatter
+    figure, (phases, whole, memory) = plt.subplots(1, 3, figsize=(13, 4.8), layout="constrained", width_ratios=(1.6, 1, 1))
     single, double = ([r for r in runs if r["ranks"] == n] for n in (1, 2))
     line = lambda axis, some, value, *style, **more: axis.loglog([r["dofs"] for r in some], [value(r) for r in some], *style, **more)
     for i, phase in enumerate(["assembly", "factorization", "fixed-interface modes", "constraint modes", "projection",
@@ -143,7 +145,13 @@ def draw(runs, path):
                               (memory, "peak memory", "GiB")):
         axis.set(title=title, xlabel="degrees of freedom", ylabel=unit)
         axis.grid(True, which="both", alpha=0.3)
-        axis.legend(fontsize=8)
+        axis.xaxis.set_major_locator(FixedLocator([r["dofs"] for r in single]))
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if axis is not phases else (1,)))
+        axis.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.yaxis.set_minor_formatter(NullFormatter())
+        axis.legend(fontsize=8, **({"loc": "center left", "bbox_to_anchor": (1.0, 0.5)} if axis is phases else {}))
     figure.savefig(path, dpi=120)
 
 
