@@ -4,9 +4,10 @@
 usage: bench.py [--quick] [--only NAME ...] OUTPUT
 
 OUTPUT/results.json holds everything: machine, versions, and of each benchmark its commit, date and seconds, its
-JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small sizes are run, into a folder
-of their own, to see that everything works; the figures that documents show come from full runs. With --only the
-others stay as they were, with the commit and date that they had, results.md says that it is mixed, and README.md is left alone.
+JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small
+sizes are run, into a folder of their own, to see that everything works; the figures that documents show come from full
+runs. With --only the others stay as they were, with the commit and date that they had, results.md says that it is
+mixed, and README.md is left alone.
 """
 import argparse
 import json
@@ -139,9 +140,11 @@ def machine():
 
 
 def commit():
+    """Of the sources; what this program writes, docs/ and README.md, changes while it runs."""
     git = lambda *words: subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True,
                                         check=False).stdout.strip()
-    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no") else ""
+    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no", "--", ".",
+                                        ":!docs", ":!README.md") else ""
     return git("rev-parse", "--short", "HEAD") + changed
 
 
