@@ -36,14 +36,14 @@ Psi = factor.solve(-Ksm.toarray())
 inverse = sla.LinearOperator(Kss.shape, matvec=factor.solve, dtype=float)
 lam, Phi = sla.eigsh(Kss, k={modes}, M=Mss, sigma=0.0, OPinv=inverse if {shared} else None)
 T = np.hstack([Psi, Phi])
-n_m, n_s = len(masters), len(slaves)
+n_m = len(masters)
 K_mm, M_mm = (A[masters][:, masters].toarray() for A in (K, M))
-K_r, M_r = (A @ T for A in (Kss, Mss))
-K_r, M_r, K_sm, M_sm = T.T @ K_r, T.T @ M_r, T.T @ Ksm, T.T @ Msm
-for A, sm, mm in ((K_r, K_sm, K_mm), (M_r, M_sm, M_mm)):
-    A[:, :n_m] += sm
-    A[:n_m] += sm.T
-    A[:n_m, :n_m] += mm
+K_r = np.diag(np.concatenate([np.zeros(n_m), lam]))
+K_r[:n_m, :n_m] = K_mm + Ksm.T @ Psi
+M_r, M_sm = T.T @ (Mss @ T), T.T @ Msm
+M_r[:, :n_m] += M_sm
+M_r[:n_m] += M_sm.T
+M_r[:n_m, :n_m] += M_mm
 np.savez({folder!r} + "/scipy.npz", K_r=K_r, M_r=M_r, omega=np.sqrt(np.sort(lam)), Phi=Phi, lam=lam)
 """
 
