@@ -3,16 +3,17 @@
 
 usage: bench.py [--quick] [--only NAME ...] OUTPUT
 
-OUTPUT/results.json holds everything: machine, versions, commit, and of each benchmark its seconds, its
-JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small sizes are run, into a folder
-of their own, to see that everything works; the figures that documents show come from full runs.
+OUTPUT/results.json holds everything: machine, versions, and of each benchmark its commit, date and seconds, its
+JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small
+sizes are run, into a folder of their own, to see that everything works; the figures that documents show come from full
+runs. With --only the others stay as they were, with the commit and date that they had, results.md says that it is
+mixed, and README.md is left alone.
 """
 import argparse
 import json
 import os
 import pathlib
 import platform
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -66,8 +67,9 @@ def squeal(out, quick):
     with tempfile.TemporaryDirectory() as name:
         result = pathlib.Path(name) / "squeal_benchmarks.json"
         call([program("squeal_work_precision"), *(["--smallest"] if quick else []), result])
-        call([PYTHON, HERE / "squeal/report.py", result, out])
-        shutil.copy(result, out / "squeal_benchmarks.json")
+        modes = pathlib.Path(name) / "modes.json"
+        call([PYTHON, HERE / "squeal/modes.py", *(["--quick"] if quick else []), modes])
+        call([PYTHON, HERE / "squeal/report.py", result, modes, out])
 
 
 def sound(out, quick):
@@ -110,7 +112,8 @@ BENCHMARKS = [
 def versions():
     """Of the Debian packages that the figures depend on."""
     names = ["g++", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libmetis-dev",
-             "libopenblas-dev", "libgmsh-dev", "libhdf5-dev", "libeigen3-dev", "openmpi-bin"]
+             "libopenblas-dev", "libgmsh-dev", "libhdf5-dev", "libeigen3-dev", "openmpi-bin", "calculix-ccx",
+             "libsundials-dev", "python3-numpy", "python3-scipy"]
     done = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}\n", *names],
                           capture_output=True, text=True, check=False)
     return dict(line.split() for line in done.stdout.splitlines())
@@ -137,14 +140,17 @@ def machine():
 
 
 def commit():
+    """Of the sources; what this program writes, docs/ and README.md, changes while it runs."""
     git = lambda *words: subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True,
                                         check=False).stdout.strip()
-    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no") else ""
+    changed = " with changes" if git("status", "--porcelain", "--untracked-files=no", "--", ".",
+                                        ":!docs", ":!README.md") else ""
     return git("rev-parse", "--short", "HEAD") + changed
 
 
 def run_one(name, title, work, stem, out, quick):
     print(f"== {title}", flush=True)
+    stamp = {"title": title, "commit": commit(), "date": time.strftime("%Y-%m-%d")}
     start, load = time.time(), os.getloadavg()[0]
     written = [out / f"{stem}.md", out / f"{stem}.json"]
     before = {path: path.stat().st_mtime_ns for path in written if path.exists()}
@@ -155,8 +161,8 @@ def run_one(name, title, work, stem, out, quick):
                 raise RuntimeError(f"{path} was not written")
     except RuntimeError as error:
         print(f"bench.py: {name}: {error}", file=sys.stderr)
-        return {"title": title, "failed": str(error)}
-    found = {"title": title, "seconds": round(time.time() - start, 1), "load_before": load}
+        return {**stamp, "failed": str(error)}
+    found = {**stamp, "seconds": round(time.time() - start, 1), "load_before": load}
     found["text"] = (out / f"{stem}.md").read_text(encoding="utf-8")
     found["results"] = json.loads((out / f"{stem}.json").read_text(encoding="utf-8"))
     return found
@@ -167,27 +173,56 @@ def lowered(text):
     return "\n".join("#" + line if line.startswith("#") else line for line in text.splitlines())
 
 
+def stamps(benchmarks, key):
+    """The different commits or dates of the benchmarks, in the order in which they come."""
+    return list(dict.fromkeys(found.get(key, "not recorded") for found in benchmarks.values()))
+
+
+def common(benchmarks, key):
+    """What the header says of them."""
+    different = stamps(benchmarks, key)
+    return different[0] if len(different) == 1 else "mixed, as the sections say: " + ", ".join(different)
+
+
+def footer(found, benchmarks):
+    """What follows a section; commit and date too where they are not those of all."""
+    own = [f"{key} {found.get(key, 'not recorded')}" for key in ("commit", "date") if len(stamps(benchmarks, key)) > 1]
+    ran = [f"{found['seconds']:.0f} s", f"load of the machine before: {found['load_before']:.1f}"] if "seconds" in found else []
+    return f"*{'; '.join(ran + own)}*" if ran + own else ""
+
+
 def markdown(results):
     """results.md, of results.json alone."""
-    about, packages = results["machine"], results["versions"]
+    about, packages, benchmarks = results["machine"], results["versions"], results["benchmarks"]
     lines = ["# Results", "",
              f"Written by `./dev bench{' quick' if results['quick'] else ''}` from `results.json`; no number "
              "here was typed. Times compare within one section only.", "",
              "| | |", "|---|---|",
-             f"| commit | {results['commit']} |", f"| date | {results['date']} |",
+             f"| commit | {common(benchmarks, 'commit')} |", f"| date | {common(benchmarks, 'date')} |",
              f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
              f"| system | {about['system']} |",
              f"| memory | transparent huge pages: {about['huge_pages'] or 'none'}; page_reporting_order "
              f"{about['page_reporting_order'] or 'none'} (above 10: a virtual machine keeps the pages it frees) |",
              f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", "",
-             "## In short", "", "The same table stands in README.md.", "", *claims.table(results["benchmarks"]), ""]
-    for found in results["benchmarks"].values():
+             "## In short", "", "The same table stands in README.md" +
+             (" as of the last run of all." if len(stamps(benchmarks, "commit")) > 1 else "."), "", *claims.table(benchmarks), ""]
+    for found in benchmarks.values():
         if "failed" in found:
             lines += [f"## {found['title']}", "", "Failed:", "", "```", found["failed"], "```", ""]
         else:
-            lines += [lowered(found["text"]), "", f"*{found['seconds']:.0f} s; load of the machine before: "
-                      f"{found['load_before']:.1f}*", ""]
+            lines += [lowered(found["text"]), ""]
+        lines += [footer(found, benchmarks), ""]
     return "\n".join(lines)
+
+
+def earlier(out):
+    """The benchmarks of OUTPUT/results.json, each with its commit and date (before it had them: those of the file)."""
+    file = out / "results.json"
+    if not file.exists():
+        return {}
+    results = json.loads(file.read_text(encoding="utf-8"))
+    whole = {key: results[key] for key in ("commit", "date") if key in results}
+    return {name: {**whole, **found} for name, found in results["benchmarks"].items()}
 
 
 def write(out, results):
@@ -204,15 +239,13 @@ def main():
     arguments = parser.parse_args()
     out = arguments.output
     (out / "figures").mkdir(parents=True, exist_ok=True)
-    results = {"quick": arguments.quick, "commit": commit(), "date": time.strftime("%Y-%m-%d"),
-               "machine": machine(), "versions": versions(), "benchmarks": {}}
-    if arguments.only and (out / "results.json").exists():  # the others stay as they were
-        results["benchmarks"] = json.loads((out / "results.json").read_text())["benchmarks"]
+    results = {"quick": arguments.quick, "machine": machine(), "versions": versions(),
+               "benchmarks": earlier(out) if arguments.only else {}}
     for name, title, work, stem in BENCHMARKS:
         if not arguments.only or name in arguments.only:
             results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
             write(out, results)
-    if not arguments.quick:
+    if not arguments.quick and not arguments.only:
         claims.put_into(ROOT / "README.md", results["benchmarks"])
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
 

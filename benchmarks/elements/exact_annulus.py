@@ -45,9 +45,10 @@ def hierarchical(degree, x):
     return np.array(values), np.array(slopes)
 
 
-def frequencies(n, h, degree=14):
+def frequencies(n, h, degree=14, count=N_CIRCLES, kappa=5 / 6):
+    """The lowest ones in bending with n nodal diameters; kappa is the shear correction."""
     E = 12 * D * (1 - NU**2) / h**3
-    shear, rho = 5 / 6 * E / (2 * (1 + NU)) * h, GAMMA / h
+    shear, rho = kappa * E / (2 * (1 + NU)) * h, GAMMA / h
     ends = breakpoints(h)
     x, weight = legendre.leggauss(degree + 6)
     N, dN = hierarchical(degree, x)
@@ -74,11 +75,61 @@ def frequencies(n, h, degree=14):
             H[(3 * e + i) * n_q:(3 * e + i + 1) * n_q, dofs] = (motion * s).T
     free = np.setdiff1d(np.arange(3 * n_f), [0, n_f, 2 * n_f])
     B, H = B[:, free], H[:, free]
-    # K = B^T B = R^T R: the singular values of H R^-1 are 1 / omega, without the loss of digits of K.
+    return frequencies_of(B, H, count)
+
+
+def frequencies_of(B, H, count):
+    """Hz. K = B^T B = R^T R: the singular values of H R^-1 are 1 / omega, without the loss of digits of K."""
     scale = 1 / np.linalg.norm(B, axis=0)
     R = np.linalg.qr(B * scale, mode="r")
     sigma = np.linalg.svd(np.linalg.solve(R.T, (H * scale).T), compute_uv=False)
-    return 1 / (2 * np.pi * sigma[:N_CIRCLES])
+    return 1 / (2 * np.pi * sigma[:count])
+
+
+def plane_frequencies(n, h, degree=14, count=N_CIRCLES):
+    """The lowest ones in its plane (plane stress) with n nodal diameters, u cos(n phi) and v sin(n phi):
+    e_r = u', e_phi = (u + n v) / r, 2 e_r_phi = v' - (v + n u) / r
+    K = pi int E h / (1 - nu^2) (e_r^2 + e_phi^2 + 2 nu e_r e_phi + (1 - nu)/2 (2 e_r_phi)^2) r dr
+    M = pi int rho h (u^2 + v^2) r dr
+    """
+    stiffness, mass = 12 * D / h**2, GAMMA
+    ends = np.linspace(R_I, R_A, 9)
+    x, weight = legendre.leggauss(degree + 6)
+    N, dN = hierarchical(degree, x)
+    n_e, n_q = len(ends) - 1, len(x)
+    n_f = n_e + 1 + n_e * (degree - 1)
+    B, H = np.zeros((3 * n_e * n_q, 2 * n_f)), np.zeros((2 * n_e * n_q, 2 * n_f))
+    for e in range(n_e):
+        J = (ends[e + 1] - ends[e]) / 2
+        r = ends[e] + J * (1 + x)
+        own = np.r_[e, e + 1, n_e + 1 + e * (degree - 1) + np.arange(degree - 1)]
+        dofs = np.concatenate([own, n_f + own])
+        rows = lambda u, v: np.concatenate([u, v])
+        e_r, e_phi = rows(dN / J, 0 * N), rows(N / r, n * N / r)
+        strains = (np.sqrt(stiffness) * (e_r + NU * e_phi), np.sqrt(stiffness * (1 - NU**2)) * e_phi,
+                   np.sqrt(stiffness * (1 - NU) / 2) * rows(-n * N / r, dN / J - N / r))
+        s = np.sqrt(weight * J * r)
+        for i, strain in enumerate(strains):
+            B[(3 * e + i) * n_q:(3 * e + i + 1) * n_q, dofs] = (strain * s).T
+        for i, motion in enumerate((rows(N, 0 * N), rows(0 * N, N))):
+            H[(2 * e + i) * n_q:(2 * e + i + 1) * n_q, dofs] = (np.sqrt(mass) * motion * s).T
+    free = np.setdiff1d(np.arange(2 * n_f), [0, n_f])
+    return frequencies_of(B[:, free], H[:, free], count)
+
+
+def all_frequencies(h, count, kappa=5 / 6):
+    """The lowest of the clamped annulus as a plate with six DOFs at each point, in bending and in its plane, in Hz and
+    in order, those with nodal diameters twice."""
+    found, n = [], 0
+    limit = np.inf  # above it there are `count` already
+    while True:
+        own = np.concatenate([frequencies(n, h, count=12, kappa=kappa), plane_frequencies(n, h, count=12)])
+        if own.min() > limit and n > 1:
+            return np.sort(found)[:count]
+        # n = 0: radial and torsional motion come from one problem, each frequency once.
+        found.extend(np.repeat(own, 2 if n else 1))
+        limit = np.sort(found)[count - 1] if len(found) >= count else np.inf
+        n += 1
 
 
 def main():
@@ -93,4 +144,5 @@ def main():
         json.dump(out, file, indent=1)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,9 +1,13 @@
 """Runs chladni on the benchmark disc, and writes what was found; shared by the scripts of this folder."""
+import importlib
 import json
 import os
 import pathlib
 import platform
 import subprocess
+import sys
+import tempfile
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -43,7 +47,36 @@ def reduce(folder, path, ranks=1, options=()):
             name, count, _, seconds, *_ = line.split()
             events[name] = {"count": int(count), "wall_s": float(seconds)}
     summary = json.loads((folder / "summary.json").read_text())
-    return {**summary, "events": events}
+    return {**summary, "events": events, "printed": done.stdout}
+
+
+def timed(command, folder):
+    """Runs a command that must succeed: {wall_s, cpu_s, peak_MiB} of the whole process as the kernel counts them."""
+    with tempfile.TemporaryFile("w+") as printed:
+        start = time.perf_counter()
+        with subprocess.Popen(list(map(str, command)), cwd=folder, env=ENVIRONMENT, stdout=printed,
+                              stderr=subprocess.STDOUT) as process:
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        wall = time.perf_counter() - start
+        printed.seek(0)
+        text = printed.read()
+    if process.returncode != 0:
+        raise SystemExit(f"{' '.join(map(str, command))}\n{text[-2000:]}")
+    return {"wall_s": wall, "cpu_s": usage.ru_utime + usage.ru_stime, "peak_MiB": usage.ru_maxrss / 1024, "printed": text}
+
+
+def exact_frequencies(theory, count, **more):
+    """The lowest of the clamped disc, in Hz: of the "annulus", bending of the Reissner-Mindlin plate and motion in its
+    plane, or of the elastic "solid" (benchmarks/elements/exact_annulus.py and exact_solid.py); `more` goes to these."""
+    sys.path.insert(0, str(ROOT / "benchmarks/elements"))
+    return importlib.import_module(f"exact_{theory}").all_frequencies(0.02, count, **more)
+
+
+def errors_of(f_Hz, exact):
+    """Relative errors of frequencies by their place in the order: {median, largest}."""
+    error = sorted(abs(a / b - 1) for a, b in zip(f_Hz, exact))
+    return {"median": float(error[len(error) // 2]), "largest": float(error[-1])}
 
 
 def summary(program, command, scene_file, folder):

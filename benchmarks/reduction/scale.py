@@ -3,18 +3,17 @@
 
 usage: scale.py [--quick] OUTPUT      (--quick leaves the disc of a million DOFs out)
 
-Writes OUTPUT/reduction_scale.json, .md and .png. The bounds are one core's measured rates: dgemm
-for the operations of the factor, reading memory for the passes over the factor of block solves.
+Writes OUTPUT/reduction_scale.json, .md and .png. The bounds of bounds.py stand beside each phase: what one core has to
+do at least, at rates that are measured in the same run.
 """
 import argparse
 import json
 import math
 import pathlib
-import subprocess
+import re
 import tempfile
 
-import numpy as np
-
+import bounds
 import run
 
 SIZES = {"73k": 0.009, "300k": 0.0041, "1M": 0.00225}
@@ -22,43 +21,28 @@ PHASES = ["mesh", "assembly", "partition", "factorization", "fixed-interface mod
           "constraint modes", "projection", "error estimates", "residuals", "condition", "pictures", "write"]
 
 
-def rates():
-    """dgemm GFLOP/s and memory GB/s of one core, in a process that has one thread and the kernels
-    that the program takes."""
-    code = """
-import numpy as np, time
-a = np.random.rand(2000, 2000)
-b = np.zeros(40_000_000)
-def best(work):
-    times = []
-    for _ in range(5):
-        start = time.perf_counter(); work(); times.append(time.perf_counter() - start)
-    return min(times)
-print(2e-9 * 2000**3 / best(lambda: a @ a), 8e-9 * b.size / best(lambda: b.sum()))
-"""
-    environment = dict(run.ENVIRONMENT)
-    environment.setdefault("OPENBLAS_CORETYPE", "SkylakeX" if "avx512f" in open(
-        "/proc/cpuinfo", encoding="ascii").read() else "Haswell")
-    out = subprocess.run(["/usr/bin/python3", "-c", code], env=environment, capture_output=True,
-                         text=True, check=True).stdout.split()
-    return {"dgemm_GFLOP_per_s": float(out[0]), "memory_GB_per_s": float(out[1])}
+def entries_of(folder, name):
+    """Stored entries of K and M of a disc, and seconds of a factorisation by MUMPS: of a reduction with one mode."""
+    mumps = ("-cms_pc_factor_mat_solver_type", "mumps-metis")
+    views = ("-cms_view_stiffness", "::ascii_info", "-cms_view_mass", "::ascii_info")
+    found = run.reduce(folder, run.scene(folder, SIZES[name], modes=1), 1, (*mumps, *views))
+    K, M = map(int, re.findall(r"total: nonzeros=(\d+)", found["printed"]))
+    return {"K_entries": K, "M_entries": M}, found["phases"]["factorization"]
 
 
 def measure(folder, name, ranks):
     path = run.scene(folder / name, SIZES[name])
     summary = run.reduce(folder / name, path, ranks)
     phases = summary["phases"]
-    mumps = ("-cms_pc_factor_mat_solver_type", "mumps-metis")
-    by_mumps = None  # one process, one mode: for the time of its factorisation alone
-    if ranks == 1:
-        other = folder / f"{name}-mumps"
-        by_mumps = run.reduce(other, run.scene(other, SIZES[name], modes=1), 1, mumps)
-    return {"mumps_factorization_s": by_mumps and by_mumps["phases"]["factorization"],
-            "disc": name, "ranks": ranks, "dofs": summary["n_dofs"], "phases_s": phases,
-            "factor_operations": summary["factor_operations"],
-            "factor_entries": summary["factor_entries"],
-            "wall_s": summary["wall_s"], "cpu_s": summary["cpu_s"],
-            "peak_MiB": summary["peak_MiB"], "events": summary["events"]}
+    entry = {"disc": name, "ranks": ranks, "dofs": summary["n_dofs"], "phases_s": phases,
+             "factor_operations": summary["factor_operations"], "factor_entries": summary["factor_entries"],
+             "wall_s": summary["wall_s"], "cpu_s": summary["cpu_s"], "peak_MiB": summary["peak_MiB"], "events": summary["events"]}
+    if ranks > 1:
+        return entry
+    entries, by_mumps = entries_of(folder / f"{name}-mumps", name)
+    sizes = {"slaves": summary["n_dofs"] - summary["n_masters"], "masters": summary["n_masters"], "modes": summary["n_modes"],
+             "pairs": len(summary["eta2"]), "file_bytes": (folder / name / "disc.reduced.h5").stat().st_size, **entries}
+    return {**entry, "mumps_factorization_s": by_mumps, "sizes": sizes}
 
 
 def conclusions(runs):
@@ -70,8 +54,9 @@ def conclusions(runs):
         for a, b in zip(single[:-1], single[1:])
     }
     first, last = single[0], single[-1]
-    growth[f"{first['disc']} to {last['disc']}, whole"] = (
-        math.log(last["wall_s"] / first["wall_s"]) / math.log(last["dofs"] / first["dofs"]))
+    if first is not last:
+        growth[f"{first['disc']} to {last['disc']}, whole"] = (
+            math.log(last["wall_s"] / first["wall_s"]) / math.log(last["dofs"] / first["dofs"]))
     ratio = {r["disc"]: r["wall_s"] / r["phases_s"]["factorization"] for r in single}
     by_mumps = {r["disc"]: r["wall_s"] / r["mumps_factorization_s"] for r in single}
     speedup = {r["disc"]: r["wall_s"] / next(q["wall_s"] for q in runs
@@ -81,12 +66,36 @@ def conclusions(runs):
             "whole_over_factorization_by_MUMPS": by_mumps, "speedup_of_two_ranks": speedup}
 
 
-def bounds(entry, rate):
-    """Lower bounds of one core: operations of the factor by dgemm; one pass over the factor forward
-    and one backward for each block solve."""
-    factor = 1e-9 * entry["factor_operations"] / rate["dgemm_GFLOP_per_s"]
-    one_pass = 16e-9 * entry["factor_entries"] / rate["memory_GB_per_s"]
-    return {"factor_s": factor, "block_solve_s": one_pass}
+def bounded(runs, rate):
+    """The runs on one rank with their bounds."""
+    own = lambda r: {"bounds_s": bounds.phases(r, rate), "event_bounds_s": bounds.events(r, rate), "bound_MiB": bounds.memory_MiB(r)}
+    return [{**r, **own(r)} if r["ranks"] == 1 else r for r in runs]
+
+
+def shares(runs):
+    """Tables of each phase and each event against its bound."""
+    single = [r for r in runs if r["ranks"] == 1]
+    names = " | ".join(f"{r['disc']}: s, bound, share" for r in single)
+    lines = ["", "## Each phase against its bound", "",
+             "One rank: measured seconds, the least that one core could need, and its share (1 = as fast as the bound "
+             "allows). n are the slaves, m the masters, k the fixed-interface modes, p the pairs with an estimate, l the entries "
+             "of the factor, V the vectors of the eigen-solve (`benchmarks/reduction/bounds.py`).", "",
+             f"| phase | {names} | bound |", "|---" * (len(single) + 2) + "|"]
+    cell = lambda seconds, bound: f"{seconds:.2f}, {bound:.2f}, {bound / seconds:.2f}" if bound else f"{seconds:.2f}, -, -"
+    for phase, meaning in bounds.MEANING.items():
+        cells = [cell(r["phases_s"].get(phase, 0.0), r["bounds_s"].get(phase)) for r in single]
+        lines.append(f"| {phase} | {' | '.join(cells)} | {meaning} |")
+    whole = [cell(r["wall_s"], sum(r["bounds_s"].values())) for r in single]
+    lines += [f"| whole | {' | '.join(whole)} | sum of the bounds |", "",
+              "Below the phases, over all of them:", "", f"| part | {names} | bound |", "|---" * (len(single) + 2) + "|"]
+    for event, meaning in bounds.EVENTS.items():
+        cells = [cell(r["events"][event]["wall_s"], r["event_bounds_s"][event]) for r in single]
+        lines.append(f"| {event[3:]} | {' | '.join(cells)} | {meaning} |")
+    memory = [f"{r['peak_MiB']:.0f}, {r['bound_MiB']:.0f}, {r['bound_MiB'] / r['peak_MiB']:.2f}" for r in single]
+    names = " | ".join(f"{r['disc']}: MiB, bound, share" for r in single)
+    return [*lines, "", f"| memory | {names} | bound |", "|---" * (len(single) + 2) + "|",
+            f"| peak | {' | '.join(memory)} | K and M with 12 bytes an entry, the factor, and of n rows V, or m + k |",
+            "", "![Time and memory over degrees of freedom](reduction_scale.png)"]
 
 
 def table(runs, found, rate):
@@ -96,7 +105,9 @@ def table(runs, found, rate):
              f"{rate['machine']['processor']}, {rate['machine']['cores']} cores, commit "
              f"{rate['machine']['commit']}; one core: dgemm "
              f"{rate['dgemm_GFLOP_per_s']:.1f} GFLOP/s, reading memory "
-             f"{rate['memory_GB_per_s']:.1f} GB/s.", "",
+             f"{rate['memory_GB_per_s']:.1f} GB/s, writing "
+             f"it {rate['memory_write_GB_per_s']:.1f} GB/s, {rate['memory_fresh_GB_per_s']:.1f} GB/s where it was never touched, "
+             f"a file {rate['file_GB_per_s']:.1f} GB/s.", "",
              "| disc | ranks | DOFs | " + " | ".join(PHASES) + " | whole | peak MiB per rank |",
              "|---" * (len(PHASES) + 5) + "|"]
     for r in runs:
@@ -107,49 +118,54 @@ def table(runs, found, rate):
     for name, values in found.items():
         lines += [f"| {name.replace('_', ' ')}, {key} | {value:.2f} |"
                   for key, value in values.items()]
-    lines += ["", "Share of the bound (1 = as fast as the bound allows), one rank:", "",
-              "| disc | factor: dgemm rate | block solves: memory rate |", "|---|---|---|"]
-    for r in runs:
-        if r["ranks"] != 1:
-            continue
-        bound = bounds(r, rate)
-        solves = r["events"]["CMSSolve"]
-        lines.append(f"| {r['disc']} | {bound['factor_s'] / r['events']['CMSFactor']['wall_s']:.2f} "
-                     f"| {bound['block_solve_s'] * solves['count'] / solves['wall_s']:.2f} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + shares(runs)) + "\n"
 
 
 def draw(runs, path):
+    """Time of the phases with their bounds, time of the whole, memory."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
-    single = [r for r in runs if r["ranks"] == 1]
-    dofs = [r["dofs"] for r in single]
-    for phase in ["assembly", "factorization", "fixed-interface modes", "constraint modes",
-                  "projection", "error estimates"]:
-        axes.loglog(dofs, [r["phases_s"][phase] for r in single], "o-", label=phase)
-    axes.loglog(dofs, [r["wall_s"] for r in single], "ks-", label="whole, 1 rank")
-    double = [r for r in runs if r["ranks"] == 2]
-    axes.loglog([r["dofs"] for r in double], [r["wall_s"] for r in double], "ks--",
-                label="whole, 2 ranks")
-    axes.set_xlabel("degrees of freedom")
-    axes.set_ylabel("wall time, s")
-    axes.grid(True, which="both", alpha=0.3)
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
-    figure.savefig(path, dpi=130)
+    from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, NullLocator, StrMethodFormatter
+    figure, (phases, whole, memory) = plt.subplots(1, 3, figsize=(13, 4.8), layout="constrained", width_ratios=(1.6, 1, 1))
+    single, double = ([r for r in runs if r["ranks"] == n] for n in (1, 2))
+    line = lambda axis, some, value, *style, **more: axis.loglog([r["dofs"] for r in some], [value(r) for r in some], *style, **more)
+    for i, phase in enumerate(["assembly", "factorization", "fixed-interface modes", "constraint modes", "projection",
+                               "error estimates"]):
+        line(phases, single, lambda r: r["phases_s"][phase], "o-", color=f"C{i}", ms=4, label=phase)
+        line(phases, single, lambda r: r["bounds_s"][phase], ":", color=f"C{i}", lw=1.2)
+    phases.plot([], [], "k:", lw=1.2, label="bound of each")
+    line(whole, single, lambda r: r["wall_s"], "ks-", ms=4, label="1 rank")
+    line(whole, double, lambda r: r["wall_s"], "k^--", ms=4, label="2 ranks")
+    line(whole, single, lambda r: sum(r["bounds_s"].values()), "k:", label="sum of the bounds, one core")
+    line(memory, single, lambda r: r["peak_MiB"] / 1024, "ks-", ms=4, label="1 rank")
+    line(memory, double, lambda r: r["peak_MiB"] / 1024, "k^--", ms=4, label="2 ranks, each")
+    line(memory, single, lambda r: r["bound_MiB"] / 1024, "k:", label="matrices, factor, vectors")
+    for axis, title, unit in ((phases, "phases, 1 rank", "wall time, s"), (whole, "whole program", "wall time, s"),
+                              (memory, "peak memory", "GiB")):
+        axis.set(title=title, xlabel="degrees of freedom", ylabel=unit)
+        axis.grid(True, which="both", alpha=0.3)
+        axis.xaxis.set_major_locator(FixedLocator([r["dofs"] for r in single]))
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if axis is not phases else (1,)))
+        axis.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.yaxis.set_minor_formatter(NullFormatter())
+        axis.legend(fontsize=8, **({"loc": "center left", "bbox_to_anchor": (1.0, 0.5)} if axis is phases else {}))
+    figure.savefig(path, dpi=120)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", nargs="+", choices=SIZES, help="these discs")
     parser.add_argument("output", type=pathlib.Path)
     arguments = parser.parse_args()
-    names = [name for name in SIZES if not (arguments.quick and name == "1M")]
-    rate = {**rates(), "machine": run.machine()}
+    names = arguments.only or [name for name in SIZES if not (arguments.quick and name == "1M")]
     with tempfile.TemporaryDirectory() as folder:
+        rate = {**bounds.rates(folder), "machine": run.machine()}
         runs = [measure(pathlib.Path(folder), name, ranks) for name in names for ranks in (1, 2)]
-    found = conclusions(runs)
+    runs, found = bounded(runs, rate), conclusions(runs)
     arguments.output.mkdir(parents=True, exist_ok=True)
     result = {"rates": rate, "runs": runs, "conclusions": found}
     (arguments.output / "reduction_scale.json").write_text(json.dumps(result, indent=1))
