@@ -6,6 +6,7 @@ ABOUT = """# End to end: tolerance asked, error reached, time spent
 
 Written by `benchmarks/end_to_end/frontier.py`; {processor}, commit {commit}.
 
+The scenes are those of `examples/`, the discs on coarser meshes ({dofs} DOFs), so that each run can be repeated.
 A tolerance makes two promises, and each is judged by itself, for loads at all nodes of `track` (discs) or at `B` (beam):
 
 - **Frequencies** (`reduce.tolerance`): all modes of the range of the reduced system under its support, each against the mode of the
@@ -96,7 +97,7 @@ def sweeps(studies):
 def table(result):
     studies = result["studies"]
     of_each = lambda form: ", ".join(form.format(**s) for s in studies)
-    about = ABOUT.format(**result["machine"], rounds=of_each("{rounds} ({case})"))
+    about = ABOUT.format(**result["machine"], rounds=of_each("{rounds} ({case})"), dofs=of_each("{case}: {dofs}"))
     lines = [about, "## What is promised and what is kept", "", *promises(studies), "", FE, "", *against_fe(studies), "",
              "## What it costs", "", OVER, "", *costs(studies), "",
              "## Error of the frequencies over the number of fixed-interface modes", "",
