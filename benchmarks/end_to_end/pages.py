@@ -158,8 +158,8 @@ def draw(result, path):
         draw_costs(column[1], study)
     axes[0][0].set_ylabel("relative error reached")
     axes[1][0].set_ylabel("relative error of the frequencies")
-    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", fontsize=8, ncols=2)
-    figure.get_layout_engine().set(rect=(0, 0, 1, 0.93))  # below the legend
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", fontsize=8, ncols=min(2, len(studies)))
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.89))  # below the legend
     axes[1][0].legend(fontsize=8)
     figure.savefig(path, dpi=130)
     plt.close(figure)
