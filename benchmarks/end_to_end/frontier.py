@@ -18,11 +18,9 @@ phases from the mesh to the body, the median of several runs in turn. Writes OUT
 OUTPUT/figures/end_to_end.png.
 """
 import argparse
-import json
 import pathlib
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
 
