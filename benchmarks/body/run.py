@@ -3,7 +3,8 @@
 - chain: `chladni body` on reduced systems of 106, 500 and 1500 coordinates;
 - beams: the numbers and figures of the thesis beside their references;
 - selection: size against error, as `chladni body --json` reports it;
-- forces: displacement, moments and shear forces of a shell with and without a frequency-response mode;
+- kept modes: errors of displacement, moment and shear force over the number of modes, without and with an interface mode, of beams
+  and a plate strip;
 - conditioning: cases that ought to be hard, each solved with its loss of digits or refused with advice.
 
 Usage: run.py [--quick] OUTPUT     with the programs in build/release/bin; --quick leaves the largest sizes out
@@ -18,15 +19,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "examples/beam"))
+sys.path[:0] = [str(ROOT / "examples/beam"), str(ROOT / "benchmarks/end_to_end")]
 import figures as beam_figures  # noqa: E402  (beside the scenes, not a package)
 import report as beam_report  # noqa: E402
+import responses  # noqa: E402
 import study as beam_study  # noqa: E402
 from cases import CHLADNI, beam, only, run  # noqa: E402
+import kept_modes  # noqa: E402
 from conditioning import conditioning  # noqa: E402
 
 
@@ -59,57 +61,41 @@ def thesis_beams(folder, figures):
     return {"rows": rows, "selections": [vars(one) | {"good": bool(one.is_good())} for one in beam_report.selections(folder)]}
 
 
+def error_anew(folder, load, component, table):
+    """Largest error of the body's responses to `component` of the set `load` over the range, without the program."""
+    held = responses.read_held(only(folder, "*.reduced.h5"), table["support"], load, component)
+    reduced = responses.modes(held)
+    spread = np.linspace(0.01, 1, 200) * table["up_to_Hz"]
+    near = np.outer((0.99, 1, 1.01), responses.frequencies_Hz(held, min(60, len(held.K)))).ravel()
+    Omega = 2 * np.pi * np.concatenate([spread, near[near <= table["up_to_Hz"]]])
+    columns = np.arange(len(held.loads))
+    body = responses.body_modes(only(folder, "*.body.h5"), load, component)
+    return responses.largest_difference(responses.responses(body, Omega, columns), responses.responses(reduced, Omega, columns))
+
+
 def selection(folder):
     """Steps of the beam at its thesis accuracy, and of a disc loaded on its track."""
     found = {}
     tolerance = 'fixed = ["A"]\nkeep = { tolerance = 1e-2, up_to_Hz = 11.0 }\n' \
                 'interface_modes = [{ kind = "frm", at = "B", dofs = ["ry"] }]'
-    found["beam"] = run("run", folder / "beam", beam(body=tolerance))["selection"]
+    found["beam"] = run("run", folder / "beam", beam(body=tolerance))["selection"] | {"support": "A"}
     disc = (ROOT / "tests/data/coarse_disc.toml").read_text()
     disc = disc[:disc.index("[body]")].replace("modes = 20", "modes = 60")
     disc += '[body]\nfixed = ["hub"]\nkeep = { tolerance = 1e-3, up_to_Hz = 5000.0 }\n'
-    found["disc"] = run("run", folder / "disc", disc)["selection"]
+    found["disc"] = run("run", folder / "disc", disc)["selection"] | {"support": "hub"}
+    for name, load, component in (("beam", "B", 4), ("disc", "track", 2)):
+        found[name]["error_anew"] = error_anew(folder / name, load, component, found[name])
     return found
 
 
-def strip():
-    """The strip of the tests without offset, with a finer mesh and more modes, up to its [body]."""
-    text = (ROOT / "tests/data/strip.toml").read_text()
-    for old, new in (("offset = 0.03\n", ""), ("poisson = 0.0", "poisson = 0.3"), ("element_size = 0.05", "element_size = 0.02"),
-                     ("element_order = 2", "element_order = 3"), ("modes = 5", "modes = 60")):
-        assert text.count(old) == 1
-        text = text.replace(old, new)
-    return text[:text.index("[body]")]
-
-
-def harmonic(path, Omega):
-    """Displacement of R along z, and each kind of section force, for a unit harmonic force there."""
-    with h5py.File(path) as file:
-        X, omega = file["modes/attachment_displacements"][:], file["modes/frequencies"][:]
-        kinds = list(file["resultants/plate/kinds"].asstr()[:])
-        q = X[8] / (omega**2 - Omega**2)
-        forces = (file["resultants/plate/modes"][:] @ q).reshape(-1, len(kinds))
-    return {"displacement": X[6:] @ q, "moments": forces[:, [kinds.index(k) for k in ("M_x", "M_y", "M_xy")]],
-            "shear forces": forces[:, [kinds.index(k) for k in ("Q_x", "Q_y")]]}
-
-
-def forces(folder):
-    """Errors of the harmonic response against the complete reduced system at twice the first held frequency."""
-    scene = strip()
-    whole = run("run", folder, scene + '[body]\nfixed = ["L"]\nkeep = { up_to_Hz = 1e9 }\n')
-    Omega = 2 * 2 * np.pi * whole["frequencies_Hz"][0]
-    exact = harmonic(only(folder, "*.body.h5"), Omega)
-    rows = []
-    for n_h in (3, 5, 10, 20):
-        for frm in (False, True):
-            body = f'[body]\nfixed = ["L"]\nkeep = {{ modes = {n_h} }}\n'
-            if frm:
-                body += f'interface_modes = [{{ kind = "frm", at = "R", dofs = ["z"], omega0 = {0.5 * Omega} }}]\n'
-            run("body", folder, scene + body)
-            found = harmonic(only(folder, "*.body.h5"), Omega)
-            rows.append({"n_h": n_h, "frm": int(frm), **{
-                kind: float(np.linalg.norm(found[kind] - exact[kind]) / np.linalg.norm(exact[kind])) for kind in exact}})
-    return rows
+def chosen(selections):
+    """What the tolerances chose: sizes that the two paths needed, error as the program has it and as computed anew."""
+    for name, one in selections.items():
+        alone, mixed = one["modes_only"][-1], one["with_interface_modes"][-1]
+        size = lambda step: step["modes"] + step["interface_modes"]
+        yield {"scene": name, "up to, Hz": one["up_to_Hz"], "tolerance": one["tolerance"], "modes alone": size(alone),
+               "error, modes alone": alone["error"], "with interface modes": size(mixed),
+               "error with interface modes": mixed["error"], "error of the body, computed anew": one["error_anew"]}
 
 
 def figure(found, path):
@@ -143,6 +129,7 @@ def table(rows, columns):
 
 
 def report(found):
+    selected = list(chosen(found["selection"]))
     return f"""# Bodies: cost, size against error, hard cases
 
 Written by `benchmarks/body/run.py` from `body_benchmarks.json`; {found['machine']}.
@@ -156,7 +143,8 @@ CPU seconds of `chladni body` on the beam of the examples, 40 modes and one FRM,
 ## The beams of the thesis
 
 Steinbrecher (2015, section 4.3): each number of `examples/beam` beside its reference of 60 digits; w, M and Q are errors of displacement,
-bending moment and shear force against the FE model. `allowed` is what the test `integration.beam` takes for |ratio - 1|.
+bending moment and shear force against the FE model under a load of three times `omega_1`, the first elastic frequency of the free beam; IRM is
+an inertia-relief mode (`Omega_0 = 0`), `FRM at x omega_1` a frequency-response mode at that `Omega_0`. `allowed` is what the test `integration.beam` takes for |ratio - 1|.
 
 ![cantilever](figures/beam_cantilever.png)
 
@@ -168,14 +156,13 @@ For the accuracy of five modes and one FRM a tolerance chose:
 {table(found['beams']['selections'], ['name', 'tolerance', 'error', 'size'])}
 ## Modes by a tolerance
 
+Each step of the choice, its size against its error as the program has it; and the error of the body that was chosen, computed anew
+from the two files on another grid of frequencies, against the complete reduced system.
+
 ![size against error](figures/body_selection.png)
 
-## Moments and shear forces of a shell
-
-A strip of steel, clamped at one end, a harmonic force at the other at twice the first frequency: relative errors of all
-displacements there and of all section forces, against the complete reduced system, with `n_h` modes, without and with one FRM.
-
-{table(found['forces'], ['n_h', 'frm', 'displacement', 'moments', 'shear forces'])}
+{table(selected, list(selected[0]))}
+{kept_modes.section(found['kept_modes'], table)}
 ## Hard cases
 
 `digits_lost`: of sixteen, in the first five frequencies, against the same problem in a harmless form.
@@ -193,12 +180,14 @@ def main(quick, output):
         found = {"machine": f"{platform.machine()}, {os.cpu_count()} cores",
                  "chain": chain(folder / "chain", quick),
                  "beams": thesis_beams(folder / "beams", output / "figures"), "selection": selection(folder / "selection"),
-                 "forces": forces(folder / "forces"), "conditioning": conditioning(folder / "hard")}
+                 "kept_modes": kept_modes.kept_modes(folder / "beams", folder / "strip", quick), "conditioning": conditioning(folder / "hard")}
     text = json.dumps(found, indent=1).replace(name, "...")
     (output / "body_benchmarks.json").write_text(text + "\n")
     found = json.loads(text)
     (output / "body_benchmarks.md").write_text(report(found))
     figure(found["selection"], output / "figures/body_selection.png")
+    kept_modes.figure(found["kept_modes"]["models"], output / "figures/body_modes.png")
+    kept_modes.frequency_figure(found["kept_modes"]["models"], output / "figures/body_omega0.png")
 
 
 if __name__ == "__main__":

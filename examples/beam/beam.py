@@ -40,7 +40,9 @@ CASES = (
 
 
 def body_name(n, ratio):
-    return f"{n} modes" if ratio is None else f"{n} modes, FRM {ratio:g}"
+    """Of a body with n modes and, unless `ratio` is None, an interface mode at omega0 = ratio OMEGA_1_FREE."""
+    kind = "" if ratio is None else ", IRM" if ratio == 0 else f", FRM at {ratio:g} omega_1"
+    return f"{n} modes{kind}"
 
 
 def body_file(folder, case, name=""):

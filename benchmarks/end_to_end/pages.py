@@ -1,0 +1,165 @@
+"""The page and the figure of frontier.py."""
+
+MAX_COST = 2.0  # of the automatic choice, over the best choice by hand
+
+ABOUT = """# End to end: tolerance asked, error reached, time spent
+
+Written by `benchmarks/end_to_end/frontier.py`; {processor}, commit {commit}.
+
+The scenes are those of `examples/`, the discs on coarser meshes ({dofs} DOFs), so that each run can be repeated.
+A tolerance makes two promises, and each is judged by itself, for loads at all nodes of `track` (discs) or at `B` (beam):
+
+- **Frequencies** (`reduce.tolerance`): all modes of the range of the reduced system under its support, each against the mode of the
+  same rank of the full model (`chladni modes`). A mode that is missing shifts all behind it, so it is seen. `within` tells how many
+  of how many keep the tolerance.
+- **Responses** (`keep.tolerance`): the body's responses at the loaded DOFs over the whole range, resonances included, with 1 % of the
+  critical damping, against those of the complete reduced system: that is what is promised. Errors are computed here anew, from the
+  two files, on another grid of frequencies than the program's.
+
+`kept in the body`: modes of the range that are modes of the body. A body may leave out those that the loads do not excite, such as
+the modes in the plane of a disc that is loaded along its normal; the responses show whether it was right to.
+
+**By hand**: the smallest number of fixed-interface modes whose frequencies keep the tolerance, by bisection, with all modes of the range
+and a frequency-response mode of each load in the body. Cost: CPU seconds of all phases from the mesh to the body, without the start of the
+program; the median of {rounds} runs in turn. The choice by hand knows the full model's frequencies; the cost of finding it is not counted.
+
+![Error against tolerance, and against cost](figures/end_to_end.png)
+"""
+
+FE = """## The body beside the FE model
+
+Responses again, now with the error of the reduction in them, for which `keep.tolerance` does not answer: at the middles of the widest gaps
+between frequencies, without damping, where the error of a frequency counts least. `above` is above the tolerance. The FE model's responses
+are those of a reduced system with the FE model's own responses to all loads and to the forces of the support at that frequency
+(`space = "full"`), which are exact there."""
+
+OVER = """The program holds eta^2, the error of omega^2, to the tolerance; the error of a frequency is half of that. `half` is the smallest number of
+modes by hand for half the tolerance; where the error falls in wide steps, half of it can take many more modes."""
+
+
+def verdict(holds):
+    return "holds" if holds else "**missed**"
+
+
+def row(*cells):
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def header(*cells):
+    return [row(*cells), "|" + "---|" * len(cells)]
+
+
+def promises(studies):
+    yield from header("scene", "tolerance", "modes of the reduction", "frequencies: error", "within", "", "responses: error", "",
+                      "kept in the body", "coordinates")
+    for one in studies:
+        for both in one["tolerances"]:
+            c = both["chosen"]
+            yield row(one["case"], f"{c['tolerance']:g}", c["modes"], f"{c['error']:.1e}", f"{c['within']} of {c['expected']}",
+                      verdict(c["keeps_frequencies"]), f"{c['response_error']:.1e}", verdict(c["keeps_responses"]),
+                      f"{c['kept_in_range']} of {c['expected']}", c["size"])
+
+
+def against_fe(studies):
+    yield from header("scene", "tolerance", "at, Hz", "by tolerance", "by hand")
+    for one in studies:
+        for both in one["tolerances"]:
+            asked = both["chosen"]["tolerance"]
+            errors = [both[name]["response_error_full"] if name in both else None for name in ("chosen", "hand")]
+            yield row(one["case"], f"{asked:g}", ", ".join(f"{f:.0f}" for f in one["compared_at_Hz"]),
+                      *("" if e is None else f"{e:.1e}" + ("" if e <= asked else ", above") for e in errors))
+
+
+def costs(studies):
+    yield from header("scene", "tolerance", "chosen, s", "modes", "half", "by hand, s", "modes", "error with one mode less",
+                      "chosen over by hand", f"at most {MAX_COST:g}")
+    for one in studies:
+        for both in one["tolerances"]:
+            c, ratio = both["chosen"], both["cost_over_best_by_hand"]
+            half = both["modes_for_half"] or f"above {one['most_modes']}"
+            if ratio is None:
+                yield row(one["case"], f"{c['tolerance']:g}", f"{c['cost_s']:.3g}", c["modes"], half, "none",
+                          f"above {one['most_modes']}", "", "", "")
+                continue
+            hand, less = both["hand"], both["error_of_one_mode_less"]
+            yield row(one["case"], f"{c['tolerance']:g}", f"{c['cost_s']:.3g}", c["modes"], half, f"{hand['cost_s']:.3g}", hand["modes"],
+                      "" if less is None else f"{less:.1e}", f"{ratio:.2f}", verdict(ratio <= MAX_COST))
+
+
+def sweeps(studies):
+    for one in studies:
+        yield from ["", f"{one['case']}: {one['dofs']} DOFs, {one['modes_in_range']} modes up to {one['up_to_Hz']:g} Hz.", ""]
+        told = one["sweep"][::2]
+        yield from header("modes", *(s["modes"] for s in told))
+        yield row("error of the frequencies", *("too few" if s["error"] is None else f"{s['error']:.1e}" for s in told))
+
+
+def table(result):
+    studies = result["studies"]
+    of_each = lambda form: ", ".join(form.format(**s) for s in studies)
+    about = ABOUT.format(**result["machine"], rounds=of_each("{rounds} ({case})"), dofs=of_each("{case}: {dofs}"))
+    lines = [about, "## What is promised and what is kept", "", *promises(studies), "", FE, "", *against_fe(studies), "",
+             "## What it costs", "", OVER, "", *costs(studies), "",
+             "## Error of the frequencies over the number of fixed-interface modes", "",
+             "Of one reduction with the most modes, whose matrices have those of fewer modes as corners.", *sweeps(studies)]
+    return "\n".join(lines) + "\n"
+
+
+RED, BLUE, GREY = "#b2182b", "#2166ac", "0.45"
+KINDS = [("error", "o", RED, "frequencies, against the full model"),
+         ("response_error", "s", BLUE, "responses, against the reduced system"),
+         ("response_error_full", "x", GREY, "responses between resonances, against the FE model")]
+
+
+def draw_promises(axis, study):
+    """Error reached over tolerance asked; below the line is kept."""
+    asked = [both["chosen"]["tolerance"] for both in study["tolerances"]]
+    for key, marker, colour, label in KINDS:
+        axis.loglog(asked, [max(both["chosen"][key], 1e-12) for both in study["tolerances"]], marker + "-", color=colour,
+                    label=label, linewidth=1)
+    axis.loglog(asked, asked, "--", color="k", linewidth=0.8, label="asked")
+    axis.set_xlim(2 * max(asked), min(asked) / 2)
+    axis.set_xlabel("tolerance asked")
+    axis.set_title(f"{study['case']}, to {study['up_to_Hz']:g} Hz", fontsize=10)
+    axis.grid(True, which="major", alpha=0.25)
+
+
+def draw_costs(axis, study):
+    """Error of the frequencies over cost: a line from the choice by hand to the automatic one for each tolerance."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+    with_hand = [both for both in study["tolerances"] if "hand" in both]
+    for both in with_hand:
+        x, y = zip(*((both[name]["cost_s"], both[name]["error"]) for name in ("hand", "chosen")))
+        axis.plot(x, y, "-", color=GREY, linewidth=0.7)
+    for name, marker, colour, label in (("hand", "o", GREY, "smallest number by hand"), ("chosen", "o", RED, "by tolerance")):
+        points = [both[name] for both in study["tolerances"] if name in both]
+        axis.loglog([p["cost_s"] for p in points], [p["error"] for p in points], marker, color=colour, label=label)
+        for p in points:
+            axis.annotate(f" {p['modes']}", (p["cost_s"], p["error"]), fontsize=7, color=colour, va="bottom")
+    for both in study["tolerances"]:
+        axis.axhline(both["chosen"]["tolerance"], color="k", linestyle="--", linewidth=0.5)
+    costs_s = [both[name]["cost_s"] for both in study["tolerances"] for name in ("hand", "chosen") if name in both]
+    axis.set_xlim(0.7 * min(costs_s), 1.5 * max(costs_s))
+    axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
+    axis.set_xlabel("CPU time of all phases, s")
+    axis.grid(True, which="major", alpha=0.25)
+
+
+def draw(result, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    studies = result["studies"]
+    figure, axes = plt.subplots(2, len(studies), figsize=(4.4 * len(studies), 7.4), layout="constrained", squeeze=False)
+    for column, study in zip(axes.T, studies):
+        draw_promises(column[0], study)
+        draw_costs(column[1], study)
+    axes[0][0].set_ylabel("relative error reached")
+    axes[1][0].set_ylabel("relative error of the frequencies")
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", fontsize=8, ncols=min(2, len(studies)))
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.89))  # below the legend
+    axes[1][0].legend(fontsize=8)
+    figure.savefig(path, dpi=130)
+    plt.close(figure)
