@@ -94,16 +94,17 @@ Reduced with_full_responses(const Scene& scene, const FeModel& fe, const Partiti
                             Reduced reduced, Phases& phases)
 {
   const mbs_export::Certificate certificate = reduced.system.certificate;
+  std::vector<reduce::HarmonicLoads> loads;
   for (const auto& [omega0, rows] : loads_of(scene, reduced.system)) {
-    const double Omega_0 = omega0;  // Clang 14 captures no structured binding
-    std::vector<PetscInt> loaded;
-    for (const int row : rows) loaded.push_back(blocks.masters[static_cast<std::size_t>(row)]);
-    reduce::Enrichment enriched = phases.run("responses of the whole model", [&] {
-      const petsc::Matrix V = reduce::full_responses(fe.system.K, fe.system.M, Omega_0, loaded);
-      return reduce::enrich(reduced.Q_CB, blocks.rows, {blocks.K.ss, blocks.M.ss}, V);
-    });
-    reduced.Q_CB.modes = std::move(enriched.modes);
+    loads.push_back({.Omega_0 = omega0, .loaded = {}});
+    for (const int row : rows)
+      loads.back().loaded.push_back(blocks.masters[static_cast<std::size_t>(row)]);
   }
+  reduce::Enrichment enriched = phases.run("responses of the whole model", [&] {
+    const petsc::Matrix V = reduce::full_responses(fe.system.K, fe.system.M, loads);
+    return reduce::enrich(reduced.Q_CB, blocks.rows, {blocks.K.ss, blocks.M.ss}, V);
+  });
+  reduced.Q_CB.modes = std::move(enriched.modes);
   reduced = project_blocks(scene, fe, blocks, std::move(reduced.Q_CB), phases);
   reduced.system.certificate = certificate;
   return reduced;

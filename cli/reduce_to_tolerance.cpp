@@ -17,8 +17,8 @@ reduce::FixedInterfaceModes modes_to_tolerance(const Scene& scene, const FeModel
   };
   // What the estimates from the small matrices and those from the FE model may differ by.
   constexpr double margin = 0.99;
-  reduce::ToleranceSearch search(system, margin * scene.reduce.tolerance->tolerance,
-                                 pairs_in_range);
+  reduce::ToleranceSearch search(system, margin * scene.reduce.tolerance->tolerance, pairs_in_range,
+                                 reduce::ToleranceOf::frequencies);
   const auto find_modes = [&] {
     search.find_modes();
     return 0;

@@ -87,4 +87,9 @@ std::vector<double> error_estimates(const Factorization& K_ss, const CraigBampto
   return eta2;
 }
 
+double frequency_error(double eta2, double lambda, double lambda_left_out)
+{
+  return 0.5 * eta2 / std::max(0.5, 1.0 - lambda / lambda_left_out);
+}
+
 }  // namespace chladni::reduce

@@ -18,4 +18,10 @@ struct ReducedPairs {
 std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
                                     const Blocks& M, const ReducedPairs& pairs);
 
+/// The relative error of a frequency by the eta^2 of its lambda, with the modes from
+/// `lambda_left_out` on left out of the basis: eta^2 / 2 is a lower estimate, by the factor
+/// 1 - lambda / lambda_left_out at most. Never more than eta^2, which it is close to the modes left
+/// out.
+double frequency_error(double eta2, double lambda, double lambda_left_out);
+
 }  // namespace chladni::reduce

@@ -182,6 +182,16 @@ petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<Pet
   return V;
 }
 
+petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads)
+{
+  petsc::Matrix all = uninitialized_dense(K, 0);
+  for (const HarmonicLoads& each : loads) {
+    const petsc::Matrix V = full_responses(K, M, each.Omega_0, each.loaded);
+    all = side_by_side(all, V, K);
+  }
+  return all;
+}
+
 Enrichment enrich(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, const SlaveBlocks& ss,
                   Mat V)
 {

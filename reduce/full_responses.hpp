@@ -14,6 +14,15 @@ namespace chladni::reduce {
 /// @throws chladni::Error when Omega_0 is an eigenfrequency of the model to round-off.
 petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<PetscInt>& loaded);
 
+/// Loads at one excitation frequency, rad/s.
+struct HarmonicLoads {
+  double Omega_0;
+  std::vector<PetscInt> loaded;  ///< global DOFs, the same list on every rank
+};
+
+/// The responses to all of these, side by side; a factorisation for each.
+petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads);
+
 /// K_ss and M_ss.
 struct SlaveBlocks {
   Mat K, M;
@@ -28,7 +37,8 @@ struct Enrichment {
 /// Columns X behind Phi, so that the span of [I 0; Psi Phi X] holds V: zero at the masters as Phi,
 /// with Phi^T M_ss X = 0, X^T M_ss X = I and X^T K_ss X = diag(omega^2), so that all that is known
 /// of the blocks of fixed-interface modes holds for them too. Their omega are Rayleigh quotients
-/// and no frequencies of the model.
+/// and no frequencies of the model. All vectors at once: columns of a second call would not be
+/// K-orthogonal to those of the first.
 /// @param V  [n x k] dense, rows as the whole system
 /// @note   Collective.
 Enrichment enrich(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, const SlaveBlocks& ss,

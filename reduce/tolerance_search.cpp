@@ -23,9 +23,10 @@ bool begins_with(const std::vector<double>& now, const std::vector<double>& befo
 }  // namespace
 
 ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, double tolerance,
-                                 PairsOf pairs_in_range)
+                                 PairsOf pairs_in_range, ToleranceOf of)
     : system_(system),
       tolerance_(tolerance),
+      of_(of),
       pairs_in_range_(std::move(pairs_in_range)),
       search_(system.K_ss, system.M.ss),
       n_asked_(n_at_first)
@@ -51,8 +52,8 @@ void ToleranceSearch::find_modes()
   if (model_ && n <= model_->n_modes()) n = static_cast<PetscInt>(omega.size());  // no others
   if (model_ && n <= model_->n_modes()) {
     throw Error(
-        fmt::format("with all {} fixed-interface modes that there are eta^2 is {:.1e}, "
-                    "above the tolerance {:.1e}; raise the tolerance",
+        fmt::format("with all {} fixed-interface modes that there are the estimated error is "
+                    "{:.1e}, above the tolerance {:.1e}; raise the tolerance",
                     n, error(n), tolerance_));
   }
   if (model_ && !begins_with(omega, model_->omega())) model_.reset();
@@ -63,8 +64,14 @@ void ToleranceSearch::find_modes()
 
 double ToleranceSearch::error(PetscInt n) const
 {
-  const std::vector<double> eta2 = model_->error_estimates(pairs_in_range_(model_->model(n)), n);
-  return eta2.empty() ? 0.0 : std::ranges::max(eta2);
+  const ReducedPairs pairs = pairs_in_range_(model_->model(n));
+  std::vector<double> errors = model_->error_estimates(pairs, n);
+  if (of_ == ToleranceOf::frequencies) {
+    const double last = n > 0 ? model_->omega()[n - 1] : 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      errors[i] = frequency_error(errors[i], pairs.lambda[i], last * last);
+  }
+  return errors.empty() ? 0.0 : std::ranges::max(errors);
 }
 
 bool ToleranceSearch::is_enough()

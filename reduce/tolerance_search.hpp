@@ -8,6 +8,9 @@
 
 namespace chladni::reduce {
 
+/// What a tolerance is for: eta^2 of each lambda, or `frequency_error`.
+enum class ToleranceOf { eta2, frequencies };
+
 /// About as few fixed-interface modes as keep the error estimates of a range of the spectrum below
 /// a tolerance. Takes turns: `find_modes`, `is_enough`, until the answer is yes. Neither the modes
 /// nor what their errors need are computed twice.
@@ -17,7 +20,8 @@ class ToleranceSearch {
   using PairsOf = std::function<ReducedPairs(const ReducedModel&)>;
 
   /// What `system` refers to must outlive this.
-  ToleranceSearch(const GrowingModel::System& system, double tolerance, PairsOf pairs_in_range);
+  ToleranceSearch(const GrowingModel::System& system, double tolerance, PairsOf pairs_in_range,
+                  ToleranceOf of = ToleranceOf::eta2);
 
   /// Finds as many modes as `is_enough` has predicted.
   /// @note   Collective.
@@ -43,6 +47,7 @@ class ToleranceSearch {
 
   GrowingModel::System system_;
   double tolerance_;
+  ToleranceOf of_;
   PairsOf pairs_in_range_;
   ModeSearch search_;
   std::optional<GrowingModel> model_;

@@ -150,5 +150,27 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
             tolerance);
 }
 
+TEST(ToleranceSearch, ForFrequenciesTakesFewerModesAndKeepsTheirErrors)
+{
+  const HeldChain held(1), exact(30);
+  constexpr double tolerance = 1e-5;
+  const auto found = [&](ToleranceOf of) {
+    ToleranceSearch search(
+        {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M}, tolerance,
+        [](const ReducedModel& model) { return lowest(model, 6); }, of);
+    do {
+      search.find_modes();
+    } while (!search.is_enough());
+    return search.modes();
+  };
+  FixedInterfaceModes modes = found(ToleranceOf::frequencies);
+  EXPECT_LT(modes.omega.size(), found(ToleranceOf::eta2).omega.size());
+  const CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K),
+                               .modes = std::move(modes)};
+  const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6), true_pairs = exact.pairs();
+  for (std::size_t i = 0; i < pairs.lambda.size(); ++i)
+    EXPECT_LT(std::sqrt(pairs.lambda[i] / true_pairs.lambda[i]) - 1.0, tolerance) << i;
+}
+
 }  // namespace
 }  // namespace chladni::reduce

@@ -90,6 +90,22 @@ TEST(Enrich, KeepsWhatIsKnownOfFixedInterfaceModes)
   EXPECT_LT((M - as_eigen(reduced.M)).norm(), 1e-11 * M.norm());
 }
 
+TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
+{
+  const Reduction r;
+  const std::vector<HarmonicLoads> loads{{.Omega_0 = Omega_0, .loaded = {0}},
+                                         {.Omega_0 = 1.7 * Omega_0, .loaded = {0}}};
+  CraigBamptonBasis Q_CB = r.basis(3);
+  const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, loads);
+  Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;
+  ASSERT_EQ(Q_CB.n_modes(), 5);
+  const MatrixXd exact = as_eigen(replicate(V));
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const MatrixXd found = response(Q_CB, r, loads[std::size_t(i)].Omega_0);
+    EXPECT_LT((found.col(0) - exact.col(i)).norm(), 1e-10 * exact.col(i).norm()) << i;
+  }
+}
+
 TEST(Enrich, AddsNothingForWhatTheBasisHolds)
 {
   const Reduction r;
