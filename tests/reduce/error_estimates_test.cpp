@@ -152,7 +152,7 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
 
 TEST(ToleranceSearch, ForFrequenciesTakesFewerModesAndKeepsTheirErrors)
 {
-  const HeldChain held(1), exact(30);
+  const HeldChain held(1);
   constexpr double tolerance = 1e-5;
   const auto found = [&](ToleranceOf of) {
     ToleranceSearch search(
@@ -167,9 +167,9 @@ TEST(ToleranceSearch, ForFrequenciesTakesFewerModesAndKeepsTheirErrors)
   EXPECT_LT(modes.omega.size(), found(ToleranceOf::eta2).omega.size());
   const CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K),
                                .modes = std::move(modes)};
-  const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6), true_pairs = exact.pairs();
-  for (std::size_t i = 0; i < pairs.lambda.size(); ++i)
-    EXPECT_LT(std::sqrt(pairs.lambda[i] / true_pairs.lambda[i]) - 1.0, tolerance) << i;
+  const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6);
+  for (int k = 0; k < 6; ++k)
+    EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
 }
 
 }  // namespace
