@@ -89,7 +89,8 @@ std::vector<double> error_estimates(const Factorization& K_ss, const CraigBampto
 
 double frequency_error(double eta2, double lambda, double lambda_left_out)
 {
-  return 0.5 * eta2 / std::max(0.5, 1.0 - lambda / lambda_left_out);
+  constexpr double least = 0.02;  // close to the modes left out nothing is known
+  return 0.5 * eta2 / std::max(least, 1.0 - lambda / lambda_left_out);
 }
 
 }  // namespace chladni::reduce

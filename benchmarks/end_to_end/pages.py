@@ -33,8 +33,8 @@ between frequencies, without damping, where the error of a frequency counts leas
 are those of a reduced system with the FE model's own responses to all loads and to the forces of the support at that frequency
 (`space = "full"`), which are exact there."""
 
-OVER = """The program holds eta^2, the error of omega^2, to the tolerance; the error of a frequency is half of that. `half` is the smallest number of
-modes by hand for half the tolerance; where the error falls in wide steps, half of it can take many more modes."""
+OVER = """The program knows estimates of the errors, from eta^2, not the errors. `half` is the smallest number of modes by hand for half the
+tolerance: what it costs to ask for too much, where the error falls in wide steps."""
 
 
 def verdict(holds):
