@@ -8,17 +8,21 @@ reduce::FixedInterfaceModes modes_to_tolerance(const Scene& scene, const FeModel
                                                const reduce::GrowingModel::System& system,
                                                const std::vector<PetscInt>& masters, Phases& phases)
 {
+  // Frequencies of too few modes are too high: some beyond the range belong into it.
+  constexpr double beyond = 1.25;
+  ModeRange range = certified_range(scene, 0.0);
+  range.omega_max *= beyond;
   const auto pairs_in_range = [&](const reduce::ReducedModel& model) {
     const std::vector<int> places =
         coordinate_places(masters, static_cast<PetscInt>(model.omega.size()));
     return held_pairs(to_file_order(scene, fe, model, places), places, certified_support(scene, fe),
-                      certified_range(scene, 0.0))
+                      range)
         .pairs;
   };
   // What the estimates from the small matrices and those from the FE model may differ by.
   constexpr double margin = 0.99;
   reduce::ToleranceSearch search(system, margin * scene.reduce.tolerance->tolerance, pairs_in_range,
-                                 reduce::ToleranceOf::frequencies);
+                                 scene.reduce.tolerance->up_to_Hz);
   const auto find_modes = [&] {
     search.find_modes();
     return 0;

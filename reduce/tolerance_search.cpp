@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace chladni::reduce {
 
@@ -23,10 +24,10 @@ bool begins_with(const std::vector<double>& now, const std::vector<double>& befo
 }  // namespace
 
 ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, double tolerance,
-                                 PairsOf pairs_in_range, ToleranceOf of)
+                                 PairsOf pairs_in_range, std::optional<double> up_to_Hz)
     : system_(system),
       tolerance_(tolerance),
-      of_(of),
+      up_to_Hz_(up_to_Hz),
       pairs_in_range_(std::move(pairs_in_range)),
       search_(system.K_ss, system.M.ss),
       n_asked_(n_at_first)
@@ -66,10 +67,13 @@ double ToleranceSearch::error(PetscInt n) const
 {
   const ReducedPairs pairs = pairs_in_range_(model_->model(n));
   std::vector<double> errors = model_->error_estimates(pairs, n);
-  if (of_ == ToleranceOf::frequencies) {
+  if (up_to_Hz_) {
     const double last = n > 0 ? model_->omega()[n - 1] : 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i)
+    for (std::size_t i = 0; i < errors.size(); ++i) {
       errors[i] = frequency_error(errors[i], pairs.lambda[i], last * last);
+      const double Hz = std::sqrt(pairs.lambda[i]) / (2.0 * std::numbers::pi);
+      if (Hz * (1.0 - errors[i]) > *up_to_Hz_) errors[i] = 0.0;
+    }
   }
   return errors.empty() ? 0.0 : std::ranges::max(errors);
 }

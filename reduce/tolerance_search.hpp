@@ -8,9 +8,6 @@
 
 namespace chladni::reduce {
 
-/// What a tolerance is for: eta^2 of each lambda, or `frequency_error`.
-enum class ToleranceOf { eta2, frequencies };
-
 /// About as few fixed-interface modes as keep the error estimates of a range of the spectrum below
 /// a tolerance. Takes turns: `find_modes`, `is_enough`, until the answer is yes. Neither the modes
 /// nor what their errors need are computed twice.
@@ -20,8 +17,11 @@ class ToleranceSearch {
   using PairsOf = std::function<ReducedPairs(const ReducedModel&)>;
 
   /// What `system` refers to must outlive this.
+  /// @param up_to_Hz  given: the tolerance is for `frequency_error` of all frequencies of the FE
+  ///                  model up to here, and the pairs go some way beyond, since a reduced frequency
+  ///                  is too high; absent: for eta^2 of each pair
   ToleranceSearch(const GrowingModel::System& system, double tolerance, PairsOf pairs_in_range,
-                  ToleranceOf of = ToleranceOf::eta2);
+                  std::optional<double> up_to_Hz = {});
 
   /// Finds as many modes as `is_enough` has predicted.
   /// @note   Collective.
@@ -47,7 +47,7 @@ class ToleranceSearch {
 
   GrowingModel::System system_;
   double tolerance_;
-  ToleranceOf of_;
+  std::optional<double> up_to_Hz_;
   PairsOf pairs_in_range_;
   ModeSearch search_;
   std::optional<GrowingModel> model_;

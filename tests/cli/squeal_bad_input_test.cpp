@@ -138,7 +138,7 @@ TEST(SquealProgram, LeavesNothingBehindWhenTheSceneIsWrong)
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
   const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
   EXPECT_EQ(ending.exit_code, 1);
-  EXPECT_EQ(ending.err, "scene.toml:53: squeal.friction = -0.6: must be >= 0\n");
+  EXPECT_EQ(ending.err, "scene.toml:54: squeal.friction = -0.6: must be >= 0\n");
   EXPECT_EQ(folder.n_files(), 2u);
 }
 
