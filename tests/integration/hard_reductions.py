@@ -92,15 +92,15 @@ def hard_cases(programs):
     found = []
     for ranks in (1, 2, 4):
         run, summary, certificate = programs.run(by_tolerance, ranks)
-        yield f"tolerance on {ranks} ranks", run, summary and certificate["eta2"].max() < 1e-3
+        yield f"tolerance on {ranks} ranks", run, summary and certificate["eta2"].max() / 2 < 1e-3
         found.append((summary["n_modes"], certificate["frequencies"]))
     same = max(np.max(np.abs(f / found[0][1] - 1)) for _, f in found)
     yield f"equal on 1, 2 and 4 ranks, {same:.0e}", None, (
         len({n for n, _ in found}) == 1 and same < 1e-9)  # fmt: skip
     fewer = changed(SCENE, ("modes = 20", f"modes = {int(0.95 * found[0][0])}"))
     run, summary, certificate = programs.run(fewer)
-    in_range = certificate["frequencies"] < 2 * np.pi * 6000
-    yield "fewer modes do not keep the tolerance", run, certificate["eta2"][in_range].max() > 1e-3
+    in_range = certificate["frequencies"] * (1 - certificate["eta2"] / 2) < 2 * np.pi * 6000
+    yield "fewer modes do not keep the tolerance", run, certificate["eta2"][in_range].max() / 2 > 1e-3
 
 
 def refusals(programs):
