@@ -26,8 +26,9 @@ analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", 
 map = { parameter = "stiffness", from = 1e6, to = 9e6, count = 10 }
 transient = { speed_rad_s = 18.85, duration_s = 0.3, initial_pad_displacement = 6.8e-8 }
 """
-BENCHMARK = {"studies": [{"case": "disc </script>", "by_hand": [{"cpu_s": 1.0, "error": 1e-3}, {"cpu_s": 3.0, "error": 1e-5}],
-                          "by_tolerance": [{"cpu_s": 2.0, "error": 1e-4}]}]}  # fmt: skip
+# As the benchmark writes it, with a name that would end a script.
+BENCHMARK = json.loads((ROOT / "docs/end_to_end.json").read_text())
+BENCHMARK["studies"][0]["case"] = "disc </script>"
 
 # What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.
 READER = """<script>

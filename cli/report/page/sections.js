@@ -25,11 +25,11 @@ function modeTable(content, choose) {
   const {modes} = content;
   const known = key => modes.some(mode => mode[key] !== undefined);
   const columns = [["mode", mode => String(mode.number)],
-                   ["frequency, Hz", mode => formatted(mode.frequency_Hz, 6)],
-                   ["kind", mode => mode.kind]];
-  if (known("diameters")) columns.push(["nodal diameters", mode => String(mode.diameters ?? "")]);
+                   ["frequency, Hz", mode => formatted(mode.frequency_Hz, 6)]];
   if (known("estimate")) columns.push(["estimated error", mode => percent(mode.estimate)]);
   if (known("bound")) columns.push(["certified: at most", mode => percent(mode.bound)]);
+  if (known("diameters")) columns.push(["nodal diameters", mode => String(mode.diameters ?? "")]);
+  columns.push(["kind", mode => mode.kind]);  // last: a small window shows the errors
   const made = table(columns.map(([name]) => name), modes.map(mode => columns.map(([, text]) => text(mode))));
   const n = content.surface ? content.surface.motions.length : 0;
   [...made.tBodies[0].rows].forEach((row, i) => {
@@ -229,10 +229,13 @@ function estimateFigure(modes) {
 
 function benchmarkFigure(studies) {
   const markers = ["circle", "square", "triangle"];
-  const curve = (points, k, more) => ({x: points.map(p => p.cpu_s), y: points.map(p => p.error), colour: k % 6, ...more});
+  const curve = (study, whose, k, more) => {
+    const points = study.tolerances.map(each => each[whose]).filter(point => point);
+    return {x: points.map(p => p.cost_s), y: points.map(p => p.error), colour: k % 6, ...more};
+  };
   const series = studies.flatMap((study, k) => [
-    curve(study.by_hand, k, {name: `${study.case}, by hand`, marker: markers[k % 3], hollow: true}),
-    curve(study.by_tolerance, k, {name: `${study.case}, by tolerance`, marker: "star", line: false})]);
+    curve(study, "hand", k, {name: `${study.case}, by hand`, marker: markers[k % 3], hollow: true}),
+    curve(study, "chosen", k, {name: `${study.case}, by tolerance`, marker: "star", line: false})]);
   return plot({title: "Whole program: error reached over time spent", x: {label: "CPU time, s", log: true},
                y: {label: "relative error of the frequencies", log: true}, series});
 }
