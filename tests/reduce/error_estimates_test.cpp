@@ -172,5 +172,24 @@ TEST(ToleranceSearch, ForFrequenciesTakesFewerModesAndKeepsTheirErrors)
     EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
 }
 
+TEST(ToleranceSearch, CountsAFrequencyThatTooFewModesPutBeyondTheRange)
+{
+  // The fifth frequency lies at the end of the range, and above it as long as modes are missing.
+  const HeldChain held(1);
+  constexpr double tolerance = 1e-2;
+  const double up_to_Hz = 1.0005 * std::sqrt(exact(5)) / (2.0 * std::numbers::pi);
+  ToleranceSearch search(
+      {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M}, tolerance,
+      [](const ReducedModel& model) { return lowest(model, std::min(6, model.K.n_rows - 1)); },
+      up_to_Hz);
+  do {
+    search.find_modes();
+  } while (!search.is_enough());
+  const CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K), .modes = search.modes()};
+  const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 5);
+  for (int k = 0; k < 5; ++k)
+    EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
+}
+
 }  // namespace
 }  // namespace chladni::reduce
