@@ -20,7 +20,7 @@ std::vector<double> error_estimates(const Factorization& K_ss, const CraigBampto
 
 /// The relative error of a frequency by the eta^2 of its lambda, with the modes from
 /// `lambda_left_out` on left out of the basis: eta^2 / 2 is a lower estimate, by the factor
-/// 1 - lambda / lambda_left_out at most, by which it is divided.
+/// 1 - lambda / lambda_left_out at most, by which it is divided; by no less than a fiftieth.
 double frequency_error(double eta2, double lambda, double lambda_left_out);
 
 }  // namespace chladni::reduce
