@@ -22,6 +22,7 @@ struct HardCase {
 };
 
 std::vector<HardCase> element_cases();
+std::vector<HardCase> vibration_cases();
 std::vector<HardCase> coupling_cases();
 std::vector<HardCase> reduction_cases();
 std::vector<HardCase> body_cases();

@@ -107,6 +107,16 @@ std::vector<HardCase> integration_cases()
        }},
       {area, "20,000 periods of a free vibration", "any damping of the scheme adds up",
        "relative drift of the energy", 1e-9, energy_drift},
+      {area, "7600 periods from 1e-7 m to the limit cycle",
+       "any error of the growth adds up over 4.4 s", "relative error of the time to 99 % of it",
+       2e-3,
+       [] {
+         const Disc disc = disc_of({kirchhoff_3(1672.13)});
+         const Transient run =
+             transient(disc, reference_options(),
+                       {.speed = 6.0 * pi, .duration = 5.0, .initial_pad_displacement = 6.8e-8});
+         return relative_error(limit_cycle(disc, run).t_99, 3.931);
+       }},
       {area, "steps too long for the highest mode", "would show a frequency that does not exist",
        "words missing in the refusal", 0.0,
        [] {

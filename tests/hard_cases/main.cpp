@@ -106,8 +106,8 @@ int main(int argc, char** argv)
   int n_arguments = 1;
   SlepcInitialize(&n_arguments, &argv, nullptr, nullptr);
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
-  for (const auto& cases : {element_cases(), coupling_cases(), reduction_cases(), body_cases(),
-                            contact_cases(), integration_cases(), sound_cases()})
+  for (const auto& cases : {element_cases(), coupling_cases(), vibration_cases(), reduction_cases(),
+                            body_cases(), contact_cases(), integration_cases(), sound_cases()})
     add(outcomes, cases);
   SlepcFinalize();
   if (files.contains("--markdown")) std::ofstream(files["--markdown"]) << markdown(outcomes);

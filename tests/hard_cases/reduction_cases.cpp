@@ -2,11 +2,12 @@
 // dense matrices in long double.
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "hard_case.hpp"
-#include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
+#include "reduce/sylvester.hpp"
 #include "tests/reduce/chain.hpp"
 
 namespace chladni::hard_cases {
@@ -142,6 +143,23 @@ struct EqualChains {
   std::vector<PetscInt> masters{0, 40, 80, 120, 160, 200};
 };
 
+/// Eigenvalues counted too many or too few on both sides of a fivefold one, 1e-9 of it away.
+double miscount_beside_fivefold_eigenvalues()
+{
+  const EqualChains five;
+  const Pencil A = pencil(five.chain);
+  double wrong = 0.0;
+  for (const int k : {1, 2, 20}) {
+    const double lambda = std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / 40.0), 2);
+    for (const int side : {-1, 1}) {
+      const PetscInt expected = 5 * (side < 0 ? k - 1 : k);
+      const double sigma = lambda * (1.0 + side * 1e-9);
+      wrong += std::abs(eigenvalues_below(A.K, A.M, sigma, five.masters) - expected);
+    }
+  }
+  return wrong;
+}
+
 }  // namespace
 
 std::vector<HardCase> reduction_cases()
@@ -206,6 +224,9 @@ std::vector<HardCase> reduction_cases()
          const Reduction r(pencil(five.chain), five.masters);
          return orthonormality_error(r.modes(10), r.M.ss);
        }},
+      {area, "count of eigenvalues 1e-9 beside fivefold ones",
+       "five pivots of L D L^T next to zero", "eigenvalues too many or too few", 0.0,
+       miscount_beside_fivefold_eigenvalues},
   };
 }
 

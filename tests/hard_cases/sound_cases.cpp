@@ -90,6 +90,23 @@ double error_of_a_multipole(const Outline& outline, const Multipole& exact, doub
   return sound::testing::mean_field_error(exterior.mesh(), field.wave, field.p.col(0), exact);
 }
 
+/// An oscillating sphere at ka = 3 in a layer that damps waves by exp(-12) on each way.
+double error_within_a_strong_layer()
+{
+  AirMeshOptions options{.order = 6,
+                         .element_size = 0.025,
+                         .edge_size = 0.025,
+                         .inner_radius = 0.2,
+                         .shell_thickness = 0.1,
+                         .half_space = false};
+  const Multipole exact{1, 0};
+  Exterior exterior =
+      around(sound::testing::sphere(0.1), options, {Medium{}, 30.0 * 343.0, 0}, {.alpha = 12.0});
+  const Field field =
+      solve(exterior, sound::testing::normal_velocity(exact, exterior.wave(), exterior.surface()));
+  return sound::testing::mean_field_error(exterior.mesh(), field.wave, field.p.col(0), exact);
+}
+
 AirOptions elements_of(double size)
 {
   AirOptions options;
@@ -122,6 +139,9 @@ std::vector<HardCase> sound_cases()
        [] {
          return error_of_a_multipole(sound::testing::solid_disc(disc_radius, 0.2), {4, 3}, 3.0);
        }},
+      {"sound", "absorbing layer of exp(-12)",
+       "coordinates turn so far into the complex plane that the Jacobian changes its sign",
+       "relative error of the field, mean square", 1e-4, error_within_a_strong_layer},
       {"sound", "elements of two thirds of a wavelength", "would show waves that do not exist",
        "words missing in the refusal", 0.0,
        [omega] {
