@@ -60,12 +60,12 @@ reduce::ReducedPairs broadcast(reduce::ReducedPairs pairs)
 HeldPairs held_pairs(const mbs_export::ReducedSystem& system, const std::vector<int>& places,
                      const std::vector<std::string>& fixed, const ModeRange& range)
 {
-  HeldPairs held{.pairs = {.X = {0, 0}, .lambda = {}}, .n_rigid = 0, .rigid_residual = 0.0};
+  HeldPairs held{.pairs = {.X = {0, 0}, .lambda = {}}, .n_rigid = 0};
   on_first_rank([&] {
-    const mbs_export::HeldModeShapes shapes = mbs_export::held_mode_shapes(system, fixed);
+    const mbs_export::HeldModeShapes shapes = mbs_export::held_mode_shapes(
+        system, fixed, {.lambda_max = range.omega_max * range.omega_max, .most = range.most});
     held.pairs = to_model_order(shapes, places, range);
     held.n_rigid = shapes.n_free_rigid;
-    held.rigid_residual = shapes.rigid_residual;
   });
   held.pairs = broadcast(std::move(held.pairs));
   return held;
@@ -81,7 +81,7 @@ mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const R
   mbs_export::Certificate certificate;
   certificate.fixed = fixed;
   certificate.n_rigid = held.n_rigid;
-  certificate.rigid_residual = held.rigid_residual;
+  on_first_rank([&] { certificate.rigid_residual = mbs_export::rigid_residual(system); });
   certificate.frequencies =
       Eigen::Map<const Eigen::VectorXd>(held.pairs.lambda.data(), k).cwiseSqrt();
   certificate.eta2 = Eigen::Map<const Eigen::VectorXd>(eta2.data(), k);

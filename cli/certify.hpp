@@ -27,7 +27,6 @@ struct ModeRange {
 struct HeldPairs {
   reduce::ReducedPairs pairs;  ///< in the coordinates of the reduced model
   int n_rigid;                 ///< of the free body
-  double rigid_residual;
 };
 
 /// @param system  [first rank] the reduced system in the order of the file

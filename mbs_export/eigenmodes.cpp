@@ -4,48 +4,12 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "mbs_export/deflated_factor.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-
-/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off.
-double deflation_shift(const MatrixXd& K, const MatrixXd& M)
-{
-  const VectorXd ratio =
-      (M.diagonal().array() > 0.0).select(K.diagonal().array() / M.diagonal().array(), 0.0);
-  const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
-  if (largest <= 0.0) return 1.0;
-  return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
-}
-
-/// Pi^T K Pi with Pi = I - R R^T M: K without the round-off that it has along its zero-energy
-/// vectors. Where these are most of the coordinates, as of a body with a single attachment node,
-/// round-off is all that stands there, and may be of either sign.
-MatrixXd without_zero_energy(const MatrixXd& K, const MatrixXd& MR, const MatrixXd& R)
-{
-  const MatrixXd KR = K * R;
-  MatrixXd K_d = K - MR * KR.transpose() - KR * MR.transpose();
-  K_d += MR * (R.transpose() * KR) * MR.transpose();
-  return 0.5 * (K_d + K_d.transpose());
-}
-
-/// Cholesky factor of K + sigma M R R^T M, without what round-off leaves of K along R.
-Eigen::LLT<MatrixXd> factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
-{
-  const MatrixXd MR = M * R;
-  const MatrixXd K_d = without_zero_energy(K, MR, R);
-  Eigen::LLT<MatrixXd> B(MatrixXd(K_d + deflation_shift(K_d, M) * MR * MR.transpose()));
-  if (B.info() != Eigen::Success)
-    throw Error(
-        "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
-        " is the structure in one piece, without mechanisms, and no attachment node so close to "
-        "another"
-        " that round-off is all there is between them?");
-  return B;
-}
 
 /// L^-1 M L^-T without the directions L^T R of the zero-energy vectors.
 MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
@@ -80,7 +44,7 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
 {
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
-  const Eigen::LLT<MatrixXd> B = factor(K, M, R);
+  const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R);
   const MatrixXd L = B.matrixL();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(deflated(L, M, R));
   const VectorXd mu = solver.eigenvalues().reverse();
@@ -97,7 +61,7 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
 double first_eigenvalue(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
 {
   if (K.rows() <= R.cols()) return 0.0;
-  const Eigen::LLT<MatrixXd> B = factor(K, M, R);
+  const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R);
   constexpr int n_iterations = 30;
   // All coordinates take part, none in a pattern that a mode may have too.
   VectorXd x = VectorXd::NullaryExpr(

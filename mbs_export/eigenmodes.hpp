@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace chladni::mbs_export {
 
@@ -19,6 +20,20 @@ struct Eigenmodes {
 /// @param R  [n x r], r may be 0
 /// @throws chladni::Error when K has more zero-energy vectors than R, or M is not semidefinite.
 Eigenmodes eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& R);
+
+/// Which of the modes are wanted.
+struct LowestModes {
+  double lambda_max = std::numeric_limits<double>::infinity();  ///< rad^2/s^2
+  Eigen::Index most = std::numeric_limits<Eigen::Index>::max();
+};
+
+/// The first of these modes: all with lambda <= lambda_max and, where there is one, the next;
+/// `most` at most. Block Lanczos with full reorthogonalisation, which for a few tens of many
+/// coordinates takes a fraction of the time; all modes where it would not. `n_massless` is not
+/// counted.
+/// @throws chladni::Error as eigenmodes.
+Eigenmodes lowest_eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
+                             const Eigen::MatrixXd& R, const LowestModes& wanted);
 
 /// The first of these lambda alone, from above and to a few per cent: by inverse iteration, for a
 /// scale; 0 where there is none.

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-/// Where a held displacement is a combination of coordinates.
+/// All modes, where a held displacement is a combination of coordinates.
 HeldModeShapes by_mode_shift(const ReducedSystem& reduced, const HeldDofs& held)
 {
   const FreeModes free = orthogonalize(reduced);
@@ -23,8 +23,7 @@ HeldModeShapes by_mode_shift(const ReducedSystem& reduced, const HeldDofs& held)
   return {.omega = modes.omega.tail(n_elastic),
           .X = free.Q_e * (shift.Q_c * modes.X.rightCols(n_elastic)),
           .n_rigid = modes.n_rigid,
-          .n_free_rigid = free.n_rigid,
-          .rigid_residual = free.rigid_residual};
+          .n_free_rigid = free.n_rigid};
 }
 
 std::vector<int> other_rows(const std::vector<int>& rows, Index n)
@@ -37,26 +36,30 @@ std::vector<int> other_rows(const std::vector<int>& rows, Index n)
 
 }  // namespace
 
-HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed)
+HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
+                                const LowestModes& wanted)
 {
   const HeldDofs held = held_dofs(reduced, fixed);
   if (!held.are_masters()) return by_mode_shift(reduced, held);
   const RigidModes rigid = rigid_modes(reduced);
   const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, Eigen::all));
   const std::vector<int> rows = other_rows(held.rows, reduced.K.rows());
-  const Eigenmodes elastic =
-      eigenmodes(reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, Eigen::all));
+  const Eigenmodes elastic = lowest_eigenmodes(reduced.K(rows, rows), reduced.M(rows, rows),
+                                               unheld(rows, Eigen::all), wanted);
   HeldModeShapes shapes{.omega = elastic.lambda.cwiseSqrt(),
                         .X = MatrixXd::Zero(reduced.K.rows(), elastic.X.cols()),
                         .n_rigid = static_cast<int>(unheld.cols()),
-                        .n_free_rigid = static_cast<int>(rigid.R.cols()),
-                        .rigid_residual = 0.0};
+                        .n_free_rigid = static_cast<int>(rigid.R.cols())};
   shapes.X(rows, Eigen::all) = elastic.X;
-  if (rigid.R.cols() > 0) {
-    const double first = first_eigenvalue(reduced.K, reduced.M, rigid.R);
-    shapes.rigid_residual = first > 0.0 ? rigid.largest_energy / first : 0.0;
-  }
   return shapes;
+}
+
+double rigid_residual(const ReducedSystem& reduced)
+{
+  const RigidModes rigid = rigid_modes(reduced);
+  if (rigid.R.cols() == 0) return 0.0;
+  const double first = first_eigenvalue(reduced.K, reduced.M, rigid.R);
+  return first > 0.0 ? rigid.largest_energy / first : 0.0;
 }
 
 }  // namespace chladni::mbs_export

@@ -10,7 +10,7 @@ namespace chladni::reduce {
 struct BlockLanczosOptions {
   PetscInt n_pairs;           ///< wanted
   PetscInt block_size = 8;    ///< a block solve costs 5 to 8 times less per column than single ones
-  PetscInt max_subspace = 0;  ///< basis vectors before a restart; 0 = 2 n_pairs + 16 blocks
+  PetscInt max_subspace = 0;  ///< basis vectors before a restart; 0 = 2.25 n_pairs + 24 blocks
   PetscInt max_steps = 1000;  ///< block solves
   double tolerance = 1e-9;    ///< residual of K^-1 M x = theta x relative to theta, in the M norm
 };

@@ -82,8 +82,8 @@ bool ToleranceSearch::is_enough()
 {
   const double last_error = error(model_->n_modes());
   if (last_error > tolerance_) {
-    n_asked_ = prediction(last_error);
-    too_few_ = {.n = model_->n_modes(), .error = last_error};
+    too_few_.push_back({.n = model_->n_modes(), .error = last_error});
+    n_asked_ = prediction();
     return false;
   }
   n_enough_ = search_.complete_cluster(least());
@@ -93,7 +93,7 @@ bool ToleranceSearch::is_enough()
 /// By bisection to 1 % or one mode.
 PetscInt ToleranceSearch::least() const
 {
-  PetscInt too_few = too_few_.n;
+  PetscInt too_few = too_few_.empty() ? 0 : too_few_.back().n;
   PetscInt enough = model_->n_modes();
   while (enough - too_few > std::max<PetscInt>(1, enough / 100)) {
     const PetscInt n = (enough + too_few) / 2;
@@ -103,16 +103,20 @@ PetscInt ToleranceSearch::least() const
 }
 
 /// A number of modes that keeps the tolerance if the error goes on to fall as a power of it, from
-/// the errors of the last step, or with half of the modes, and with all; between 1.15 and 1.5 times
-/// as many: the error falls in jumps.
-PetscInt ToleranceSearch::prediction(double last_error) const
+/// the errors with all modes and with half of them or less: over less the error falls in jumps.
+/// Between 1.15 and 1.5 times as many for the same reason, or twice where that is far from enough.
+PetscInt ToleranceSearch::prediction() const
 {
-  const PetscInt n = model_->n_modes();
-  const Tried before = too_few_.n > 0 ? too_few_ : Tried{.n = n / 2, .error = error(n / 2)};
-  const double fallen = std::log(before.error / last_error) / std::log(double(n) / before.n);
+  const Tried last = too_few_.back();
+  const PetscInt n = last.n;
+  const auto before = std::find_if(too_few_.rbegin(), too_few_.rend(),
+                                   [&](const Tried& t) { return 2 * t.n <= n; });
+  const Tried half = before != too_few_.rend() ? *before : Tried{.n = n / 2, .error = error(n / 2)};
+  const double fallen = std::log(half.error / last.error) / std::log(double(n) / half.n);
   const double power = std::max(0.5, fallen);
-  const double predicted = 1.1 * n * std::pow(last_error / tolerance_, 1.0 / power);
-  return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, 1.5 * n)) + 1;
+  const double predicted = 1.1 * n * std::pow(last.error / tolerance_, 1.0 / power);
+  const double most = predicted > 3.0 * n ? 2.0 : 1.5;
+  return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, most * n)) + 1;
 }
 
 }  // namespace chladni::reduce

@@ -42,7 +42,7 @@ class ToleranceSearch {
 
   double error(PetscInt n) const;
   PetscInt least() const;
-  PetscInt prediction(double last_error) const;
+  PetscInt prediction() const;
   PetscInt n_complete() const;
 
   GrowingModel::System system_;
@@ -52,7 +52,7 @@ class ToleranceSearch {
   ModeSearch search_;
   std::optional<GrowingModel> model_;
   PetscInt n_asked_;
-  Tried too_few_{.n = 0, .error = 0.0};
+  std::vector<Tried> too_few_;
   PetscInt n_enough_ = 0;
 };
 

@@ -93,5 +93,71 @@ TEST(Eigenmodes, RefuseMechanismsAndNegativeMass)
             std::string::npos);
 }
 
+/// Membrane of n x n unit masses and springs with fixed edges: lambda_j + lambda_k of two chains,
+/// most of them double.
+MatrixXd membrane(int n)
+{
+  MatrixXd chain = free_chain(n);
+  chain(0, 0) = chain(n - 1, n - 1) = 2.0;
+  MatrixXd K = MatrixXd::Zero(n * n, n * n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        K(n * i + j, n * k + j) += chain(i, k);
+        K(n * j + i, n * j + k) += chain(i, k);
+      }
+  return K;
+}
+
+TEST(LowestEigenmodes, AreTheFirstOfAll)
+{
+  const MatrixXd K = membrane(20);
+  MatrixXd M = MatrixXd::Identity(400, 400);
+  for (int i = 0; i < 400; i += 7) M(i, i) = 0.0;
+  const Eigenmodes all = eigenmodes(K, M, MatrixXd(400, 0));
+  constexpr double lambda_max = 0.5;
+  const auto n_below = (all.lambda.array() <= lambda_max).count();
+  ASSERT_GT(n_below, 10);
+  const Eigenmodes some = lowest_eigenmodes(K, M, MatrixXd(400, 0), {.lambda_max = lambda_max});
+  ASSERT_EQ(some.lambda.size(), n_below + 1);
+  for (Eigen::Index i = 0; i <= n_below; ++i)
+    EXPECT_NEAR(some.lambda[i] / all.lambda[i], 1.0, 1e-12) << i;
+  // Of the vectors a residual of 1e-10 leaves as much, over the distance to the next eigenvalue.
+  const MatrixXd I = MatrixXd::Identity(n_below + 1, n_below + 1);
+  EXPECT_LT((some.X.transpose() * M * some.X - I).norm(), 1e-11);
+  EXPECT_LT((K * some.X - M * some.X * some.lambda.asDiagonal()).norm(), 1e-8);
+  EXPECT_EQ(lowest_eigenmodes(K, M, MatrixXd(400, 0), {.lambda_max = 1e9, .most = 5}).lambda.size(),
+            5);
+  EXPECT_EQ(lowest_eigenmodes(K, M, MatrixXd(400, 0), {}).lambda.size(), all.lambda.size());
+}
+
+TEST(LowestEigenmodes, LeaveOutTheRigidMotions)
+{
+  constexpr int n = 300;
+  const MatrixXd R = VectorXd::Constant(n, 1.0 / std::sqrt(n));
+  const Eigenmodes modes =
+      lowest_eigenmodes(free_chain(n), MatrixXd::Identity(n, n), R, {.lambda_max = 0.01});
+  for (int k = 1; k <= modes.lambda.size(); ++k) {
+    const double s = std::sin(k * std::numbers::pi / (2 * n));
+    EXPECT_NEAR(modes.lambda[k - 1] / (4 * s * s), 1.0, 1e-10);
+  }
+  EXPECT_GT(modes.lambda[modes.lambda.size() - 1], 0.01);
+  EXPECT_LT((R.transpose() * modes.X).norm(), 1e-12);
+}
+
+TEST(LowestEigenmodes, MissNoneOfMoreEqualOnesThanABlockHas)
+{
+  // Twelve equal chains: a block of eight sees eight of each.
+  constexpr int n_chains = 12, n = 30;
+  MatrixXd chain = free_chain(n);
+  chain(0, 0) = 2.0;
+  MatrixXd K = MatrixXd::Zero(n_chains * n, n_chains * n);
+  for (int i = 0; i < n_chains; ++i) K.block(i * n, i * n, n, n) = chain;
+  const Eigenmodes modes = lowest_eigenmodes(K, MatrixXd::Identity(n_chains * n, n_chains * n),
+                                             MatrixXd(n_chains * n, 0), {.lambda_max = 0.01});
+  ASSERT_GE(modes.lambda.size(), n_chains);
+  EXPECT_NEAR(modes.lambda[n_chains - 1] / modes.lambda[0], 1.0, 1e-10);
+}
+
 }  // namespace
 }  // namespace chladni::mbs_export
