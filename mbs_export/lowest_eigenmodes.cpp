@@ -163,7 +163,8 @@ std::optional<Eigenmodes> by_lanczos(const MatrixXd& K, const MatrixXd& M, const
 Eigenmodes lowest_eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
                              const LowestModes& wanted)
 {
-  if (K.rows() > few) {
+  const bool wants_all = std::isinf(wanted.lambda_max) && wanted.most >= K.rows() - R.cols();
+  if (K.rows() > few && !wants_all) {
     if (std::optional<Eigenmodes> found = by_lanczos(K, M, R, wanted)) return *std::move(found);
   }
   Eigenmodes all = eigenmodes(K, M, R);

@@ -1,4 +1,5 @@
-"""What a newcomer sees: a fresh clone, the commands of README.md under "Run it", and nothing else.
+"""What a newcomer sees: a fresh clone, the commands of README.md under "Run it", and nothing else: no compiler cache, and
+none of the settings that ./dev makes for itself. What is installed goes to a folder that is removed again.
 
 Usage: newcomer.py OUTPUT.md. Called by `./dev newcomer`.
 """
@@ -13,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SHOWN = 14  # last lines of each output
+OF_DEV = re.compile(r"OMPI_|OPENBLAS_|OMP_|CCACHE_|PYTHONDONTWRITEBYTECODE")
 
 
 def shell(command, folder, environment):
@@ -25,8 +27,13 @@ def shell(command, folder, environment):
 def commands():
     """The indented lines of the section, each without its remark."""
     section = (ROOT / "README.md").read_text().split("## Run it")[1].split("\n## ")[0]
-    before_install = section.split("To install:")[0]
-    return [line.strip().split("    #")[0].rstrip() for line in re.findall(r"^    (\S.*)$", before_install, re.M)]
+    return [line.strip().split("    #")[0].rstrip() for line in re.findall(r"^    (\S.*)$", section, re.M)]
+
+
+def exported(command, folder, environment):
+    """The environment after an `export`."""
+    after = subprocess.run(["bash", "-c", command + "; env -0"], cwd=folder, env=environment, capture_output=True, check=True)
+    return dict(entry.split("=", 1) for entry in after.stdout.decode().split("\0") if entry)
 
 
 def facts():
@@ -44,17 +51,19 @@ def main(output):
               "Written by `./dev newcomer`: a fresh clone, then the commands of the README one by one, without compiler cache. Of "
               "each the last lines that it prints.", "", *facts(), ""]  # fmt: skip
     with tempfile.TemporaryDirectory() as name:
-        environment = {**os.environ, "CCACHE_DISABLE": "1"}
+        kept = {key: value for key, value in os.environ.items() if not OF_DEV.match(key)}
+        environment = {**kept, "CCACHE_DISABLE": "1"}
         first = f"git clone --quiet {ROOT} chladni"
         code, printed, seconds = shell(first, name, environment)
         total = seconds
         clone = Path(name) / "chladni"
         for command in commands():
-            if command.startswith("export PATH="):
-                environment["PATH"] = f"{clone}/build/release/bin:{environment['PATH']}"
+            if command.startswith("export "):
+                environment = exported(command, clone, environment)
                 report += [f"    $ {command}", ""]
                 continue
-            code, printed, seconds = shell(command, clone, environment)
+            elsewhere = {"DESTDIR": f"{name}/installed"} if command.startswith("cmake --install") else {}
+            code, printed, seconds = shell(command, clone, {**environment, **elsewhere})
             total += seconds
             lines = [line.rstrip().replace(name, "") for line in printed.strip().splitlines()][-SHOWN:]
             report += [f"## `{command}`", "", f"{seconds:.0f} s, exit code {code}", "", "```text", *lines, "```", ""]

@@ -111,14 +111,15 @@ MatrixXd membrane(int n)
 
 TEST(LowestEigenmodes, AreTheFirstOfAll)
 {
-  const MatrixXd K = membrane(20);
-  MatrixXd M = MatrixXd::Identity(400, 400);
-  for (int i = 0; i < 400; i += 7) M(i, i) = 0.0;
-  const Eigenmodes all = eigenmodes(K, M, MatrixXd(400, 0));
-  constexpr double lambda_max = 0.5;
+  constexpr int n = 15 * 15;
+  const MatrixXd K = membrane(15), R(n, 0);
+  MatrixXd M = MatrixXd::Identity(n, n);
+  for (int i = 0; i < n; i += 7) M(i, i) = 0.0;
+  const Eigenmodes all = eigenmodes(K, M, R);
+  constexpr double lambda_max = 0.8;
   const auto n_below = (all.lambda.array() <= lambda_max).count();
   ASSERT_GT(n_below, 10);
-  const Eigenmodes some = lowest_eigenmodes(K, M, MatrixXd(400, 0), {.lambda_max = lambda_max});
+  const Eigenmodes some = lowest_eigenmodes(K, M, R, {.lambda_max = lambda_max});
   ASSERT_EQ(some.lambda.size(), n_below + 1);
   for (Eigen::Index i = 0; i <= n_below; ++i)
     EXPECT_NEAR(some.lambda[i] / all.lambda[i], 1.0, 1e-12) << i;
@@ -126,14 +127,13 @@ TEST(LowestEigenmodes, AreTheFirstOfAll)
   const MatrixXd I = MatrixXd::Identity(n_below + 1, n_below + 1);
   EXPECT_LT((some.X.transpose() * M * some.X - I).norm(), 1e-11);
   EXPECT_LT((K * some.X - M * some.X * some.lambda.asDiagonal()).norm(), 1e-8);
-  EXPECT_EQ(lowest_eigenmodes(K, M, MatrixXd(400, 0), {.lambda_max = 1e9, .most = 5}).lambda.size(),
-            5);
-  EXPECT_EQ(lowest_eigenmodes(K, M, MatrixXd(400, 0), {}).lambda.size(), all.lambda.size());
+  EXPECT_EQ(lowest_eigenmodes(K, M, R, {.lambda_max = 1e9, .most = 5}).lambda.size(), 5);
+  EXPECT_EQ(lowest_eigenmodes(K, M, R, {}).lambda.size(), all.lambda.size());
 }
 
 TEST(LowestEigenmodes, LeaveOutTheRigidMotions)
 {
-  constexpr int n = 300;
+  constexpr int n = 220;
   const MatrixXd R = VectorXd::Constant(n, 1.0 / std::sqrt(n));
   const Eigenmodes modes =
       lowest_eigenmodes(free_chain(n), MatrixXd::Identity(n, n), R, {.lambda_max = 0.01});
@@ -148,13 +148,13 @@ TEST(LowestEigenmodes, LeaveOutTheRigidMotions)
 TEST(LowestEigenmodes, MissNoneOfMoreEqualOnesThanABlockHas)
 {
   // Twelve equal chains: a block of eight sees eight of each.
-  constexpr int n_chains = 12, n = 30;
+  constexpr int n_chains = 12, n = 20;
   MatrixXd chain = free_chain(n);
   chain(0, 0) = 2.0;
   MatrixXd K = MatrixXd::Zero(n_chains * n, n_chains * n);
   for (int i = 0; i < n_chains; ++i) K.block(i * n, i * n, n, n) = chain;
   const Eigenmodes modes = lowest_eigenmodes(K, MatrixXd::Identity(n_chains * n, n_chains * n),
-                                             MatrixXd(n_chains * n, 0), {.lambda_max = 0.01});
+                                             MatrixXd(n_chains * n, 0), {.lambda_max = 0.02});
   ASSERT_GE(modes.lambda.size(), n_chains);
   EXPECT_NEAR(modes.lambda[n_chains - 1] / modes.lambda[0], 1.0, 1e-10);
 }
