@@ -6,6 +6,7 @@ Usage: newcomer.py OUTPUT.md. Called by `./dev newcomer`.
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -36,20 +37,22 @@ def exported(command, folder, environment):
     return dict(entry.split("=", 1) for entry in after.stdout.decode().split("\0") if entry)
 
 
-def facts():
+def facts(load):
+    """Of the machine as it is now, with the load that it had before."""
     model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     memory = re.search(r"MemTotal:\s*(\d+)", Path("/proc/meminfo").read_text())
-    compiler = subprocess.run(["g++", "--version"], capture_output=True, text=True).stdout.splitlines()
+    compiler = subprocess.run("g++ --version", shell=True, capture_output=True, text=True).stdout.splitlines()
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
     return [f"- machine: {model[1] if model else 'unknown'}, {os.cpu_count()} cores, {int(memory[1]) / 2**20:.0f} GiB",
-            f"- load before: {os.getloadavg()[0]:.1f} processes besides", f"- {compiler[0] if compiler else 'no compiler yet'}",
+            f"- load before: {load:.1f} processes besides", f"- {compiler[0] if compiler else 'no compiler yet'}",
             f"- commit {commit.strip()}, {time.strftime('%Y-%m-%d')}"]  # fmt: skip
 
 
 def main(output):
     report = ["# A newcomer's log", "",
               "Written by `./dev newcomer`: a fresh clone, then the commands of the README one by one, without compiler cache. Of "
-              "each the last lines that it prints.", "", *facts(), ""]  # fmt: skip
+              "each the last lines that it prints.", ""]  # fmt: skip
+    load, missing = os.getloadavg()[0], not shutil.which("g++")
     with tempfile.TemporaryDirectory() as name:
         kept = {key: value for key, value in os.environ.items() if not OF_DEV.match(key)}
         environment = {**kept, "CCACHE_DISABLE": "1"}
@@ -70,9 +73,10 @@ def main(output):
             print(f"{seconds:8.1f} s  {code}  {command}", flush=True)
             if code:
                 break
-    report[4:4] = [""]
-    report.insert(len(report) if code else 4, f"All commands ended well, after {total / 60:.0f} minutes in all." if not code
-                  else f"The last command failed with exit code {code}.")  # fmt: skip
+    outcome = f"The last command failed with exit code {code}." if code else (
+        f"All commands ended well, after {total / 60:.0f} minutes in all" +
+        (", the installation of all packages included." if missing else "."))  # fmt: skip
+    report[4:4] = [outcome, "", *facts(load), ""]
     Path(output).write_text("\n".join(report).rstrip() + "\n")
     sys.exit(code)
 

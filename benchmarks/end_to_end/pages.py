@@ -124,9 +124,18 @@ def draw_promises(axis, study):
     axis.grid(True, which="major", alpha=0.25)
 
 
+def ticks(low, high):
+    """Round numbers of a logarithmic axis: three at least, if need be of closer ones."""
+    for steps in ((1, 2, 5), (1, 1.5, 2, 3, 4, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9)):
+        found = [step * 10.0**power for power in range(-6, 7) for step in steps if low <= step * 10.0**power <= high]
+        if len(found) > 2:
+            break
+    return found
+
+
 def draw_costs(axis, study):
     """Error of the frequencies over cost: a line from the choice by hand to the automatic one for each tolerance."""
-    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+    from matplotlib.ticker import FixedLocator, FormatStrFormatter, NullFormatter
     with_hand = [both for both in study["tolerances"] if "hand" in both]
     for both in with_hand:
         x, y = zip(*((both[name]["cost_s"], both[name]["error"]) for name in ("hand", "chosen")))
@@ -140,7 +149,7 @@ def draw_costs(axis, study):
         axis.axhline(both["chosen"]["tolerance"], color="k", linestyle="--", linewidth=0.5)
     costs_s = [both[name]["cost_s"] for both in study["tolerances"] for name in ("hand", "chosen") if name in both]
     axis.set_xlim(0.7 * min(costs_s), 1.5 * max(costs_s))
-    axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.xaxis.set_major_locator(FixedLocator(ticks(*axis.get_xlim())))
     axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
     axis.xaxis.set_minor_formatter(NullFormatter())
     axis.set_xlabel("CPU time of all phases, s")

@@ -60,7 +60,7 @@ def draw(cases, path):
         ax.axvline(1.0, color="#dddddd", linewidth=1.0, zorder=0)
         ax.set(title=case["name"], xlabel="processor time over real time", ylabel=f"error {case['error']}")
         ax.grid(color="#eeeeee")
-    axes[-1].legend(frameon=False, fontsize=7)
+    axes[-1].legend(frameon=False, fontsize=7, loc="lower left")
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=120)
 
