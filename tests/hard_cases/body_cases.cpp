@@ -141,6 +141,16 @@ std::vector<HardCase> body_cases()
              },
              {"104, 105", "rounded"});
        }},
+      {area, "beam held at both ends with modes 3 and 5 as dependent ones",
+       "both are symmetric: Q_dd is singular", "words missing in the refusal", 0.0,
+       [] {
+         const ReducedSystem& beam = test::regression_beam();
+         return words_missing(
+             [&] {
+               shift_modes(orthogonalize(beam), held_dofs(beam, {"A.z", "C.z"}), {2, 4});
+             },
+             {"cond(Q_dd)", "2, 4", "C.z"});
+       }},
       {area, "wheel held at its hub and at all heights of its rim",
        "18 displacements of which the rigid modes can give 6", frequencies, 1e-8,
        invariance_of_dependent_modes},

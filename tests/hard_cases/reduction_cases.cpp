@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "hard_case.hpp"
+#include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/sylvester.hpp"
 #include "tests/reduce/chain.hpp"
@@ -143,6 +144,25 @@ struct EqualChains {
   std::vector<PetscInt> masters{0, 40, 80, 120, 160, 200};
 };
 
+/// The error of Ritz values of 1 and 1.0001 over its bound; their vectors lean towards an
+/// eigenvalue of 10, below which no other lies.
+double error_over_bound_in_a_cluster()
+{
+  const double theta[] = {1.0, 1.0 / 1.0001, 0.1};
+  std::vector<double> lambda, eta2;
+  for (int i = 0; i < 2; ++i) {
+    const double c = std::cos(0.02), s = std::sin(0.02);
+    const double rho = theta[i] * c * c + theta[2] * s * s;
+    const double r2 = std::pow((theta[i] - rho) * c, 2) + std::pow((theta[2] - rho) * s, 2);
+    lambda.push_back(1.0 / rho);
+    eta2.push_back(r2 / (rho * rho));
+  }
+  const auto bounds = error_bounds(lambda, eta2, 9.0);
+  double worst = 0.0;
+  for (int i = 0; i < 2; ++i) worst = std::max(worst, (lambda[i] * theta[i] - 1.0) / bounds[i]);
+  return worst;
+}
+
 /// Eigenvalues counted too many or too few on both sides of a fivefold one, 1e-9 of it away.
 double miscount_beside_fivefold_eigenvalues()
 {
@@ -224,6 +244,9 @@ std::vector<HardCase> reduction_cases()
          const Reduction r(pencil(five.chain), five.masters);
          return orthonormality_error(r.modes(10), r.M.ss);
        }},
+      {area, "bound of the errors of two values 1e-4 apart",
+       "the gap of Kato and Temple to the next eigenvalue is nearly nothing",
+       "true error over its bound", 1.0, error_over_bound_in_a_cluster},
       {area, "count of eigenvalues 1e-9 beside fivefold ones",
        "five pivots of L D L^T next to zero", "eigenvalues too many or too few", 0.0,
        miscount_beside_fivefold_eigenvalues},
