@@ -9,12 +9,12 @@
 #include "squeal/limit_cycle.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/pads.hpp"
-#include "squeal/rigid_disc.hpp"
 #include "squeal/rotation_stability.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
 #include "tests/squeal/analytic_body.hpp"
 #include "tests/squeal/kirchhoff_modes.hpp"
+#include "tests/squeal/source_disc.hpp"
 
 namespace chladni::hard_cases {
 namespace {
@@ -122,19 +122,9 @@ double error_of_the_spin_drift()
   for (const auto& [law, exact] : {std::pair{ContactLaw::signed_force, -3071.5333341801065},
                                    std::pair{ContactLaw::bilateral, -3501.4997714942283},
                                    std::pair{ContactLaw::unilateral, -3283.067340264656}}) {
-    const RigidDisc disc{.Theta = 0.16,
-                         .Phi = 0.32,
-                         .k_t = 1.88e7,
-                         .d_t = 0.1,
-                         .radius = 0.13,
-                         .thickness = 0.02,
-                         .spring = {6e6},
-                         .damping = 5.0,
-                         .preload = 3000.0,
-                         .friction = {0.6},
-                         .law = law};
-    const auto found = accelerate(
-        disc, RigidMotion<double>{{-0.005, 0.004}, {20.0, 35.0}, 6.0 * pi}, Drive::moment);
+    const auto found =
+        accelerate(source_disc(law), RigidMotion<double>{{-0.005, 0.004}, {20.0, 35.0}, 6.0 * pi},
+                   Drive::moment);
     worst = std::max(worst, relative_error(found.spin_rate, exact));
   }
   return worst;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "source_disc.hpp"
 #include "squeal/limit_cycle_branch.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/model_run.hpp"
@@ -15,22 +16,7 @@ namespace chladni::squeal {
 namespace {
 
 using std::numbers::pi;
-
-/// Steinbrecher 2015, table 3.1.
-RigidDisc source_disc(ContactLaw law = ContactLaw::bilateral)
-{
-  return {.Theta = 0.16,
-          .Phi = 0.32,
-          .k_t = 1.88e7,
-          .d_t = 0.1,
-          .radius = 0.13,
-          .thickness = 0.02,
-          .spring = {6e6},
-          .damping = 5.0,
-          .preload = 3000.0,
-          .friction = {0.6},
-          .law = law};
-}
+using test::source_disc;
 
 ModelOptions rigid_study(const RigidDiscStudy& study)
 {
