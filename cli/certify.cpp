@@ -50,7 +50,7 @@ reduce::ReducedPairs broadcast(reduce::ReducedPairs pairs)
   MPI_Bcast(&k, 1, MPI_INT, 0, PETSC_COMM_WORLD);
   MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD);
   if (rank() != 0) pairs = {.X = {n, k}, .lambda = std::vector<double>(k)};
-  MPI_Bcast(pairs.X.values.data(), n * k, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  reduce::broadcast_numbers(pairs.X.values, PETSC_COMM_WORLD);
   MPI_Bcast(pairs.lambda.data(), k, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
   return pairs;
 }
@@ -75,16 +75,21 @@ mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const R
                                 const std::vector<std::string>& fixed, const ModeRange& range)
 {
   const HeldPairs held = held_pairs(system, reduction.places, fixed, range);
-  const std::vector<double> eta2 =
-      reduce::error_estimates(reduction.K_ss, reduction.Q_CB, reduction.M, held.pairs);
-  const auto k = static_cast<Index>(eta2.size());
+  const reduce::ErrorEstimates errors = reduce::error_estimates(
+      {.K_ss = reduction.K_ss, .Q_CB = reduction.Q_CB, .K = reduction.K, .M = reduction.M},
+      held.pairs);
+  const auto as_vector = [](const std::vector<double>& values) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
+  };
   mbs_export::Certificate certificate;
   certificate.fixed = fixed;
   certificate.n_rigid = held.n_rigid;
   on_first_rank([&] { certificate.rigid_residual = mbs_export::rigid_residual(system); });
-  certificate.frequencies =
-      Eigen::Map<const Eigen::VectorXd>(held.pairs.lambda.data(), k).cwiseSqrt();
-  certificate.eta2 = Eigen::Map<const Eigen::VectorXd>(eta2.data(), k);
+  certificate.frequencies = as_vector(held.pairs.lambda).cwiseSqrt();
+  certificate.eta2 = as_vector(errors.eta2);
+  certificate.estimates = as_vector(
+      reduce::frequency_errors_by_place(held.pairs.lambda, errors.eta2, reduction.lambda_left_out));
+  certificate.rounding = as_vector(errors.rounding);
   return certificate;
 }
 

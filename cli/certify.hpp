@@ -12,9 +12,11 @@ namespace chladni::cli {
 struct Reduction {
   const reduce::Factorization& K_ss;
   const reduce::CraigBamptonBasis& Q_CB;
+  const reduce::Blocks& K;
   const reduce::Blocks& M;
   /// For each coordinate of the file its place in the model.
   const std::vector<int>& places;
+  double lambda_left_out;  ///< of the fixed-interface modes; infinity where it is not known
 };
 
 /// Elastic modes of the supported body up to a frequency, at most `most` of them and one at least.

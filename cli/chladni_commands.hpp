@@ -5,6 +5,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/report/report.hpp"
+#include "reduce/solver_options.hpp"
 
 /// The subcommands of the program `chladni`. Each prints its summary on the first rank, writes the
 /// files at its end, and throws chladni::Error when the job failed, before anything is written.
@@ -43,6 +44,7 @@ struct ChladniArguments {
   ExportArguments exported;
   ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
+  reduce::SolverOptions solver = {};       ///< what it says of the solvers
 };
 
 /// Meshes the scene, or reads a mesh file, and says what the mesh is like.

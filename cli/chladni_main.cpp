@@ -15,6 +15,7 @@
 #include "cli/scene/keys.hpp"
 #include "cli/seal.hpp"
 #include "cli/version.hpp"
+#include "reduce/read_solver_options.hpp"
 
 namespace {
 
@@ -139,10 +140,11 @@ int report_failure(const std::exception& error)
   return cli::exit_failed;
 }
 
-int perform_with_petsc(const CLI::App& app, const cli::ChladniArguments& arguments)
+int perform_with_petsc(const CLI::App& app, cli::ChladniArguments arguments)
 {
   const cli::PetscSession session(arguments.petsc_options);
   try {
+    arguments.solver = chladni::reduce::read_solver_options(PETSC_COMM_WORLD);
     perform(app, arguments);
     return cli::exit_ok;
   } catch (const std::exception& error) {

@@ -41,12 +41,12 @@ void check_loads(const Scene& scene)
   throw Error(fmt::format("{}: load is missing: `chladni static` needs a [[load]]", scene.path));
 }
 
-Found solve(const Scene& scene, const SupportedModel& model)
+Found solve(const Scene& scene, const SupportedModel& model, const reduce::SolverOptions& solver)
 {
   const petsc::Vector f = plate::load_vector(model.mesh, model.system, scene.loads);
   check_supported(scene, model);
-  const reduce::StaticSolution solution =
-      reduce::static_solution(model.system.K, f, reduce::free_dofs(model.system.K, model.held));
+  const reduce::StaticSolution solution = reduce::static_solution(
+      model.system.K, f, reduce::free_dofs(model.system.K, model.held), solver);
   Found found;
   found.motions = plate::node_motions(model.system.dofs, solution.u);
   found.reactions = plate::reactions(model.system.dofs, model.held, solution.reaction);
@@ -129,7 +129,7 @@ void static_command(const ChladniArguments& arguments)
   const ReduceProgress silent;
   Phases phases(silent);
   const SupportedModel model = supported_model(scene, phases);
-  const Found found = phases.run("solution", [&] { return solve(scene, model); });
+  const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");
   const Cost cost = cost_of_all_ranks(phases.times());

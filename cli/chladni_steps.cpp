@@ -27,10 +27,11 @@ ReduceSummary reduce_with_progress(const Scene& scene, const ChladniArguments& a
     throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
                             scene.path));
   }
-  const std::string options = fmt::format("{}", fmt::join(arguments.petsc_options, " "));
-  if (rank() != 0) return reduce_scene(scene, options, [](const std::string&, double) {});
+  const SaidOfSolvers solvers{.text = fmt::format("{}", fmt::join(arguments.petsc_options, " ")),
+                              .options = arguments.solver};
+  if (rank() != 0) return reduce_scene(scene, solvers, [](const std::string&, double) {});
   ProgressLine line;
-  return reduce_scene(scene, options, [&](const std::string& phase, double fraction) {
+  return reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {
     line.show(phase, fraction);
   });
 }
@@ -91,9 +92,10 @@ TextTable reduction_table(const ReduceSummary& summary)
   table.rows.push_back({"fixed-interface modes", number_of_modes(summary)});
   const mbs_export::Certificate& certificate = summary.reduced.certificate;
   if (const Eigen::Index n = certificate.eta2.size(); n > 0) {
-    table.rows.push_back({fmt::format("error of the frequencies up to {:.0f} Hz",
-                                      certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
-                          fmt::format("{:.1e}", 0.5 * certificate.eta2.maxCoeff())});
+    table.rows.push_back(
+        {fmt::format("estimated error of the frequencies up to {:.0f} Hz",
+                     certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
+         fmt::format("{:.1e}", mbs_export::estimated_errors(certificate).maxCoeff())});
   }
   if (const mbs_export::ModeCount& count = certificate.range; count.up_to > 0.0) {
     table.rows.push_back(
@@ -108,21 +110,24 @@ TextTable reduction_table(const ReduceSummary& summary)
 
 std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
 {
-  return {{"n_dofs", summary.n_dofs},
-          {"n_nodes", summary.n_nodes},
-          {"n_masters", summary.n_masters},
-          {"n_modes", summary.n_modes},
-          {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
-          {"eta2", numbers_json(summary.reduced.certificate.eta2)},
-          {"bounds", numbers_json(summary.reduced.certificate.bounds)},
-          {"modes_expected", summary.reduced.certificate.range.expected},
-          {"modes_found", summary.reduced.certificate.range.found},
-          {"condition_K_ss", summary.reduced.certificate.condition},
-          {"factor_wall_s", summary.factorization.wall_s},
-          {"factor_cpu_s", summary.factorization.cpu_s},
-          {"modes_residual", summary.modes_residual},
-          {"factor_operations", summary.factor.operations},
-          {"factor_entries", summary.factor.entries}};
+  return {
+      {"n_dofs", summary.n_dofs},
+      {"n_nodes", summary.n_nodes},
+      {"n_masters", summary.n_masters},
+      {"n_modes", summary.n_modes},
+      {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
+      {"eta2", numbers_json(summary.reduced.certificate.eta2)},
+      {"estimated_errors", numbers_json(mbs_export::estimated_errors(summary.reduced.certificate))},
+      {"rounding", numbers_json(summary.reduced.certificate.rounding)},
+      {"bounds", numbers_json(summary.reduced.certificate.bounds)},
+      {"modes_expected", summary.reduced.certificate.range.expected},
+      {"modes_found", summary.reduced.certificate.range.found},
+      {"condition_K_ss", summary.reduced.certificate.condition},
+      {"factor_wall_s", summary.factorization.wall_s},
+      {"factor_cpu_s", summary.factorization.cpu_s},
+      {"modes_residual", summary.modes_residual},
+      {"factor_operations", summary.factor.operations},
+      {"factor_entries", summary.factor.entries}};
 }
 
 Json numbers_json(const Eigen::VectorXd& values)

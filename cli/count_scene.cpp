@@ -13,17 +13,44 @@ mbs_export::ModeCount as_mode_count(const reduce::EigenvalueCount& count)
   return {.up_to = std::sqrt(count.sigma), .expected = count.expected, .found = count.found};
 }
 
-/// Up to the last one; modes that close to it are never cut off.
-mbs_export::ModeCount count_fixed_interface(const Partitioned& blocks, const Eigen::VectorXd& omega)
+}  // namespace
+
+CountOfEigenvalues::CountOfEigenvalues(const Scene& scene, const Partitioned& blocks,
+                                       const reduce::Factorization& K_ss)
+    : scene_(scene),
+      factor_(reduce::factor_size(K_ss.factor())),
+      n_masters_(static_cast<double>(blocks.masters.size()))
 {
-  constexpr double half_a_pair_gap = 1e-4;  // of omega^2
-  const double sigma = std::pow(omega[omega.size() - 1], 2) * (1.0 + half_a_pair_gap);
-  return {.up_to = std::sqrt(sigma),
-          .expected = reduce::eigenvalues_below(blocks.K.ss, blocks.M.ss, sigma),
-          .found = static_cast<int>(omega.size())};
+  PetscInt n = 0;
+  petsc::check(MatGetSize(blocks.K.ss, &n, nullptr));
+  n_slaves_ = static_cast<double>(n);
 }
 
-}  // namespace
+double CountOfEigenvalues::share(int n_modes) const
+{
+  // MUMPS, which pivots, takes about four times as long for an operation as our factor, and two
+  // counts are made; block Lanczos takes 3.2 vectors for each mode.
+  constexpr double of_both_counts = 8.0, vectors_for_mode = 3.2;
+  const double n_vectors = vectors_for_mode * n_modes;
+  const double solutions = 4.0 * factor_.entries * (0.5 * n_masters_ + n_vectors + n_modes);
+  const double products = n_slaves_ * (n_masters_ * n_masters_ + 2.0 * n_masters_ * n_modes +
+                                       2.0 * n_vectors * n_vectors);
+  const double count = of_both_counts * factor_.operations;
+  return count / (count + factor_.operations + solutions + products);
+}
+
+bool CountOfEigenvalues::is_due(int n_modes) const
+{
+  constexpr double cheap = 0.1;
+  return scene_.sylvester.value_or(share(n_modes) < cheap);
+}
+
+bool CountOfEigenvalues::is_possible() const
+{
+  const reduce::ReduceOptions& wanted = scene_.reduce;
+  if (wanted.method == reduce::Method::guyan) return is_due(0);
+  return !wanted.modes || is_due(*wanted.modes);
+}
 
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
                                     const mbs_export::ReducedSystem& system)
@@ -43,10 +70,18 @@ mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks
                           });
   certificate.range = as_mode_count(count.range);
   certificate.complete = as_mode_count(count.complete);
-  certificate.bounds =
-      Eigen::Map<const Eigen::VectorXd>(count.bounds.data(), std::ssize(count.bounds));
+  const auto n_bounds = std::ssize(count.bounds);
+  certificate.bounds = Eigen::Map<const Eigen::VectorXd>(count.bounds.data(), n_bounds) +
+                       certificate.rounding.head(n_bounds);
+  // An estimate above its bound is known to be too high.
+  certificate.estimates.head(n_bounds) =
+      certificate.estimates.head(n_bounds).cwiseMin(0.5 * certificate.bounds);
   const Eigen::VectorXd& omega = system.fixed_interface_frequencies;
-  if (omega.size() > 0) certificate.fixed_interface = count_fixed_interface(blocks, omega);
+  if (omega.size() > 0) {
+    certificate.fixed_interface = as_mode_count(reduce::count_fixed_interface(
+        {omega.begin(), omega.end()},
+        [&](double sigma) { return reduce::eigenvalues_below(blocks.K.ss, blocks.M.ss, sigma); }));
+  }
   return certificate;
 }
 

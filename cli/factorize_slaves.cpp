@@ -37,10 +37,10 @@ std::string place_of(const FeModel& fe, PetscInt dof)
 }  // namespace
 
 reduce::Factorization factorize_slaves(const FeModel& fe, const Partitioned& blocks,
-                                       double beside_MiB)
+                                       const reduce::SolverOptions& options)
 {
   try {
-    return reduce::factorize(blocks.K.ss, beside_MiB);
+    return reduce::factorize(blocks.K.ss, options);
   } catch (const reduce::FreeMotion& free) {
     if (free.row < 0) throw;
     throw Error(free.what() + place_of(fe, reduce::dof_of_slave(blocks.rows, free.row)));

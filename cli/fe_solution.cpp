@@ -5,6 +5,7 @@
 #include "cli/mesh_scene.hpp"
 #include "cli/petsc_session.hpp"
 #include "mesh/partition.hpp"
+#include "plate/drilling.hpp"
 #include "plate/supports.hpp"
 
 namespace chladni::cli {
@@ -17,6 +18,7 @@ SupportedModel assemble_supported(const Scene& scene, mesh::Mesh mesh)
   dofs.components = scene.components;
   plate::check_stiffness_of_all_nodes(mesh, dofs);
   std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
+  plate::refuse_drilling(mesh, dofs, scene.supports, scene.springs);
   std::vector<plate::FreePart> free = plate::free_parts(mesh, dofs, held, scene.springs);
   plate::System system =
       plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);

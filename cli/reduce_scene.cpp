@@ -16,6 +16,7 @@
 #include "mesh/partition.hpp"
 #include "plate/ring_harmonics.hpp"
 #include "reduce/condition_estimate.hpp"
+#include "reduce/machine_memory.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -60,17 +61,41 @@ Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned&
   return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
 }
 
-/// Memory of Psi and Phi, or of the eigen-solver's subspace where that is more.
-double basis_MiB(const Partitioned& blocks, const reduce::ReduceOptions& wanted)
+/// Fixed-interface modes to begin with: a cut-off and a tolerance find out how many they need, and
+/// look at the memory again when their basis grows.
+double modes_at_first(const reduce::ReduceOptions& wanted)
 {
-  PetscInt n_s = 0;
+  if (wanted.method == reduce::Method::guyan) return 0.0;
+  constexpr double unknown = 40.0;
+  return wanted.modes ? *wanted.modes : unknown;
+}
+
+/// What this rank takes beside the factor of K_ss, in columns of its slaves: the basis of block
+/// Lanczos with the modes that come out of it, or Psi and Phi with the blocks of columns in which
+/// projection, error estimates and mass integrals work. The numbers are measured.
+double beside_MiB(const Scene& scene, const Partitioned& blocks)
+{
+  PetscInt n_local = 0, n_s = 0;
+  petsc::check(MatGetLocalSize(blocks.K.ss, &n_local, nullptr));
   petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
-  constexpr double subspace_of_modes = 4.0;  // basis vectors for each mode
-  const double n_modes = std::min<double>(wanted.modes.value_or(0), n_s);
-  const double n_columns =
-      std::max(static_cast<double>(blocks.masters.size()) + n_modes, subspace_of_modes * n_modes);
-  constexpr double bytes_per_MiB = 1048576.0;
-  return 8.0 * static_cast<double>(n_s) * n_columns / bytes_per_MiB;
+  constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
+  constexpr double blocks_of_columns = 230.0, mass_integrals = 120.0, whole_matrices = 130.0;
+  const double n_modes = std::min<double>(modes_at_first(scene.reduce), n_s);
+  const double basis = std::min<double>(basis_for_each_mode * n_modes + least_basis, n_s);
+  const double in_search = n_modes > 0.0 ? basis + n_modes + blocks_of_lanczos : 0.0;
+  const auto n_masters = static_cast<double>(blocks.masters.size());
+  const double n_columns = std::max(in_search, n_masters + n_modes + blocks_of_columns) +
+                           (scene.mass_integrals ? mass_integrals : 0.0) +
+                           (scene.sylvester.value_or(false) ? whole_matrices : 0.0);
+  return sizeof(double) * double(n_local) * n_columns / reduce::bytes_in_MiB;
+}
+
+/// MUMPS counts eigenvalues by a factor of its own, of K - sigma M, while ours is there: what it
+/// takes with its copies of the matrix, in multiples of the entries of ours. Measured.
+double factors_beside(const Scene& scene)
+{
+  constexpr double of_mumps = 3.5;
+  return scene.sylvester.value_or(false) ? of_mumps : 0.0;
 }
 
 /// Of the transformation, with the columns in the order of the file.
@@ -112,23 +137,25 @@ Reduced with_what_bodies_need(const Scene& scene, const FeModel& fe, const Parti
 
 }  // namespace
 
-ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
+ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress)
 {
   Phases phases(progress);
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
-  const Partitioned blocks = phases.run("partition", [&] { return partition_scene(fe); });
-  const bool needs_whole =
-      scene.sylvester || wants_full_responses(scene) || is_free_interface(scene.reduce.method);
-  if (!needs_whole) {  // the blocks are enough
+  const Partitioned blocks = phases.run("partition", [&] { return partition_scene(scene, fe); });
+  reduce::SolverOptions options = solvers.options;
+  options.factor.beside_MiB = beside_MiB(scene, blocks);
+  options.factor.beside_factors = factors_beside(scene);
+  const auto K_ss =
+      phases.run("factorization", [&] { return factorize_slaves(fe, blocks, options); });
+  const PhaseTime factorization = phases.times().back();
+  const CountOfEigenvalues count(scene, blocks, K_ss);
+  if (!count.is_possible() && !wants_full_responses(scene) &&
+      !is_free_interface(scene.reduce.method)) {  // the blocks are enough
     fe.system.K = {};
     fe.system.M = {};
   }
-  const auto K_ss = phases.run("factorization", [&] {
-    return factorize_slaves(fe, blocks, basis_MiB(blocks, scene.reduce));
-  });
-  const PhaseTime factorization = phases.times().back();
   Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
@@ -142,7 +169,8 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   });
   system.certificate.condition =
       phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
-  if (scene.sylvester) {
+  system.certificate.count_share = count.share(n_modes);
+  if (count.is_possible() && count.is_due(n_modes)) {
     system.certificate =
         phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
   }
@@ -150,7 +178,7 @@ ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),
                        .versions = library_versions(),
-                       .options = petsc_options,
+                       .options = solvers.text,
                        .ranks = n_ranks()};
   return {.reduced = std::move(system),
           .phases = phases.times(),

@@ -9,6 +9,7 @@
 #include "cli/timing.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "reduce/cholesky_types.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::cli {
 
@@ -29,11 +30,16 @@ struct ReduceSummary {
 /// Called with the name of the phase under way and the fraction of it that is done, 0 to 1.
 using ReduceProgress = std::function<void(const std::string& phase, double fraction)>;
 
+/// What was said of the solvers after `--`.
+struct SaidOfSolvers {
+  std::string text;  ///< all of it, for the provenance; PETSc knows it already
+  reduce::SolverOptions options = {};
+};
+
 /// Meshes, assembles and reduces the scene.
-/// @param petsc_options  what was given after `--`, for the provenance; PETSc knows it already
 /// @note   Collective on all ranks; PETSc and SLEPc are initialised.
 /// @throws chladni::Error on all ranks alike.
-ReduceSummary reduce_scene(const Scene& scene, const std::string& petsc_options,
+ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress);
 
 }  // namespace chladni::cli

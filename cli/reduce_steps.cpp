@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "cli/petsc_session.hpp"
+#include "plate/rigid_motions.hpp"
+#include "reduce/rigid_constraint_modes.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -37,6 +39,14 @@ void view_from_options(const FeModel& fe, IS masters)
   petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
   petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
   petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
+}
+
+/// Whether the rigid-body motions are those of the nodes, and no spring resists them.
+bool geometry_tells_motions(const Scene& scene, const FeModel& fe)
+{
+  const bool is_free = std::ranges::all_of(
+      scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
+  return is_free && fe.system.dofs.combined_motions.empty();
 }
 
 }  // namespace
@@ -89,7 +99,7 @@ plate::Structure structure_of(const Scene& scene)
           .springs = scene.springs};
 }
 
-Partitioned partition_scene(const FeModel& fe)
+Partitioned partition_scene(const Scene& scene, const FeModel& fe)
 {
   std::vector<PetscInt> masters(fe.attachments.master_dofs.begin(),
                                 fe.attachments.master_dofs.end());
@@ -100,18 +110,26 @@ Partitioned partition_scene(const FeModel& fe)
   reduce::Blocks M = reduce::split(fe.system.M, rows);
   std::optional<reduce::Blocks> C;
   if (fe.system.C != nullptr) C = reduce::split(fe.system.C, rows);
-  return {.rows = std::move(rows),
-          .K = std::move(K),
-          .M = std::move(M),
-          .C = std::move(C),
-          .masters = std::move(masters)};
+  return {
+      .rows = std::move(rows),
+      .K = std::move(K),
+      .M = std::move(M),
+      .C = std::move(C),
+      .masters = std::move(masters),
+      .R = geometry_tells_motions(scene, fe) ? plate::rigid_motions(fe.system) : petsc::Matrix()};
 }
 
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
                                            const reduce::Factorization& K_ss, Phases& phases)
 {
   return {.Psi = phases.run("constraint modes",
-                            [&] { return reduce::constraint_modes(K_ss, blocks.K); }),
+                            [&] {
+                              petsc::Matrix Psi = reduce::constraint_modes(K_ss, blocks.K);
+                              if (blocks.R == nullptr) return Psi;
+                              return reduce::with_rigid_motions(
+                                  std::move(Psi),
+                                  {.R = blocks.R, .dofs = blocks.rows, .K = blocks.K});
+                            }),
           .modes = std::nullopt};
 }
 
@@ -171,9 +189,17 @@ mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
   }
   const auto& frequencies = reduced.system.fixed_interface_frequencies;
   const Eigen::Index n = frequencies.size();
-  return certify(
-      reduced.system, {.K_ss = K_ss, .Q_CB = reduced.Q_CB, .M = blocks.M, .places = reduced.places},
-      certified_support(scene, fe), certified_range(scene, n > 0 ? frequencies[n - 1] : 0.0));
+  const double omega_last = n > 0 ? frequencies[n - 1] : 0.0;
+  const bool are_fixed_interface = scene.reduce.method == reduce::Method::craig_bampton;
+  return certify(reduced.system,
+                 {.K_ss = K_ss,
+                  .Q_CB = reduced.Q_CB,
+                  .K = blocks.K,
+                  .M = blocks.M,
+                  .places = reduced.places,
+                  .lambda_left_out = are_fixed_interface ? omega_last * omega_last
+                                                         : std::numeric_limits<double>::infinity()},
+                 certified_support(scene, fe), certified_range(scene, omega_last));
 }
 
 }  // namespace chladni::cli

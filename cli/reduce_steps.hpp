@@ -37,6 +37,8 @@ struct Partitioned {
   reduce::Blocks K, M;
   std::optional<reduce::Blocks> C;  ///< where there are dampers
   std::vector<PetscInt> masters;
+  petsc::Matrix R;  ///< [n x 6] rigid-body motions; none where springs hold the body, or couplings
+                    ///< have DOFs that are no displacements of nodes
 };
 
 /// Ends a phase of the clock when it goes out of use, and reports the progress.
@@ -66,13 +68,12 @@ class Phases {
 /// What the body of the scene is made of; refers to the scene.
 plate::Structure structure_of(const Scene& scene);
 
-Partitioned partition_scene(const FeModel& fe);
+Partitioned partition_scene(const Scene& scene, const FeModel& fe);
 
 /// The factor of K_ss.
-/// @param beside_MiB  memory that must remain for what comes after
 /// @throws chladni::Error that names the node that moves most where a part of the body is free.
 reduce::Factorization factorize_slaves(const FeModel& fe, const Partitioned& blocks,
-                                       double beside_MiB);
+                                       const reduce::SolverOptions& options);
 
 /// Psi alone.
 reduce::CraigBamptonBasis constraint_basis(const Partitioned& blocks,
@@ -108,6 +109,25 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
 /// For each coordinate of the file (masters in the scene's order, then modes) its place in the
 /// reduced model, whose masters ascend by DOF.
 std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, PetscInt n_modes);
+
+/// Whether the eigenvalues of the FE model are counted: as the scene says, or else where that takes
+/// less than a tenth of the reduction, by the operations of both.
+class CountOfEigenvalues {
+ public:
+  CountOfEigenvalues(const Scene& scene, const Partitioned& blocks,
+                     const reduce::Factorization& K_ss);
+
+  /// The count as a share of the reduction with a number of fixed-interface modes.
+  double share(int n_modes) const;
+  bool is_due(int n_modes) const;
+  /// False where it is known before the reduction that nothing will be counted.
+  bool is_possible() const;
+
+ private:
+  const Scene& scene_;
+  reduce::FactorSize factor_;
+  double n_slaves_, n_masters_;
+};
 
 /// Counts the eigenvalues of the FE model and bounds the errors, for the certificate of `system`.
 /// @param system  [first rank]

@@ -21,8 +21,10 @@ reduce::FixedInterfaceModes modes_to_tolerance(const Scene& scene, const FeModel
   };
   // What the estimates from the small matrices and those from the FE model may differ by.
   constexpr double margin = 0.99;
-  reduce::ToleranceSearch search(system, margin * scene.reduce.tolerance->tolerance, pairs_in_range,
-                                 scene.reduce.tolerance->up_to_Hz);
+  const reduce::ModesByTolerance& wanted = *scene.reduce.tolerance;
+  reduce::ToleranceSearch search(
+      system, {.tolerance = margin * wanted.tolerance, .up_to_Hz = wanted.up_to_Hz},
+      pairs_in_range);
   const auto find_modes = [&] {
     search.find_modes();
     return 0;

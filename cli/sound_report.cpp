@@ -58,7 +58,9 @@ std::string radiation_table(const squeal::Radiation& radiation)
 
 std::vector<std::string> brake_row(const std::string& name, const sound::Brake& brake)
 {
-  return {name, brake.critical ? fmt::format("{:.4f} pi", brake.critical->speed / pi) : "none",
+  return {name,
+          brake.critical ? fmt::format("{:.4f} pi", brake.critical->speed / pi)
+                         : "none: " + brake.stability,
           fmt::format("{:.4f}", brake.growth),
           brake.cycle ? fmt::format("{:.3f}", brake.cycle->frequency_Hz) : "-",
           brake.cycle ? fmt::format("{:.4g}", brake.cycle->pad_velocity) : "-"};
@@ -143,6 +145,7 @@ Json brake_json(const sound::Brake& brake)
   const auto& cycle = brake.cycle;
   return Json::object(
       {{"critical_speed_rad_s", brake.critical ? Json(brake.critical->speed) : Json()},
+       {"stability", brake.stability},
        {"growth_1_s", brake.growth},
        {"frequency_Hz", cycle ? Json(cycle->frequency_Hz) : Json()},
        {"pad_velocity_m_s", cycle ? Json(cycle->pad_velocity) : Json()}});

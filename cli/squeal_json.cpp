@@ -2,6 +2,10 @@
 
 #include <complex>
 #include <optional>
+#include <utility>
+
+#include "squeal/rotation_stability.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -39,7 +43,8 @@ Json limit_cycle_json(const squeal::LimitCycle& cycle)
                        {"frequency_Hz", cycle.frequency_Hz},
                        {"pad_velocity_m_s", cycle.pad_velocity},
                        {"pad_displacement_m", cycle.pad_displacement},
-                       {"drift", cycle.drift}});
+                       {"drift", cycle.drift},
+                       {"settled", cycle.settled ? 1 : 0}});
 }
 
 Json direct_json(const squeal::DirectLimitCycle& cycle)
@@ -72,15 +77,49 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
   return Json::array(points);
 }
 
+/// Something of two points, as a pair.
+Json pair_json(const squeal::StabilityPoint& from, const squeal::StabilityPoint& to,
+               double squeal::StabilityPoint::*of)
+{
+  return Json::array({from.*of, to.*of});
+}
+
+/// Stability over a parameter whose key ends in `values`: "speeds_rad_s", "values".
+std::vector<Json::Member> stability_json(const squeal::StabilityProfile& profile,
+                                         const std::string& values)
+{
+  using squeal::StabilityPoint;
+  std::vector<Json> unstable, growth, frequency_Hz, largest;
+  for (const squeal::UnstableInterval& interval : profile.unstable) {
+    unstable.push_back(pair_json(interval.from, interval.to, &StabilityPoint::value));
+    growth.push_back(pair_json(interval.from, interval.to, &StabilityPoint::growth));
+    frequency_Hz.push_back(pair_json(interval.from, interval.to, &StabilityPoint::frequency_Hz));
+    largest.push_back(interval.worst.growth);
+  }
+  return {{"stability", squeal::name_of(squeal::stability_of(profile))},
+          {"unstable_" + values, Json::array(unstable)},
+          {"unstable_growth_1_s", Json::array(growth)},
+          {"unstable_frequency_Hz", Json::array(frequency_Hz)},
+          {"unstable_largest_growth_1_s", Json::array(largest)},
+          {"searched_" + values, pair_json(profile.from, profile.to, &StabilityPoint::value)},
+          {"searched_growth_1_s", pair_json(profile.from, profile.to, &StabilityPoint::growth)},
+          {"searched_frequency_Hz",
+           pair_json(profile.from, profile.to, &StabilityPoint::frequency_Hz)}};
+}
+
 Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
 {
   std::vector<Json> searches;
   for (const squeal::CriticalValue& value : values) {
-    searches.push_back(
-        Json::object({{"parameter", value.parameter},
-                      {"speed_rad_s", value.speed},
-                      {"value", value.value ? Json(*value.value) : Json()},
-                      {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}}));
+    std::vector<Json::Member> members = {
+        {"parameter", value.parameter},
+        {"speed_rad_s", value.speed},
+        {"value", value.value ? Json(*value.value) : Json()},
+        {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}};
+    if (value.profile)
+      for (Json::Member& member : stability_json(*value.profile, "values"))
+        members.push_back(std::move(member));
+    searches.push_back(Json::object(members));
   }
   return Json::array(searches);
 }
@@ -98,6 +137,7 @@ Json rotation_json(const squeal::RotationStability& stability)
         Json::object({{"speed_rad_s", stability.speeds[i]}, {"growth_1_s", stability.growth[i]}}));
   }
   return Json::object({{"critical_speed_rad_s", optional_json(stability.critical_speed)},
+                       {"stability", squeal::name_of(squeal::stability_of(stability))},
                        {"growth", Json::array(growth)}});
 }
 
@@ -120,7 +160,8 @@ Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
                       {"highest_Hz", subset.highest_Hz},
                       {"critical_speed_rad_s", optional_json(subset.critical_speed)},
                       {"critical_frequency_Hz", optional_json(subset.critical_frequency_Hz)},
-                      {"growth_1_s", subset.growth}}));
+                      {"growth_1_s", subset.growth},
+                      {"stability", subset.stability.empty() ? Json() : Json(subset.stability)}}));
   }
   for (const squeal::ModeInfluence& mode : sensitivity.influences) {
     modes.push_back(Json::object(
@@ -148,6 +189,9 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const auto& critical = results.critical_speed;
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
     members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+    if (results.speed_stability)
+      for (Json::Member& member : stability_json(*results.speed_stability, "speeds_rad_s"))
+        members.push_back(std::move(member));
   }
   if (results.rotation_stability) {
     members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
@@ -164,6 +208,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const auto& rate = results.transient->growth_rate;
     members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
     members.emplace_back("integrator", results.transient->integrator);
+    const std::string& warning = results.transient->warning;
+    members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));
   }
   if (results.limit_cycle) {
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));

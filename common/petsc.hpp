@@ -4,6 +4,7 @@
 #include <petscmat.h>
 #include <slepceps.h>
 
+#include <string>
 #include <utility>
 
 #include "common/error.hpp"
@@ -14,15 +15,22 @@ static_assert(PetscDefined(USE_REAL_DOUBLE), "Chladni needs the double-precision
 /// Owned PETSc objects and the bridge from PETSc's error codes to chladni::Error.
 namespace chladni::petsc {
 
-/// @throws chladni::Error with PETSc's own text when a PETSc call failed.
+/// A PETSc call failed, and PETSc has said why.
+class Failure : public Error {
+ public:
+  Failure(PetscErrorCode error_code, const std::string& text) : Error(text), code(error_code) {}
+  PetscErrorCode code;
+};
+
+/// @throws Failure with PETSc's own text when a PETSc call failed.
 inline void check(PetscErrorCode code)
 {
   if (code == 0) return;
   const char* text = nullptr;
   char* specific = nullptr;
   PetscErrorMessage(code, &text, &specific);
-  throw Error(fmt::format("PETSc error {}: {} {}", static_cast<int>(code), text ? text : "",
-                          specific ? specific : ""));
+  throw Failure(code, fmt::format("PETSc error {}: {} {}", static_cast<int>(code), text ? text : "",
+                                  specific ? specific : ""));
 }
 
 /// Move-only owner of a PETSc object; destroyed before PetscFinalize by scope.

@@ -22,13 +22,20 @@ struct Certificate {
   std::vector<std::string> fixed;  ///< the support, as BodyOptions::fixed
   Eigen::VectorXd frequencies;     ///< [k] rad/s, of the elastic modes, ascending
   Eigen::VectorXd eta2;            ///< [k] estimated relative error of omega^2 against the FE model
-  Eigen::VectorXd bounds;          ///< [<= k] rigorous ones, below `complete.up_to`; may be empty
+  Eigen::VectorXd estimates{};     ///< [k] estimated relative errors of `frequencies`, by place
+  Eigen::VectorXd rounding{};      ///< [k] what rounding of K may add to it; empty in old files
+  Eigen::VectorXd bounds;          ///< [<= k] of it, rounding included, of modes that are counted
   ModeCount fixed_interface;       ///< modes with all masters held, up to the last one kept
   ModeCount range;                 ///< modes under the support, up to the last frequency
   ModeCount complete;              ///< the largest range looked at in which none is missing
   int n_rigid = 0;                 ///< zero-energy motions of the free body
   double rigid_residual = 0.0;     ///< their energy over the first elastic omega^2; 0 is perfect
   double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
+  double count_share = 0.0;        ///< of a count in the reduction's work; 0 where unknown, no file
 };
+
+/// The estimated relative error of each frequency, what a user reads: `estimates`, or in files
+/// without them half of eta^2.
+Eigen::VectorXd estimated_errors(const Certificate& certificate);
 
 }  // namespace chladni::mbs_export

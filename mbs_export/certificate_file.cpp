@@ -43,12 +43,22 @@ void read_counts(const hdf5::Reader& file, Certificate& certificate)
 
 }  // namespace
 
+Eigen::VectorXd estimated_errors(const Certificate& certificate)
+{
+  if (certificate.estimates.size() > 0) return certificate.estimates;
+  return 0.5 * certificate.eta2;
+}
+
 void write_certificate(hdf5::Writer& file, const Certificate& certificate)
 {
   if (certificate.eta2.size() == 0) return;
   file.write("certificate/fixed", certificate.fixed);
   file.write("certificate/frequencies", certificate.frequencies, "rad/s");
   file.write("certificate/eta2", certificate.eta2, "1");
+  if (certificate.rounding.size() > 0) {
+    file.write("certificate/estimates", certificate.estimates, "1");
+    file.write("certificate/rounding", certificate.rounding, "1");
+  }
   file.write("certificate/rigid_modes", std::int64_t{certificate.n_rigid}, "1");
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0) {
@@ -66,6 +76,10 @@ Certificate read_certificate(const hdf5::Reader& file)
   certificate.fixed = file.texts("certificate/fixed");
   certificate.frequencies = file.vector("certificate/frequencies");
   certificate.eta2 = file.vector("certificate/eta2", certificate.frequencies.size());
+  if (file.contains("certificate/rounding")) {
+    certificate.estimates = file.vector("certificate/estimates", certificate.eta2.size());
+    certificate.rounding = file.vector("certificate/rounding", certificate.eta2.size());
+  }
   if (file.contains("certificate/rigid_modes")) {
     certificate.n_rigid = file_parts::read_count(file, "certificate/rigid_modes");
     certificate.rigid_residual = file.real("certificate/rigid_residual");

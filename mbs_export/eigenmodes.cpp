@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "common/error.hpp"
 #include "mbs_export/deflated_factor.hpp"
@@ -38,6 +39,23 @@ MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R
   return MX.matrixL().solve(X_0.transpose()).transpose();
 }
 
+/// The modes X, x^T M x = 1, without those of more than a thousand times the first frequency whose
+/// mass is round-off of its parts |x|^T |M| |x|: the rotation of a shell about its normal, of which
+/// the mass is what the other modes leave of it.
+std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorXd& mu)
+{
+  constexpr double largest_rounding = 1e-8;  // of orthonormal modes
+  constexpr double far = 1e-6;
+  const VectorXd parts =
+      (X.cwiseAbs().array() * (M.cwiseAbs() * X.cwiseAbs()).array()).colwise().sum();
+  std::vector<Index> massive;
+  for (Index j = 0; j < X.cols(); ++j) {
+    const bool is_round_off = std::numeric_limits<double>::epsilon() * parts[j] > largest_rounding;
+    if (!is_round_off || mu[j] > far * mu[0]) massive.push_back(j);
+  }
+  return massive;
+}
+
 }  // namespace
 
 Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
@@ -55,7 +73,10 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   const MatrixXd Y = solver.eigenvectors().rowwise().reverse().leftCols(k);
   MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
   X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
-  return {mu.head(k).cwiseInverse(), orthonormalized(X, M, R), static_cast<int>(n - r - k)};
+  const std::vector<Index> massive = with_mass(X, M, mu);
+  const VectorXd lambda = mu(massive).cwiseInverse();
+  return {lambda, orthonormalized(X(Eigen::all, massive), M, R),
+          static_cast<int>(n - r - lambda.size())};
 }
 
 double first_eigenvalue(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/checked_count.hpp"
 #include "common/error.hpp"
 
 namespace chladni::mesh {
@@ -32,7 +33,8 @@ CornerLists corner_lists(const Mesh& mesh)
     const std::vector<int> places = corner_places(block);
     for (int e = 0; e < block.n_elements(); ++e) {
       for (const int k : places) lists.corners.push_back(block.element_nodes(e)[k]);
-      lists.start.push_back(static_cast<idx_t>(lists.corners.size()));
+      lists.start.push_back(
+          checked_count(std::ssize(lists.corners), "corners of elements", "use a coarser mesh"));
     }
   }
   return lists;

@@ -4,81 +4,14 @@
 #include <cassert>
 #include <cstddef>
 #include <memory>
+#include <optional>
+
+#include "common/all_ranks.hpp"
+#include "plate/split_rows.hpp"
 
 namespace chladni::plate {
 
 namespace {
-
-/// Rows in CSR form: the entries in the columns of this rank, counted from its first, and in the
-/// others.
-struct SplitRows {
-  std::vector<PetscInt> start{0};
-  std::unique_ptr<PetscInt[]> column;
-  std::vector<double> value;
-  std::vector<PetscInt> other_start{0}, other_column;
-  std::vector<double> other_value;
-};
-
-/// Sums over a pattern.
-struct HeldBlocks {
-  const BlockPattern& pattern;
-  const std::vector<int>& held;               ///< n * i + j of blocks that do not hold all
-  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1]
-};
-
-/// Calls visit(j, value) for the entries that row i of a block holds.
-template <typename Visit>
-void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, const Visit& visit)
-{
-  const int n = blocks.pattern.n;
-  if (std::ssize(block) == std::ptrdiff_t(n) * n) {
-    for (int j = 0; j < n; ++j) visit(j, block[i * n + j]);
-    return;
-  }
-  for (std::size_t s = 0; s < block.size(); ++s)
-    if (blocks.held[s] / n == i) visit(blocks.held[s] % n, block[s]);
-}
-
-/// Turns the sums over a pattern into rows of scalars without zeros off the diagonal. The values
-/// stay in the memory of the sums: the rows of a node never have more than its blocks hold.
-SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values)
-{
-  const BlockPattern& pattern = blocks.pattern;
-  const std::vector<std::ptrdiff_t>& offset = blocks.offset;
-  const int n = pattern.n;
-  SplitRows rows;
-  rows.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
-  PetscInt count = 0;
-  std::vector<double> of_node;
-  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
-    const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
-    of_node.assign(values.begin() + offset[begin], values.begin() + offset[end]);
-    for (int i = 0; i < n; ++i) {
-      for (std::ptrdiff_t k = begin; k < end; ++k) {
-        const std::span<const double> block(of_node.data() + offset[k] - offset[begin],
-                                            static_cast<std::size_t>(offset[k + 1] - offset[k]));
-        const PetscInt own_node = pattern.column[k] - pattern.first;
-        if (own_node >= 0 && own_node < pattern.n_rows()) {
-          for_held(block, i, blocks, [&](int j, double value) {  // the next overwrites a zero
-            rows.column[count] = n * own_node + j;
-            values[static_cast<std::size_t>(count)] = value;
-            count += static_cast<PetscInt>(value != 0.0 || (own_node == node && i == j));
-          });
-          continue;
-        }
-        for_held(block, i, blocks, [&](int j, double value) {
-          if (value == 0.0) return;
-          rows.other_column.push_back(n * pattern.column[k] + j);
-          rows.other_value.push_back(value);
-        });
-      }
-      rows.start.push_back(count);
-      rows.other_start.push_back(static_cast<PetscInt>(rows.other_column.size()));
-    }
-  }
-  rows.value = std::move(values);
-  return rows;
-}
 
 /// A matrix on these rows, which it keeps: a copy of the arrays would cost as much as their sums.
 petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
@@ -231,10 +164,15 @@ void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> 
   }
 }
 
-petsc::Matrix BlockRows::to_matrix(MPI_Comm comm)
+petsc::Matrix BlockRows::to_matrix(MPI_Comm comm, double negligible)
 {
   widen(0);  // a matrix without elements has its diagonal, too
-  SplitRows rows = split_rows({pattern_, held_, offset_}, std::move(values_));
+  const HeldBlocks blocks{pattern_, held_, offset_};
+  std::optional<EntryScales> scales;
+  if (negligible > 0.0) scales.emplace(pattern_, diagonal_scales(blocks, values_), comm);
+  const Sieve sieve{.negligible = negligible, .scales = scales ? &*scales : nullptr};
+  SplitRows rows =
+      on_all_ranks(comm, [&] { return split_rows(blocks, std::move(values_), sieve); });
   petsc::Matrix A = matrix_of(std::move(rows), pattern_.n * pattern_.n_rows(), comm);
   petsc::check(MatSetBlockSize(A, pattern_.n));
   petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));

@@ -44,8 +44,10 @@ class BlockRows {
   void add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places);
 
   /// The matrix without its zeros off the diagonal, of block size n; empties this one.
+  /// @param negligible  entries with |A_ij| <= negligible sqrt |A_ii A_jj| are round-off and left
+  ///                    out, on both sides of the diagonal where the sums are symmetric
   /// @note   Collective on `comm`.
-  petsc::Matrix to_matrix(MPI_Comm comm);
+  petsc::Matrix to_matrix(MPI_Comm comm, double negligible = 0.0);
 
  private:
   bool holds_all(std::ptrdiff_t block) const

@@ -93,6 +93,26 @@ NodeVectors mean_normals(const mesh::Mesh& mesh)
   return sum;
 }
 
+NodeVectors smooth_normals(const mesh::Mesh& mesh)
+{
+  const NodeVectors mean = mean_normals(mesh);
+  NodeVectors smooth = mean;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    const Basis at_nodes = nodal_basis(block);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));
+      for (Index i = 0; i < normals.rows(); ++i) {
+        const int node = block.element_nodes(e)[i];
+        if (!(std::abs(mean.row(node).dot(normals.row(i))) > smooth_cosine)) {
+          smooth.row(node).setZero();
+        }
+      }
+    }
+  }
+  return smooth;
+}
+
 ShellNodes shell_nodes(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
                        const NodeVectors& normals, const ShellSection& section)
 {

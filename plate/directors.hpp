@@ -14,6 +14,10 @@ NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& 
 /// @throws chladni::Error naming an element and node where the Jacobian is not positive.
 NodeVectors mean_normals(const mesh::Mesh& mesh);
 
+/// The mean normals where they are the directors of all elements that meet at the node; zero at
+/// kinks, and where there are no surface elements.
+NodeVectors smooth_normals(const mesh::Mesh& mesh);
+
 /// Mid-surface points, off the mesh by the section's offset, and half-thickness directors of one
 /// element. A director is the mean normal
 /// where the surface is smooth, and the element's own normal at a kink of more than 20 degrees; it

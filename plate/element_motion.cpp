@@ -69,6 +69,15 @@ MatrixXd congruent(const MatrixXd& A_e, const MatrixXd& T_e)
   return T.transpose() * MatrixXd(A_e * T);
 }
 
+/// An element matrix in the coordinates of the system.
+MatrixXd in_system(MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs)
+{
+  const MatrixXd& T_e = motion.T_e;
+  if (T_e.size() > 0) A_e = congruent(A_e, T_e);
+  if (dofs.n_components() < 6) A_e = only_components(A_e, dofs);
+  return A_e;
+}
+
 }  // namespace
 
 std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes)
@@ -112,10 +121,20 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
 void add(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
          std::span<const std::ptrdiff_t> places)
 {
-  const MatrixXd& T_e = motion.T_e;
-  if (T_e.size() > 0) A_e = congruent(A_e, T_e);
-  if (dofs.n_components() < 6) A_e = only_components(A_e, dofs);
-  A.add(A_e, places);
+  A.add(in_system(std::move(A_e), motion, dofs), places);
+}
+
+void add_symmetric(BlockRows& A, MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
+                   std::span<const std::ptrdiff_t> places)
+{
+  MatrixXd symmetric = in_system(std::move(A_e), motion, dofs);
+  for (Index j = 0; j < symmetric.cols(); ++j) {
+    for (Index i = j + 1; i < symmetric.rows(); ++i) {
+      const double mean = 0.5 * (symmetric(i, j) + symmetric(j, i));
+      symmetric(i, j) = symmetric(j, i) = mean;
+    }
+  }
+  A.add(symmetric, places);
 }
 
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,

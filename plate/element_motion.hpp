@@ -33,6 +33,11 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
 void add(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
          std::span<const std::ptrdiff_t> places);
 
+/// The same for what is symmetric: the mean of both sides of the diagonal is added, so that the
+/// sums are symmetric to the last bit and an entry that cancels does so on both sides.
+void add_symmetric(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion,
+                   const DofMap& dofs, std::span<const std::ptrdiff_t> places);
+
 /// The neighbours of each node of this rank: all active numbers of an element are neighbours.
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
                              const DofMap& dofs, int rank);

@@ -152,10 +152,19 @@ class Resistance {
     }
   }
 
-  /// This component of the node does not move.
-  void hold(int node, int component)
+  /// This component of the node does not move, but for a rotation about the axis.
+  void hold(int node, int component, const Vector3d& axis)
   {
-    add(node, -1, Vector3d(dofs_.positions[node].data()), component);
+    const Vector3d x(dofs_.positions[node].data());
+    if (component < 3 || axis.isZero(0.0)) return add(node, -1, x, component);
+    const int part = parts_.of_number[number_of(dofs_, node)];
+    const int body = parts_.body[part];
+    RowVector6d motion = rigid_row(x, extents_[body], component);
+    for (int k = 0; k < 3; ++k) {
+      motion -= axis[component - 3] * axis[k] * rigid_row(x, extents_[body], 3 + k);
+    }
+    const auto at = 6 * parts_.place[part];
+    gram_[body].block<6, 6>(at, at) += motion.transpose() * motion;
   }
   /// A spring resists the motion against the ground or of both nodes, seen at the middle.
   void add(const PlacedSpring& spring)
@@ -191,14 +200,17 @@ class Resistance {
 };
 
 /// What supports, and the components that the nodes do not have, hold.
-void hold_supports(const DofMap& dofs, const std::vector<int>& held, Resistance& resistance)
+void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance& resistance)
 {
+  const std::vector<int>& held = restraints.held;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
+    const Vector3d axis =
+        node < restraints.axes.rows() ? Vector3d(restraints.axes.row(node)) : Vector3d::Zero();
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
       const bool has_component = std::ranges::binary_search(dofs.components, component);
       if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component) {
-        resistance.hold(node, component);
+        resistance.hold(node, component, dof ? axis : Vector3d::Zero());
       }
     }
   }
@@ -220,11 +232,18 @@ MatrixXd null_space(const MatrixXd& G)
 std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
                                  const std::vector<int>& held, std::span<const Spring> springs)
 {
-  const std::vector<PlacedSpring> placed = place_springs(mesh, dofs, springs);
+  const Eigen::MatrixX3d no_axes;
+  return free_parts_under(mesh, dofs, {.held = held, .springs = springs, .axes = no_axes});
+}
+
+std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dofs,
+                                       const Restraints& restraints)
+{
+  const std::vector<PlacedSpring> placed = place_springs(mesh, dofs, restraints.springs);
   const Parts parts = connected_parts(mesh, dofs, placed);
   const std::vector<Extent> extent = extents(dofs, parts);
   Resistance resistance(dofs, parts, extent);
-  hold_supports(dofs, held, resistance);
+  hold_supports(dofs, restraints, resistance);
   for (const PlacedSpring& spring : placed) resistance.add(spring);
   std::vector<FreePart> free;
   for (int body = 0; body < parts.n_bodies; ++body) {

@@ -28,6 +28,17 @@ std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
                                  const std::vector<int>& held,
                                  std::span<const Spring> springs = {});
 
+/// What holds a body.
+struct Restraints {
+  const std::vector<int>& held;          ///< ascending, the same on every rank
+  std::span<const Spring> springs = {};  ///< between bodies, or to the ground
+  const Eigen::MatrixX3d& axes;          ///< [n_nodes x 3] unit vectors or zero
+};
+
+/// The same where a held rotation holds nothing as far as it is about the axis of its node.
+std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dofs,
+                                       const Restraints& restraints);
+
 /// The sum of the numbers of motions.
 int n_free_motions(const std::vector<FreePart>& parts);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "plate/drilling.hpp"
 #include "plate/group_shares.hpp"
 #include "plate/interpolation.hpp"
 
@@ -149,6 +150,7 @@ petsc::Vector translation(const System& system, const std::array<double, 3>& a)
 
 petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system, std::span<const Load> loads)
 {
+  refuse_drilling(mesh, system.dofs, loads);
   Forces forces(system);
   for (const Load& load : loads) {
     if (std::holds_alternative<GravityLoad>(load)) continue;

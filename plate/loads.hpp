@@ -11,7 +11,8 @@ namespace chladni::plate {
 /// nodes follow. Pressure and edge loads are those of the mesh's own surface and edges.
 /// @return distributed as the rows of K; N, N m
 /// @note   Collective on the communicator of `system.K`.
-/// @throws chladni::Error for an unknown group, or one without nodes, edges or elements to load.
+/// @throws chladni::Error for an unknown group, or one without nodes, edges or elements to load,
+///         and for a moment about the normal of a shell alone (drilling.hpp).
 petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system,
                           std::span<const Load> loads);
 

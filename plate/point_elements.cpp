@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "plate/drilling.hpp"
 
 namespace chladni::plate {
 
@@ -128,6 +129,7 @@ Eigen::Matrix<double, 12, 12> spring_matrix(const std::array<double, 6>& k, cons
 std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs)
 {
+  refuse_drilling(mesh, dofs, structure);
   std::vector<PointElement> elements;
   for (const PointMass& mass : structure.masses) {
     for (const int node : nodes_at(mesh, dofs, "mass at", mass.at)) {

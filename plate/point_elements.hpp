@@ -18,7 +18,8 @@ struct PointElement {
 
 /// Of all masses and springs, in their order.
 /// @throws chladni::Error for a name that does not exist, a group without nodes, a spring between
-///         several nodes or from a node to itself.
+///         several nodes or from a node to itself, and for what acts about the normal of a shell
+///         alone (drilling.hpp).
 std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure& structure,
                                          const DofMap& dofs);
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "reduce/coefficients.hpp"
 #include "reduce/log_event.hpp"
-#include "reduce/symmetric_eigen.hpp"
+#include "reduce/machine_memory.hpp"
+#include "reduce/orthonormalisation.hpp"
 #include "reduce/tall_products.hpp"
 
 namespace chladni::reduce {
@@ -34,13 +36,6 @@ petsc::Matrix dense(MPI_Comm comm, PetscInt n_local, PetscInt n_global, PetscInt
   return A;
 }
 
-SmallMatrix sum(const SmallMatrix& A, const SmallMatrix& B)
-{
-  SmallMatrix C = A;
-  for (std::size_t i = 0; i < C.values.size(); ++i) C.values[i] += B.values[i];
-  return C;
-}
-
 SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
 {
   SmallMatrix C(A.n_rows, B.n_cols);
@@ -48,44 +43,15 @@ SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
   return C;
 }
 
-/// Orthonormalisation of a block with Gram matrix G = E D E^T: Q = block E D^-1/2 and
-/// R = D^1/2 E^T over the directions whose squared length exceeds `least_squared`.
-struct Orthonormalisation {
-  SmallMatrix to_Q;  ///< [n x r]
-  SmallMatrix R;     ///< [r x n]
-  double condition;  ///< sqrt of the ratio of the kept eigenvalues
-};
-
-Orthonormalisation orthonormalisation(const SmallMatrix& G, double least_squared)
+/// What round-off in the columns of a block is relative to: their lengths before the projection.
+std::vector<double> sizes(const SmallMatrix& G, const SmallMatrix& taken)
 {
-  const SymmetricEigen eigen = symmetric_eigen(G);
-  const PetscInt n = G.n_rows;
-  PetscInt r = 0;
-  while (r < n && eigen.values[n - 1 - r] > least_squared) ++r;
-  Orthonormalisation result{.to_Q = {n, r}, .R = {r, n}, .condition = 1.0};
-  for (PetscInt k = 0; k < r; ++k) {
-    const double length = std::sqrt(eigen.values[n - 1 - k]);
-    for (PetscInt i = 0; i < n; ++i) {
-      result.to_Q(i, k) = eigen.vectors(i, n - 1 - k) / length;
-      result.R(k, i) = eigen.vectors(i, n - 1 - k) * length;
-    }
+  std::vector<double> lengths = column_lengths(taken);
+  for (PetscInt j = 0; j < G.n_cols; ++j) {
+    lengths[j] = std::sqrt(lengths[j] * lengths[j] + std::max(G(j, j), 0.0));
+    if (lengths[j] == 0.0) lengths[j] = 1.0;
   }
-  if (r > 0) result.condition = std::sqrt(eigen.values[n - 1] / eigen.values[n - r]);
-  return result;
-}
-
-double squared_norm(const SmallMatrix& A)
-{
-  double sum = 0.0;
-  for (const double value : A.values) sum += value * value;
-  return sum;
-}
-
-double trace(const SmallMatrix& G)
-{
-  double t = 0.0;
-  for (PetscInt i = 0; i < G.n_rows; ++i) t += G(i, i);
-  return t;
+  return lengths;
 }
 
 /// Y <- Y - X S for local rows of X, Y.
@@ -122,6 +88,11 @@ BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M)
 void BlockBasis::reserve(PetscInt capacity)
 {
   if (capacity <= capacity_) return;
+  const double untouched = double(n_local_) * (capacity - n_columns_);
+  require_memory(
+      untouched * sizeof(double) / bytes_in_MiB,
+      fmt::format("block Lanczos: a basis of {} vectors of {} DOFs", capacity, n_global_),
+      "ask for fewer modes, use more machines or -cms_lanczos_subspace", petsc::communicator(M_));
   // Not a vector, which would touch all of it and, when it grows, hold it twice.
   const std::size_t n_bytes =
       std::max<std::size_t>(std::size_t(n_local_) * capacity, 1) * sizeof(double);
@@ -170,6 +141,7 @@ SmallMatrix BlockBasis::project_out_newest(Mat block, Mat M_block)
     if (*M_V == nullptr || end == 0) break;
     PetscInt n = 0;
     petsc::check(MatGetSize(*M_V, nullptr, &n));
+    if (n == 0) continue;
     end -= n;
     const SmallMatrix h_k = inner_product(*M_V, block);
     subtract_product(columns(end, n), h_k, block);
@@ -221,32 +193,83 @@ BlockBasis::Appended BlockBasis::append(Mat block)
   SmallMatrix correction = project_out(block, M_block);
   M_block = times_mass(block);
   SmallMatrix G = inner_product(block, M_block);
-  h = sum(h, correction);
+  h = coefficient_sum(h, correction);
   if (is_large(correction, G)) {
-    h = sum(h, project_out(block, M_block));
+    h = coefficient_sum(h, project_out(block, M_block));
     M_block = times_mass(block);
     G = inner_product(block, M_block);
   }
-  constexpr double dependent = 1e-26;  // of squared lengths: (round-off)^2 with room
-  const Orthonormalisation o = orthonormalisation(G, dependent * (trace(G) + squared_norm(h)));
-  SmallMatrix R = o.R;
+  const std::vector<double> lengths = sizes(G, h);
   second_last_M_ = std::move(newest_M_);
+  Joined joined = join(block, M_block, G, lengths);
+  if (joined.R.n_rows < G.n_cols) return look_again(block, M_block, joined, std::move(h), lengths);
+  h = coefficient_sum(h, joined.coefficients);
+  return {.coefficients = std::move(h),
+          .R = std::move(joined.R),
+          .left_out = std::vector(G.n_cols, 0.0)};
+}
+
+/// Q of block = Q R joins the basis, with what orthogonality Q lacked in the coefficients.
+BlockBasis::Joined BlockBasis::join(Mat block, Mat M_block, const SmallMatrix& G,
+                                    const std::vector<double>& sizes)
+{
+  constexpr double dependent = 1e-13;  // round-off with room
+  const Orthonormalisation o = orthonormalisation(G, sizes, dependent, comm());
+  reserve(n_columns_ + o.R.n_rows);  // a second look may find more directions than the block has
+  Joined joined{.coefficients = {n_columns_, G.n_cols}, .R = o.R, .left_out = o.left_out};
   store(block, M_block, o.to_Q);
   // Short directions were amplified together with their round-off: clean them once more.
   // One that loses most of its length then was round-off only.
-  constexpr double genuine = 0.1;
+  constexpr double genuine = 0.3;
   constexpr double harmless = 30.0;  // loses 900 eps of orthonormality
-  if (o.condition > harmless) {
+  if (o.condition > harmless || o.shortest < 1e-3) {
     petsc::Matrix Q;
-    petsc::check(MatDuplicate(columns(n_columns_, R.n_rows), MAT_COPY_VALUES, Q.put()));
-    h = sum(h, product(project_out(Q, newest_M_), R));
+    petsc::check(MatDuplicate(columns(n_columns_, o.R.n_rows), MAT_COPY_VALUES, Q.put()));
+    joined.coefficients = product(project_out(Q, newest_M_), o.R);
     petsc::Matrix MQ = times_mass(Q);
-    const Orthonormalisation again = orthonormalisation(inner_product(Q, MQ), genuine);
+    const std::vector<double> units(o.R.n_rows, 1.0);
+    const Orthonormalisation again =
+        orthonormalisation(inner_product(Q, MQ), units, genuine, comm());
     store(Q, MQ, again.to_Q);
-    R = product(again.R, R);
+    joined.left_out = stacked(joined.left_out, product(again.left_out, o.R));
+    joined.R = product(again.R, o.R);
   }
-  n_columns_ += R.n_rows;
-  return {.coefficients = std::move(h), .R = std::move(R)};
+  n_columns_ += joined.R.n_rows;
+  return joined;
+}
+
+/// The squares in a Gram matrix hide directions shorter than the root of round-off behind longer
+/// ones. With these taken out of the block, what is left of it shows whether there are others.
+BlockBasis::Appended BlockBasis::look_again(Mat block, Mat M_block, const Joined& first,
+                                            SmallMatrix h, const std::vector<double>& lengths)
+{
+  const PetscInt n_before = h.n_rows;
+  h = stacked(h, SmallMatrix(first.R.n_rows, first.R.n_cols));
+  petsc::Matrix MX;
+  for (int pass = 0; pass < 2; ++pass) {
+    h = coefficient_sum(h, project_out(block, pass == 0 ? M_block : Mat(MX)));
+    MX = times_mass(block);
+  }
+  const Joined second = join(block, MX, inner_product(block, MX), lengths);
+  h = coefficient_sum(h, second.coefficients);
+  SmallMatrix R = stacked(row_range(h, n_before, h.n_rows), second.R);
+  unite_newest(R.n_rows);
+  return {.coefficients = row_range(h, 0, n_before),
+          .R = std::move(R),
+          .left_out = column_lengths(second.left_out)};
+}
+
+void BlockBasis::truncate(PetscInt n)
+{
+  n_columns_ = n;
+  newest_M_ = {};
+  second_last_M_ = {};
+}
+
+void BlockBasis::unite_newest(PetscInt n)
+{
+  second_last_M_ = {};
+  newest_M_ = times_mass(columns(n_columns_ - n, n));
 }
 
 void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)

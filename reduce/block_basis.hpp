@@ -16,6 +16,7 @@ class BlockBasis {
  public:
   BlockBasis(Mat M, PetscInt capacity);
 
+  MPI_Comm comm() const { return petsc::communicator(M_); }
   PetscInt n_rows() const { return n_global_; }
   PetscInt n_columns() const { return n_columns_; }
   PetscInt capacity() const { return capacity_; }
@@ -36,10 +37,17 @@ class BlockBasis {
   struct Appended {
     SmallMatrix coefficients;  ///< [n_columns before x columns of block]
     SmallMatrix R;             ///< [columns of Q x columns of block]
+    /// [columns of block] length in M of what the directions left out had of each column.
+    std::vector<double> left_out;
   };
   Appended append(Mat block);
   /// M times the columns that the last append added.
   Mat newest_times_mass() const { return newest_M_; }
+
+  /// Makes the last n columns the newest block.
+  void unite_newest(PetscInt n);
+  /// Keeps the first n columns; there is no newest block then.
+  void truncate(PetscInt n);
 
   /// Replaces the first `n_first` columns V by V S; the columns behind them follow.
   void compress(const SmallMatrix& S, PetscInt n_first);
@@ -50,6 +58,13 @@ class BlockBasis {
  private:
   SmallMatrix project_out_newest(Mat block, Mat M_block);
   SmallMatrix project_out(Mat block, Mat M_block);
+  /// How a block has joined the basis: as Appended, with all that was left out of it.
+  struct Joined {
+    SmallMatrix coefficients, R, left_out;
+  };
+  Joined join(Mat block, Mat M_block, const SmallMatrix& G, const std::vector<double>& sizes);
+  Appended look_again(Mat block, Mat M_block, const Joined& first, SmallMatrix h,
+                      const std::vector<double>& lengths);
   void store(Mat X, Mat MX, const SmallMatrix& to_Q);
 
   Mat M_;

@@ -1,38 +1,17 @@
 #include "reduce/block_iteration.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
+#include <span>
+
+#include "reduce/columns_with_mass.hpp"
+#include "reduce/random_block.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-/// Deterministic numbers in (-1, 1) from the global row and the column (splitmix64).
-double start_value(std::uint64_t row, std::uint64_t column)
-{
-  std::uint64_t z = row * 0x9E3779B97F4A7C15ULL + column * 0xD1B54A32D192ED03ULL + 1;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return 2.0 * (static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53) - 1.0;
-}
-
-void fill_with_start_values(Mat block)
-{
-  PetscScalar* values = nullptr;
-  PetscInt first = 0, n_local = 0, n_columns = 0;
-  petsc::check(MatGetOwnershipRange(block, &first, nullptr));
-  petsc::check(MatGetLocalSize(block, &n_local, nullptr));
-  petsc::check(MatGetSize(block, nullptr, &n_columns));
-  petsc::check(MatDenseGetArrayWrite(block, &values));
-  for (PetscInt j = 0; j < n_columns; ++j) {
-    for (PetscInt i = 0; i < n_local; ++i) {
-      values[i + std::size_t(j) * n_local] = start_value(first + i, j);
-    }
-  }
-  petsc::check(MatDenseRestoreArrayWrite(block, &values));
-}
 
 /// T bordered by the coefficients of a new block; symmetric by taking means.
 SmallMatrix bordered(const SmallMatrix& T, const SmallMatrix& coefficients)
@@ -52,48 +31,135 @@ SmallMatrix bordered(const SmallMatrix& T, const SmallMatrix& coefficients)
   return result;
 }
 
+/// R and zero rows for directions that do not come from the recurrence.
+SmallMatrix with_zero_rows(const SmallMatrix& R, PetscInt n_more)
+{
+  SmallMatrix result(R.n_rows + n_more, R.n_cols);
+  for (PetscInt j = 0; j < R.n_cols; ++j) {
+    for (PetscInt i = 0; i < R.n_rows; ++i) result(i, j) = R(i, j);
+  }
+  return result;
+}
+
+PetscInt n_columns_of(Mat X)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(X, nullptr, &n));
+  return n;
+}
+
 }  // namespace
 
 BlockIteration::BlockIteration(Mat M, PetscInt block_size, PetscInt capacity)
-    : block_size_(block_size), basis_(M, capacity)
+    : M_(M), block_size_(block_size), basis_(M, capacity)
 {}
+
+/// Random vectors that are orthonormal in M and orthogonal to the basis: fewer than n where the
+/// space has no more.
+petsc::Matrix BlockIteration::random_directions(PetscInt n)
+{
+  petsc::Matrix Z = basis_.new_block(n);
+  fill_with_random_numbers(Z, n_random_);
+  n_random_ += n;
+  if (basis_.n_columns() == 0) return Z;  // the operator takes it as it is
+  const PetscInt n_before = basis_.n_columns();
+  const PetscInt n_new = basis_.append(Z).R.n_rows;
+  petsc::Matrix found = basis_.new_block(0);
+  if (n_new > 0)
+    found = columns_with_mass(basis_.columns(n_before, n_new), basis_.newest_times_mass(), M_);
+  basis_.truncate(n_before);
+  return found;
+}
+
+/// Up to n random vectors, once through the operator, join the basis and become the newest block
+/// together with as many of those before that make up the rest of it. Returns their number.
+PetscInt BlockIteration::append_random(PetscInt n, const BlockOperator& op)
+{
+  const PetscInt n_before = basis_.n_columns();
+  while (basis_.n_columns() < n_before + n) {
+    const petsc::Matrix Z = random_directions(n_before + n - basis_.n_columns());
+    if (n_columns_of(Z) == 0) break;
+    petsc::Matrix block = basis_.new_block(n_columns_of(Z));
+    op(Z, basis_.times_mass(Z), block);
+    // An operator may map to zero what is not in the basis.
+    if (basis_.append(block).R.n_rows == 0 && basis_.append(Z).R.n_rows == 0) break;
+  }
+  return basis_.n_columns() - n_before;
+}
 
 void BlockIteration::start(const BlockOperator& op)
 {
-  const petsc::Matrix random = basis_.new_block(std::min(block_size_, basis_.n_rows()));
-  fill_with_start_values(random);
-  petsc::Matrix block;
-  petsc::check(MatDuplicate(random, MAT_DO_NOT_COPY_VALUES, block.put()));
-  op(random, basis_.times_mass(random), block);
-  basis_.append(block);
+  block_size_ = std::min(block_size_, basis_.n_rows());
+  append_random(block_size_ - basis_.n_columns(), op);
+  sequence_.n_sources = basis_.n_columns();
   if (basis_.n_columns() == 0) {
-    throw Error("block Lanczos: the operator maps the start vectors to zero; is the mass zero?");
+    throw Error("block Lanczos: the start vectors have no mass; is the mass matrix zero?");
   }
+  basis_.unite_newest(basis_.n_columns());
+}
+
+void BlockIteration::start(const BlockOperator& op, Mat guesses, PetscInt n_guesses)
+{
+  // Exact guesses span a space that the operator does not leave, so that nothing else would be
+  // found: each gets a share of a random vector.
+  constexpr double random_share = 1e-3;
+  petsc::Matrix X = basis_.new_block(n_columns_of(guesses));
+  fill_with_random_numbers(X, n_random_);
+  n_random_ += n_columns_of(guesses);
+  normalise_columns(X, basis_.times_mass(X));
+  petsc::check(MatScale(X, random_share));
+  normalise_columns(guesses, basis_.times_mass(guesses));
+  petsc::check(MatAXPY(X, 1.0, guesses, SAME_NONZERO_PATTERN));
+  petsc::Matrix block = basis_.new_block(n_columns_of(guesses));
+  op(X, basis_.times_mass(X), block);
+  basis_.append(block);
+  sequence_.n_guesses = n_guesses;
+  start(op);
 }
 
 void BlockIteration::step(const BlockOperator& op)
 {
+  assert(!is_full());
   const PetscInt n_new = basis_.n_columns() - n_old_;
   petsc::Matrix block = basis_.new_block(n_new);
   op(basis_.columns(n_old_, n_new), basis_.newest_times_mass(), block);
   n_old_ = basis_.n_columns();
   const BlockBasis::Appended appended = basis_.append(block);
   T_ = bordered(T_, appended.coefficients);
+  left_out_.insert(left_out_.end(), appended.left_out.begin(), appended.left_out.end());
   R_ = appended.R;
+  if (R_.n_rows == block_size_) return;
+  const PetscInt n_random = append_random(block_size_ - R_.n_rows, op);
+  R_ = with_zero_rows(R_, n_random);
+  basis_.unite_newest(R_.n_rows);
 }
 
 void BlockIteration::order_ritz_values(const Order& before)
 {
-  ritz_ = symmetric_eigen(T_);
+  ritz_ = symmetric_eigen(T_, basis_.comm());
+  if (!std::ranges::all_of(ritz_.values, [](double theta) { return std::isfinite(theta); })) {
+    throw Error(
+        "block Lanczos: its projected matrix is not finite; M is indefinite, or the factor or a "
+        "matrix holds what is no number");
+  }
   order_.resize(n_old_);
   std::iota(order_.begin(), order_.end(), 0);
   std::ranges::stable_sort(
       order_, [&](PetscInt a, PetscInt b) { return before(ritz_.values[a], ritz_.values[b]); });
 }
 
-double BlockIteration::residual(PetscInt i) const
+double BlockIteration::left_out(PetscInt i) const
 {
   double sum = 0.0;
+  for (PetscInt k = 0; k < n_old_; ++k) {
+    sum += std::pow(left_out_[k] * ritz_.vectors(k, order_[i]), 2);
+  }
+  return std::sqrt(sum);
+}
+
+double BlockIteration::residual(PetscInt i) const
+{
+  double sum = std::pow(left_out(i), 2);
   for (PetscInt a = 0; a < R_.n_rows; ++a) {
     double component = 0.0;
     for (PetscInt c = 0; c < R_.n_cols; ++c) {
@@ -104,49 +170,74 @@ double BlockIteration::residual(PetscInt i) const
   return std::sqrt(sum);
 }
 
-void BlockIteration::restart(PetscInt n)
+RitzValues BlockIteration::pairs() const
 {
-  SmallMatrix S(n_old_, n);
-  SmallMatrix T(n, n);
-  for (PetscInt k = 0; k < n; ++k) {
-    T(k, k) = theta(k);
-    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[k]);
+  RitzValues pairs;
+  for (PetscInt i = 0; i < n_old_; ++i) {
+    pairs.theta.push_back(theta(i));
+    pairs.residual.push_back(residual(i));
   }
-  basis_.compress(S, n_old_);
+  return pairs;
+}
+
+Copies BlockIteration::copies_among_first(PetscInt n, double tolerance) const
+{
+  if (is_exhausted()) return Copies::all_there;
+  if (n > forgotten_from_) return Copies::may_lack;
+  return copies_among(pairs(), n, sequence_, tolerance);
+}
+
+void BlockIteration::take_ritz_values(PetscInt n)
+{
+  std::vector<double> thetas, left;
+  SmallMatrix T(n, n), unit(n, n), R(R_.n_rows, n);
+  for (PetscInt k = 0; k < n; ++k) {
+    thetas.push_back(theta(k));
+    left.push_back(left_out(k));
+    T(k, k) = theta(k);
+    unit(k, k) = 1.0;
+    for (PetscInt c = 0; c < R_.n_cols; ++c) {
+      const double s = ritz_.vectors(n_old_ - R_.n_cols + c, order_[k]);
+      for (PetscInt a = 0; a < R_.n_rows; ++a) R(a, k) += R_(a, c) * s;
+    }
+  }
   T_ = std::move(T);
+  R_ = std::move(R);
+  left_out_ = std::move(left);
+  ritz_ = {.values = std::move(thetas), .vectors = std::move(unit)};
+  order_.resize(n);
+  std::iota(order_.begin(), order_.end(), 0);
   n_old_ = n;
 }
 
-SmallMatrix BlockIteration::ritz_coefficients(PetscInt first, PetscInt last) const
+void BlockIteration::restart(PetscInt n)
 {
-  SmallMatrix S(basis_.n_columns(), last - first);
-  for (PetscInt k = 0; k < S.n_cols; ++k) {
-    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[first + k]);
+  n = std::min(n, most_kept());
+  const RitzValues all = pairs();
+  for (PetscInt i = n; i < n_old_; ++i) {
+    const bool was_found = all.residual[i] <= resolved * std::abs(all.theta[i]);
+    if (was_found) forgotten_from_ = std::min(forgotten_from_, n);
   }
-  return S;
+  const std::span<const double> kept(all.theta.data(), n);
+  sequence_.known.resize(n_known_among(kept, sequence_, resolved));
+  basis_.compress(ritz_coefficients(0, n), n_old_);
+  take_ritz_values(n);
 }
 
-petsc::Matrix BlockIteration::ritz_vectors(PetscInt n) const
+void BlockIteration::begin_anew(PetscInt n, PetscInt width, const BlockOperator& op)
 {
-  return basis_.combine(ritz_coefficients(0, n));
-}
-
-petsc::Matrix BlockIteration::purified_vectors(PetscInt first, PetscInt last) const
-{
-  SmallMatrix S = ritz_coefficients(first, last);
-  for (PetscInt k = 0; k < S.n_cols; ++k) {
-    const PetscInt ritz = first + k;
-    for (PetscInt a = 0; a < basis_.n_columns() - n_old_; ++a) {
-      for (PetscInt c = 0; c < R_.n_cols; ++c) {
-        S(n_old_ + a, k) +=
-            R_(a, c) * ritz_.vectors(n_old_ - R_.n_cols + c, order_[ritz]) / theta(ritz);
-      }
-    }
-    double norm = 0.0;  // in the M-orthonormal basis
-    for (PetscInt i = 0; i < S.n_rows; ++i) norm += S(i, k) * S(i, k);
-    for (PetscInt i = 0; i < S.n_rows; ++i) S(i, k) /= std::sqrt(norm);
-  }
-  return basis_.combine(S);
+  const RitzValues all = pairs();
+  basis_.truncate(n_old_);
+  basis_.compress(ritz_coefficients(0, n), n_old_);
+  take_ritz_values(n);
+  left_out_.assign(all.residual.begin(), all.residual.begin() + n);
+  sequence_.n_guesses = 0;
+  sequence_.known.assign(all.theta.begin(), all.theta.begin() + n);
+  forgotten_from_ = PETSC_MAX_INT;
+  block_size_ = width;
+  sequence_.n_sources = append_random(width, op);
+  R_ = SmallMatrix(sequence_.n_sources, 0);
+  basis_.unite_newest(sequence_.n_sources);
 }
 
 }  // namespace chladni::reduce

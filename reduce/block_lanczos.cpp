@@ -28,11 +28,11 @@ PetscInt capacity(PetscInt n_pairs, PetscInt n_rows, const BlockLanczosOptions& 
 }
 
 /// The largest residual of the first n pairs over what is allowed.
-double excess(const BlockIteration& iteration, PetscInt n, double tolerance)
+double excess(const RitzValues& pairs, PetscInt n, double tolerance)
 {
   double largest = 0.0;
   for (PetscInt i = 0; i < n; ++i) {
-    largest = std::max(largest, iteration.residual(i) / (tolerance * std::abs(iteration.theta(i))));
+    largest = std::max(largest, pairs.residual[i] / (tolerance * std::abs(pairs.theta[i])));
   }
   return largest;
 }
@@ -62,20 +62,29 @@ BlockLanczos::BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options
 /// The projected eigenproblem costs more than a step where the basis is large: it is not solved
 /// before the basis is half as large again as the number of pairs, and then as seldom as `lacking`
 /// allows.
+bool BlockLanczos::is_too_early(PetscInt n_pairs) const
+{
+  if (iteration_.is_exhausted()) return false;
+  const PetscInt n = iteration_.n_vectors();
+  if (iteration_.is_full()) return n < 1;
+  const bool is_first_sequence = iteration_.sequence().known.empty();
+  return n < std::max(next_look_, is_first_sequence ? n_pairs + n_pairs / 2 : 0);
+}
+
 bool BlockLanczos::has_converged(PetscInt n_pairs)
 {
   const PetscInt n = iteration_.n_vectors();
   report_progress(std::min(0.99, double(n) / (3.2 * n_pairs)));  // it takes 2.4 to 3.5 for each
-  const bool must_look = iteration_.is_exhausted() || iteration_.is_full();
-  if (n < (must_look ? 1 : std::max(next_look_, n_pairs + n_pairs / 2))) return false;
+  if (is_too_early(n_pairs)) return false;
   iteration_.order_ritz_values(std::greater<>());
-  if (n < n_pairs && !iteration_.is_exhausted()) return false;
-  const PetscInt n_looked_at = std::min(n_pairs, n);
-  const double above = excess(iteration_, n_looked_at, options_.tolerance);
-  next_look_ = n + lacking(n, above);
-  if (above > 1.0) return false;
-  n_converged_ = n_looked_at;
-  return true;
+  const RitzValues pairs = iteration_.pairs();
+  const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
+  n_converged_ = std::min(n_first, n_pairs);
+  if (iteration_.is_exhausted()) return true;
+  next_look_ = n + lacking(n, excess(pairs, std::min(n_pairs, n), options_.tolerance));
+  const Copies copies = iteration_.copies_among_first(n_converged_, options_.tolerance);
+  if (copies == Copies::may_lack) begin_anew(n_first, n_pairs);
+  return copies == Copies::all_there && n_converged_ == n_pairs;
 }
 
 /// Keeps the wanted Ritz vectors and half of the others.
@@ -86,6 +95,20 @@ void BlockLanczos::restart(PetscInt n_pairs)
   next_look_ = 0;
 }
 
+/// Wider blocks from the second time on: an eigenvalue of several hundred copies takes few rounds
+/// then.
+void BlockLanczos::begin_anew(PetscInt n_kept, PetscInt n_pairs)
+{
+  constexpr PetscInt n_steps = 8;  // that a sequence mostly takes
+  const bool is_second = !iteration_.sequence().known.empty();
+  const PetscInt widest = std::max(options_.block_size, n_pairs / 4);
+  const PetscInt width =
+      std::min({widest, (is_second ? 2 : 1) * iteration_.block_size(), n_rows_ - n_kept});
+  iteration_.reserve(std::min(n_kept + n_steps * width, n_rows_) + width);
+  iteration_.begin_anew(n_kept, width, op_);
+  next_look_ = n_kept + n_steps / 2 * width;
+}
+
 void BlockLanczos::converge(PetscInt n_pairs)
 {
   iteration_.reserve(capacity(n_pairs, n_rows_, options_));
@@ -93,6 +116,7 @@ void BlockLanczos::converge(PetscInt n_pairs)
   next_look_ = 0;
   if (iteration_.n_vectors() > 0 && has_converged(n_pairs)) return;
   for (PetscInt i = 0; i < options_.max_steps; ++i) {
+    if (iteration_.is_exhausted()) return;  // the new sequence found nothing
     if (iteration_.is_full()) restart(n_pairs);
     iteration_.step(op_);
     if (has_converged(n_pairs)) return;

@@ -25,6 +25,9 @@ struct EigenPairs {
 
 /// Block Lanczos for K^-1 M with full reorthogonalisation in the M inner product and thick restart,
 /// which goes on where it stopped when more pairs are asked for.
+/// One Krylov space holds no more copies of a multiple eigenvalue than it began with vectors. Where
+/// as many were found, it begins anew with random vectors orthogonal to all pairs that converged,
+/// until there are fewer (`copies_among`).
 /// M may be singular: the Ritz vectors are purified by the step x <- K^-1 M x / theta, which the
 /// recurrence holds already. Start vectors depend on the global row only, so that the result does
 /// not depend on the number of ranks beyond round-off.
@@ -55,12 +58,14 @@ class BlockLanczos {
   /// @note   Collective.
   petsc::Matrix vectors(PetscInt first, PetscInt last) const
   {
-    return iteration_.purified_vectors(first, last);
+    return iteration_.purified_vectors(first, last, op_);
   }
 
  private:
   bool has_converged(PetscInt n_pairs);
+  bool is_too_early(PetscInt n_pairs) const;
   void restart(PetscInt n_pairs);
+  void begin_anew(PetscInt n_kept, PetscInt n_pairs);
 
   Mat factor_;
   BlockLanczosOptions options_;

@@ -3,6 +3,7 @@
 #include <petscmat.h>
 
 #include <exception>
+#include <new>
 
 #include "reduce/cholesky_factor.hpp"
 
@@ -12,12 +13,18 @@ namespace chladni::reduce {
 /// The C++ object in such a factor.
 CholeskyFactor& factor_of(Mat F);
 
-/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error.
+/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error, with the code of the
+/// PETSc call that failed, if one did.
 template <typename Work>
 PetscErrorCode guarded(const Work& work)
 {
   try {
     work();
+  } catch (const petsc::Failure& failure) {
+    return PetscError(PETSC_COMM_SELF, __LINE__, PETSC_FUNCTION_NAME, __FILE__, failure.code,
+                      PETSC_ERROR_REPEAT, " ");
+  } catch (const std::bad_alloc&) {
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_MEM, "not enough memory for the factor");
   } catch (const std::exception& error) {
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
   }

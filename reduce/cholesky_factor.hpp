@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/machine_memory.hpp"
 
 namespace chladni::reduce {
 
@@ -28,8 +31,16 @@ struct FactorSize {
   double entries;     ///< of the triangle
 };
 
-/// A Cholesky factor of a sparse positive definite matrix that is distributed by rows, as are
-/// right-hand sides and solutions. All calls are collective.
+/// What there is for a factor, and what must go beside it.
+struct MemoryBudget {
+  /// Of this machine, for all its ranks.
+  double machine_MiB = std::numeric_limits<double>::infinity();
+  double beside_MiB = 0.0;      ///< what this rank takes later, while the factor is there
+  double beside_factors = 0.0;  ///< besides, in multiples of the factor's entries
+};
+
+/// A factor L D L^T of a sparse symmetric matrix, positive definite unless it says otherwise, that
+/// is distributed by rows, as are right-hand sides and solutions. All calls are collective.
 class CholeskyFactor {
  public:
   CholeskyFactor() = default;
@@ -44,24 +55,43 @@ class CholeskyFactor {
   /// Of the last of the two.
   virtual MatFactorError error() const = 0;
   virtual PetscInt n_negative_pivots() const = 0;
+  /// False where the pivots vanish or change sign and there was no pivoting: solutions may then be
+  /// wrong in any digit.
+  virtual bool is_reliable() const = 0;
   /// X <- A^-1 X in place.
   virtual void solve(LocalColumns X) = 0;
   /// X <- A^-1 B; the forward elimination uses the zeros of B.
   virtual void solve(const SparseColumns& B, LocalColumns X) = 0;
   /// Of sparse right-hand sides, as many as it likes.
   virtual PetscInt columns_at_a_time() const = 0;
-  /// MiB that the ranks of the fullest machine need together for the factorisation, by the
-  /// analysis.
-  virtual double forecast_MiB() const = 0;
+  /// MiB that this rank needs beyond what it has: for the factorisation, and later for the factor
+  /// and its solutions; by the analysis.
+  struct Memory {
+    double factorization_MiB, factor_MiB;
+    double entries_MiB;  ///< of the factor alone
+  };
+  virtual Memory forecast() const = 0;
   virtual FactorSize size() const = 0;
   /// For -cms_view: one line.
   virtual std::string description() const = 0;
+  /// Gives the memory of the numbers back; the analysis stays.
+  virtual void release() {}
+  /// The factor that solves, where this one has another do it.
+  virtual const CholeskyFactor& active() const { return *this; }
+  CholeskyFactor& active() { return const_cast<CholeskyFactor&>(std::as_const(*this).active()); }
 
-  /// What the factor may take on one machine.
-  double budget_MiB = std::numeric_limits<double>::infinity();
+  /// The tightest machine when this rank takes what comes beside the factor, by the analysis.
+  /// @note   Collective.
+  MemoryNeed memory_need(MPI_Comm comm) const
+  {
+    const auto [factorization_MiB, factor_MiB, entries_MiB] = forecast();
+    const double later_MiB = factor_MiB + budget.beside_MiB + budget.beside_factors * entries_MiB;
+    return tightest_machine(std::max(factorization_MiB, later_MiB), budget.machine_MiB, comm);
+  }
+
+  MemoryBudget budget;
+  /// An indefinite matrix is an error, not a matter for pivoting.
+  bool must_be_definite = false;
 };
-
-/// The sum over the ranks of one machine, of the machine where it is largest.
-double fullest_machine(double own, MPI_Comm comm);
 
 }  // namespace chladni::reduce

@@ -7,6 +7,7 @@
 
 #include "reduce/cholesky_callbacks.hpp"
 #include "reduce/mumps_factor.hpp"
+#include "reduce/pivoting_fallback.hpp"
 #include "reduce/supernodal/supernodal_factor.hpp"
 
 namespace chladni::reduce {
@@ -34,7 +35,8 @@ PetscErrorCode analyze(Mat F, Mat A, IS, const MatFactorInfo*)
     CholeskyFactor& factor = factor_of(F);
     factor.analyze(A);
     F->factorerrortype = factor.error();
-    if (factor.forecast_MiB() > factor.budget_MiB) F->factorerrortype = MAT_FACTOR_OUTMEMORY;
+    if (!factor.memory_need(petsc::communicator(A)).fits())
+      F->factorerrortype = MAT_FACTOR_OUTMEMORY;
   });
 }
 
@@ -44,8 +46,10 @@ PetscErrorCode destroy(Mat F)
   F->data = nullptr;
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
                                        nullptr));
-  PetscCall(
-      PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatMumpsGetInfog_C", nullptr));
+  for (const char* method :
+       {"MatMumpsGetInfog_C", "MatMumpsGetIcntl_C", "MatMumpsSetIcntl_C", "MatMumpsSetCntl_C"}) {
+    PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), method, nullptr));
+  }
   return 0;
 }
 
@@ -55,9 +59,32 @@ PetscErrorCode solver_type(Mat F, MatSolverType* type)
   return 0;
 }
 
+MumpsFactor& mumps_of(Mat F)
+{
+  return dynamic_cast<MumpsFactor&>(factor_of(F).active());
+}
+
 PetscErrorCode get_infog(Mat F, PetscInt index, PetscInt* value)
 {
-  *value = dynamic_cast<const MumpsFactor&>(factor_of(F)).info(index);
+  *value = mumps_of(F).info(index);
+  return 0;
+}
+
+PetscErrorCode get_icntl(Mat F, PetscInt index, PetscInt* value)
+{
+  *value = mumps_of(F).control(static_cast<int>(index));
+  return 0;
+}
+
+PetscErrorCode set_icntl(Mat F, PetscInt index, PetscInt value)
+{
+  mumps_of(F).set_control(static_cast<int>(index), static_cast<int>(value));
+  return 0;
+}
+
+PetscErrorCode set_cntl(Mat F, PetscInt index, PetscReal value)
+{
+  mumps_of(F).set_control(static_cast<int>(index), value);
   return 0;
 }
 
@@ -74,36 +101,49 @@ PetscErrorCode view(Mat F, PetscViewer viewer)
   return 0;
 }
 
-void set_from_options(MumpsFactor& factor, const char* prefix)
+PetscErrorCode set_from_options(MumpsFactor& factor, MPI_Comm comm, const char* prefix)
 {
   constexpr int n_integer = 40, n_real = 15;
+  PetscFunctionBegin;
+  PetscOptionsBegin(comm, prefix, "MUMPS ordered by METIS", "Mat");
   for (int i = 1; i <= n_integer; ++i) {
-    PetscInt value = 0;
+    PetscInt value = factor.control(i);
     PetscBool given = PETSC_FALSE;
-    petsc::check(PetscOptionsGetInt(nullptr, prefix, fmt::format("-mat_mumps_icntl_{}", i).c_str(),
-                                    &value, &given));
-    if (given) factor.set_control(i, value);
+    PetscCall(PetscOptionsInt(fmt::format("-mat_mumps_icntl_{}", i).c_str(),
+                              fmt::format("ICNTL({}) of MUMPS' manual", i).c_str(), nullptr, value,
+                              &value, &given));
+    if (given) factor.set_control(i, static_cast<int>(value));
   }
   for (int i = 1; i <= n_real; ++i) {
-    PetscReal value = 0;
+    PetscReal value = factor.real_control(i);
     PetscBool given = PETSC_FALSE;
-    petsc::check(PetscOptionsGetReal(nullptr, prefix, fmt::format("-mat_mumps_cntl_{}", i).c_str(),
-                                     &value, &given));
+    PetscCall(PetscOptionsReal(fmt::format("-mat_mumps_cntl_{}", i).c_str(),
+                               fmt::format("CNTL({}) of MUMPS' manual", i).c_str(), nullptr, value,
+                               &value, &given));
     if (given) factor.set_control(i, value);
   }
+  PetscOptionsEnd();
+  PetscFunctionReturn(0);
 }
 
+/// As PETSc's own interface to MUMPS: pivoting unless the matrix is known to be definite.
 std::unique_ptr<CholeskyFactor> new_mumps_factor(Mat A)
 {
-  auto factor = std::make_unique<MumpsFactor>(petsc::communicator(A));
-  set_from_options(*factor,
-                   A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix);
-  return factor;
+  const MPI_Comm comm = petsc::communicator(A);
+  PetscBool is_known = PETSC_FALSE, is_definite = PETSC_FALSE;
+  petsc::check(MatIsSPDKnown(A, &is_known, &is_definite));
+  const Definiteness definiteness =
+      is_known && is_definite ? Definiteness::positive : Definiteness::unknown;
+  auto factor = std::make_unique<MumpsFactor>(comm, definiteness);
+  const char* prefix = A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix;
+  petsc::check(set_from_options(*factor, comm, prefix));
+  return std::make_unique<PivotingFallback>(std::move(factor), comm);
 }
 
 std::unique_ptr<CholeskyFactor> new_supernodal_factor(Mat A)
 {
-  return std::make_unique<SupernodalFactor>(petsc::communicator(A));
+  const MPI_Comm comm = petsc::communicator(A);
+  return std::make_unique<PivotingFallback>(std::make_unique<SupernodalFactor>(comm), comm);
 }
 
 PetscErrorCode create_factor(Mat A, MatFactorType type, const char* name,
@@ -134,6 +174,12 @@ PetscErrorCode create_mumps_metis(Mat A, MatFactorType type, Mat* F)
   PetscCall(create_factor(A, type, mumps_metis, new_mumps_factor, F));
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsGetInfog_C",
                                        get_infog));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsGetIcntl_C",
+                                       get_icntl));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsSetIcntl_C",
+                                       set_icntl));
+  PetscCall(
+      PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsSetCntl_C", set_cntl));
   return 0;
 }
 
@@ -160,9 +206,14 @@ bool is_ours(Mat F)
   return ours(F) != nullptr;
 }
 
-void set_budget(Mat F, double MiB)
+void set_budget(Mat F, const MemoryBudget& budget)
 {
-  if (CholeskyFactor* factor = ours(F)) factor->budget_MiB = MiB;
+  if (CholeskyFactor* factor = ours(F)) factor->budget = budget;
+}
+
+void require_definite(Mat F)
+{
+  if (CholeskyFactor* factor = ours(F)) factor->must_be_definite = true;
 }
 
 PetscInt our_negative_pivots(Mat F)
@@ -176,10 +227,10 @@ FactorSize factor_size(Mat F)
   return factor ? factor->size() : FactorSize{.operations = 0.0, .entries = 0.0};
 }
 
-double forecast_MiB(Mat F)
+MemoryNeed memory_need(Mat F)
 {
   const CholeskyFactor* factor = ours(F);
-  return factor ? factor->forecast_MiB() : 0.0;
+  return factor ? factor->memory_need(petsc::communicator(F)) : MemoryNeed{.needed_MiB = 0.0};
 }
 
 void register_cholesky_types()
@@ -193,6 +244,10 @@ void register_cholesky_types()
     petsc::check(MatSolverTypeRegister(mumps_metis, type, MAT_FACTOR_CHOLESKY, create_mumps_metis));
     petsc::check(MatSolverTypeRegister(supernodal, type, MAT_FACTOR_CHOLESKY, create_supernodal));
   }
+  petsc::check(PetscRegisterFinalize([]() -> PetscErrorCode {
+    registered = false;  // PETSc forgets its list of solvers
+    return 0;
+  }));
   registered = true;
 }
 

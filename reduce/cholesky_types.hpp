@@ -9,28 +9,33 @@ namespace chladni::reduce {
 inline constexpr const char* supernodal = "supernodal";
 inline constexpr const char* mumps_metis = "mumps-metis";
 
-/// Registers them with PETSc for AIJ matrices, once in a process. MatSolve, MatMatSolve and
-/// MatMatTransposeSolve (sparse right-hand sides) take matrices distributed by rows as they are.
-/// For mumps-metis the options `-<prefix>mat_mumps_icntl_<i>` and `-<prefix>mat_mumps_cntl_<i>` are
-/// those of PETSc's own interface to MUMPS, and MatMumpsGetInfog works on the factor.
+/// Registers them with PETSc for AIJ matrices, once between its initialisation and its end. An
+/// indefinite matrix goes over to MUMPS with pivoting by itself, also from supernodal. MatSolve,
+/// MatMatSolve and MatMatTransposeSolve (sparse right-hand sides) take matrices distributed by rows
+/// as they are. For mumps-metis the options `-<prefix>mat_mumps_icntl_<i>` and
+/// `-<prefix>mat_mumps_cntl_<i>` are those of PETSc's own interface to MUMPS, and MatMumpsGetInfog
+/// works on the factor.
 /// @throws chladni::Error when PETSc does.
 void register_cholesky_types();
 
 /// Whether a factor is of one of these types; only then do the following have an effect.
 bool is_ours(Mat F);
 
-/// What the factor may take of one machine's memory: a symbolic factorisation that needs more ends
-/// with MAT_FACTOR_OUTMEMORY.
-void set_budget(Mat F, double MiB);
+/// A symbolic factorisation that needs more on any machine ends with MAT_FACTOR_OUTMEMORY.
+void set_budget(Mat F, const MemoryBudget& budget);
+
+/// An indefinite matrix ends with MAT_FACTOR_NUMERIC_ZEROPIVOT and the count of its negative
+/// pivots.
+void require_definite(Mat F);
 
 PetscInt our_negative_pivots(Mat F);
 
 /// Zero for other types.
 FactorSize factor_size(Mat F);
 
-/// What the numerical factorisation needs on the fullest machine, by the symbolic one; 0 for other
-/// types.
+/// The tightest machine during the factorisation and after it, with what comes beside it, by the
+/// symbolic factorisation; nothing for other types.
 /// @note   Collective.
-double forecast_MiB(Mat F);
+MemoryNeed memory_need(Mat F);
 
 }  // namespace chladni::reduce

@@ -3,7 +3,15 @@
 #include <functional>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace chladni::reduce {
+
+/// K - sigma M has no factor: sigma is an eigenvalue to round-off.
+class SingularShift : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Eigenvalues below sigma: of the full pencil by Sylvester's law, and of the reduced one.
 struct EigenvalueCount {
@@ -14,8 +22,8 @@ struct EigenvalueCount {
   int missing() const { return expected - found; }
 };
 
-/// Ritz values of the reduced pencil under some support.
-struct RitzValues {
+/// The eigenvalues of the reduced pencil under some support.
+struct ReducedSpectrum {
   std::vector<double> lambda;  ///< all positive ones, ascending; rad^2/s^2
   std::vector<double> eta2;    ///< [k] of the first k, as of `error_estimates`
   int n_zero;                  ///< zero eigenvalues before them
@@ -28,22 +36,34 @@ struct Completeness {
   std::vector<double> bounds;  ///< of the relative errors of the Ritz values below complete.sigma
 };
 
+/// Counts the fixed-interface modes up to the last one that is there; modes that close to it are
+/// never cut off.
+/// @param omega              [k >= 1] ascending, rad/s
+/// @param eigenvalues_below  of K_ss, M_ss; as of `count_modes`
+/// @throws chladni::Error as `count_modes`
+EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
+                                      const std::function<int(double sigma)>& eigenvalues_below);
+
 /// Counts up to the last Ritz value with an error estimate and, while one is missing, in gaps at
 /// about half and a quarter of it.
-/// @param eigenvalues_below  of the full pencil under the same support; one factorisation each
-Completeness count_modes(const RitzValues& ritz,
+/// @param eigenvalues_below  of the full pencil under the same support; one factorisation each.
+///                           Where it throws SingularShift another shift close by is tried.
+/// @throws chladni::Error when a count is lower than what the reduced model has, which only a wrong
+///         count can be.
+Completeness count_modes(const ReducedSpectrum& ritz,
                          const std::function<int(double sigma)>& eigenvalues_below);
 
 /// Upper bounds of the relative errors lambda_i~ / lambda_i - 1 of Ritz values, from eta^2 and the
-/// certainty that the full pencil has exactly as many eigenvalues below `sigma` as are given.
-/// Alone: eta^2 / gap, gap = 1 - lambda_i~ / lambda_next with a lower bound of the next eigenvalue
-/// (Kato and Temple), or eta where that is less. In a cluster, where the first-order intervals of
-/// several Ritz values overlap: the same of first and second order for their residuals together.
+/// certainty that the full pencil has exactly as many eigenvalues below `sigma` as are given. The
+/// bound of the last one is eta^2 / (1 - lambda_i~ / sigma) (Temple); each of the others takes the
+/// lower bound of the eigenvalue behind it for sigma. Where Ritz values are so close that this is
+/// none, their residuals together give one (Lehmann). In exact arithmetic: what rounding does to
+/// the Ritz values comes on top.
 /// @param lambda  [k] ascending, positive, all below sigma; rad^2/s^2
 /// @param eta2    [k]
 /// @return [k]
-/// Source: Kato, J. Phys. Soc. Japan 4 (1949) 334; Temple, Proc. R. Soc. Lond. A 119 (1928) 276;
-/// Li and Li, Linear Algebra Appl. 395 (2005) 183.
+/// Source: Temple, Proc. R. Soc. Lond. A 119 (1928) 276; Kato, J. Phys. Soc. Japan 4 (1949) 334;
+/// Lehmann, Z. angew. Math. Mech. 29 (1949) 341.
 std::vector<double> error_bounds(const std::vector<double>& lambda, const std::vector<double>& eta2,
                                  double sigma);
 

@@ -23,7 +23,7 @@ void copy_columns(Mat A, PetscInt first, PetscInt last, Mat B)
   petsc::check(MatAssemblyEnd(B, MAT_FINAL_ASSEMBLY));
 }
 
-/// K_ss^-1 K_sm block by block. PETSc 3.18 fails with sparse right-hand sides on several ranks
+/// -K_ss^-1 K_sm block by block. PETSc 3.18 fails with sparse right-hand sides on several ranks
 /// where a rank has none (MUMPS error -27), and its dense ones are gathered: blocks keep that
 /// small.
 void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
@@ -37,6 +37,7 @@ void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
     petsc::check(MatDenseGetSubMatrix(Psi, PETSC_DECIDE, PETSC_DECIDE, first, last, &X));
     petsc::check(MatDuplicate(X, MAT_DO_NOT_COPY_VALUES, B.put()));
     copy_columns(K_sm, first, last, B);
+    petsc::check(MatScale(B, -1.0));  // not Psi at once: its numbers may be more than PETSc counts
     petsc::check(MatMatSolve(factor, B, X));
     petsc::check(MatDenseRestoreSubMatrix(Psi, &X));
   }
@@ -56,7 +57,6 @@ petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
     petsc::check(MatMatTransposeSolve(K_ss.factor(), minus_K_ms, Psi));
   } else {
     solve_by_blocks(K_ss.factor(), K.sm, Psi);
-    petsc::check(MatScale(Psi, -1.0));
   }
   return Psi;
 }

@@ -17,11 +17,18 @@ struct CraigBamptonBasis {
   PetscInt n_modes() const { return modes ? static_cast<PetscInt>(modes->omega.size()) : 0; }
 };
 
+/// Static condensation to the masters.
+struct GuyanStiffness {
+  SmallMatrix K;  ///< K_G [n_m x n_m]
+  SmallMatrix R;  ///< [n_m x r] independent motions of the masters with K_G R = 0
+};
+
 /// The reduced system in (u_m, q), the same on every rank; masters in the order of the partition.
 struct ReducedModel {
   SmallMatrix K, M;  ///< [n_m + n_CB squared]
   PetscInt n_masters;
   std::vector<double> omega;  ///< [n_CB] rad/s of the fixed-interface modes
+  SmallMatrix R = {0, 0};     ///< [n_m x r] of the motions that K does not resist, at the masters
 };
 
 /// K_r = diag(K_mm + K_ms Psi, diag(omega^2)),

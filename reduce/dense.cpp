@@ -15,16 +15,33 @@ PetscInt first_row(Mat A)
   return first;
 }
 
+/// A count of MPI is an int.
+template <typename Work>
+void for_pieces(std::span<double> values, const Work& work)
+{
+  constexpr std::size_t piece = std::size_t(1) << 28;
+  for (std::size_t at = 0; at < values.size(); at += piece)
+    work(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)));
+}
+
 }  // namespace
 
-void sum_over_ranks(SmallMatrix& A, MPI_Comm comm)
+void sum_over_ranks(std::span<double> values, MPI_Comm comm)
 {
-  // In pieces: an MPI count is an int.
-  constexpr std::size_t piece = std::size_t(1) << 28;
-  for (std::size_t at = 0; at < A.values.size(); at += piece) {
-    const auto count = static_cast<int>(std::min(piece, A.values.size() - at));
-    MPI_Allreduce(MPI_IN_PLACE, A.values.data() + at, count, MPI_DOUBLE, MPI_SUM, comm);
-  }
+  for_pieces(values, [&](double* piece, int n) {
+    MPI_Allreduce(MPI_IN_PLACE, piece, n, MPI_DOUBLE, MPI_SUM, comm);
+  });
+}
+
+void broadcast_numbers(std::span<double> values, MPI_Comm comm)
+{
+  for_pieces(values, [&](double* piece, int n) { MPI_Bcast(piece, n, MPI_DOUBLE, 0, comm); });
+}
+
+double value_of_first_rank(double value, MPI_Comm comm)
+{
+  MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm);
+  return value;
 }
 
 LocalRows::LocalRows(Mat dense) : dense_(dense)

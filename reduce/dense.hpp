@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -18,9 +19,22 @@ struct SmallMatrix {
   double operator()(PetscInt i, PetscInt j) const { return values[i + std::size_t(j) * n_rows]; }
 };
 
-/// A <- sum of the A of all ranks, on every rank.
+/// Any number of values <- their sums over all ranks, on every rank.
 /// @note   Collective.
-void sum_over_ranks(SmallMatrix& A, MPI_Comm comm);
+void sum_over_ranks(std::span<double> values, MPI_Comm comm);
+inline void sum_over_ranks(SmallMatrix& A, MPI_Comm comm)
+{
+  sum_over_ranks(std::span(A.values), comm);
+}
+
+/// Any number of values <- those of rank 0.
+/// @note   Collective.
+void broadcast_numbers(std::span<double> values, MPI_Comm comm);
+
+/// The value of the first rank, for decisions: ranks on unlike processors may differ in the last
+/// bit.
+/// @note   Collective.
+double value_of_first_rank(double value, MPI_Comm comm);
 
 /// Read access to the rows of a dense Mat that this rank owns, column-major.
 class LocalRows {

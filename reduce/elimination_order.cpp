@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <numeric>
 
+#include "common/all_ranks.hpp"
+#include "reduce/adjacency.hpp"
 #include "reduce/gather.hpp"
 
 namespace chladni::reduce {
@@ -93,14 +96,23 @@ BlockGraph own_graph(Mat A, const std::vector<PetscInt>& starts, const std::vect
 /// Blocks with ten times as many neighbours as the mean (harmonics of a ring) come last, in tenths.
 constexpr idx_t dense_degree = 100;
 
-/// Place of each block in the elimination.
-std::vector<idx_t> dissect(const BlockGraph& graph, std::vector<idx_t> weights)
+bool is_permutation_of_all(std::vector<idx_t> places)
 {
-  auto n = static_cast<idx_t>(graph.degrees.size());
-  std::vector<idx_t> starts(graph.degrees.size() + 1, 0);
-  std::inclusive_scan(graph.degrees.begin(), graph.degrees.end(), starts.begin() + 1);
+  std::ranges::sort(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (std::cmp_not_equal(places[i], i)) return false;
+  }
+  return true;
+}
+
+/// Place of each block in the elimination.
+std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
+{
+  assert(is_symmetric(graph));  // or METIS loops for ever
+  auto n = static_cast<idx_t>(graph.n_vertices());
+  std::vector<idx_t> starts(graph.starts.begin(), graph.starts.end());
   std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
-  std::vector<idx_t> order(graph.degrees.size()), place(graph.degrees.size());
+  std::vector<idx_t> order(weights.size()), place(weights.size());
   if (neighbours.empty()) {  // METIS rejects a graph without edges
     std::iota(place.begin(), place.end(), idx_t{0});
     return place;
@@ -110,7 +122,12 @@ std::vector<idx_t> dissect(const BlockGraph& graph, std::vector<idx_t> weights)
   options[METIS_OPTION_PFACTOR] = dense_degree;
   const int status = METIS_NodeND(&n, starts.data(), neighbours.data(), weights.data(),
                                   options.data(), order.data(), place.data());
-  if (status != METIS_OK) throw Error(fmt::format("elimination_order: METIS error {}", status));
+  if (status != METIS_OK || !is_permutation_of_all(place)) {
+    throw Error(fmt::format(
+        "elimination_order: METIS finds no order of {} blocks with {} edges (status {}); take "
+        "-cms_pc_factor_mat_solver_type mumps, which orders by itself",
+        n, neighbours.size(), status));
+  }
   return place;
 }
 
@@ -137,13 +154,16 @@ std::vector<int> elimination_order(Mat A)
   petsc::check(MatGetSize(A, &n, nullptr));
   const std::vector<PetscInt> starts = block_starts(A);
   const std::vector<int> block_of = block_of_rows(starts, n, comm);
-  BlockGraph graph = own_graph(A, starts, block_of);
-  graph = {.degrees = gather(graph.degrees, MPI_INT, comm),
-           .neighbours = gather(graph.neighbours, MPI_INT, comm)};
-  if (petsc::rank(comm) != 0) return {};
-  std::vector<idx_t> sizes(graph.degrees.size(), 0);
-  for (const int block : block_of) ++sizes[block];
-  return row_places(dissect(graph, sizes), block_of, sizes);
+  const BlockGraph own = own_graph(A, starts, block_of);
+  const std::vector<int> degrees = gather(own.degrees, MPI_INT, comm);
+  const std::vector<int> neighbours = gather(own.neighbours, MPI_INT, comm);
+  return on_all_ranks(comm, [&]() -> std::vector<int> {
+    if (petsc::rank(comm) != 0) return {};
+    const Adjacency graph = symmetrized({.starts = offsets(degrees), .neighbours = neighbours});
+    std::vector<idx_t> sizes(degrees.size(), 0);
+    for (const int block : block_of) ++sizes[block];
+    return row_places(dissect(graph, sizes), block_of, sizes);
+  });
 }
 
 }  // namespace chladni::reduce

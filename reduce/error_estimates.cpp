@@ -1,6 +1,8 @@
 #include "reduce/error_estimates.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
@@ -31,27 +33,95 @@ petsc::Matrix zero_block(Mat like, PetscInt n_columns)
   return block;
 }
 
+/// Of motions u: the residual at the slaves, the sum of K_jj u_j^2 over all DOFs, and the Rayleigh
+/// quotient by the matrices of the FE model.
+struct Residuals {
+  petsc::Matrix r_s;
+  std::vector<double> energy_of_diagonal;
+  std::vector<double> rayleigh;
+};
+
+/// u^T A u of each column of u = (u_s, x_m).
+/// @param A_u_s  A_ss u_s
+std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const SmallMatrix& x_m)
+{
+  const SmallMatrix ss = inner_product(u_s, A_u_s);
+  const SmallMatrix sm = inner_product_sparse(u_s, A.sm);
+  const SmallMatrix mm = replicate(A.mm);
+  std::vector<double> forms;
+  for (PetscInt k = 0; k < x_m.n_cols; ++k) {
+    double form = ss(k, k);
+    for (PetscInt j = 0; j < x_m.n_rows; ++j) {
+      double row = 2.0 * sm(k, j);
+      for (PetscInt i = 0; i < x_m.n_rows; ++i) row += x_m(i, k) * mm(i, j);
+      form += row * x_m(j, k);
+    }
+    forms.push_back(form);
+  }
+  return forms;
+}
+
+/// Adds to sums_k the sum of A_jj X(j, k)^2 over the local rows j.
+template <typename Value>
+void add_energy_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
+{
+  petsc::Vector diagonal;
+  PetscInt n_local = 0;
+  const PetscScalar* A_jj = nullptr;
+  petsc::check(MatCreateVecs(A, diagonal.put(), nullptr));
+  petsc::check(MatGetDiagonal(A, diagonal));
+  petsc::check(VecGetLocalSize(diagonal, &n_local));
+  petsc::check(VecGetArrayRead(diagonal, &A_jj));
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    for (PetscInt j = 0; j < n_local; ++j) {
+      const double x = X(j, static_cast<PetscInt>(k));
+      sums[k] += A_jj[j] * x * x;
+    }
+  }
+  petsc::check(VecRestoreArrayRead(diagonal, &A_jj));
+}
+
+std::vector<double> energy_of_diagonal(const Blocks& K, Mat u_s, const SmallMatrix& x_m)
+{
+  const MPI_Comm comm = petsc::communicator(K.ss);
+  std::vector<double> sums(x_m.n_cols, 0.0);
+  add_energy_of_diagonal(K.ss, LocalRows(u_s), sums);
+  PetscInt first = 0;
+  petsc::check(MatGetOwnershipRange(K.mm, &first, nullptr));
+  add_energy_of_diagonal(
+      K.mm, [&](PetscInt j, PetscInt k) { return x_m(first + j, k); }, sums);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                comm);
+  return sums;
+}
+
 /// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
 /// and leaving them out avoids the difference of two large forces.
-petsc::Matrix slave_residual(Mat K_ss, const CraigBamptonBasis& Q_CB, const Blocks& M,
-                             const ReducedPairs& pairs)
+Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
 {
+  const auto& [K_ss, Q_CB, K, M] = system;
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
   const SmallMatrix x_m = rows_of(pairs.X, 0, n_m);
   const SmallMatrix x_q = rows_of(pairs.X, n_m, Q_CB.n_modes());
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
   if (Q_CB.modes) add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
-  petsc::Matrix r = uninitialized_dense(K_ss, pairs.X.n_cols);
-  SparseProduct(K_ss).apply(elastic, r);
+  petsc::Matrix r = uninitialized_dense(K.ss, pairs.X.n_cols);
+  SparseProduct(K.ss).apply(elastic, r);
   add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
-  petsc::Matrix inertia = uninitialized_dense(K_ss, pairs.X.n_cols);
-  SparseProduct(M.ss).apply(elastic, inertia);
-  add_sparse_product(M.sm, x_m, inertia);
+  petsc::Matrix product = uninitialized_dense(K.ss, pairs.X.n_cols);
+  SparseProduct(K.ss).apply(elastic, product);
+  std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
+  SparseProduct(M.ss).apply(elastic, product);
+  const std::vector<double> inertia = quadratic_forms(M, product, elastic, x_m);
+  for (std::size_t k = 0; k < rayleigh.size(); ++k) rayleigh[k] /= inertia[k];
+  add_sparse_product(M.sm, x_m, product);
   SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
   for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
-  add_product(1.0, inertia, minus_lambda, r);
-  return r;
+  add_product(1.0, product, minus_lambda, r);
+  return {.r_s = std::move(r),
+          .energy_of_diagonal = energy_of_diagonal(K, elastic, x_m),
+          .rayleigh = std::move(rayleigh)};
 }
 
 ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
@@ -67,30 +137,49 @@ ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
 
 }  // namespace
 
-std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
-                                    const Blocks& M, const ReducedPairs& pairs)
+ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs)
 {
   constexpr PetscInt most = 32;  // pairs at a time: bounds the memory
+  constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
-  std::vector<double> eta2;
+  ErrorEstimates estimates;
   for (PetscInt first = 0; first < n_pairs; first += most) {
     report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
-    const petsc::Matrix r = slave_residual(K_ss.matrix(), Q_CB, M, some);
-    const petsc::Matrix z = uninitialized_dense(K_ss.matrix(), some.X.n_cols);
-    petsc::check(MatMatSolve(K_ss.factor(), r, z));
-    const SmallMatrix r_z = inner_product(r, z);
+    const Residuals of = residuals(system, some);
+    const petsc::Matrix z = uninitialized_dense(system.K.ss, some.X.n_cols);
+    petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
+    const SmallMatrix r_z = inner_product(of.r_s, z);
     for (PetscInt i = 0; i < r_z.n_rows; ++i) {
-      eta2.push_back(std::max(0.0, r_z(i, i)) / some.lambda[i]);
+      estimates.eta2.push_back(std::max(0.0, r_z(i, i)) / some.lambda[i]);
+      estimates.rounding.push_back(4.0 * eps * of.energy_of_diagonal[i] / some.lambda[i] +
+                                   2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
     }
   }
-  return eta2;
+  return estimates;
 }
 
 double frequency_error(double eta2, double lambda, double lambda_left_out)
 {
   constexpr double least = 0.02;  // close to the modes left out nothing is known
   return 0.5 * eta2 / std::max(least, 1.0 - lambda / lambda_left_out);
+}
+
+std::vector<double> frequency_errors_by_place(const std::vector<double>& lambda,
+                                              const std::vector<double>& eta2,
+                                              double lambda_left_out)
+{
+  std::vector<double> omega;  // of the FE model, by the estimates
+  for (std::size_t i = 0; i < lambda.size(); ++i) {
+    // Near the modes left out the correction is uncertain, and would send a mode past many others.
+    constexpr double furthest = 0.5;
+    const double error =
+        frequency_error(eta2[i], std::min(lambda[i], furthest * lambda_left_out), lambda_left_out);
+    omega.push_back(std::sqrt(lambda[i]) / (1.0 + error));
+  }
+  std::ranges::sort(omega);
+  for (std::size_t i = 0; i < lambda.size(); ++i) omega[i] = std::sqrt(lambda[i]) / omega[i] - 1.0;
+  return omega;
 }
 
 }  // namespace chladni::reduce

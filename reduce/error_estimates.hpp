@@ -10,17 +10,43 @@ struct ReducedPairs {
   std::vector<double> lambda;  ///< [k] rad^2/s^2, positive
 };
 
-/// eta^2 = r_s^T K_ss^-1 r_s / lambda for each pair, with r = (K - lambda M) Q_CB x.
-/// An eigenvalue of the full pencil under the same support lies within lambda (1 -+ eta); eta^2
-/// itself estimates the relative error of lambda, twice that of the frequency. Exact where supports
-/// hold masters only: Galerkin's condition leaves no residual in the free ones.
+/// What error estimates need of a reduction.
+struct Condensation {
+  const Factorization& K_ss;
+  const CraigBamptonBasis& Q_CB;
+  const Blocks& K;
+  const Blocks& M;
+};
+
+/// How far lambda of reduced pairs may be from an eigenvalue of the FE model, relatively.
+struct ErrorEstimates {
+  /// eta^2 = r_s^T K_ss^-1 r_s / lambda with r = (K - lambda M) Q_CB x: what the basis lacks.
+  std::vector<double> eta2;
+  /// What rounding does to lambda: 4 eps sum_j K_jj u_j^2 / lambda, u = Q_CB x, for the entries of
+  /// K, since |u|^T |K| |u| is about twice that sum, of first order; and how far lambda is from the
+  /// Rayleigh quotient of u in the FE model, which shows what the eigen-solvers left.
+  std::vector<double> rounding;
+};
+
+/// The error estimates of each pair. An eigenvalue of the full pencil under the same support has an
+/// inverse within (1 -+ eta) / lambda; eta^2 itself estimates the relative error of lambda, twice
+/// that of the frequency. Exact where supports hold masters only: Galerkin's condition leaves no
+/// residual in the free ones.
 /// @note   Collective; one block solve of k columns with the factor.
-std::vector<double> error_estimates(const Factorization& K_ss, const CraigBamptonBasis& Q_CB,
-                                    const Blocks& M, const ReducedPairs& pairs);
+ErrorEstimates error_estimates(const Condensation& of, const ReducedPairs& pairs);
 
 /// The relative error of a frequency by the eta^2 of its lambda, with the modes from
 /// `lambda_left_out` on left out of the basis: eta^2 / 2 is a lower estimate, by the factor
 /// 1 - lambda / lambda_left_out at most, by which it is divided; by no less than a fiftieth.
 double frequency_error(double eta2, double lambda, double lambda_left_out);
+
+/// The estimated relative error of each frequency against the FE frequency of the same place in the
+/// order: `frequency_error` of all, which may let one pass another.
+/// @param lambda           [k] ascending, rad^2/s^2
+/// @param eta2             [k]
+/// @param lambda_left_out  infinity where it is not known
+std::vector<double> frequency_errors_by_place(const std::vector<double>& lambda,
+                                              const std::vector<double>& eta2,
+                                              double lambda_left_out);
 
 }  // namespace chladni::reduce

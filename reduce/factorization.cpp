@@ -1,11 +1,11 @@
 #include "reduce/factorization.hpp"
 
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "reduce/cholesky_types.hpp"
+#include "reduce/inner_solver.hpp"
 #include "reduce/softest_motion.hpp"
 
 namespace chladni::reduce {
@@ -13,15 +13,19 @@ namespace chladni::reduce {
 namespace {
 
 /// What the analysis found, before any arithmetic.
-void check_memory(Mat factor, MatFactorError error, double budget_MiB)
+void check_memory(Mat factor, MatFactorError error, const MemoryBudget& budget)
 {
   if (error != MAT_FACTOR_OUTMEMORY) return;
+  const MemoryNeed need = memory_need(factor);
+  const MemoryNeed beside =
+      tightest_machine(budget.beside_MiB, budget.machine_MiB, petsc::communicator(factor));
   throw Error(fmt::format(
-      "factorize: the factor of K_ss needs {:.0f} MiB, and {}; use more machines, a coarser mesh, "
-      "fewer masters or modes, or raise -cms_memory",
-      forecast_MiB(factor),
-      budget_MiB > 0.0 ? fmt::format("{:.0f} MiB are free for it", budget_MiB)
-                       : "modes and constraint modes alone need more than there is"));
+      "factorize: the factor of K_ss and what comes beside it need {:.0f} MiB on one machine, "
+      "where "
+      "{:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, or raise "
+      "-cms_memory",
+      need.needed_MiB, need.free_MiB,
+      beside.fits() ? "" : ": modes and constraint modes alone need more than there is"));
 }
 
 /// Zero where the package does not tell.
@@ -59,6 +63,7 @@ PetscInt row_of_free_motion(Mat A)
   petsc::check(MatDiagonalSet(stiffer, diagonal, ADD_VALUES));
   petsc::Matrix factor;
   petsc::check(MatGetFactor(stiffer, supernodal, MAT_FACTOR_CHOLESKY, factor.put()));
+  require_definite(factor);
   petsc::check(MatCholeskyFactorSymbolic(factor, stiffer, nullptr, nullptr));
   petsc::check(MatCholeskyFactorNumeric(factor, stiffer, nullptr));
   MatFactorError error = MAT_FACTOR_NOERROR;
@@ -69,15 +74,15 @@ PetscInt row_of_free_motion(Mat A)
 
 /// K_ss is singular or indefinite exactly when a part of the body can move with all masters held.
 /// Round-off may hide that from the pivots, but not from the energy of the motion.
-void check_definite(Mat factor, Mat A, double budget_MiB)
+void check_definite(Mat factor, Mat A, const MemoryBudget& budget)
 {
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
-  check_memory(factor, error, budget_MiB);
-  if (error != MAT_FACTOR_NOERROR) refuse("zero pivot", row_of_free_motion(A));
+  check_memory(factor, error, budget);
   if (const PetscInt n = n_negative_pivots(factor); n > 0) {
     refuse(fmt::format("{} negative pivots", n), row_of_free_motion(A));
   }
+  if (error != MAT_FACTOR_NOERROR) refuse("zero pivot", row_of_free_motion(A));
   const SoftestMotion softest = softest_motion(factor, A);
   constexpr double round_off = 32.0 * std::numeric_limits<double>::epsilon();
   if (softest.stiffness < round_off) {
@@ -86,45 +91,12 @@ void check_definite(Mat factor, Mat A, double budget_MiB)
   }
 }
 
-/// 64 columns at a time are fastest for the hundreds of right-hand sides of the constraint modes.
-void set_default_option(const char* name, const char* value)
-{
-  PetscBool given = PETSC_FALSE;
-  petsc::check(PetscOptionsHasName(nullptr, nullptr, name, &given));
-  if (!given) petsc::check(PetscOptionsSetValue(nullptr, name, value));
-}
-
-/// MiB that a process may still take on this machine, by the kernel's estimate.
-double free_MiB()
-{
-  std::ifstream meminfo("/proc/meminfo");
-  std::string name, unit;
-  double KiB = 0.0;
-  while (meminfo >> name >> KiB) {
-    if (name == "MemAvailable:") return KiB / 1024.0;
-    std::getline(meminfo, unit);
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-/// What the factor may take: -cms_memory, or else what the emptiest machine has free.
-double budget(MPI_Comm comm, double beside_MiB)
-{
-  PetscReal allowed = 0.0;
-  PetscBool given = PETSC_FALSE;
-  petsc::check(PetscOptionsGetReal(nullptr, nullptr, "-cms_memory", &allowed, &given));
-  double MiB = given ? allowed : free_MiB();
-  MPI_Allreduce(MPI_IN_PLACE, &MiB, 1, MPI_DOUBLE, MPI_MIN, comm);
-  return MiB - beside_MiB;
-}
-
 }  // namespace
 
-Factorization::Factorization(Mat A, double beside_MiB)
+Factorization::Factorization(Mat A, SolverOptions options) : options_(std::move(options))
 {
   petsc::check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  petsc::check(KSPCreate(petsc::communicator(A), solver_.put()));
-  petsc::check(KSPSetOptionsPrefix(solver_, "cms_"));
+  solver_ = new_solver(petsc::communicator(A), options_.petsc);
   petsc::check(KSPSetOperators(solver_, A, A));
   petsc::check(KSPSetType(solver_, KSPPREONLY));
   PC pc = nullptr;
@@ -133,14 +105,15 @@ Factorization::Factorization(Mat A, double beside_MiB)
   register_cholesky_types();
   petsc::check(PCFactorSetMatSolverType(pc, supernodal));
   petsc::check(KSPSetFromOptions(solver_));
-  MatSolverType type = nullptr;
-  petsc::check(PCFactorGetMatSolverType(pc, &type));
-  if (std::string_view(type) == MATSOLVERMUMPS) set_default_option("-cms_mat_mumps_icntl_27", "64");
-  petsc::check(PCFactorSetUpMatSolverType(pc));
-  const double budget_MiB = budget(petsc::communicator(A), beside_MiB);
-  set_budget(factor(), budget_MiB);
+  set_up_factor(pc, options_.petsc);
+  const FactorOptions& allowed = options_.factor;
+  const MemoryBudget budget{.machine_MiB = allowed.memory_MiB.value_or(free_MiB()),
+                            .beside_MiB = allowed.beside_MiB,
+                            .beside_factors = allowed.beside_factors};
+  set_budget(factor(), budget);
+  require_definite(factor());
   petsc::check(KSPSetUp(solver_));
-  check_definite(factor(), A, budget_MiB);
+  check_definite(factor(), A, budget);
 }
 
 Mat Factorization::factor() const
@@ -159,9 +132,9 @@ Mat Factorization::matrix() const
   return A;
 }
 
-Factorization factorize(Mat K_ss, double beside_MiB)
+Factorization factorize(Mat K_ss, const SolverOptions& options)
 {
-  return Factorization(K_ss, beside_MiB);
+  return Factorization(K_ss, options);
 }
 
 }  // namespace chladni::reduce

@@ -4,6 +4,7 @@
 
 #include "common/error.hpp"
 #include "common/petsc.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -18,16 +19,14 @@ class FreeMotion : public Error {
 /// modes and eigen-solver. By MUMPS unless the options say otherwise.
 class Factorization {
  public:
-  /// @param beside_MiB  memory of this machine that must remain for what comes after.
   /// @note   Collective on the communicator of `A`.
   /// @throws FreeMotion when `A` is not positive definite to working precision: a motion z has an
   ///         energy of round-off, z^T A z < 32 eps z^T diag(A) z.
   /// @throws chladni::Error, before any arithmetic, when the factor does not fit into the memory
-  ///         that is free or that -cms_memory allows.
-  /// Options: `-cms_memory <MiB>`, `-cms_pc_factor_mat_solver_type
-  /// supernodal|mumps-metis|mumps|...`,
-  /// `-cms_pc_...`, `-cms_mat_mumps_...`
-  explicit Factorization(Mat A, double beside_MiB = 0.0);
+  ///         that is free or that `options` allow.
+  /// Options: `-<prefix>pc_factor_mat_solver_type supernodal|mumps-metis|mumps|...`,
+  /// `-<prefix>pc_...`, `-<prefix>mat_mumps_...`
+  explicit Factorization(Mat A, SolverOptions options = {});
 
   /// Solves with the factor only; for SLEPc's spectral transformation at shift 0.
   KSP solver() const { return solver_; }
@@ -35,12 +34,15 @@ class Factorization {
   Mat factor() const;
   /// The matrix itself.
   Mat matrix() const;
+  /// What it was made with; eigen-solvers that work with this factor go by them too.
+  const SolverOptions& options() const { return options_; }
 
  private:
+  SolverOptions options_;
   petsc::LinearSolver solver_;
 };
 
 /// The factor of K_ss.
-Factorization factorize(Mat K_ss, double beside_MiB = 0.0);
+Factorization factorize(Mat K_ss, const SolverOptions& options = {});
 
 }  // namespace chladni::reduce

@@ -32,6 +32,9 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
     n_found = static_cast<PetscInt>(omega.size());
     n_asked = std::max<PetscInt>(32, n_found + n_found / 2);
     search.find(n_asked);
+    if (omega.empty()) {
+      throw Error("fixed_interface_modes: no mode found; M_ss is zero or indefinite, use Guyan");
+    }
   } while (omega.back() < omega_cutoff && std::ssize(omega) > n_found);
   const auto n =
       static_cast<PetscInt>(std::ranges::lower_bound(omega, omega_cutoff) - omega.begin());

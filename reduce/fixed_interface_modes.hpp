@@ -19,9 +19,7 @@ struct FixedInterfaceModes {
 /// comes too.
 /// @note   Collective on the communicator of `M_ss`.
 /// @throws chladni::Error when the solver does not converge or more modes are asked than exist.
-/// Options: `-cms_modes_solver block-lanczos|krylov-schur`, `-cms_lanczos_block_size`,
-/// `-cms_lanczos_subspace` (basis vectors before a restart), `-cms_lanczos_tolerance` (of the
-/// vectors, 1e-7; the error of omega^2 is its square), `-cms_eps_...` for the latter
+/// The solver is that of the options of `K_ss`; `-<prefix>eps_...` are those of Krylov-Schur.
 FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
                                           const ReduceOptions& wanted);
 

@@ -4,14 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "reduce/block_lanczos.hpp"
+#include "reduce/block_rows.hpp"
+#include "reduce/free_flexibility.hpp"
 #include "reduce/guyan.hpp"
 #include "reduce/sparse_product.hpp"
-#include "reduce/supported_solutions.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
 namespace {
+
+/// Of the modes: their rows stand in the reduced matrices, so that no run may differ from another
+/// by more than round-off.
+constexpr double tolerance = 1e-11;
 
 /// A with unit diagonal, so that units do not decide.
 SmallMatrix scaled_to_unit_diagonal(const SmallMatrix& A)
@@ -26,60 +32,6 @@ SmallMatrix scaled_to_unit_diagonal(const SmallMatrix& A)
   return scaled;
 }
 
-/// Rigid-body motions: those that K_G does not resist.
-int n_rigid_motions(const SmallMatrix& K_G)
-{
-  constexpr double zero_energy = 1e-10;
-  const std::vector<double> energies = symmetric_eigen(scaled_to_unit_diagonal(K_G)).values;
-  return static_cast<int>(std::ranges::count_if(
-      energies, [&](double energy) { return energy <= zero_energy * energies.back(); }));
-}
-
-/// Rows of a dense X at the slaves.
-petsc::Matrix slave_rows(Mat X, const WholeSystem& body)
-{
-  PetscInt n = 0, first = 0;
-  const PetscInt* slaves = nullptr;
-  const LocalRows x(X);
-  petsc::Matrix X_s = uninitialized_dense(body.K_blocks.ss, x.n_cols());
-  PetscScalar* values = nullptr;
-  petsc::check(MatGetOwnershipRange(X, &first, nullptr));
-  petsc::check(ISGetLocalSize(body.dofs.slaves, &n));
-  petsc::check(ISGetIndices(body.dofs.slaves, &slaves));
-  petsc::check(MatDenseGetArrayWrite(X_s, &values));
-  for (PetscInt j = 0; j < x.n_cols(); ++j) {
-    for (PetscInt i = 0; i < n; ++i) values[i + std::size_t(j) * n] = x(slaves[i] - first, j);
-  }
-  petsc::check(MatDenseRestoreArrayWrite(X_s, &values));
-  petsc::check(ISRestoreIndices(body.dofs.slaves, &slaves));
-  return X_s;
-}
-
-/// Rows of a dense X at the masters, on every rank.
-SmallMatrix master_rows(Mat X, IS masters)
-{
-  const MPI_Comm comm = petsc::communicator(X);
-  PetscInt n = 0, n_all = 0, first = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(MatGetOwnershipRange(X, &first, nullptr));
-  petsc::check(ISGetLocalSize(masters, &n));
-  petsc::check(ISGetSize(masters, &n_all));
-  PetscInt before = n;
-  MPI_Exscan(MPI_IN_PLACE, &before, 1, MPIU_INT, MPI_SUM, comm);
-  if (petsc::rank(comm) == 0) before = 0;
-  petsc::check(ISGetIndices(masters, &indices));
-  SmallMatrix X_m(n_all, LocalRows(X).n_cols());
-  {
-    const LocalRows x(X);
-    for (PetscInt j = 0; j < x.n_cols(); ++j) {
-      for (PetscInt i = 0; i < n; ++i) X_m(before + i, j) = x(indices[i] - first, j);
-    }
-  }
-  petsc::check(ISRestoreIndices(masters, &indices));
-  sum_over_ranks(X_m, comm);
-  return X_m;
-}
-
 /// The first n modes and those partners of the last one that follow.
 PetscInt complete_cluster(const std::vector<double>& lambda, PetscInt n)
 {
@@ -88,19 +40,26 @@ PetscInt complete_cluster(const std::vector<double>& lambda, PetscInt n)
   return n;
 }
 
-/// The lowest modes, as many or as far up as wanted.
-NaturalModes lowest_modes(const WholeSystem& body, const ReduceOptions& wanted, int n_rigid)
+/// The lowest elastic modes, as many or as far up as wanted; vectors of some more.
+EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibility,
+                         const ReduceOptions& wanted)
 {
-  const FreeDofs all = free_dofs(body.K, {});
   PetscInt n = 0;
   petsc::check(MatGetSize(body.K, &n, nullptr));
+  n -= LocalRows(flexibility.R()).n_cols();
+  const auto lowest = [&](PetscInt n_pairs) {
+    return block_lanczos(flexibility.factor(), body.M,
+                         {.n_pairs = n_pairs, .tolerance = tolerance});
+  };
   if (wanted.modes) {
-    const int n_wanted = n_rigid + *wanted.modes;
-    const int n_seen = std::min<int>(n_wanted + 2, n);  // to see partners
-    NaturalModes modes = natural_modes(body.K, body.M, all,
-                                       {.n_modes = std::max(n_seen, n_wanted), .n_rigid = n_rigid});
-    modes.lambda.resize(complete_cluster(modes.lambda, n_wanted));
-    return modes;
+    EigenPairs pairs = lowest(std::min<PetscInt>(*wanted.modes + 2, n));  // to see partners
+    if (std::ssize(pairs.lambda) < *wanted.modes) {
+      throw Error(
+          fmt::format("free_interface_modes: {} of {} elastic modes found; there are no more",
+                      pairs.lambda.size(), *wanted.modes));
+    }
+    pairs.lambda.resize(complete_cluster(pairs.lambda, *wanted.modes));
+    return pairs;
   }
   if (!wanted.cutoff_Hz) {
     throw Error(
@@ -108,15 +67,27 @@ NaturalModes lowest_modes(const WholeSystem& body, const ReduceOptions& wanted, 
         "cutoff_Hz");
   }
   const double lambda_max = std::pow(2.0 * std::numbers::pi * *wanted.cutoff_Hz, 2);
-  for (int n_asked = n_rigid + 32;; n_asked *= 2) {
-    const int n_modes = std::min<int>(n_asked, n);
-    NaturalModes modes =
-        natural_modes(body.K, body.M, all, {.n_modes = n_modes, .n_rigid = n_rigid});
-    const auto below = std::ranges::lower_bound(modes.lambda, lambda_max) - modes.lambda.begin();
-    if (below == std::ssize(modes.lambda) && n_modes < n) continue;
-    modes.lambda.resize(complete_cluster(modes.lambda, std::max(static_cast<int>(below), n_rigid)));
-    return modes;
+  for (PetscInt n_asked = std::min<PetscInt>(32, n);; n_asked = std::min(2 * n_asked, n)) {
+    EigenPairs pairs = lowest(n_asked);
+    const auto below = std::ranges::lower_bound(pairs.lambda, lambda_max) - pairs.lambda.begin();
+    if (below == std::ssize(pairs.lambda) && n_asked < n) continue;
+    pairs.lambda.resize(complete_cluster(pairs.lambda, static_cast<PetscInt>(below)));
+    return pairs;
   }
+}
+
+/// [R, X] of the first k columns of X.
+petsc::Matrix beside(Mat R, Mat X, PetscInt k)
+{
+  const PetscInt r = LocalRows(R).n_cols();
+  petsc::Matrix both = uninitialized_dense(R, r + k);
+  if (r > 0) {
+    petsc::check(MatCopy(R, ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
+  }
+  if (k > 0) {
+    petsc::check(MatCopy(ColumnRange(X, 0, k), ColumnRange(both, r, r + k), SAME_NONZERO_PATTERN));
+  }
+  return both;
 }
 
 /// T^T A T
@@ -148,9 +119,9 @@ SmallMatrix transposed(const SmallMatrix& A)
 }
 
 /// S with S^T G S = I over the directions that are independent to working precision.
-SmallMatrix orthonormalizing(const SmallMatrix& G)
+SmallMatrix orthonormalizing(const SmallMatrix& G, MPI_Comm comm)
 {
-  const SymmetricEigen eigen = symmetric_eigen(scaled_to_unit_diagonal(G));
+  const SymmetricEigen eigen = symmetric_eigen(scaled_to_unit_diagonal(G), comm);
   constexpr double dependent = 1e-12;
   PetscInt r = 0;
   while (r < G.n_rows && eigen.values[G.n_rows - 1 - r] > dependent * eigen.values.back()) ++r;
@@ -168,9 +139,10 @@ SmallMatrix orthonormalizing(const SmallMatrix& G)
 /// accurate.
 FixedInterfaceModes ritz_modes(Mat T, const WholeSystem& body)
 {
-  const SmallMatrix S = orthonormalizing(gram(T, body.K_blocks.ss));
+  const MPI_Comm comm = petsc::communicator(T);
+  const SmallMatrix S = orthonormalizing(gram(T, body.K_blocks.ss), comm);
   const SymmetricEigen ritz =
-      symmetric_eigen(product(transposed(S), product(gram(T, body.M_blocks.ss), S)));
+      symmetric_eigen(product(transposed(S), product(gram(T, body.M_blocks.ss), S)), comm);
   SmallMatrix V(S.n_cols, S.n_cols);
   FixedInterfaceModes modes;
   for (PetscInt k = 0; k < S.n_cols; ++k) {
@@ -193,15 +165,16 @@ FixedInterfaceModes ritz_modes(Mat T, const WholeSystem& body)
 FreeInterfaceModes free_interface_modes(const WholeSystem& body, Mat Psi,
                                         const ReduceOptions& wanted)
 {
-  const int n_rigid = n_rigid_motions(guyan_stiffness(Psi, body.K_blocks));
-  const NaturalModes all = lowest_modes(body, wanted, n_rigid);
-  const auto n = static_cast<PetscInt>(all.lambda.size());
-  const ColumnRange X(all.X, 0, n);
-  FreeInterfaceModes free{.X_s = slave_rows(X, body),
-                          .X_m = master_rows(X, body.dofs.masters),
-                          .omega = std::vector<double>(n, 0.0),
-                          .n_rigid = n_rigid};
-  for (PetscInt i = n_rigid; i < n; ++i) free.omega[i] = std::sqrt(std::max(0.0, all.lambda[i]));
+  const FreeFlexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks));
+  const EigenPairs elastic = elastic_pairs(body, flexibility, wanted);
+  const petsc::Matrix X =
+      beside(flexibility.R(), elastic.X, static_cast<PetscInt>(elastic.lambda.size()));
+  FreeInterfaceModes free{.X_s = slave_rows(X, body.dofs, body.K_blocks.ss),
+                          .X_m = master_rows(X, body.dofs),
+                          .omega = {},
+                          .n_rigid = LocalRows(flexibility.R()).n_cols()};
+  free.omega.resize(free.n_rigid, 0.0);
+  for (const double lambda : elastic.lambda) free.omega.push_back(std::sqrt(lambda));
   return free;
 }
 

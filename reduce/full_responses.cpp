@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reduce/block_basis.hpp"
-#include "reduce/quiet_mumps.hpp"
+#include "reduce/inner_solver.hpp"
 #include "reduce/sylvester.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
@@ -31,19 +31,17 @@ petsc::Matrix unit_loads(Mat K, const std::vector<PetscInt>& loaded)
 }
 
 /// L D L^T of an indefinite matrix.
-petsc::LinearSolver indefinite_factor(Mat A)
+petsc::LinearSolver indefinite_factor(Mat A, const OptionSource& source)
 {
-  petsc::LinearSolver solver;
+  petsc::LinearSolver solver = new_solver(petsc::communicator(A), source);
   PC pc = nullptr;
-  petsc::check(KSPCreate(petsc::communicator(A), solver.put()));
-  petsc::check(KSPSetOptionsPrefix(solver, "cms_response_"));
   petsc::check(KSPSetOperators(solver, A, A));
   petsc::check(KSPSetType(solver, KSPPREONLY));
   petsc::check(KSPGetPC(solver, &pc));
   petsc::check(PCSetType(pc, PCCHOLESKY));
   petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check(KSPSetFromOptions(solver));
-  quiet_mumps(pc);
+  set_up_factor(pc, source);
   petsc::check(KSPSetUp(solver));
   return solver;
 }
@@ -148,7 +146,7 @@ Ritz ritz_of(BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
   const petsc::Matrix Q = basis.columns(n_before, n);
   const petsc::Matrix K_Q = basis.new_block(n);
   SparseProduct(K).apply(Q, K_Q);
-  SymmetricEigen ritz = symmetric_eigen(inner_product(Q, K_Q));
+  SymmetricEigen ritz = symmetric_eigen(inner_product(Q, K_Q), petsc::communicator(K));
   SmallMatrix S(basis.n_columns(), n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) S(n_before + i, j) = ritz.vectors(i, j);
@@ -156,12 +154,11 @@ Ritz ritz_of(BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
   return {.X = basis.combine(S), .lambda = std::move(ritz.values)};
 }
 
-}  // namespace
-
-petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<PetscInt>& loaded)
+petsc::Matrix responses(Mat K, Mat M, const HarmonicLoads& loads, const OptionSource& source)
 {
+  const auto& [Omega_0, loaded] = loads;
   const petsc::Matrix A = shifted(K, M, Omega_0 * Omega_0);
-  const petsc::LinearSolver solver = indefinite_factor(A);
+  const petsc::LinearSolver solver = indefinite_factor(A, source.part("response_"));
   PC pc = nullptr;
   Mat factor = nullptr;
   petsc::check(KSPGetPC(solver, &pc));
@@ -182,11 +179,19 @@ petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<Pet
   return V;
 }
 
-petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads)
+}  // namespace
+
+petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<PetscInt>& loaded)
+{
+  return responses(K, M, {.Omega_0 = Omega_0, .loaded = loaded}, {});
+}
+
+petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads,
+                             const OptionSource& source)
 {
   petsc::Matrix all = uninitialized_dense(K, 0);
   for (const HarmonicLoads& each : loads) {
-    const petsc::Matrix V = full_responses(K, M, each.Omega_0, each.loaded);
+    const petsc::Matrix V = responses(K, M, each, source);
     all = side_by_side(all, V, K);
   }
   return all;
@@ -200,7 +205,8 @@ Enrichment enrich(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, const
   BlockBasis basis(ss.M, Q_CB.n_modes() + LocalRows(R).n_cols());
   if (Q_CB.modes) basis.append(Q_CB.modes->Phi);
   const PetscInt n_before = basis.n_columns();
-  const PetscInt n_added = genuine_directions(basis.append(R).R);
+  PetscInt n_added = genuine_directions(basis.append(R).R);
+  MPI_Bcast(&n_added, 1, MPIU_INT, 0, petsc::communicator(V));  // round-off decides on one rank
   const Ritz ritz = ritz_of(basis, n_before, n_added, ss.K);
   Enrichment enriched{.modes = {}, .n_added = n_added};
   if (Q_CB.modes) enriched.modes.omega = Q_CB.modes->omega;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "reduce/craig_bampton.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -21,7 +22,9 @@ struct HarmonicLoads {
 };
 
 /// The responses to all of these, side by side; a factorisation for each.
-petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads);
+/// Options: `-<prefix>response_mat_mumps_...`
+petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads,
+                             const OptionSource& source = {});
 
 /// K_ss and M_ss.
 struct SlaveBlocks {

@@ -60,7 +60,7 @@ GrowingModel::GrowingModel(const System& system)
     : system_(system),
       K_G_(guyan_stiffness(system.Psi, system.K)),
       M_G_(guyan_mass(system.Psi, system.M)),
-      P_(0, K_G_.n_rows),
+      P_(0, M_G_.n_rows),
       G_(0, 0)
 {}
 
@@ -68,7 +68,7 @@ GrowingModel::GrowingModel(const System& system)
 /// upper triangle is computed.
 void GrowingModel::start_errors(Mat Phi)
 {
-  const PetscInt n_m = K_G_.n_rows;
+  const PetscInt n_m = M_G_.n_rows;
   n_first_ = P_.n_rows;
   G_ = SmallMatrix(n_m, n_m);
   for (PetscInt first = 0; first < n_m; first += block_columns) {
@@ -108,7 +108,7 @@ ReducedModel GrowingModel::model(PetscInt n) const
 
 std::vector<double> GrowingModel::error_estimates(const ReducedPairs& pairs, PetscInt n) const
 {
-  const PetscInt n_m = K_G_.n_rows;
+  const PetscInt n_m = M_G_.n_rows;
   std::vector<double> eta2;
   for (PetscInt j = 0; j < pairs.X.n_cols; ++j) {
     double sum = 0.0;

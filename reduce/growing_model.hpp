@@ -42,7 +42,8 @@ class GrowingModel {
   void start_errors(Mat Phi);
 
   System system_;
-  SmallMatrix K_G_, M_G_;
+  GuyanStiffness K_G_;
+  SmallMatrix M_G_;
   SmallMatrix P_;         ///< [n_modes x n_m]
   SmallMatrix G_;         ///< G_n of the modes that came first
   PetscInt n_first_ = 0;  ///< how many these are

@@ -1,6 +1,7 @@
 #include "reduce/log_event.hpp"
 
 #include <array>
+#include <optional>
 
 namespace chladni::reduce {
 
@@ -11,23 +12,29 @@ constexpr std::array names{"CMSOrdering", "CMSAnalysis", "CMSFactor",
 
 using Events = std::array<PetscLogEvent, names.size()>;
 
-Events register_events()
+/// Those of this session of PETSc, which ends with PetscFinalize.
+std::optional<Events> events;
+
+void register_events()
 {
   PetscClassId class_id = 0;
   petsc::check(PetscClassIdRegister("Component mode synthesis", &class_id));
-  Events events{};
+  events.emplace();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    petsc::check(PetscLogEventRegister(names[i], class_id, &events[i]));
+    petsc::check(PetscLogEventRegister(names[i], class_id, &(*events)[i]));
   }
-  return events;
+  petsc::check(PetscRegisterFinalize([]() -> PetscErrorCode {
+    events.reset();
+    return 0;
+  }));
 }
 
 }  // namespace
 
 LogEvent::LogEvent(Event event)
 {
-  static const Events events = register_events();
-  event_ = events[static_cast<std::size_t>(event)];
+  if (!events) register_events();
+  event_ = (*events)[static_cast<std::size_t>(event)];
   petsc::check(PetscLogEventBegin(event_, 0, 0, 0, 0));
 }
 

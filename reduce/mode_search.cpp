@@ -1,16 +1,15 @@
 #include "reduce/mode_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
+
+#include "reduce/inner_solver.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-constexpr double pair_gap = 1e-4;   // relative distance of frequencies of one cluster
-constexpr double tolerance = 1e-7;  // of the vectors; the error of lambda is its square
+constexpr double pair_gap = 1e-4;  // relative distance of frequencies of one cluster
 
 EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
 {
@@ -52,11 +51,11 @@ EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
   petsc::EigenSolver eps;
   petsc::check(EPSCreate(petsc::communicator(M_ss), eps.put()));
-  petsc::check(EPSSetOptionsPrefix(eps, "cms_"));
+  set_options_source(eps, K_ss.options().petsc);
   petsc::check(EPSSetOperators(eps, K_ss.matrix(), M_ss));
   petsc::check(EPSSetProblemType(eps, EPS_GHEP));
   petsc::check(EPSSetDimensions(eps, n_modes, PETSC_DEFAULT, PETSC_DEFAULT));
-  petsc::check(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
+  petsc::check(EPSSetTolerances(eps, K_ss.options().lanczos.tolerance, PETSC_DEFAULT));
   petsc::check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   petsc::check(EPSSetTarget(eps, 0.0));
   // Purification would cost one single solve for each mode and gains nothing at this tolerance.
@@ -73,49 +72,12 @@ EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
   return pairs;
 }
 
-/// "block-lanczos" (default) or "krylov-schur".
-bool uses_krylov_schur()
+BlockLanczosOptions block_options(const LanczosOptions& options)
 {
-  std::array<char, 64> name{};
-  PetscBool given = PETSC_FALSE;
-  petsc::check(PetscOptionsGetString(nullptr, nullptr, "-cms_modes_solver", name.data(),
-                                     name.size(), &given));
-  const std::string_view solver = given ? name.data() : "block-lanczos";
-  if (solver != "block-lanczos" && solver != "krylov-schur") {
-    throw Error(fmt::format("-cms_modes_solver {}: give block-lanczos or krylov-schur", solver));
-  }
-  return solver == "krylov-schur";
-}
-
-/// The value of an integer option, or what stands there without it.
-PetscInt integer_option(const char* name, PetscInt otherwise)
-{
-  petsc::check(PetscOptionsGetInt(nullptr, nullptr, name, &otherwise, nullptr));
-  return otherwise;
-}
-
-/// The value of an option, or what stands there without it.
-double real_option(const char* name, double otherwise)
-{
-  petsc::check(PetscOptionsGetReal(nullptr, nullptr, name, &otherwise, nullptr));
-  return otherwise;
-}
-
-BlockLanczosOptions lanczos_options()
-{
-  constexpr PetscInt block_size = 8;  // a panel of the factor; wider blocks need more columns
-  const BlockLanczosOptions options{
-      .n_pairs = 0,
-      .block_size = integer_option("-cms_lanczos_block_size", block_size),
-      .max_subspace = integer_option("-cms_lanczos_subspace", 0),
-      .tolerance = real_option("-cms_lanczos_tolerance", tolerance)};
-  if (options.block_size < 1 || !(options.tolerance > 0.0)) {
-    throw Error(
-        fmt::format("-cms_lanczos_block_size {}, -cms_lanczos_tolerance {}: give positive "
-                    "values",
-                    options.block_size, options.tolerance));
-  }
-  return options;
+  return {.n_pairs = 0,
+          .block_size = options.block_size,
+          .max_subspace = options.subspace,
+          .tolerance = options.tolerance};
 }
 
 double angular_frequency(double lambda)
@@ -132,7 +94,10 @@ double angular_frequency(double lambda)
 ModeSearch::ModeSearch(const Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
-  if (!uses_krylov_schur()) lanczos_.emplace(K_ss.factor(), M_ss, lanczos_options());
+  const LanczosOptions& options = K_ss.options().lanczos;
+  if (options.solver == ModeSolver::block_lanczos) {
+    lanczos_.emplace(K_ss.factor(), M_ss, block_options(options));
+  }
 }
 
 void ModeSearch::find_by_krylov_schur(PetscInt n)
@@ -146,13 +111,17 @@ void ModeSearch::find_by_krylov_schur(PetscInt n)
 void ModeSearch::find_all(PetscInt n)
 {
   n = std::min(n, n_s_);
-  if (n <= std::ssize(omega_)) return;
-  if (!lanczos_) return find_by_krylov_schur(n);
-  lanczos_->converge(n);
-  omega_.clear();
-  for (PetscInt i = 0; i < lanczos_->n_pairs(); ++i) {
-    omega_.push_back(angular_frequency(lanczos_->lambda(i)));
+  if (n <= std::ssize(omega_) || has_all_) return;
+  if (lanczos_) {
+    lanczos_->converge(n);
+    omega_.clear();
+    for (PetscInt i = 0; i < lanczos_->n_pairs(); ++i) {
+      omega_.push_back(angular_frequency(lanczos_->lambda(i)));
+    }
+  } else {
+    find_by_krylov_schur(n);
   }
+  has_all_ = std::ssize(omega_) < n || std::ssize(omega_) == n_s_;
 }
 
 void ModeSearch::find(PetscInt n)

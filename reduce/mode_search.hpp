@@ -13,7 +13,7 @@ namespace chladni::reduce {
 /// Options: as `fixed_interface_modes`
 class ModeSearch {
  public:
-  /// Both must outlive the search.
+  /// Both must outlive the search. The eigen-solver is that of the options of `K_ss`.
   ModeSearch(const Factorization& K_ss, Mat M_ss);
 
   /// Number of slaves, which bounds the number of modes.
@@ -22,6 +22,8 @@ class ModeSearch {
   /// @note   Collective.
   /// @throws chladni::Error when the solver does not converge or K_ss is not definite.
   void find(PetscInt n);
+  /// Whether all modes that there are have been found.
+  bool has_all() const { return has_all_; }
   /// Angular frequencies of all that are found, ascending; rad/s.
   const std::vector<double>& omega() const { return omega_; }
   /// The first n modes and those that follow within 1e-4 in frequency.
@@ -43,6 +45,7 @@ class ModeSearch {
   std::optional<BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
   petsc::Matrix X_;                      ///< then all vectors that it found
   std::vector<double> omega_;
+  bool has_all_ = false;
 };
 
 }  // namespace chladni::reduce

@@ -1,8 +1,10 @@
 #include "reduce/mumps_factor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
+#include "common/checked_count.hpp"
 #include "reduce/elimination_order.hpp"
 #include "reduce/log_event.hpp"
 
@@ -19,9 +21,12 @@ constexpr int job_solve = 3;
 
 // ICNTL, numbered as in MUMPS' manual.
 constexpr int error_stream = 1;
+constexpr int diagnostic_stream = 2;
+constexpr int global_stream = 3;
 constexpr int print_level = 4;
 constexpr int ordering = 7;
 constexpr int root_on_one_rank = 13;
+constexpr int percent_of_room = 14;
 constexpr int analysis_by_blocks = 15;
 constexpr int entry_format = 18;
 constexpr int right_hand_side_format = 20;
@@ -30,15 +35,16 @@ constexpr int columns_in_a_block = 27;
 
 }  // namespace
 
-MumpsFactor::MumpsFactor(MPI_Comm comm)
+MumpsFactor::MumpsFactor(MPI_Comm comm, Definiteness definiteness)
 {
   MPI_Comm_dup(comm, &comm_);
   mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm_));
   mumps_.par = 1;
-  mumps_.sym = 1;  // positive definite
+  mumps_.sym = definiteness == Definiteness::positive ? 1 : 2;
   mumps_.job = job_begin;
   dmumps_c(&mumps_);
-  set_control(error_stream, 0);  // what went wrong is in INFOG
+  for (const int stream : {error_stream, diagnostic_stream, global_stream})
+    set_control(stream, 0);  // what went wrong is in INFOG
   set_control(print_level, 0);
   set_control(ordering, 1);  // ours
   set_control(analysis_by_blocks, 0);
@@ -98,6 +104,7 @@ void MumpsFactor::load_entries(Mat A)
     }
     petsc::check(MatRestoreRow(A, row, &n, &columns, &values));
   }
+  loaded_ = state_of(A);
   mumps_.nnz_loc = std::ssize(values_);
   mumps_.irn_loc = row_indices_.data();
   mumps_.jcn_loc = column_indices_.data();
@@ -127,10 +134,11 @@ void MumpsFactor::analyze(Mat A)
   mumps_.perm_in = nullptr;
 }
 
-double MumpsFactor::forecast_MiB() const
+CholeskyFactor::Memory MumpsFactor::forecast() const
 {
-  constexpr int forecast = 15;  // INFO
-  return fullest_machine(mumps_.info[forecast - 1], comm_);
+  constexpr int all_of_this_rank = 15;  // INFO, in 10^6 bytes
+  const double MiB = 1e6 * mumps_.info[all_of_this_rank - 1] / bytes_in_MiB;
+  return {.factorization_MiB = MiB, .factor_MiB = MiB, .entries_MiB = MiB};
 }
 
 /// What went wrong, in PETSc's words.
@@ -145,17 +153,29 @@ MatFactorError MumpsFactor::error() const
   return MAT_FACTOR_OTHER;
 }
 
+bool MumpsFactor::lacks_room() const
+{
+  return info(1) == -8 || info(1) == -9;
+}
+
 PetscInt MumpsFactor::n_negative_pivots() const
 {
   constexpr int negative_pivots = 12;  // INFOG
   return info(negative_pivots);
 }
 
+bool MumpsFactor::is_reliable() const
+{
+  const bool pivots = mumps_.sym == 2;
+  return pivots || (error() != MAT_FACTOR_NUMERIC_ZEROPIVOT && info(12) == 0);
+}
+
 /// On one rank MUMPS works in place, block by block; two of them between reports of progress.
 PetscInt MumpsFactor::columns_at_a_time() const
 {
   const int n_blocks = petsc::size(comm_) == 1 ? 2 : 1;
-  return n_blocks * std::max(control(columns_in_a_block), 1);
+  const PetscInt fastest = n_blocks * std::max(control(columns_in_a_block), 1);
+  return std::min(fastest, most_columns(static_cast<PetscInt>(own_rows_.size())));
 }
 
 FactorSize MumpsFactor::size() const
@@ -175,8 +195,14 @@ std::string MumpsFactor::description() const
 void MumpsFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);
-  if (values_.empty()) load_entries(A);
+  if (values_.empty() || loaded_ != state_of(A)) load_entries(A);
   call(job_factorize);
+  // Pivots that are put off need room that the analysis cannot foresee.
+  constexpr int most_percent = 1000;
+  while (lacks_room() && control(percent_of_room) < most_percent) {
+    set_control(percent_of_room, 2 * std::max(control(percent_of_room), 20));
+    call(job_factorize);
+  }
   // Neither refinement nor error analysis is asked for: the entries are not needed again.
   row_indices_ = {};
   column_indices_ = {};
@@ -187,7 +213,27 @@ void MumpsFactor::factorize(Mat A)
   solution_rows_ = {};
 }
 
+/// As many columns at a time as MUMPS counts numbers of.
 void MumpsFactor::solve(LocalColumns X)
+{
+  const PetscInt most = most_columns(X.leading_dimension);
+  for (PetscInt first = 0; first < X.n_columns; first += most) {
+    solve_at_once({.values = X.values + std::size_t(first) * X.leading_dimension,
+                   .leading_dimension = X.leading_dimension,
+                   .n_columns = std::min(most, X.n_columns - first)});
+  }
+}
+
+/// The same on all ranks.
+PetscInt MumpsFactor::most_columns(PetscInt leading_dimension) const
+{
+  std::array<PetscInt, 2> most_rows{leading_dimension, mumps_.info[22]};
+  MPI_Allreduce(MPI_IN_PLACE, most_rows.data(), 2, MPIU_INT, MPI_MAX, comm_);
+  const std::int64_t rows = std::max<PetscInt>(std::max(most_rows[0], most_rows[1]), 1);
+  return static_cast<PetscInt>(std::max<std::int64_t>(largest_count / rows, 1));
+}
+
+void MumpsFactor::solve_at_once(LocalColumns X)
 {
   mumps_.nrhs = X.n_columns;
   if (petsc::size(comm_) > 1) return solve_distributed(X);

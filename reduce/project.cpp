@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "reduce/guyan.hpp"
 #include "reduce/progress.hpp"
 #include "reduce/sparse_product.hpp"
-#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
@@ -50,33 +48,6 @@ PetscInt n_columns(Mat A)
   return n;
 }
 
-/// K_G without what round-off leaves of K_mm where K_G resists nothing: eigenvalues, scaled by the
-/// diagonal of K_mm, below 1e-12 and of either sign. The softest plates keep 1e-10 of it; a body
-/// with a single attachment node has nothing but round-off in K_G.
-SmallMatrix without_round_off(SmallMatrix K_G, const SmallMatrix& K_mm)
-{
-  constexpr double round_off = 1e-12;
-  const auto scale = [&](PetscInt i) { return std::sqrt(std::max(K_mm(i, i), 0.0)); };
-  SmallMatrix scaled = K_G;
-  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
-    for (PetscInt i = 0; i < K_G.n_rows; ++i) {
-      const double product = scale(i) * scale(j);
-      scaled(i, j) = product > 0.0 ? K_G(i, j) / product : 0.0;
-    }
-  }
-  const SymmetricEigen eigen = symmetric_eigen(std::move(scaled));
-  for (PetscInt k = 0; k < K_G.n_cols; ++k) {
-    if (std::abs(eigen.values[k]) > round_off) continue;
-    for (PetscInt j = 0; j < K_G.n_cols; ++j) {
-      for (PetscInt i = 0; i < K_G.n_rows; ++i) {
-        K_G(i, j) -=
-            scale(i) * eigen.vectors(i, k) * eigen.values[k] * eigen.vectors(j, k) * scale(j);
-      }
-    }
-  }
-  return K_G;
-}
-
 /// Psi^T M_ss Psi
 SmallMatrix slave_mass(Mat Psi, Mat M_ss)
 {
@@ -95,19 +66,6 @@ SmallMatrix slave_mass(Mat Psi, Mat M_ss)
 }
 
 }  // namespace
-
-SmallMatrix guyan_stiffness(Mat Psi, const Blocks& K)
-{
-  SmallMatrix K_G = replicate(K.mm);
-  const SmallMatrix Psi_K_sm = inner_product_sparse(Psi, K.sm);
-  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
-    for (PetscInt i = 0; i <= j; ++i) {
-      const double mean = 0.5 * (K_G(i, j) + K_G(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
-      K_G(i, j) = K_G(j, i) = mean;
-    }
-  }
-  return without_round_off(std::move(K_G), replicate(K.mm));
-}
 
 SmallMatrix guyan_mass(Mat Psi, const Blocks& M)
 {
@@ -138,16 +96,17 @@ SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
   return P;
 }
 
-ReducedModel join(const SmallMatrix& K_G, const SmallMatrix& M_G, const SmallMatrix& P,
+ReducedModel join(const GuyanStiffness& K_G, const SmallMatrix& M_G, const SmallMatrix& P,
                   std::vector<double> omega)
 {
-  const PetscInt n_m = K_G.n_rows;
+  const PetscInt n_m = K_G.K.n_rows;
   const auto n_q = static_cast<PetscInt>(omega.size());
   ReducedModel reduced{.K = {n_m + n_q, n_m + n_q},
                        .M = {n_m + n_q, n_m + n_q},
                        .n_masters = n_m,
-                       .omega = std::move(omega)};
-  set_leading_block(reduced.K, K_G);
+                       .omega = std::move(omega),
+                       .R = K_G.R};
+  set_leading_block(reduced.K, K_G.K);
   set_leading_block(reduced.M, M_G);
   for (PetscInt k = 0; k < n_q; ++k) {
     reduced.K(n_m + k, n_m + k) = reduced.omega[k] * reduced.omega[k];
@@ -159,7 +118,7 @@ ReducedModel join(const SmallMatrix& K_G, const SmallMatrix& M_G, const SmallMat
 
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M)
 {
-  const SmallMatrix K_G = guyan_stiffness(Q_CB.Psi, K);
+  const GuyanStiffness K_G = guyan_stiffness(Q_CB.Psi, K);
   const SmallMatrix M_G = guyan_mass(Q_CB.Psi, M);
   if (!Q_CB.modes) return join(K_G, M_G, {0, 0}, {});
   return join(K_G, M_G, inertial_coupling(Q_CB.modes->Phi, Q_CB.Psi, M), Q_CB.modes->omega);

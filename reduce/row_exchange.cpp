@@ -19,7 +19,7 @@ RowExchange plan_exchange(const std::vector<int>& rows, const std::vector<PetscI
   };
   for (const int row : rows) ++plan.send_counts[owner(row)];
   const std::vector<int> send_at = offsets(plan.send_counts);
-  std::vector<int> next = send_at;
+  std::vector<int> next(send_at.begin(), send_at.end() - 1);
   std::vector<int> sent_rows(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int at = next[owner(rows[i])]++;
@@ -28,7 +28,7 @@ RowExchange plan_exchange(const std::vector<int>& rows, const std::vector<PetscI
   }
   MPI_Alltoall(plan.send_counts.data(), 1, MPI_INT, plan.receive_counts.data(), 1, MPI_INT, comm);
   const std::vector<int> receive_at = offsets(plan.receive_counts);
-  plan.receive_rows.resize(receive_at.back() + plan.receive_counts.back());
+  plan.receive_rows.resize(receive_at.back());
   MPI_Alltoallv(sent_rows.data(), plan.send_counts.data(), send_at.data(), MPI_INT,
                 plan.receive_rows.data(), plan.receive_counts.data(), receive_at.data(), MPI_INT,
                 comm);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "reduce/as_aij.hpp"
 #include "reduce/dense.hpp"
 #include "reduce/gather.hpp"
 #include "reduce/log_event.hpp"
@@ -106,16 +107,15 @@ void SparseProduct::give_back(Rows& rows)
   MatRestoreRowIJ(rows.matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows.starts, &rows.columns, &done);
 }
 
-SparseProduct::SparseProduct(Mat A) : comm_(petsc::communicator(A))
+SparseProduct::SparseProduct(Mat A) : A_(as_aij(A)), comm_(petsc::communicator(A))
 {
   petsc::check(MatGetLocalSize(A, &n_rows_, nullptr));
   PetscBool is_distributed = PETSC_FALSE;
-  petsc::check(
-      PetscObjectTypeCompare(reinterpret_cast<PetscObject>(A), MATMPIAIJ, &is_distributed));
+  petsc::check(PetscObjectTypeCompare((PetscObject)(Mat)A_, MATMPIAIJ, &is_distributed));
   if (is_distributed) {
     Mat own = nullptr, other = nullptr;
     const PetscInt* ghosts = nullptr;
-    petsc::check(MatMPIAIJGetSeqAIJ(A, &own, &other, &ghosts));
+    petsc::check(MatMPIAIJGetSeqAIJ(A_, &own, &other, &ghosts));
     petsc::check(MatGetSize(other, nullptr, &n_ghosts_));
     own_ = borrow(own);
     other_ = borrow(other);
@@ -123,9 +123,9 @@ SparseProduct::SparseProduct(Mat A) : comm_(petsc::communicator(A))
     petsc::check(MatGetOwnershipRanges(A, &ranges));
     plan_exchange({ghosts, ranges});
   } else {
-    own_ = borrow(A);
+    own_ = borrow(A_);
   }
-  panel_ = aligned_numbers(std::size_t(n_rows_ + n_ghosts_) * wide);
+  panel_ = aligned_numbers((std::size_t(n_rows_) + n_ghosts_) * wide);
   product_ = aligned_numbers(std::size_t(n_rows_) * wide);
 }
 
@@ -150,7 +150,7 @@ void SparseProduct::plan_exchange(const Ghosts& ghosts)
   }
   MPI_Alltoall(receive_counts_.data(), 1, MPI_INT, send_counts_.data(), 1, MPI_INT, comm_);
   const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
-  send_rows_.resize(send_at.back() + send_counts_.back());
+  send_rows_.resize(send_at.back());
   MPI_Alltoallv(ghosts.columns, receive_counts_.data(), receive_at.data(), MPIU_INT,
                 send_rows_.data(), send_counts_.data(), send_at.data(), MPIU_INT, comm_);
   for (int& row : send_rows_) row -= ghosts.first_rows[rank];
@@ -165,15 +165,11 @@ void SparseProduct::exchange(PetscInt width) const
     std::copy_n(panel_.get() + std::size_t(send_rows_[i]) * width, width,
                 outbox_.data() + i * width);
   }
-  const auto scaled = [&](std::vector<int> counts) {
-    for (int& n : counts) n *= width;
-    return counts;
-  };
-  const std::vector<int> send = scaled(send_counts_), receive = scaled(receive_counts_);
-  const std::vector<int> send_at = offsets(send), receive_at = offsets(receive);
-  MPI_Alltoallv(outbox_.data(), send.data(), send_at.data(), MPI_DOUBLE,
-                panel_.get() + std::size_t(n_rows_) * width, receive.data(), receive_at.data(),
-                MPI_DOUBLE, comm_);
+  const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
+  const RowType row(width);
+  MPI_Alltoallv(outbox_.data(), send_counts_.data(), send_at.data(), row,
+                panel_.get() + std::size_t(n_rows_) * width, receive_counts_.data(),
+                receive_at.data(), row, comm_);
 }
 
 void SparseProduct::apply(Mat X, Mat Y) const

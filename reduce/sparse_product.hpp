@@ -12,7 +12,8 @@ namespace chladni::reduce {
 /// MatMatMult of AIJ and dense matrices; it does not allocate the product anew either.
 class SparseProduct {
  public:
-  /// @param A  [n x n] AIJ, kept by reference; must not change while this lives.
+  /// @param A  [n x n], kept by reference where it is of type AIJ, otherwise converted; must not
+  ///           change while this lives.
   /// @note   Collective on the communicator of A.
   explicit SparseProduct(Mat A);
   ~SparseProduct();
@@ -41,6 +42,7 @@ class SparseProduct {
   void plan_exchange(const Ghosts& ghosts);
   void exchange(PetscInt width) const;
 
+  petsc::Matrix A_;  ///< AIJ
   MPI_Comm comm_;
   PetscInt n_rows_ = 0;
   PetscInt n_ghosts_ = 0;

@@ -51,34 +51,75 @@ double least_diagonal_ratio(Mat K, Mat M)
   return least;
 }
 
-/// Eigenvalues of this size against mu keep their digits and converge fast.
-bool suits(double mu, double first_elastic)
+/// A positive definite K + mu M.
+struct Shifted {
+  petsc::Matrix A;
+  Factorization factor;
+  double mu;
+};
+
+/// With mu as it is, or as much larger as K + mu M needs to be definite in spite of round-off: a
+/// thin plate resists bending by less than that share of what resists its stretching.
+Shifted shifted(Mat K, Mat M, double mu, const SolverOptions& options)
 {
-  return first_elastic > 1e-3 * mu && first_elastic < 1e5 * mu;
+  constexpr double step = 1e3;
+  constexpr int attempts = 4;
+  for (int attempt = 1;; ++attempt, mu *= step) {
+    petsc::Matrix A = with_mass(K, M, mu);
+    try {
+      Factorization factor = factorize(A, options);
+      return {.A = std::move(A), .factor = std::move(factor), .mu = mu};
+    } catch (const FreeMotion&) {
+      if (attempt == attempts) throw;
+    }
+  }
+}
+
+/// The first elastic eigenvalue, to a few per cent where it is not far below mu; from above.
+double first_elastic(const Shifted& shift, Mat M, int n_rigid)
+{
+  constexpr double rough = 1e-2;
+  const EigenPairs pairs =
+      block_lanczos(shift.factor.factor(), M, {.n_pairs = n_rigid + 1, .tolerance = rough});
+  if (std::ssize(pairs.lambda) <= n_rigid) return shift.mu;  // nothing but rigid motions
+  return std::max(pairs.lambda[n_rigid] - shift.mu, 0.0);
+}
+
+/// Eigenvalues of this size against mu keep their digits and converge fast.
+bool suits(double mu, double elastic)
+{
+  return elastic > 1e-3 * mu && elastic < 1e5 * mu;
+}
+
+/// K + mu M with mu near the first elastic eigenvalue. The waves between neighbouring nodes lie
+/// twelve decades above it in a long beam, hardly one in a compact body: each guess is measured by
+/// a few steps that see the order of the first elastic eigenvalue, and the next one is that.
+Shifted near_first_elastic(Mat K, Mat M, const NaturalModesOptions& options)
+{
+  constexpr int most_guesses = 4;
+  double mu = 1e-10 * least_diagonal_ratio(K, M);
+  for (int guess = 1;; ++guess) {
+    Shifted shift = shifted(K, M, mu, options.solver);
+    if (guess == most_guesses) return shift;
+    const double elastic = first_elastic(shift, M, options.n_rigid);
+    if (suits(shift.mu, elastic)) return shift;
+    mu = std::max(elastic, 1e-3 * shift.mu);
+  }
 }
 
 /// The pairs of a body with rigid-body motions.
 EigenPairs free_pairs(Mat K, Mat M, const NaturalModesOptions& options)
 {
-  // The waves between neighbouring nodes lie about ten decades above the first elastic mode.
-  double mu = 1e-10 * least_diagonal_ratio(K, M);
-  const int n_asked = std::max(options.n_modes, options.n_rigid + 1);
-  for (int attempt = 0;; ++attempt) {
-    const petsc::Matrix A = with_mass(K, M, mu);
-    const Factorization factor = factorize(A);
-    EigenPairs pairs = block_lanczos(factor.factor(), M, {.n_pairs = n_asked});
-    for (double& lambda : pairs.lambda) lambda -= mu;
-    const bool has_elastic = std::ssize(pairs.lambda) > options.n_rigid;
-    const double elastic = has_elastic ? pairs.lambda[options.n_rigid] : mu;
-    if (suits(mu, elastic) || attempt == 2) return pairs;
-    mu = std::max(elastic, 1e-6 * mu);
-  }
+  const Shifted shift = near_first_elastic(K, M, options);
+  EigenPairs pairs = block_lanczos(shift.factor.factor(), M, {.n_pairs = options.n_modes});
+  for (double& lambda : pairs.lambda) lambda -= shift.mu;
+  return pairs;
 }
 
 EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options)
 {
   if (options.n_rigid > 0) return free_pairs(K, M, options);
-  const Factorization factor = factorize(K);
+  const Factorization factor = factorize(K, options.solver);
   return block_lanczos(factor.factor(), M, {.n_pairs = options.n_modes});
 }
 
@@ -129,10 +170,10 @@ FreeDofs free_dofs(Mat K, const std::vector<int>& held)
   return free;
 }
 
-StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free)
+StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free, const SolverOptions& options)
 {
   const petsc::Matrix K_ff = free_block(K, free);
-  const Factorization factor = factorize(K_ff);
+  const Factorization factor = factorize(K_ff, options);
   StaticSolution solution;
   petsc::check(VecDuplicate(f, solution.u.put()));
   petsc::check(VecSet(solution.u, 0.0));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -26,7 +27,8 @@ struct StaticSolution {
 /// One factorisation by Cholesky, one solution.
 /// @note   Collective on the communicator of `K`.
 /// @throws chladni::Error when K of the free DOFs is not positive definite.
-StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free);
+StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
+                               const SolverOptions& options = {});
 
 /// K x = lambda M x on the free DOFs, X^T M X = I, lambda ascending.
 struct NaturalModes {
@@ -37,11 +39,12 @@ struct NaturalModes {
 struct NaturalModesOptions {
   int n_modes;      ///< as many as are wanted, rigid-body motions included
   int n_rigid = 0;  ///< rigid-body motions among them
+  SolverOptions solver = {};
 };
 
 /// The lowest natural modes by block Lanczos. A free body is factorised as K + mu M: mu > 0 is near
-/// its lowest elastic eigenvalue, found by a second factorisation where the first guess of mu was
-/// far off it.
+/// its lowest elastic eigenvalue, which a few steps with a first guess of mu tell; another
+/// factorisation follows where that guess was far off.
 /// @note   Collective on the communicator of `K`.
 /// @throws chladni::Error when more modes are asked than there are or they do not converge.
 NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalModesOptions& options);

@@ -1,8 +1,10 @@
 #include "reduce/sylvester.hpp"
 
 #include <algorithm>
+#include <string_view>
 
-#include "reduce/quiet_mumps.hpp"
+#include "reduce/completeness.hpp"
+#include "reduce/inner_solver.hpp"
 
 namespace chladni::reduce {
 
@@ -31,6 +33,35 @@ petsc::Matrix submatrix(Mat A, IS rows)
   return block;
 }
 
+constexpr PetscInt root_on_one_rank = 13;  // ICNTL
+
+/// Keeps the last front on one rank: of one that ScaLAPACK shares among ranks MUMPS does not count
+/// the negative pivots.
+void count_every_pivot(Mat factor, const OptionSource& source)
+{
+  MatSolverType package = nullptr;
+  petsc::check(MatFactorGetSolverType(factor, &package));
+  if (std::string_view(package) != MATSOLVERMUMPS) {
+    throw Error(fmt::format(
+        "-{}pc_factor_mat_solver_type {}: eigenvalues are counted by the pivots of mumps; "
+        "leave the option out",
+        source.prefix, package));
+  }
+  petsc::check(MatMumpsSetIcntl(factor, root_on_one_rank, 1));
+}
+
+/// @throws chladni::Error when options had the last word.
+void check_every_pivot(Mat factor, const OptionSource& source)
+{
+  PetscInt control = 0;
+  petsc::check(MatMumpsGetIcntl(factor, root_on_one_rank, &control));
+  if (control == 1) return;
+  throw Error(
+      fmt::format("-{}mat_mumps_icntl_13 {}: negative pivots are counted only where the last front "
+                  "is on one rank; leave the option out",
+                  source.prefix, control));
+}
+
 }  // namespace
 
 petsc::Matrix shifted(Mat K, Mat M, double sigma)
@@ -43,29 +74,28 @@ petsc::Matrix shifted(Mat K, Mat M, double sigma)
   return A;
 }
 
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma)
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source)
 {
   const petsc::Matrix A = shifted(K, M, sigma);
-  petsc::LinearSolver solver;
+  const OptionSource own = source.part("sylvester_");
+  const petsc::LinearSolver solver = new_solver(petsc::communicator(K), own);
   PC pc = nullptr;
-  Mat factor = nullptr;
-  petsc::check(KSPCreate(petsc::communicator(K), solver.put()));
-  petsc::check(KSPSetOptionsPrefix(solver, "cms_sylvester_"));
   petsc::check(KSPSetOperators(solver, A, A));
   petsc::check(KSPSetType(solver, KSPPREONLY));
   petsc::check(KSPGetPC(solver, &pc));
   petsc::check(PCSetType(pc, PCCHOLESKY));
   petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check(KSPSetFromOptions(solver));
-  quiet_mumps(pc);
+  Mat factor = set_up_factor(pc, own);
+  count_every_pivot(factor, own);
   petsc::check(KSPSetUp(solver));
-  petsc::check(PCFactorGetMatrix(pc, &factor));
+  check_every_pivot(factor, own);
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
   if (error != MAT_FACTOR_NOERROR) {
     PetscInt code = 0;
     petsc::check(MatMumpsGetInfog(factor, 1, &code));
-    throw Error(
+    throw SingularShift(
         fmt::format("eigenvalues_below: K - sigma M has no factor at sigma = {:.15g} (MUMPS: "
                     "INFOG(1) = {}); sigma is an eigenvalue, or the memory does not suffice",
                     sigma, code));
@@ -75,11 +105,12 @@ PetscInt eigenvalues_below(Mat K, Mat M, double sigma)
   return negative;
 }
 
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held)
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
+                           const OptionSource& source)
 {
-  if (held.empty()) return eigenvalues_below(K, M, sigma);
+  if (held.empty()) return eigenvalues_below(K, M, sigma, source);
   const petsc::IndexSet rows = free_rows(K, held);
-  return eigenvalues_below(submatrix(K, rows), submatrix(M, rows), sigma);
+  return eigenvalues_below(submatrix(K, rows), submatrix(M, rows), sigma, source);
 }
 
 }  // namespace chladni::reduce

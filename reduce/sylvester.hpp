@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -13,11 +14,13 @@ petsc::Matrix shifted(Mat K, Mat M, double sigma);
 /// of negative pivots of L D L^T = K - sigma M, by MUMPS. M positive semidefinite.
 /// @param sigma  rad^2/s^2; no eigenvalue itself: put it into a gap.
 /// @note   Collective; one factorisation, which is not kept.
-/// @throws chladni::Error when the factorisation fails: sigma is an eigenvalue to round-off.
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma);
+/// @throws SingularShift when the factorisation fails: sigma is an eigenvalue to round-off.
+/// Options: `-<prefix>sylvester_mat_mumps_...`
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source = {});
 
 /// The same without the rows and columns of `held` DOFs.
 /// @param held  global indices, the same list on every rank.
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held);
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
+                           const OptionSource& source = {});
 
 }  // namespace chladni::reduce

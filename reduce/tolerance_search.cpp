@@ -23,11 +23,10 @@ bool begins_with(const std::vector<double>& now, const std::vector<double>& befo
 
 }  // namespace
 
-ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, double tolerance,
-                                 PairsOf pairs_in_range, std::optional<double> up_to_Hz)
+ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, const ToleranceGoal& goal,
+                                 PairsOf pairs_in_range)
     : system_(system),
-      tolerance_(tolerance),
-      up_to_Hz_(up_to_Hz),
+      goal_(goal),
       pairs_in_range_(std::move(pairs_in_range)),
       search_(system.K_ss, system.M.ss),
       n_asked_(n_at_first)
@@ -38,7 +37,7 @@ PetscInt ToleranceSearch::n_complete() const
 {
   const std::vector<double>& omega = search_.omega();
   const auto n_all = static_cast<PetscInt>(omega.size());
-  if (n_all == search_.n_slaves()) return n_all;
+  if (search_.has_all()) return n_all;
   for (PetscInt n = n_all - 1; n > 0; --n) {
     if (omega[n] - omega[n - 1] > pair_gap * omega[n]) return n;
   }
@@ -55,7 +54,7 @@ void ToleranceSearch::find_modes()
     throw Error(
         fmt::format("with all {} fixed-interface modes that there are the estimated error is "
                     "{:.1e}, above the tolerance {:.1e}; raise the tolerance",
-                    n, error(n), tolerance_));
+                    n, error(n), goal_.tolerance));
   }
   if (model_ && !begins_with(omega, model_->omega())) model_.reset();
   if (!model_) model_.emplace(system_);
@@ -67,21 +66,48 @@ double ToleranceSearch::error(PetscInt n) const
 {
   const ReducedPairs pairs = pairs_in_range_(model_->model(n));
   std::vector<double> errors = model_->error_estimates(pairs, n);
-  if (up_to_Hz_) {
-    const double last = n > 0 ? model_->omega()[n - 1] : 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      errors[i] = frequency_error(errors[i], pairs.lambda[i], last * last);
-      const double Hz = std::sqrt(pairs.lambda[i]) / (2.0 * std::numbers::pi);
-      if (Hz * (1.0 - errors[i]) > *up_to_Hz_) errors[i] = 0.0;
-    }
+  const double last = n > 0 ? model_->omega()[n - 1] : 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double of_frequency = frequency_error(errors[i], pairs.lambda[i], last * last);
+    const double Hz = std::sqrt(pairs.lambda[i]) / (2.0 * std::numbers::pi);
+    if (goal_.of == ToleranceGoal::Of::frequencies) errors[i] = of_frequency;
+    if (Hz * (1.0 - of_frequency) > goal_.up_to_Hz) errors[i] = 0.0;
   }
-  return errors.empty() ? 0.0 : std::ranges::max(errors);
+  const double largest = errors.empty() ? 0.0 : std::ranges::max(errors);
+  return value_of_first_rank(largest, petsc::communicator(system_.Psi));
+}
+
+/// Of the modes at hand, those of the range.
+PetscInt ToleranceSearch::n_in_range() const
+{
+  const std::vector<double>& omega = model_->omega();
+  const double last = 2.0 * std::numbers::pi * goal_.up_to_Hz;
+  return static_cast<PetscInt>(std::ranges::upper_bound(omega, last) - omega.begin());
+}
+
+/// Whether a mode beyond the range is at hand, or all that there are.
+bool ToleranceSearch::covers_range() const
+{
+  return n_in_range() < model_->n_modes() || search_.has_all();
+}
+
+/// How many modes the range has, if their number grows with the frequency as in a plate.
+PetscInt ToleranceSearch::more_of_range() const
+{
+  const PetscInt n = model_->n_modes();
+  const double predicted =
+      1.1 * n * 2.0 * std::numbers::pi * goal_.up_to_Hz / model_->omega().back();
+  return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, 3.0 * n)) + 1;
 }
 
 bool ToleranceSearch::is_enough()
 {
+  if (!covers_range()) {
+    n_asked_ = more_of_range();
+    return false;
+  }
   const double last_error = error(model_->n_modes());
-  if (last_error > tolerance_) {
+  if (last_error > goal_.tolerance) {
     too_few_.push_back({.n = model_->n_modes(), .error = last_error});
     n_asked_ = prediction();
     return false;
@@ -90,14 +116,14 @@ bool ToleranceSearch::is_enough()
   return true;
 }
 
-/// By bisection to 1 % or one mode.
+/// By bisection to 1 % or one mode, not below the modes of the range.
 PetscInt ToleranceSearch::least() const
 {
-  PetscInt too_few = too_few_.empty() ? 0 : too_few_.back().n;
+  PetscInt too_few = std::max(too_few_.empty() ? 0 : too_few_.back().n, n_in_range() - 1);
   PetscInt enough = model_->n_modes();
   while (enough - too_few > std::max<PetscInt>(1, enough / 100)) {
     const PetscInt n = (enough + too_few) / 2;
-    (error(n) <= tolerance_ ? enough : too_few) = n;
+    (error(n) <= goal_.tolerance ? enough : too_few) = n;
   }
   return std::max<PetscInt>(enough, 1);
 }
@@ -114,7 +140,7 @@ PetscInt ToleranceSearch::prediction() const
   const Tried half = before != too_few_.rend() ? *before : Tried{.n = n / 2, .error = error(n / 2)};
   const double fallen = std::log(half.error / last.error) / std::log(double(n) / half.n);
   const double power = std::max(0.5, fallen);
-  const double predicted = 1.1 * n * std::pow(last.error / tolerance_, 1.0 / power);
+  const double predicted = 1.1 * n * std::pow(last.error / goal_.tolerance, 1.0 / power);
   const double most = predicted > 3.0 * n ? 2.0 : 1.5;
   return static_cast<PetscInt>(std::clamp(predicted, 1.15 * n, most * n)) + 1;
 }

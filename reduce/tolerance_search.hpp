@@ -8,20 +8,30 @@
 
 namespace chladni::reduce {
 
+/// What is asked of the modes.
+struct ToleranceGoal {
+  enum class Of { eigenvalues, frequencies };
+
+  double tolerance;
+  double up_to_Hz;  ///< end of the range
+  /// Of eigenvalues: eta^2; of frequencies: `frequency_error`. Both of all frequencies of the FE
+  /// model in the range: the pairs go some way beyond it, since a reduced frequency is too high.
+  Of of = Of::frequencies;
+};
+
 /// About as few fixed-interface modes as keep the error estimates of a range of the spectrum below
-/// a tolerance. Takes turns: `find_modes`, `is_enough`, until the answer is yes. Neither the modes
-/// nor what their errors need are computed twice.
+/// a tolerance. All fixed-interface modes of the range are taken, whatever the estimates say: a
+/// mode that the reduced model does not have has no estimate, and where the masters are held every
+/// mode that it has is exact. Takes turns: `find_modes`, `is_enough`, until the answer is yes.
+/// Neither the modes nor what their errors need are computed twice.
 class ToleranceSearch {
  public:
   /// The pairs of a reduced model whose errors count, the same on every rank.
   using PairsOf = std::function<ReducedPairs(const ReducedModel&)>;
 
   /// What `system` refers to must outlive this.
-  /// @param up_to_Hz  given: the tolerance is for `frequency_error` of all frequencies of the FE
-  ///                  model up to here, and the pairs go some way beyond, since a reduced frequency
-  ///                  is too high; absent: for eta^2 of each pair
-  ToleranceSearch(const GrowingModel::System& system, double tolerance, PairsOf pairs_in_range,
-                  std::optional<double> up_to_Hz = {});
+  ToleranceSearch(const GrowingModel::System& system, const ToleranceGoal& goal,
+                  PairsOf pairs_in_range);
 
   /// Finds as many modes as `is_enough` has predicted.
   /// @note   Collective.
@@ -41,13 +51,15 @@ class ToleranceSearch {
   };
 
   double error(PetscInt n) const;
+  PetscInt n_in_range() const;
+  bool covers_range() const;
+  PetscInt more_of_range() const;
   PetscInt least() const;
   PetscInt prediction() const;
   PetscInt n_complete() const;
 
   GrowingModel::System system_;
-  double tolerance_;
-  std::optional<double> up_to_Hz_;
+  ToleranceGoal goal_;
   PairsOf pairs_in_range_;
   ModeSearch search_;
   std::optional<GrowingModel> model_;

@@ -26,6 +26,7 @@ void write_radiation(Writer& file, const squeal::Radiation& radiation)
 void write_brake(Writer& file, const std::string& group, const Brake& brake)
 {
   file.write(group + "/growth", brake.growth, "1/s");
+  file.write(group + "/stability", brake.stability);
   if (brake.critical) {
     file.write(group + "/critical_speed", brake.critical->speed, "rad/s");
     file.write(group + "/critical_frequency", brake.critical->frequency_Hz, "Hz");

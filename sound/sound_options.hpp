@@ -24,7 +24,8 @@ struct WavCase {
 
 /// Which limit cycle of a squeal study sounds.
 enum class CycleChoice {
-  automatic,  ///< the one of the transient when there is one, else the direct one
+  automatic,  ///< that of a transient which has settled, else the direct one, else the end
+              ///< of the transient
   transient,
   direct
 };

@@ -11,6 +11,7 @@
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -59,7 +60,9 @@ Stage make_stage(const Setting& setting)
 Brake brake_at(const squeal::Disc& disc, const squeal::SquealOptions& options, double speed)
 {
   const squeal::InertialDisc inertial = squeal::inertial_disc(disc);
-  Brake brake{.critical = squeal::critical_speed(inertial, options),
+  const squeal::StabilityProfile profile = squeal::stability_over_speed(inertial, options);
+  Brake brake{.critical = squeal::critical_speed(profile),
+              .stability = squeal::name_of(squeal::stability_of(profile)),
               .growth = squeal::least_stable_eigenvalue(inertial, options, speed).real(),
               .cycle = {}};
   if (brake.growth > 0.0) brake.cycle = squeal::limit_cycle_direct(disc, options, speed);
@@ -122,7 +125,10 @@ Vibration chosen_vibration(const squeal::SquealResults& results, CycleChoice cho
     for (const int number : cycle.mode_numbers) v.modes.push_back(number - 1);
     return v;
   };
-  if (results.limit_cycle && choice != CycleChoice::direct)
+  // What a transient has not settled at is no limit cycle where one was found as such.
+  const bool better = choice == CycleChoice::automatic && results.limit_cycle &&
+                      !results.limit_cycle->settled && results.limit_cycle_direct;
+  if (results.limit_cycle && choice != CycleChoice::direct && !better)
     return fundamental(*results.limit_cycle);
   if (results.limit_cycle_direct && choice != CycleChoice::transient)
     return fundamental(*results.limit_cycle_direct);

@@ -14,7 +14,8 @@ namespace chladni::sound {
 /// A disc between its pads, without or with the damping by its sound.
 struct Brake {
   std::optional<squeal::CriticalSpeed> critical;  ///< absent when there is none in the range
-  double growth;  ///< largest growth rate at the speed of the study, 1/s
+  std::string stability;  ///< over the range of speeds, in the words of squeal::name_of(Stability)
+  double growth;          ///< largest growth rate at the speed of the study, 1/s
   std::optional<squeal::DirectLimitCycle> cycle;  ///< absent when the disc is stable there
 };
 

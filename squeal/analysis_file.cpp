@@ -4,6 +4,8 @@
 
 #include <complex>
 
+#include "squeal/stability_file.hpp"
+
 namespace chladni::squeal {
 namespace {
 
@@ -59,6 +61,7 @@ void write_critical_values(Writer& file, const std::vector<CriticalValue>& value
     const CriticalValue& value = values[i];
     file.write(group + "/parameter", value.parameter);
     file.write(group + "/speed", value.speed, "rad/s");
+    if (value.profile) write_profile(file, group, *value.profile, unit_of(value.parameter));
     if (!value.value) continue;
     file.write(group + "/value", *value.value, unit_of(value.parameter));
     file.write(group + "/frequency", value.frequency_Hz, "Hz");
@@ -75,7 +78,8 @@ std::vector<CriticalValue> read_critical_values(const Reader& file)
                         .speed = file.real(group + "/speed"),
                         .value = {},
                         .frequency_Hz = 0.0,
-                        .n_newton_steps = 0};
+                        .n_newton_steps = 0,
+                        .profile = read_profile(file, group)};
     if (file.contains(group + "/value")) {
       value.value = file.real(group + "/value");
       value.frequency_Hz = file.real(group + "/frequency");

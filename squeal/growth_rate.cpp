@@ -1,7 +1,10 @@
 #include "squeal/growth_rate.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 namespace chladni::squeal {
 
@@ -16,6 +19,20 @@ std::optional<double> growth_rate(const Envelope& envelope, double linear_limit)
   if (!(v.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::ArrayXd x = t - t.mean();
   return (x * v.log()).sum() / x.square().sum();
+}
+
+bool disagree(double measured, double of_eigenvalue)
+{
+  return std::abs(measured - of_eigenvalue) > std::max(0.1 * std::abs(of_eigenvalue), 0.01);
+}
+
+std::string warning_of_growth(double measured, double of_eigenvalue)
+{
+  if (!disagree(measured, of_eigenvalue)) return {};
+  return fmt::format(
+      "its growth of {:.4g} 1/s is not that of the least stable motion, {:.4g} 1/s by the "
+      "eigenvalues: other motions still prevail; simulate for longer",
+      measured, of_eigenvalue);
 }
 
 }  // namespace chladni::squeal

@@ -1,31 +1,30 @@
 #include "squeal/hopf.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
+#include <limits>
 
-#include "common/error.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using Complex = std::complex<double>;
-using std::numbers::pi;
 
 constexpr int newton_steps_max = 30;
-constexpr int n_scanned = 64;
-/// Change of omega and value, relative, at which Newton's method has converged.
+constexpr int n_scanned = 128;
+/// Change of omega, and a hundredth of that of the value, relative, at which Newton's method has
+/// converged.
 constexpr double converged = 1e-13;
+/// The same where it no longer falls: rounding, which in a large system is what remains.
+constexpr double converged_at_rounding = 1e-10;
 /// Step of the central difference of A, relative to the value: A is smooth in it, and rounding and
 /// truncation both stay below 1e-9, which slows the last steps of Newton's method only.
 constexpr double difference = 1e-5;
-/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
-constexpr double rounding = 1e-12;
 
 /// g and its derivatives at (value, omega).
 struct Bordered {
@@ -60,6 +59,7 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
                                     const Eigen::VectorXcd& u)
 {
   Eigen::VectorXcd border = u.normalized();
+  double last = std::numeric_limits<double>::infinity();
   for (int k = 1; k <= newton_steps_max; ++k) {
     const Bordered at = bordered(A, value, omega, border);
     Eigen::Matrix2d J;
@@ -70,39 +70,29 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
     value += change[1];
     border = at.u.normalized();
     if (!std::isfinite(omega) || !std::isfinite(value)) return std::nullopt;
-    if (std::abs(change[0]) <= converged * std::abs(omega) &&
-        std::abs(change[1]) <= converged * 1e2 * std::abs(value))
+    const double size = std::max(std::abs(change[0] / omega), 1e-2 * std::abs(change[1] / value));
+    if (size <= converged || (size <= converged_at_rounding && size >= 0.5 * last))
       return HopfPoint{value, omega, border, k};
+    last = size;
   }
   return std::nullopt;
 }
 
 CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search)
 {
-  CriticalValue result{.parameter = name_of(search.parameter),
-                       .speed = search.speed,
-                       .value = {},
-                       .frequency_Hz = 0.0,
-                       .n_newton_steps = 0};
-  std::optional<bool> was_stable;
-  for (const double value : Eigen::VectorXd::LinSpaced(n_scanned, search.from, search.to)) {
-    const EigenPair now = least_stable_pair(A(value));
-    if (std::abs(now.lambda.real()) <= rounding * std::abs(now.lambda)) continue;
-    const bool stable = now.lambda.real() < 0.0;
-    const bool lost = was_stable && *was_stable != stable;
-    was_stable = stable;
-    if (!lost) continue;
-    const auto point = hopf_point(A, value, now.lambda.imag(), now.u);
-    if (!point || !(point->value >= search.from && point->value <= search.to))
-      throw Error(
-          fmt::format("critical values: Newton's method does not converge to the {} at which the "
-                      "disc loses its stability, near {:.6g}; narrow the range",
-                      result.parameter, value));
-    result.value = point->value;
-    result.frequency_Hz = point->omega / (2.0 * pi);
-    result.n_newton_steps = point->n_newton_steps;
-    break;
-  }
+  CriticalValue result{
+      .parameter = name_of(search.parameter),
+      .speed = search.speed,
+      .value = {},
+      .frequency_Hz = 0.0,
+      .n_newton_steps = 0,
+      .profile = stability_over(A, {.from = search.from, .to = search.to, .count = n_scanned})};
+  std::optional<StabilityPoint> limit = first_loss(*result.profile);
+  if (!limit) limit = first_regain(*result.profile);
+  if (!limit) return result;
+  result.value = limit->value;
+  result.frequency_Hz = limit->frequency_Hz;
+  result.n_newton_steps = limit->n_newton_steps;
   return result;
 }
 

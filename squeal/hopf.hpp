@@ -32,12 +32,12 @@ struct HopfPoint {
 std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
                                     const Eigen::VectorXcd& u);
 
-/// The first value of the range at which the sliding disc loses its stability, at the speed of the
-/// search: its eigenvalues are looked at for 64 values, and Newton's method starts from the first
-/// pair of neighbours of which only one is stable. Searching the speed itself is `critical_speed`.
+/// Where the sliding disc loses its stability over a range of the parameter, at the speed of the
+/// search; see stability_search.hpp. 128 values are looked at first. Searching the speed itself is
+/// `critical_speed`.
 /// @param A  the state matrix over the parameter, at the speed of the search
-/// @return without `value` when there is none in the range
-/// @throws chladni::Error when Newton's method does not converge from there.
+/// @return `value` is where it is lost first; where it is regained, if it is never lost; absent if
+///         neither happens in the range.
 CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search);
 CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
                              const CriticalCase& search);

@@ -1,5 +1,7 @@
 #include "squeal/mode_sensitivity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +11,7 @@
 #include "mbs_export/dense_solvers.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -93,12 +96,14 @@ Eigen::VectorXcd eigenvector_near(const Eigen::MatrixXd& A, const Complex& expec
 
 ModeSubset subset_of(const InertialDisc& part, const SquealOptions& options, double speed)
 {
-  const auto critical = critical_speed(part, options);
+  const StabilityProfile profile = stability_over_speed(part, options);
+  const auto critical = critical_speed(profile);
   ModeSubset subset{.n_modes = static_cast<int>(part.n_modes()),
                     .highest_Hz = part.omega.maxCoeff() / (2.0 * pi),
                     .critical_speed = {},
                     .critical_frequency_Hz = {},
-                    .growth = least_stable_eigenvalue(part, options, speed).real()};
+                    .growth = least_stable_eigenvalue(part, options, speed).real(),
+                    .stability = name_of(stability_of(profile))};
   if (critical) {
     subset.critical_speed = critical->speed;
     subset.critical_frequency_Hz = critical->frequency_Hz;
@@ -168,10 +173,13 @@ std::vector<ModeInfluence> influences(const InertialDisc& disc, const SquealOpti
 
 ModeSensitivity mode_sensitivity(const InertialDisc& disc, const SquealOptions& options)
 {
-  const auto critical = critical_speed(disc, options);
+  const StabilityProfile profile = stability_over_speed(disc, options);
+  const auto critical = critical_speed(profile);
   if (!critical)
     throw Error(
-        "mode sensitivity: there is no critical speed within [squeal] speeds; widen the range");
+        fmt::format("mode sensitivity: there is no critical speed within [squeal] speeds, {:.6g} "
+                    "to {:.6g} rad/s (stability: {}); take another range",
+                    profile.from.value, profile.to.value, name_of(stability_of(profile))));
   const Complex lambda(0.0, 2.0 * pi * critical->frequency_Hz);
   const std::vector<Family> families = families_by_frequency(disc);
   const CriticalOscillation oscillation{

@@ -102,7 +102,8 @@ std::vector<Step> steps_of(const Model& model, const ModelOptions& options)
        [&](auto& r, auto&) { r.eigenvalues = eigenvalues(model.state_matrix, options.speeds); }},
       {{"critical-speed"},
        [&](auto& r, auto&) {
-         r.critical_speed = critical_speed(model.state_matrix, options.speeds);
+         r.speed_stability = stability_over_speed(model.state_matrix, options.speeds);
+         r.critical_speed = critical_speed(*r.speed_stability);
          r.searched_critical_speed = true;
        }},
       {{"critical-values"}, [&](auto& r, auto&) { r.critical_values = critical_values(options); }},

@@ -54,6 +54,9 @@ Transient transient(const Model& model, const TransientCase& run, const Progress
   result.integrator = "dormand-prince";
   result.integrator_reason = "of order 8 with fixed steps, for models without a body";
   result.growth_rate = growth_rate(result.envelope, linear_part * model.rest_compression);
+  if (result.growth_rate)
+    result.warning = warning_of_growth(
+        *result.growth_rate, least_stable_eigenvalue(model.state_matrix(run.speed)).real());
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
 #include "squeal/sensitivity_file.hpp"
+#include "squeal/stability_file.hpp"
 #include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -21,9 +22,11 @@ Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd
   return re + std::complex<double>(0.0, 1.0) * im;
 }
 
-void write_critical_speed(Writer& file, const std::optional<CriticalSpeed>& critical)
+void write_critical_speed(Writer& file, const SquealResults& results)
 {
+  const auto& critical = results.critical_speed;
   file.group("critical");
+  if (results.speed_stability) write_profile(file, "critical", *results.speed_stability, "rad/s");
   if (!critical) return;
   file.write("critical/speed", critical->speed, "rad/s");
   file.write("critical/frequency", critical->frequency_Hz, "Hz");
@@ -146,7 +149,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
-  if (results.searched_critical_speed) write_critical_speed(file, results.critical_speed);
+  if (results.searched_critical_speed) write_critical_speed(file, results);
   write_critical_values(file, results.critical_values);
   if (results.map) write_map(file, *results.map);
   if (results.rotation_stability) write_rotation_stability(file, *results.rotation_stability);
@@ -174,6 +177,7 @@ SquealResults read_results(const Reader& file)
   results.largest_split = read_optional(file, "largest_split");
   if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);
   results.searched_critical_speed = file.contains("critical");
+  results.speed_stability = read_profile(file, "critical");
   if (file.contains("critical/speed")) results.critical_speed = read_critical_speed(file);
   results.critical_values = read_critical_values(file);
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);

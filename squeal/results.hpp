@@ -96,6 +96,7 @@ struct SquealResults {
   std::optional<EigenvalueMap> eigenvalues;
   bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
+  std::optional<StabilityProfile> speed_stability;  ///< over the speeds of that search
   std::vector<CriticalValue> critical_values;
   std::optional<StabilityMap> map;
   std::optional<RotationStability> rotation_stability;

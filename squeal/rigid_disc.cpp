@@ -1,20 +1,30 @@
 #include "squeal/rigid_disc.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "mbs_export/dense_solvers.hpp"
 #include "squeal/contact.hpp"
-#include "squeal/root.hpp"
+#include "squeal/stability.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
-constexpr double rounding = 1e-12;
+/// A of x' = A x.
+Eigen::MatrixXd first_order(const RigidMatrices& matrices)
+{
+  // x = (omega q, q') with a frequency of the system keeps all entries of one size.
+  const double omega = std::sqrt(matrices.K.trace() / matrices.M.trace());
+  const Eigen::Matrix2d by_M = matrices.M.inverse();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4);
+  A.topRightCorner<2, 2>() = omega * Eigen::Matrix2d::Identity();
+  A.bottomLeftCorner<2, 2>() = -by_M * matrices.K / omega;
+  A.bottomRightCorner<2, 2>() = -by_M * matrices.C;
+  return A;
+}
 
 /// Axes of the disc that do not spin with it, in inertial components: b_3 is its normal.
 template <class Scalar>
@@ -199,14 +209,7 @@ RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed)
 
 Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices)
 {
-  // x = (omega q, q') with a frequency of the system keeps all entries of one size.
-  const double omega = std::sqrt(matrices.K.trace() / matrices.M.trace());
-  const Eigen::Matrix2d by_M = matrices.M.inverse();
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-  A.topRightCorner<2, 2>() = omega * Eigen::Matrix2d::Identity();
-  A.bottomLeftCorner<2, 2>() = -by_M * matrices.K / omega;
-  A.bottomRightCorner<2, 2>() = -by_M * matrices.C;
-  Eigen::Vector4cd lambda = A.eigenvalues();
+  Eigen::Vector4cd lambda = first_order(matrices).eigenvalues();
   std::sort(lambda.begin(), lambda.end(),
             [](const auto& x, const auto& y) { return x.imag() < y.imag(); });
   return lambda.tail<2>();
@@ -215,19 +218,9 @@ Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices)
 std::optional<double> critical_speed(const std::function<RigidMatrices(double)>& matrices_at,
                                      const SpeedRange& speeds)
 {
-  const auto growth = [&](double speed) {
-    return eigenvalues(matrices_at(speed)).real().maxCoeff();
-  };
-  std::optional<double> last_stable;
-  for (const double speed :
-       Eigen::VectorXd::LinSpaced(std::max(128, speeds.count), speeds.from, speeds.to)) {
-    const Eigen::Vector2cd lambda = eigenvalues(matrices_at(speed));
-    const double now = lambda.real().maxCoeff();
-    const bool decided = std::abs(now) > rounding * lambda.cwiseAbs().maxCoeff();
-    if (decided && now < 0.0) last_stable = speed;
-    if (decided && now > 0.0 && last_stable) return root(growth, *last_stable, speed);
-  }
-  return std::nullopt;
+  const StateMatrixAt A = [&](double speed) { return first_order(matrices_at(speed)); };
+  const auto critical = critical_speed(A, speeds);
+  return critical ? std::optional(critical->speed) : std::nullopt;
 }
 
 }  // namespace chladni::squeal

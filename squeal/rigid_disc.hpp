@@ -69,8 +69,8 @@ RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed);
 /// The two eigenvalues with Im > 0, of rising frequency: growth rate 1/s + i rad/s.
 Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices);
 
-/// The smallest speed (rad/s) of the range at which a growth rate turns from negative to positive,
-/// to 1e-12 relative; absent when there is none.
+/// The lowest speed (rad/s) of the range at which stability is lost, as in stability.hpp; absent
+/// when it is not.
 std::optional<double> critical_speed(const std::function<RigidMatrices(double)>& matrices_at,
                                      const SpeedRange& speeds);
 

@@ -138,4 +138,11 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
   return result;
 }
 
+Stability stability_of(const RotationStability& rotation)
+{
+  if (rotation.critical_speed) return Stability::lost;
+  if ((rotation.growth.array() > 0.0).all()) return Stability::unstable;
+  return (rotation.growth.array() > 0.0).any() ? Stability::regained : Stability::stable;
+}
+
 }  // namespace chladni::squeal

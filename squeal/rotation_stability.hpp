@@ -24,4 +24,7 @@ RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, d
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads = 0);
 
+/// What the speeds that were looked at say of the range.
+Stability stability_of(const RotationStability& rotation);
+
 }  // namespace chladni::squeal

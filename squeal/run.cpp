@@ -65,7 +65,8 @@ std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
        [&](auto& r, auto&) { r.eigenvalues = eigenvalues_with_shapes(disc, options); }},
       {{"critical-speed"},
        [&](auto& r, auto&) {
-         r.critical_speed = critical_speed(inertial_disc(disc), options);
+         r.speed_stability = stability_over_speed(inertial_disc(disc), options);
+         r.critical_speed = critical_speed(*r.speed_stability);
          r.searched_critical_speed = true;
        }},
       {{"critical-values"},

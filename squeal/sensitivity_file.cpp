@@ -41,6 +41,7 @@ void write_sensitivity(Writer& file, const ModeSensitivity& sensitivity)
     file.write(group + "n_modes", std::int64_t{subset.n_modes}, "1");
     file.write(group + "highest_frequency", subset.highest_Hz, "Hz");
     file.write(group + "growth", subset.growth, "1/s");
+    if (!subset.stability.empty()) file.write(group + "stability", subset.stability);
     write_if(file, group + "critical_speed", subset.critical_speed, "rad/s");
     write_if(file, group + "critical_frequency", subset.critical_frequency_Hz, "Hz");
   }
@@ -69,7 +70,9 @@ ModeSensitivity read_sensitivity(const Reader& file)
          .highest_Hz = file.real(group + "highest_frequency"),
          .critical_speed = read_if(file, group + "critical_speed"),
          .critical_frequency_Hz = read_if(file, group + "critical_frequency"),
-         .growth = file.real(group + "growth")});
+         .growth = file.real(group + "growth"),
+         .stability =
+             file.contains(group + "stability") ? file.text(group + "stability") : std::string()});
   }
   for (std::size_t i = 0; file.contains(mode_group(i) + "frequency"); ++i) {
     const std::string group = mode_group(i);

@@ -8,72 +8,18 @@
 
 #include "common/error.hpp"
 #include "mbs_export/dense_solvers.hpp"
-#include "squeal/hopf.hpp"
+#include "squeal/eigenvalue_branches.hpp"
 #include "squeal/pad_system.hpp"
-#include "squeal/root.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using Complex = std::complex<double>;
 
-/// One eigenvalue for each mode, largest Im first: of an oscillating pair the one with Im > 0, of
-/// an overdamped pair the less damped one.
-Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
-{
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, /*computeEigenvectors=*/false);
-  if (solver.info() != Eigen::Success)
-    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
-  const Eigen::VectorXcd& lambda = solver.eigenvalues();
-  std::vector<Complex> sorted(lambda.begin(), lambda.end());
-  std::sort(sorted.begin(), sorted.end(), [](const Complex& x, const Complex& y) {
-    return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();
-  });
-  return Eigen::Map<const Eigen::VectorXcd>(sorted.data(), lambda.size() / 2);
-}
-
-/// The values in the order of `expected`: closest pairs of both first.
-Eigen::VectorXcd matched(const Eigen::VectorXcd& values, const Eigen::VectorXcd& expected)
-{
-  Eigen::MatrixXd distance(values.size(), values.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    distance.row(i) = (expected.array() - values[i]).abs().transpose();
-  Eigen::VectorXcd ordered(values.size());
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    Eigen::Index i = 0, j = 0;
-    distance.minCoeff(&i, &j);
-    ordered[j] = values[i];
-    distance.row(i).setConstant(std::numeric_limits<double>::infinity());
-    distance.col(j).setConstant(std::numeric_limits<double>::infinity());
-  }
-  return ordered;
-}
-
 Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
 {
   return Eigen::VectorXd::LinSpaced(count, range.from, range.to);
-}
-
-/// Largest real part that rounding can make of a zero, relative to the eigenvalue.
-constexpr double rounding = 1e-12;
-/// The same at a point that Newton's method has found to 1e-11.
-constexpr double rounding_of_newton = 1e-11;
-
-/// The eigenvalue at `high` that has crossed since `low`, followed back by Newton's method on the
-/// bordered system; by bracketing where that leads elsewhere, as it may where two of them cross.
-CriticalSpeed crossing_between(const StateMatrixAt& A, double low, double high)
-{
-  const auto worst = [&](double speed) { return least_stable_eigenvalue(A(speed)); };
-  const EigenPair unstable = least_stable_pair(A(high));
-  const auto point = hopf_point(A, high, unstable.lambda.imag(), unstable.u);
-  if (point && point->value >= low && point->value <= high) {
-    const Complex there = worst(point->value);
-    // No other one is unstable there.
-    if (there.real() <= rounding_of_newton * std::abs(there))
-      return {point->value, point->omega / (2.0 * std::numbers::pi), point->n_newton_steps};
-  }
-  const double critical = root([&](double x) { return worst(x).real(); }, low, high);
-  return {critical, worst(critical).imag() / (2.0 * std::numbers::pi), 0};
 }
 
 }  // namespace
@@ -151,18 +97,27 @@ EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options
   return eigenvalues(state_matrix_at(disc, options), options.speeds);
 }
 
+StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range)
+{
+  return stability_over(A,
+                        {.from = range.from, .to = range.to, .count = std::max(128, range.count)});
+}
+
+StabilityProfile stability_over_speed(const InertialDisc& disc, const SquealOptions& options)
+{
+  return stability_over_speed(state_matrix_at(disc, options), options.speeds);
+}
+
+std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile)
+{
+  const std::optional<StabilityPoint> lost = first_loss(profile);
+  if (!lost) return std::nullopt;
+  return CriticalSpeed{lost->value, lost->frequency_Hz, lost->n_newton_steps};
+}
+
 std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range)
 {
-  const Eigen::VectorXd speeds = speeds_of(range, std::max(128, range.count));
-  std::optional<double> last_stable;
-  for (const double speed : speeds) {
-    const Complex now = least_stable_eigenvalue(A(speed));
-    const bool decided = std::abs(now.real()) > rounding * std::abs(now);
-    if (decided && now.real() < 0.0) last_stable = speed;
-    if (!decided || now.real() < 0.0 || !last_stable) continue;
-    return crossing_between(A, *last_stable, speed);
-  }
-  return std::nullopt;
+  return critical_speed(stability_over_speed(A, range));
 }
 
 std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)

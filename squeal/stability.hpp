@@ -37,10 +37,14 @@ EigenPair least_stable_pair(const Eigen::MatrixXd& A);
 EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range);
 EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options);
 
-/// The smallest speed of the range at which max Re(lambda) turns from negative to positive; absent
-/// when it does not within the range. The range is scanned at 128 speeds or `range.count`,
-/// whichever is more; from the first unstable one Newton's method on the bordered system of
-/// hopf.hpp finds the crossing to rounding.
+/// The intervals of the speed in which sliding is unstable; see stability_search.hpp. 128 speeds or
+/// `range.count`, whichever is more, are looked at first.
+StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range);
+StabilityProfile stability_over_speed(const InertialDisc& disc, const SquealOptions& options);
+
+/// The lowest speed of the range at which stability is lost; absent when the sliding disc is stable
+/// or unstable in the whole range, or regains its stability only.
+std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile);
 std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range);
 std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options);
 

@@ -18,20 +18,51 @@ struct EigenvalueMap {
   std::vector<Eigen::MatrixXcd> shapes = {};
 };
 
-/// The speed at which the sliding disc loses its stability.
+/// The least stable motion of the sliding disc at one value of a parameter.
+struct StabilityPoint {
+  double value;            ///< of the parameter: rad/s, 1, N or N/m
+  double growth;           ///< 1/s; 0 where stability is lost or regained
+  double frequency_Hz;     ///< of the motion
+  int n_newton_steps = 0;  ///< that led to a limit of stability; 0: bisection alone
+};
+
+/// An interval of a parameter in which the sliding disc is unstable.
+struct UnstableInterval {
+  StabilityPoint from, to;  ///< limits of stability, or ends of the range that was searched
+  StabilityPoint worst;     ///< where the growth was largest among the values that were looked at
+};
+
+/// Stability of the sliding disc over a range of one parameter; see stability_search.hpp.
+struct StabilityProfile {
+  StabilityPoint from, to;                 ///< the ends of the range
+  std::vector<UnstableInterval> unstable;  ///< by rising values
+};
+
+/// What a range of a parameter does to the stability.
+enum class Stability {
+  stable,    ///< in the whole range
+  unstable,  ///< in the whole range
+  lost,      ///< the range holds a value from which on sliding is unstable
+  regained   ///< unstable at the lower end, and stable from a value of the range on
+};
+
+/// The lowest speed at which the sliding disc loses its stability.
 struct CriticalSpeed {
   double speed;            ///< rad/s
   double frequency_Hz;     ///< of the undamped oscillation there
-  int n_newton_steps = 0;  ///< 0: it was bracketed, because Newton's method led elsewhere
+  int n_newton_steps = 0;  ///< 0: it was bisected, because Newton's method led elsewhere
 };
 
 /// Where the sliding disc loses or regains its stability over one parameter.
 struct CriticalValue {
-  std::string parameter;        ///< "friction", "preload" or "stiffness"
-  double speed;                 ///< rad/s
-  std::optional<double> value;  ///< 1, N or N/m; absent when there is none in the range
-  double frequency_Hz;          ///< of the undamped oscillation there
+  std::string parameter;  ///< "friction", "preload" or "stiffness"
+  double speed;           ///< rad/s
+  /// The lowest value at which stability is lost, else the lowest at which it is regained: 1, N or
+  /// N/m; absent when there is neither in the range.
+  std::optional<double> value;
+  double frequency_Hz;  ///< of the undamped oscillation there
   int n_newton_steps;
+  std::optional<StabilityProfile> profile = {};  ///< absent in files of earlier versions
 };
 
 /// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
@@ -58,7 +89,8 @@ struct ModeSubset {
   double highest_Hz;
   std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
   std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
-  double growth;  ///< largest growth rate at the critical speed of all modes, 1/s
+  double growth;               ///< largest growth rate at the critical speed of all modes, 1/s
+  std::string stability = {};  ///< over the speed, in the words of name_of(Stability)
 };
 
 /// What one mode, or one pair of modes, does to the critical oscillation of all modes.

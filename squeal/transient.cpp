@@ -117,7 +117,7 @@ class StateRecorder {
 /// regularisation, and with it in multiples of that.
 constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
 
-std::string warning_of(const Transient& run, const SquealOptions& options)
+std::string warning_of_sliding(const Transient& run, const SquealOptions& options)
 {
   const double eps = options.slip_regularisation;
   const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
@@ -129,6 +129,16 @@ std::string warning_of(const Transient& run, const SquealOptions& options)
       run.slip_speed_min,
       eps > 0.0 ? "where the regularisation of friction counts"
                 : "where the direction of friction turns at once: give friction a regularisation");
+}
+
+std::string warning_of(const Transient& run, const Disc& disc, const SquealOptions& options)
+{
+  const std::string sliding = warning_of_sliding(run, options);
+  const auto inertial = find_inertial_disc(disc);
+  if (!run.growth_rate || !inertial) return sliding;
+  const std::string growth = warning_of_growth(
+      *run.growth_rate, least_stable_eigenvalue(*inertial, options, run.speed).real());
+  return sliding.empty() || growth.empty() ? sliding + growth : sliding + "; " + growth;
 }
 
 bool is_finite(const std::vector<ContactResult<double>>& contacts)
@@ -185,7 +195,7 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
     result.speed = turn_at(run, run.duration).speed;
   result.modes = states.modes();
   result.tail_a = states.tail_a();
-  result.warning = warning_of(result, options);
+  result.warning = warning_of(result, disc, options);
   if (sound) {
     sound->finish();
     result.sound = sound->samples();

@@ -81,7 +81,7 @@ Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate
     if (const auto n = diameters.find(number); n != diameters.end())
       mode.emplace_back("diameters", n->second);
     if (const auto place = places[k]) {
-      mode.emplace_back("estimate", rounded(certificate.eta2[*place] / 2.0));
+      mode.emplace_back("estimate", rounded(mbs_export::estimated_errors(certificate)[*place]));
       if (*place < certificate.bounds.size())
         mode.emplace_back("bound", rounded(certificate.bounds[*place] / 2.0));
     }

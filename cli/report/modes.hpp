@@ -9,7 +9,7 @@ namespace chladni::cli {
 
 /// The modes of a body: number, frequency, kind, nodal diameters where `diameters` has them (by
 /// mode number), and for modes that the certificate knows the estimated relative error of the
-/// frequency, eta^2 / 2, and half the rigorous bound of the error of omega^2.
+/// frequency and half the bound of the error of omega^2.
 Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate& certificate,
                 const std::map<int, int>& diameters);
 

@@ -7,6 +7,7 @@
 
 #include "cli/report/numbers.hpp"
 #include "squeal/analysis_file.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -114,6 +115,16 @@ Json spectrum_json(const squeal::Spectrum& spectrum)
   return Json::object({{"frequency_Hz", rounded(f_Hz)}, {"amplitude", rounded(amplitude)}});
 }
 
+bool is_settled(const squeal::LimitCycle& cycle)
+{
+  return cycle.settled;
+}
+
+bool is_settled(const squeal::DirectLimitCycle& /*periodic*/)
+{
+  return true;
+}
+
 template <class Cycle>
 Json cycle_json(const Cycle& cycle)
 {
@@ -122,7 +133,8 @@ Json cycle_json(const Cycle& cycle)
                        {"pad_velocity", rounded(cycle.pad_velocity)},
                        {"pad_displacement", rounded(cycle.pad_displacement)},
                        {"N_min", rounded(cycle.N_min)},
-                       {"N_max", rounded(cycle.N_max)}});
+                       {"N_max", rounded(cycle.N_max)},
+                       {"settled", is_settled(cycle) ? 1 : 0}});
 }
 
 /// Amplitudes of the modes used, among all modes of the body.
@@ -156,6 +168,9 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
         Json::object({{"speed", rounded(results.critical_speed->speed)},
                       {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)}}));
   }
+  if (results.speed_stability)
+    members.emplace_back("stability",
+                         squeal::name_of(squeal::stability_of(*results.speed_stability)));
   if (results.map) members.emplace_back("map", map_json(*results.map));
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) members.emplace_back("transient", transient_json(*results.transient));

@@ -158,10 +158,11 @@ bool read_mass_integrals(const Table& root)
   return !table.has("mass_integrals") || table.truth("mass_integrals");
 }
 
-bool read_sylvester(const Table& root)
+std::optional<bool> read_sylvester(const Table& root)
 {
   const Table table = root.table("reduce");
-  return table.has("sylvester") && table.truth("sylvester");
+  if (!table.has("sylvester")) return std::nullopt;
+  return table.truth("sylvester");
 }
 
 }  // namespace chladni::cli

@@ -65,7 +65,7 @@ PictureChoice read_pictures(const Table& root);
 bool read_mass_integrals(const Table& root);
 
 /// [reduce] sylvester
-bool read_sylvester(const Table& root);
+std::optional<bool> read_sylvester(const Table& root);
 
 /// [body]; without the table the body is free and keeps all modes. Reads `interface_nodes` and
 /// `reduce` of the scene.

@@ -59,8 +59,8 @@ struct Scene {
   PictureChoice pictures = PictureChoice::vertices;
   ResultantChoice resultants;
   reduce::ReduceOptions reduce;
-  bool mass_integrals = true;  ///< of a moving frame: Coriolis and centrifugal forces
-  bool sylvester = false;      ///< count eigenvalues of the FE model, for the certificate
+  bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
+  std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
   mbs_export::BodyOptions body;
   std::optional<squeal::SquealOptions> squeal;
   bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate

@@ -1,10 +1,12 @@
 #include "reduce/plugin/check_operators.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "reduce/as_aij.hpp"
 #include "reduce/dense.hpp"
 
 namespace chladni::reduce::plugin {
@@ -44,20 +46,6 @@ void check_layout(Mat A, Mat like, const char* name)
   }
 }
 
-petsc::Matrix as_aij(Mat A)
-{
-  PetscBool aij = PETSC_FALSE;
-  petsc::check(PetscObjectBaseTypeCompareAny(reinterpret_cast<PetscObject>(A), &aij, MATSEQAIJ,
-                                             MATMPIAIJ, ""));
-  petsc::Matrix result;
-  if (aij) {
-    petsc::check(PetscObjectReference(reinterpret_cast<PetscObject>(A)));
-    return petsc::Matrix(A);
-  }
-  petsc::check(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, result.put()));
-  return result;
-}
-
 /// Sums of absolute values of the own rows; complains of values without sense.
 struct Scan {
   std::vector<double> row_sums;
@@ -86,6 +74,43 @@ Scan scan(Mat A, const char* name)
     }
   });
   return result;
+}
+
+/// The diagonal on every rank.
+std::vector<double> diagonal_everywhere(Mat A)
+{
+  petsc::Vector own, all;
+  VecScatter scatter = nullptr;
+  PetscInt n = 0;
+  const PetscScalar* values = nullptr;
+  petsc::check(MatCreateVecs(A, own.put(), nullptr));
+  petsc::check(MatGetDiagonal(A, own));
+  petsc::check(VecScatterCreateToAll(own, &scatter, all.put()));
+  petsc::check(VecScatterBegin(scatter, own, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterEnd(scatter, own, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterDestroy(&scatter));
+  petsc::check(VecGetSize(all, &n));
+  petsc::check(VecGetArrayRead(all, &values));
+  std::vector<double> diagonal(values, values + n);
+  petsc::check(VecRestoreArrayRead(all, &values));
+  return diagonal;
+}
+
+/// A_ij^2 > A_ii A_jj, which no semidefinite matrix has.
+std::optional<std::string> find_indefinite_minor(Mat A, const char* name)
+{
+  constexpr double round_off = 1e-8;
+  const std::vector<double> diagonal = diagonal_everywhere(A);
+  std::optional<std::string> complaint;
+  for_local_entries(A, [&](PetscInt i, PetscInt j, double value) {
+    const double most = std::sqrt(diagonal[i]) * std::sqrt(diagonal[j]);
+    if (complaint || i == j || std::abs(value) <= (1.0 + round_off) * most) return;
+    complaint = fmt::format(
+        "CMSSetOperators: {0}[{1}, {2}] = {3:g} is larger than the root of {0}[{1}, {1}] {0}[{2}, "
+        "{2}] = {4:g}, so {0} is indefinite; K and M must be positive semidefinite",
+        name, i, j, value, most);
+  });
+  return complaint;
 }
 
 /// Numbers in (-1, 1) that depend on the global row only.
@@ -157,7 +182,45 @@ petsc::Matrix checked_operator(Mat A, Mat like, const char* name)
   const Scan entries = scan(aij, name);
   agree(petsc::communicator(A), entries.complaint);
   agree(petsc::communicator(A), find_asymmetry(aij, entries.row_sums, name));
+  agree(petsc::communicator(A), find_indefinite_minor(aij, name));
   return aij;
+}
+
+VelocityForces checked_velocity_forces(Mat C, Mat like)
+{
+  check_layout(C, like, "C");
+  petsc::Matrix aij = as_aij(C);
+  const Scan entries = scan(aij, "C");
+  agree(petsc::communicator(C), entries.complaint);
+  int skew = find_asymmetry(aij, entries.row_sums, "C") ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &skew, 1, MPI_INT, MPI_MAX, petsc::communicator(C));
+  return {.C = std::move(aij), .is_symmetric = skew == 0};
+}
+
+void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters)
+{
+  const std::vector<double> stiffness = scan(K, "K").row_sums, mass = scan(M, "M").row_sums;
+  PetscInt first = 0, n_empty = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, nullptr));
+  std::optional<PetscInt> named;
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const PetscInt row = first + static_cast<PetscInt>(i);
+    const bool moves = std::ranges::binary_search(masters, row) && mass[i] > 0.0;
+    if (stiffness[i] > 0.0 || moves) continue;
+    if (!named) named = row;
+    ++n_empty;
+  }
+  const MPI_Comm comm = petsc::communicator(K);
+  MPI_Allreduce(MPI_IN_PLACE, &n_empty, 1, MPIU_INT, MPI_SUM, comm);
+  std::optional<std::string> complaint;
+  if (named) {
+    complaint = fmt::format(
+        "CMSSetUp: row {} of K is empty (empty rows: {}): nothing resists this DOF, as the "
+        "rotation about the normal of a flat shell (drilling); leave such rows out, or give them "
+        "a stiffness on the diagonal",
+        *named, n_empty);
+  }
+  agree(comm, complaint);
 }
 
 }  // namespace chladni::reduce::plugin

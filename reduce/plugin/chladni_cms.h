@@ -58,8 +58,8 @@ PETSC_EXTERN PetscErrorCode CMSDestroy(CMS *cms);
 /* Forgets results and factor, keeps operators, interface and settings. */
 PETSC_EXTERN PetscErrorCode CMSReset(CMS cms);
 
-/* Symmetric K, M and (or NULL) C of one size and layout; K_ss positive definite, M semidefinite.
-   Any type that converts to AIJ. References are taken; call it again when the values changed. */
+/* Symmetric K, M and (or NULL) any C of one size and layout; K_ss positive definite, M semidefinite.
+   C may be damping (symmetric), gyroscopic (skew-symmetric) or the sum. Any type that converts to AIJ. References are taken; call it again when the values changed. */
 PETSC_EXTERN PetscErrorCode CMSSetOperators(CMS cms, Mat K, Mat M, Mat C);
 PETSC_EXTERN PetscErrorCode CMSGetOperators(CMS cms, Mat *K, Mat *M, Mat *C);
 /* Global indices of the masters, each once, on any rank. Their order is that of the reduced rows. */
@@ -110,8 +110,11 @@ PETSC_EXTERN PetscErrorCode CMSGetTransformation(CMS cms, Mat *T);
 PETSC_EXTERN PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt *n, const PetscReal *f[]);
 /* eta^2 of the same modes: estimated relative error of lambda; half of it for f. */
 PETSC_EXTERN PetscErrorCode CMSGetErrors(CMS cms, PetscInt *n, const PetscReal *eta2[]);
-/* Upper bounds of the errors of the first n <= N modes (Kato-Temple), rigorous because -cms_sylvester
-   found no eigenvalue missing below them; n = 0 without a count. */
+/* What rounding may have done to lambda of the same modes, relative; beyond what eta^2 tells. */
+PETSC_EXTERN PetscErrorCode CMSGetRounding(CMS cms, PetscInt *n, const PetscReal *rounding[]);
+/* Upper bounds of the relative errors of lambda of the first n <= N modes (Temple, Lehmann), below the
+   frequency up to which -cms_sylvester found no eigenvalue missing; n = 0 without a count. What
+   rounding of K may do is in them to first order. */
 PETSC_EXTERN PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt *n, const PetscReal *bounds[]);
 PETSC_EXTERN PetscErrorCode CMSGetQuality(CMS cms, CMSQuality *quality);
 

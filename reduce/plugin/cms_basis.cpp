@@ -36,10 +36,18 @@ FixedInterfaceModes modes_to_tolerance(CMS cms, Mat Psi)
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(cms));
   // What the estimates from the small matrices and those from the full ones may differ by.
   constexpr double margin = 0.99;
+  const ModesByTolerance& wanted = *settings.options.tolerance;
+  // Frequencies of too few modes are too high: some beyond the range belong into it.
+  constexpr double beyond = 1.25;
+  Settings further = settings;
+  further.options.tolerance->up_to_Hz *= beyond;
   ToleranceSearch search(
       {.K_ss = set_up.K_ss, .Psi = Psi, .K = set_up.K_blocks, .M = set_up.M_blocks},
-      margin * settings.options.tolerance->tolerance, [&](const ReducedModel& model) {
-        return certified_pairs(free_model_everywhere(model, comm), settings, model);
+      {.tolerance = margin * wanted.tolerance,
+       .up_to_Hz = wanted.up_to_Hz,
+       .of = ToleranceGoal::Of::eigenvalues},
+      [&](const ReducedModel& model) {
+        return certified_pairs(free_model_everywhere(model, comm), further, model);
       });
   for (bool enough = false; !enough;) {
     Phase finding(cms, events.modes, "fixed-interface modes");

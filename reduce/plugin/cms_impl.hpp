@@ -10,9 +10,11 @@
 #include "reduce/condition_estimate.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/error_estimates.hpp"
+#include "reduce/plugin/check_operators.hpp"
 #include "reduce/plugin/chladni_cms.h"
 #include "reduce/progress.hpp"
 #include "reduce/reduce_options.hpp"
+#include "reduce/solver_options.hpp"
 
 /// Inside of the PETSc class CMS; nothing of it crosses the C header.
 namespace chladni::reduce::plugin {
@@ -26,7 +28,8 @@ struct MasterPlace {
 
 /// What CMSSetUp makes.
 struct SetUp {
-  petsc::Matrix K, M, C;          ///< references, or AIJ copies of other types
+  petsc::Matrix K, M;             ///< references, or AIJ copies of other types
+  VelocityForces velocity;        ///< C likewise, or nothing
   std::vector<PetscInt> masters;  ///< global DOFs in the order of the user, on every rank
   std::vector<int> places;        ///< for each master its place among the ascending ones
   DofPartition rows;
@@ -37,11 +40,13 @@ struct SetUp {
 /// Masters in the user's order, then the modes.
 struct Result {
   CraigBamptonBasis Q_CB;
-  ReducedModel model;             ///< masters ascending by DOF
-  std::vector<PetscReal> lambda;  ///< all elastic eigenvalues of the reduced model, ascending
-  std::vector<PetscReal> f_Hz;    ///< [k] of the certified modes
-  std::vector<PetscReal> eta2;    ///< [k]
-  std::vector<PetscReal> bounds;  ///< [k] rigorous, where the count is complete; else empty
+  ReducedModel model;                ///< masters ascending by DOF
+  std::vector<PetscReal> lambda;     ///< all elastic eigenvalues of the reduced model, ascending
+  std::vector<PetscReal> f_Hz;       ///< [k] of the certified modes
+  std::vector<PetscReal> eta2;       ///< [k]
+  std::vector<PetscReal> estimates;  ///< [k] of the relative errors of f_Hz, by place
+  std::vector<PetscReal> rounding;   ///< [k] of lambda, relative
+  std::vector<PetscReal> bounds;     ///< [<= k] below the complete count; rounding included
   CMSQuality quality;
   petsc::Matrix K_r, M_r, C_r, T;  ///< made when asked for; C_r only with damping
 };
@@ -49,6 +54,7 @@ struct Result {
 /// What the user has said.
 struct Settings {
   ReduceOptions options{.method = Method::craig_bampton, .modes = 20};
+  SolverOptions solver = {};
   bool sylvester = false;
   CMSMonitorFunction monitor = nullptr;
   void* monitor_context = nullptr;
@@ -66,7 +72,7 @@ struct Inside {
 };
 
 struct Events {
-  PetscLogEvent set_up, solve, factor, constraint, modes, project, errors, count, view;
+  PetscLogEvent set_up, check, solve, factor, constraint, modes, project, errors, count, view;
   PetscLogStage stage_set_up, stage_solve;
 };
 extern Events events;
@@ -92,6 +98,7 @@ class Phase {
 
  private:
   void show(double fraction);
+  void call_monitor(PetscLogDouble seconds);
 
   CMS cms_;
   PetscLogEvent event_;
@@ -101,21 +108,8 @@ class Phase {
   std::optional<ListenToProgress> listener_;
 };
 
-/// While it lives, reduce/ finds the options `-PREFIXcms_...` of the object as `-cms_...`.
-class OptionsOf {
- public:
-  explicit OptionsOf(CMS cms);
-  ~OptionsOf();
-  OptionsOf(const OptionsOf&) = delete;
-  OptionsOf& operator=(const OptionsOf&) = delete;
-
- private:
-  struct Hidden {
-    std::string name;
-    std::optional<std::string> value;  ///< that it had before
-  };
-  std::vector<Hidden> hidden_;
-};
+/// Where the solvers inside find the options of the object: `-PREFIXcms_...` in its own database.
+OptionSource option_source(CMS cms);
 
 /// Columns of the transformation.
 struct Basis {

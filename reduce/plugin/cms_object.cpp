@@ -22,11 +22,11 @@ struct NamedEvent {
 };
 
 constexpr std::array named_events{
-    NamedEvent{&Events::set_up, "CMSSetUp"},  NamedEvent{&Events::solve, "CMSSolve"},
-    NamedEvent{&Events::factor, "CMSFactor"}, NamedEvent{&Events::constraint, "CMSConstraint"},
-    NamedEvent{&Events::modes, "CMSModes"},   NamedEvent{&Events::project, "CMSProject"},
-    NamedEvent{&Events::errors, "CMSErrors"}, NamedEvent{&Events::count, "CMSSylvester"},
-    NamedEvent{&Events::view, "CMSWrite"},
+    NamedEvent{&Events::set_up, "CMSSetUp"},          NamedEvent{&Events::check, "CMSCheck"},
+    NamedEvent{&Events::solve, "CMSSolve"},           NamedEvent{&Events::factor, "CMSFactor"},
+    NamedEvent{&Events::constraint, "CMSConstraint"}, NamedEvent{&Events::modes, "CMSModes"},
+    NamedEvent{&Events::project, "CMSProject"},       NamedEvent{&Events::errors, "CMSErrors"},
+    NamedEvent{&Events::count, "CMSSylvester"},       NamedEvent{&Events::view, "CMSWrite"},
 };
 
 /// After PetscFinalize a second PetscInitialize begins anew.

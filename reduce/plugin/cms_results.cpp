@@ -131,19 +131,23 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
   return T;
 }
 
-/// T^T C T.
-petsc::Matrix reduced_damping(const Inside& in, const std::vector<int>& places)
+/// C_r = T^T C T.
+petsc::Matrix reduced_velocity_forces(const Inside& in, const std::vector<int>& places)
 {
+  const auto& [C, is_symmetric] = in.set_up->velocity;
   const petsc::Matrix T = whole_transformation(*in.set_up, in.result->Q_CB, places);
   petsc::Matrix CT;
-  petsc::check(MatMatMult(in.set_up->C, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, CT.put()));
+  petsc::check(MatMatMult(C, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, CT.put()));
   SmallMatrix C_r = inner_product(T, CT);
-  for (PetscInt j = 0; j < C_r.n_cols; ++j) {
+  for (PetscInt j = 0; is_symmetric && j < C_r.n_cols; ++j) {
     for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
   }
   std::vector<int> as_it_is(places.size());
   std::iota(as_it_is.begin(), as_it_is.end(), 0);
-  return distributed(C_r, as_it_is, petsc::communicator(in.set_up->K));
+  petsc::Matrix distributed_C_r = distributed(C_r, as_it_is, petsc::communicator(in.set_up->K));
+  petsc::check(
+      MatSetOption(distributed_C_r, MAT_SYMMETRIC, is_symmetric ? PETSC_TRUE : PETSC_FALSE));
+  return distributed_C_r;
 }
 
 void make_reduced_operators(Inside& in)
@@ -153,7 +157,7 @@ void make_reduced_operators(Inside& in)
   const MPI_Comm comm = petsc::communicator(in.set_up->K);
   const std::vector<int> places = coordinate_places(in);
   result.M_r = distributed(result.model.M, places, comm);
-  if (in.set_up->C) result.C_r = reduced_damping(in, places);
+  if (in.set_up->velocity.C) result.C_r = reduced_velocity_forces(in, places);
   result.K_r = distributed(result.model.K, places, comm);
 }
 
@@ -224,6 +228,16 @@ PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[])
   CMSCheckSolved(cms);
   if (n) *n = static_cast<PetscInt>(cms->inside->result->eta2.size());
   if (eta2) *eta2 = cms->inside->result->eta2.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal* rounding[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->rounding.size());
+  if (rounding) *rounding = cms->inside->result->rounding.data();
   PetscFunctionReturn(0);
 }
 

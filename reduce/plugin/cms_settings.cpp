@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <sstream>
-#include <string_view>
 
 #include "reduce/plugin/cms_impl.hpp"
 #include "reduce/plugin/guard.hpp"
+#include "reduce/read_solver_options.hpp"
 
 namespace chladni::reduce::plugin {
 
@@ -19,40 +18,27 @@ constexpr std::array types{Method::guyan, Method::craig_bampton, Method::rubin, 
 
 }  // namespace
 
-OptionsOf::OptionsOf(CMS cms)
+OptionSource option_source(CMS cms)
 {
-  const char* prefix = reinterpret_cast<PetscObject>(cms)->prefix;
-  if (prefix == nullptr || *prefix == '\0') return;
-  char* all = nullptr;
-  petsc::check(PetscOptionsGetAll(nullptr, &all));
-  std::istringstream words(all);
-  petsc::check(PetscFree(all));
-  const std::string own = std::string("-") + prefix + "cms_";
-  for (std::string word; words >> word;) {
-    if (!word.starts_with(own)) continue;
-    const std::string name = "-cms_" + word.substr(own.size());
-    const char* value = nullptr;
-    const char* before = nullptr;
-    PetscBool given = PETSC_FALSE;
-    PetscBool there = PETSC_FALSE;
-    petsc::check(PetscOptionsFindPair(nullptr, nullptr, word.c_str(), &value, &given));
-    petsc::check(PetscOptionsFindPair(nullptr, nullptr, name.c_str(), &before, &there));
-    hidden_.push_back({.name = name, .value = {}});
-    if (there) hidden_.back().value = before ? before : "";
-    petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value));
-  }
+  const auto object = reinterpret_cast<PetscObject>(cms);
+  return {.database = object->options,
+          .prefix = fmt::format("{}cms_", object->prefix ? object->prefix : "")};
 }
 
-OptionsOf::~OptionsOf()
+namespace {
+
+/// The factor and the modes are made anew where their solvers are others now.
+void read_solver(CMS cms)
 {
-  for (const Hidden& hidden : hidden_) {
-    if (hidden.value) {
-      PetscOptionsSetValue(nullptr, hidden.name.c_str(), hidden.value->c_str());
-    } else {
-      PetscOptionsClearValue(nullptr, hidden.name.c_str());
-    }
-  }
+  Settings& settings = cms->inside->settings;
+  settings.solver.petsc = option_source(cms);
+  SolverOptions solver = read_solver_options(PetscObjectComm((PetscObject)cms), settings.solver);
+  if (solver == settings.solver) return;
+  petsc::check(CMSReset(cms));
+  settings.solver = std::move(solver);
 }
+
+}  // namespace
 
 }  // namespace chladni::reduce::plugin
 
@@ -217,5 +203,6 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   if (tolerance_given) PetscCall(CMSSetTolerance(cms, tolerance, up_to));
   settings.sylvester = sylvester == PETSC_TRUE;
   settings.prints_phases = monitor == PETSC_TRUE;
+  PetscCall(guarded((PetscObject)cms, __func__, [&] { read_solver(cms); }));
   PetscFunctionReturn(0);
 }

@@ -71,18 +71,20 @@ std::vector<int> places_of(const std::vector<PetscInt>& masters,
 }
 
 struct Operators {
-  petsc::Matrix K, M, C;
+  petsc::Matrix K, M;
+  VelocityForces velocity;
 };
 
 Operators checked_operators(CMS cms)
 {
-  Phase phase(cms, events.set_up, "checks of the input");
+  Phase phase(cms, events.check, "checks of the input");
   const Inside& in = *cms->inside;
   if (!in.K || !in.M) throw Error("CMSSetUp: no operators; call CMSSetOperators() first");
   if (!in.interface) throw Error("CMSSetUp: no interface; call CMSSetInterface() first");
-  Operators checked{
-      .K = checked_operator(in.K, in.K, "K"), .M = checked_operator(in.M, in.K, "M"), .C = {}};
-  if (in.C) checked.C = checked_operator(in.C, in.K, "C");
+  Operators checked{.K = checked_operator(in.K, in.K, "K"),
+                    .M = checked_operator(in.M, in.K, "M"),
+                    .velocity = {.C = {}, .is_symmetric = true}};
+  if (in.C) checked.velocity = checked_velocity_forces(in.C, in.K);
   phase.done();
   return checked;
 }
@@ -91,7 +93,9 @@ Factorization factorized(CMS cms, Mat K_ss, const DofPartition& rows)
 {
   Phase phase(cms, events.factor, "factorization");
   try {
-    Factorization factor = factorize(K_ss);
+    SolverOptions options = cms->inside->settings.solver;
+    options.petsc = option_source(cms);
+    Factorization factor = factorize(K_ss, options);
     phase.done();
     return factor;
   } catch (const FreeMotion& free) {
@@ -110,6 +114,7 @@ SetUp make_set_up(CMS cms)
   petsc::check(MatGetSize(checked.K, &n, nullptr));
   std::vector<PetscInt> masters = all_masters(cms->inside->interface);
   const std::vector<PetscInt> ascending = checked_ascending(masters, n);
+  refuse_empty_rows(checked.K, checked.M, ascending);
   std::vector<int> places = places_of(masters, ascending);
   DofPartition rows = partition(checked.K, own_part(checked.K, ascending));
   Blocks K = split(checked.K, rows);
@@ -117,7 +122,7 @@ SetUp make_set_up(CMS cms)
   Factorization K_ss = factorized(cms, K.ss, rows);
   return {.K = std::move(checked.K),
           .M = std::move(checked.M),
-          .C = std::move(checked.C),
+          .velocity = std::move(checked.velocity),
           .masters = std::move(masters),
           .places = std::move(places),
           .rows = std::move(rows),
@@ -128,13 +133,25 @@ SetUp make_set_up(CMS cms)
 
 namespace {
 
-/// A stage of the log for as long as it lives.
+/// A stage of the log and the event that spans all of it, for as long as it lives.
 class Stage {
  public:
-  explicit Stage(PetscLogStage stage) { petsc::check(PetscLogStagePush(stage)); }
-  ~Stage() { static_cast<void>(PetscLogStagePop()); }
+  Stage(CMS cms, PetscLogStage stage, PetscLogEvent event) : cms_(cms), event_(event)
+  {
+    petsc::check(PetscLogStagePush(stage));
+    petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
+  }
+  ~Stage()
+  {
+    static_cast<void>(PetscLogEventEnd(event_, cms_, 0, 0, 0));
+    static_cast<void>(PetscLogStagePop());
+  }
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
+
+ private:
+  CMS cms_;
+  PetscLogEvent event_;
 };
 
 }  // namespace
@@ -148,8 +165,7 @@ PetscErrorCode CMSSetUp(CMS cms)
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   if (cms->inside->set_up) PetscFunctionReturn(0);
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
-    const Stage stage(events.stage_set_up);
-    const OptionsOf options(cms);
+    const Stage stage(cms, events.stage_set_up, events.set_up);
     cms->inside->set_up = make_set_up(cms);
   }));
   PetscFunctionReturn(0);
@@ -162,8 +178,7 @@ PetscErrorCode CMSSolve(CMS cms)
   PetscCall(CMSSetUp(cms));
   if (!cms->inside->result) {
     PetscCall(guarded((PetscObject)cms, __func__, [&] {
-      const Stage stage(events.stage_solve);
-      const OptionsOf options(cms);
+      const Stage stage(cms, events.stage_solve, events.solve);
       cms->inside->result = make_result(cms);
     }));
   }

@@ -1,5 +1,7 @@
 // CMSSolve: basis, projection, errors, count.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reduce/completeness.hpp"
@@ -30,6 +32,8 @@ Result reduced(CMS cms, Basis basis)
                 .lambda = {},
                 .f_Hz = {},
                 .eta2 = {},
+                .estimates = {},
+                .rounding = {},
                 .bounds = {},
                 .quality = {},
                 .K_r = {},
@@ -47,7 +51,16 @@ Result reduced(CMS cms, Basis basis)
       free_model_everywhere(result.model, PetscObjectComm(reinterpret_cast<PetscObject>(cms)));
   const ReducedPairs pairs = certified_pairs(free, cms->inside->settings, result.model);
   if (!pairs.lambda.empty() && !basis.mass) {  // residuals tell of projections only
-    result.eta2 = error_estimates(set_up.K_ss, result.Q_CB, set_up.M_blocks, pairs);
+    ErrorEstimates errors = error_estimates(
+        {.K_ss = set_up.K_ss, .Q_CB = result.Q_CB, .K = set_up.K_blocks, .M = set_up.M_blocks},
+        pairs);
+    const bool leaves_out_modes = cms->inside->settings.options.method == Method::craig_bampton;
+    result.estimates =
+        frequency_errors_by_place(pairs.lambda, errors.eta2,
+                                  leaves_out_modes ? std::pow(result.model.omega.back(), 2)
+                                                   : std::numeric_limits<double>::infinity());
+    result.eta2 = std::move(errors.eta2);
+    result.rounding = std::move(errors.rounding);
   }
   for (const double lambda : pairs.lambda) result.f_Hz.push_back(std::sqrt(lambda) / two_pi);
   result.lambda = free.lambda;
@@ -58,24 +71,27 @@ Result reduced(CMS cms, Basis basis)
 }
 
 /// Counts the fixed-interface modes up to the last one, and the free model in the certified range;
-/// a complete count makes the error bounds rigorous.
+/// a complete count gives error bounds.
 void count(CMS cms, Result& result)
 {
   Phase phase(cms, events.count, "count of eigenvalues");
   const SetUp& set_up = *cms->inside->set_up;
+  const OptionSource& source = set_up.K_ss.options().petsc;
   if (cms->inside->settings.options.method == Method::craig_bampton) {
-    constexpr double half_a_pair_gap = 1e-4;  // of lambda: modes that close are never cut apart
-    const double sigma = std::pow(result.model.omega.back(), 2) * (1.0 + half_a_pair_gap);
-    const PetscInt n = eigenvalues_below(set_up.K_blocks.ss, set_up.M_blocks.ss, sigma);
-    result.quality.modes = as_count(
-        {.sigma = sigma, .expected = n, .found = static_cast<int>(result.model.omega.size())});
+    result.quality.modes = as_count(count_fixed_interface(result.model.omega, [&](double sigma) {
+      return eigenvalues_below(set_up.K_blocks.ss, set_up.M_blocks.ss, sigma, source);
+    }));
   }
-  Completeness certified =
-      count_modes({.lambda = result.lambda, .eta2 = result.eta2, .n_zero = result.quality.n_zero},
-                  [&](double sigma) { return eigenvalues_below(set_up.K, set_up.M, sigma); });
+  Completeness certified = count_modes(
+      {.lambda = result.lambda, .eta2 = result.eta2, .n_zero = result.quality.n_zero},
+      [&](double sigma) { return eigenvalues_below(set_up.K, set_up.M, sigma, source); });
   result.quality.model = as_count(certified.range);
   result.quality.complete = as_count(certified.complete);
   result.bounds = std::move(certified.bounds);
+  for (std::size_t i = 0; i < result.bounds.size(); ++i) {
+    result.bounds[i] += result.rounding[i];
+    result.estimates[i] = std::min(result.estimates[i], 0.5 * result.bounds[i]);
+  }
   phase.done();
 }
 

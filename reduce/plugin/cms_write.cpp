@@ -86,6 +86,8 @@ mbs_export::Certificate certificate_of(const Result& result)
           .frequencies =
               result.eta2.empty() ? VectorXd(0) : as_vector(result.f_Hz, 2.0 * std::numbers::pi),
           .eta2 = as_vector(result.eta2, 1.0),
+          .estimates = as_vector(result.estimates, 1.0),
+          .rounding = as_vector(result.rounding, 1.0),
           .bounds = as_vector(result.bounds, 1.0),
           .fixed_interface = as_mode_count(result.quality.modes),
           .range = as_mode_count(result.quality.model),
@@ -95,14 +97,14 @@ mbs_export::Certificate certificate_of(const Result& result)
           .condition = result.quality.condition};
 }
 
-mbs_export::Provenance provenance(MPI_Comm comm)
+mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
 {
   std::array<char, 256> petsc_version{};
   std::array<char, 256> slepc_version{};
   petsc::check(PetscGetVersion(petsc_version.data(), petsc_version.size()));
   petsc::check(SlepcGetVersion(slepc_version.data(), slepc_version.size()));
   char* options = nullptr;
-  petsc::check(PetscOptionsGetAll(nullptr, &options));
+  petsc::check(PetscOptionsGetAll(reinterpret_cast<PetscObject>(cms)->options, &options));
   mbs_export::Provenance result{
       .scene = "",
       .mesh_checksum = "",
@@ -132,10 +134,15 @@ void write_file(CMS cms, const std::string& path)
                   n_places > 0 ? gathered_places(in.geometry, comm) : default_places(*in.set_up));
   system.K = gathered(K_r);
   system.M = gathered(M_r);
+  if (C_r && !in.set_up->velocity.is_symmetric) {
+    throw Error(
+        "CMSWrite: C is not symmetric (gyroscopic forces), and the reduced file holds damping "
+        "only; give damping alone, and take the rest by CMSGetReducedOperators()");
+  }
   if (C_r) system.C = gathered(C_r);
   system.fixed_interface_frequencies = as_vector(in.result->model.omega, 1.0);
   system.certificate = certificate_of(*in.result);
-  system.provenance = provenance(comm);
+  system.provenance = provenance(cms, comm);
   std::optional<std::string> complaint;
   if (petsc::rank(comm) == 0) {
     try {

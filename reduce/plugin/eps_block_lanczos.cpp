@@ -9,6 +9,8 @@
 #include "reduce/block_iteration.hpp"
 #include "reduce/plugin/chladni_cms.h"
 #include "reduce/plugin/eps_operator.hpp"
+#include "reduce/plugin/eps_residuals.hpp"
+#include "reduce/plugin/eps_sequences.hpp"
 #include "reduce/plugin/guard.hpp"
 
 using namespace chladni;                  // NOLINT(google-build-using-namespace)
@@ -98,8 +100,9 @@ PetscErrorCode set_up(EPS eps)
   if (eps->max_it == PETSC_DEFAULT) eps->max_it = std::max<PetscInt>(100, 2 * eps->n / b);
   PetscCall(EPSAllocateSolution(eps, 0));
   PetscCall(EPS_SetInnerProduct(eps));
-  // The iteration has a basis of its own; this one holds the eigenvectors.
-  PetscCall(BVResize(eps->V, eps->nev, PETSC_FALSE));
+  // The iteration has a basis of its own; this one holds the eigenvectors, and first the initial
+  // space, whose number is negative until SLEPc copies it.
+  PetscCall(BVResize(eps->V, std::max(eps->nev, -eps->nini), PETSC_FALSE));
   PetscCall(set_up_sort(eps));
   PetscFunctionReturn(0);
 }
@@ -128,28 +131,41 @@ PetscInt publish(EPS eps, const BlockIteration& iteration)
     if (eps->conv == EPS_CONV_NORM) petsc::check(STBackTransform(eps->st, 1, &value, &zero));
     petsc::check((*eps->converged)(eps, value, 0.0, iteration.residual(i), &eps->errest[i],
                                    eps->convergedctx));
+    if (iteration.residual(i) == 0.0) eps->errest[i] = 0.0;  // relative to zero, too
     all_so_far = all_so_far && eps->errest[i] < eps->tol;
     if (all_so_far) ++n_converged;
   }
   return n_converged;
 }
 
-/// Block steps until enough pairs have converged, nothing is left, or patience ends.
-void iterate(EPS eps, BlockIteration& iteration)
+/// The largest number of pairs among the first n that lack no copy of a multiple eigenvalue, the
+/// last one's excepted; n_least at least.
+PetscInt n_without_gaps(const BlockIteration& iteration, PetscInt n, PetscInt n_least, double tol)
 {
-  const BlockOperator op = operator_of(eps);
+  while (n > n_least && iteration.copies_among_first(n, tol) != Copies::all_there) --n;
+  return n;
+}
+
+/// Block steps until enough pairs have converged, nothing is left, or patience ends.
+void iterate(EPS eps, BlockIteration& iteration, const BlockOperator& op)
+{
   const auto before = [eps](double a, double b) { return comes_before(eps, a, b); };
-  iteration.start(op);
+  start(eps, iteration, op);
   while (eps->reason == EPS_CONVERGED_ITERATING) {
     iteration.step(op);
     ++eps->its;
     iteration.order_ritz_values(before);
-    eps->nconv = publish(eps, iteration);
+    const PetscInt n_first = publish(eps, iteration);
+    const Copies copies = iteration.copies_among_first(std::min(n_first, eps->nev), eps->tol);
+    eps->nconv = copies == Copies::all_there
+                     ? n_without_gaps(iteration, n_first, eps->nev, eps->tol)
+                     : std::min(n_first, eps->nev - 1);
     const PetscInt n = std::min(iteration.n_vectors(), eps->ncv);
     petsc::check(EPSMonitor(eps, eps->its, eps->nconv, eps->eigr, eps->eigi, eps->errest, n));
     petsc::check((*eps->stopping)(eps, eps->its, eps->max_it, eps->nconv, eps->nev, &eps->reason,
                                   eps->stoppingctx));
     if (eps->reason != EPS_CONVERGED_ITERATING) return;
+    if (copies == Copies::may_lack) begin_anew(eps, iteration, n_first, op);
     if (iteration.is_exhausted()) eps->reason = EPS_DIVERGED_BREAKDOWN;  // fewer pairs exist
     if (!iteration.is_full()) continue;
     const auto surplus = static_cast<double>(iteration.n_vectors() - eps->nev);
@@ -158,12 +174,29 @@ void iterate(EPS eps, BlockIteration& iteration)
   }
 }
 
-void store_vectors(EPS eps, const BlockIteration& iteration)
+/// Keeps the pairs that satisfy A x = lambda B x; where the factor of A - sigma B is unusable, as
+/// with sigma on an eigenvalue, the recurrence does not know that they do not.
+void drop_false_pairs(EPS eps, Mat X)
 {
-  petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
+  const PetscInt n_true = n_true_pairs(eps, X);
+  if (n_true == eps->nconv) return;
+  petsc::check(PetscInfo(eps,
+                         "%" PetscInt_FMT " of %" PetscInt_FMT
+                         " pairs satisfy A x = lambda B x: the operator is not accurate; is the "
+                         "target an eigenvalue?\n",
+                         n_true, eps->nconv));
+  eps->nconv = n_true;
+  if (n_true < eps->nev) eps->reason = EPS_DIVERGED_BREAKDOWN;
+}
+
+void store_vectors(EPS eps, const BlockIteration& iteration, const BlockOperator& op)
+{
   if (eps->nconv == 0) return;
-  const petsc::Matrix X = eps->purify && inverts(eps) ? iteration.purified_vectors(0, eps->nconv)
-                                                      : iteration.ritz_vectors(eps->nconv);
+  const petsc::Matrix X = eps->purify && inverts(eps)
+                              ? iteration.purified_vectors(0, eps->nconv, op)
+                              : iteration.ritz_vectors(eps->nconv);
+  drop_false_pairs(eps, X);
+  petsc::check(BVResize(eps->V, std::max<PetscInt>(eps->nconv, 1), PETSC_FALSE));
   for (PetscInt i = 0; i < eps->nconv; ++i) {
     Vec x = nullptr, v = nullptr;
     petsc::check(MatDenseGetColumnVecRead(X, i, &x));
@@ -181,8 +214,9 @@ PetscErrorCode solve(EPS eps)
     const PetscInt b = std::min(options_of(eps)->block_size, eps->n);
     const petsc::Matrix B = inner_product_matrix(eps);
     BlockIteration iteration(B, b, eps->ncv + b);
-    iterate(eps, iteration);
-    store_vectors(eps, iteration);
+    const BlockOperator op = operator_of(eps);
+    iterate(eps, iteration, op);
+    store_vectors(eps, iteration, op);
   }));
   PetscFunctionReturn(0);
 }

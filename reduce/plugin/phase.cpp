@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "reduce/plugin/cms_impl.hpp"
+#include "reduce/plugin/guard.hpp"
 
 namespace chladni::reduce::plugin {
 
@@ -58,9 +59,21 @@ void Phase::done()
   petsc::check(PetscTime(&now));
   const Settings& settings = cms_->inside->settings;
   if (settings.prints_phases) petsc::check(print_phase(cms_, name_, now - started_));
-  if (settings.monitor) {
-    petsc::check(settings.monitor(cms_, name_, now - started_, settings.monitor_context));
-  }
+  if (settings.monitor) call_monitor(now - started_);
+}
+
+/// The monitor is called on all ranks and may fail on one.
+void Phase::call_monitor(PetscLogDouble seconds)
+{
+  const Settings& settings = cms_->inside->settings;
+  int code = settings.monitor(cms_, name_, seconds, settings.monitor_context);
+  MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX,
+                PetscObjectComm(reinterpret_cast<PetscObject>(cms_)));
+  if (code == 0) return;
+  throw UsersFailure(static_cast<PetscErrorCode>(code),
+                     fmt::format("the monitor of CMSMonitorSet() returned error {} at the end of "
+                                 "the phase \"{}\"",
+                                 code, name_));
 }
 
 }  // namespace chladni::reduce::plugin

@@ -20,8 +20,8 @@ std::vector<int> elimination_tree(const QuotientGraph& graph, const std::vector<
   const std::vector<int> place = inverse(order);
   std::vector<int> parent(order.size(), -1), ancestor(order.size(), -1);
   for (int j = 0; j < std::ssize(order); ++j) {
-    for (int k = graph.starts[order[j]]; k < graph.starts[order[j] + 1]; ++k) {
-      int i = place[graph.neighbours[k]];
+    for (int k = graph.edges.starts[order[j]]; k < graph.edges.starts[order[j] + 1]; ++k) {
+      int i = place[graph.edges.neighbours[k]];
       while (i < j && i != -1) {
         const int next = std::exchange(ancestor[i], j);
         if (next == -1) parent[i] = j;
@@ -75,8 +75,8 @@ class Structures {
       seen_by_[i] = j;
       result.push_back(i);
     };
-    for (int k = graph_.starts[order_[j]]; k < graph_.starts[order_[j] + 1]; ++k)
-      add(place_[graph_.neighbours[k]]);
+    for (int k = graph_.edges.starts[order_[j]]; k < graph_.edges.starts[order_[j] + 1]; ++k)
+      add(place_[graph_.edges.neighbours[k]]);
     for (const std::vector<int>* child : of_children) std::ranges::for_each(*child, add);
     std::ranges::sort(result);
     return result;

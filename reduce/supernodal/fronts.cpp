@@ -1,6 +1,7 @@
 #include "reduce/supernodal/fronts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "reduce/supernodal/dense_elimination.hpp"
 
@@ -32,6 +33,14 @@ std::size_t Fronts::in_front(int position, int s) const
   return column < tree_.n_columns(s) ? column : tree_.n_columns(s) + place_below_[position];
 }
 
+bool Fronts::has_place(int position, int s) const
+{
+  if (position < tree_.first_column[s + 1]) return true;
+  const std::span<const int> below = tree_.below(s);
+  const int place = place_below_[position];
+  return std::cmp_less(place, below.size()) && below[place] == position;
+}
+
 void Fronts::add_entries(int s)
 {
   const std::size_t front = tree_.n_columns(s) + tree_.below(s).size();
@@ -40,7 +49,14 @@ void Fronts::add_entries(int s)
     const int row = A_.place[tree_.row[p]];
     for (PetscInt k = A_.starts[row]; k < A_.starts[row + 1]; ++k) {
       const int q = tree_.position[A_.columns[k]];
-      if (q >= p) column[in_front(q, s)] += A_.values[k];
+      if (q < p) continue;
+      if (!has_place(q, s)) {
+        throw Error(fmt::format(
+            "supernodal: row {} has an entry in column {} that the matrix of the symbolic "
+            "factorisation had not; call MatCholeskyFactorSymbolic for each new pattern",
+            tree_.row[p], A_.columns[k]));
+      }
+      column[in_front(q, s)] += A_.values[k];
     }
   }
 }

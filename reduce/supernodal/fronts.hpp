@@ -22,6 +22,7 @@ class Fronts {
 
   /// Eliminates the columns of s; those of its children that are here hand on what they have left.
   /// @return the number of negative pivots, -1 at a pivot that is zero or no number.
+  /// @throws chladni::Error when the matrix has entries that the tree has no place for.
   int eliminate(int s);
   /// The columns of L that were eliminated last, with D on the diagonal:
   /// [(n_columns + n_below) x n_columns], by columns.
@@ -34,6 +35,7 @@ class Fronts {
   void add_entries(int s);
   void add_left_over(int child, int s);
   std::size_t in_front(int position, int s) const;
+  bool has_place(int position, int s) const;
 
   const AssemblyTree& tree_;
   const MatrixRows& A_;

@@ -1,7 +1,6 @@
 #include "reduce/supernodal/quotient_graph.hpp"
 
 #include <cstdint>
-#include <numeric>
 #include <unordered_map>
 
 #include "reduce/gather.hpp"
@@ -86,8 +85,7 @@ QuotientGraph quotient_graph(Mat A)
   for (int& vertex : own.of_row) vertex += before;
   QuotientGraph graph{.vertex_of_row = gather_on_all(own.of_row, MPI_INT, comm),
                       .n_rows = gather_on_all(own.n_rows, MPI_INT, comm),
-                      .starts = {0},
-                      .neighbours = {}};
+                      .edges = {}};
   std::vector<int> seen_by(graph.n_vertices(), -1), degrees, neighbours;
   for (int v = 0; v < n_own; ++v) {
     const int self = before + v;
@@ -104,9 +102,8 @@ QuotientGraph quotient_graph(Mat A)
     degrees.push_back(static_cast<int>(neighbours.size() - n_before));
   }
   degrees = gather_on_all(degrees, MPI_INT, comm);
-  graph.neighbours = gather_on_all(neighbours, MPI_INT, comm);
-  graph.starts.resize(degrees.size() + 1);
-  std::inclusive_scan(degrees.begin(), degrees.end(), graph.starts.begin() + 1);
+  graph.edges = symmetrized(
+      {.starts = offsets(degrees), .neighbours = gather_on_all(neighbours, MPI_INT, comm)});
   return graph;
 }
 

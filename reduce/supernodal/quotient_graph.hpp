@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
+#include "reduce/adjacency.hpp"
 
 namespace chladni::reduce {
 
@@ -12,13 +13,12 @@ namespace chladni::reduce {
 struct QuotientGraph {
   std::vector<int> vertex_of_row;  ///< [n]
   std::vector<int> n_rows;         ///< [n_vertices]
-  std::vector<int> starts;         ///< [n_vertices + 1]
-  std::vector<int> neighbours;     ///< of each vertex, without itself
+  Adjacency edges;                 ///< in both directions, even where the pattern has one
 
   int n_vertices() const { return static_cast<int>(n_rows.size()); }
 };
 
-/// @param A  [n x n] AIJ, pattern symmetric with the diagonal.
+/// @param A  [n x n] AIJ, symmetric, with the diagonal in its pattern.
 /// @return the same on all ranks.
 /// @note   Collective on the communicator of A.
 QuotientGraph quotient_graph(Mat A);

@@ -1,7 +1,7 @@
 #include "reduce/supernodal/slot_exchange.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "reduce/gather.hpp"
 #include "reduce/supernodal/subtrees.hpp"
@@ -45,12 +45,6 @@ void get(const double* panel, const std::vector<int>& slots, double* to)
     std::copy_n(panel + std::size_t(slots[i]) * panel_width, panel_width, to + i * panel_width);
 }
 
-std::vector<int> times_width(std::vector<int> counts)
-{
-  for (int& n : counts) n *= panel_width;
-  return counts;
-}
-
 }  // namespace
 
 SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vector<int>& slot)
@@ -72,37 +66,35 @@ SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vect
     const bool is_elsewhere = std::cmp_less(row, first) || std::cmp_greater_equal(row, last);
     if (owner[row] == all_ranks && is_elsewhere) other_common_slots_.push_back(slot[row]);
   }
-  std::vector<int> row_counts, slot_counts(n_ranks);
+  slot_counts_.resize(n_ranks);
   for (const std::vector<int>& rows : rows_of_rank) {
-    row_counts.push_back(static_cast<int>(rows.size()));
+    row_counts_.push_back(static_cast<int>(rows.size()));
     rows_.insert(rows_.end(), rows.begin(), rows.end());
   }
   // In the order of slots a single rank has nothing left to do.
   if (n_ranks == 1) std::ranges::sort(rows_, {}, [&](int row) { return slot[row]; });
-  MPI_Alltoall(row_counts.data(), 1, MPI_INT, slot_counts.data(), 1, MPI_INT, comm_);
-  slots_.resize(std::accumulate(slot_counts.begin(), slot_counts.end(), 0));
-  const std::vector<int> row_at = offsets(row_counts), slot_at = offsets(slot_counts);
-  MPI_Alltoallv(rows_.data(), row_counts.data(), row_at.data(), MPI_INT, slots_.data(),
-                slot_counts.data(), slot_at.data(), MPI_INT, comm_);
+  MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
+  row_starts_ = offsets(row_counts_);
+  slot_starts_ = offsets(slot_counts_);
+  slots_.resize(slot_starts_.back());
+  MPI_Alltoallv(rows_.data(), row_counts_.data(), row_starts_.data(), MPI_INT, slots_.data(),
+                slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
   for (int& row : slots_) row = slot[row];
   for (int& row : rows_) row -= first;
-  row_counts_ = times_width(row_counts);
-  slot_counts_ = times_width(slot_counts);
-  row_starts_ = times_width(row_at);
-  slot_starts_ = times_width(slot_at);
 }
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 {
   const bool alone = petsc::size(comm_) == 1;
+  const RowType row_of_panel(panel_width);
   std::vector<double> out(alone ? 0 : rows_.size() * panel_width),
       in(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     double* panel = panels.values + p * panels.stride;
     pack(X, first, rows_, alone ? panel : out.data());
     if (alone) continue;
-    MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), MPI_DOUBLE, in.data(),
-                  slot_counts_.data(), slot_starts_.data(), MPI_DOUBLE, comm_);
+    MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
+                  slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
     put(in.data(), slots_, panel);
     pack(X, first, common_rows_, common.data());
     put(common.data(), common_slots_, panel);
@@ -114,14 +106,15 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 void SlotExchange::to_rows(Panels panels, PetscInt first, LocalColumns X) const
 {
   const bool alone = petsc::size(comm_) == 1;
+  const RowType row_of_panel(panel_width);
   std::vector<double> in(alone ? 0 : rows_.size() * panel_width),
       out(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     const double* panel = panels.values + p * panels.stride;
     if (!alone) {
       get(panel, slots_, out.data());
-      MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), MPI_DOUBLE, in.data(),
-                    row_counts_.data(), row_starts_.data(), MPI_DOUBLE, comm_);
+      MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
+                    row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
       get(panel, common_slots_, common.data());
       unpack(common.data(), first, common_rows_, X);
     }

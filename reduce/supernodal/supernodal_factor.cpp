@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "common/all_ranks.hpp"
+#include "reduce/dense.hpp"
 #include "reduce/elimination_order.hpp"
 #include "reduce/log_event.hpp"
 #include "reduce/supernodal/gathered_rows.hpp"
@@ -43,6 +46,10 @@ void SupernodalFactor::analyze(Mat A)
     MPI_Bcast(places.data(), n, MPI_INT, 0, comm_);
   }
   const LogEvent event(Event::analysis);
+  tiles_.reset();  // of another matrix
+  panel_values_.reset();
+  error_ = MAT_FACTOR_NOERROR;
+  n_negative_ = 0;
   tree_ = assembly_tree(quotient_graph(A), places);
   owner_ = share_subtrees(tree_, petsc::size(comm_));
   own_.clear();
@@ -60,6 +67,9 @@ void SupernodalFactor::analyze(Mat A)
     }
   }
   exchange_ = SlotExchange(A, owner_of_row, slot_of_row);
+  MatInfo info{};
+  petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  n_gathered_ = petsc::size(comm_) == 1 ? 0.0 : info.nz_used * n_slots_ / n;
 }
 
 /// Own supernodes first, then those of all ranks.
@@ -90,7 +100,7 @@ FactorSize SupernodalFactor::size() const
   return size;
 }
 
-double SupernodalFactor::forecast_MiB() const
+CholeskyFactor::Memory SupernodalFactor::forecast() const
 {
   double front = 0.0;
   for (const std::vector<int>* supernodes : {&own_, &common_}) {
@@ -101,9 +111,13 @@ double SupernodalFactor::forecast_MiB() const
   }
   std::vector<int> all = own_;
   all.insert(all.end(), common_.begin(), common_.end());
-  const double numbers = double(tile_starts_.back()) + front + peak_of_left_overs(tree_, all) +
-                         double(n_slots_) * most_columns;
-  return fullest_machine(numbers * sizeof(double) / 1048576.0, comm_);
+  constexpr double numbers_in_MiB = bytes_in_MiB / sizeof(double);
+  const auto kept = double(tile_starts_.back());
+  const double work = 2.0 * front + peak_of_left_overs(tree_, all);  // L and L D of the front
+  const double gathered = n_gathered_ * (1.0 + 0.5);                 // with its index
+  return {.factorization_MiB = (kept + work + gathered) / numbers_in_MiB,
+          .factor_MiB = (kept + double(n_slots_) * most_columns) / numbers_in_MiB,
+          .entries_MiB = kept / numbers_in_MiB};
 }
 
 std::string SupernodalFactor::description() const
@@ -122,7 +136,14 @@ void SupernodalFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
-  error_ = eliminate(A) ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  eliminate(A);
+}
+
+/// Pivots of one sign, positive or negative, need no choice.
+bool SupernodalFactor::is_reliable() const
+{
+  if (error_ == MAT_FACTOR_NUMERIC_ZEROPIVOT) return false;
+  return n_negative_ == 0 || std::cmp_equal(n_negative_, tree_.row.size());
 }
 
 void SupernodalFactor::keep(const Fronts& fronts, int s)
@@ -131,30 +152,39 @@ void SupernodalFactor::keep(const Fronts& fronts, int s)
               tiles_.get() + tile_starts_[s]);
 }
 
-bool SupernodalFactor::eliminate(Mat A)
+void SupernodalFactor::eliminate(Mat A)
 {
   std::vector<char> is_needed(tree_.row.size());
   for (std::size_t p = 0; p < slot_.size(); ++p) is_needed[tree_.row[p]] = slot_[p] != -1;
   const GatheredRows rows(A, is_needed);
   Fronts fronts(tree_, rows.rows());
-  int n_negative = 0, n_failed = 0;
-  for (const int s : own_) {
-    const int n = fronts.eliminate(s);
-    n_failed = n < 0 ? 1 : 0;
-    if (n_failed == 1) break;
-    n_negative += n;
-    keep(fronts, s);
-  }
+  error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  n_negative_ = 0;
+  int n_negative = on_all_ranks(comm_, [&] { return eliminate_own(fronts); });
+  int n_failed = n_negative < 0 ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, comm_);
   MPI_Allreduce(MPI_IN_PLACE, &n_negative, 1, MPI_INT, MPI_SUM, comm_);
-  if (n_failed > 0) return false;
+  if (n_failed > 0) return;
   for (const int s : common_) {
     const int n = eliminate_common(fronts, s);
-    if (n < 0) return false;
+    if (n < 0) return;
     n_negative += n;
   }
   n_negative_ = n_negative;
-  return true;
+  error_ = MAT_FACTOR_NOERROR;
+}
+
+/// The number of negative pivots, -1 where one vanishes.
+int SupernodalFactor::eliminate_own(Fronts& fronts)
+{
+  int n_negative = 0;
+  for (const int s : own_) {
+    const int n = fronts.eliminate(s);
+    if (n < 0) return -1;
+    n_negative += n;
+    keep(fronts, s);
+  }
+  return n_negative;
 }
 
 /// On all ranks alike, with what the children left on one of them.
@@ -194,10 +224,10 @@ void SupernodalFactor::sweep(Panels X, const std::vector<char>& is_active) const
   for (const int s : own_) {
     if (is_active[s] != 0) solve_forward(tiles(s), X);
   }
-  const auto n_common = (n_slots_ - n_own_slots_) * panel_width;
+  const auto n_common = std::size_t(n_slots_ - n_own_slots_) * panel_width;
   for (int p = 0; p < X.n_panels && n_common > 0; ++p) {
     double* common = X.values + p * X.stride + std::size_t(n_own_slots_) * panel_width;
-    MPI_Allreduce(MPI_IN_PLACE, common, n_common, MPI_DOUBLE, MPI_SUM, comm_);
+    sum_over_ranks(std::span(common, n_common), comm_);
   }
   for (const int s : common_) solve_forward(tiles(s), X);
   for (auto s = common_.rbegin(); s != common_.rend(); ++s) solve_backward(tiles(*s), X);

@@ -25,10 +25,12 @@ class SupernodalFactor : public CholeskyFactor {
   void factorize(Mat A) override;
   MatFactorError error() const override { return error_; }
   PetscInt n_negative_pivots() const override { return n_negative_; }
+  bool is_reliable() const override;
+  void release() override { tiles_.reset(); }
   PetscInt columns_at_a_time() const override { return most_columns; }
   void solve(LocalColumns X) override;
   void solve(const SparseColumns& B, LocalColumns X) override;
-  double forecast_MiB() const override;
+  Memory forecast() const override;
   FactorSize size() const override;
   std::string description() const override;
 
@@ -36,7 +38,8 @@ class SupernodalFactor : public CholeskyFactor {
   static constexpr PetscInt most_columns = 64;
 
   void number_slots();
-  bool eliminate(Mat A);
+  void eliminate(Mat A);
+  int eliminate_own(Fronts& fronts);
   int eliminate_common(Fronts& fronts, int s);
   void keep(const Fronts& fronts, int s);
   std::vector<char> take(const SparseColumns& B, int first, Panels panels) const;
@@ -57,6 +60,7 @@ class SupernodalFactor : public CholeskyFactor {
   std::vector<int> below_slots_;          ///< of all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
   SlotExchange exchange_;
+  double n_gathered_ = 0.0;  ///< entries of the rows that are gathered from other ranks, about
 };
 
 }  // namespace chladni::reduce

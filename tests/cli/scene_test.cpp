@@ -204,7 +204,7 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.reduce.cutoff_Hz, 16e3);
   EXPECT_FALSE(scene.reduce.modes);
   EXPECT_EQ(scene.pictures, PictureChoice::none);
-  EXPECT_TRUE(scene.sylvester);
+  EXPECT_EQ(scene.sylvester, true);
   EXPECT_EQ(scene.body.keep.list, (std::vector<int>{7, 8}));
   EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
   EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));

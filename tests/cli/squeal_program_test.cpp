@@ -142,6 +142,124 @@ TEST(SquealProgram, RunsTheModelsThatNeedNoBody)
   EXPECT_NE(run(folder, squeal_program + " run mass.toml --body rigid.toml").exit_code, 0);
 }
 
+/// The example with other speeds and the search for a critical one alone.
+std::string critical_scene(const std::string& speeds)
+{
+  std::string scene = example_scene();
+  for (const auto& [key, line] :
+       {std::pair{"speeds = ", "speeds = " + speeds},
+        std::pair{"analyses = ", std::string("analyses = [\"critical-speed\"]")}}) {
+    const std::size_t at = scene.find(key);
+    scene.replace(at, scene.find('\n', at) - at, line);
+  }
+  return scene;
+}
+
+TEST(SquealProgram, SaysWhetherAllSpeedsAreStableOrUnstable)
+{
+  const Folder folder;
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const auto json_of = [&](const std::string& speeds) {
+    write_text(folder.path() / "scene.toml", critical_scene(speeds));
+    const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    write_text(folder.path() / "said.txt", ending.out);
+    return read_text(folder.path() / "summary.json");
+  };
+  // The pair squeals from 13.37 rad/s on.
+  const std::string unstable = json_of("{ from_rad_s = 20.0, to_rad_s = 60.0, count = 40 }");
+  EXPECT_NE(unstable.find("\"critical_speed_rad_s\": null"), std::string::npos);
+  EXPECT_NE(unstable.find("\"stability\": \"unstable in the whole range\""), std::string::npos);
+  const std::string said = read_text(folder.path() / "said.txt");
+  EXPECT_NE(said.find("none: unstable at all speeds"), std::string::npos) << said;
+  EXPECT_NE(said.find("growth at 20 rad/s"), std::string::npos) << said;
+  EXPECT_NE(said.find("frequency at 60 rad/s"), std::string::npos) << said;
+  EXPECT_NE(
+      run(folder, squeal_program + " info disc.squeal.h5").out.find("none: unstable at all speeds"),
+      std::string::npos);
+  const auto profile = squeal::read_results(folder.path() / "disc.squeal.h5").speed_stability;
+  ASSERT_TRUE(profile);
+  ASSERT_EQ(profile->unstable.size(), 1u);
+  EXPECT_EQ(profile->unstable[0].from.value, 20.0);
+  EXPECT_EQ(profile->unstable[0].to.value, 60.0);
+  EXPECT_GT(profile->from.growth, 0.1);
+  EXPECT_NEAR(profile->from.frequency_Hz, 1696.0, 5.0);
+
+  const std::string stable = json_of("{ from_rad_s = 5.0, to_rad_s = 12.0, count = 40 }");
+  EXPECT_NE(stable.find("\"critical_speed_rad_s\": null"), std::string::npos);
+  EXPECT_NE(stable.find("\"stability\": \"stable in the whole range\""), std::string::npos);
+  EXPECT_NE(stable.find("\"unstable_speeds_rad_s\": []"), std::string::npos);
+  EXPECT_NE(read_text(folder.path() / "said.txt").find("none: stable at all speeds"),
+            std::string::npos);
+
+  const std::string lost = json_of("{ from_rad_s = 5.0, to_rad_s = 60.0, count = 40 }");
+  EXPECT_NE(lost.find("\"stability\": \"lost within the range\""), std::string::npos);
+  EXPECT_EQ(read_text(folder.path() / "said.txt").find("unstable from"), std::string::npos);
+}
+
+TEST(SquealProgram, CallsWhatHasNotSettledNoLimitCycle)
+{
+  // After a second of the four that it takes, the motion still grows by 2.8 per second.
+  const Folder folder;
+  const std::string scene = example_scene();
+  const std::size_t analyses = scene.find("analyses = ");
+  write_text(folder.path() / "scene.toml",
+             replaced(replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+                               "analyses = [\"limit-cycle\", \"limit-cycle-direct\"]"),
+                      "duration_s = 6.0, initial", "duration_s = 1.0, initial"));
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_NE(ending.out.find("end of the transient, not settled: pad velocity"), std::string::npos)
+      << ending.out;
+  EXPECT_NE(ending.out.find("\ndirect limit cycle: pad velocity"), std::string::npos);
+  EXPECT_EQ(ending.out.find("\nlimit cycle: "), std::string::npos) << ending.out;
+  EXPECT_EQ(number_at(read_text(folder.path() / "summary.json"), "settled"), 0.0);
+}
+
+TEST(SquealProgram, PrintsTheGrowthOfTheEigenvalueBesideThatOfAShortRun)
+{
+  // In 0.05 s the stable motion of the pair has not died out.
+  const Folder folder;
+  std::string scene = example_scene();
+  for (const auto& [key, line] :
+       {std::pair{"analyses = ", "analyses = [\"growth\"]"},
+        std::pair{"growth = ", "growth = { speeds_rad_s = [14.1371669], duration_s = 0.05 }"}}) {
+    const std::size_t at = scene.find(key);
+    scene.replace(at, scene.find('\n', at) - at, line);
+  }
+  write_text(folder.path() / "scene.toml", scene);
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  const squeal::Growth growth = squeal::read_results(folder.path() / "disc.squeal.h5").growth.at(0);
+  ASSERT_GT(growth.eigenvalue_rate.value(), 0.1);
+  ASSERT_LT(growth.rate, 0.0);
+  const std::size_t at = ending.out.find("growth at 4.5000 pi rad/s ");
+  ASSERT_NE(at, std::string::npos) << ending.out;
+  EXPECT_NEAR(std::stod(ending.out.substr(at + 26)), *growth.eigenvalue_rate, 1e-4);
+  EXPECT_NE(ending.out.find("growth at 4.5000 pi rad/s, measured in a run too short"),
+            std::string::npos)
+      << ending.out;
+}
+
+TEST(SquealProgram, SaysThatTheOscillatorAsShippedSquealsAtAllSpeeds)
+{
+  const Folder folder;
+  write_text(folder.path() / "mass.toml",
+             replaced(read_text(CHLADNI_SOURCE_DIR "/examples/oscillator/scene.toml"),
+                      "\"growth\", \"limit-cycle\"]",
+                      "\"critical-values\"]\n"
+                      "critical = [{ parameter = \"friction\", from = 0.01, to = 1.0, "
+                      "speed_rad_s = 20.0 }]"));
+  const Ending ending = run(folder, squeal_program + " run mass.toml --json summary.json");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_NE(ending.out.find("none: unstable at all speeds"), std::string::npos) << ending.out;
+  const std::string json = read_text(folder.path() / "summary.json");
+  EXPECT_NE(json.find("\"unstable_values\": [[0.1"), std::string::npos) << json;
+  EXPECT_NEAR(number_at(json, "value"), 0.178571 * (1.0 + 2e-4), 2e-4);
+}
+
 TEST(SquealProgram, TellsWrongUsageFromAFailedJob)
 {
   const Folder folder;

@@ -124,6 +124,17 @@ def python(plugin):
         yield expect(f"slepc4py, {ranks} ranks", error < 1e-10, f"error {error:.1e}")
 
 
+def memory_of_one_rank(plugin):
+    try:
+        text = plugin.run([PYTHON, Path(__file__).with_name("rank_without_memory.py")], 2,
+                          f"{plugin.load()} -st_ksp_type preonly -st_pc_type cholesky "
+                          "-st_pc_factor_mat_solver_type supernodal", code=1)  # fmt: skip
+    except subprocess.TimeoutExpired:
+        text = "hangs"
+    yield expect("memory that one rank lacks ends both",
+                 "rank 1 has not enough memory" in text and "came to its end" not in text)  # fmt: skip
+
+
 def class_of_the_compiled_example(plugin):
     tables = []
     for ranks in (1, 2):
@@ -138,9 +149,13 @@ def class_of_the_compiled_example(plugin):
         yield expect("eta^2 estimates the true errors",
                      np.all((effectivity > 0.7) & (effectivity < 1.01)), effectivity.round(2))  # fmt: skip
     yield expect("equal on 1 and 2 ranks", np.allclose(tables[0][:, 1], tables[1][:, 1], rtol=1e-6))
-    helped = plugin.run([plugin.examples / "membrane", "-help", "-log_view"])
+    helped = plugin.run([plugin.examples / "membrane", "-help", "-log_view", "-cms_sylvester",
+                         "-cms_pc_factor_mat_solver_type", "mumps-metis"])  # fmt: skip
     for words in ("-cms_type", "-cms_nmodes", "-cms_cutoff", "-cms_tol", "-cms_view",
-                  "-cms_monitor", "CMSConstraint", "CMS solve"):  # fmt: skip
+                  "-cms_monitor", "-cms_memory", "-cms_modes_solver", "-cms_lanczos_block_size",
+                  "-cms_lanczos_subspace", "-cms_lanczos_tolerance", "-cms_pc_type",
+                  "-cms_pc_factor_mat_solver_type", "-cms_mat_mumps_icntl_14",
+                  "-cms_sylvester_mat_mumps_icntl_14", "CMSConstraint", "CMS solve"):  # fmt: skip
         yield expect(f"help and log name {words}", words in helped)
 
 
@@ -253,6 +268,7 @@ def interrupted_run(plugin):
 def main(build, mpirun):
     plugin = Plugin(build, mpirun)
     parts = (solver_type_of_an_alien_program, answers_of_the_solver_type, python,
+             memory_of_one_rank,
              class_of_the_compiled_example, matrix_market, interrupted_run)  # fmt: skip
     results = [result for part in parts for result in part(plugin)]
     return all(results)

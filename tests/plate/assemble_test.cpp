@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -139,6 +140,113 @@ TEST(Assemble, IsTheSameOnEachNumberOfRanks)
   const double alone = energy(assemble_disc(PETSC_COMM_SELF));
   EXPECT_GT(here, 1.0);
   EXPECT_NEAR(here, alone, 1e-12 * alone);  // order of the sums of the products only
+}
+
+System assemble_beam(int n_elements)
+{
+  const mesh::Mesh mesh = mesh::beam({.start = {0, 0, 0},
+                                      .end = {2, 0, 0},
+                                      .elements = n_elements,
+                                      .element_size = {},
+                                      .points = {}});
+  const BeamSection section{.group = "beam",
+                            .material = {.young = 2e11, .poisson = 0.3, .density = 7800.0},
+                            .area = 1e-4,
+                            .I_y = 1e-9,
+                            .I_z = 2e-9,
+                            .J = 1.5e-9,
+                            .orientation = std::array{0.0, 0.0, 1.0}};
+  const int n_ranks = petsc::size(PETSC_COMM_WORLD);
+  return assemble(mesh, {.beams = std::span(&section, 1)},
+                  make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks),
+                  PETSC_COMM_WORLD);
+}
+
+TEST(Assemble, IsSymmetricToTheLastBitInPatternAndValues)
+{
+  for (const System& system :
+       {assemble_disc(PETSC_COMM_WORLD), assemble_beam(160), assemble_beam(200)}) {
+    for (const Mat A : {Mat(system.K), Mat(system.M)}) {
+      petsc::Matrix transposed;
+      PetscBool equal = PETSC_FALSE;
+      petsc::check(MatTranspose(A, MAT_INITIAL_MATRIX, transposed.put()));
+      petsc::check(MatEqual(A, transposed, &equal));  // patterns too
+      EXPECT_TRUE(equal);
+    }
+  }
+}
+
+/// The disc turned about an axis through its centre, so that its plane is (almost) that of others.
+mesh::Mesh turned_disc(const Eigen::Matrix3d& Q)
+{
+  mesh::Mesh mesh = testing::small_disc();
+  for (std::array<double, 3>& x : mesh.positions) {
+    const Eigen::Vector3d turned = Q * Eigen::Vector3d(x.data());
+    x = {turned[0], turned[1], turned[2]};
+  }
+  return mesh;
+}
+
+/// Off-diagonal entries of the rows of all ranks below 1e-14 sqrt |A_ii A_jj|.
+int round_off_entries(Mat A)
+{
+  petsc::Vector diagonal;
+  VecScatter scatter = nullptr;
+  Vec all = nullptr;
+  petsc::check(MatCreateVecs(A, diagonal.put(), nullptr));
+  petsc::check(MatGetDiagonal(A, diagonal));
+  petsc::check(VecScatterCreateToAll(diagonal, &scatter, &all));
+  petsc::check(VecScatterBegin(scatter, diagonal, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterEnd(scatter, diagonal, all, INSERT_VALUES, SCATTER_FORWARD));
+  const PetscScalar* d = nullptr;
+  petsc::check(VecGetArrayRead(all, &d));
+  PetscInt begin = 0, end = 0;
+  petsc::check(MatGetOwnershipRange(A, &begin, &end));
+  int count = 0;
+  for (PetscInt row = begin; row < end; ++row) {
+    PetscInt n = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    petsc::check(MatGetRow(A, row, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k) {
+      const double scale = std::sqrt(std::abs(d[row])) * std::sqrt(std::abs(d[columns[k]]));
+      count += columns[k] != row && std::abs(values[k]) <= 0.999e-14 * scale;
+    }
+    petsc::check(MatRestoreRow(A, row, &n, &columns, &values));
+  }
+  petsc::check(VecRestoreArrayRead(all, &d));
+  petsc::check(VecScatterDestroy(&scatter));
+  petsc::check(VecDestroy(&all));
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  return count;
+}
+
+double n_entries(Mat A)
+{
+  MatInfo info{};
+  petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  return info.nz_used;
+}
+
+TEST(Assemble, HasNoEntriesOfRoundOffAtAnyAngle)
+{
+  constexpr double right_angle = 0.5 * std::numbers::pi;  // with a cosine of 6e-17
+  const int n_ranks = petsc::size(PETSC_COMM_WORLD);
+  const double flat = n_entries(assemble_disc(PETSC_COMM_WORLD).K);
+  for (const double angle : {right_angle, 2.0 * right_angle, 0.3}) {
+    const Eigen::Matrix3d Q = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const mesh::Mesh mesh = turned_disc(Q);
+    const System system =
+        assemble(mesh, testing::section,
+                 make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
+                 PETSC_COMM_WORLD);
+    EXPECT_EQ(round_off_entries(system.K), 0) << angle;
+    EXPECT_EQ(round_off_entries(system.M), 0) << angle;
+    expect_no_force_in_rigid_motion(system);
+    if (angle > 1.0) {
+      EXPECT_NEAR(n_entries(system.K), flat, 0.02 * flat) << angle;  // what cancels by chance
+    }
+  }
 }
 
 /// The disc with a beam on its outer edge, whose nodes are those of the disc.

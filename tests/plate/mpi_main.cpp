@@ -9,6 +9,7 @@ int main(int argc, char** argv)
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   int failed = RUN_ALL_TESTS();
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  PetscPopErrorHandler();
   SlepcFinalize();
   return failed;
 }

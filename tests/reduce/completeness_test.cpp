@@ -90,6 +90,28 @@ TEST(ErrorBounds, OfTwoCloseValuesHoldForBoth)
   }
 }
 
+TEST(ErrorBounds, OfTheLastValueReachBeyondSigma)
+{
+  // K = [[100.1, -.1], [-.1, 1.1]], M = diag(1, 1000) condensed to its first DOF: the eigenvalues
+  // are near 0.0011 and 100, and the only Ritz value is near the upper one.
+  const double K[] = {100.1, -0.1, 1.1}, m[] = {1.0, 1000.0};
+  const double psi = -K[1] / K[2];
+  const double lambda = (K[0] + K[1] * psi) / (m[0] + psi * psi * m[1]);
+  const double r_s = lambda * m[1] * psi;  // for u = (1, psi)
+  const double mass = m[0] + psi * psi * m[1];
+  const double eta2 = r_s * r_s / K[2] / lambda / mass;
+  const double b = K[0] / m[0] + K[2] / m[1], c = (K[0] * K[2] - K[1] * K[1]) / (m[0] * m[1]);
+  const double exact = 2.0 * c / (b + std::sqrt(b * b - 4.0 * c));
+  EXPECT_GE(error_bounds({lambda}, {eta2}, 1.01 * lambda)[0], lambda / exact - 1.0);
+}
+
+TEST(CountModes, RefusesACountBelowWhatIsThere)
+{
+  EXPECT_THROW(count_modes({.lambda = {1.0, 2.0}, .eta2 = {1e-8, 1e-8}, .n_zero = 0},
+                           [](double) { return 1; }),
+               Error);
+}
+
 TEST(CountModes, FindsTheModeThatIsMissing)
 {
   const std::vector<double> full = {1.0, 2.0, 4.0, 7.0, 11.0, 16.0, 22.0};

@@ -48,6 +48,7 @@ struct HeldChain {
   Factorization K_ss = factorize(K.ss);
   CraigBamptonBasis Q_CB;
 
+  Condensation system() const { return {.K_ss = K_ss, .Q_CB = Q_CB, .K = K, .M = M}; }
   ReducedPairs pairs() const { return lowest(project(Q_CB, K, M), Q_CB.n_modes() + 1); }
 };
 
@@ -55,6 +56,11 @@ struct HeldChain {
 double exact(int k)
 {
   return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n - 1))), 2);
+}
+
+double frequency_Hz(int k)
+{
+  return std::sqrt(exact(k)) / (2.0 * std::numbers::pi);
 }
 
 double true_error(const ReducedPairs& pairs, int k)
@@ -67,7 +73,7 @@ TEST(ErrorEstimates, MatchTheTrueErrorOfAHeldChain)
   constexpr int n_modes = 12;
   const HeldChain held(n_modes);
   const ReducedPairs pairs = held.pairs();
-  const std::vector<double> eta2 = error_estimates(held.K_ss, held.Q_CB, held.M, pairs);
+  const std::vector<double> eta2 = error_estimates(held.system(), pairs).eta2;
   // The error lies in the fixed-interface modes left out. One of frequency lambda_j contributes
   // 1 / (1 - lambda / lambda_j) of its share in eta^2, at most that of the first one left out.
   const double left_out =
@@ -84,7 +90,7 @@ TEST(ErrorEstimates, EncloseAnEigenvalueOfTheFullChain)
   for (const int n_modes : {3, 8, 20}) {
     const HeldChain held(n_modes);
     const ReducedPairs pairs = held.pairs();
-    const std::vector<double> eta2 = error_estimates(held.K_ss, held.Q_CB, held.M, pairs);
+    const std::vector<double> eta2 = error_estimates(held.system(), pairs).eta2;
     for (std::size_t i = 0; i < eta2.size(); ++i) {
       double nearest = 1.0;
       for (int k = 1; k < n; ++k) {
@@ -99,8 +105,8 @@ TEST(ErrorEstimates, EncloseAnEigenvalueOfTheFullChain)
 TEST(ErrorEstimates, FallWithTheNumberOfModes)
 {
   const HeldChain few(4), many(16);
-  EXPECT_GT(error_estimates(few.K_ss, few.Q_CB, few.M, few.pairs())[2],
-            50.0 * error_estimates(many.K_ss, many.Q_CB, many.M, many.pairs())[2]);
+  EXPECT_GT(error_estimates(few.system(), few.pairs()).eta2[2],
+            50.0 * error_estimates(many.system(), many.pairs()).eta2[2]);
 }
 
 TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
@@ -121,7 +127,7 @@ TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
       EXPECT_NEAR(model.K.values[i], expected.K.values[i], 1e-9);
     }
     const ReducedPairs pairs = some.pairs();
-    const std::vector<double> eta2 = error_estimates(some.K_ss, some.Q_CB, some.M, pairs);
+    const std::vector<double> eta2 = error_estimates(some.system(), pairs).eta2;
     const std::vector<double> grown = growing.error_estimates(pairs, n_modes);
     for (std::size_t i = 0; i < eta2.size(); ++i) {
       EXPECT_NEAR(grown[i], eta2[i], 1e-9 * eta2[i] + 1e-12) << n_modes << " modes, pair " << i + 1;
@@ -134,15 +140,17 @@ TEST(ToleranceSearch, TakesTheFirstNumberOfModesThatKeepsTheTolerance)
   const HeldChain held(1);
   const auto lowest_held_pairs = [&](const ReducedModel& model) { return lowest(model, 6); };
   constexpr double tolerance = 1e-6;
-  ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
-                         tolerance, lowest_held_pairs);
+  ToleranceSearch search(
+      {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+      {.tolerance = tolerance, .up_to_Hz = frequency_Hz(6), .of = ToleranceGoal::Of::eigenvalues},
+      lowest_held_pairs);
   do {
     search.find_modes();
   } while (!search.is_enough());
   const auto largest_error = [&](FixedInterfaceModes modes) {
     CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K), .modes = std::move(modes)};
     const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6);
-    return std::ranges::max(error_estimates(held.K_ss, Q_CB, held.M, pairs));
+    return std::ranges::max(error_estimates({held.K_ss, Q_CB, held.K, held.M}, pairs).eta2);
   };
   const auto n_modes = static_cast<int>(search.modes().omega.size());
   EXPECT_LE(largest_error(search.modes()), 1.001 * tolerance);
@@ -154,17 +162,17 @@ TEST(ToleranceSearch, ForFrequenciesTakesFewerModesAndKeepsTheirErrors)
 {
   const HeldChain held(1);
   constexpr double tolerance = 1e-5;
-  const auto found = [&](std::optional<double> up_to_Hz) {
-    ToleranceSearch search(
-        {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M}, tolerance,
-        [](const ReducedModel& model) { return lowest(model, 6); }, up_to_Hz);
+  const auto found = [&](ToleranceGoal::Of of) {
+    ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+                           {.tolerance = tolerance, .up_to_Hz = 1.001 * frequency_Hz(6), .of = of},
+                           [](const ReducedModel& model) { return lowest(model, 6); });
     do {
       search.find_modes();
     } while (!search.is_enough());
     return search.modes();
   };
-  FixedInterfaceModes modes = found(1.0);
-  EXPECT_LT(modes.omega.size(), found({}).omega.size());
+  FixedInterfaceModes modes = found(ToleranceGoal::Of::frequencies);
+  EXPECT_LT(modes.omega.size(), found(ToleranceGoal::Of::eigenvalues).omega.size());
   const CraigBamptonBasis Q_CB{.Psi = constraint_modes(held.K_ss, held.K),
                                .modes = std::move(modes)};
   const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 6);
@@ -177,11 +185,10 @@ TEST(ToleranceSearch, CountsAFrequencyThatTooFewModesPutBeyondTheRange)
   // The fifth frequency lies at the end of the range, and above it as long as modes are missing.
   const HeldChain held(1);
   constexpr double tolerance = 1e-2;
-  const double up_to_Hz = 1.0005 * std::sqrt(exact(5)) / (2.0 * std::numbers::pi);
   ToleranceSearch search(
-      {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M}, tolerance,
-      [](const ReducedModel& model) { return lowest(model, std::min(6, model.K.n_rows - 1)); },
-      up_to_Hz);
+      {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+      {.tolerance = tolerance, .up_to_Hz = 1.0005 * frequency_Hz(5)},
+      [](const ReducedModel& model) { return lowest(model, std::min(6, model.K.n_rows - 1)); });
   do {
     search.find_modes();
   } while (!search.is_enough());
@@ -189,6 +196,36 @@ TEST(ToleranceSearch, CountsAFrequencyThatTooFewModesPutBeyondTheRange)
   const ReducedPairs pairs = lowest(project(Q_CB, held.K, held.M), 5);
   for (int k = 0; k < 5; ++k)
     EXPECT_LT(std::sqrt(1.0 + true_error(pairs, k)) - 1.0, tolerance) << k;
+}
+
+/// The modes of a model with all its masters held, which are the fixed-interface modes.
+ReducedPairs with_held_masters(const ReducedModel& model)
+{
+  const auto n_modes = static_cast<PetscInt>(model.omega.size());
+  ReducedPairs pairs{.X = {model.K.n_rows, n_modes}, .lambda = {}};
+  for (PetscInt k = 0; k < n_modes; ++k) {
+    pairs.X(model.n_masters + k, k) = 1.0;
+    pairs.lambda.push_back(model.omega[k] * model.omega[k]);
+  }
+  return pairs;
+}
+
+TEST(ToleranceSearch, TakesAllModesOfTheRangeWhereEveryModeThatItHasIsExact)
+{
+  const HeldChain held(1);
+  constexpr int n_in_range = 53;               // more than a search begins with
+  const auto fixed_frequency_Hz = [](int k) {  // n - 2 masses between fixed ends
+    return std::sin(0.5 * k * std::numbers::pi / (n - 1)) / std::numbers::pi;
+  };
+  for (const int n_wanted : {19, n_in_range}) {
+    const double between = 0.5 * (fixed_frequency_Hz(n_wanted) + fixed_frequency_Hz(n_wanted + 1));
+    ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+                           {.tolerance = 1e-3, .up_to_Hz = between}, with_held_masters);
+    do {
+      search.find_modes();
+    } while (!search.is_enough());
+    EXPECT_EQ(search.modes().omega.size(), static_cast<std::size_t>(n_wanted));
+  }
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ Reduced reduce(const Chain& body, const std::vector<PetscInt>& masters, int n_mo
     std::copy(normal.begin(), normal.end(), pairs.X.values.begin() + std::size_t(j - n_rigid) * n);
     pairs.lambda.push_back(reduced.lambda.back());
   }
-  reduced.eta2 = error_estimates(K_ss, Q_CB, M, pairs);
+  reduced.eta2 = error_estimates({K_ss, Q_CB, K, M}, pairs).eta2;
   return reduced;
 }
 

@@ -5,7 +5,9 @@
 #include <numeric>
 #include <random>
 
+#include "common/checked_count.hpp"
 #include "reduce/aligned_numbers.hpp"
+#include "reduce/gather.hpp"
 #include "reduce/supernodal/assembly_tree.hpp"
 #include "reduce/supernodal/dense_elimination.hpp"
 #include "reduce/supernodal/subtrees.hpp"
@@ -50,18 +52,17 @@ Grid grid(int side, int rows_per_node)
 {
   Grid made{.graph = {.vertex_of_row = {},
                       .n_rows = std::vector<int>(side * side, rows_per_node),
-                      .starts = {0},
-                      .neighbours = {}},
+                      .edges = {}},
             .places = std::vector<int>(side * side * rows_per_node)};
   for (int node = 0; node < side * side; ++node) {
     const int x = node % side, y = node / side;
     for (int r = 0; r < rows_per_node; ++r) made.graph.vertex_of_row.push_back(node);
     for (int j = std::max(y - 1, 0); j <= std::min(y + 1, side - 1); ++j) {
       for (int i = std::max(x - 1, 0); i <= std::min(x + 1, side - 1); ++i) {
-        if (j * side + i != node) made.graph.neighbours.push_back(j * side + i);
+        if (j * side + i != node) made.graph.edges.neighbours.push_back(j * side + i);
       }
     }
-    made.graph.starts.push_back(static_cast<int>(made.graph.neighbours.size()));
+    made.graph.edges.starts.push_back(static_cast<int>(made.graph.edges.neighbours.size()));
   }
   std::vector<int> order;
   dissect(0, side, 0, side, side, order);
@@ -80,9 +81,10 @@ Eigen::MatrixXi filled_pattern(const QuotientGraph& graph, const std::vector<int
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const int a = graph.vertex_of_row[i], b = graph.vertex_of_row[j];
-      const auto begin = graph.neighbours.begin();
-      const bool touch = a == b || std::find(begin + graph.starts[a], begin + graph.starts[a + 1],
-                                             b) != begin + graph.starts[a + 1];
+      const auto begin = graph.edges.neighbours.begin();
+      const bool touch =
+          a == b || std::find(begin + graph.edges.starts[a], begin + graph.edges.starts[a + 1],
+                              b) != begin + graph.edges.starts[a + 1];
       if (touch) pattern(position[i], position[j]) = 1;
     }
   }
@@ -93,6 +95,36 @@ Eigen::MatrixXi filled_pattern(const QuotientGraph& graph, const std::vector<int
     }
   }
   return pattern;
+}
+
+TEST(CheckedCount, RefusesWhatThirtyTwoBitsDoNotHold)
+{
+  EXPECT_EQ(checked_count(largest_count, "entries", ""), largest_count);
+  try {
+    checked_count(largest_count + 1, "entries of K", "use more ranks");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "2147483648 entries of K are more than the 2147483647 that indices of 32 bits "
+                 "count; use more ranks");
+  }
+}
+
+TEST(Offsets, RefuseMoreThanACallOfMpiCounts)
+{
+  EXPECT_EQ(offsets({3, 0, 2}), (std::vector<int>{0, 3, 3, 5}));
+  EXPECT_THROW(offsets({2'000'000'000, 2'000'000'000}), Error);
+}
+
+TEST(Adjacency, HasEachEdgeInBothDirections)
+{
+  const Adjacency one_way{.starts = {0, 2, 3, 3, 4}, .neighbours = {3, 1, 2, 0}};
+  EXPECT_FALSE(is_symmetric(one_way));
+  const Adjacency both = symmetrized(one_way);
+  EXPECT_TRUE(is_symmetric(both));
+  EXPECT_EQ(both.starts, (std::vector<int>{0, 2, 4, 5, 6}));
+  EXPECT_EQ(both.neighbours, (std::vector<int>{3, 1, 2, 0, 1, 0}));
+  EXPECT_EQ(symmetrized(both).neighbours, both.neighbours);  // in the same order
 }
 
 TEST(AssemblyTree, HoldsEveryEntryOfTheFactor)

@@ -95,7 +95,8 @@ TEST(ResultFile, KeepsTheSensitivityToModes)
                                                           .highest_Hz = 600.0,
                                                           .critical_speed = {},
                                                           .critical_frequency_Hz = {},
-                                                          .growth = -0.5}},
+                                                          .growth = -0.5,
+                                                          .stability = "as named"}},
                                              .influences = {{.nodal_diameters = 3,
                                                              .frequency_Hz = 1672.0,
                                                              .participation = 0.9,
@@ -113,6 +114,7 @@ TEST(ResultFile, KeepsTheSensitivityToModes)
   ASSERT_EQ(read->subsets.size(), 1u);
   EXPECT_FALSE(read->subsets[0].critical_speed);
   EXPECT_EQ(read->subsets[0].growth, -0.5);
+  EXPECT_EQ(read->subsets[0].stability, "as named");
   ASSERT_EQ(read->influences.size(), 2u);
   EXPECT_FALSE(read->influences[0].growth_without);
   EXPECT_EQ(read->influences[1].critical_speed_without, 12.0);
@@ -129,6 +131,51 @@ TEST(ResultFile, TellsNoCriticalSpeedFromNoSearch)
   write_results(file.path, results, {});
   EXPECT_TRUE(read_results(file.path).searched_critical_speed);
   EXPECT_FALSE(read_results(file.path).critical_speed);
+}
+
+void expect_equal(const StabilityPoint& read, const StabilityPoint& written)
+{
+  EXPECT_EQ(read.value, written.value);
+  EXPECT_EQ(read.growth, written.growth);
+  EXPECT_EQ(read.frequency_Hz, written.frequency_Hz);
+}
+
+void expect_equal(const std::optional<StabilityProfile>& read, const StabilityProfile& written)
+{
+  ASSERT_TRUE(read);
+  expect_equal(read->from, written.from);
+  expect_equal(read->to, written.to);
+  ASSERT_EQ(read->unstable.size(), written.unstable.size());
+  for (std::size_t i = 0; i < written.unstable.size(); ++i) {
+    expect_equal(read->unstable[i].from, written.unstable[i].from);
+    expect_equal(read->unstable[i].to, written.unstable[i].to);
+    expect_equal(read->unstable[i].worst, written.unstable[i].worst);
+  }
+}
+
+TEST(ResultFile, KeepsTheUnstableIntervals)
+{
+  const TemporaryFile file;
+  const StabilityProfile none{{1.0, -2.0, 300.0}, {9.0, -0.5, 310.0}, {}};
+  const StabilityProfile two{{1.0, 0.25, 300.0},
+                             {9.0, 0.5, 310.0},
+                             {{{1.0, 0.25, 300.0}, {2.0, 0.0, 301.0}, {1.5, 0.75, 302.0}},
+                              {{7.0, 0.0, 303.0}, {9.0, 0.5, 310.0}, {8.0, 1.5, 304.0}}}};
+  SquealResults results;
+  results.searched_critical_speed = true;
+  results.speed_stability = two;
+  results.critical_values = {{.parameter = "friction",
+                              .speed = 10.0,
+                              .value = {},
+                              .frequency_Hz = 0.0,
+                              .n_newton_steps = 0,
+                              .profile = none}};
+  write_results(file.path, results, {});
+  const SquealResults read = read_results(file.path);
+  EXPECT_FALSE(read.critical_speed);
+  expect_equal(read.speed_stability, two);
+  ASSERT_EQ(read.critical_values.size(), 1u);
+  expect_equal(read.critical_values[0].profile, none);
 }
 
 TEST(ResultFile, NamesFormatUnitsAndOrigin)

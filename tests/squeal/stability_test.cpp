@@ -6,6 +6,7 @@
 
 #include "analytic_body.hpp"
 #include "kirchhoff_modes.hpp"
+#include "squeal/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -165,6 +166,39 @@ TEST(CriticalSpeed, IsAbsentWhenTheRangeHoldsNone)
   options.speeds = {.from = pi, .to = 20.0 * pi, .count = 10};
   options.friction = 0.0;  // a conservative system: only rounding could cross
   EXPECT_FALSE(critical_speed(disc, options));
+}
+
+TEST(CriticalSpeed, ComesWithTheUnstableIntervalBelowIt)
+{
+  // The weak growth below 0.157 pi.
+  SquealOptions options = reference_options();
+  options.speeds.from = 0.1 * pi;
+  const InertialDisc disc = damped_plate(0.0);
+  const StabilityProfile profile = stability_over_speed(disc, options);
+  ASSERT_EQ(profile.unstable.size(), 2u);
+  EXPECT_EQ(profile.unstable[0].from.value, 0.1 * pi);
+  EXPECT_GT(profile.unstable[0].from.growth, 0.0);
+  const double regained = profile.unstable[0].to.value;
+  EXPECT_NEAR(regained / pi, 0.157, 0.001);
+  EXPECT_GT(least_stable_eigenvalue(disc, options, regained * (1.0 - 1e-4)).real(), 1e-7);
+  EXPECT_LT(least_stable_eigenvalue(disc, options, regained * (1.0 + 1e-4)).real(), -1e-7);
+  EXPECT_NEAR(profile.unstable[1].from.value / pi, 4.028040537151143, 1e-8);
+  EXPECT_EQ(profile.unstable[1].to.value, 20.0 * pi);
+  EXPECT_EQ(stability_of(profile), Stability::lost);
+}
+
+TEST(CriticalSpeed, TellsWhyThereIsNone)
+{
+  const auto stability = [](double from, double to, double friction) {
+    SquealOptions options = reference_options();
+    options.speeds = {.from = from * pi, .to = to * pi, .count = 10};
+    options.friction = friction;
+    return stability_of(stability_over_speed(inertial_of({kirchhoff_3()}), options));
+  };
+  EXPECT_EQ(stability(1.0, 4.2, 0.6), Stability::stable);
+  EXPECT_EQ(stability(4.3, 8.0, 0.6), Stability::unstable);
+  EXPECT_EQ(stability(4.0, 8.0, 0.6), Stability::lost);
+  EXPECT_EQ(stability(1.0, 20.0, 0.0), Stability::stable);  // conservative
 }
 
 TEST(CriticalSpeed, DoesNotDependOnTheOrientationOfTheEigenvectors)

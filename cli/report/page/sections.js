@@ -27,7 +27,7 @@ function modeTable(content, choose) {
   const columns = [["mode", mode => String(mode.number)],
                    ["frequency, Hz", mode => formatted(mode.frequency_Hz, 6)]];
   if (known("estimate")) columns.push(["estimated error", mode => percent(mode.estimate)]);
-  if (known("bound")) columns.push(["certified: at most", mode => percent(mode.bound)]);
+  if (known("bound")) columns.push(["bound", mode => percent(mode.bound)]);
   if (known("diameters")) columns.push(["nodal diameters", mode => String(mode.diameters ?? "")]);
   columns.push(["kind", mode => mode.kind]);  // last: a small window shows the errors
   const made = table(columns.map(([name]) => name), modes.map(mode => columns.map(([, text]) => text(mode))));
@@ -50,8 +50,8 @@ function errorNote(content) {
   if (!certified) return note("The reduced file with its error estimates was not beside the body.");
   const bounded = content.modes.some(mode => mode.bound !== undefined);
   return note("Errors are those of the reduction against its finite-element model, relative to the frequency: " +
-              "the estimate eta²/2" + (bounded ? ", and the certified bound of Kato and Temple, which holds because " +
-              "eigenvalues were counted." : ". [reduce] sylvester = true adds a certified bound."));
+              "an estimate" + (bounded ? ", and a bound as far up as the count of eigenvalues says that no mode is missing." :
+              "; that no mode is missing was not checked: [reduce] sylvester = true counts them and adds bounds."));
 }
 
 function countTable(counts) {
@@ -164,7 +164,7 @@ function cycleFigures(content) {
                     series: [{x: transient.t, y: transient.envelope, colour: 0}]}));
   if (transient) {
     const band = (key, colour, name) => ({x: transient[key].t, low: transient[key].least, high: transient[key].largest, colour, name});
-    const {tail} = transient, cycle = content.limit_cycle ?? content.limit_cycle_direct;
+    const {tail} = transient, cycle = chosenCycle(content);
     const first = cycle ? tail.t.findIndex(t => t > tail.t.at(-1) - 6 / cycle.frequency_Hz) : 0;
     const last = values => values.slice(Math.max(0, first));
     made.push(plot({title: "Normal forces of the first pad pair", x: {label: "time, s"}, y: {label: "normal force, N"},
@@ -193,11 +193,16 @@ function cycleFigures(content) {
   return made;
 }
 
+// What a transient has not settled at is no limit cycle where one was found as such.
+function chosenCycle({limit_cycle, limit_cycle_direct}) {
+  return limit_cycle?.settled ? limit_cycle : limit_cycle_direct ?? limit_cycle;
+}
+
 function cycleTable(content) {
   const rows = [["limit_cycle", "end of the transient"], ["limit_cycle_direct", "periodic motion, found as such"]]
     .filter(([key]) => content[key]).map(([key, name]) => {
       const cycle = content[key];
-      return [name, formatted(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
+      return [name + (cycle.settled ? "" : ", not settled"), formatted(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
               formatted(1e3 * cycle.pad_displacement, 5), `${formatted(cycle.N_min, 4)} … ${formatted(cycle.N_max, 4)}`];
     });
   return rows.length ? scrolled(table(["limit cycle", "speed, rad/s", "frequency, Hz", "pad velocity, m/s",
@@ -221,7 +226,7 @@ function estimateFigure(modes) {
   const known = key => modes.filter(mode => mode[key] > 0);
   const curve = (key, colour, marker, name) => ({x: known(key).map(m => m.frequency_Hz), y: known(key).map(m => m[key]),
                                                  colour, marker, line: false, name});
-  const series = [curve("estimate", 0, "circle", "estimate"), curve("bound", 1, "triangle", "certified bound")]
+  const series = [curve("estimate", 0, "circle", "estimate"), curve("bound", 1, "triangle", "bound")]
     .filter(s => s.x.length);
   return series.length && plot({title: "Reduction: error of each frequency against the FE model",
                                 x: {label: "frequency, Hz"}, y: {label: "relative error", log: true}, series});
@@ -247,10 +252,12 @@ function drawPage() {
   page = JSON.parse(document.getElementById("content").textContent);
   const benchmark = JSON.parse(document.getElementById("benchmark").textContent);
   document.getElementById("title").textContent = page.title;
-  const cycle = page.limit_cycle ?? page.limit_cycle_direct;
+  const cycle = chosenCycle(page);
   const key = [page.modes && `${page.modes.length} modes`,
                page.critical && `squeals from ${formatted(page.critical.speed)} rad/s on at ${formatted(page.critical.frequency_Hz)} Hz`,
-               cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s`];
+               !page.critical && page.stability && `stability over the speed: ${page.stability}`,
+               cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s` +
+                 (cycle.settled ? "" : " (end of the transient, not settled)")];
   document.getElementById("key-figures").textContent = key.filter(Boolean).join(" · ");
   if (page.modes) drawModes(page);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));

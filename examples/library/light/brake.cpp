@@ -6,6 +6,7 @@
 #include "mbs_export/body_file.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/run.hpp"
+#include "squeal/stability_search.hpp"
 
 int main(int argc, char** argv)
 try {
@@ -24,7 +25,10 @@ try {
       .analyses = {"eigenvalues", "critical-speed"}};
   // 3. Where the sliding disc loses its stability.
   const squeal::SquealResults results = squeal::run(disc, options);
-  if (!results.critical_speed) return std::puts("no squeal in this range"), 0;
+  if (!results.critical_speed) {
+    const squeal::Stability stability = squeal::stability_of(results.speed_stability.value());
+    return std::printf("no critical speed: %s\n", squeal::name_of(stability)), 0;
+  }
   std::printf("squeals from %.4f pi rad/s on, at %.1f Hz\n",
               results.critical_speed->speed / std::numbers::pi,
               results.critical_speed->frequency_Hz);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "../chain.hpp"
@@ -68,12 +69,26 @@ void set_value(Mat A, PetscInt i, PetscInt j, double value)
   testing::finish(A);
 }
 
+/// Options of the global database for as long as it lives.
 class Options {
  public:
-  explicit Options(const char* text) { petsc::check(PetscOptionsInsertString(nullptr, text)); }
-  ~Options() { PetscOptionsClear(nullptr); }
+  explicit Options(const char* text) : text_(text)
+  {
+    petsc::check(PetscOptionsInsertString(nullptr, text));
+  }
+  ~Options()
+  {
+    std::istringstream words(text_);
+    for (std::string word; words >> word;) {
+      if (word.starts_with("-cms_") || word.find("_cms_") != std::string::npos)
+        PetscOptionsClearValue(nullptr, word.c_str());
+    }
+  }
   Options(const Options&) = delete;
   Options& operator=(const Options&) = delete;
+
+ private:
+  std::string text_;
 };
 
 TEST(CMS, KeepsTheChainBetweenItsEnds)
@@ -157,6 +172,53 @@ double free_lambda(int k)
   return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / n), 2);
 }
 
+/// G(i, i + 1) = 1 = -G(i + 1, i): gyroscopic forces; with damping besides, a diagonal.
+petsc::Matrix gyroscopic(Mat like, double damping)
+{
+  petsc::Matrix G;
+  PetscInt first = 0, last = 0;
+  petsc::check(MatDuplicate(like, MAT_DO_NOT_COPY_VALUES, G.put()));
+  petsc::check(MatGetOwnershipRange(G, &first, &last));
+  for (PetscInt i = first; i < last; ++i) {
+    petsc::check(MatSetValue(G, i, i, damping, INSERT_VALUES));
+    if (i > 0) petsc::check(MatSetValue(G, i, i - 1, -1.0, INSERT_VALUES));
+    if (i + 1 < n) petsc::check(MatSetValue(G, i, i + 1, 1.0, INSERT_VALUES));
+  }
+  testing::finish(G);
+  return G;
+}
+
+TEST(CMS, ProjectsGyroscopicForces)
+{
+  for (const double damping : {0.0, 0.3}) {
+    Solver solver;
+    const petsc::Matrix G = gyroscopic(solver.chain.K, damping);
+    petsc::check(CMSSetDimensions(solver.cms, 4));
+    petsc::check(CMSSetOperators(solver.cms, solver.chain.K, solver.chain.M, G));
+    petsc::check(CMSSetInterface(solver.cms, solver.masters));
+    petsc::check(CMSSolve(solver.cms));
+    Mat T = nullptr, C_r = nullptr;
+    petsc::check(CMSGetTransformation(solver.cms, &T));
+    petsc::check(CMSGetReducedOperators(solver.cms, nullptr, nullptr, &C_r));
+    petsc::Matrix GT;
+    petsc::check(MatMatMult(G, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, GT.put()));
+    const SmallMatrix C = replicate(C_r), projected = inner_product(T, GT);
+    double largest = 0.0;
+    for (PetscInt i = 0; i < C.n_rows; ++i) {
+      for (PetscInt j = 0; j < C.n_cols; ++j) {
+        EXPECT_NEAR(C(i, j), projected(i, j), round_off);
+        if (damping == 0.0) {
+          EXPECT_NEAR(C(i, j), -C(j, i), round_off);
+        }
+        if (i != j) largest = std::max(largest, std::abs(C(i, j)));
+      }
+    }
+    EXPECT_GT(largest, 0.01);
+    const PetscErrorCode code = CMSWrite(solver.cms, "/tmp/never-written.reduced.h5");
+    EXPECT_NE(message(code).find("gyroscopic"), std::string::npos) << message(code);
+  }
+}
+
 TEST(CMS, BoundsTheErrorsOfItsFrequencies)
 {
   Solver solver;
@@ -236,10 +298,93 @@ TEST(CMS, ObeysTheOptionsOfItsPrefix)
   const Options wrong("-wrong_cms_modes_solver by-magic");
   Solver solver;
   petsc::check(CMSSetOptionsPrefix(solver.cms, "wrong_"));
-  expect_refused(solver, "by-magic");
-  PetscBool left_behind = PETSC_FALSE;  // what reduce/ saw as its own option
-  petsc::check(PetscOptionsHasName(nullptr, nullptr, "-cms_modes_solver", &left_behind));
-  EXPECT_FALSE(left_behind);
+  const PetscErrorCode code = CMSSetFromOptions(solver.cms);
+  EXPECT_NE(message(code).find("-wrong_cms_modes_solver by-magic"), std::string::npos);
+}
+
+TEST(CMS, IsNotTouchedByOptionsOfAnotherPrefix)
+{
+  for (const char* option : {"-cms_modes_solver by-magic", "-cms_lanczos_block_size 0",
+                             "-cms_lanczos_subspace -3", "-cms_lanczos_tolerance -1",
+                             "-cms_memory 1e-9", "-cms_pc_factor_mat_solver_type no_such_package",
+                             "-cms_pc_type jacobi", "-cms_sylvester_pc_type jacobi"}) {
+    const Options options(option);
+    for (const std::string prefix : {"left_", ""}) {
+      Solver solver;
+      petsc::check(CMSSetOptionsPrefix(solver.cms, prefix.c_str()));
+      petsc::check(CMSSetSylvester(solver.cms, PETSC_TRUE));
+      PetscErrorCode code = CMSSetFromOptions(solver.cms);
+      if (code == 0) code = solver.solve();
+      EXPECT_EQ(code == 0, prefix == "left_") << option << ": " << message(code);
+    }
+  }
+}
+
+TEST(CMS, ObeysADatabaseOfItsOwn)
+{
+  const Options global("-cms_nmodes 9 -cms_modes_solver by-magic -cms_pc_type jacobi");
+  PetscOptions own = nullptr;
+  petsc::check(PetscOptionsCreate(&own));
+  petsc::check(PetscOptionsInsertString(own, "-cms_nmodes 4 -cms_sylvester"));
+  {
+    Solver solver;
+    petsc::check(PetscObjectSetOptions(reinterpret_cast<PetscObject>(solver.cms), own));
+    petsc::check(CMSSetFromOptions(solver.cms));
+    petsc::check(solver.solve());
+    PetscInt n_modes = 0;
+    petsc::check(CMSGetDimensions(solver.cms, nullptr, &n_modes));
+    EXPECT_EQ(n_modes, 4);
+  }
+  for (const char* option : {"-cms_modes_solver", "-cms_pc_type", "-cms_sylvester_pc_type"}) {
+    petsc::check(PetscOptionsSetValue(own, option, "jacobi"));
+    Solver solver;
+    petsc::check(PetscObjectSetOptions(reinterpret_cast<PetscObject>(solver.cms), own));
+    PetscErrorCode code = CMSSetFromOptions(solver.cms);
+    if (code == 0) code = solver.solve();
+    EXPECT_NE(message(code).find(std::string(option) + " jacobi"), std::string::npos)
+        << message(code);
+    petsc::check(PetscOptionsClearValue(own, option));
+  }
+  petsc::check(PetscOptionsDestroy(&own));
+}
+
+std::string all_options()
+{
+  char* text = nullptr;
+  petsc::check(PetscOptionsGetAll(nullptr, &text));
+  std::string all = text;
+  petsc::check(PetscFree(text));
+  return all;
+}
+
+TEST(CMS, LeavesTheGlobalDatabaseAlone)
+{
+  const Options options(
+      "-left_cms_pc_factor_mat_solver_type mumps -left_cms_lanczos_block_size 4 "
+      "-cms_lanczos_block_size 5");
+  Solver solver;
+  petsc::check(CMSSetOptionsPrefix(solver.cms, "left_"));
+  std::vector<std::string> seen{all_options()};
+  petsc::check(CMSMonitorSet(
+      solver.cms,
+      [](CMS, const char[], PetscReal, void* context) -> PetscErrorCode {
+        static_cast<std::vector<std::string>*>(context)->push_back(all_options());
+        return 0;
+      },
+      &seen));
+  petsc::check(CMSSetFromOptions(solver.cms));
+  petsc::check(solver.solve());
+  seen.push_back(all_options());
+  for (const std::string& all : seen) EXPECT_EQ(all, seen.front());
+}
+
+TEST(CMS, TakesASolverThatIsChosenAfterTheFirstSolution)
+{
+  Solver solver;
+  petsc::check(solver.solve());
+  const Options options("-cms_modes_solver krylov-schur -cms_eps_max_it 0");
+  petsc::check(CMSSetFromOptions(solver.cms));
+  EXPECT_NE(CMSSolve(solver.cms), 0);  // no iterations, no modes
 }
 
 TEST(CMS, IsFreedWithTheLastReference)
@@ -295,6 +440,65 @@ TEST(CMS, TellsTheMonitorOfEachPhase)
                                               "projection", "error estimates"}));
 }
 
+TEST(CMS, SaysThatTheMonitorFailed)
+{
+  Solver solver;
+  constexpr int users_code = 77;
+  petsc::check(CMSMonitorSet(
+      solver.cms,
+      [](CMS, const char[], PetscReal, void*) -> PetscErrorCode {
+        const bool last = petsc::rank(PETSC_COMM_WORLD) == petsc::size(PETSC_COMM_WORLD) - 1;
+        return last ? users_code : 0;
+      },
+      nullptr));
+  const PetscErrorCode code = solver.solve();
+  EXPECT_EQ(static_cast<int>(code), users_code);
+  EXPECT_NE(message(code).find("the monitor of CMSMonitorSet() returned error 77"),
+            std::string::npos)
+      << message(code);
+}
+
+TEST(CMS, KeepsTheCodeOfAnErrorOfPetsc)
+{
+  Solver solver;
+  const Options options("-cms_pc_factor_mat_solver_type no_such_package");
+  const PetscErrorCode code = solver.solve();
+  EXPECT_EQ(static_cast<int>(code), PETSC_ERR_MISSING_FACTOR);
+  EXPECT_NE(message(code).find("no_such_package"), std::string::npos) << message(code);
+}
+
+/// Time of an event in a stage of the log, and how often it was there.
+PetscEventPerfInfo logged(const char* stage_name, const char* event_name)
+{
+  PetscLogStage stage = 0;
+  PetscLogEvent event = 0;
+  PetscEventPerfInfo info;
+  petsc::check(PetscLogStageGetId(stage_name, &stage));
+  petsc::check(PetscLogEventGetId(event_name, &event));
+  petsc::check(PetscLogEventGetPerfInfo(stage, event, &info));
+  return info;
+}
+
+TEST(CMS, LogsWhatItsEventsName)
+{
+  petsc::check(PetscLogDefaultBegin());
+  const auto n_times = [](const char* stage, const char* event) {
+    return logged(stage, event).count;
+  };
+  const int set_ups = n_times("CMS set-up", "CMSSetUp");
+  const int solves = n_times("CMS solve", "CMSSolve");
+  const double before = logged("CMS set-up", "CMSSetUp").time;
+  const double inside_before =
+      logged("CMS set-up", "CMSFactor").time + logged("CMS set-up", "CMSCheck").time;
+  Solver solver;
+  petsc::check(solver.solve());
+  EXPECT_EQ(n_times("CMS set-up", "CMSSetUp"), set_ups + 1);
+  EXPECT_EQ(n_times("CMS solve", "CMSSolve"), solves + 1);
+  EXPECT_GE(logged("CMS set-up", "CMSSetUp").time - before,
+            logged("CMS set-up", "CMSFactor").time + logged("CMS set-up", "CMSCheck").time -
+                inside_before);
+}
+
 TEST(CMS, TakesOtherTypesOfMatrices)
 {
   Solver solver;
@@ -308,6 +512,33 @@ TEST(CMS, TakesOtherTypesOfMatrices)
   Mat K_r = nullptr;
   petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
   EXPECT_NEAR(replicate(K_r)(0, 1), -1.0 / (n - 1), round_off);
+}
+
+/// The frequencies with operators of a type.
+std::vector<double> frequencies_by(const char* type)
+{
+  Solver solver;
+  petsc::check(MatConvert(solver.chain.K, type, MAT_INPLACE_MATRIX, solver.chain.K.put()));
+  petsc::check(MatConvert(solver.chain.M, type, MAT_INPLACE_MATRIX, solver.chain.M.put()));
+  petsc::check(CMSSetDimensions(solver.cms, 8));
+  petsc::check(CMSSetSylvester(solver.cms, PETSC_TRUE));
+  petsc::check(solver.solve());
+  PetscInt n_modes = 0;
+  const PetscReal* f = nullptr;
+  petsc::check(CMSGetFrequencies(solver.cms, &n_modes, &f));
+  return {f, f + n_modes};
+}
+
+TEST(CMS, TakesTheVariantsOfAij)
+{
+  const std::vector<double> plain = frequencies_by(MATAIJ);
+  for (const char* type : {MATAIJPERM, MATAIJSELL, MATBAIJ}) {
+    const std::vector<double> found = frequencies_by(type);
+    ASSERT_EQ(found.size(), plain.size()) << type;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      EXPECT_NEAR(found[i], plain[i], 1e-12 * plain[i]) << type;  // round-off
+    }
+  }
 }
 
 TEST(CMS, RefusesAnUnsymmetricOperator)
@@ -356,6 +587,26 @@ TEST(CMS, RefusesAPartThatNoMasterHolds)
   set_value(solver.chain.K, 21, 21, 1.0);
   solver.masters = master_set(solver.chain.K, {0, 1});
   expect_refused(solver, "K_ss is not positive definite");
+}
+
+TEST(CMS, NamesARowWithoutStiffness)
+{
+  for (const bool is_master : {false, true}) {
+    Solver solver;
+    for (const PetscInt i : {16, 17}) {
+      set_value(solver.chain.K, i, i + 1, 0.0);
+      set_value(solver.chain.K, i + 1, i, 0.0);
+    }
+    set_value(solver.chain.K, 17, 17, 0.0);
+    if (!is_master) {
+      expect_refused(solver, "row 17 of K is empty (empty rows: 1)");
+      continue;
+    }
+    solver.masters = master_set(solver.chain.K, {0, 17, n - 1});
+    petsc::check(solver.solve());  // its mass moves freely
+    set_value(solver.chain.M, 17, 17, 0.0);
+    expect_refused(solver, "row 17 of K is empty (empty rows: 1)");
+  }
 }
 
 TEST(CMS, RefusesMastersWithoutSense)

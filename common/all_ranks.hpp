@@ -1,0 +1,55 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "common/error.hpp"
+
+namespace chladni {
+
+/// Throws on all ranks what the lowest rank with a complaint complains of.
+/// @note   Collective on `comm`.
+/// @throws chladni::Error with the complaint.
+inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
+{
+  int rank = 0, none = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &none);
+  int speaker = complaint ? rank : none;
+  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
+  if (speaker == none) return;
+  std::string text = complaint.value_or("");
+  auto size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, speaker, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, speaker, comm);
+  throw Error(text);
+}
+
+/// Runs work() on each rank, which must not communicate. What one rank throws all of them throw:
+/// no other rank waits for it.
+/// @return what work() returned on this rank.
+/// @note   Collective on `comm`.
+/// @throws chladni::Error when work() threw on any rank.
+template <typename Work>
+auto on_all_ranks(MPI_Comm comm, const Work& work)
+{
+  std::optional<std::string> complaint;
+  std::optional<std::invoke_result_t<Work>> result;
+  try {
+    result.emplace(work());
+  } catch (const std::bad_alloc&) {
+    complaint = "not enough memory on a rank; use more ranks on more machines";
+  } catch (const std::exception& error) {
+    complaint = error.what();
+  }
+  agree_on(complaint, comm);
+  return std::move(*result);
+}
+
+}  // namespace chladni

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "reduce/dense.hpp"
+#include "reduce/partition.hpp"
+
+/// Dense matrices in the rows of all DOFs, against those in the rows of masters and slaves.
+namespace chladni::reduce {
+
+/// The rows of a dense X at the slaves.
+/// @param like  with the rows of the slaves, as K_ss
+petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like);
+
+/// The rows of a dense X at the masters, on every rank.
+/// @note   Collective.
+SmallMatrix master_rows(Mat X, const DofPartition& dofs);
+
+/// Writes X_m and X_s to the rows of X.
+void set_rows(Mat X, const DofPartition& dofs, const SmallMatrix& X_m, Mat X_s);
+
+}  // namespace chladni::reduce

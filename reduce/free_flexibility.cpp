@@ -1,0 +1,175 @@
+#include "reduce/free_flexibility.hpp"
+
+#include <petsc/private/matimpl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reduce/block_rows.hpp"
+#include "reduce/cholesky_callbacks.hpp"
+#include "reduce/sparse_product.hpp"
+#include "reduce/symmetric_eigen.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+SmallMatrix transposed(const SmallMatrix& A)
+{
+  SmallMatrix B(A.n_cols, A.n_rows);
+  for (PetscInt j = 0; j < A.n_cols; ++j) {
+    for (PetscInt i = 0; i < A.n_rows; ++i) B(j, i) = A(i, j);
+  }
+  return B;
+}
+
+SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
+{
+  SmallMatrix C(A.n_rows, B.n_cols);
+  for (PetscInt j = 0; j < B.n_cols; ++j) {
+    for (PetscInt k = 0; k < A.n_cols; ++k) {
+      for (PetscInt i = 0; i < A.n_rows; ++i) C(i, j) += A(i, k) * B(k, j);
+    }
+  }
+  return C;
+}
+
+/// The inverse of K_G on the complement of its r motions without energy, in units that its diagonal
+/// gives; all else is as wrong as any, since the forces have no share of it.
+SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
+{
+  const PetscInt n = K_G.K.n_rows, r = K_G.R.n_cols;
+  double largest = 0.0;
+  for (PetscInt i = 0; i < n; ++i) largest = std::max(largest, K_G.K(i, i));
+  std::vector<double> scale;
+  for (PetscInt i = 0; i < n; ++i) {
+    const double k = K_G.K(i, i) > 0.0 ? K_G.K(i, i) : largest;
+    scale.push_back(k > 0.0 ? 1.0 / std::sqrt(k) : 1.0);
+  }
+  SmallMatrix scaled = K_G.K;
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
+  }
+  const SymmetricEigen eigen = symmetric_eigen(std::move(scaled));
+  SmallMatrix V(n, n - r);  // of the others, times lambda^(-1/2)
+  for (PetscInt k = r; k < n; ++k) {
+    for (PetscInt i = 0; i < n; ++i) {
+      V(i, k - r) = scale[i] * eigen.vectors(i, k) / std::sqrt(eigen.values[k]);
+    }
+  }
+  return product(V, transposed(V));
+}
+
+double form(const SmallMatrix& G, const SmallMatrix& S, PetscInt i, PetscInt j)
+{
+  double sum = 0.0;
+  for (PetscInt b = 0; b < G.n_cols; ++b) {
+    for (PetscInt a = 0; a < G.n_rows; ++a) sum += S(a, i) * G(a, b) * S(b, j);
+  }
+  return sum;
+}
+
+/// The combinations S of motions with the mass matrix G that make S^T G S = I.
+SmallMatrix orthonormal_in(const SmallMatrix& G)
+{
+  constexpr double no_mass = 1e-14;  // of that of the motion before the others are taken out
+  SmallMatrix S(G.n_rows, G.n_cols);
+  for (PetscInt j = 0; j < G.n_cols; ++j) {
+    S(j, j) = 1.0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (PetscInt k = 0; k < j; ++k) {
+        const double share = form(G, S, k, j);
+        for (PetscInt i = 0; i < G.n_rows; ++i) S(i, j) -= share * S(i, k);
+      }
+    }
+    const double mass = form(G, S, j, j);
+    if (!(mass > no_mass * G(j, j))) {
+      throw Error(
+          "free-interface modes: a rigid-body motion has no mass; has every part of the body a "
+          "density?");
+    }
+    for (PetscInt i = 0; i < G.n_rows; ++i) S(i, j) /= std::sqrt(mass);
+  }
+  return S;
+}
+
+petsc::Matrix times(Mat A, Mat X)
+{
+  petsc::Matrix AX = uninitialized_dense(A, LocalRows(X).n_cols());
+  SparseProduct(A).apply(X, AX);
+  return AX;
+}
+
+/// Rigid motions of all DOFs, R^T M R = I.
+petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const SmallMatrix& R_m)
+{
+  const petsc::Matrix R_s = uninitialized_dense(Psi, R_m.n_cols);
+  petsc::check(MatZeroEntries(R_s));
+  add_product(1.0, Psi, R_m, R_s);
+  const petsc::Matrix R = uninitialized_dense(body.K, R_m.n_cols);
+  set_rows(R, body.dofs, R_m, R_s);
+  petsc::Matrix normal = uninitialized_dense(body.K, R_m.n_cols);
+  petsc::check(MatZeroEntries(normal));
+  add_product(1.0, R, orthonormal_in(inner_product(R, times(body.M, R))), normal);
+  return normal;
+}
+
+}  // namespace
+
+struct FreeFlexibility::Parts {
+  const WholeSystem& body;
+  Mat Psi;
+  Mat R;
+  petsc::Matrix MR;
+  SmallMatrix K_G_inverse;
+
+  /// U = A F.
+  void apply(Mat F, Mat U) const
+  {
+    petsc::Matrix f;
+    petsc::check(MatDuplicate(F, MAT_COPY_VALUES, f.put()));
+    add_product(-1.0, MR, inner_product(R, f), f);
+    const petsc::Matrix f_s = slave_rows(f, body.dofs, body.K_blocks.ss);
+    const petsc::Matrix u_s = uninitialized_dense(body.K_blocks.ss, LocalRows(f_s).n_cols());
+    petsc::check(MatMatSolve(body.K_ss.factor(), f_s, u_s));
+    SmallMatrix f_m = master_rows(f, body.dofs);
+    const SmallMatrix held = inner_product_sparse(u_s, body.K_blocks.sm);
+    for (PetscInt j = 0; j < f_m.n_cols; ++j) {
+      for (PetscInt i = 0; i < f_m.n_rows; ++i) f_m(i, j) -= held(j, i);
+    }
+    const SmallMatrix u_m = product(K_G_inverse, f_m);
+    add_product(1.0, Psi, u_m, u_s);
+    set_rows(U, body.dofs, u_m, u_s);
+    add_product(-1.0, R, inner_product(MR, U), U);
+  }
+};
+
+FreeFlexibility::FreeFlexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G)
+    : R_(rigid_motions(body, Psi, K_G.R))
+{
+  parts_ = std::make_unique<Parts>(Parts{.body = body,
+                                         .Psi = Psi,
+                                         .R = R_,
+                                         .MR = times(body.M, R_),
+                                         .K_G_inverse = pseudo_inverse(K_G)});
+  PetscInt n_local = 0, n = 0;
+  petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
+  petsc::check(MatGetSize(body.K, &n, nullptr));
+  petsc::check(MatCreateShell(petsc::communicator(body.K), n_local, n_local, n, n, parts_.get(),
+                              factor_.put()));
+  PetscErrorCode (*solve)(Mat, Mat, Mat) = [](Mat A, Mat F, Mat U) {
+    return guarded([&] {
+      const Parts* parts = nullptr;
+      petsc::check(MatShellGetContext(A, &parts));
+      parts->apply(F, U);
+    });
+  };
+  petsc::check(MatShellSetOperation(factor_, MATOP_MAT_SOLVE, reinterpret_cast<void (*)()>(solve)));
+  petsc::check(MatSetUp(factor_));
+  static_cast<Mat>(factor_)->factortype =
+      MAT_FACTOR_CHOLESKY;  // without which PETSc solves nothing
+}
+
+FreeFlexibility::~FreeFlexibility() = default;
+
+}  // namespace chladni::reduce

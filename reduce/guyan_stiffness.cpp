@@ -1,0 +1,262 @@
+#include "reduce/guyan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reduce/symmetric_eigen.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// All energies here are shares of the rows' own: scaled by the diagonal of K, whose rows are far
+// above the round-off of K_G where K_G itself is nothing else.
+
+/// K_mm + K_ms Psi, symmetric to the last bit.
+SmallMatrix condensed(SmallMatrix K_mm, Mat Psi, const Blocks& K)
+{
+  const SmallMatrix Psi_K_sm = inner_product_sparse(Psi, K.sm);
+  for (PetscInt j = 0; j < K_mm.n_cols; ++j) {
+    for (PetscInt i = 0; i <= j; ++i) {
+      const double mean = 0.5 * (K_mm(i, j) + K_mm(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
+      K_mm(i, j) = K_mm(j, i) = mean;
+    }
+  }
+  return K_mm;
+}
+
+/// sqrt(K_ii), of the largest one for rows without a diagonal.
+std::vector<double> row_scales(const SmallMatrix& K_mm)
+{
+  double largest = 0.0;
+  for (PetscInt i = 0; i < K_mm.n_rows; ++i) largest = std::max(largest, K_mm(i, i));
+  if (largest == 0.0) largest = 1.0;
+  std::vector<double> scales;
+  for (PetscInt i = 0; i < K_mm.n_rows; ++i) {
+    scales.push_back(std::sqrt(K_mm(i, i) > 0.0 ? K_mm(i, i) : largest));
+  }
+  return scales;
+}
+
+/// The values of the first rank on all ranks, in pieces: an MPI count is an int.
+void broadcast(std::vector<double>& values, MPI_Comm comm)
+{
+  constexpr std::size_t piece = std::size_t(1) << 28;
+  for (std::size_t at = 0; at < values.size(); at += piece) {
+    MPI_Bcast(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)), MPI_DOUBLE,
+              0, comm);
+  }
+}
+
+/// Eigenpairs of K_G scaled, those of the first rank on all ranks.
+SymmetricEigen energies_of(SmallMatrix K_G, const std::vector<double>& scales, MPI_Comm comm)
+{
+  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
+    for (PetscInt i = 0; i < K_G.n_rows; ++i) K_G(i, j) /= scales[i] * scales[j];
+  }
+  SymmetricEigen eigen{.values = std::vector<double>(K_G.n_rows), .vectors = K_G};
+  if (petsc::rank(comm) == 0) eigen = symmetric_eigen(std::move(K_G));
+  broadcast(eigen.values, comm);
+  broadcast(eigen.vectors.values, comm);
+  return eigen;
+}
+
+/// How many of the softest motions may be round-off: a rotation about a single node has the energy
+/// of all rows of the body, of which its own may be a millionth of a millionth.
+PetscInt n_candidates(const std::vector<double>& energies)
+{
+  constexpr double soft = 1e-6;
+  constexpr PetscInt always = 12;
+  const auto n_soft = std::ranges::upper_bound(energies, soft) - energies.begin();
+  return std::min(static_cast<PetscInt>(energies.size()),
+                  std::max(static_cast<PetscInt>(n_soft), always));
+}
+
+/// u^T diag(K) u of the first k eigenvectors, u = [u_m; Psi u_m].
+SmallMatrix energies_of_rows(const SymmetricEigen& eigen, const std::vector<double>& scales,
+                             PetscInt k, Mat Psi, Mat K_ss)
+{
+  SmallMatrix Z(eigen.vectors.n_rows, k);
+  for (PetscInt j = 0; j < k; ++j) {
+    for (PetscInt i = 0; i < Z.n_rows; ++i) Z(i, j) = eigen.vectors(i, j) / scales[i];
+  }
+  const petsc::Matrix U = uninitialized_dense(Psi, k);
+  petsc::check(MatZeroEntries(U));
+  add_product(1.0, Psi, Z, U);
+  petsc::Vector d;
+  petsc::check(MatCreateVecs(K_ss, nullptr, d.put()));
+  petsc::check(MatGetDiagonal(K_ss, d));
+  petsc::check(VecSqrtAbs(d));
+  petsc::check(MatDiagonalScale(U, d, nullptr));
+  SmallMatrix N = inner_product(U, U);
+  for (PetscInt j = 0; j < k; ++j) N(j, j) += 1.0;  // of the masters
+  return N;
+}
+
+/// S N^(-1/2) with the eigenvectors S of N, which is at least I.
+SmallMatrix inverse_root(const SmallMatrix& N)
+{
+  SymmetricEigen eigen = symmetric_eigen(N);
+  for (PetscInt j = 0; j < N.n_cols; ++j) {
+    for (PetscInt i = 0; i < N.n_rows; ++i) eigen.vectors(i, j) /= std::sqrt(eigen.values[j]);
+  }
+  return eigen.vectors;
+}
+
+/// The first columns of X, as many as A has rows, times A.
+SmallMatrix combined(const SmallMatrix& X, const SmallMatrix& A)
+{
+  SmallMatrix XA(X.n_rows, A.n_cols);
+  for (PetscInt j = 0; j < A.n_cols; ++j) {
+    for (PetscInt k = 0; k < A.n_rows; ++k) {
+      for (PetscInt i = 0; i < X.n_rows; ++i) XA(i, j) += X(i, k) * A(k, j);
+    }
+  }
+  return XA;
+}
+
+SmallMatrix first_columns(const SmallMatrix& A, PetscInt n)
+{
+  SmallMatrix first(A.n_rows, n);
+  std::copy_n(A.values.begin(), first.values.size(), first.values.begin());
+  return first;
+}
+
+/// Columns made orthonormal one after the other.
+void orthonormalize(SmallMatrix& Y)
+{
+  for (PetscInt j = 0; j < Y.n_cols; ++j) {
+    double* column = &Y(0, j);
+    for (PetscInt pass = 0; pass < 2; ++pass) {
+      for (PetscInt k = 0; k < j; ++k) {
+        double dot = 0.0;
+        for (PetscInt i = 0; i < Y.n_rows; ++i) dot += Y(i, k) * column[i];
+        for (PetscInt i = 0; i < Y.n_rows; ++i) column[i] -= dot * Y(i, k);
+      }
+      double norm = 0.0;
+      for (PetscInt i = 0; i < Y.n_rows; ++i) norm += column[i] * column[i];
+      for (PetscInt i = 0; i < Y.n_rows; ++i) column[i] /= std::sqrt(norm);
+    }
+  }
+}
+
+/// Combinations of the first eigenvectors, first those that K does not resist, all orthonormal.
+struct Combinations {
+  SmallMatrix Y;
+  PetscInt n_unresisted;
+  double least;  ///< energy over that of the rows
+};
+
+Combinations combinations(const std::vector<double>& energies, const SmallMatrix& N)
+{
+  const SmallMatrix S = inverse_root(N);
+  SmallMatrix C(N.n_rows, N.n_rows);
+  for (PetscInt j = 0; j < C.n_cols; ++j) {
+    for (PetscInt i = 0; i < C.n_rows; ++i) {
+      for (PetscInt k = 0; k < C.n_rows; ++k) C(i, j) += S(k, i) * energies[k] * S(k, j);
+    }
+  }
+  const SymmetricEigen share = symmetric_eigen(std::move(C));
+  Combinations found{.Y = {N.n_rows, N.n_rows}, .n_unresisted = 0, .least = share.values.front()};
+  found.Y = combined(S, share.vectors);
+  orthonormalize(found.Y);
+  // Twice eps at most on solids and plates from 300 to 15000 DOFs. Negative energies tell how exact
+  // K is, in files with few digits less than the machine.
+  const double round_off = std::max(10.0 * eps, -4.0 * found.least);
+  found.n_unresisted = static_cast<PetscInt>(std::ranges::upper_bound(share.values, round_off) -
+                                             share.values.begin());
+  return found;
+}
+
+/// Those of the first rank on all ranks, that none decides otherwise.
+Combinations combinations_everywhere(const std::vector<double>& energies, const SmallMatrix& N,
+                                     MPI_Comm comm)
+{
+  Combinations found{.Y = N, .n_unresisted = 0, .least = 0.0};
+  if (petsc::rank(comm) == 0) found = combinations(energies, N);
+  broadcast(found.Y.values, comm);
+  MPI_Bcast(&found.n_unresisted, 1, MPIU_INT, 0, comm);
+  MPI_Bcast(&found.least, 1, MPI_DOUBLE, 0, comm);
+  return found;
+}
+
+/// (I - U U^T) A (I - U U^T) of the scaled A = K_G and orthonormal U, symmetric to the last bit and
+/// without scales; rows that hold round-off alone are zero.
+SmallMatrix without_motions(const SmallMatrix& K_G, const SmallMatrix& U,
+                            const std::vector<double>& scales)
+{
+  constexpr double round_off = 64.0 * eps;
+  const PetscInt n = U.n_rows, r = U.n_cols;
+  SmallMatrix AU(n, r), half(r, r);  // half of U^T A U
+  const auto scaled = [&](PetscInt i, PetscInt j) { return K_G(i, j) / (scales[i] * scales[j]); };
+  for (PetscInt k = 0; k < r; ++k) {
+    for (PetscInt j = 0; j < n; ++j) {
+      for (PetscInt i = 0; i < n; ++i) AU(i, k) += scaled(i, j) * U(j, k);
+    }
+    for (PetscInt l = 0; l < r; ++l) {
+      for (PetscInt i = 0; i < n; ++i) half(l, k) += 0.5 * U(i, l) * AU(i, k);
+    }
+  }
+  const SmallMatrix share = combined(U, half);
+  SmallMatrix K(n, n);
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i <= j; ++i) {
+      double value = scaled(i, j);
+      for (PetscInt k = 0; k < r; ++k) {
+        value -= (AU(i, k) - share(i, k)) * U(j, k) + U(i, k) * (AU(j, k) - share(j, k));
+      }
+      K(i, j) = value;
+    }
+  }
+  const auto is_zero = [&](PetscInt i) { return r == n || K(i, i) < round_off; };
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i <= j; ++i) {
+      const bool vanishes = is_zero(i) || is_zero(j);
+      if (i != j) K(i, j) = K(j, i) = vanishes ? 0.0 : scales[i] * K(i, j) * scales[j];
+    }
+  }
+  for (PetscInt i = 0; i < n; ++i) K(i, i) = is_zero(i) ? 0.0 : scales[i] * K(i, i) * scales[i];
+  return K;
+}
+
+/// What the reduction cannot do with.
+[[noreturn]] void refuse_indefinite(double least)
+{
+  throw Error(
+      fmt::format("reduction: K is indefinite: a motion of the masters has an energy of "
+                  "{:.1e} of that of its rows; K must be positive semidefinite",
+                  least));
+}
+
+}  // namespace
+
+GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
+{
+  constexpr double indefinite = -1e-8;
+  const MPI_Comm comm = petsc::communicator(Psi);
+  const SmallMatrix K_mm = replicate(K.mm);
+  const std::vector<double> scales = row_scales(K_mm);
+  GuyanStiffness guyan{.K = condensed(K_mm, Psi, K), .R = {0, 0}};
+  const SymmetricEigen eigen = energies_of(guyan.K, scales, comm);
+  const PetscInt k = n_candidates(eigen.values);
+  const SmallMatrix N = energies_of_rows(eigen, scales, k, Psi, K.ss);
+  const Combinations found = combinations_everywhere(eigen.values, N, comm);
+  if (found.least < indefinite) refuse_indefinite(found.least);
+  if (found.n_unresisted == 0) {
+    guyan.R = SmallMatrix(guyan.K.n_rows, 0);
+    return guyan;
+  }
+  const SmallMatrix U = combined(eigen.vectors, first_columns(found.Y, found.n_unresisted));
+  guyan.K = without_motions(guyan.K, U, scales);
+  broadcast(guyan.K.values, comm);
+  guyan.R = U;
+  for (PetscInt j = 0; j < U.n_cols; ++j) {
+    for (PetscInt i = 0; i < U.n_rows; ++i) guyan.R(i, j) /= scales[i];
+  }
+  return guyan;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "exact.hpp"
+#include "solve.hpp"
+
+/// What must hold of every answer, by dense matrices.
+namespace chladni::strangers {
+
+/// A property that does not hold, by its name in one word, and the figures.
+struct Failure {
+  std::string property, figures;
+};
+using Failures = std::vector<Failure>;
+
+/// A pencil with its spectra.
+struct Reference {
+  Pencil pencil;
+  Eigen::MatrixXd K, M;
+  Spectrum whole, held;
+};
+Reference reference(const Pencil& pencil);
+
+/// Everything that a projection promises; of MacNeal, which is none, what is left of it.
+Failures check(const Reference& exact, const Reduction& how, const Answer& answer);
+
+/// n eigenvalues closest to the target, and residuals of all.
+Failures check(const Reference& exact, int n, double target, const Eigenpairs& pairs);
+
+/// The same figures from all ranks and from one.
+Failures compare(const Reference& exact, const Answer& all, const Answer& one);
+
+}  // namespace chladni::strangers

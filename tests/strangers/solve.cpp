@@ -1,0 +1,196 @@
+#include "solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reduce/dense.hpp"
+
+namespace chladni::strangers {
+
+namespace {
+
+petsc::Matrix matrix(const std::vector<Entry>& entries, int n, MPI_Comm comm)
+{
+  petsc::Matrix A;
+  PetscInt first = 0, last = 0;
+  petsc::check(
+      MatCreateAIJ(comm, PETSC_DECIDE, PETSC_DECIDE, n, n, 0, nullptr, 0, nullptr, A.put()));
+  petsc::check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (const Entry& a : entries) {
+    if (a.row < first || a.row >= last) continue;
+    petsc::check(MatSetValue(A, a.row, a.column, a.value, ADD_VALUES));
+  }
+  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  return A;
+}
+
+/// All of them on the first rank: the class finds the owners.
+petsc::IndexSet interface(const std::vector<int>& masters, MPI_Comm comm)
+{
+  const std::vector<PetscInt> all(masters.begin(), masters.end());
+  const auto n = petsc::rank(comm) == 0 ? static_cast<PetscInt>(all.size()) : 0;
+  petsc::IndexSet set;
+  petsc::check(ISCreateGeneral(comm, n, all.data(), PETSC_COPY_VALUES, set.put()));
+  return set;
+}
+
+std::string message_of(PetscErrorCode code)
+{
+  const char* text = nullptr;
+  char* specific = nullptr;
+  PetscErrorMessage(code, &text, &specific);
+  std::string message = specific != nullptr ? specific : "";
+  std::ranges::replace(message, '\n', ' ');
+  return message;
+}
+
+Eigen::MatrixXd everywhere(Mat A)
+{
+  const reduce::SmallMatrix B = reduce::replicate(A);
+  return Eigen::Map<const Eigen::MatrixXd>(B.values.data(), B.n_rows, B.n_cols);
+}
+
+PetscErrorCode set(CMS cms, const Reduction& how)
+{
+  PetscFunctionBegin;
+  PetscCall(CMSSetType(cms, how.type));
+  PetscCall(CMSSetSylvester(cms, PETSC_TRUE));
+  if (how.modes > 0)
+    PetscCall(CMSSetDimensions(cms, how.modes));
+  else if (how.cutoff_Hz > 0.0)
+    PetscCall(CMSSetCutoff(cms, how.cutoff_Hz));
+  else if (how.tolerance > 0.0)
+    PetscCall(CMSSetTolerance(cms, how.tolerance, how.up_to_Hz));
+  PetscFunctionReturn(0);
+}
+
+template <class Get>
+std::vector<double> values(CMS cms, const Get& get)
+{
+  PetscInt n = 0;
+  const PetscReal* first = nullptr;
+  petsc::check(get(cms, &n, &first));
+  return {first, first + n};
+}
+
+void read(CMS cms, Answer& answer)
+{
+  PetscInt n_masters = 0, n_modes = 0;
+  Mat K_r = nullptr, M_r = nullptr, T = nullptr;
+  petsc::check(CMSGetDimensions(cms, &n_masters, &n_modes));
+  petsc::check(CMSGetReducedOperators(cms, &K_r, &M_r, nullptr));
+  petsc::check(CMSGetTransformation(cms, &T));
+  answer.n_masters = static_cast<int>(n_masters);
+  answer.n_modes = static_cast<int>(n_modes);
+  answer.K_r = everywhere(K_r);
+  answer.M_r = everywhere(M_r);
+  answer.T = everywhere(T);
+  answer.lambda = values(cms, CMSGetFrequencies);
+  for (double& f : answer.lambda) f = std::pow(2.0 * std::numbers::pi * f, 2);
+  answer.eta2 = values(cms, CMSGetErrors);
+  answer.rounding = values(cms, CMSGetRounding);
+  answer.bounds = values(cms, CMSGetErrorBounds);
+  petsc::check(CMSGetQuality(cms, &answer.quality));
+}
+
+/// Owns an object of the class CMS.
+using Solver = petsc::Owned<CMS, CMSDestroy>;
+
+}  // namespace
+
+Operators operators(const Pencil& pencil, MPI_Comm comm)
+{
+  return {.K = matrix(pencil.K, pencil.n, comm), .M = matrix(pencil.M, pencil.n, comm)};
+}
+
+Answer reduce(const Pencil& pencil, const Reduction& how, MPI_Comm comm)
+{
+  const Operators A = operators(pencil, comm);
+  const petsc::IndexSet masters = interface(pencil.masters, comm);
+  Solver cms;
+  Answer answer;
+  petsc::check(CMSCreate(comm, cms.put()));
+  answer.code = set(cms, how);
+  if (!answer.code) answer.code = CMSSetOperators(cms, A.K, A.M, nullptr);
+  if (!answer.code) answer.code = CMSSetInterface(cms, masters);
+  if (!answer.code) answer.code = CMSSolve(cms);
+  if (answer.code)
+    answer.message = message_of(answer.code);
+  else
+    read(cms, answer);
+  return answer;
+}
+
+namespace {
+
+/// The problem with the factor of MUMPS, which several ranks can make.
+PetscErrorCode solve(EPS eps, const Operators& A, int n, double target)
+{
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  PetscFunctionBegin;
+  PetscCall(EPSSetOperators(eps, A.K, A.M));
+  PetscCall(EPSSetProblemType(eps, EPS_GHEP));
+  PetscCall(EPSSetType(eps, "blocklanczos"));
+  PetscCall(EPSSetDimensions(eps, n, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(EPSSetTarget(eps, target));
+  PetscCall(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
+  PetscCall(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  PetscCall(EPSGetST(eps, &st));
+  PetscCall(STSetType(st, STSINVERT));
+  PetscCall(STSetShift(st, target));
+  PetscCall(STGetKSP(st, &ksp));
+  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(EPSSetFromOptions(eps));
+  PetscCall(EPSSolve(eps));
+  PetscFunctionReturn(0);
+}
+
+void read(EPS eps, const Operators& A, Eigenpairs& pairs)
+{
+  PetscInt n = 0;
+  PetscReal norm_K = 0.0, norm_M = 0.0;
+  petsc::Vector x, y, z;
+  petsc::check(EPSGetConverged(eps, &n));
+  petsc::check(MatNorm(A.K, NORM_FROBENIUS, &norm_K));
+  petsc::check(MatNorm(A.M, NORM_FROBENIUS, &norm_M));
+  petsc::check(MatCreateVecs(A.K, x.put(), y.put()));
+  petsc::check(VecDuplicate(x, z.put()));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscScalar lambda = 0.0;
+    PetscReal norm_x = 0.0, residual = 0.0;
+    petsc::check(EPSGetEigenpair(eps, i, &lambda, nullptr, x, nullptr));
+    petsc::check(MatMult(A.K, x, y));
+    petsc::check(MatMult(A.M, x, z));
+    petsc::check(VecAXPY(y, -lambda, z));
+    petsc::check(VecNorm(y, NORM_2, &residual));
+    petsc::check(VecNorm(x, NORM_2, &norm_x));
+    pairs.lambda.push_back(lambda);
+    pairs.residual.push_back(residual / ((norm_K + std::abs(lambda) * norm_M) * norm_x));
+  }
+}
+
+}  // namespace
+
+Eigenpairs eigenpairs(const Pencil& pencil, int n, double target, MPI_Comm comm)
+{
+  const Operators A = operators(pencil, comm);
+  petsc::EigenSolver eps;
+  Eigenpairs pairs;
+  petsc::check(EPSCreate(comm, eps.put()));
+  pairs.code = solve(eps, A, n, target);
+  if (pairs.code)
+    pairs.message = message_of(pairs.code);
+  else
+    read(eps, A, pairs);
+  return pairs;
+}
+
+}  // namespace chladni::strangers
