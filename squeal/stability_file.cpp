@@ -32,8 +32,9 @@ void write_points(Writer& file, const std::string& group, const Points& points,
 Points read_points(const Reader& file, const std::string& group, Eigen::Index n)
 {
   Points points(n, 3);
-  points << file.vector(group + "/values", n), file.vector(group + "/growth", n),
-      file.vector(group + "/frequency", n);
+  points.col(0) = file.vector(group + "/values", n);
+  points.col(1) = file.vector(group + "/growth", n);
+  points.col(2) = file.vector(group + "/frequency", n);
   return points;
 }
 
