@@ -1,5 +1,6 @@
 #include "mbs_export/eigenmodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,11 +14,17 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// L^-1 M L^-T without the directions L^T R of the zero-energy vectors.
-MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
+struct Deflated {
+  MatrixXd A;
+  double size;  ///< of what it was before, which round-off in A is relative to
+};
+
+Deflated deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
 {
   const auto lower = L.triangularView<Eigen::Lower>();
   const MatrixXd half = lower.solve(M);
   MatrixXd A = lower.solve(half.transpose());
+  const double size = A.diagonal().cwiseAbs().maxCoeff();
   if (R.cols() > 0) {
     const MatrixXd LtR = L.transpose() * R;
     const MatrixXd Y_r = Eigen::LLT<MatrixXd>(MatrixXd(LtR.transpose() * LtR))
@@ -27,7 +34,7 @@ MatrixXd deflated(const MatrixXd& L, const MatrixXd& M, const MatrixXd& R)
     A -= Y_r * (Y_r.transpose() * A);
     A -= (A * Y_r) * Y_r.transpose();
   }
-  return 0.5 * (A + A.transpose());
+  return {0.5 * (A + A.transpose()), size};
 }
 
 /// X made M-orthonormal and M-orthogonal to R, low modes first: round-off leaves a high mode with a
@@ -44,7 +51,7 @@ MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R
 /// the mass is what the other modes leave of it.
 std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorXd& mu)
 {
-  constexpr double largest_rounding = 1e-8;  // of orthonormal modes
+  constexpr double largest_rounding = 1e-3;  // three digits of its mass
   constexpr double far = 1e-6;
   const VectorXd parts =
       (X.cwiseAbs().array() * (M.cwiseAbs() * X.cwiseAbs()).array()).colwise().sum();
@@ -64,12 +71,14 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
   const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R);
   const MatrixXd L = B.matrixL();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(deflated(L, M, R));
+  const auto [A, size] = deflated(L, M, R);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
   const VectorXd mu = solver.eigenvalues().reverse();
-  const double round_off = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
-  if (mu[n - 1] < -round_off * mu[0])
+  const double round_off =
+      4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * std::max(mu[0], size);
+  if (mu[n - 1] < -round_off)
     throw Error("eigenmodes: the mass matrix is not positive semidefinite");
-  const Index k = std::min<Index>(n - r, (mu.array() > round_off * mu[0]).count());
+  const Index k = std::min<Index>(n - r, (mu.array() > round_off).count());
   const MatrixXd Y = solver.eigenvectors().rowwise().reverse().leftCols(k);
   MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
   X.array().rowwise() /= mu.head(k).array().sqrt().transpose();

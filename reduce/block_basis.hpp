@@ -62,6 +62,12 @@ class BlockBasis {
   struct Joined {
     SmallMatrix coefficients, R, left_out;
   };
+  /// Some of several columns, and the others.
+  struct Chosen {
+    std::vector<PetscInt> these, others;
+  };
+  Chosen with_resolved_mass(PetscInt n);
+  void clean(Joined& joined);
   Joined join(Mat block, Mat M_block, const SmallMatrix& G, const std::vector<double>& sizes);
   Appended look_again(Mat block, Mat M_block, const Joined& first, SmallMatrix h,
                       const std::vector<double>& lengths);

@@ -80,7 +80,7 @@ bool BlockLanczos::has_converged(PetscInt n_pairs)
   const RitzValues pairs = iteration_.pairs();
   const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
   n_converged_ = std::min(n_first, n_pairs);
-  if (iteration_.is_exhausted()) return true;
+  if (iteration_.is_exhausted()) return has_ended(pairs, n_pairs);
   next_look_ = n + lacking(n, excess(pairs, std::min(n_pairs, n), options_.tolerance));
   const Copies copies = iteration_.copies_among_first(n_converged_, options_.tolerance);
   if (copies == Copies::may_lack) begin_anew(n_first, n_pairs);
@@ -109,6 +109,37 @@ void BlockLanczos::begin_anew(PetscInt n_kept, PetscInt n_pairs)
   next_look_ = n_kept + n_steps / 2 * width;
 }
 
+/// Whether a basis that is all that M can see has given what it can. What was left out of its
+/// blocks as dependent keeps pairs from converging: a new sequence, orthogonal to those that did
+/// converge, finds the others, except where round-off is all there is of them.
+bool BlockLanczos::has_ended(const RitzValues& pairs, PetscInt n_pairs)
+{
+  const PetscInt n = iteration_.n_vectors();
+  const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
+  if (n_first == n || n_first >= n_pairs) return true;
+  if (n_first > n_kept_before_) {
+    n_kept_before_ = n_first;
+    begin_anew(n_first, n_pairs);
+    return false;
+  }
+  double theta = 0.0;
+  for (PetscInt i = n_first; i < n; ++i) {
+    theta = std::max(theta, pairs.theta[i] + pairs.residual[i]);
+  }
+  unresolved_from_ = 1.0 / theta;
+  return true;
+}
+
+void BlockLanczos::require_resolved(double lambda) const
+{
+  if (lambda <= unresolved_from_) return;
+  throw Error(fmt::format(
+      "block_lanczos: {} pairs converge to {:.1e}, up to lambda = {:.6g}; of the others the "
+      "products with M are round-off: M is nearly singular, or masses differ too much; ask for "
+      "fewer or raise the tolerance",
+      n_converged_, options_.tolerance, unresolved_from_));
+}
+
 void BlockLanczos::converge(PetscInt n_pairs)
 {
   iteration_.reserve(capacity(n_pairs, n_rows_, options_));
@@ -131,6 +162,7 @@ EigenPairs block_lanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
 {
   BlockLanczos lanczos(factor, M, options);
   lanczos.converge(options.n_pairs);
+  if (lanczos.n_pairs() < options.n_pairs) lanczos.require_resolved(all_of_them);
   EigenPairs pairs{.lambda = {},
                    .residual = {},
                    .X = lanczos.vectors(0, lanczos.n_pairs()),

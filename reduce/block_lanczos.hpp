@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -22,6 +23,9 @@ struct EigenPairs {
   petsc::Matrix X;               ///< [n x k] dense
   PetscInt n_solves;             ///< columns solved with the factor
 };
+
+/// A lambda above all others.
+inline constexpr double all_of_them = std::numeric_limits<double>::infinity();
 
 /// Block Lanczos for K^-1 M with full reorthogonalisation in the M inner product and thick restart,
 /// which goes on where it stopped when more pairs are asked for.
@@ -47,6 +51,11 @@ class BlockLanczos {
   /// @throws chladni::Error when they do not in `max_steps`.
   void converge(PetscInt n_pairs);
 
+  /// @throws chladni::Error when pairs below lambda, of which round-off lets too little see, may
+  /// not
+  ///         be among those that converged.
+  void require_resolved(double lambda) const;
+
   /// Pairs that have converged.
   PetscInt n_pairs() const { return n_converged_; }
   /// Columns solved with the factor so far.
@@ -63,6 +72,7 @@ class BlockLanczos {
 
  private:
   bool has_converged(PetscInt n_pairs);
+  bool has_ended(const RitzValues& pairs, PetscInt n_pairs);
   bool is_too_early(PetscInt n_pairs) const;
   void restart(PetscInt n_pairs);
   void begin_anew(PetscInt n_kept, PetscInt n_pairs);
@@ -74,7 +84,9 @@ class BlockLanczos {
   BlockIteration iteration_;
   PetscInt n_converged_ = 0;
   PetscInt n_solves_ = 0;
-  PetscInt next_look_ = 0;  ///< number of basis vectors
+  PetscInt next_look_ = 0;      ///< number of basis vectors
+  PetscInt n_kept_before_ = 0;  ///< by the last sequence that began from an exhausted basis
+  double unresolved_from_ = all_of_them;  ///< lambda from which pairs do not converge
 };
 
 /// The lowest pairs by a BlockLanczos.

@@ -1,7 +1,6 @@
 #include "reduce/columns_with_mass.hpp"
 
 #include <cmath>
-#include <vector>
 
 #include "reduce/dense.hpp"
 
@@ -32,11 +31,16 @@ petsc::Matrix times_diagonal(Mat X, Mat M)
 
 }  // namespace
 
+std::vector<double> diagonal_terms(Mat X, Mat M)
+{
+  return column_products(X, times_diagonal(X, M));
+}
+
 petsc::Matrix columns_with_mass(Mat X, Mat MX, Mat M)
 {
   constexpr double round_off = 1e-12;
   const std::vector<double> mass = column_products(X, MX);
-  const std::vector<double> terms = column_products(X, times_diagonal(X, M));
+  const std::vector<double> terms = diagonal_terms(X, M);
   std::vector<PetscInt> with_mass;
   for (std::size_t k = 0; k < mass.size(); ++k) {
     if (mass[k] > round_off * terms[k]) with_mass.push_back(static_cast<PetscInt>(k));

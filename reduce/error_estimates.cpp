@@ -5,21 +5,12 @@
 #include <limits>
 
 #include "reduce/progress.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-/// Rows first to first + n of a small matrix.
-SmallMatrix rows_of(const SmallMatrix& A, PetscInt first, PetscInt n)
-{
-  SmallMatrix rows(n, A.n_cols);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < n; ++i) rows(i, j) = A(first + i, j);
-  }
-  return rows;
-}
 
 petsc::Matrix zero_block(Mat like, PetscInt n_columns)
 {
@@ -33,11 +24,11 @@ petsc::Matrix zero_block(Mat like, PetscInt n_columns)
   return block;
 }
 
-/// Of motions u: the residual at the slaves, the sum of K_jj u_j^2 over all DOFs, and the Rayleigh
-/// quotient by the matrices of the FE model.
+/// Of motions u: the residual at the slaves, the sum of K_jj u_j^2 over all DOFs, that of M_jj
+/// u_j^2 over u^T M u, and the Rayleigh quotient by the matrices of the FE model.
 struct Residuals {
   petsc::Matrix r_s;
-  std::vector<double> energy_of_diagonal;
+  std::vector<double> energy_of_diagonal, inertia_of_diagonal;
   std::vector<double> rayleigh;
 };
 
@@ -63,7 +54,7 @@ std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const S
 
 /// Adds to sums_k the sum of A_jj X(j, k)^2 over the local rows j.
 template <typename Value>
-void add_energy_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
+void add_form_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
 {
   petsc::Vector diagonal;
   PetscInt n_local = 0;
@@ -81,15 +72,15 @@ void add_energy_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
   petsc::check(VecRestoreArrayRead(diagonal, &A_jj));
 }
 
-std::vector<double> energy_of_diagonal(const Blocks& K, Mat u_s, const SmallMatrix& x_m)
+std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const SmallMatrix& x_m)
 {
-  const MPI_Comm comm = petsc::communicator(K.ss);
+  const MPI_Comm comm = petsc::communicator(A.ss);
   std::vector<double> sums(x_m.n_cols, 0.0);
-  add_energy_of_diagonal(K.ss, LocalRows(u_s), sums);
+  add_form_of_diagonal(A.ss, LocalRows(u_s), sums);
   PetscInt first = 0;
-  petsc::check(MatGetOwnershipRange(K.mm, &first, nullptr));
-  add_energy_of_diagonal(
-      K.mm, [&](PetscInt j, PetscInt k) { return x_m(first + j, k); }, sums);
+  petsc::check(MatGetOwnershipRange(A.mm, &first, nullptr));
+  add_form_of_diagonal(
+      A.mm, [&](PetscInt j, PetscInt k) { return x_m(first + j, k); }, sums);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 comm);
   return sums;
@@ -102,8 +93,8 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
   const auto& [K_ss, Q_CB, K, M] = system;
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
-  const SmallMatrix x_m = rows_of(pairs.X, 0, n_m);
-  const SmallMatrix x_q = rows_of(pairs.X, n_m, Q_CB.n_modes());
+  const SmallMatrix x_m = row_range(pairs.X, 0, n_m);
+  const SmallMatrix x_q = row_range(pairs.X, n_m, pairs.X.n_rows);
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
   if (Q_CB.modes) add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
   petsc::Matrix r = uninitialized_dense(K.ss, pairs.X.n_cols);
@@ -114,13 +105,18 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
   std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
   SparseProduct(M.ss).apply(elastic, product);
   const std::vector<double> inertia = quadratic_forms(M, product, elastic, x_m);
-  for (std::size_t k = 0; k < rayleigh.size(); ++k) rayleigh[k] /= inertia[k];
+  std::vector<double> inertia_of_diagonal = form_of_diagonal(M, elastic, x_m);
+  for (std::size_t k = 0; k < rayleigh.size(); ++k) {
+    rayleigh[k] /= inertia[k];
+    inertia_of_diagonal[k] /= inertia[k];
+  }
   add_sparse_product(M.sm, x_m, product);
   SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
   for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
   add_product(1.0, product, minus_lambda, r);
   return {.r_s = std::move(r),
-          .energy_of_diagonal = energy_of_diagonal(K, elastic, x_m),
+          .energy_of_diagonal = form_of_diagonal(K, elastic, x_m),
+          .inertia_of_diagonal = std::move(inertia_of_diagonal),
           .rayleigh = std::move(rayleigh)};
 }
 
@@ -152,7 +148,8 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
     const SmallMatrix r_z = inner_product(of.r_s, z);
     for (PetscInt i = 0; i < r_z.n_rows; ++i) {
       estimates.eta2.push_back(std::max(0.0, r_z(i, i)) / some.lambda[i]);
-      estimates.rounding.push_back(4.0 * eps * of.energy_of_diagonal[i] / some.lambda[i] +
+      const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
+      estimates.rounding.push_back(4.0 * eps * terms +
                                    2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
     }
   }

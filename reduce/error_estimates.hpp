@@ -22,9 +22,10 @@ struct Condensation {
 struct ErrorEstimates {
   /// eta^2 = r_s^T K_ss^-1 r_s / lambda with r = (K - lambda M) Q_CB x: what the basis lacks.
   std::vector<double> eta2;
-  /// What rounding does to lambda: 4 eps sum_j K_jj u_j^2 / lambda, u = Q_CB x, for the entries of
-  /// K, since |u|^T |K| |u| is about twice that sum, of first order; and how far lambda is from the
-  /// Rayleigh quotient of u in the FE model, which shows what the eigen-solvers left.
+  /// What rounding does to lambda, relative: 4 eps sum_j (K_jj / lambda + M_jj) u_j^2, u = Q_CB x,
+  /// u^T M u = 1, for the entries of K and M, since |u|^T |K| |u| is about twice the sum of K_jj
+  /// u_j^2, of first order; and how far lambda is from the Rayleigh quotient of u in the FE model,
+  /// which shows what the eigen-solvers left.
   std::vector<double> rounding;
 };
 

@@ -1,6 +1,7 @@
 #include "reduce/fixed_interface_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "reduce/mode_search.hpp"
@@ -17,6 +18,7 @@ FixedInterfaceModes modes_by_number(ModeSearch& search, PetscInt n_modes)
   }
   search.find(n_modes);
   if (std::ssize(search.omega()) < n_modes) {
+    search.require_resolved(all_of_them);
     throw Error(fmt::format("fixed_interface_modes: {} of {} modes found; M_ss has no more",
                             search.omega().size(), n_modes));
   }
@@ -33,9 +35,11 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
     n_asked = std::max<PetscInt>(32, n_found + n_found / 2);
     search.find(n_asked);
     if (omega.empty()) {
+      search.require_resolved(all_of_them);
       throw Error("fixed_interface_modes: no mode found; M_ss is zero or indefinite, use Guyan");
     }
   } while (omega.back() < omega_cutoff && std::ssize(omega) > n_found);
+  search.require_resolved(std::pow(omega_cutoff, 2));
   const auto n =
       static_cast<PetscInt>(std::ranges::lower_bound(omega, omega_cutoff) - omega.begin());
   if (n > 0) return search.leading(search.complete_cluster(n));

@@ -7,32 +7,13 @@
 
 #include "reduce/block_rows.hpp"
 #include "reduce/cholesky_callbacks.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-SmallMatrix transposed(const SmallMatrix& A)
-{
-  SmallMatrix B(A.n_cols, A.n_rows);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) B(j, i) = A(i, j);
-  }
-  return B;
-}
-
-SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
-{
-  SmallMatrix C(A.n_rows, B.n_cols);
-  for (PetscInt j = 0; j < B.n_cols; ++j) {
-    for (PetscInt k = 0; k < A.n_cols; ++k) {
-      for (PetscInt i = 0; i < A.n_rows; ++i) C(i, j) += A(i, k) * B(k, j);
-    }
-  }
-  return C;
-}
 
 /// The inverse of K_G on the complement of its r motions without energy, in units that its diagonal
 /// gives; all else is as wrong as any, since the forces have no share of it.

@@ -8,6 +8,8 @@
 #include "reduce/block_rows.hpp"
 #include "reduce/free_flexibility.hpp"
 #include "reduce/guyan.hpp"
+#include "reduce/orthonormalisation.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
@@ -19,19 +21,6 @@ namespace {
 /// by more than round-off.
 constexpr double tolerance = 1e-11;
 
-/// A with unit diagonal, so that units do not decide.
-SmallMatrix scaled_to_unit_diagonal(const SmallMatrix& A)
-{
-  SmallMatrix scaled = A;
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) {
-      const double product = A(i, i) * A(j, j);
-      scaled(i, j) = product > 0.0 ? A(i, j) / std::sqrt(product) : 0.0;
-    }
-  }
-  return scaled;
-}
-
 /// The first n modes and those partners of the last one that follow.
 PetscInt complete_cluster(const std::vector<double>& lambda, PetscInt n)
 {
@@ -40,38 +29,52 @@ PetscInt complete_cluster(const std::vector<double>& lambda, PetscInt n)
   return n;
 }
 
-/// The lowest elastic modes, as many or as far up as wanted; vectors of some more.
+double lambda_max(const ReduceOptions& wanted)
+{
+  return std::pow(2.0 * std::numbers::pi * *wanted.cutoff_Hz, 2);
+}
+
+/// How many of the eigenvalues found are wanted.
+PetscInt n_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda)
+{
+  if (wanted.modes) return *wanted.modes;
+  return static_cast<PetscInt>(std::ranges::lower_bound(lambda, lambda_max(wanted)) -
+                               lambda.begin());
+}
+
+/// The lowest elastic modes, as many or as far up as wanted, with all partners of the last one:
+/// which combinations of some of them came first would be chance.
 EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibility,
                          const ReduceOptions& wanted)
 {
-  PetscInt n = 0;
-  petsc::check(MatGetSize(body.K, &n, nullptr));
-  n -= LocalRows(flexibility.R()).n_cols();
-  const auto lowest = [&](PetscInt n_pairs) {
-    return block_lanczos(flexibility.factor(), body.M,
-                         {.n_pairs = n_pairs, .tolerance = tolerance});
-  };
-  if (wanted.modes) {
-    EigenPairs pairs = lowest(std::min<PetscInt>(*wanted.modes + 2, n));  // to see partners
-    if (std::ssize(pairs.lambda) < *wanted.modes) {
-      throw Error(
-          fmt::format("free_interface_modes: {} of {} elastic modes found; there are no more",
-                      pairs.lambda.size(), *wanted.modes));
-    }
-    pairs.lambda.resize(complete_cluster(pairs.lambda, *wanted.modes));
-    return pairs;
-  }
-  if (!wanted.cutoff_Hz) {
+  if (!wanted.modes && !wanted.cutoff_Hz) {
     throw Error(
         "free_interface_modes: a tolerance needs Craig-Bampton; give the number of modes or "
         "cutoff_Hz");
   }
-  const double lambda_max = std::pow(2.0 * std::numbers::pi * *wanted.cutoff_Hz, 2);
-  for (PetscInt n_asked = std::min<PetscInt>(32, n);; n_asked = std::min(2 * n_asked, n)) {
-    EigenPairs pairs = lowest(n_asked);
-    const auto below = std::ranges::lower_bound(pairs.lambda, lambda_max) - pairs.lambda.begin();
-    if (below == std::ssize(pairs.lambda) && n_asked < n) continue;
-    pairs.lambda.resize(complete_cluster(pairs.lambda, static_cast<PetscInt>(below)));
+  PetscInt n = 0;
+  petsc::check(MatGetSize(body.K, &n, nullptr));
+  n -= LocalRows(flexibility.R()).n_cols();
+  BlockLanczos lanczos(flexibility.factor(), body.M, {.n_pairs = 0, .tolerance = tolerance});
+  EigenPairs pairs;
+  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;; n_asked *= 2) {
+    lanczos.converge(std::min(n_asked, n));
+    pairs.lambda.clear();
+    for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) pairs.lambda.push_back(lanczos.lambda(i));
+    const PetscInt n_found = lanczos.n_pairs(), n_taken = n_wanted(wanted, pairs.lambda);
+    const bool are_all = n_found < n_asked;
+    if (are_all && !(wanted.modes && n_taken <= n_found)) {
+      lanczos.require_resolved(wanted.modes ? all_of_them : lambda_max(wanted));
+    }
+    if (n_taken > n_found) {
+      throw Error(
+          fmt::format("free_interface_modes: {} of {} elastic modes found; there are no more",
+                      n_found, n_taken));
+    }
+    const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
+    if (n_complete == n_found && !are_all) continue;  // the cluster of the last one may go on
+    pairs.lambda.resize(n_complete);
+    pairs.X = lanczos.vectors(0, n_complete);
     return pairs;
   }
 }
@@ -98,65 +101,55 @@ SmallMatrix gram(Mat T, Mat A)
   return inner_product(T, AT);
 }
 
-SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
+/// The lengths of columns, from their Gram matrix; 1 where there is none.
+std::vector<double> lengths(const SmallMatrix& G)
 {
-  SmallMatrix C(A.n_rows, B.n_cols);
-  for (PetscInt j = 0; j < B.n_cols; ++j) {
-    for (PetscInt k = 0; k < A.n_cols; ++k) {
-      for (PetscInt i = 0; i < A.n_rows; ++i) C(i, j) += A(i, k) * B(k, j);
-    }
+  std::vector<double> lengths;
+  for (PetscInt i = 0; i < G.n_rows; ++i) {
+    lengths.push_back(G(i, i) > 0.0 ? std::sqrt(G(i, i)) : 1.0);
   }
-  return C;
+  return lengths;
 }
 
-SmallMatrix transposed(const SmallMatrix& A)
+/// A basis Q of the columns of T with Q^T K Q = I. The first Gram matrix squares the condition of
+/// T, the second one is near I.
+/// @param sizes  what round-off in the columns of T is relative to
+petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
 {
-  SmallMatrix B(A.n_cols, A.n_rows);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) B(j, i) = A(i, j);
+  constexpr double dependent = 1e-6;  // a direction so short changes eigenvalues by its square
+  petsc::Matrix Q;
+  for (int pass = 0; pass < 2; ++pass) {
+    const Mat from = pass == 0 ? T : Mat(Q);
+    const SmallMatrix G = gram(from, K);
+    const Orthonormalisation o =
+        orthonormalisation(G, pass == 0 ? sizes : lengths(G), dependent, petsc::communicator(K));
+    petsc::Matrix orthonormal = uninitialized_dense(K, o.to_Q.n_cols);
+    petsc::check(MatZeroEntries(orthonormal));
+    add_product(1.0, from, o.to_Q, orthonormal);
+    Q = std::move(orthonormal);
   }
-  return B;
-}
-
-/// S with S^T G S = I over the directions that are independent to working precision.
-SmallMatrix orthonormalizing(const SmallMatrix& G, MPI_Comm comm)
-{
-  const SymmetricEigen eigen = symmetric_eigen(scaled_to_unit_diagonal(G), comm);
-  constexpr double dependent = 1e-12;
-  PetscInt r = 0;
-  while (r < G.n_rows && eigen.values[G.n_rows - 1 - r] > dependent * eigen.values.back()) ++r;
-  SmallMatrix S(G.n_rows, r);
-  for (PetscInt k = 0; k < r; ++k) {
-    const PetscInt at = G.n_rows - 1 - k;
-    for (PetscInt i = 0; i < G.n_rows; ++i) {
-      S(i, k) = eigen.vectors(i, at) / std::sqrt(eigen.values[at] * G(i, i));
-    }
-  }
-  return S;
+  return Q;
 }
 
 /// Ritz vectors of (K_ss, M_ss) among the columns of T, from M x = mu K x, which keeps the lowest
 /// accurate.
-FixedInterfaceModes ritz_modes(Mat T, const WholeSystem& body)
+FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const WholeSystem& body)
 {
-  const MPI_Comm comm = petsc::communicator(T);
-  const SmallMatrix S = orthonormalizing(gram(T, body.K_blocks.ss), comm);
-  const SymmetricEigen ritz =
-      symmetric_eigen(product(transposed(S), product(gram(T, body.M_blocks.ss), S)), comm);
-  SmallMatrix V(S.n_cols, S.n_cols);
+  const petsc::Matrix Q = orthonormal_basis(T, sizes, body.K_blocks.ss);
+  const SymmetricEigen ritz = symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
+  const auto n = static_cast<PetscInt>(ritz.values.size());
   FixedInterfaceModes modes;
-  for (PetscInt k = 0; k < S.n_cols; ++k) {
-    const PetscInt at = S.n_cols - 1 - k;
+  SmallMatrix V(n, n);
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt at = n - 1 - k;
     if (!(ritz.values[at] > 0.0)) break;  // shapes without mass
-    for (PetscInt i = 0; i < S.n_cols; ++i)
-      V(i, k) = ritz.vectors(i, at) / std::sqrt(ritz.values[at]);
+    for (PetscInt i = 0; i < n; ++i) V(i, k) = ritz.vectors(i, at) / std::sqrt(ritz.values[at]);
     modes.omega.push_back(1.0 / std::sqrt(ritz.values[at]));
   }
-  V.n_cols = static_cast<PetscInt>(modes.omega.size());
-  V.values.resize(std::size_t(V.n_rows) * V.n_cols);
+  V = column_range(V, 0, static_cast<PetscInt>(modes.omega.size()));
   modes.Phi = uninitialized_dense(body.K_blocks.ss, V.n_cols);
   petsc::check(MatZeroEntries(modes.Phi));
-  add_product(1.0, T, product(S, V), modes.Phi);
+  add_product(1.0, Q, V, modes.Phi);
   return modes;
 }
 
@@ -182,10 +175,10 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
 {
   petsc::Matrix T;  // X_s - Psi X_m, in the first columns K_ss^-1 (M_ss X_s + M_sm X_m)
   petsc::check(MatDuplicate(free.X_s, MAT_COPY_VALUES, T.put()));
+  std::vector<double> sizes = lengths(gram(T, body.K_blocks.ss));  // before the difference
   add_product(-1.0, Psi, free.X_m, T);
   if (free.n_rigid > 0) {
-    SmallMatrix R_m(free.X_m.n_rows, free.n_rigid);
-    std::copy_n(free.X_m.values.begin(), R_m.values.size(), R_m.values.begin());
+    const SmallMatrix R_m = column_range(free.X_m, 0, free.n_rigid);
     const ColumnRange inertia(T, 0, free.n_rigid);
     const petsc::Matrix R_s = uninitialized_dense(body.K_blocks.ss, free.n_rigid);
     petsc::check(MatCopy(ColumnRange(free.X_s, 0, free.n_rigid), R_s, SAME_NONZERO_PATTERN));
@@ -193,8 +186,9 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
     add_sparse_product(body.M_blocks.sm, R_m, inertia);
     petsc::check(MatMatSolve(body.K_ss.factor(), inertia, R_s));
     petsc::check(MatCopy(R_s, inertia, SAME_NONZERO_PATTERN));
+    std::ranges::copy(lengths(gram(R_s, body.K_blocks.ss)), sizes.begin());
   }
-  return ritz_modes(T, body);
+  return ritz_modes(T, sizes, body);
 }
 
 SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reduce/progress.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
@@ -12,25 +13,6 @@ namespace chladni::reduce {
 namespace {
 
 constexpr PetscInt block_columns = 64;  // of the solves: bounds the memory
-
-SmallMatrix columns_of(const SmallMatrix& A, PetscInt first, PetscInt last)
-{
-  SmallMatrix columns(A.n_rows, last - first);
-  std::copy_n(A.values.begin() + std::size_t(first) * A.n_rows, columns.values.size(),
-              columns.values.begin());
-  return columns;
-}
-
-/// A above B.
-SmallMatrix stacked(const SmallMatrix& A, const SmallMatrix& B)
-{
-  SmallMatrix both(A.n_rows + B.n_rows, B.n_cols);
-  for (PetscInt j = 0; j < B.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) both(i, j) = A(i, j);
-    for (PetscInt i = 0; i < B.n_rows; ++i) both(A.n_rows + i, j) = B(i, j);
-  }
-  return both;
-}
 
 /// B_j = M_ss (Psi - Phi P)_j + M_sm,j of columns first .. last - 1.
 petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, const SmallMatrix& P,
@@ -74,7 +56,7 @@ void GrowingModel::start_errors(Mat Phi)
   for (PetscInt first = 0; first < n_m; first += block_columns) {
     report_progress(double(first) / n_m);
     const PetscInt last = std::min(first + block_columns, n_m);
-    const SmallMatrix P = columns_of(P_, first, last);
+    const SmallMatrix P = column_range(P_, first, last);
     const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
     const petsc::Matrix Z = uninitialized_dense(system_.M.ss, last - first);
     petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
@@ -104,6 +86,31 @@ void GrowingModel::append(Mat Phi, const std::vector<double>& omega)
 ReducedModel GrowingModel::model(PetscInt n) const
 {
   return join(K_G_, M_G_, P_, {omega_.begin(), omega_.begin() + n});
+}
+
+/// G_n
+SmallMatrix GrowingModel::G(PetscInt n) const
+{
+  SmallMatrix G_n = G_;
+  const double sign = n > n_first_ ? -1.0 : 1.0;
+  for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
+    const double factor = sign / (omega_[k] * omega_[k]);
+    for (PetscInt j = 0; j < G_n.n_cols; ++j) {
+      for (PetscInt i = 0; i < G_n.n_rows; ++i) G_n(i, j) += factor * P_(k, i) * P_(k, j);
+    }
+  }
+  return G_n;
+}
+
+ReducedModel GrowingModel::heavier_model(PetscInt n, double sigma, double lambda_left_out) const
+{
+  ReducedModel heavier = model(n);
+  const SmallMatrix G_n = G(n);
+  const double factor = sigma / (1.0 - sigma / lambda_left_out);
+  for (PetscInt j = 0; j < G_n.n_cols; ++j) {
+    for (PetscInt i = 0; i < G_n.n_rows; ++i) heavier.M(i, j) += factor * G_n(i, j);
+  }
+  return heavier;
 }
 
 std::vector<double> GrowingModel::error_estimates(const ReducedPairs& pairs, PetscInt n) const

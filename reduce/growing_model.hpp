@@ -34,12 +34,18 @@ class GrowingModel {
 
   /// The reduced model with the first n modes.
   ReducedModel model(PetscInt n) const;
+  /// The same with so much mass added at the masters that at least as many of its eigenvalues lie
+  /// below sigma as the FE model has there, under any support of the masters. The modes left out,
+  /// from lambda_left_out > sigma on, add sigma^2 sum_k P_k^T P_k / (omega_k^2 - sigma) to the
+  /// masters' part of K - sigma M, at most sigma^2 G_n / (1 - sigma / lambda_left_out).
+  ReducedModel heavier_model(PetscInt n, double sigma, double lambda_left_out) const;
   /// eta^2 of pairs of that model, as `reduce::error_estimates` to first order in what the
   /// eigen-solver left; what is below 1e-12 or so is round-off.
   std::vector<double> error_estimates(const ReducedPairs& pairs, PetscInt n) const;
 
  private:
   void start_errors(Mat Phi);
+  SmallMatrix G(PetscInt n) const;
 
   System system_;
   GuyanStiffness K_G_;

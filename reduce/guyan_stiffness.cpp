@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reduce/small_matrices.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
@@ -106,25 +107,6 @@ SmallMatrix inverse_root(const SmallMatrix& N)
   return eigen.vectors;
 }
 
-/// The first columns of X, as many as A has rows, times A.
-SmallMatrix combined(const SmallMatrix& X, const SmallMatrix& A)
-{
-  SmallMatrix XA(X.n_rows, A.n_cols);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt k = 0; k < A.n_rows; ++k) {
-      for (PetscInt i = 0; i < X.n_rows; ++i) XA(i, j) += X(i, k) * A(k, j);
-    }
-  }
-  return XA;
-}
-
-SmallMatrix first_columns(const SmallMatrix& A, PetscInt n)
-{
-  SmallMatrix first(A.n_rows, n);
-  std::copy_n(A.values.begin(), first.values.size(), first.values.begin());
-  return first;
-}
-
 /// Columns made orthonormal one after the other.
 void orthonormalize(SmallMatrix& Y)
 {
@@ -161,7 +143,7 @@ Combinations combinations(const std::vector<double>& energies, const SmallMatrix
   }
   const SymmetricEigen share = symmetric_eigen(std::move(C));
   Combinations found{.Y = {N.n_rows, N.n_rows}, .n_unresisted = 0, .least = share.values.front()};
-  found.Y = combined(S, share.vectors);
+  found.Y = product(S, share.vectors);
   orthonormalize(found.Y);
   // Twice eps at most on solids and plates from 300 to 15000 DOFs. Negative energies tell how exact
   // K is, in files with few digits less than the machine.
@@ -200,7 +182,7 @@ SmallMatrix without_motions(const SmallMatrix& K_G, const SmallMatrix& U,
       for (PetscInt i = 0; i < n; ++i) half(l, k) += 0.5 * U(i, l) * AU(i, k);
     }
   }
-  const SmallMatrix share = combined(U, half);
+  const SmallMatrix share = product(U, half);
   SmallMatrix K(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
@@ -249,7 +231,8 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
     guyan.R = SmallMatrix(guyan.K.n_rows, 0);
     return guyan;
   }
-  const SmallMatrix U = combined(eigen.vectors, first_columns(found.Y, found.n_unresisted));
+  const SmallMatrix U = product(column_range(eigen.vectors, 0, found.Y.n_rows),
+                                column_range(found.Y, 0, found.n_unresisted));
   guyan.K = without_motions(guyan.K, U, scales);
   broadcast(guyan.K.values, comm);
   guyan.R = U;

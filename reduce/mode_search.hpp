@@ -22,6 +22,12 @@ class ModeSearch {
   /// @note   Collective.
   /// @throws chladni::Error when the solver does not converge or K_ss is not definite.
   void find(PetscInt n);
+  /// @throws chladni::Error when modes below that lambda may not be among those found, which are
+  ///         all that converge.
+  void require_resolved(double lambda) const
+  {
+    if (lanczos_) lanczos_->require_resolved(lambda);
+  }
   /// Whether all modes that there are have been found.
   bool has_all() const { return has_all_; }
   /// Angular frequencies of all that are found, ascending; rad/s.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "reduce/craig_bampton.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
@@ -12,15 +13,6 @@ void add_block(SmallMatrix& A, PetscInt first_row, PetscInt first_column, const 
   for (PetscInt j = 0; j < block.n_cols; ++j) {
     for (PetscInt i = 0; i < block.n_rows; ++i) A(first_row + i, first_column + j) += block(i, j);
   }
-}
-
-SmallMatrix transposed(const SmallMatrix& A)
-{
-  SmallMatrix A_T(A.n_cols, A.n_rows);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) A_T(j, i) = A(i, j);
-  }
-  return A_T;
 }
 
 /// A dense basis of the slaves and its first coordinate.

@@ -5,23 +5,13 @@
 #include <limits>
 
 #include "reduce/block_rows.hpp"
+#include "reduce/small_matrices.hpp"
 #include "reduce/sparse_product.hpp"
 #include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
 namespace {
-
-SmallMatrix product(const SmallMatrix& A, const SmallMatrix& B)
-{
-  SmallMatrix C(A.n_rows, B.n_cols);
-  for (PetscInt j = 0; j < B.n_cols; ++j) {
-    for (PetscInt k = 0; k < A.n_cols; ++k) {
-      for (PetscInt i = 0; i < A.n_rows; ++i) C(i, j) += A(i, k) * B(k, j);
-    }
-  }
-  return C;
-}
 
 /// S A^(-1/2) with the eigenvectors S of a semidefinite A in units of its diagonal, as far as A is
 /// regular.
@@ -46,15 +36,6 @@ SmallMatrix inverse_root(SmallMatrix A, MPI_Comm comm)
     }
   }
   return root;
-}
-
-SmallMatrix transposed(const SmallMatrix& A)
-{
-  SmallMatrix B(A.n_cols, A.n_rows);
-  for (PetscInt j = 0; j < A.n_cols; ++j) {
-    for (PetscInt i = 0; i < A.n_rows; ++i) B(j, i) = A(i, j);
-  }
-  return B;
 }
 
 /// X^T X after its rows are scaled by the power p of the diagonal of K_ss.

@@ -1,6 +1,7 @@
 #include "reduce/sylvester.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include "reduce/completeness.hpp"
@@ -62,6 +63,33 @@ void check_every_pivot(Mat factor, const OptionSource& source)
                   source.prefix, control));
 }
 
+/// The largest K_jj / M_jj of all rows.
+double stiffest(Mat K, Mat M)
+{
+  petsc::Vector k, m;
+  petsc::check(MatCreateVecs(K, nullptr, k.put()));
+  petsc::check(MatCreateVecs(M, nullptr, m.put()));
+  petsc::check(MatGetDiagonal(K, k));
+  petsc::check(MatGetDiagonal(M, m));
+  petsc::check(VecPointwiseDivide(k, k, m));  // 0 where M_jj is
+  PetscReal largest = 0.0;
+  petsc::check(VecMax(k, nullptr, &largest));
+  return largest;
+}
+
+/// Refuses a sigma so far above all stiffness that none of it is left in K - sigma M: where M is
+/// singular the signs of the pivots would be those of round-off.
+void check_stiffness_is_seen(Mat K, Mat M, double sigma)
+{
+  constexpr double two_digits = 100.0 * std::numeric_limits<double>::epsilon();
+  if (two_digits * sigma <= stiffest(K, M)) return;
+  throw Error(fmt::format(
+      "eigenvalues_below: at sigma = {:.3e} rad^2/s^2 no digits of K are left in K - "
+      "sigma M; the mass of a coordinate is round-off: ask for a range that ends lower, "
+      "or for no count",
+      sigma));
+}
+
 }  // namespace
 
 petsc::Matrix shifted(Mat K, Mat M, double sigma)
@@ -76,6 +104,7 @@ petsc::Matrix shifted(Mat K, Mat M, double sigma)
 
 PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source)
 {
+  check_stiffness_is_seen(K, M, sigma);
   const petsc::Matrix A = shifted(K, M, sigma);
   const OptionSource own = source.part("sylvester_");
   const petsc::LinearSolver solver = new_solver(petsc::communicator(K), own);

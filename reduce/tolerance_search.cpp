@@ -70,11 +70,34 @@ double ToleranceSearch::error(PetscInt n) const
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double of_frequency = frequency_error(errors[i], pairs.lambda[i], last * last);
     const double Hz = std::sqrt(pairs.lambda[i]) / (2.0 * std::numbers::pi);
-    if (goal_.of == ToleranceGoal::Of::frequencies) errors[i] = of_frequency;
-    if (Hz * (1.0 - of_frequency) > goal_.up_to_Hz) errors[i] = 0.0;
+    errors[i] = Hz * (1.0 - of_frequency) > goal_.up_to_Hz ? 0.0 : of_frequency;
   }
   const double largest = errors.empty() ? 0.0 : std::ranges::max(errors);
   return value_of_first_rank(largest, petsc::communicator(system_.Psi));
+}
+
+/// Of the first mode beyond the first n, or less.
+double ToleranceSearch::lambda_left_out(PetscInt n) const
+{
+  const std::vector<double>& omega = search_.omega();
+  if (n < std::ssize(omega)) return omega[n] * omega[n];
+  return search_.has_all() ? all_of_them : omega.back() * omega.back();
+}
+
+/// Whether the FE model may have more frequencies in the range than the reduced one has there or
+/// within the tolerance above it.
+bool ToleranceSearch::may_lack_a_frequency(PetscInt n) const
+{
+  const double sigma = std::pow(2.0 * std::numbers::pi * goal_.up_to_Hz, 2);
+  const double left_out = lambda_left_out(n);
+  if (left_out <= sigma) return true;
+  const auto n_below = [&](const ReducedModel& model, double end) {
+    const ReducedPairs pairs = pairs_in_range_(model);
+    return std::ranges::upper_bound(pairs.lambda, end) - pairs.lambda.begin();
+  };
+  const auto most = n_below(model_->heavier_model(n, sigma, left_out), sigma);
+  const auto found = n_below(model_->model(n), sigma * (1.0 + 2.0 * goal_.tolerance));
+  return value_of_first_rank(most > found ? 1.0 : 0.0, petsc::communicator(system_.Psi)) != 0.0;
 }
 
 /// Of the modes at hand, those of the range.
@@ -106,10 +129,15 @@ bool ToleranceSearch::is_enough()
     n_asked_ = more_of_range();
     return false;
   }
+  search_.require_resolved(std::pow(2.0 * std::numbers::pi * goal_.up_to_Hz, 2));
   const double last_error = error(model_->n_modes());
   if (last_error > goal_.tolerance) {
     too_few_.push_back({.n = model_->n_modes(), .error = last_error});
     n_asked_ = prediction();
+    return false;
+  }
+  if (may_lack_a_frequency(model_->n_modes())) {
+    n_asked_ = model_->n_modes() + model_->n_modes() / 4 + 1;
     return false;
   }
   n_enough_ = search_.complete_cluster(least());
@@ -119,13 +147,22 @@ bool ToleranceSearch::is_enough()
 /// By bisection to 1 % or one mode, not below the modes of the range.
 PetscInt ToleranceSearch::least() const
 {
-  PetscInt too_few = std::max(too_few_.empty() ? 0 : too_few_.back().n, n_in_range() - 1);
-  PetscInt enough = model_->n_modes();
+  const PetscInt all = model_->n_modes();
+  const PetscInt too_few = std::max(too_few_.empty() ? 0 : too_few_.back().n, n_in_range() - 1);
+  const PetscInt n = std::max<PetscInt>(
+      1, bisected(too_few, all, [&](PetscInt k) { return error(k) <= goal_.tolerance; }));
+  if (!may_lack_a_frequency(n)) return n;
+  return bisected(n, all, [&](PetscInt k) { return !may_lack_a_frequency(k); });
+}
+
+PetscInt ToleranceSearch::bisected(PetscInt too_few, PetscInt enough,
+                                   const std::function<bool(PetscInt)>& is_enough) const
+{
   while (enough - too_few > std::max<PetscInt>(1, enough / 100)) {
     const PetscInt n = (enough + too_few) / 2;
-    (error(n) <= goal_.tolerance ? enough : too_few) = n;
+    (is_enough(n) ? enough : too_few) = n;
   }
-  return std::max<PetscInt>(enough, 1);
+  return enough;
 }
 
 /// A number of modes that keeps the tolerance if the error goes on to fall as a power of it, from

@@ -10,20 +10,18 @@ namespace chladni::reduce {
 
 /// What is asked of the modes.
 struct ToleranceGoal {
-  enum class Of { eigenvalues, frequencies };
-
-  double tolerance;
-  double up_to_Hz;  ///< end of the range
-  /// Of eigenvalues: eta^2; of frequencies: `frequency_error`. Both of all frequencies of the FE
-  /// model in the range: the pairs go some way beyond it, since a reduced frequency is too high.
-  Of of = Of::frequencies;
+  double tolerance;  ///< of `frequency_error`
+  /// End of the range, in which lie frequencies of the FE model: the pairs go some way beyond it,
+  /// since a reduced frequency is too high.
+  double up_to_Hz;
 };
 
 /// About as few fixed-interface modes as keep the error estimates of a range of the spectrum below
-/// a tolerance. All fixed-interface modes of the range are taken, whatever the estimates say: a
-/// mode that the reduced model does not have has no estimate, and where the masters are held every
-/// mode that it has is exact. Takes turns: `find_modes`, `is_enough`, until the answer is yes.
-/// Neither the modes nor what their errors need are computed twice.
+/// a tolerance. All fixed-interface modes of the range are taken, whatever the estimates say: where
+/// the masters are held every mode that there is is exact. And no frequency of the FE model in the
+/// range may be without one of the reduced model, as `GrowingModel::heavier_model` shows. Takes
+/// turns: `find_modes`, `is_enough`, until the answer is yes. Neither the modes nor what their
+/// errors need are computed twice.
 class ToleranceSearch {
  public:
   /// The pairs of a reduced model whose errors count, the same on every rank.
@@ -51,10 +49,14 @@ class ToleranceSearch {
   };
 
   double error(PetscInt n) const;
+  bool may_lack_a_frequency(PetscInt n) const;
+  double lambda_left_out(PetscInt n) const;
   PetscInt n_in_range() const;
   bool covers_range() const;
   PetscInt more_of_range() const;
   PetscInt least() const;
+  PetscInt bisected(PetscInt too_few, PetscInt enough,
+                    const std::function<bool(PetscInt)>& is_enough) const;
   PetscInt prediction() const;
   PetscInt n_complete() const;
 

@@ -79,7 +79,7 @@ PETSC_EXTERN PetscErrorCode CMSSetType(CMS cms, CMSType type);
 PETSC_EXTERN PetscErrorCode CMSGetType(CMS cms, CMSType *type);
 /* How many modes; the last of the three that is set counts.
    -cms_nmodes N | -cms_cutoff F | -cms_tol T -cms_tol_upto F;  F in Hz: lambda = (2 pi F)^2.
-   By tolerance: as many as keep the estimated relative error eta^2 of all lambda up to F below T. */
+   By tolerance: as many as keep the estimated relative error of all frequencies up to F below T. */
 PETSC_EXTERN PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes);
 PETSC_EXTERN PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f);
 PETSC_EXTERN PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto);

@@ -43,9 +43,7 @@ FixedInterfaceModes modes_to_tolerance(CMS cms, Mat Psi)
   further.options.tolerance->up_to_Hz *= beyond;
   ToleranceSearch search(
       {.K_ss = set_up.K_ss, .Psi = Psi, .K = set_up.K_blocks, .M = set_up.M_blocks},
-      {.tolerance = margin * wanted.tolerance,
-       .up_to_Hz = wanted.up_to_Hz,
-       .of = ToleranceGoal::Of::eigenvalues},
+      {.tolerance = margin * wanted.tolerance, .up_to_Hz = wanted.up_to_Hz},
       [&](const ReducedModel& model) {
         return certified_pairs(free_model_everywhere(model, comm), further, model);
       });

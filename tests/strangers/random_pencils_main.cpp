@@ -45,7 +45,8 @@ class Tally {
     }
     for (const auto& [property, is] : listed) {
       if (failed_.contains(property)) continue;
-      fmt::print("{}: known to fail, and holds here\n", property);
+      fmt::print("{}: known to fail, and holds; take it off the list\n", property);
+      ++errors;
     }
     return errors == 0 ? 0 : 1;
   }

@@ -35,6 +35,9 @@ struct Answer {
   Eigen::MatrixXd K_r{}, M_r{}, T{};
   std::vector<double> lambda{}, eta2{}, rounding{}, bounds{};
   CMSQuality quality{};
+
+  /// Relative, what the certificate says that rounding does to frequency i.
+  double rounding_of(std::size_t i) const { return i < rounding.size() ? rounding[i] : 0.0; }
 };
 Answer reduce(const Pencil& pencil, const Reduction& how, MPI_Comm comm);
 

@@ -197,13 +197,9 @@ TEST_P(Stranger, HoldsAgainstDenseMatrices)
   const auto [properties, figures] =
       summary(way == "Eps" ? solve_and_check(name) : reduce_and_check(name, way));
   const std::string text = told(figures);
-  std::string wrong = told(fmt::format("{}", fmt::join(properties, " ")));
+  const std::string wrong = told(fmt::format("{}", fmt::join(properties, " ")));
   alarm(0);
-  const KnownWrong known = known_wrong(name, way, ranks);
-  if (!known.properties.empty() && !known.sometimes) {
-    EXPECT_NE(wrong, "") << name << " " << way << " holds; take it off the list of known.cpp";
-  }
-  EXPECT_EQ(unlisted(wrong, known.properties), "")
+  EXPECT_EQ(unlisted(wrong, known_wrong(name, way, ranks)), "")
       << name << " " << way << " on " << ranks << " ranks\n"
       << text;
   if (std::getenv("STRANGERS_LIST") != nullptr && petsc::rank(PETSC_COMM_WORLD) == 0) {
