@@ -112,17 +112,21 @@ std::vector<double> lengths(const SmallMatrix& G)
 }
 
 /// A basis Q of the columns of T with Q^T K Q = I. The first Gram matrix squares the condition of
-/// T, the second one is near I.
+/// T, the second one is near I. Directions are left out that are dependent or round-off.
 /// @param sizes  what round-off in the columns of T is relative to
 petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
 {
-  constexpr double dependent = 1e-6;  // a direction so short changes eigenvalues by its square
+  constexpr double dependent = 1e-6;   // of the columns' lengths: what a Gram matrix resolves
+  constexpr double round_off = 1e-10;  // of their sizes: six digits of a direction
   petsc::Matrix Q;
   for (int pass = 0; pass < 2; ++pass) {
     const Mat from = pass == 0 ? T : Mat(Q);
     const SmallMatrix G = gram(from, K);
-    const Orthonormalisation o =
-        orthonormalisation(G, pass == 0 ? sizes : lengths(G), dependent, petsc::communicator(K));
+    std::vector<double> units = lengths(G);
+    for (std::size_t i = 0; i < units.size() && pass == 0; ++i) {
+      units[i] = std::max(units[i], round_off / dependent * sizes[i]);
+    }
+    const Orthonormalisation o = orthonormalisation(G, units, dependent, petsc::communicator(K));
     petsc::Matrix orthonormal = uninitialized_dense(K, o.to_Q.n_cols);
     petsc::check(MatZeroEntries(orthonormal));
     add_product(1.0, from, o.to_Q, orthonormal);
