@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "plate/drilling.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -89,6 +90,8 @@ Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
   }
   add_node_masters(attachments, dofs);
   add_ring_masters(attachments, dofs);
+  const Eigen::MatrixX3d axes = plate::drilling_axes(mesh, dofs);
+  for (const int node : attachments.nodes) attachments.drilling_axes.push_back(axes.row(node));
   return attachments;
 }
 

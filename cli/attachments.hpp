@@ -16,6 +16,7 @@ struct Attachments {
   std::vector<mbs_export::AttachmentSet> sets;
   std::vector<mbs_export::MasterDof> masters;  ///< nodes as places in `nodes`
   std::vector<int> master_dofs;                ///< [n_m] of K
+  std::vector<Eigen::Vector3d> drilling_axes;  ///< of the nodes, as in mbs_export::AttachmentNode
 };
 
 /// @param names  groups or rings of the mesh, or reference nodes of couplings; rings of harmonics

@@ -71,13 +71,14 @@ HeldPairs held_pairs(const mbs_export::ReducedSystem& system, const std::vector<
   return held;
 }
 
-mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
-                                const std::vector<std::string>& fixed, const ModeRange& range)
+Certified certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
+                  const std::vector<std::string>& fixed, const ModeRange& range,
+                  reduce::Purpose purpose)
 {
   const HeldPairs held = held_pairs(system, reduction.places, fixed, range);
-  const reduce::ErrorEstimates errors = reduce::error_estimates(
+  reduce::ErrorEstimates errors = reduce::error_estimates(
       {.K_ss = reduction.K_ss, .Q_CB = reduction.Q_CB, .K = reduction.K, .M = reduction.M},
-      held.pairs);
+      held.pairs, purpose);
   const auto as_vector = [](const std::vector<double>& values) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)));
   };
@@ -90,7 +91,7 @@ mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const R
   certificate.estimates = as_vector(
       reduce::frequency_errors_by_place(held.pairs.lambda, errors.eta2, reduction.lambda_left_out));
   certificate.rounding = as_vector(errors.rounding);
-  return certificate;
+  return {.certificate = std::move(certificate), .residuals = std::move(errors.inner_products)};
 }
 
 HeldSpectrum held_spectrum(const mbs_export::ReducedSystem& system)

@@ -38,12 +38,19 @@ struct HeldPairs {
 HeldPairs held_pairs(const mbs_export::ReducedSystem& system, const std::vector<int>& places,
                      const std::vector<std::string>& fixed, const ModeRange& range);
 
+/// A certificate, and what bounds are made of when eigenvalues are counted.
+struct Certified {
+  mbs_export::Certificate certificate;
+  reduce::SmallMatrix residuals = {0, 0};  ///< `ErrorEstimates::inner_products`; empty if not asked
+};
+
 /// The error estimates of the supported body's modes.
 /// @param system  [first rank] the reduced system in the order of the file
 /// @note   Collective on all ranks.
 /// @throws chladni::Error when the support does not fit the system.
-mbs_export::Certificate certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
-                                const std::vector<std::string>& fixed, const ModeRange& range);
+Certified certify(const mbs_export::ReducedSystem& system, const Reduction& reduction,
+                  const std::vector<std::string>& fixed, const ModeRange& range,
+                  reduce::Purpose purpose);
 
 /// A spectrum under a support.
 struct HeldSpectrum {

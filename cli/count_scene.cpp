@@ -53,7 +53,8 @@ bool CountOfEigenvalues::is_possible() const
 }
 
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
-                                    const mbs_export::ReducedSystem& system)
+                                    const mbs_export::ReducedSystem& system,
+                                    const reduce::SmallMatrix& residuals)
 {
   mbs_export::Certificate certificate = system.certificate;
   const HeldSpectrum spectrum = held_spectrum(system);
@@ -63,8 +64,9 @@ mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks
   }
   const reduce::Completeness count =
       reduce::count_modes({.lambda = spectrum.lambda,
-                           .eta2 = {certificate.eta2.begin(), certificate.eta2.end()},
-                           .n_zero = spectrum.n_rigid},
+                           .residuals = residuals,
+                           .n_zero = spectrum.n_rigid,
+                           .comm = PETSC_COMM_WORLD},
                           [&](double sigma) {
                             return reduce::eigenvalues_below(fe.system.K, fe.system.M, sigma, held);
                           });

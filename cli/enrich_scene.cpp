@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/drilling.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "reduce/full_responses.hpp"
@@ -50,6 +51,7 @@ void add_loads(const ReducedSystem& system, const InterfaceModes& wanted, int co
       system.masters, [&](const auto& dof) { return dof.harmonic && dof.harmonic->set == index; });
   if (is_ring && component % 3 == 2) return add_axial_harmonics(system, index, component, rows);
   for (const int node : set.nodes) {
+    mbs_export::refuse_drilling_load(system, node, component);
     if (const auto row = mbs_export::master_row(system, node, component))
       rows.insert(*row);
     else if (mbs_export::has_component(system, node, component))

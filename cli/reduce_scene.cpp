@@ -81,12 +81,13 @@ double beside_MiB(const Scene& scene, const Partitioned& blocks)
   constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
   constexpr double blocks_of_columns = 230.0, mass_integrals = 120.0, whole_matrices = 130.0;
   const double n_modes = std::min<double>(modes_at_first(scene.reduce), n_s);
+  const double certified = std::min(n_modes, 100.0);  // residuals for bounds
   const double basis = std::min<double>(basis_for_each_mode * n_modes + least_basis, n_s);
   const double in_search = n_modes > 0.0 ? basis + n_modes + blocks_of_lanczos : 0.0;
   const auto n_masters = static_cast<double>(blocks.masters.size());
   const double n_columns = std::max(in_search, n_masters + n_modes + blocks_of_columns) +
                            (scene.mass_integrals ? mass_integrals : 0.0) +
-                           (scene.sylvester.value_or(false) ? whole_matrices : 0.0);
+                           (scene.sylvester.value_or(false) ? whole_matrices + certified : 0.0);
   return sizeof(double) * double(n_local) * n_columns / reduce::bytes_in_MiB;
 }
 
@@ -160,8 +161,12 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  system.certificate = phases.run("error estimates",
-                                  [&] { return certify_scene(scene, fe, blocks, K_ss, reduced); });
+  const bool counts = count.is_possible() && count.is_due(n_modes);
+  const Certified certified = phases.run("error estimates", [&] {
+    return certify_scene(scene, fe, blocks, K_ss, reduced,
+                         counts ? reduce::Purpose::bounds : reduce::Purpose::estimates);
+  });
+  system.certificate = certified.certificate;
   const double modes_residual = phases.run("residuals", [&] {
     return reduced.Q_CB.modes && !is_free_interface(scene.reduce.method)
                ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
@@ -170,9 +175,10 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
   system.certificate.condition =
       phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
   system.certificate.count_share = count.share(n_modes);
-  if (count.is_possible() && count.is_due(n_modes)) {
-    system.certificate =
-        phases.run("count of eigenvalues", [&] { return count_scene(fe, blocks, system); });
+  if (counts) {
+    system.certificate = phases.run("count of eigenvalues", [&] {
+      return count_scene(fe, blocks, system, certified.residuals);
+    });
   }
   reduced = with_what_bodies_need(scene, fe, blocks, std::move(reduced), phases);
   system.provenance = {.scene = scene.text,

@@ -72,10 +72,12 @@ mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
   mbs_export::ReducedSystem reduced;
   reduced.title = scene.title;
   reduced.sets = fe.attachments.sets;
-  for (const int node : fe.attachments.nodes) {
+  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
+    const int node = fe.attachments.nodes[i];
     const auto& x = fe.system.dofs.positions[node];
-    reduced.attachment_nodes.push_back(
-        {.number = node_number(fe.mesh, fe.system.dofs, node), .position = {x[0], x[1], x[2]}});
+    reduced.attachment_nodes.push_back({.number = node_number(fe.mesh, fe.system.dofs, node),
+                                        .position = {x[0], x[1], x[2]},
+                                        .drilling_axis = fe.attachments.drilling_axes[i]});
   }
   reduced.masters = fe.attachments.masters;
   if (!fe.system.dofs.harmonic_rings.empty()) {
@@ -178,13 +180,13 @@ std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe
   return support;
 }
 
-mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
-                                      const Partitioned& blocks, const reduce::Factorization& K_ss,
-                                      const Reduced& reduced)
+Certified certify_scene(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                        const reduce::Factorization& K_ss, const Reduced& reduced,
+                        reduce::Purpose purpose)
 {
   if (scene.reduce.method == reduce::Method::macneal) {  // no projection: residuals mean nothing
-    mbs_export::Certificate none;
-    none.fixed = certified_support(scene, fe);
+    Certified none;
+    none.certificate.fixed = certified_support(scene, fe);
     return none;
   }
   const auto& frequencies = reduced.system.fixed_interface_frequencies;
@@ -199,7 +201,7 @@ mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
                   .places = reduced.places,
                   .lambda_left_out = are_fixed_interface ? omega_last * omega_last
                                                          : std::numeric_limits<double>::infinity()},
-                 certified_support(scene, fe), certified_range(scene, omega_last));
+                 certified_support(scene, fe), certified_range(scene, omega_last), purpose);
 }
 
 }  // namespace chladni::cli

@@ -97,9 +97,9 @@ ModeRange certified_range(const Scene& scene, double omega_last);
 std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe);
 
 /// Estimates up to the frequency that the scene promises.
-mbs_export::Certificate certify_scene(const Scene& scene, const FeModel& fe,
-                                      const Partitioned& blocks, const reduce::Factorization& K_ss,
-                                      const Reduced& reduced);
+Certified certify_scene(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
+                        const reduce::Factorization& K_ss, const Reduced& reduced,
+                        reduce::Purpose purpose);
 
 /// In the order of the file, without picture and certificate.
 mbs_export::ReducedSystem to_file_order(const Scene& scene, const FeModel& fe,
@@ -130,9 +130,11 @@ class CountOfEigenvalues {
 };
 
 /// Counts the eigenvalues of the FE model and bounds the errors, for the certificate of `system`.
-/// @param system  [first rank]
+/// @param system     [first rank]
+/// @param residuals  of `Certified`
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,
-                                    const mbs_export::ReducedSystem& system);
+                                    const mbs_export::ReducedSystem& system,
+                                    const reduce::SmallMatrix& residuals);
 
 /// Rubin's and MacNeal's methods.
 bool is_free_interface(reduce::Method method);

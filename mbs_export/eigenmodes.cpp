@@ -49,9 +49,9 @@ MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R
 /// The modes X, x^T M x = 1, without those of more than a thousand times the first frequency whose
 /// mass is round-off of its parts |x|^T |M| |x|: the rotation of a shell about its normal, of which
 /// the mass is what the other modes leave of it.
-std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorXd& mu)
+std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorXd& mu,
+                             double largest_rounding)
 {
-  constexpr double largest_rounding = 1e-3;  // three digits of its mass
   constexpr double far = 1e-6;
   const VectorXd parts =
       (X.cwiseAbs().array() * (M.cwiseAbs() * X.cwiseAbs()).array()).colwise().sum();
@@ -65,7 +65,8 @@ std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorX
 
 }  // namespace
 
-Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                      double orthonormal_to)
 {
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
@@ -82,7 +83,7 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
   const MatrixXd Y = solver.eigenvectors().rowwise().reverse().leftCols(k);
   MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
   X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
-  const std::vector<Index> massive = with_mass(X, M, mu);
+  const std::vector<Index> massive = with_mass(X, M, mu, orthonormal_to);
   const VectorXd lambda = mu(massive).cwiseInverse();
   return {lambda, orthonormalized(X(Eigen::all, massive), M, R),
           static_cast<int>(n - r - lambda.size())};

@@ -18,8 +18,11 @@ struct Eigenmodes {
 /// @param K  [n x n], symmetric, positive definite on the complement of R
 /// @param M  [n x n], symmetric, positive semidefinite
 /// @param R  [n x r], r may be 0
+/// @param orthonormal_to  modes of more than a thousand times the first frequency whose mass
+///                        rounding lets less certain are left out as massless
 /// @throws chladni::Error when K has more zero-energy vectors than R, or M is not semidefinite.
-Eigenmodes eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& R);
+Eigenmodes eigenmodes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, const Eigen::MatrixXd& R,
+                      double orthonormal_to = 1e-8);
 
 /// Which of the modes are wanted.
 struct LowestModes {

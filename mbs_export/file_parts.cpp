@@ -15,15 +15,17 @@ void write_attachment(hdf5::Writer& file, const std::vector<AttachmentNode>& nod
                       const std::vector<AttachmentSet>& sets)
 {
   std::vector<std::int64_t> numbers;
-  Eigen::MatrixXd positions(Index(nodes.size()), 3);
+  Eigen::MatrixXd positions(Index(nodes.size()), 3), axes(Index(nodes.size()), 3);
   for (const AttachmentNode& node : nodes) {
     positions.row(Index(numbers.size())) = node.position;
+    axes.row(Index(numbers.size())) = node.drilling_axis;
     numbers.push_back(node.number);
   }
   std::vector<std::string> names;
   for (const AttachmentSet& set : sets) names.push_back(link_name(set.name));
   file.write("attachment/node_numbers", std::span<const std::int64_t>(numbers), "1");
   file.write("attachment/node_positions", positions, "m");
+  if (!axes.isZero(0.0)) file.write("attachment/drilling_axes", axes, "1");
   file.write("attachment/set_names", names);
   for (const AttachmentSet& set : sets)
     file.write("attachment/sets/" + set.name, std::span<const int>(set.nodes), "1");
@@ -35,8 +37,12 @@ Attachment read_attachment(const hdf5::Reader& file)
   const auto numbers = file.integers("attachment/node_numbers");
   const Index n = Index(numbers.size());
   const Eigen::MatrixXd positions = file.matrix("attachment/node_positions", {n, 3});
+  const Eigen::MatrixXd axes = file.contains("attachment/drilling_axes")
+                                   ? file.matrix("attachment/drilling_axes", {n, 3})
+                                   : Eigen::MatrixXd::Zero(n, 3);
   for (Index i = 0; i < n; ++i)
-    attachment.nodes.push_back({numbers[static_cast<std::size_t>(i)], positions.row(i)});
+    attachment.nodes.push_back(
+        {numbers[static_cast<std::size_t>(i)], positions.row(i), axes.row(i)});
   std::set<std::string> names;
   for (const std::string& name : file.texts("attachment/set_names")) {
     if (!names.insert(name).second) file.fail("attachment/set_names", "names '" + name + "' twice");

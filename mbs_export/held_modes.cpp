@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mbs_export/constrained_modes.hpp"
+#include "mbs_export/drilling.hpp"
 #include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/mode_shift.hpp"
@@ -40,6 +41,7 @@ HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<
                                 const LowestModes& wanted)
 {
   const HeldDofs held = held_dofs(reduced, fixed);
+  refuse_drilling_support(reduced, held);
   if (!held.are_masters()) return by_mode_shift(reduced, held);
   const RigidModes rigid = rigid_modes(reduced);
   const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, Eigen::all));

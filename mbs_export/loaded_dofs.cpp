@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/contact_rings.hpp"
+#include "mbs_export/drilling.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -44,12 +45,12 @@ std::vector<SetLoad> loads_of(const std::vector<InterfaceModes>& wanted)
   return loads;
 }
 
-/// Components that all nodes of a set have and that are held at none.
+/// Components that all nodes of a set have, and that are neither held nor drilling at any.
 std::vector<int> free_components(const ReducedSystem& reduced, const HeldDofs& held,
                                  const AttachmentSet& set)
 {
   const auto is_free = [&](int node, int component) {
-    return has_component(reduced, node, component) &&
+    return has_component(reduced, node, component) && !is_drilling(reduced, node, component) &&
            std::ranges::find(held.dofs, 6 * node + component) == held.dofs.end();
   };
   std::vector<int> components;
@@ -175,6 +176,7 @@ int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loa
   if (found != held.dofs.end())
     throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
                             held.names[std::size_t(found - held.dofs.begin())]));
+  refuse_drilling_load(reduced, loaded.node, loaded.component);
   return dof;
 }
 

@@ -28,8 +28,10 @@ struct LoadedDofs {
 };
 
 /// The loads of a scene: the DOFs of its `interface_modes`. Without these: the displacement normal
-/// to the disc on every contact ring, and all DOFs that are not held on every other set.
-/// @throws chladni::Error for a set or component that does not exist or is held, when nothing is
+/// to the disc on every contact ring, and all DOFs that are neither held nor drilling
+/// (drilling.hpp) on every other set.
+/// @throws chladni::Error for a set or component that does not exist, is held or drilling, when
+/// nothing is
 ///         left to load, and for more loads than a selection can compare.
 LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
                        const std::vector<InterfaceModes>& wanted);

@@ -9,6 +9,7 @@
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
+#include "mbs_export/drilling.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/interface_modes.hpp"
 #include "mbs_export/loaded_dofs.hpp"
@@ -194,6 +195,7 @@ ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
 {
   const FreeModes free = orthogonalize(reduced);
   const HeldDofs held = held_dofs(reduced, options.fixed);
+  refuse_drilling_support(reduced, held);
   const ModeShift shift = shift_modes(free, held);
   const ConstrainedModes constrained = constrained_modes(shift);
   const MatrixXd T = free.Q_e * (shift.Q_c * constrained.X);

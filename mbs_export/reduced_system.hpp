@@ -17,6 +17,9 @@ namespace chladni::mbs_export {
 struct AttachmentNode {
   std::int64_t number;       ///< node number of the mesh; a reference node has one of its own
   Eigen::Vector3d position;  ///< m
+  /// Unit normal of the shell where only the stiffness that elements invent for it resists the
+  /// rotation about the normal: nothing may be loaded or held there (drilling.hpp). Else zero.
+  Eigen::Vector3d drilling_axis = Eigen::Vector3d::Zero();
 };
 
 /// A named set of attachment nodes of the scene, e.g. the ring "track" or the reference node "hub".

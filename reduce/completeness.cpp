@@ -8,59 +8,36 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-/// Ritz values theta = 1 / lambda of K^-1 M, descending, and the lengths of their residuals,
-/// |K^-1 M u - theta u|_K / |u|_K = theta eta.
-struct InverseValues {
-  std::vector<double> theta;
-  std::vector<double> residual;
-};
-
-InverseValues inverse_values(const std::vector<double>& lambda, const std::vector<double>& eta2)
+/// Upper bounds of the eigenvalues of K^-1 M above alpha, the first one of Ritz value `first`,
+/// descending; what rounding may have taken off is in them.
+std::vector<double> upper_bounds(const std::vector<double>& lambda, const SmallMatrix& H,
+                                 std::size_t first, double alpha)
 {
-  InverseValues values;
-  for (std::size_t i = 0; i < lambda.size(); ++i) {
-    values.theta.push_back(1.0 / lambda[i]);
-    values.residual.push_back(std::sqrt(eta2[i]) / lambda[i]);
+  constexpr double units = 16.0 * std::numeric_limits<double>::epsilon();
+  const auto n = static_cast<PetscInt>(lambda.size() - first);
+  const auto at = [first](PetscInt i) { return first + static_cast<std::size_t>(i); };
+  std::vector<double> root;  // of theta - alpha
+  for (PetscInt i = 0; i < n; ++i) root.push_back(std::sqrt(1.0 / lambda[at(i)] - alpha));
+  SmallMatrix A(n, n);
+  double largest = 0.0;
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = 0; i < n; ++i) {
+      const double product = H(static_cast<PetscInt>(at(i)), static_cast<PetscInt>(at(j))) /
+                             (lambda[at(i)] * lambda[at(j)]);
+      A(i, j) = product / (root[i] * root[j]) + (i == j ? root[i] * root[i] : 0.0);
+    }
+    largest = std::max(largest, A(j, j));
   }
-  return values;
-}
-
-/// An upper bound of eigenvalue mu_first from Ritz values first .. last, when mu_(last+1) is at
-/// most alpha < theta_last: by Lehmann the eigenvalues of
-///   ((Theta - alpha)^2 + R^T R, Theta - alpha)
-/// above alpha. Of R^T R the diagonal alone is known; it is at most diag(|r_i| sum_j |r_j|).
-double upper_bound(const InverseValues& values, std::size_t first, std::size_t last, double alpha)
-{
-  double sum = 0.0;
-  for (std::size_t i = first; i <= last; ++i) sum += values.residual[i];
-  double bound = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
-    const double gap = values.theta[i] - alpha;
-    bound = std::max(bound, values.theta[i] + values.residual[i] * sum / gap);
-  }
-  return bound;
-}
-
-/// The least upper bound of mu_first from as many Ritz values as help; `upper` holds those of the
-/// eigenvalues behind it, and last of all one of the eigenvalues that were not asked for.
-double least_upper_bound(const InverseValues& values, std::size_t first,
-                         const std::vector<double>& upper)
-{
-  constexpr std::size_t widest = 64;  // of a cluster; all that are left are one, too
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t n = values.theta.size();
-  for (std::size_t last = first; last < n; ++last) {
-    if (last == first + widest) last = n - 1;
-    const double alpha = upper[last + 1];
-    if (alpha < values.theta[last])
-      least = std::min(least, upper_bound(values, first, last, alpha));
-  }
-  return least;
+  std::vector<double> bounds = symmetric_eigen(std::move(A)).values;
+  std::ranges::reverse(bounds);
+  for (double& bound : bounds) bound += alpha + units * largest;
+  return bounds;
 }
 
 constexpr double one_cluster = 2e-4;  // of lambda; 1e-4 of the frequency
@@ -75,6 +52,11 @@ double shift_above(const std::vector<double>& lambda, std::size_t n)
   return lambda[i] * std::min(far_enough, std::sqrt(lambda[i + 1] / lambda[i]));
 }
 
+double eta2(const ReducedSpectrum& ritz, PetscInt i)
+{
+  return std::max(0.0, ritz.residuals(i, i));
+}
+
 /// In the middle of the widest gap between Ritz values first .. n (counted from 1), the upper ones
 /// lowered by their first-order bounds.
 double shift_in_gap(const ReducedSpectrum& ritz, std::size_t first, std::size_t n)
@@ -82,7 +64,8 @@ double shift_in_gap(const ReducedSpectrum& ritz, std::size_t first, std::size_t 
   double widest = 1.0 + one_cluster;  // a shift between copies would be an eigenvalue
   double shift = shift_above(ritz.lambda, first);
   for (std::size_t i = first - 1; i + 1 < n; ++i) {
-    const double next = ritz.lambda[i + 1] / (1.0 + std::sqrt(ritz.eta2[i + 1]));
+    const double next =
+        ritz.lambda[i + 1] / (1.0 + std::sqrt(eta2(ritz, static_cast<PetscInt>(i + 1))));
     if (next / ritz.lambda[i] <= widest) continue;
     widest = next / ritz.lambda[i];
     shift = std::sqrt(ritz.lambda[i] * next);
@@ -127,15 +110,17 @@ EigenvalueCount count_near(const ReducedSpectrum& ritz, double sigma,
 
 }  // namespace
 
-std::vector<double> error_bounds(const std::vector<double>& lambda, const std::vector<double>& eta2,
+std::vector<double> error_bounds(const std::vector<double>& lambda, const SmallMatrix& residuals,
                                  double sigma)
 {
-  const InverseValues values = inverse_values(lambda, eta2);
-  std::vector<double> upper(lambda.size() + 1, 1.0 / sigma);
-  std::vector<double> bounds(lambda.size(), 0.0);
-  for (std::size_t i = lambda.size(); i-- > 0;) {
-    upper[i] = least_upper_bound(values, i, upper);
-    bounds[i] = upper[i] * lambda[i] - 1.0;
+  constexpr double reach = 1e3;  // low values would bury far higher ones in round-off
+  std::vector<double> bounds;
+  while (bounds.size() < lambda.size()) {
+    const std::size_t first = bounds.size();
+    const std::vector<double> upper = upper_bounds(lambda, residuals, first, 1.0 / sigma);
+    for (std::size_t i = first; i < lambda.size() && lambda[i] <= reach * lambda[first]; ++i) {
+      bounds.push_back(std::max(0.0, upper[i - first] * lambda[i] - 1.0));
+    }
   }
   return bounds;
 }
@@ -146,16 +131,18 @@ namespace {
 std::vector<double> bounds_below(const ReducedSpectrum& ritz, double sigma)
 {
   const std::ptrdiff_t n = n_below(ritz.lambda, sigma);
-  if (n > std::ssize(ritz.eta2)) return {};
-  return error_bounds({ritz.lambda.begin(), ritz.lambda.begin() + n},
-                      {ritz.eta2.begin(), ritz.eta2.begin() + n}, sigma);
+  if (n > ritz.residuals.n_rows) return {};
+  std::vector<double> bounds =
+      error_bounds({ritz.lambda.begin(), ritz.lambda.begin() + n}, ritz.residuals, sigma);
+  broadcast_numbers(bounds, ritz.comm);  // they decide what is done next
+  return bounds;
 }
 
 /// Whether the first bound is near its estimate.
-bool are_sharp(const std::vector<double>& bounds, const std::vector<double>& eta2)
+bool are_sharp(const std::vector<double>& bounds, const ReducedSpectrum& ritz)
 {
   constexpr double near = 10.0, negligible = 1e-10;
-  return bounds.empty() || bounds.front() < near * eta2.front() + negligible;
+  return bounds.empty() || bounds.front() < near * eta2(ritz, 0) + negligible;
 }
 
 }  // namespace
@@ -164,7 +151,7 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
                                       const std::function<int(double sigma)>& eigenvalues_below)
 {
   constexpr double half_a_pair_gap = 1e-4;  // of omega^2
-  ReducedSpectrum modes{.lambda = {}, .eta2 = {}, .n_zero = 0};
+  ReducedSpectrum modes{.lambda = {}, .residuals = {0, 0}, .n_zero = 0, .comm = PETSC_COMM_SELF};
   for (const double omega_k : omega) modes.lambda.push_back(omega_k * omega_k);
   return count_near(modes, modes.lambda.back() * (1.0 + half_a_pair_gap), eigenvalues_below);
 }
@@ -173,7 +160,7 @@ Completeness count_modes(const ReducedSpectrum& ritz,
                          const std::function<int(double sigma)>& eigenvalues_below)
 {
   Completeness result;
-  const std::size_t k = ritz.eta2.size();
+  const auto k = static_cast<std::size_t>(ritz.residuals.n_rows);
   if (k == 0) return result;
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };
   result.range = count(shift_above(ritz.lambda, k));
@@ -184,9 +171,9 @@ Completeness count_modes(const ReducedSpectrum& ritz,
   if (last.missing() != 0) return result;
   result.complete = last;
   result.bounds = bounds_below(ritz, last.sigma);
-  // The large residuals of the last modes may leave nothing for the first ones: a count in a gap
-  // below does.
-  for (std::size_t end = k; end >= 4 && !are_sharp(result.bounds, ritz.eta2); end /= 2) {
+  // The last mode, badly found, might as well be any of those before it: a count in a gap below
+  // tells them apart.
+  for (std::size_t end = k; end >= 4 && !are_sharp(result.bounds, ritz); end /= 2) {
     const EigenvalueCount lower = count(shift_in_gap(ritz, end / 2, end));
     if (lower.missing() != 0 || lower.sigma >= last.sigma) continue;
     const std::vector<double> bounds = bounds_below(ritz, lower.sigma);

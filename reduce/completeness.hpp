@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "reduce/dense.hpp"
 
 namespace chladni::reduce {
 
@@ -25,8 +26,9 @@ struct EigenvalueCount {
 /// The eigenvalues of the reduced pencil under some support.
 struct ReducedSpectrum {
   std::vector<double> lambda;  ///< all positive ones, ascending; rad^2/s^2
-  std::vector<double> eta2;    ///< [k] of the first k, as of `error_estimates`
+  SmallMatrix residuals;       ///< [k x k] of the first k, `ErrorEstimates::inner_products`
   int n_zero;                  ///< zero eigenvalues before them
+  MPI_Comm comm;               ///< ranks that count together; the first one decides
 };
 
 /// What a count of eigenvalues certifies.
@@ -53,18 +55,18 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
 Completeness count_modes(const ReducedSpectrum& ritz,
                          const std::function<int(double sigma)>& eigenvalues_below);
 
-/// Upper bounds of the relative errors lambda_i~ / lambda_i - 1 of Ritz values, from eta^2 and the
-/// certainty that the full pencil has exactly as many eigenvalues below `sigma` as are given. The
-/// bound of the last one is eta^2 / (1 - lambda_i~ / sigma) (Temple); each of the others takes the
-/// lower bound of the eigenvalue behind it for sigma. Where Ritz values are so close that this is
-/// none, their residuals together give one (Lehmann). In exact arithmetic: what rounding does to
-/// the Ritz values comes on top.
-/// @param lambda  [k] ascending, positive, all below sigma; rad^2/s^2
-/// @param eta2    [k]
+/// Upper bounds of the relative errors lambda_i~ / lambda_i - 1 of Ritz values, from the inner
+/// products H of their residuals and the certainty that the full pencil has exactly as many
+/// eigenvalues below `sigma` as are given: with theta = 1 / lambda~ and alpha = 1 / sigma the
+/// eigenvalues of ((Theta - alpha)^2 + Theta H Theta, Theta - alpha) are no less than 1 / lambda -
+/// alpha (Lehmann). One value alone has eta^2 / (1 - lambda~ / sigma) (Temple). What rounding does
+/// to the Ritz values comes on top.
+/// @param lambda     [k] ascending, positive, all below sigma; rad^2/s^2
+/// @param residuals  [at least k x k] H, `ErrorEstimates::inner_products`
 /// @return [k]
-/// Source: Temple, Proc. R. Soc. Lond. A 119 (1928) 276; Kato, J. Phys. Soc. Japan 4 (1949) 334;
-/// Lehmann, Z. angew. Math. Mech. 29 (1949) 341.
-std::vector<double> error_bounds(const std::vector<double>& lambda, const std::vector<double>& eta2,
+/// Source: Lehmann, Z. angew. Math. Mech. 29 (1949) 341; Temple, Proc. R. Soc. Lond. A 119 (1928)
+/// 276.
+std::vector<double> error_bounds(const std::vector<double>& lambda, const SmallMatrix& residuals,
                                  double sigma);
 
 }  // namespace chladni::reduce

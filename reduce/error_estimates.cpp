@@ -131,19 +131,44 @@ ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
   return some;
 }
 
+/// Those of the newest block with itself and all before.
+void add_inner_products(const std::vector<petsc::Matrix>& solved, Mat r_s,
+                        const std::vector<double>& lambda, SmallMatrix& H)
+{
+  PetscInt last = 0;
+  for (const petsc::Matrix& z : solved) last += LocalRows(z).n_cols();
+  const PetscInt newest = last - LocalRows(r_s).n_cols();
+  PetscInt first = 0;
+  for (const petsc::Matrix& z : solved) {
+    const SmallMatrix z_r = inner_product(z, r_s);
+    for (PetscInt j = 0; j < z_r.n_cols; ++j) {
+      for (PetscInt i = 0; i < z_r.n_rows; ++i) {
+        const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
+        H(first + i, newest + j) = H(newest + j, first + i) = z_r(i, j) / scale;
+      }
+    }
+    first += z_r.n_rows;
+  }
+}
+
 }  // namespace
 
-ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs)
+ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs,
+                               Purpose purpose)
 {
   constexpr PetscInt most = 32;  // pairs at a time: bounds the memory
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   ErrorEstimates estimates;
+  const bool with_inner_products = purpose == Purpose::bounds;
+  if (with_inner_products) estimates.inner_products = SmallMatrix(n_pairs, n_pairs);
+  std::vector<petsc::Matrix> solved;  // K_ss^-1 r of the pairs so far
   for (PetscInt first = 0; first < n_pairs; first += most) {
     report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
     const Residuals of = residuals(system, some);
-    const petsc::Matrix z = uninitialized_dense(system.K.ss, some.X.n_cols);
+    if (!with_inner_products) solved.clear();
+    const petsc::Matrix& z = solved.emplace_back(uninitialized_dense(system.K.ss, some.X.n_cols));
     petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
     const SmallMatrix r_z = inner_product(of.r_s, z);
     for (PetscInt i = 0; i < r_z.n_rows; ++i) {
@@ -152,6 +177,8 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
       estimates.rounding.push_back(4.0 * eps * terms +
                                    2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
     }
+    if (with_inner_products)
+      add_inner_products(solved, of.r_s, pairs.lambda, estimates.inner_products);
   }
   return estimates;
 }

@@ -27,14 +27,22 @@ struct ErrorEstimates {
   /// u_j^2, of first order; and how far lambda is from the Rayleigh quotient of u in the FE model,
   /// which shows what the eigen-solvers left.
   std::vector<double> rounding;
+  /// [k x k] r_i^T K_ss^-1 r_j / sqrt(lambda_i lambda_j), with eta^2 on its diagonal; empty but for
+  /// Purpose::bounds.
+  SmallMatrix inner_products = {0, 0};
 };
+
+/// What errors are computed for.
+enum class Purpose { estimates, bounds };
 
 /// The error estimates of each pair. An eigenvalue of the full pencil under the same support has an
 /// inverse within (1 -+ eta) / lambda; eta^2 itself estimates the relative error of lambda, twice
 /// that of the frequency. Exact where supports hold masters only: Galerkin's condition leaves no
 /// residual in the free ones.
+/// @param purpose  bounds need the inner products, and K_ss^-1 r of all pairs in memory at a time
 /// @note   Collective; one block solve of k columns with the factor.
-ErrorEstimates error_estimates(const Condensation& of, const ReducedPairs& pairs);
+ErrorEstimates error_estimates(const Condensation& of, const ReducedPairs& pairs,
+                               Purpose purpose = Purpose::estimates);
 
 /// The relative error of a frequency by the eta^2 of its lambda, with the modes from
 /// `lambda_left_out` on left out of the basis: eta^2 / 2 is a lower estimate, by the factor

@@ -46,6 +46,7 @@ struct Result {
   std::vector<PetscReal> eta2;       ///< [k]
   std::vector<PetscReal> estimates;  ///< [k] of the relative errors of f_Hz, by place
   std::vector<PetscReal> rounding;   ///< [k] of lambda, relative
+  SmallMatrix residuals;             ///< [k x k] inner products, where eigenvalues are counted
   std::vector<PetscReal> bounds;     ///< [<= k] below the complete count; rounding included
   CMSQuality quality;
   petsc::Matrix K_r, M_r, C_r, T;  ///< made when asked for; C_r only with damping

@@ -180,7 +180,8 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
                             n_modes, &n_modes, &modes_given));
   PetscCall(PetscOptionsReal("-cms_cutoff", "All fixed-interface modes below this, Hz",
                              "CMSSetCutoff", cutoff, &cutoff, &cutoff_given));
-  PetscCall(PetscOptionsReal("-cms_tol", "As many modes as keep the error of frequencies below this",
+  PetscCall(PetscOptionsReal("-cms_tol",
+                             "As many modes as keep the error of frequencies below this",
                              "CMSSetTolerance", tolerance, &tolerance, &tolerance_given));
   PetscCall(PetscOptionsReal("-cms_tol_upto", "Range of -cms_tol, Hz", "CMSSetTolerance", up_to,
                              &up_to, &up_to_given));

@@ -34,6 +34,7 @@ Result reduced(CMS cms, Basis basis)
                 .eta2 = {},
                 .estimates = {},
                 .rounding = {},
+                .residuals = {0, 0},
                 .bounds = {},
                 .quality = {},
                 .K_r = {},
@@ -53,7 +54,7 @@ Result reduced(CMS cms, Basis basis)
   if (!pairs.lambda.empty() && !basis.mass) {  // residuals tell of projections only
     ErrorEstimates errors = error_estimates(
         {.K_ss = set_up.K_ss, .Q_CB = result.Q_CB, .K = set_up.K_blocks, .M = set_up.M_blocks},
-        pairs);
+        pairs, cms->inside->settings.sylvester ? Purpose::bounds : Purpose::estimates);
     const bool leaves_out_modes = cms->inside->settings.options.method == Method::craig_bampton;
     result.estimates =
         frequency_errors_by_place(pairs.lambda, errors.eta2,
@@ -61,6 +62,7 @@ Result reduced(CMS cms, Basis basis)
                                                    : std::numeric_limits<double>::infinity());
     result.eta2 = std::move(errors.eta2);
     result.rounding = std::move(errors.rounding);
+    result.residuals = std::move(errors.inner_products);
   }
   for (const double lambda : pairs.lambda) result.f_Hz.push_back(std::sqrt(lambda) / two_pi);
   result.lambda = free.lambda;
@@ -83,7 +85,10 @@ void count(CMS cms, Result& result)
     }));
   }
   Completeness certified = count_modes(
-      {.lambda = result.lambda, .eta2 = result.eta2, .n_zero = result.quality.n_zero},
+      {.lambda = result.lambda,
+       .residuals = result.residuals,
+       .n_zero = result.quality.n_zero,
+       .comm = PetscObjectComm(reinterpret_cast<PetscObject>(cms))},
       [&](double sigma) { return eigenvalues_below(set_up.K, set_up.M, sigma, source); });
   result.quality.model = as_count(certified.range);
   result.quality.complete = as_count(certified.complete);

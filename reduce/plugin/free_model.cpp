@@ -49,7 +49,8 @@ FreeModel free_model(const ReducedModel& model)
                     mass.eigenvalues()[0] / mass.eigenvalues()[M.rows() - 1]));
   }
   const MatrixXd R = zero_energy_motions(model, M);
-  const mbs_export::Eigenmodes modes = mbs_export::eigenmodes(K, M, R);
+  constexpr double three_digits = 1e-3;  // of a mass: the certificate tells of the others
+  const mbs_export::Eigenmodes modes = mbs_export::eigenmodes(K, M, R, three_digits);
   FreeModel free;
   free.lambda.assign(modes.lambda.begin(), modes.lambda.end());
   free.X = SmallMatrix(model.K.n_rows, static_cast<PetscInt>(free.lambda.size()));

@@ -131,6 +131,8 @@ def wrong_refusals(case):
         "support in modes": ("modes", plate + clamped + MODES),
         "support in static": ("static", plate + clamped + force),
         "moment in static": ("static", plate + clamped + held + moment),
+        "support of a body": ("run", plate + both + 'fixed = ["foot"]\n'),
+        "interface mode": ("run", plate + both + 'interface_modes = [{ kind = "irm", at = "far", dofs = ["z", "rz"] }]\n'),
     }
     for what, (command, text) in cases.items():
         refusal = case.refusal(command, text)
@@ -140,6 +142,15 @@ def wrong_refusals(case):
     far = plate + both + 'fixed = ["foot", "far.y"]\n'
     if refusal := case.refusal("run", far):
         yield f"a plate that is held: {refusal}"
+    chosen = REDUCED.format(nodes='"foot", "far"', method="craig-bampton",
+                            keep="{ tolerance = 1e-2, up_to_Hz = 5.0 }")  # fmt: skip
+    if refusal := case.refusal("run", plate + chosen + 'fixed = ["foot", "far.y"]\n'):
+        yield f"default loads of a tolerance: {refusal}"
+    with h5py.File(case.folder / "plate.body.h5") as file:
+        loads = [name.decode() for name in file["selection/loads"][:]]
+    print(f"default loads of a tolerance: {', '.join(loads)}")
+    if loads != ["far.x", "far.z", "far.rx", "far.ry"]:
+        yield f"default loads of a tolerance: {loads}"
 
 
 def main(programs, mpirun):
