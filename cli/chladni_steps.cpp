@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <numbers>
 
 #include "cli/petsc_session.hpp"
@@ -21,14 +22,27 @@ std::filesystem::path body_file(const Scene& scene, const SceneArguments& argume
   return std::filesystem::path(arguments.output) / (scene.name + ".body.h5");
 }
 
+namespace {
+
+/// PETSc's options from the environment and behind `--`.
+std::string said_of_solvers(const ChladniArguments& arguments)
+{
+  const char* environment = std::getenv("PETSC_OPTIONS");
+  std::vector<std::string> said;
+  if (environment != nullptr && *environment != '\0') said.emplace_back(environment);
+  said.insert(said.end(), arguments.petsc_options.begin(), arguments.petsc_options.end());
+  return fmt::format("{}", fmt::join(said, " "));
+}
+
+}  // namespace
+
 ReduceSummary reduce_with_progress(const Scene& scene, const ChladniArguments& arguments)
 {
   if (scene.interface_nodes.empty()) {
     throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
                             scene.path));
   }
-  const SaidOfSolvers solvers{.text = fmt::format("{}", fmt::join(arguments.petsc_options, " ")),
-                              .options = arguments.solver};
+  const SaidOfSolvers solvers{.text = said_of_solvers(arguments), .options = arguments.solver};
   if (rank() != 0) return reduce_scene(scene, solvers, [](const std::string&, double) {});
   ProgressLine line;
   return reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {

@@ -49,9 +49,9 @@ void add_loads(const ReducedSystem& system, const InterfaceModes& wanted, int co
   const auto index = static_cast<int>(&set - system.sets.data());
   const bool is_ring = std::ranges::any_of(
       system.masters, [&](const auto& dof) { return dof.harmonic && dof.harmonic->set == index; });
+  for (const int node : set.nodes) mbs_export::refuse_drilling_load(system, node, component);
   if (is_ring && component % 3 == 2) return add_axial_harmonics(system, index, component, rows);
   for (const int node : set.nodes) {
-    mbs_export::refuse_drilling_load(system, node, component);
     if (const auto row = mbs_export::master_row(system, node, component))
       rows.insert(*row);
     else if (mbs_export::has_component(system, node, component))

@@ -25,7 +25,8 @@ double reduce_over_ranks(double x, MPI_Op operation)
 PetscSession::PetscSession(const std::vector<std::string>& options)
 {
   std::vector<std::string> words = options;
-  words.insert(words.begin(), "chladni");
+  // A folder must not choose solvers, or load libraries, because somebody works in it.
+  words.insert(words.begin(), {"chladni", "-skip_petscrc"});
   words.emplace_back("-no_signal_handler");  // a crash is a crash, not a page of advice
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

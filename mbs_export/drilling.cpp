@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
@@ -28,6 +30,25 @@ constexpr const char* couple_instead =
     "or couple a group of nodes rigidly ([[coupling]], type \"rigid\") and take the coupling's "
     "name";
 
+/// What the held DOFs show of each held node's rotation about its own drilling axis, in which it
+/// may go along with the body as if it were not held; of the size of the axis.
+MatrixXd drilling_spins(const ReducedSystem& reduced, const HeldDofs& held)
+{
+  const auto n = static_cast<Index>(held.dofs.size());
+  std::map<int, Eigen::VectorXd> spins;
+  for (Index i = 0; i < n; ++i) {
+    const int dof = held.dofs[static_cast<std::size_t>(i)];
+    if (!is_drilling(reduced, dof / 6, dof % 6)) continue;
+    const auto& axis = reduced.attachment_nodes[static_cast<std::size_t>(dof / 6)].drilling_axis;
+    Eigen::VectorXd& spin = spins.try_emplace(dof / 6, Eigen::VectorXd::Zero(n)).first->second;
+    spin[i] = axis[dof % 6 - 3];
+  }
+  MatrixXd columns(n, std::ssize(spins));
+  Index j = 0;
+  for (const auto& [node, spin] : spins) columns.col(j++) = spin;
+  return columns;
+}
+
 }  // namespace
 
 bool is_drilling(const ReducedSystem& reduced, int node, int component)
@@ -49,22 +70,20 @@ void refuse_drilling_load(const ReducedSystem& reduced, int node, int component)
 
 void refuse_drilling_support(const ReducedSystem& reduced, const HeldDofs& held)
 {
-  std::vector<int> others;
-  int first = -1;
-  for (const int dof : held.dofs) {
-    const bool is_such = is_drilling(reduced, dof / 6, dof % 6);
-    if (!is_such) others.push_back(dof);
-    if (is_such && first < 0) first = dof;
-  }
-  if (first < 0) return;
-  const MatrixXd motion = attachment_motion(reduced, rigid_modes(reduced).R);
-  const Index n_free = unheld_combinations(motion(held.dofs, Eigen::all)).cols();
-  if (unheld_combinations(motion(others, Eigen::all)).cols() == n_free) return;
+  const auto first = std::ranges::find_if(
+      held.dofs, [&](int dof) { return is_drilling(reduced, dof / 6, dof % 6); });
+  if (first == held.dofs.end()) return;
+  const MatrixXd motion = attachment_motion(reduced, rigid_modes(reduced).R)(held.dofs, Eigen::all);
+  const MatrixXd spins = drilling_spins(reduced, held);
+  MatrixXd both(motion.rows(), motion.cols() + spins.cols());
+  both << motion, spins;
+  const Index n_free = unheld_combinations(motion).cols();
+  if (unheld_combinations(both).cols() == n_free) return;
   throw Error(
       fmt::format("body.fixed: {}, and nothing else holds the body there; hold displacements of "
                   "another node as "
                   "well, {}",
-                  words_of(reduced, first / 6, first % 6), couple_instead));
+                  words_of(reduced, *first / 6, *first % 6), couple_instead));
 }
 
 }  // namespace chladni::mbs_export

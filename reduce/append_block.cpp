@@ -158,24 +158,35 @@ void BlockBasis::clean(Joined& joined)
   const Orthonormalisation o = orthonormalisation(inner_product(Q, MQ), units, genuine, comm());
   store(Q, MQ, o.to_Q);
   SmallMatrix left_out = o.left_out, R = o.R;
-  const Chosen columns = with_resolved_mass(o.R.n_rows);
-  if (!columns.others.empty()) {
-    store(Q, MQ, chosen_columns(o.to_Q, columns.these));
-    left_out = stacked(left_out, chosen_rows(o.R, columns.others));
-    R = chosen_rows(o.R, columns.these);
+  const Chosen chosen = by_digits_of_mass(o.R.n_rows);
+  if (!chosen.others.empty()) {
+    const SmallMatrix to_lost = chosen_columns(o.to_Q, chosen.unsure);
+    if (to_lost.n_cols > 0) {
+      lost_.push_back(new_block(to_lost.n_cols));
+      petsc::check(MatZeroEntries(lost_.back()));
+      reduce::add_product(1.0, Q, to_lost, lost_.back());
+    }
+    store(Q, MQ, chosen_columns(o.to_Q, chosen.resolved));
+    left_out = stacked(left_out, chosen_rows(o.R, chosen.others));
+    R = chosen_rows(o.R, chosen.resolved);
   }
   joined.left_out = stacked(joined.left_out, product(left_out, joined.R));
   joined.R = product(R, joined.R);
 }
 
-/// Of the n columns behind the basis, of unit length in M: those whose products with M have digits.
-BlockBasis::Chosen BlockBasis::with_resolved_mass(PetscInt n)
+/// Of the n columns behind the basis, of unit length in M.
+BlockBasis::Chosen BlockBasis::by_digits_of_mass(PetscInt n)
 {
-  constexpr double lost = 1e-8 / std::numeric_limits<double>::epsilon();
-  const std::vector<double> terms = diagonal_terms(columns(n_columns_, n), M_);
-  Chosen columns;
-  for (PetscInt k = 0; k < n; ++k) (terms[k] < lost ? columns.these : columns.others).push_back(k);
-  return columns;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  constexpr double eight_digits = 1e-8 / eps, two_digits = 1e-2 / eps;
+  std::vector<double> terms = diagonal_terms(columns(n_columns_, n), M_);
+  broadcast_numbers(terms, comm());
+  Chosen chosen;
+  for (PetscInt k = 0; k < n; ++k) {
+    (terms[k] < eight_digits ? chosen.resolved : chosen.others).push_back(k);
+    if (terms[k] >= eight_digits && terms[k] < two_digits) chosen.unsure.push_back(k);
+  }
+  return chosen;
 }
 
 /// The squares in a Gram matrix hide directions shorter than the root of round-off behind longer

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -41,6 +42,9 @@ class BlockBasis {
     std::vector<double> left_out;
   };
   Appended append(Mat block);
+  /// Directions that blocks had and that were left out since the last call, because products of M
+  /// with them have too few digits.
+  std::vector<petsc::Matrix> take_lost() { return std::exchange(lost_, {}); }
   /// M times the columns that the last append added.
   Mat newest_times_mass() const { return newest_M_; }
 
@@ -62,11 +66,11 @@ class BlockBasis {
   struct Joined {
     SmallMatrix coefficients, R, left_out;
   };
-  /// Some of several columns, and the others.
+  /// Columns by the digits that M times them has: eight, or fewer, of which some have two.
   struct Chosen {
-    std::vector<PetscInt> these, others;
+    std::vector<PetscInt> resolved, others, unsure;
   };
-  Chosen with_resolved_mass(PetscInt n);
+  Chosen by_digits_of_mass(PetscInt n);
   void clean(Joined& joined);
   Joined join(Mat block, Mat M_block, const SmallMatrix& G, const std::vector<double>& sizes);
   Appended look_again(Mat block, Mat M_block, const Joined& first, SmallMatrix h,
@@ -78,7 +82,8 @@ class BlockBasis {
   PetscInt n_local_ = 0, n_global_ = 0;
   PetscInt capacity_ = 0;
   PetscInt n_columns_ = 0;
-  petsc::Matrix newest_M_;                ///< M times the last block
+  petsc::Matrix newest_M_;  ///< M times the last block
+  std::vector<petsc::Matrix> lost_;
   petsc::Matrix second_last_M_;           ///< M times the block before; empty after compress
   std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
 };

@@ -84,7 +84,23 @@ PetscInt BlockIteration::append_random(PetscInt n, const BlockOperator& op)
     // An operator may map to zero what is not in the basis.
     if (basis_.append(block).R.n_rows == 0 && basis_.append(Z).R.n_rows == 0) break;
   }
+  note_lost(op);
   return basis_.n_columns() - n_before;
+}
+
+/// Directions of unit length in M that are orthogonal to a basis which the operator hardly leaves
+/// are sums of eigenvectors with eigenvalues up to the lengths that it gives them.
+void BlockIteration::note_lost(const BlockOperator& op)
+{
+  for (const petsc::Matrix& X : basis_.take_lost()) {
+    const petsc::Matrix Y = basis_.new_block(n_columns_of(X));
+    op(X, basis_.times_mass(X), Y);
+    std::vector<double> squares = column_products(Y, basis_.times_mass(Y));
+    broadcast_numbers(squares, basis_.comm());
+    for (const double square : squares) {
+      lost_theta_ = std::max(lost_theta_, std::sqrt(std::max(square, 0.0)));
+    }
+  }
 }
 
 void BlockIteration::start(const BlockOperator& op)
@@ -125,6 +141,7 @@ void BlockIteration::step(const BlockOperator& op)
   op(basis_.columns(n_old_, n_new), basis_.newest_times_mass(), block);
   n_old_ = basis_.n_columns();
   const BlockBasis::Appended appended = basis_.append(block);
+  note_lost(op);
   T_ = bordered(T_, appended.coefficients);
   left_out_.insert(left_out_.end(), appended.left_out.begin(), appended.left_out.end());
   R_ = appended.R;
@@ -232,6 +249,7 @@ void BlockIteration::begin_anew(PetscInt n, PetscInt width, const BlockOperator&
   take_ritz_values(n);
   left_out_.assign(all.residual.begin(), all.residual.begin() + n);
   sequence_.n_guesses = 0;
+  lost_theta_ = 0.0;
   sequence_.known.assign(all.theta.begin(), all.theta.begin() + n);
   forgotten_from_ = PETSC_MAX_INT;
   block_size_ = width;

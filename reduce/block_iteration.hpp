@@ -55,6 +55,9 @@ class BlockIteration {
   PetscInt most_kept() const { return basis_.capacity() - 2 * block_size_; }
   /// The subspace is all that M can see: its Ritz pairs are exact and it cannot grow.
   bool is_exhausted() const { return basis_.n_columns() == n_old_; }
+  /// An upper estimate of the eigenvalues whose eigenvectors the blocks of this sequence had and
+  /// the basis has not, because M times them has too few digits; 0 without any.
+  double lost_theta() const { return lost_theta_; }
   /// Ritz values in order.
   double theta(PetscInt i) const { return ritz_.values[order_[i]]; }
   /// ||Op x - theta x||_M of Ritz pair i.
@@ -83,6 +86,7 @@ class BlockIteration {
   /// T, R and F after the first n Ritz vectors have taken the place of V.
   void take_ritz_values(PetscInt n);
   PetscInt append_random(PetscInt n, const BlockOperator& op);
+  void note_lost(const BlockOperator& op);
   petsc::Matrix random_directions(PetscInt n);
 
   Mat M_;
@@ -96,6 +100,7 @@ class BlockIteration {
   std::vector<PetscInt> order_;
   PetscInt n_random_ = 0;  ///< random vectors made so far
   KrylovSequence sequence_;
+  double lost_theta_ = 0.0;
   PetscInt forgotten_from_ = PETSC_MAX_INT;  ///< a restart dropped pairs behind it that were found
 };
 

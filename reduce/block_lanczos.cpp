@@ -114,20 +114,27 @@ void BlockLanczos::begin_anew(PetscInt n_kept, PetscInt n_pairs)
 /// converge, finds the others, except where round-off is all there is of them.
 bool BlockLanczos::has_ended(const RitzValues& pairs, PetscInt n_pairs)
 {
-  const PetscInt n = iteration_.n_vectors();
   const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
-  if (n_first == n || n_first >= n_pairs) return true;
-  if (n_first > n_kept_before_) {
-    n_kept_before_ = n_first;
-    begin_anew(n_first, n_pairs);
-    return false;
-  }
-  double theta = 0.0;
-  for (PetscInt i = n_first; i < n; ++i) {
+  if (n_first >= n_pairs) return true;
+  double theta = iteration_.lost_theta();
+  for (std::size_t i = n_first; i < pairs.theta.size(); ++i) {
     theta = std::max(theta, pairs.theta[i] + pairs.residual[i]);
   }
-  unresolved_from_ = 1.0 / theta;
+  note_unresolved(theta);
+  if (unresolved_from_ == all_of_them || n_first <= n_kept_before_) return true;
+  n_kept_before_ = n_first;
+  begin_anew(n_first, n_pairs);
+  if (!iteration_.is_exhausted()) return false;
+  note_unresolved(std::max(theta, iteration_.lost_theta()));
   return true;
+}
+
+/// That pairs with theta up to this may exist, which do not converge.
+void BlockLanczos::note_unresolved(double theta)
+{
+  constexpr double nothing = 1e-14;  // of the largest: no share of M
+  const double largest = iteration_.n_vectors() > 0 ? iteration_.theta(0) : theta;
+  unresolved_from_ = theta > nothing * largest ? 1.0 / theta : all_of_them;
 }
 
 void BlockLanczos::require_resolved(double lambda) const
@@ -147,7 +154,7 @@ void BlockLanczos::converge(PetscInt n_pairs)
   next_look_ = 0;
   if (iteration_.n_vectors() > 0 && has_converged(n_pairs)) return;
   for (PetscInt i = 0; i < options_.max_steps; ++i) {
-    if (iteration_.is_exhausted()) return;  // the new sequence found nothing
+    if (iteration_.is_exhausted()) return note_unresolved(iteration_.lost_theta());
     if (iteration_.is_full()) restart(n_pairs);
     iteration_.step(op_);
     if (has_converged(n_pairs)) return;

@@ -55,6 +55,9 @@ class BlockLanczos {
   /// not
   ///         be among those that converged.
   void require_resolved(double lambda) const;
+  /// The lambda from which on there may be pairs that do not converge, infinity without any; as
+  /// far as `converge` has come.
+  double unresolved_from() const { return unresolved_from_; }
 
   /// Pairs that have converged.
   PetscInt n_pairs() const { return n_converged_; }
@@ -73,6 +76,7 @@ class BlockLanczos {
  private:
   bool has_converged(PetscInt n_pairs);
   bool has_ended(const RitzValues& pairs, PetscInt n_pairs);
+  void note_unresolved(double theta);
   bool is_too_early(PetscInt n_pairs) const;
   void restart(PetscInt n_pairs);
   void begin_anew(PetscInt n_kept, PetscInt n_pairs);

@@ -8,15 +8,6 @@ namespace chladni::reduce {
 
 namespace {
 
-/// x_k^T y_k of the columns.
-std::vector<double> column_products(Mat X, Mat Y)
-{
-  const SmallMatrix G = inner_product(X, Y);
-  std::vector<double> products;
-  for (PetscInt k = 0; k < G.n_cols; ++k) products.push_back(G(k, k));
-  return products;
-}
-
 /// D X with D the diagonal of M.
 petsc::Matrix times_diagonal(Mat X, Mat M)
 {

@@ -156,10 +156,11 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
   return count_near(modes, modes.lambda.back() * (1.0 + half_a_pair_gap), eigenvalues_below);
 }
 
-Completeness count_modes(const ReducedSpectrum& ritz,
+Completeness count_modes(ReducedSpectrum ritz,
                          const std::function<int(double sigma)>& eigenvalues_below)
 {
   Completeness result;
+  broadcast_numbers(ritz.residuals.values, ritz.comm);  // they decide what is counted
   const auto k = static_cast<std::size_t>(ritz.residuals.n_rows);
   if (k == 0) return result;
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };

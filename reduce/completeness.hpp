@@ -52,7 +52,7 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
 ///                           Where it throws SingularShift another shift close by is tried.
 /// @throws chladni::Error when a count is lower than what the reduced model has, which only a wrong
 ///         count can be.
-Completeness count_modes(const ReducedSpectrum& ritz,
+Completeness count_modes(ReducedSpectrum ritz,
                          const std::function<int(double sigma)>& eigenvalues_below);
 
 /// Upper bounds of the relative errors lambda_i~ / lambda_i - 1 of Ritz values, from the inner

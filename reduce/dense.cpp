@@ -3,6 +3,7 @@
 #include <petscblaslapack.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace chladni::reduce {
 
@@ -90,6 +91,19 @@ SmallMatrix inner_product(Mat X, Mat Y)
   }
   sum_over_ranks(product, petsc::communicator(X));
   return product;
+}
+
+std::vector<double> column_products(Mat X, Mat Y)
+{
+  const LocalRows x(X), y(Y);
+  std::vector<double> products(x.n_cols(), 0.0);
+  for (PetscInt k = 0; k < x.n_cols(); ++k) {
+    const double* x_k = x.values() + std::size_t(k) * x.leading_dimension();
+    const double* y_k = y.values() + std::size_t(k) * y.leading_dimension();
+    products[k] = std::inner_product(x_k, x_k + x.n_rows(), y_k, 0.0);
+  }
+  sum_over_ranks(products, petsc::communicator(X));
+  return products;
 }
 
 void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)

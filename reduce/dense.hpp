@@ -99,6 +99,10 @@ class ColumnRange {
 /// @note   Collective.
 SmallMatrix inner_product(Mat X, Mat Y);
 
+/// x_k^T y_k of the columns of two dense matrices with equally distributed rows, on every rank.
+/// @note   Collective.
+std::vector<double> column_products(Mat X, Mat Y);
+
 /// Y <- Y + alpha X S for dense distributed X, Y and a small S.
 void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y);
 

@@ -36,12 +36,12 @@ struct Residuals {
 /// @param A_u_s  A_ss u_s
 std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const SmallMatrix& x_m)
 {
-  const SmallMatrix ss = inner_product(u_s, A_u_s);
+  const std::vector<double> ss = column_products(u_s, A_u_s);
   const SmallMatrix sm = inner_product_sparse(u_s, A.sm);
   const SmallMatrix mm = replicate(A.mm);
   std::vector<double> forms;
   for (PetscInt k = 0; k < x_m.n_cols; ++k) {
-    double form = ss(k, k);
+    double form = ss[k];
     for (PetscInt j = 0; j < x_m.n_rows; ++j) {
       double row = 2.0 * sm(k, j);
       for (PetscInt i = 0; i < x_m.n_rows; ++i) row += x_m(i, k) * mm(i, j);
@@ -170,9 +170,9 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
     if (!with_inner_products) solved.clear();
     const petsc::Matrix& z = solved.emplace_back(uninitialized_dense(system.K.ss, some.X.n_cols));
     petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
-    const SmallMatrix r_z = inner_product(of.r_s, z);
-    for (PetscInt i = 0; i < r_z.n_rows; ++i) {
-      estimates.eta2.push_back(std::max(0.0, r_z(i, i)) / some.lambda[i]);
+    const std::vector<double> r_z = column_products(of.r_s, z);
+    for (std::size_t i = 0; i < r_z.size(); ++i) {
+      estimates.eta2.push_back(std::max(0.0, r_z[i]) / some.lambda[i]);
       const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
       estimates.rounding.push_back(4.0 * eps * terms +
                                    2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));

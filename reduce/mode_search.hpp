@@ -28,6 +28,8 @@ class ModeSearch {
   {
     if (lanczos_) lanczos_->require_resolved(lambda);
   }
+  /// The lambda from which on there may be modes that do not converge; infinity without any.
+  double unresolved_from() const { return lanczos_ ? lanczos_->unresolved_from() : all_of_them; }
   /// Whether all modes that there are have been found.
   bool has_all() const { return has_all_; }
   /// Angular frequencies of all that are found, ascending; rad/s.

@@ -157,6 +157,7 @@ SymmetricEigen merged(const SymmetricEigen& a, const SymmetricEigen& b)
 
 SymmetricEigen symmetric_eigen(SmallMatrix A)
 {
+  if (A.n_rows == 0) return {{}, {0, 0}};
   const Grading rows = grading(A);
   if (rows.large.empty()) return by_lapack(std::move(A));
   SmallMatrix D = A, V(A.n_rows, A.n_rows);

@@ -50,6 +50,12 @@ void ToleranceSearch::find_modes()
   const std::vector<double>& omega = search_.omega();
   PetscInt n = n_complete();
   if (model_ && n <= model_->n_modes()) n = static_cast<PetscInt>(omega.size());  // no others
+  if (model_ && n <= model_->n_modes() && error(n) <= goal_.tolerance) {
+    throw Error(fmt::format(
+        "with all {} fixed-interface modes that converge a frequency of the range may be "
+        "missing: M is nearly singular, or masses differ too much; lower the range",
+        n));
+  }
   if (model_ && n <= model_->n_modes()) {
     throw Error(
         fmt::format("with all {} fixed-interface modes that there are the estimated error is "
@@ -81,7 +87,7 @@ double ToleranceSearch::lambda_left_out(PetscInt n) const
 {
   const std::vector<double>& omega = search_.omega();
   if (n < std::ssize(omega)) return omega[n] * omega[n];
-  return search_.has_all() ? all_of_them : omega.back() * omega.back();
+  return search_.has_all() ? search_.unresolved_from() : omega.back() * omega.back();
 }
 
 /// Whether the FE model may have more frequencies in the range than the reduced one has there or

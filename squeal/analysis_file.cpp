@@ -45,12 +45,15 @@ EigenvalueMap read_eigenvalues(const Reader& file)
   const Eigen::VectorXd speeds = file.vector("eigenvalues/speeds");
   const Eigen::MatrixXd re = file.matrix("eigenvalues/lambda_re", {speeds.size()});
   const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
+  if (re.size() == 0) file.fail("eigenvalues/lambda_re", "it must have a value at each speed");
   EigenvalueMap map{speeds, complex_matrix(re, im)};
   for (std::size_t i = 0; file.contains(shape_group(i)); ++i) {
     const Eigen::MatrixXd shape = file.matrix(shape_group(i) + "/re", {-1, re.cols()});
     map.shapes.push_back(
         complex_matrix(shape, file.matrix(shape_group(i) + "/im", {shape.rows(), shape.cols()})));
   }
+  if (!map.shapes.empty() && std::ssize(map.shapes) != speeds.size())
+    file.fail("eigenvalues/shapes", "there must be those of each speed");
   return map;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cli/report/numbers.hpp"
+#include "common/error.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/stability_search.hpp"
 
@@ -138,9 +139,23 @@ Json cycle_json(const Cycle& cycle)
 }
 
 /// Amplitudes of the modes used, among all modes of the body.
+/// @throws chladni::Error when the body has no such modes: the results are of another one.
 Eigen::VectorXcd spread(const Eigen::VectorXcd& amplitude, const std::vector<int>& mode_numbers,
                         Index n_modes)
 {
+  if (amplitude.size() != std::ssize(mode_numbers)) {
+    throw Error(
+        fmt::format("the results of squeal have {} modes, and the study {}: body or study have "
+                    "changed since; make them again with `squeal run`",
+                    amplitude.size(), mode_numbers.size()));
+  }
+  for (const int number : mode_numbers) {
+    if (number >= 1 && number <= n_modes) continue;
+    throw Error(
+        fmt::format("the results of squeal name mode {}, and the body has {}: they are of another "
+                    "body; make them again with `squeal run`",
+                    number, n_modes));
+  }
   Eigen::VectorXcd all = Eigen::VectorXcd::Zero(n_modes);
   for (std::size_t i = 0; i < mode_numbers.size(); ++i)
     all[mode_numbers[i] - 1] = amplitude[static_cast<Index>(i)];

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "common/all_ranks.hpp"
 #include "reduce/as_aij.hpp"
 #include "reduce/dense.hpp"
 
@@ -35,7 +37,7 @@ void check_layout(Mat A, Mat like, const char* name)
         "of K; distribute all operators alike",
         n_local, m_local, name, n_like);
   }
-  agree(petsc::communicator(A), complaint);
+  agree_on(complaint, petsc::communicator(A));
   PetscBool assembled = PETSC_FALSE;
   petsc::check(MatAssembled(A, &assembled));
   if (!assembled) {
@@ -161,28 +163,14 @@ std::optional<std::string> find_asymmetry(Mat A, const std::vector<double>& row_
 
 }  // namespace
 
-void agree(MPI_Comm comm, const std::optional<std::string>& complaint)
-{
-  const int none = petsc::size(comm);
-  int speaker = complaint ? petsc::rank(comm) : none;
-  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
-  if (speaker == none) return;
-  std::string text = complaint.value_or("");
-  auto size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, speaker, comm);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, speaker, comm);
-  throw Error(text);
-}
-
 petsc::Matrix checked_operator(Mat A, Mat like, const char* name)
 {
   check_layout(A, like, name);
   petsc::Matrix aij = as_aij(A);
   const Scan entries = scan(aij, name);
-  agree(petsc::communicator(A), entries.complaint);
-  agree(petsc::communicator(A), find_asymmetry(aij, entries.row_sums, name));
-  agree(petsc::communicator(A), find_indefinite_minor(aij, name));
+  agree_on(entries.complaint, petsc::communicator(A));
+  agree_on(find_asymmetry(aij, entries.row_sums, name), petsc::communicator(A));
+  agree_on(find_indefinite_minor(aij, name), petsc::communicator(A));
   return aij;
 }
 
@@ -191,7 +179,7 @@ VelocityForces checked_velocity_forces(Mat C, Mat like)
   check_layout(C, like, "C");
   petsc::Matrix aij = as_aij(C);
   const Scan entries = scan(aij, "C");
-  agree(petsc::communicator(C), entries.complaint);
+  agree_on(entries.complaint, petsc::communicator(C));
   int skew = find_asymmetry(aij, entries.row_sums, "C") ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &skew, 1, MPI_INT, MPI_MAX, petsc::communicator(C));
   return {.C = std::move(aij), .is_symmetric = skew == 0};
@@ -220,7 +208,7 @@ void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters)
         "a stiffness on the diagonal",
         *named, n_empty);
   }
-  agree(comm, complaint);
+  agree_on(complaint, comm);
 }
 
 }  // namespace chladni::reduce::plugin

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/petsc.hpp"
 
 namespace chladni::reduce::plugin {
-
-/// Throws the first complaint that any rank has, on all ranks.
-/// @note   Collective.
-void agree(MPI_Comm comm, const std::optional<std::string>& complaint);
 
 /// An operator as AIJ: a reference where it is AIJ, else a converted copy.
 /// @note   Collective.

@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "common/all_ranks.hpp"
 #include "mbs_export/reduced_file.hpp"
-#include "reduce/plugin/check_operators.hpp"
 #include "reduce/plugin/cms_impl.hpp"
 
 namespace chladni::reduce::plugin {
@@ -151,7 +151,7 @@ void write_file(CMS cms, const std::string& path)
       complaint = error.what();
     }
   }
-  agree(comm, complaint);
+  agree_on(complaint, comm);
 }
 
 }  // namespace chladni::reduce::plugin

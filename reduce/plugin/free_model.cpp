@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "common/all_ranks.hpp"
 #include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/eigenmodes.hpp"
-#include "reduce/plugin/check_operators.hpp"
 
 namespace chladni::reduce::plugin {
 
@@ -76,7 +76,7 @@ FreeModel free_model_everywhere(const ReducedModel& model, MPI_Comm comm)
       complaint = error.what();
     }
   }
-  agree(comm, complaint);
+  agree_on(complaint, comm);
   auto k = static_cast<int>(free.lambda.size());
   MPI_Bcast(&k, 1, MPI_INT, 0, comm);
   MPI_Bcast(&free.n_zero, 1, MPIU_INT, 0, comm);

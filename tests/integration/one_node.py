@@ -5,6 +5,7 @@ Usage: one_node.py PROGRAM_DIR MPIRUN
 
 import sys
 import tempfile
+from math import cos, sin
 from pathlib import Path
 
 import h5py
@@ -40,10 +41,11 @@ keep = {keep}
 MODES = "[modes]\ncount = 12\n"
 
 
-def mesh():
-    """A plate of 1 m x 0.6 m, its corners "foot" and "far", in Gmsh's format 2.2."""
+def mesh(tilt=0.0):
+    """A plate of 1 m x 0.6 m, turned about y, its corners "foot" and "far", in Gmsh's format 2.2."""
     node = lambda i, j: 1 + i + (N_X + 1) * j  # noqa: E731
-    nodes = [(node(i, j), i / N_X, 0.6 * j / N_Y, 0) for j in range(N_Y + 1) for i in range(N_X + 1)]
+    nodes = [(node(i, j), cos(tilt) * i / N_X, 0.6 * j / N_Y, -sin(tilt) * i / N_X)
+             for j in range(N_Y + 1) for i in range(N_X + 1)]  # fmt: skip
     corners = [[15, 2, 2, 1, node(0, 0)], [15, 2, 3, 2, node(N_X, N_Y)]]
     quads = [[3, 2, 1, 1, node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
              for j in range(N_Y) for i in range(N_X)]  # fmt: skip
@@ -142,6 +144,12 @@ def wrong_refusals(case):
     far = plate + both + 'fixed = ["foot", "far.y"]\n'
     if refusal := case.refusal("run", far):
         yield f"a plate that is held: {refusal}"
+    (case.folder / "plate.msh").write_text(mesh(tilt=0.035))
+    if refusal := case.refusal("run", far):
+        yield f"a tilted plate that is held: {refusal}"
+    if "about its normal" not in (refusal := case.refusal("run", plate + both + 'fixed = ["foot"]\n')):
+        yield f"a tilted plate: {refusal or 'not refused'}"
+    (case.folder / "plate.msh").write_text(mesh())
     chosen = REDUCED.format(nodes='"foot", "far"', method="craig-bampton",
                             keep="{ tolerance = 1e-2, up_to_Hz = 5.0 }")  # fmt: skip
     if refusal := case.refusal("run", plate + chosen + 'fixed = ["foot", "far.y"]\n'):

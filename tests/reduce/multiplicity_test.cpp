@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "chain.hpp"
+#include "pencils.hpp"
 #include "reduce/block_lanczos.hpp"
 #include "reduce/factorization.hpp"
 #include "reduce/fixed_interface_modes.hpp"
@@ -306,6 +307,27 @@ TEST(CopiesAmong, WaitsForTheLargestOfANewSequence)
   EXPECT_EQ(copies_among(pairs, 2, second, 1e-7), Copies::not_yet_known);
   pairs.residual[2] = 1e-5;
   EXPECT_EQ(copies_among(pairs, 2, second, 1e-7), Copies::all_there);
+}
+
+/// A small rigid body that is described ten thousand of its own sizes away: the mass of one of its
+/// two motions has eight digits. It is found, or said to be out of reach.
+TEST(Multiplicity, OfAPairWithHardlyAnyMassIsNotMissedInSilence)
+{
+  constexpr double d = 1e-8;
+  testing::ElementPencil element{
+      .dofs = {0, 1}, .K = Eigen::MatrixXd(2, 2), .M = Eigen::MatrixXd(2, 2)};
+  element.K << 0.5 + d, 0.5 - d, 0.5 - d, 0.5 + d;  // lambda = 0.5 and 2
+  element.M << 1.0, 1.0 - d, 1.0 - d, 1.0;
+  const testing::Chain pencil = testing::assemble(2, {element});
+  const Factorization factor = factorize(pencil.K);
+  BlockLanczos lanczos(factor.factor(), pencil.M, {.n_pairs = 0});
+  lanczos.converge(2);
+  ASSERT_GE(lanczos.n_pairs(), 1);
+  EXPECT_NEAR(lanczos.lambda(0), 0.5, 1e-8);
+  if (lanczos.n_pairs() < 2) {
+    EXPECT_LT(lanczos.unresolved_from(), 2.1);
+    EXPECT_THROW(lanczos.require_resolved(2.1), Error);
+  }
 }
 
 }  // namespace

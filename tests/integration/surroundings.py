@@ -1,0 +1,61 @@
+"""The folder in which a program is run neither lends it libraries nor chooses its solvers.
+
+Usage: surroundings.py PROGRAM_DIR SOURCE_DIR
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+
+from running import start
+
+OPTIONS = "-cms_modes_solver by-magic\n"  # refused where it is read
+
+
+def provenance(file):
+    with h5py.File(file) as reduced:
+        return reduced["provenance/options"][()].decode()
+
+
+def wrong(programs, source, folder):
+    libraries = subprocess.run(["ldd", programs / "squeal"], capture_output=True, text=True, check=True).stdout
+    library = folder / re.search(r"libfmt\.so\S*", libraries)[0]
+    library.write_text("no library\n")
+    for name in ("squeal", "chladni"):
+        done = start(programs / name, "--version", cwd=folder)
+        if done.returncode:
+            yield f"{name} takes its libraries from the folder it is run in: {done.stderr.strip()}"
+    library.unlink()
+
+    for name in ("petscrc", ".petscrc"):
+        (folder / name).write_text(OPTIONS)
+    scene = source / "examples" / "beam" / "cantilever.toml"
+    reduce = (programs / "chladni", "reduce", scene, "--output", folder)
+    file = folder / "cantilever.reduced.h5"
+    surroundings = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
+    done = start(*reduce, cwd=folder, env=surroundings)
+    if done.returncode:
+        yield f"options of the folder are obeyed: {done.stderr.strip()}"
+    elif provenance(file):
+        yield f"provenance of a run without options: {provenance(file)}"
+
+    said = surroundings | {"PETSC_OPTIONS": "-cms_lanczos_block_size 4"}
+    done = start(*reduce, "--", "-cms_lanczos_tolerance", "1e-10", cwd=folder, env=said)
+    expected = "-cms_lanczos_block_size 4 -cms_lanczos_tolerance 1e-10"
+    if done.returncode or provenance(file) != expected:
+        yield f"provenance {provenance(file)!r} instead of {expected!r}: {done.stderr.strip()}"
+
+
+def main(programs, source):
+    with tempfile.TemporaryDirectory() as name:
+        failures = list(wrong(Path(programs), Path(source), Path(name)))
+    print("\n".join(f"FAILED: {line}" for line in failures))
+    sys.exit(bool(failures))
+
+
+main(*sys.argv[1:])
