@@ -178,13 +178,13 @@ void BlockBasis::clean(Joined& joined)
 BlockBasis::Chosen BlockBasis::by_digits_of_mass(PetscInt n)
 {
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  constexpr double eight_digits = 1e-8 / eps, two_digits = 1e-2 / eps;
+  constexpr double enough = 1e-6 / eps, two_digits = 1e-2 / eps;
   std::vector<double> terms = diagonal_terms(columns(n_columns_, n), M_);
   broadcast_numbers(terms, comm());
   Chosen chosen;
   for (PetscInt k = 0; k < n; ++k) {
-    (terms[k] < eight_digits ? chosen.resolved : chosen.others).push_back(k);
-    if (terms[k] >= eight_digits && terms[k] < two_digits) chosen.unsure.push_back(k);
+    (terms[k] < enough ? chosen.resolved : chosen.others).push_back(k);
+    if (terms[k] >= enough && terms[k] < two_digits) chosen.unsure.push_back(k);
   }
   return chosen;
 }

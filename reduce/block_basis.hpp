@@ -66,7 +66,7 @@ class BlockBasis {
   struct Joined {
     SmallMatrix coefficients, R, left_out;
   };
-  /// Columns by the digits that M times them has: eight, or fewer, of which some have two.
+  /// Columns by the digits that M times them has: six, or fewer, of which some have two.
   struct Chosen {
     std::vector<PetscInt> resolved, others, unsure;
   };
