@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/json.hpp"
+#include "cli/report/squeal_results.hpp"
 #include "cli/timing.hpp"
 #include "common/error.hpp"
 
@@ -120,6 +121,31 @@ TEST(Stopwatch, CountsTheWorkOfThisProcess)
   // One thread works, so it has no more CPU time than wall time, but for the clock's granularity.
   EXPECT_LT(watch.cpu_s(), watch.wall_s() + 0.02);
   EXPECT_GT(peak_MiB(), 1.0);
+}
+
+/// Of a study that used the modes with these numbers.
+squeal::SquealResults limit_cycle_of(std::vector<int> mode_numbers, Eigen::Index n_amplitudes)
+{
+  squeal::LimitCycle cycle{};
+  cycle.mode_numbers = std::move(mode_numbers);
+  cycle.amplitude = Eigen::VectorXcd::Ones(n_amplitudes);
+  squeal::SquealResults results;
+  results.limit_cycle = cycle;
+  return results;
+}
+
+TEST(SquealMotions, ArePutAmongTheModesOfTheBody)
+{
+  const auto motions = squeal_motions(limit_cycle_of({1, 3}, 2), {1, 3}, 4);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0].amplitude, Eigen::Vector4cd(1.0, 0.0, 1.0, 0.0));
+}
+
+TEST(SquealMotions, OfAnotherBodyAreRefused)
+{
+  EXPECT_THROW(squeal_motions(limit_cycle_of({1, 19}, 2), {1, 19}, 3), Error);  // 19 of 3 modes
+  EXPECT_THROW(squeal_motions(limit_cycle_of({0, 1}, 2), {0, 1}, 3), Error);
+  EXPECT_THROW(squeal_motions(limit_cycle_of({1, 2}, 3), {1, 2}, 3), Error);  // one too many
 }
 
 }  // namespace
