@@ -246,8 +246,8 @@ std::vector<HardCase> reduction_cases()
          return orthonormality_error(r.modes(10), r.M.ss);
        }},
       {area, "bound of the errors of two values 1e-4 apart",
-       "the gap of Temple to the next eigenvalue is nearly nothing",
-       "true error over its bound", 1.0, error_over_bound_in_a_cluster},
+       "the gap of Temple to the next eigenvalue is nearly nothing", "true error over its bound",
+       1.0, error_over_bound_in_a_cluster},
       {area, "count of eigenvalues 1e-9 beside fivefold ones",
        "five pivots of L D L^T next to zero", "eigenvalues too many or too few", 0.0,
        miscount_beside_fivefold_eigenvalues},
