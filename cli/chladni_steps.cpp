@@ -115,7 +115,7 @@ TextTable reduction_table(const ReduceSummary& summary)
     table.rows.push_back(
         {fmt::format("modes up to {:.0f} Hz", count.up_to / (2.0 * std::numbers::pi)),
          fmt::format("{} of {}{}", count.found, count.expected,
-                     count.missing() > 0 ? ": take more fixed-interface modes" : "")});
+                     count.missing() > 0 ? ": take more modes" : "")});
   }
   table.rows.push_back(
       {"CPU of the factorisation, s", fmt::format("{:.3f}", summary.factorization.cpu_s)});
