@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "chain.hpp"
+#include "matrices.hpp"
 #include "pencils.hpp"
 #include "reduce/block_lanczos.hpp"
 #include "reduce/factorization.hpp"
@@ -18,26 +19,7 @@
 namespace chladni::reduce {
 namespace {
 
-/// Symmetric matrix of n rows with up to `width` entries in a row, by place.
-petsc::Matrix matrix(PetscInt n, PetscInt width,
-                     const std::function<std::vector<std::pair<PetscInt, double>>(PetscInt)>& row)
-{
-  petsc::Matrix A;
-  petsc::check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, n, n, width, nullptr,
-                            width, nullptr, A.put()));
-  PetscInt first = 0, last = 0;
-  petsc::check(MatGetOwnershipRange(A, &first, &last));
-  for (PetscInt i = first; i < last; ++i) {
-    for (const auto& [j, value] : row(i)) petsc::check(MatSetValue(A, i, j, value, INSERT_VALUES));
-  }
-  testing::finish(A);
-  return A;
-}
-
-petsc::Matrix diagonal(PetscInt n, const std::function<double(PetscInt)>& value)
-{
-  return matrix(n, 1, [&](PetscInt i) { return std::vector{std::pair{i, value(i)}}; });
-}
+using testing::diagonal, testing::matrix;
 
 petsc::Matrix identity(PetscInt n)
 {

@@ -10,32 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "../chain.hpp"
+#include "../matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using Row = std::vector<std::pair<PetscInt, double>>;
-
-petsc::Matrix matrix(PetscInt n, PetscInt width, const std::function<Row(PetscInt)>& row)
-{
-  petsc::Matrix A;
-  petsc::check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, n, n, width, nullptr,
-                            width, nullptr, A.put()));
-  PetscInt first = 0, last = 0;
-  petsc::check(MatGetOwnershipRange(A, &first, &last));
-  for (PetscInt i = first; i < last; ++i) {
-    for (const auto& [j, value] : row(i)) petsc::check(MatSetValue(A, i, j, value, INSERT_VALUES));
-  }
-  testing::finish(A);
-  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
-  return A;
-}
-
-petsc::Matrix diagonal(PetscInt n, const std::function<double(PetscInt)>& value)
-{
-  return matrix(n, 1, [&](PetscInt i) { return Row{{i, value(i)}}; });
-}
+using testing::diagonal, testing::matrix, testing::Row;
 
 /// The Laplacian of the hypercube with d dimensions: eigenvalues 2 k with multiplicity binom(d, k).
 petsc::Matrix hypercube(int d)
