@@ -1,8 +1,10 @@
 #include <cmath>
 
 #include "cli/certify.hpp"
+#include "cli/petsc_session.hpp"
 #include "cli/reduce_steps.hpp"
 #include "reduce/completeness.hpp"
+#include "reduce/machine_memory.hpp"
 #include "reduce/sylvester.hpp"
 
 namespace chladni::cli {
@@ -50,6 +52,14 @@ bool CountOfEigenvalues::is_possible() const
   const reduce::ReduceOptions& wanted = scene_.reduce;
   if (wanted.method == reduce::Method::guyan) return is_due(0);
   return !wanted.modes || is_due(*wanted.modes);
+}
+
+bool CountOfEigenvalues::fits() const
+{
+  if (scene_.sylvester) return true;
+  const double own_MiB =
+      sizeof(double) * entries_of_mumps * factor_.entries / n_ranks() / reduce::bytes_in_MiB;
+  return reduce::tightest_machine(own_MiB, reduce::free_MiB(), PETSC_COMM_WORLD).fits();
 }
 
 mbs_export::Certificate count_scene(const FeModel& fe, const Partitioned& blocks,

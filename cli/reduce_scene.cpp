@@ -70,33 +70,48 @@ double modes_at_first(const reduce::ReduceOptions& wanted)
   return wanted.modes ? *wanted.modes : unknown;
 }
 
-/// What this rank takes beside the factor of K_ss, in columns of its slaves: the basis of block
-/// Lanczos with the modes that come out of it, or Psi and Phi with the blocks of columns in which
-/// projection, error estimates and mass integrals work. The numbers are measured.
-double beside_MiB(const Scene& scene, const Partitioned& blocks)
+/// The matrices of the whole model are let go where nothing after the factor needs them.
+bool needs_whole_matrices(const Scene& scene, bool counts)
+{
+  return counts || wants_full_responses(scene) || is_free_interface(scene.reduce.method);
+}
+
+double own_MiB(Mat A)
+{
+  MatInfo info{};
+  petsc::check(MatGetInfo(A, MAT_LOCAL, &info));
+  constexpr double for_each_entry = sizeof(PetscScalar) + sizeof(PetscInt);
+  return for_each_entry * info.nz_used / reduce::bytes_in_MiB;
+}
+
+/// What this rank takes beside the factor of K_ss, at the phase that takes most: in columns of its
+/// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
+/// error estimates or mass integrals work in; or all of these with the factor that counts
+/// eigenvalues where the scene wants it. The numbers are measured.
+reduce::FactorOptions with_what_comes_beside(reduce::FactorOptions factor, const Scene& scene,
+                                             const FeModel& fe, const Partitioned& blocks)
 {
   PetscInt n_local = 0, n_s = 0;
   petsc::check(MatGetLocalSize(blocks.K.ss, &n_local, nullptr));
   petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
   constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
-  constexpr double blocks_of_columns = 230.0, mass_integrals = 120.0, whole_matrices = 130.0;
+  constexpr double estimates = 230.0, integrals = 350.0, integrals_for_each_mode = 0.6;
   const double n_modes = std::min<double>(modes_at_first(scene.reduce), n_s);
-  const double certified = std::min(n_modes, 100.0);  // residuals for bounds
   const double basis = std::min<double>(basis_for_each_mode * n_modes + least_basis, n_s);
   const double in_search = n_modes > 0.0 ? basis + n_modes + blocks_of_lanczos : 0.0;
-  const auto n_masters = static_cast<double>(blocks.masters.size());
-  const double n_columns = std::max(in_search, n_masters + n_modes + blocks_of_columns) +
-                           (scene.mass_integrals ? mass_integrals : 0.0) +
-                           (scene.sylvester.value_or(false) ? whole_matrices + certified : 0.0);
-  return sizeof(double) * double(n_local) * n_columns / reduce::bytes_in_MiB;
-}
-
-/// MUMPS counts eigenvalues by a factor of its own, of K - sigma M, while ours is there: what it
-/// takes with its copies of the matrix, in multiples of the entries of ours. Measured.
-double factors_beside(const Scene& scene)
-{
-  constexpr double of_mumps = 3.5;
-  return scene.sylvester.value_or(false) ? of_mumps : 0.0;
+  const double kept = static_cast<double>(blocks.masters.size()) + n_modes;
+  const bool counts = scene.sylvester.value_or(false);
+  const double bounds = counts ? std::min(n_modes, 100.0) : 0.0;  // residuals
+  const double in_integrals =
+      scene.mass_integrals ? integrals + integrals_for_each_mode * n_modes : 0.0;
+  const double in_MiB = sizeof(double) * double(n_local) / reduce::bytes_in_MiB;
+  const double let_go =
+      needs_whole_matrices(scene, counts) ? 0.0 : own_MiB(fe.system.K) + own_MiB(fe.system.M);
+  factor.beside_MiB =
+      in_MiB * std::max(in_search, kept + std::max(estimates + bounds, in_integrals)) - let_go;
+  if (counts)
+    factor.second = {.entries = CountOfEigenvalues::entries_of_mumps, .beside_MiB = in_MiB * kept};
+  return factor;
 }
 
 /// Of the transformation, with the columns in the order of the file.
@@ -146,14 +161,12 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   const Partitioned blocks = phases.run("partition", [&] { return partition_scene(scene, fe); });
   reduce::SolverOptions options = solvers.options;
-  options.factor.beside_MiB = beside_MiB(scene, blocks);
-  options.factor.beside_factors = factors_beside(scene);
+  options.factor = with_what_comes_beside(options.factor, scene, fe, blocks);
   const auto K_ss =
       phases.run("factorization", [&] { return factorize_slaves(fe, blocks, options); });
   const PhaseTime factorization = phases.times().back();
   const CountOfEigenvalues count(scene, blocks, K_ss);
-  if (!count.is_possible() && !wants_full_responses(scene) &&
-      !is_free_interface(scene.reduce.method)) {  // the blocks are enough
+  if (!needs_whole_matrices(scene, count.is_possible())) {  // the blocks are enough
     fe.system.K = {};
     fe.system.M = {};
   }
@@ -161,7 +174,7 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                                            : reduce_as_told(scene, fe, blocks, K_ss, phases);
   mbs_export::ReducedSystem& system = reduced.system;
   const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  const bool counts = count.is_possible() && count.is_due(n_modes);
+  const bool counts = count.is_possible() && count.is_due(n_modes) && count.fits();
   const Certified certified = phases.run("error estimates", [&] {
     return certify_scene(scene, fe, blocks, K_ss, reduced,
                          counts ? reduce::Purpose::bounds : reduce::Purpose::estimates);

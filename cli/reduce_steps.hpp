@@ -1,5 +1,7 @@
 #pragma once
 
+#include <malloc.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +56,7 @@ class Phases {
       if (progress_) progress_(name, fraction);
     });
     auto result = work();
+    malloc_trim(0);  // what a phase has let go is there for the next one, in pieces of any size
     clock_.end_phase(name);
     if (progress_) progress_(name, 1.0);
     return result;
@@ -122,6 +125,14 @@ class CountOfEigenvalues {
   bool is_due(int n_modes) const;
   /// False where it is known before the reduction that nothing will be counted.
   bool is_possible() const;
+  /// Whether there is memory for it; true where the scene wants it, and the factor was refused
+  /// else.
+  /// @note   Collective.
+  bool fits() const;
+
+  /// What MUMPS takes for a factor with pivoting and its copies of the matrix, in multiples of the
+  /// entries of ours.
+  static constexpr double entries_of_mumps = 4.4;
 
  private:
   const Scene& scene_;

@@ -45,10 +45,23 @@ class RowSplitter {
         rows_.other_start.push_back(checked(std::ssize(rows_.other_column)));
       }
     }
+    give_back_room();
     return std::move(rows_);
   }
 
  private:
+  /// Of entries that do not count: in a shell that is flat in parts these are half of all.
+  void give_back_room()
+  {
+    const auto n = static_cast<std::size_t>(count_);
+    if (n == rows_.value.size()) return;
+    rows_.value.resize(n);
+    rows_.value.shrink_to_fit();
+    auto column = std::make_unique_for_overwrite<PetscInt[]>(n);
+    std::copy_n(rows_.column.get(), n, column.get());
+    rows_.column = std::move(column);
+  }
+
   static PetscInt checked(std::ptrdiff_t n)
   {
     return checked_count(n, "entries of K or M in the rows of one rank", "use more ranks");

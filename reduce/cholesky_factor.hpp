@@ -8,6 +8,7 @@
 
 #include "common/petsc.hpp"
 #include "reduce/machine_memory.hpp"
+#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -35,8 +36,8 @@ struct FactorSize {
 struct MemoryBudget {
   /// Of this machine, for all its ranks.
   double machine_MiB = std::numeric_limits<double>::infinity();
-  double beside_MiB = 0.0;      ///< what this rank takes later, while the factor is there
-  double beside_factors = 0.0;  ///< besides, in multiples of the factor's entries
+  double beside_MiB = 0.0;  ///< what this rank takes later, while the factor alone is there
+  SecondFactor second = {};
 };
 
 /// A factor L D L^T of a sparse symmetric matrix, positive definite unless it says otherwise, that
@@ -85,7 +86,8 @@ class CholeskyFactor {
   MemoryNeed memory_need(MPI_Comm comm) const
   {
     const auto [factorization_MiB, factor_MiB, entries_MiB] = forecast();
-    const double later_MiB = factor_MiB + budget.beside_MiB + budget.beside_factors * entries_MiB;
+    const double with_second_MiB = budget.second.beside_MiB + budget.second.entries * entries_MiB;
+    const double later_MiB = factor_MiB + std::max(budget.beside_MiB, with_second_MiB);
     return tightest_machine(std::max(factorization_MiB, later_MiB), budget.machine_MiB, comm);
   }
 

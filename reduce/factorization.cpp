@@ -109,7 +109,7 @@ Factorization::Factorization(Mat A, SolverOptions options) : options_(std::move(
   const FactorOptions& allowed = options_.factor;
   const MemoryBudget budget{.machine_MiB = allowed.memory_MiB.value_or(free_MiB()),
                             .beside_MiB = allowed.beside_MiB,
-                            .beside_factors = allowed.beside_factors};
+                            .second = allowed.second};
   set_budget(factor(), budget);
   require_definite(factor());
   petsc::check(KSPSetUp(solver_));

@@ -17,10 +17,17 @@ struct OptionSource {
   bool operator==(const OptionSource&) const = default;
 };
 
+/// A factor of another matrix with the same pattern, which is there for a while beside the first.
+struct SecondFactor {
+  double entries = 0.0;     ///< in multiples of the first one's
+  double beside_MiB = 0.0;  ///< what else this rank has then
+  bool operator==(const SecondFactor&) const = default;
+};
+
 struct FactorOptions {
   std::optional<double> memory_MiB = {};  ///< of each machine; by default what is free there
-  double beside_MiB = 0.0;                ///< what this rank takes later, while the factor is there
-  double beside_factors = 0.0;            ///< besides, in multiples of the factor's entries
+  double beside_MiB = 0.0;  ///< what this rank takes later, while the factor alone is there
+  SecondFactor second = {};
   bool operator==(const FactorOptions&) const = default;
 };
 
