@@ -12,6 +12,7 @@
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "reduce/full_responses.hpp"
+#include "reduce_export/reduced_system.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -92,23 +93,28 @@ bool wants_full_responses(const Scene& scene)
   });
 }
 
-Reduced with_full_responses(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                            Reduced reduced, Phases& phases)
+SceneReduction with_full_responses(const Scene& scene, const FeModel& fe, SceneReduction reduced,
+                                   Phases& phases)
 {
-  const mbs_export::Certificate certificate = reduced.system.certificate;
+  const reduce::FactoredBody& body = reduced.body;
+  reduce::Reduction& reduction = reduced.reduction;
   std::vector<reduce::HarmonicLoads> loads;
   for (const auto& [omega0, rows] : loads_of(scene, reduced.system)) {
     loads.push_back({.Omega_0 = omega0, .loaded = {}});
     for (const int row : rows)
-      loads.back().loaded.push_back(blocks.masters[static_cast<std::size_t>(row)]);
+      loads.back().loaded.push_back(body.masters[static_cast<std::size_t>(row)]);
   }
   reduce::Enrichment enriched = phases.run("responses of the whole model", [&] {
-    const petsc::Matrix V = reduce::full_responses(fe.system.K, fe.system.M, loads);
-    return reduce::enrich(reduced.Q_CB, blocks.rows, {blocks.K.ss, blocks.M.ss}, V);
+    const petsc::Matrix V = reduce::full_responses(body.K, body.M, loads);
+    return reduce::enrich(reduction.Q_CB, body.dofs, {body.K_blocks.ss, body.M_blocks.ss}, V);
   });
-  reduced.Q_CB.modes = std::move(enriched.modes);
-  reduced = project_blocks(scene, fe, blocks, std::move(reduced.Q_CB), phases);
-  reduced.system.certificate = certificate;
+  reduction.Q_CB.modes = std::move(enriched.modes);
+  reduction.model = phases.run(
+      "projection", [&] { return reduce::project(reduction.Q_CB, body.K_blocks, body.M_blocks); });
+  reduced.places = reduce::coordinate_places(body.masters, reduction.model);
+  reduced.system =
+      reduce_export::with_model(std::move(reduced.system), reduction.model, reduced.places);
+  if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
   return reduced;
 }
 

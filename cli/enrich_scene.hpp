@@ -12,7 +12,7 @@ bool wants_full_responses(const Scene& scene);
 /// fixed-interface modes. A body then answers these loads at omega0 as the FE model does.
 /// @note   Collective.
 /// @throws chladni::Error for a loaded DOF that is no master, and as reduce::full_responses.
-Reduced with_full_responses(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                            Reduced reduced, Phases& phases);
+SceneReduction with_full_responses(const Scene& scene, const FeModel& fe, SceneReduction reduced,
+                                   Phases& phases);
 
 }  // namespace chladni::cli

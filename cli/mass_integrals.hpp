@@ -8,6 +8,6 @@ namespace chladni::cli {
 /// Of the FE model in the coordinates of the reduced system.
 /// @note   Collective.
 mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, const FeModel& fe,
-                                         const Partitioned& blocks, const Reduced& reduced);
+                                         const SceneReduction& reduced);
 
 }  // namespace chladni::cli

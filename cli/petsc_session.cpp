@@ -4,10 +4,9 @@
 #include <slepcsys.h>
 
 #include <cstdlib>
-#include <exception>
 
 #include "cli/blas_kernels.hpp"
-#include "common/error.hpp"
+#include "common/all_ranks.hpp"
 #include "common/petsc.hpp"
 
 namespace chladni::cli {
@@ -65,21 +64,7 @@ double largest_of_ranks(double x)
 
 void on_first_rank(const std::function<void()>& work)
 {
-  std::string failure;
-  if (rank() == 0) {
-    try {
-      work();
-    } catch (const std::exception& error) {
-      failure = error.what();
-      if (failure.empty()) failure = "unknown failure";
-    }
-  }
-  int size = static_cast<int>(failure.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  if (size == 0) return;
-  failure.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(failure.data(), size, MPI_CHAR, 0, PETSC_COMM_WORLD);
-  throw Error(failure);
+  chladni::on_first_rank(PETSC_COMM_WORLD, work);
 }
 
 void abort_all_ranks(int exit_code)

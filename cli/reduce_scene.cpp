@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 #include "cli/enrich_scene.hpp"
 #include "cli/mass_integrals.hpp"
@@ -11,26 +11,19 @@
 #include "cli/petsc_session.hpp"
 #include "cli/picture.hpp"
 #include "cli/reduce_steps.hpp"
+#include "cli/scene_support.hpp"
 #include "cli/section_forces.hpp"
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
+#include "plate/rigid_motions.hpp"
 #include "plate/ring_harmonics.hpp"
-#include "reduce/condition_estimate.hpp"
-#include "reduce/machine_memory.hpp"
+#include "reduce/cholesky_types.hpp"
+#include "reduce_export/reduced_system.hpp"
 
 namespace chladni::cli {
 namespace {
 
 using Eigen::MatrixXd;
-
-std::string library_versions()
-{
-  std::array<char, 256> petsc_version{};
-  petsc::check(PetscGetVersion(petsc_version.data(), petsc_version.size()));
-  return fmt::format("Chladni {}; {}; SLEPc {}.{}.{}; Gmsh via its C++ API", version,
-                     petsc_version.data(), SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR,
-                     SLEPC_VERSION_SUBMINOR);
-}
 
 FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 {
@@ -45,97 +38,148 @@ FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
       .mesh = std::move(mesh), .system = std::move(system), .attachments = std::move(attachments)};
 }
 
-Reduced reduce_as_told(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                       const reduce::Factorization& K_ss, Phases& phases)
+/// "node 17 (0.1, 0.2, 0), z"; nothing for a DOF that is no component of a node.
+std::string name_of_dof(const FeModel& fe, PetscInt dof)
 {
-  if (is_free_interface(scene.reduce.method)) {
-    return reduce_by_free_modes(scene, fe, blocks, K_ss, phases);
+  const plate::DofMap& dofs = fe.system.dofs;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    for (const int c : dofs.components) {
+      if (dofs.dof(node, c) != dof) continue;
+      const auto& x = dofs.positions[static_cast<std::size_t>(node)];
+      return fmt::format("node {} ({:.6g}, {:.6g}, {:.6g}), {}", node_number(fe.mesh, dofs, node),
+                         x[0], x[1], x[2], plate::component_names[static_cast<std::size_t>(c)]);
+    }
   }
-  // The modes first: the subspace of the eigen-solver is as large as the constraint modes.
-  std::optional<reduce::FixedInterfaceModes> modes;
-  if (scene.reduce.method == reduce::Method::craig_bampton) {
-    modes = fixed_interface_modes(blocks, K_ss, scene.reduce, phases);
+  return "";
+}
+
+/// Whether the rigid-body motions are those of the nodes, and no spring resists them.
+bool geometry_tells_motions(const Scene& scene, const FeModel& fe)
+{
+  const bool is_free = std::ranges::all_of(
+      scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
+  return is_free && fe.system.dofs.combined_motions.empty();
+}
+
+/// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
+/// what else PETSc's viewers know.
+void view_from_options(const FeModel& fe)
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(fe.system.K, &first, &last));
+  std::vector<PetscInt> own;
+  std::ranges::copy_if(fe.attachments.master_dofs, std::back_inserter(own),
+                       [&](PetscInt dof) { return dof >= first && dof < last; });
+  petsc::IndexSet masters;
+  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
+                               PETSC_COPY_VALUES, masters.put()));
+  petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
+  petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
+  petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
+}
+
+/// The body takes the matrices of the model.
+reduce::Body body_of(const Scene& scene, FeModel& fe)
+{
+  view_from_options(fe);
+  petsc::Matrix R =
+      geometry_tells_motions(scene, fe) ? plate::rigid_motions(fe.system) : petsc::Matrix();
+  return {.K = std::move(fe.system.K),
+          .M = std::move(fe.system.M),
+          .masters = {fe.attachments.master_dofs.begin(), fe.attachments.master_dofs.end()},
+          .R = std::move(R),
+          .name_of_dof = [&](PetscInt dof) { return name_of_dof(fe, dof); }};
+}
+
+reduce::ReductionOptions options_of(const Scene& scene, const reduce::SolverOptions& solver)
+{
+  constexpr double in_mass_integrals = 350.0, for_each_mode = 0.6;  // columns, measured
+  const bool has_integrals = scene.mass_integrals;
+  return {.basis = scene.reduce,
+          .solver = solver,
+          .count = scene.sylvester,
+          .keeps_matrices = wants_full_responses(scene),
+          .later_columns = has_integrals ? in_mass_integrals : 0.0,
+          .later_columns_for_each_mode = has_integrals ? for_each_mode : 0.0};
+}
+
+/// The system that is written without its matrices.
+mbs_export::ReducedSystem described(const Scene& scene, const FeModel& fe)
+{
+  mbs_export::ReducedSystem system;
+  system.title = scene.title;
+  system.sets = fe.attachments.sets;
+  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
+    const int node = fe.attachments.nodes[i];
+    const auto& x = fe.system.dofs.positions[node];
+    system.attachment_nodes.push_back({.number = node_number(fe.mesh, fe.system.dofs, node),
+                                       .position = {x[0], x[1], x[2]},
+                                       .drilling_axis = fe.attachments.drilling_axes[i]});
   }
-  reduce::CraigBamptonBasis Q_CB = constraint_basis(blocks, K_ss, phases);
-  Q_CB.modes = std::move(modes);
-  return project_blocks(scene, fe, blocks, std::move(Q_CB), phases);
+  system.masters = fe.attachments.masters;
+  if (!fe.system.dofs.harmonic_rings.empty()) {
+    system.ring_motion = {.shapes = master_shapes(fe.attachments, fe.system.dofs),
+                          .displacements = {}};
+  }
+  return system;
 }
 
-/// Fixed-interface modes to begin with: a cut-off and a tolerance find out how many they need, and
-/// look at the memory again when their basis grows.
-double modes_at_first(const reduce::ReduceOptions& wanted)
+/// The supports of the scene's body that hold masters: those that hold nodes of a ring of harmonics
+/// leave a residual that the certificate does not know.
+std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe)
 {
-  if (wanted.method == reduce::Method::guyan) return 0.0;
-  constexpr double unknown = 40.0;
-  return wanted.modes ? *wanted.modes : unknown;
+  std::vector<std::string> support;
+  for (const std::string& fixed : scene.body.fixed) {
+    const bool is_master = std::ranges::none_of(fe.attachments.sets, [&](const auto& set) {
+      const bool is_meant = fixed == set.name || fixed.substr(0, fixed.rfind('.')) == set.name;
+      return is_meant && has_ring_nodes(fe.attachments, fe.system.dofs, set);
+    });
+    if (is_master) support.push_back(fixed);
+  }
+  return support;
 }
 
-/// The matrices of the whole model are let go where nothing after the factor needs them.
-bool needs_whole_matrices(const Scene& scene, bool counts)
+SceneReduction reduce_model(const Scene& scene, FeModel& fe, const reduce::SolverOptions& solver,
+                            Phases& phases)
 {
-  return counts || wants_full_responses(scene) || is_free_interface(scene.reduce.method);
-}
-
-double own_MiB(Mat A)
-{
-  MatInfo info{};
-  petsc::check(MatGetInfo(A, MAT_LOCAL, &info));
-  constexpr double for_each_entry = sizeof(PetscScalar) + sizeof(PetscInt);
-  return for_each_entry * info.nz_used / reduce::bytes_in_MiB;
-}
-
-/// What this rank takes beside the factor of K_ss, at the phase that takes most: in columns of its
-/// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
-/// error estimates or mass integrals work in; or all of these with the factor that counts
-/// eigenvalues where the scene wants it. The numbers are measured.
-reduce::FactorOptions with_what_comes_beside(reduce::FactorOptions factor, const Scene& scene,
-                                             const FeModel& fe, const Partitioned& blocks)
-{
-  PetscInt n_local = 0, n_s = 0;
-  petsc::check(MatGetLocalSize(blocks.K.ss, &n_local, nullptr));
-  petsc::check(MatGetSize(blocks.K.ss, &n_s, nullptr));
-  constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
-  constexpr double estimates = 230.0, integrals = 350.0, integrals_for_each_mode = 0.6;
-  const double n_modes = std::min<double>(modes_at_first(scene.reduce), n_s);
-  const double basis = std::min<double>(basis_for_each_mode * n_modes + least_basis, n_s);
-  const double in_search = n_modes > 0.0 ? basis + n_modes + blocks_of_lanczos : 0.0;
-  const double kept = static_cast<double>(blocks.masters.size()) + n_modes;
-  const bool counts = scene.sylvester.value_or(false);
-  const double bounds = counts ? std::min(n_modes, 100.0) : 0.0;  // residuals
-  const double in_integrals =
-      scene.mass_integrals ? integrals + integrals_for_each_mode * n_modes : 0.0;
-  const double in_MiB = sizeof(double) * double(n_local) / reduce::bytes_in_MiB;
-  const double let_go =
-      needs_whole_matrices(scene, counts) ? 0.0 : own_MiB(fe.system.K) + own_MiB(fe.system.M);
-  factor.beside_MiB =
-      in_MiB * std::max(in_search, kept + std::max(estimates + bounds, in_integrals)) - let_go;
-  if (counts)
-    factor.second = {.entries = CountOfEigenvalues::entries_of_mumps, .beside_MiB = in_MiB * kept};
-  return factor;
+  const reduce::ReductionOptions options = options_of(scene, solver);
+  mbs_export::ReducedSystem system = described(scene, fe);
+  reduce::FactoredBody body = reduce::factored(body_of(scene, fe), options, phases);
+  const SceneSupport support(system, body.masters, certified_support(scene, fe));
+  reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
+  system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
+  SceneReduction reduced{.body = std::move(body),
+                         .reduction = std::move(reduction),
+                         .places = std::move(places),
+                         .system = std::move(system)};
+  if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
+  return reduced;
 }
 
 /// Of the transformation, with the columns in the order of the file.
-RowsOf rows_of(const Partitioned& blocks, const Reduced& reduced)
+RowsOf rows_of(const SceneReduction& reduced)
 {
   return [&](const std::vector<int>& dofs) -> MatrixXd {
-    const reduce::SmallMatrix rows = reduce::basis_rows(reduced.Q_CB, blocks.rows, dofs);
+    const reduce::SmallMatrix rows =
+        reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs);
     return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(Eigen::all,
                                                                                     reduced.places);
   };
 }
 
 /// Room for interface modes of the whole model, mass integrals, pictures and section forces.
-Reduced with_what_bodies_need(const Scene& scene, const FeModel& fe, const Partitioned& blocks,
-                              Reduced reduced, Phases& phases)
+SceneReduction with_what_bodies_need(const Scene& scene, const FeModel& fe, SceneReduction reduced,
+                                     Phases& phases)
 {
   if (wants_full_responses(scene)) {
-    reduced = with_full_responses(scene, fe, blocks, std::move(reduced), phases);
+    reduced = with_full_responses(scene, fe, std::move(reduced), phases);
   }
   if (scene.mass_integrals) {
     reduced.system.mass_integrals = phases.run(
-        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, blocks, reduced); });
+        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, reduced); });
   }
-  const RowsOf rows = rows_of(blocks, reduced);
+  const RowsOf rows = rows_of(reduced);
   if (reduced.system.ring_motion) {
     reduced.system.ring_motion->displacements =
         node_rows(fe.attachments.nodes, fe.system.dofs, rows);
@@ -153,63 +197,53 @@ Reduced with_what_bodies_need(const Scene& scene, const FeModel& fe, const Parti
 
 }  // namespace
 
+plate::Structure structure_of(const Scene& scene)
+{
+  return {.shells = scene.sections,
+          .beams = scene.beams,
+          .masses = scene.masses,
+          .springs = scene.springs};
+}
+
+MatrixXd projected(const SceneReduction& reduced, Mat A)
+{
+  return reduce_export::in_order(
+      reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs)),
+      reduced.places);
+}
+
 ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress)
 {
   Phases phases(progress);
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
-  const Partitioned blocks = phases.run("partition", [&] { return partition_scene(scene, fe); });
-  reduce::SolverOptions options = solvers.options;
-  options.factor = with_what_comes_beside(options.factor, scene, fe, blocks);
-  const auto K_ss =
-      phases.run("factorization", [&] { return factorize_slaves(fe, blocks, options); });
-  const PhaseTime factorization = phases.times().back();
-  const CountOfEigenvalues count(scene, blocks, K_ss);
-  if (!needs_whole_matrices(scene, count.is_possible())) {  // the blocks are enough
-    fe.system.K = {};
-    fe.system.M = {};
-  }
-  Reduced reduced = scene.reduce.tolerance ? reduce_to_tolerance(scene, fe, blocks, K_ss, phases)
-                                           : reduce_as_told(scene, fe, blocks, K_ss, phases);
-  mbs_export::ReducedSystem& system = reduced.system;
-  const auto n_modes = static_cast<int>(system.fixed_interface_frequencies.size());
-  const bool counts = count.is_possible() && count.is_due(n_modes) && count.fits();
-  const Certified certified = phases.run("error estimates", [&] {
-    return certify_scene(scene, fe, blocks, K_ss, reduced,
-                         counts ? reduce::Purpose::bounds : reduce::Purpose::estimates);
-  });
-  system.certificate = certified.certificate;
+  SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
+  const bool finds_modes = scene.reduce.method == reduce::Method::craig_bampton;
+  const auto n_modes = static_cast<int>(reduced.reduction.model.omega.size());
   const double modes_residual = phases.run("residuals", [&] {
-    return reduced.Q_CB.modes && !is_free_interface(scene.reduce.method)
-               ? reduce::largest_residual(*reduced.Q_CB.modes, blocks.K.ss, blocks.M.ss)
+    return finds_modes
+               ? reduce::largest_residual(*reduced.reduction.Q_CB.modes, reduced.body.K_blocks.ss,
+                                          reduced.body.M_blocks.ss)
                : 0.0;
   });
-  system.certificate.condition =
-      phases.run("condition", [&] { return reduce::condition_estimate(K_ss); });
-  system.certificate.count_share = count.share(n_modes);
-  if (counts) {
-    system.certificate = phases.run("count of eigenvalues", [&] {
-      return count_scene(fe, blocks, system, certified.residuals);
-    });
-  }
-  reduced = with_what_bodies_need(scene, fe, blocks, std::move(reduced), phases);
+  reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
+  mbs_export::ReducedSystem& system = reduced.system;
   system.provenance = {.scene = scene.text,
                        .mesh_checksum = mesh::checksum(fe.mesh),
-                       .versions = library_versions(),
+                       .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API", version,
+                                               reduce_export::library_versions()),
                        .options = solvers.text,
                        .ranks = n_ranks()};
   return {.reduced = std::move(system),
           .phases = phases.times(),
           .n_dofs = fe.system.dofs.n_dofs(),
           .n_nodes = fe.mesh.n_nodes(),
-          .n_masters = static_cast<int>(blocks.masters.size()),
+          .n_masters = static_cast<int>(reduced.body.masters.size()),
           .n_modes = n_modes,
-          .n_modes_asked = scene.reduce.method == reduce::Method::craig_bampton
-                               ? static_cast<int>(scene.reduce.modes.value_or(0))
-                               : 0,
-          .factorization = factorization,
-          .factor = reduce::factor_size(K_ss.factor()),
+          .n_modes_asked = finds_modes ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
+          .factorization = phases.time_of("factorization"),
+          .factor = reduce::factor_size(reduced.body.K_ss.factor()),
           .modes_residual = modes_residual};
 }
 

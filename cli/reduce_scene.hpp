@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "cli/phases.hpp"
 #include "cli/scene/scene.hpp"
-#include "cli/timing.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "reduce/cholesky_types.hpp"
 #include "reduce/solver_options.hpp"
@@ -26,9 +25,6 @@ struct ReduceSummary {
   reduce::FactorSize factor;
   double modes_residual;  ///< largest of the fixed-interface modes; 0 without any
 };
-
-/// Called with the name of the phase under way and the fraction of it that is done, 0 to 1.
-using ReduceProgress = std::function<void(const std::string& phase, double fraction)>;
 
 /// What was said of the solvers after `--`.
 struct SaidOfSolvers {

@@ -6,8 +6,8 @@ include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
 set(light_libraries common mbs_export squeal)
-set(fe_libraries petsc mesh elements plate reduce sound)
-set(header_folders common mbs_export squeal mesh plate reduce sound)
+set(fe_libraries petsc mesh elements plate reduce reduce_export sound)
+set(header_folders common mbs_export squeal mesh plate reduce reduce_export sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
 function(chladni_export set)

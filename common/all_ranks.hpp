@@ -52,4 +52,23 @@ auto on_all_ranks(MPI_Comm comm, const Work& work)
   return std::move(*result);
 }
 
+/// Runs work() on the first rank alone; the others wait, and throw what it throws.
+/// @note   Collective on `comm`.
+/// @throws chladni::Error when work() threw.
+template <typename Work>
+void on_first_rank(MPI_Comm comm, const Work& work)
+{
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::optional<std::string> complaint;
+  if (rank == 0) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      complaint = error.what();
+    }
+  }
+  agree_on(complaint, comm);
+}
+
 }  // namespace chladni

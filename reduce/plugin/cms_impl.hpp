@@ -7,14 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "reduce/condition_estimate.hpp"
-#include "reduce/craig_bampton.hpp"
-#include "reduce/error_estimates.hpp"
 #include "reduce/plugin/check_operators.hpp"
 #include "reduce/plugin/chladni_cms.h"
 #include "reduce/progress.hpp"
-#include "reduce/reduce_options.hpp"
-#include "reduce/solver_options.hpp"
+#include "reduce/reduction.hpp"
 
 /// Inside of the PETSc class CMS; nothing of it crosses the C header.
 namespace chladni::reduce::plugin {
@@ -28,35 +24,22 @@ struct MasterPlace {
 
 /// What CMSSetUp makes.
 struct SetUp {
-  petsc::Matrix K, M;             ///< references, or AIJ copies of other types
-  VelocityForces velocity;        ///< C likewise, or nothing
-  std::vector<PetscInt> masters;  ///< global DOFs in the order of the user, on every rank
-  std::vector<int> places;        ///< for each master its place among the ascending ones
-  DofPartition rows;
-  Blocks K_blocks, M_blocks;
-  Factorization K_ss;
+  FactoredBody body;        ///< K and M are references, or AIJ copies of other types
+  VelocityForces velocity;  ///< C likewise, or nothing
 };
 
 /// Masters in the user's order, then the modes.
 struct Result {
-  CraigBamptonBasis Q_CB;
-  ReducedModel model;                ///< masters ascending by DOF
-  std::vector<PetscReal> lambda;     ///< all elastic eigenvalues of the reduced model, ascending
-  std::vector<PetscReal> f_Hz;       ///< [k] of the certified modes
-  std::vector<PetscReal> eta2;       ///< [k]
-  std::vector<PetscReal> estimates;  ///< [k] of the relative errors of f_Hz, by place
-  std::vector<PetscReal> rounding;   ///< [k] of lambda, relative
-  SmallMatrix residuals;             ///< [k x k] inner products, where eigenvalues are counted
-  std::vector<PetscReal> bounds;     ///< [<= k] below the complete count; rounding included
+  Reduction reduction;
+  std::vector<PetscReal> f_Hz;  ///< [k] of the certified modes
   CMSQuality quality;
-  petsc::Matrix K_r, M_r, C_r, T;  ///< made when asked for; C_r only with damping
+  petsc::Matrix K_r = {}, M_r = {}, C_r = {},
+                T = {};  ///< made when asked for; C_r only with damping
 };
 
 /// What the user has said.
 struct Settings {
-  ReduceOptions options{.method = Method::craig_bampton, .modes = 20};
-  SolverOptions solver = {};
-  bool sylvester = false;
+  ReductionOptions options{.basis = {.method = Method::craig_bampton, .modes = 20}};
   CMSMonitorFunction monitor = nullptr;
   void* monitor_context = nullptr;
   bool prints_phases = false;
@@ -90,7 +73,7 @@ Handle reference(Object object)
 /// of it is done and how long the rest will take.
 class Phase {
  public:
-  Phase(CMS cms, PetscLogEvent event, const char* name);
+  Phase(CMS cms, PetscLogEvent event, std::string name);
   ~Phase();
   Phase(const Phase&) = delete;
   Phase& operator=(const Phase&) = delete;
@@ -103,26 +86,32 @@ class Phase {
 
   CMS cms_;
   PetscLogEvent event_;
-  const char* name_;
+  std::string name_;
   PetscLogDouble started_ = 0.0;
   PetscLogDouble shown_ = 0.0;
   std::optional<ListenToProgress> listener_;
 };
 
+/// Makes phases of a CMS of those of a reduction; short ones have none of their own.
+class CMSPhases : public PhaseListener {
+ public:
+  explicit CMSPhases(CMS cms) : cms_(cms) {}
+  void begin(const std::string& name) override;
+  void end() override;
+
+ private:
+  CMS cms_;
+  std::optional<Phase> phase_;
+};
+
 /// Where the solvers inside find the options of the object: `-PREFIXcms_...` in its own database.
 OptionSource option_source(CMS cms);
-
-/// Columns of the transformation.
-struct Basis {
-  CraigBamptonBasis Q;
-  std::optional<SmallMatrix> mass;  ///< where the method does not project it
-};
-Basis make_basis(CMS cms);
 
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
 SetUp make_set_up(CMS cms);
 Result make_result(CMS cms);
-petsc::Matrix make_transformation(CMS cms);
+/// T^T C T; masters ascending by DOF. Symmetric where C is.
+SmallMatrix reduced_velocity_forces(const Inside& in);
 void write_file(CMS cms, const std::string& path);
 
 }  // namespace chladni::reduce::plugin

@@ -9,14 +9,9 @@ namespace chladni::reduce::plugin {
 
 namespace {
 
-/// For each reduced coordinate of the user its place in the model.
-std::vector<int> coordinate_places(const Inside& in)
+std::vector<int> places_of(const Inside& in)
 {
-  std::vector<int> places = in.set_up->places;
-  const auto n_masters = static_cast<int>(places.size());
-  places.resize(places.size() + in.result->model.omega.size());
-  std::iota(places.begin() + n_masters, places.end(), n_masters);
-  return places;
+  return coordinate_places(in.set_up->body.masters, in.result->reduction.model);
 }
 
 /// A replicated matrix as dense one of the communicator, in the order of the user.
@@ -69,19 +64,19 @@ PetscInt before(const std::vector<PetscInt>& own, MPI_Comm comm)
 }
 
 /// All rows, each rank its own: no communication.
-petsc::Matrix whole_transformation(const SetUp& set_up, const CraigBamptonBasis& Q_CB,
+petsc::Matrix whole_transformation(const FactoredBody& body, const CraigBamptonBasis& Q_CB,
                                    const std::vector<int>& places)
 {
-  const MPI_Comm comm = petsc::communicator(set_up.K);
+  const MPI_Comm comm = petsc::communicator(body.K);
   PetscInt first = 0, n_local = 0;
-  petsc::check(MatGetOwnershipRange(set_up.K, &first, nullptr));
-  petsc::check(MatGetLocalSize(set_up.K, &n_local, nullptr));
+  petsc::check(MatGetOwnershipRange(body.K, &first, nullptr));
+  petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
   petsc::Matrix T = dense_rows(comm, n_local, static_cast<PetscInt>(places.size()));
   const LocalRows Psi(Q_CB.Psi);
   std::optional<LocalRows> Phi;
   if (Q_CB.modes) Phi.emplace(Q_CB.modes->Phi);
-  const std::vector<PetscInt> masters = own_indices(set_up.rows.masters);
-  const std::vector<PetscInt> slaves = own_indices(set_up.rows.slaves);
+  const std::vector<PetscInt> masters = own_indices(body.dofs.masters);
+  const std::vector<PetscInt> slaves = own_indices(body.dofs.slaves);
   const PetscInt first_master = before(masters, comm);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArray(T, &values));
@@ -103,19 +98,19 @@ petsc::Matrix whole_transformation(const SetUp& set_up, const CraigBamptonBasis&
 /// The rows of `output`, each rank those of its part.
 petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
 {
-  const MPI_Comm comm = petsc::communicator(in.set_up->K);
+  const MPI_Comm comm = petsc::communicator(in.set_up->body.K);
   petsc::IndexSet gathered;
   petsc::check(ISAllGather(in.output, gathered.put()));
   const std::vector<PetscInt> dofs = own_indices(gathered);
   PetscInt n = 0;
-  petsc::check(MatGetSize(in.set_up->K, &n, nullptr));
+  petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
   for (const PetscInt dof : dofs) {
     if (dof < 0 || dof >= n) {
       throw Error(
           fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", dof, n - 1));
     }
   }
-  const SmallMatrix rows = basis_rows(in.result->Q_CB, in.set_up->rows, dofs);
+  const SmallMatrix rows = basis_rows(in.result->reduction.Q_CB, in.set_up->body.dofs, dofs);
   const std::vector<PetscInt> own = own_indices(in.output);
   const PetscInt first = before(own, comm);
   petsc::Matrix T =
@@ -131,37 +126,34 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
   return T;
 }
 
-/// C_r = T^T C T.
-petsc::Matrix reduced_velocity_forces(const Inside& in, const std::vector<int>& places)
-{
-  const auto& [C, is_symmetric] = in.set_up->velocity;
-  const petsc::Matrix T = whole_transformation(*in.set_up, in.result->Q_CB, places);
-  petsc::Matrix CT;
-  petsc::check(MatMatMult(C, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, CT.put()));
-  SmallMatrix C_r = inner_product(T, CT);
-  for (PetscInt j = 0; is_symmetric && j < C_r.n_cols; ++j) {
-    for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
-  }
-  std::vector<int> as_it_is(places.size());
-  std::iota(as_it_is.begin(), as_it_is.end(), 0);
-  petsc::Matrix distributed_C_r = distributed(C_r, as_it_is, petsc::communicator(in.set_up->K));
-  petsc::check(
-      MatSetOption(distributed_C_r, MAT_SYMMETRIC, is_symmetric ? PETSC_TRUE : PETSC_FALSE));
-  return distributed_C_r;
-}
-
 void make_reduced_operators(Inside& in)
 {
   Result& result = *in.result;
   if (result.K_r) return;
-  const MPI_Comm comm = petsc::communicator(in.set_up->K);
-  const std::vector<int> places = coordinate_places(in);
-  result.M_r = distributed(result.model.M, places, comm);
-  if (in.set_up->velocity.C) result.C_r = reduced_velocity_forces(in, places);
-  result.K_r = distributed(result.model.K, places, comm);
+  const MPI_Comm comm = in.set_up->body.comm();
+  const std::vector<int> places = places_of(in);
+  const ReducedModel& model = result.reduction.model;
+  result.M_r = distributed(model.M, places, comm);
+  if (const VelocityForces& velocity = in.set_up->velocity; velocity.C) {
+    result.C_r = distributed(reduced_velocity_forces(in), places, comm);
+    petsc::check(
+        MatSetOption(result.C_r, MAT_SYMMETRIC, velocity.is_symmetric ? PETSC_TRUE : PETSC_FALSE));
+  }
+  result.K_r = distributed(model.K, places, comm);
 }
 
 }  // namespace
+
+SmallMatrix reduced_velocity_forces(const Inside& in)
+{
+  const auto& [C, is_symmetric] = in.set_up->velocity;
+  SmallMatrix C_r = project_form(in.result->reduction.Q_CB, split(C, in.set_up->body.dofs));
+  for (PetscInt j = 0; is_symmetric && j < C_r.n_cols; ++j) {
+    for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
+  }
+  return C_r;
+}
+
 }  // namespace chladni::reduce::plugin
 
 using namespace chladni::reduce::plugin;  // NOLINT(google-build-using-namespace)
@@ -193,9 +185,10 @@ PetscErrorCode CMSGetTransformation(CMS cms, Mat* T)
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     Inside& in = *cms->inside;
     if (in.result->T) return;
+    const std::vector<int> places = places_of(in);
     in.result->T = in.output
-                       ? chosen_rows(in, coordinate_places(in))
-                       : whole_transformation(*in.set_up, in.result->Q_CB, coordinate_places(in));
+                       ? chosen_rows(in, places)
+                       : whole_transformation(in.set_up->body, in.result->reduction.Q_CB, places);
   }));
   *T = cms->inside->result->T;
   PetscFunctionReturn(0);
@@ -206,8 +199,9 @@ PetscErrorCode CMSGetDimensions(CMS cms, PetscInt* nmasters, PetscInt* nmodes)
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   const Inside& in = *cms->inside;
-  if (nmasters) *nmasters = in.set_up ? static_cast<PetscInt>(in.set_up->masters.size()) : 0;
-  if (nmodes) *nmodes = in.result ? static_cast<PetscInt>(in.result->model.omega.size()) : 0;
+  if (nmasters) *nmasters = in.set_up ? static_cast<PetscInt>(in.set_up->body.masters.size()) : 0;
+  if (nmodes)
+    *nmodes = in.result ? static_cast<PetscInt>(in.result->reduction.model.omega.size()) : 0;
   PetscFunctionReturn(0);
 }
 
@@ -226,8 +220,8 @@ PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[])
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   CMSCheckSolved(cms);
-  if (n) *n = static_cast<PetscInt>(cms->inside->result->eta2.size());
-  if (eta2) *eta2 = cms->inside->result->eta2.data();
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.eta2.size());
+  if (eta2) *eta2 = cms->inside->result->reduction.certificate.eta2.data();
   PetscFunctionReturn(0);
 }
 
@@ -236,8 +230,8 @@ PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal* rounding[])
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   CMSCheckSolved(cms);
-  if (n) *n = static_cast<PetscInt>(cms->inside->result->rounding.size());
-  if (rounding) *rounding = cms->inside->result->rounding.data();
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.rounding.size());
+  if (rounding) *rounding = cms->inside->result->reduction.certificate.rounding.data();
   PetscFunctionReturn(0);
 }
 
@@ -246,8 +240,8 @@ PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt* n, const PetscReal* bounds[]
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   CMSCheckSolved(cms);
-  if (n) *n = static_cast<PetscInt>(cms->inside->result->bounds.size());
-  if (bounds) *bounds = cms->inside->result->bounds.data();
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.bounds.size());
+  if (bounds) *bounds = cms->inside->result->reduction.certificate.bounds.data();
   PetscFunctionReturn(0);
 }
 

@@ -31,11 +31,12 @@ namespace {
 void read_solver(CMS cms)
 {
   Settings& settings = cms->inside->settings;
-  settings.solver.petsc = option_source(cms);
-  SolverOptions solver = read_solver_options(PetscObjectComm((PetscObject)cms), settings.solver);
-  if (solver == settings.solver) return;
+  settings.options.solver.petsc = option_source(cms);
+  SolverOptions& known = settings.options.solver;
+  SolverOptions solver = read_solver_options(PetscObjectComm((PetscObject)cms), known);
+  if (solver == known) return;
   petsc::check(CMSReset(cms));
-  settings.solver = std::move(solver);
+  known = std::move(solver);
 }
 
 }  // namespace
@@ -51,8 +52,8 @@ PetscErrorCode CMSSetType(CMS cms, CMSType type)
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   for (std::size_t i = 0; i < types.size(); ++i) {
     if (std::strcmp(type, type_names[i]) != 0) continue;
-    if (cms->inside->settings.options.method != types[i]) cms->inside->result.reset();
-    cms->inside->settings.options.method = types[i];
+    if (cms->inside->settings.options.basis.method != types[i]) cms->inside->result.reset();
+    cms->inside->settings.options.basis.method = types[i];
     PetscCall(PetscObjectChangeTypeName((PetscObject)cms, type_names[i]));
     PetscFunctionReturn(0);
   }
@@ -77,8 +78,8 @@ PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes)
   PetscValidLogicalCollectiveInt(cms, nmodes, 2);
   PetscCheck(nmodes > 0, PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_OUTOFRANGE,
              "%" PetscInt_FMT " modes; give at least one, or -cms_type guyan for none", nmodes);
-  cms->inside->settings.options = {.method = cms->inside->settings.options.method,
-                                   .modes = static_cast<int>(nmodes)};
+  cms->inside->settings.options.basis = {.method = cms->inside->settings.options.basis.method,
+                                         .modes = static_cast<int>(nmodes)};
   cms->inside->result.reset();
   PetscFunctionReturn(0);
 }
@@ -90,7 +91,8 @@ PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f)
   PetscValidLogicalCollectiveReal(cms, f, 2);
   PetscCheck(f > 0.0 && std::isfinite(f), PetscObjectComm((PetscObject)cms),
              PETSC_ERR_ARG_OUTOFRANGE, "Cut-off %g Hz; give a positive -cms_cutoff", (double)f);
-  cms->inside->settings.options = {.method = cms->inside->settings.options.method, .cutoff_Hz = f};
+  cms->inside->settings.options.basis = {.method = cms->inside->settings.options.basis.method,
+                                         .cutoff_Hz = f};
   cms->inside->result.reset();
   PetscFunctionReturn(0);
 }
@@ -105,8 +107,8 @@ PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto)
              PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_OUTOFRANGE,
              "Tolerance %g up to %g Hz; give -cms_tol between 0 and 1 and a positive -cms_tol_upto",
              (double)tol, (double)upto);
-  cms->inside->settings.options = {
-      .method = cms->inside->settings.options.method,
+  cms->inside->settings.options.basis = {
+      .method = cms->inside->settings.options.basis.method,
       .tolerance = ModesByTolerance{.tolerance = tol, .up_to_Hz = upto}};
   cms->inside->result.reset();
   PetscFunctionReturn(0);
@@ -117,7 +119,7 @@ PetscErrorCode CMSSetSylvester(CMS cms, PetscBool count)
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   PetscValidLogicalCollectiveBool(cms, count, 2);
-  cms->inside->settings.sylvester = count == PETSC_TRUE;
+  cms->inside->settings.options.count = count == PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -171,7 +173,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   Settings& settings = cms->inside->settings;
-  PetscBool sylvester = settings.sylvester ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool sylvester = settings.options.count == true ? PETSC_TRUE : PETSC_FALSE;
   PetscBool monitor = settings.prints_phases ? PETSC_TRUE : PETSC_FALSE;
   PetscObjectOptionsBegin((PetscObject)cms);
   PetscCall(PetscOptionsEList("-cms_type", "Method of reduction", "CMSSetType", type_names.data(),
@@ -202,7 +204,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   if (modes_given) PetscCall(CMSSetDimensions(cms, n_modes));
   if (cutoff_given) PetscCall(CMSSetCutoff(cms, cutoff));
   if (tolerance_given) PetscCall(CMSSetTolerance(cms, tolerance, up_to));
-  settings.sylvester = sylvester == PETSC_TRUE;
+  settings.options.count = sylvester == PETSC_TRUE;
   settings.prints_phases = monitor == PETSC_TRUE;
   PetscCall(guarded((PetscObject)cms, __func__, [&] { read_solver(cms); }));
   PetscFunctionReturn(0);

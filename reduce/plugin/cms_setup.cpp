@@ -45,31 +45,6 @@ std::vector<PetscInt> checked_ascending(std::vector<PetscInt> masters, PetscInt 
   return masters;
 }
 
-petsc::IndexSet own_part(Mat K, const std::vector<PetscInt>& ascending)
-{
-  PetscInt first = 0, last = 0;
-  petsc::check(MatGetOwnershipRange(K, &first, &last));
-  const auto begin = std::ranges::lower_bound(ascending, first);
-  const auto end = std::ranges::lower_bound(ascending, last);
-  petsc::IndexSet own;
-  petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(end - begin),
-                               ascending.data() + (begin - ascending.begin()), PETSC_COPY_VALUES,
-                               own.put()));
-  return own;
-}
-
-std::vector<int> places_of(const std::vector<PetscInt>& masters,
-                           const std::vector<PetscInt>& ascending)
-{
-  std::vector<int> places;
-  places.reserve(masters.size());
-  for (const PetscInt dof : masters) {
-    places.push_back(
-        static_cast<int>(std::ranges::lower_bound(ascending, dof) - ascending.begin()));
-  }
-  return places;
-}
-
 struct Operators {
   petsc::Matrix K, M;
   VelocityForces velocity;
@@ -89,22 +64,6 @@ Operators checked_operators(CMS cms)
   return checked;
 }
 
-Factorization factorized(CMS cms, Mat K_ss, const DofPartition& rows)
-{
-  Phase phase(cms, events.factor, "factorization");
-  try {
-    SolverOptions options = cms->inside->settings.solver;
-    options.petsc = option_source(cms);
-    Factorization factor = factorize(K_ss, options);
-    phase.done();
-    return factor;
-  } catch (const FreeMotion& free) {
-    if (free.row < 0) throw;
-    throw Error(
-        fmt::format("{}; it moves most at row {} of K", free.what(), dof_of_slave(rows, free.row)));
-  }
-}
-
 }  // namespace
 
 SetUp make_set_up(CMS cms)
@@ -113,22 +72,14 @@ SetUp make_set_up(CMS cms)
   PetscInt n = 0;
   petsc::check(MatGetSize(checked.K, &n, nullptr));
   std::vector<PetscInt> masters = all_masters(cms->inside->interface);
-  const std::vector<PetscInt> ascending = checked_ascending(masters, n);
-  refuse_empty_rows(checked.K, checked.M, ascending);
-  std::vector<int> places = places_of(masters, ascending);
-  DofPartition rows = partition(checked.K, own_part(checked.K, ascending));
-  Blocks K = split(checked.K, rows);
-  Blocks M = split(checked.M, rows);
-  Factorization K_ss = factorized(cms, K.ss, rows);
-  return {.K = std::move(checked.K),
-          .M = std::move(checked.M),
-          .velocity = std::move(checked.velocity),
-          .masters = std::move(masters),
-          .places = std::move(places),
-          .rows = std::move(rows),
-          .K_blocks = std::move(K),
-          .M_blocks = std::move(M),
-          .K_ss = std::move(K_ss)};
+  refuse_empty_rows(checked.K, checked.M, checked_ascending(masters, n));
+  ReductionOptions options = cms->inside->settings.options;
+  options.solver.petsc = option_source(cms);
+  CMSPhases phases(cms);
+  return {.body = factored(
+              {.K = std::move(checked.K), .M = std::move(checked.M), .masters = std::move(masters)},
+              options, phases),
+          .velocity = std::move(checked.velocity)};
 }
 
 namespace {

@@ -31,21 +31,23 @@ void view_count(const CMSCount& count, const char* what, PetscViewer viewer)
 void view_modes(const Result& result, PetscViewer viewer)
 {
   constexpr std::size_t most_lines = 20;
+  const chladni::reduce::Certificate& certificate = result.reduction.certificate;
   const std::size_t n = result.f_Hz.size();
   print(viewer, fmt::format("  mode    frequency, Hz   eta^2 (error of lambda){}",
-                            result.bounds.empty() ? "" : "        bound"));
+                            certificate.bounds.empty() ? "" : "        bound"));
   for (std::size_t i = 0; i < std::min(n, most_lines); ++i) {
     const std::string bound =
-        i < result.bounds.size() ? fmt::format("{:20.2e}", result.bounds[i]) : "";
-    const std::string eta2 = i < result.eta2.size() ? fmt::format("{:16.2e}", result.eta2[i])
-                                                    : fmt::format("{:>16}", "-");
+        i < certificate.bounds.size() ? fmt::format("{:20.2e}", certificate.bounds[i]) : "";
+    const std::string eta2 = i < certificate.eta2.size()
+                                 ? fmt::format("{:16.2e}", certificate.eta2[i])
+                                 : fmt::format("{:>16}", "-");
     print(viewer, fmt::format("{:6} {:16.8g} {}{}", i + 1, result.f_Hz[i], eta2, bound));
   }
   if (n > most_lines) {
     print(viewer, fmt::format("  ... {} more", n - most_lines));
   }
-  if (!result.eta2.empty()) {
-    print(viewer, fmt::format("  largest eta^2 {:.2e}", std::ranges::max(result.eta2)));
+  if (!certificate.eta2.empty()) {
+    print(viewer, fmt::format("  largest eta^2 {:.2e}", std::ranges::max(certificate.eta2)));
   }
 }
 
@@ -64,7 +66,7 @@ void view_result(const Result& result, const chladni::reduce::ReduceOptions& wan
 {
   const CMSQuality& quality = result.quality;
   constexpr double two_pi = 2.0 * std::numbers::pi;
-  const std::vector<double>& omega = result.model.omega;
+  const std::vector<double>& omega = result.reduction.model.omega;
   if (!omega.empty()) {
     print(viewer, fmt::format("modes with held masters: {}{}, from {:.6g} to {:.6g} Hz",
                               omega.size(), partners(wanted, omega.size()), omega.front() / two_pi,
@@ -88,11 +90,11 @@ void view_state(CMS cms, PetscViewer viewer)
   const Inside& in = *cms->inside;
   if (in.set_up) {
     PetscInt n = 0;
-    chladni::petsc::check(MatGetSize(in.set_up->K, &n, nullptr));
-    print(viewer, fmt::format("rows: {}, masters: {}", n, in.set_up->masters.size()));
+    chladni::petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
+    print(viewer, fmt::format("rows: {}, masters: {}", n, in.set_up->body.masters.size()));
   }
   if (in.result) {
-    view_result(*in.result, in.settings.options, viewer);
+    view_result(*in.result, in.settings.options.basis, viewer);
   } else {
     print(viewer, "not solved yet");
   }

@@ -9,21 +9,20 @@
 #include "common/all_ranks.hpp"
 #include "mbs_export/reduced_file.hpp"
 #include "reduce/plugin/cms_impl.hpp"
+#include "reduce_export/reduced_system.hpp"
 
 namespace chladni::reduce::plugin {
 
 namespace {
 
-using Eigen::Map, Eigen::MatrixXd, Eigen::VectorXd;
-
 /// Blocks of K's rows are nodes where a block fits the six components of one; else each row is.
-std::vector<MasterPlace> default_places(const SetUp& set_up)
+std::vector<MasterPlace> default_places(const FactoredBody& body)
 {
   PetscInt block_size = 1;
-  petsc::check(MatGetBlockSize(set_up.K, &block_size));
+  petsc::check(MatGetBlockSize(body.K, &block_size));
   if (block_size > 6) block_size = 1;
   std::vector<MasterPlace> places;
-  for (const PetscInt dof : set_up.masters) {
+  for (const PetscInt dof : body.masters) {
     places.push_back(
         {.node = dof / block_size, .component = dof % block_size, .x = {0.0, 0.0, 0.0}});
   }
@@ -61,57 +60,16 @@ void add_attachments(mbs_export::ReducedSystem& system, const std::vector<Master
   system.sets.push_back(std::move(all));
 }
 
-/// A distributed dense matrix on every rank.
-MatrixXd gathered(Mat A)
-{
-  const SmallMatrix all = replicate(A);
-  return Map<const MatrixXd>(all.values.data(), all.n_rows, all.n_cols);
-}
-
-VectorXd as_vector(const std::vector<double>& x, double factor)
-{
-  return factor * Map<const VectorXd>(x.data(), std::ssize(x));
-}
-
-mbs_export::ModeCount as_mode_count(const CMSCount& count)
-{
-  return {.up_to = 2.0 * std::numbers::pi * count.upto,
-          .expected = static_cast<int>(count.expected),
-          .found = static_cast<int>(count.found)};
-}
-
-mbs_export::Certificate certificate_of(const Result& result)
-{
-  return {.fixed = {},
-          .frequencies =
-              result.eta2.empty() ? VectorXd(0) : as_vector(result.f_Hz, 2.0 * std::numbers::pi),
-          .eta2 = as_vector(result.eta2, 1.0),
-          .estimates = as_vector(result.estimates, 1.0),
-          .rounding = as_vector(result.rounding, 1.0),
-          .bounds = as_vector(result.bounds, 1.0),
-          .fixed_interface = as_mode_count(result.quality.modes),
-          .range = as_mode_count(result.quality.model),
-          .complete = as_mode_count(result.quality.complete),
-          .n_rigid = static_cast<int>(result.quality.n_zero),
-          .rigid_residual = result.quality.rigid_residual,
-          .condition = result.quality.condition};
-}
-
 mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
 {
-  std::array<char, 256> petsc_version{};
-  std::array<char, 256> slepc_version{};
-  petsc::check(PetscGetVersion(petsc_version.data(), petsc_version.size()));
-  petsc::check(SlepcGetVersion(slepc_version.data(), slepc_version.size()));
   char* options = nullptr;
   petsc::check(PetscOptionsGetAll(reinterpret_cast<PetscObject>(cms)->options, &options));
-  mbs_export::Provenance result{
-      .scene = "",
-      .mesh_checksum = "",
-      .versions = fmt::format("libchladni_petsc {}; {}; {}", CHLADNI_VERSION, petsc_version.data(),
-                              slepc_version.data()),
-      .options = options,
-      .ranks = petsc::size(comm)};
+  mbs_export::Provenance result{.scene = "",
+                                .mesh_checksum = "",
+                                .versions = fmt::format("libchladni_petsc {}; {}", CHLADNI_VERSION,
+                                                        reduce_export::library_versions()),
+                                .options = options,
+                                .ranks = petsc::size(comm)};
   petsc::check(PetscFree(options));
   return result;
 }
@@ -121,37 +79,31 @@ mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
 void write_file(CMS cms, const std::string& path)
 {
   const Inside& in = *cms->inside;
-  const MPI_Comm comm = petsc::communicator(in.set_up->K);
-  Mat K_r = nullptr, M_r = nullptr, C_r = nullptr;
-  petsc::check(CMSGetReducedOperators(cms, &K_r, &M_r, &C_r));
-  mbs_export::ReducedSystem system;
-  const char* name = nullptr;
-  petsc::check(PetscObjectGetName(reinterpret_cast<PetscObject>(cms), &name));
-  system.title = name;
-  int n_places = static_cast<int>(in.geometry.size());
-  MPI_Allreduce(MPI_IN_PLACE, &n_places, 1, MPI_INT, MPI_SUM, comm);
-  add_attachments(system,
-                  n_places > 0 ? gathered_places(in.geometry, comm) : default_places(*in.set_up));
-  system.K = gathered(K_r);
-  system.M = gathered(M_r);
-  if (C_r && !in.set_up->velocity.is_symmetric) {
+  const FactoredBody& body = in.set_up->body;
+  const VelocityForces& velocity = in.set_up->velocity;
+  const MPI_Comm comm = body.comm();
+  if (velocity.C && !velocity.is_symmetric) {
     throw Error(
         "CMSWrite: C is not symmetric (gyroscopic forces), and the reduced file holds damping "
         "only; give damping alone, and take the rest by CMSGetReducedOperators()");
   }
-  if (C_r) system.C = gathered(C_r);
-  system.fixed_interface_frequencies = as_vector(in.result->model.omega, 1.0);
-  system.certificate = certificate_of(*in.result);
-  system.provenance = provenance(cms, comm);
-  std::optional<std::string> complaint;
-  if (petsc::rank(comm) == 0) {
-    try {
-      mbs_export::write_reduced(path, system);
-    } catch (const Error& error) {
-      complaint = error.what();
-    }
+  mbs_export::ReducedSystem described;
+  const char* name = nullptr;
+  petsc::check(PetscObjectGetName(reinterpret_cast<PetscObject>(cms), &name));
+  described.title = name;
+  int n_places = static_cast<int>(in.geometry.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_places, 1, MPI_INT, MPI_SUM, comm);
+  add_attachments(described,
+                  n_places > 0 ? gathered_places(in.geometry, comm) : default_places(body));
+  const Reduction& reduction = in.result->reduction;
+  mbs_export::ReducedSystem system =
+      reduce_export::reduced_system(std::move(described), body, reduction);
+  if (velocity.C) {
+    system.C = reduce_export::in_order(reduced_velocity_forces(in),
+                                       coordinate_places(body.masters, reduction.model));
   }
-  agree_on(complaint, comm);
+  system.provenance = provenance(cms, comm);
+  on_first_rank(comm, [&] { mbs_export::write_reduced(path, system); });
 }
 
 }  // namespace chladni::reduce::plugin

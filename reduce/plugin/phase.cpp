@@ -3,7 +3,11 @@
 #include <petsctime.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "reduce/plugin/cms_impl.hpp"
 #include "reduce/plugin/guard.hpp"
@@ -24,7 +28,8 @@ PetscErrorCode print_phase(CMS cms, const char phase[], PetscReal seconds)
 
 }  // namespace
 
-Phase::Phase(CMS cms, PetscLogEvent event, const char* name) : cms_(cms), event_(event), name_(name)
+Phase::Phase(CMS cms, PetscLogEvent event, std::string name)
+    : cms_(cms), event_(event), name_(std::move(name))
 {
   petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
   petsc::check(PetscTime(&started_));
@@ -58,7 +63,7 @@ void Phase::done()
   PetscLogDouble now = 0.0;
   petsc::check(PetscTime(&now));
   const Settings& settings = cms_->inside->settings;
-  if (settings.prints_phases) petsc::check(print_phase(cms_, name_, now - started_));
+  if (settings.prints_phases) petsc::check(print_phase(cms_, name_.c_str(), now - started_));
   if (settings.monitor) call_monitor(now - started_);
 }
 
@@ -66,7 +71,7 @@ void Phase::done()
 void Phase::call_monitor(PetscLogDouble seconds)
 {
   const Settings& settings = cms_->inside->settings;
-  int code = settings.monitor(cms_, name_, seconds, settings.monitor_context);
+  int code = settings.monitor(cms_, name_.c_str(), seconds, settings.monitor_context);
   MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX,
                 PetscObjectComm(reinterpret_cast<PetscObject>(cms_)));
   if (code == 0) return;
@@ -74,6 +79,40 @@ void Phase::call_monitor(PetscLogDouble seconds)
                      fmt::format("the monitor of CMSMonitorSet() returned error {} at the end of "
                                  "the phase \"{}\"",
                                  code, name_));
+}
+
+namespace {
+
+struct EventOfPhase {
+  std::string_view phase;
+  PetscLogEvent Events::*event;
+};
+
+constexpr std::array events_of_phases{
+    EventOfPhase{"factorization", &Events::factor},
+    EventOfPhase{"constraint modes", &Events::constraint},
+    EventOfPhase{"fixed-interface modes", &Events::modes},
+    EventOfPhase{"choice of modes", &Events::errors},
+    EventOfPhase{"free-interface modes", &Events::modes},
+    EventOfPhase{"residual flexibility", &Events::modes},
+    EventOfPhase{"mass of the modes", &Events::modes},
+    EventOfPhase{"projection", &Events::project},
+    EventOfPhase{"error estimates", &Events::errors},
+    EventOfPhase{"count of eigenvalues", &Events::count},
+};
+
+}  // namespace
+
+void CMSPhases::begin(const std::string& name)
+{
+  const auto* const found = std::ranges::find(events_of_phases, name, &EventOfPhase::phase);
+  if (found != events_of_phases.end()) phase_.emplace(cms_, events.*(found->event), name);
+}
+
+void CMSPhases::end()
+{
+  if (phase_) phase_->done();
+  phase_.reset();
 }
 
 }  // namespace chladni::reduce::plugin

@@ -1,0 +1,100 @@
+#include "reduce/basis.hpp"
+
+#include "reduce/certify.hpp"
+#include "reduce/free_interface.hpp"
+#include "reduce/rigid_constraint_modes.hpp"
+#include "reduce/tolerance_search.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+petsc::Matrix constraint_modes_of(const FactoredBody& body, PhaseListener& phases)
+{
+  return in_phase(phases, "constraint modes", [&] {
+    petsc::Matrix Psi = constraint_modes(body.K_ss, body.K_blocks);
+    if (body.R == nullptr) return Psi;
+    return with_rigid_motions(std::move(Psi), {.R = body.R, .dofs = body.dofs, .K = body.K_blocks});
+  });
+}
+
+/// As few fixed-interface modes as keep the tolerance.
+FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
+                                       const ReductionOptions& options, const Support& support,
+                                       PhaseListener& phases)
+{
+  // Frequencies of too few modes are too high: some beyond the range belong into it.
+  constexpr double beyond = 1.25;
+  // What the estimates from the small matrices and those from the FE model may differ by.
+  constexpr double margin = 0.99;
+  const ModesByTolerance& wanted = *options.basis.tolerance;
+  ReduceOptions further = options.basis;
+  further.tolerance->up_to_Hz *= beyond;
+  ToleranceSearch search({.K_ss = body.K_ss, .Psi = Psi, .K = body.K_blocks, .M = body.M_blocks},
+                         {.tolerance = margin * wanted.tolerance, .up_to_Hz = wanted.up_to_Hz},
+                         [&](const ReducedModel& model) {
+                           const SpectrumRange range = certified_range(further, model);
+                           return leading_pairs(
+                               modes_everywhere(support, model, range, body.comm()), range);
+                         });
+  const auto find_modes = [&] {
+    search.find_modes();
+    return 0;
+  };
+  do {
+    in_phase(phases, "fixed-interface modes", find_modes);
+  } while (!in_phase(phases, "choice of modes", [&] { return search.is_enough(); }));
+  return in_phase(phases, "fixed-interface modes", [&] { return search.modes(); });
+}
+
+/// Rubin's basis, and for MacNeal the mass that is not the projected one.
+Basis basis_of_free_modes(const FactoredBody& body, const ReductionOptions& options,
+                          PhaseListener& phases)
+{
+  Basis basis{.Q = {.Psi = constraint_modes_of(body, phases), .modes = {}}};
+  const WholeSystem whole{.K = body.K,
+                          .M = body.M,
+                          .dofs = body.dofs,
+                          .K_blocks = body.K_blocks,
+                          .M_blocks = body.M_blocks,
+                          .K_ss = body.K_ss};
+  const FreeInterfaceModes free = in_phase(phases, "free-interface modes", [&] {
+    return free_interface_modes(whole, basis.Q.Psi, options.basis);
+  });
+  basis.Q.modes = in_phase(phases, "residual flexibility",
+                           [&] { return rubin_modes(whole, basis.Q.Psi, free); });
+  if (options.basis.method == Method::macneal) {
+    basis.mass = in_phase(phases, "mass of the modes",
+                          [&] { return macneal_mass(basis.Q, body.M_blocks, free); });
+  }
+  return basis;
+}
+
+}  // namespace
+
+bool is_free_interface(Method method)
+{
+  return method == Method::rubin || method == Method::macneal;
+}
+
+Basis make_basis(const FactoredBody& body, const ReductionOptions& options, const Support& support,
+                 PhaseListener& phases)
+{
+  const ReduceOptions& wanted = options.basis;
+  if (is_free_interface(wanted.method)) return basis_of_free_modes(body, options, phases);
+  Basis basis{.Q = {.Psi = {}, .modes = {}}};
+  if (wanted.method == Method::guyan) {
+    basis.Q.Psi = constraint_modes_of(body, phases);
+  } else if (wanted.tolerance) {
+    basis.Q.Psi = constraint_modes_of(body, phases);
+    basis.Q.modes = modes_to_tolerance(body, basis.Q.Psi, options, support, phases);
+  } else {  // the modes first: the subspace of the eigen-solver is as large as the constraint modes
+    basis.Q.modes = in_phase(phases, "fixed-interface modes", [&] {
+      return fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted);
+    });
+    basis.Q.Psi = constraint_modes_of(body, phases);
+  }
+  return basis;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,142 @@
+#include "reduce/certify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/all_ranks.hpp"
+#include "reduce/sylvester.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+void broadcast(std::vector<double>& values, MPI_Comm comm)
+{
+  auto n = static_cast<int>(values.size());
+  MPI_Bcast(&n, 1, MPI_INT, 0, comm);
+  values.resize(static_cast<std::size_t>(n));
+  broadcast_numbers(values, comm);
+}
+
+double zero_energy_everywhere(const Support& support, const ReducedModel& model,
+                              const SupportedModes& modes, MPI_Comm comm)
+{
+  double energy = 0.0;
+  on_first_rank(comm, [&] { energy = support.zero_energy(model, modes); });
+  return value_of_first_rank(energy, comm);
+}
+
+/// The lambda from which on fixed-interface modes are left out of the basis.
+double lambda_left_out(const ReduceOptions& options, const ReducedModel& model)
+{
+  if (options.method != Method::craig_bampton) return std::numeric_limits<double>::infinity();
+  return model.omega.empty() ? 0.0 : model.omega.back() * model.omega.back();
+}
+
+}  // namespace
+
+SupportedModes modes_everywhere(const Support& support, const ReducedModel& model,
+                                const SpectrumRange& wanted, MPI_Comm comm)
+{
+  SupportedModes modes;
+  on_first_rank(comm, [&] { modes = support.modes(model, wanted); });
+  std::array<int, 3> numbers{modes.are_all ? 1 : 0, modes.n_zero, modes.n_free_zero};
+  MPI_Bcast(numbers.data(), 3, MPI_INT, 0, comm);
+  modes.are_all = numbers[0] == 1;
+  modes.n_zero = numbers[1];
+  modes.n_free_zero = numbers[2];
+  broadcast(modes.pairs.lambda, comm);
+  if (petsc::rank(comm) != 0) {
+    modes.pairs.X = SmallMatrix(model.K.n_rows, static_cast<PetscInt>(modes.pairs.lambda.size()));
+  }
+  broadcast_numbers(modes.pairs.X.values, comm);
+  return modes;
+}
+
+SpectrumRange certified_range(const ReduceOptions& options, const ReducedModel& model)
+{
+  constexpr PetscInt most = 100, without_modes = 20;  // bounds the block solve of the estimates
+  // Copies of the last eigenvalue belong to the range whatever round-off makes of them.
+  constexpr double same_value = 1.0 + 1e-9;
+  const auto up_to = [](double omega) { return omega * omega * same_value; };
+  if (options.tolerance) {  // which holds for all of them
+    return {.lambda_max = up_to(2.0 * std::numbers::pi * options.tolerance->up_to_Hz)};
+  }
+  if (model.omega.empty()) return {.most = without_modes};
+  return {.lambda_max = up_to(model.omega.back()), .most = most};
+}
+
+ReducedPairs leading_pairs(const SupportedModes& modes, const SpectrumRange& range)
+{
+  const std::vector<double>& lambda = modes.pairs.lambda;
+  const auto n_below =
+      static_cast<PetscInt>(std::ranges::upper_bound(lambda, range.lambda_max) - lambda.begin());
+  const auto k =
+      std::min(std::clamp<PetscInt>(n_below, 1, range.most), static_cast<PetscInt>(lambda.size()));
+  ReducedPairs pairs{.X = {modes.pairs.X.n_rows, k},
+                     .lambda = {lambda.begin(), lambda.begin() + k}};
+  std::copy_n(modes.pairs.X.values.begin(), pairs.X.values.size(), pairs.X.values.begin());
+  return pairs;
+}
+
+Certified estimated(const Reduced& reduced, const ReductionOptions& options, const Support& support,
+                    Purpose purpose)
+{
+  const FactoredBody& body = reduced.body;
+  const SpectrumRange range = certified_range(options.basis, reduced.model);
+  Certified certified{.certificate = {},
+                      .modes = modes_everywhere(support, reduced.model, range, body.comm())};
+  Certificate& certificate = certified.certificate;
+  ReducedPairs pairs = leading_pairs(certified.modes, range);
+  if (reduced.is_projected && !pairs.lambda.empty()) {
+    ErrorEstimates errors = error_estimates(
+        {.K_ss = body.K_ss, .Q_CB = reduced.Q_CB, .K = body.K_blocks, .M = body.M_blocks}, pairs,
+        purpose);
+    certificate.estimates = frequency_errors_by_place(
+        pairs.lambda, errors.eta2, lambda_left_out(options.basis, reduced.model));
+    certificate.eta2 = std::move(errors.eta2);
+    certificate.rounding = std::move(errors.rounding);
+    certified.residuals = std::move(errors.inner_products);
+  }
+  certificate.lambda = std::move(pairs.lambda);
+  certificate.n_zero = certified.modes.n_free_zero;
+  certificate.zero_energy =
+      zero_energy_everywhere(support, reduced.model, certified.modes, body.comm());
+  return certified;
+}
+
+Certificate counted(Certified certified, const Reduced& reduced, const ReductionOptions& options,
+                    const Support& support)
+{
+  const FactoredBody& body = reduced.body;
+  const OptionSource& source = body.K_ss.options().petsc;
+  Certificate certificate = std::move(certified.certificate);
+  if (!certified.modes.are_all)
+    certified.modes = modes_everywhere(support, reduced.model, {}, body.comm());
+  Completeness found = count_modes({.lambda = std::move(certified.modes.pairs.lambda),
+                                    .residuals = std::move(certified.residuals),
+                                    .n_zero = certified.modes.n_zero,
+                                    .comm = body.comm()},
+                                   [&, held = support.held()](double sigma) {
+                                     return eigenvalues_below(body.K, body.M, sigma, held, source);
+                                   });
+  certificate.range = found.range;
+  certificate.complete = found.complete;
+  certificate.bounds = std::move(found.bounds);
+  for (std::size_t i = 0; i < certificate.bounds.size(); ++i) {
+    certificate.bounds[i] += certificate.rounding[i];
+    // An estimate above its bound is known to be too high.
+    certificate.estimates[i] = std::min(certificate.estimates[i], 0.5 * certificate.bounds[i]);
+  }
+  if (options.basis.method == Method::craig_bampton) {
+    certificate.fixed_interface = count_fixed_interface(reduced.model.omega, [&](double sigma) {
+      return eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, sigma, source);
+    });
+  }
+  return certificate;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,57 @@
+#include "reduce/certify.hpp"
+#include "reduce/cholesky_types.hpp"
+#include "reduce/machine_memory.hpp"
+
+namespace chladni::reduce {
+
+CountPlan::CountPlan(const FactoredBody& body, const ReductionOptions& options)
+    : basis_(options.basis),
+      count_(options.count),
+      factor_(factor_size(body.K_ss.factor())),
+      n_masters_(static_cast<double>(body.masters.size())),
+      comm_(body.comm())
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(body.K_blocks.ss, &n, nullptr));
+  n_slaves_ = static_cast<double>(n);
+}
+
+double CountPlan::share(PetscInt n_modes) const
+{
+  // MUMPS, which pivots, takes about four times as long for an operation as our factor, and two
+  // counts are made; block Lanczos takes 3.2 vectors for each mode.
+  constexpr double of_both_counts = 8.0, vectors_for_mode = 3.2;
+  const double n_vectors = vectors_for_mode * n_modes;
+  const double solutions = 4.0 * factor_.entries * (0.5 * n_masters_ + n_vectors + n_modes);
+  const double products = n_slaves_ * (n_masters_ * n_masters_ + 2.0 * n_masters_ * n_modes +
+                                       2.0 * n_vectors * n_vectors);
+  const double count = of_both_counts * factor_.operations;
+  return count / (count + factor_.operations + solutions + products);
+}
+
+bool CountPlan::is_wanted(PetscInt n_modes) const
+{
+  constexpr double cheap = 0.1;
+  return count_.value_or(share(n_modes) < cheap);
+}
+
+bool CountPlan::is_possible() const
+{
+  if (basis_.method == Method::guyan) return is_wanted(0);
+  return basis_.modes ? is_wanted(*basis_.modes) : count_.value_or(true);
+}
+
+bool CountPlan::fits() const
+{
+  if (count_) return true;  // and the factor was refused else
+  const double own_MiB = sizeof(double) * entries_of_counting_factor * factor_.entries /
+                         petsc::size(comm_) / bytes_in_MiB;
+  return tightest_machine(own_MiB, free_MiB(), comm_).fits();
+}
+
+bool CountPlan::is_due(PetscInt n_modes) const
+{
+  return is_wanted(n_modes) && fits();
+}
+
+}  // namespace chladni::reduce

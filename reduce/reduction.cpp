@@ -1,0 +1,115 @@
+#include "reduce/reduction.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "reduce/basis.hpp"
+#include "reduce/certify.hpp"
+#include "reduce/condition_estimate.hpp"
+#include "reduce/memory_forecast.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  std::vector<PetscInt> own;
+  std::ranges::copy_if(masters, std::back_inserter(own),
+                       [&](PetscInt dof) { return dof >= first && dof < last; });
+  petsc::IndexSet set;
+  petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(own.size()),
+                               own.data(), PETSC_COPY_VALUES, set.put()));
+  return set;
+}
+
+/// With the name of the DOF that moves most where a part of the body is free.
+Factorization factorized(const Body& body, Mat K_ss, const DofPartition& dofs,
+                         const SolverOptions& options)
+{
+  try {
+    return factorize(K_ss, options);
+  } catch (const FreeMotion& free) {
+    if (free.row < 0) throw;
+    const PetscInt dof = dof_of_slave(dofs, free.row);
+    const std::string name =
+        body.name_of_dof ? body.name_of_dof(dof) : fmt::format("row {} of K", dof);
+    if (name.empty()) throw;
+    throw Error(fmt::format("{}; it moves most at {}", free.what(), name));
+  }
+}
+
+}  // namespace
+
+FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases)
+{
+  struct Parted {
+    DofPartition dofs;
+    Blocks K, M;
+  };
+  Parted parted = in_phase(phases, "partition", [&] {
+    DofPartition dofs = partition(body.K, own_masters(body.K, body.masters));
+    Blocks K = split(body.K, dofs), M = split(body.M, dofs);
+    return Parted{std::move(dofs), std::move(K), std::move(M)};
+  });
+  SolverOptions solver = options.solver;
+  solver.factor = with_what_comes_beside(solver.factor, body, parted.K.ss, options);
+  Factorization K_ss = in_phase(phases, "factorization",
+                                [&] { return factorized(body, parted.K.ss, parted.dofs, solver); });
+  return {.K = std::move(body.K),
+          .M = std::move(body.M),
+          .masters = std::move(body.masters),
+          .R = std::move(body.R),
+          .dofs = std::move(parted.dofs),
+          .K_blocks = std::move(parted.K),
+          .M_blocks = std::move(parted.M),
+          .K_ss = std::move(K_ss)};
+}
+
+Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,
+                    PhaseListener& phases)
+{
+  const CountPlan count(body, options);
+  if (!needs_matrices(options, count.is_possible())) {  // the blocks are enough
+    body.K = {};
+    body.M = {};
+  }
+  Basis basis = make_basis(body, options, support, phases);
+  ReducedModel model = in_phase(phases, "projection",
+                                [&] { return project(basis.Q, body.K_blocks, body.M_blocks); });
+  if (basis.mass) model.M = *basis.mass;
+  const Reduced reduced{.body = body, .Q_CB = basis.Q, .model = model, .is_projected = !basis.mass};
+  const bool counts = count.is_possible() && count.is_due(basis.Q.n_modes());
+  Certified certified = in_phase(phases, "error estimates", [&] {
+    return estimated(reduced, options, support, counts ? Purpose::bounds : Purpose::estimates);
+  });
+  Certificate& certificate = certified.certificate;
+  certificate.condition =
+      in_phase(phases, "condition", [&] { return condition_estimate(body.K_ss); });
+  certificate.count_share = count.share(basis.Q.n_modes());
+  Certificate complete =
+      counts ? in_phase(phases, "count of eigenvalues",
+                        [&] { return counted(std::move(certified), reduced, options, support); })
+             : std::move(certificate);
+  return {
+      .Q_CB = std::move(basis.Q), .model = std::move(model), .certificate = std::move(complete)};
+}
+
+std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, const ReducedModel& model)
+{
+  std::vector<PetscInt> ascending = masters;
+  std::ranges::sort(ascending);
+  std::vector<int> places;
+  places.reserve(masters.size() + model.omega.size());
+  for (const PetscInt dof : masters) {
+    places.push_back(
+        static_cast<int>(std::ranges::lower_bound(ascending, dof) - ascending.begin()));
+  }
+  for (std::size_t k = 0; k < model.omega.size(); ++k)
+    places.push_back(static_cast<int>(std::ssize(places)));
+  return places;
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reduce/certificate.hpp"
+#include "reduce/craig_bampton.hpp"
+#include "reduce/phases.hpp"
+#include "reduce/reduce_options.hpp"
+#include "reduce/solver_options.hpp"
+#include "reduce/support.hpp"
+
+/// From K and M to the certified reduced model: what `chladni reduce` and the class CMS run.
+namespace chladni::reduce {
+
+/// A body and what is kept of it.
+struct Body {
+  petsc::Matrix K, M;             ///< [n x n] symmetric AIJ; owned or references
+  std::vector<PetscInt> masters;  ///< global DOFs, each once, in the order of the caller, on all
+                                  ///< ranks
+  petsc::Matrix R = {};           ///< [n x r] dense, rigid-body motions of the geometry, or none
+  /// "node 17 (0.1, 0.2, 0), z" of a global DOF, for messages; on every rank
+  std::function<std::string(PetscInt)> name_of_dof = {};
+};
+
+/// How a body is reduced.
+struct ReductionOptions {
+  ReduceOptions basis = {};
+  SolverOptions solver = {};
+  /// Whether eigenvalues of the FE model are counted, which makes bounds of estimates; nothing:
+  /// where that is less than a tenth of the work and there is memory for it.
+  std::optional<bool> count = false;
+  /// Whether K and M are wanted afterwards; else they are given back as soon as may be.
+  bool keeps_matrices = true;
+  /// What the caller computes afterwards with Psi and Phi, in columns of their length.
+  double later_columns = 0.0, later_columns_for_each_mode = 0.0;
+};
+
+/// Masters and slaves parted, and the factor of K_ss: what all methods share.
+struct FactoredBody {
+  petsc::Matrix K, M;             ///< empty where they were given back
+  std::vector<PetscInt> masters;  ///< as in Body
+  petsc::Matrix R;
+  DofPartition dofs;
+  Blocks K_blocks, M_blocks;
+  Factorization K_ss;
+
+  MPI_Comm comm() const { return petsc::communicator(K_ss.matrix()); }
+};
+
+/// @note   Collective on the communicator of K, as all of this header.
+/// @throws FreeMotion on all ranks when a part of the body can move with all masters held.
+/// @throws chladni::Error on all ranks when the masters cannot be parted from the rest, or factor
+///         and basis do not fit into the memory.
+FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases);
+
+/// A reduced model, its basis and its certificate.
+struct Reduction {
+  CraigBamptonBasis Q_CB;
+  ReducedModel model;
+  Certificate certificate;
+};
+
+/// Basis, projection, error estimates, condition and count. Memory: modes come before constraint
+/// modes, since the subspace of the eigen-solver is as large as these.
+/// @throws chladni::Error on all ranks when there are not as many modes, a solver does not
+///         converge, or the support does not fit the model.
+Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,
+                    PhaseListener& phases);
+
+/// For each coordinate of the caller (masters in his order, then modes) its place in the model,
+/// whose masters ascend by DOF.
+/// @param masters  as in Body
+std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, const ReducedModel& model);
+
+}  // namespace chladni::reduce
