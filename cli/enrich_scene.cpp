@@ -11,8 +11,6 @@
 #include "mbs_export/drilling.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/orthogonalize.hpp"
-#include "reduce/full_responses.hpp"
-#include "reduce_export/reduced_system.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -93,29 +91,17 @@ bool wants_full_responses(const Scene& scene)
   });
 }
 
-SceneReduction with_full_responses(const Scene& scene, const FeModel& fe, SceneReduction reduced,
-                                   Phases& phases)
+std::vector<reduce::HarmonicLoads> full_response_loads(const Scene& scene,
+                                                       const ReducedSystem& system,
+                                                       const std::vector<PetscInt>& masters)
 {
-  const reduce::FactoredBody& body = reduced.body;
-  reduce::Reduction& reduction = reduced.reduction;
   std::vector<reduce::HarmonicLoads> loads;
-  for (const auto& [omega0, rows] : loads_of(scene, reduced.system)) {
+  for (const auto& [omega0, rows] : loads_of(scene, system)) {
     loads.push_back({.Omega_0 = omega0, .loaded = {}});
     for (const int row : rows)
-      loads.back().loaded.push_back(body.masters[static_cast<std::size_t>(row)]);
+      loads.back().loaded.push_back(masters[static_cast<std::size_t>(row)]);
   }
-  reduce::Enrichment enriched = phases.run("responses of the whole model", [&] {
-    const petsc::Matrix V = reduce::full_responses(body.K, body.M, loads);
-    return reduce::enrich(reduction.Q_CB, body.dofs, {body.K_blocks.ss, body.M_blocks.ss}, V);
-  });
-  reduction.Q_CB.modes = std::move(enriched.modes);
-  reduction.model = phases.run(
-      "projection", [&] { return reduce::project(reduction.Q_CB, body.K_blocks, body.M_blocks); });
-  reduced.places = reduce::coordinate_places(body.masters, reduction.model);
-  reduced.system =
-      reduce_export::with_model(std::move(reduced.system), reduction.model, reduced.places);
-  if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
-  return reduced;
+  return loads;
 }
 
 }  // namespace chladni::cli

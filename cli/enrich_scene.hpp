@@ -1,18 +1,24 @@
 #pragma once
 
-#include "cli/reduce_steps.hpp"
+#include <vector>
+
+#include "cli/scene/scene.hpp"
+#include "mbs_export/reduced_system.hpp"
+#include "reduce/full_responses.hpp"
 
 namespace chladni::cli {
 
 /// Whether an interface mode of the scene is to be that of the whole model.
 bool wants_full_responses(const Scene& scene);
 
-/// The reduced system with room for the responses of the whole free model to the loads of those
-/// interface modes, and to the forces of the scene's supports, at their omega0: columns behind the
-/// fixed-interface modes. A body then answers these loads at omega0 as the FE model does.
+/// The loads of those interface modes, and the forces of the scene's supports, at their omega0.
+/// With room for the responses of the whole free model to these a body answers them as the FE model
+/// does.
+/// @param masters  [n_m] global DOFs of the masters of `system`
 /// @note   Collective.
-/// @throws chladni::Error for a loaded DOF that is no master, and as reduce::full_responses.
-SceneReduction with_full_responses(const Scene& scene, const FeModel& fe, SceneReduction reduced,
-                                   Phases& phases);
+/// @throws chladni::Error for a loaded DOF that is no master.
+std::vector<reduce::HarmonicLoads> full_response_loads(const Scene& scene,
+                                                       const mbs_export::ReducedSystem& system,
+                                                       const std::vector<PetscInt>& masters);
 
 }  // namespace chladni::cli

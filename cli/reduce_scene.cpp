@@ -139,6 +139,11 @@ std::vector<std::string> certified_support(const Scene& scene, const FeModel& fe
   return support;
 }
 
+bool finds_modes(const Scene& scene)
+{
+  return scene.reduce.method == reduce::Method::craig_bampton;
+}
+
 SceneReduction reduce_model(const Scene& scene, FeModel& fe, const reduce::SolverOptions& solver,
                             Phases& phases)
 {
@@ -148,11 +153,24 @@ SceneReduction reduce_model(const Scene& scene, FeModel& fe, const reduce::Solve
   const SceneSupport support(system, body.masters, certified_support(scene, fe));
   reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
   system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  const auto n_modes = static_cast<int>(reduction.model.omega.size());
+  const double residual = phases.run("residuals", [&] {
+    return finds_modes(scene)
+               ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
+               : 0.0;
+  });
+  if (wants_full_responses(scene)) {
+    reduction = reduce::with_responses(std::move(reduction), body,
+                                       full_response_loads(scene, system, body.masters), phases);
+    system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  }
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   SceneReduction reduced{.body = std::move(body),
                          .reduction = std::move(reduction),
                          .places = std::move(places),
-                         .system = std::move(system)};
+                         .system = std::move(system),
+                         .n_modes = n_modes,
+                         .modes_residual = residual};
   if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
   return reduced;
 }
@@ -172,9 +190,6 @@ RowsOf rows_of(const SceneReduction& reduced)
 SceneReduction with_what_bodies_need(const Scene& scene, const FeModel& fe, SceneReduction reduced,
                                      Phases& phases)
 {
-  if (wants_full_responses(scene)) {
-    reduced = with_full_responses(scene, fe, std::move(reduced), phases);
-  }
   if (scene.mass_integrals) {
     reduced.system.mass_integrals = phases.run(
         "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, reduced); });
@@ -219,14 +234,6 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
   mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
   FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
-  const bool finds_modes = scene.reduce.method == reduce::Method::craig_bampton;
-  const auto n_modes = static_cast<int>(reduced.reduction.model.omega.size());
-  const double modes_residual = phases.run("residuals", [&] {
-    return finds_modes
-               ? reduce::largest_residual(*reduced.reduction.Q_CB.modes, reduced.body.K_blocks.ss,
-                                          reduced.body.M_blocks.ss)
-               : 0.0;
-  });
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;
   system.provenance = {.scene = scene.text,
@@ -235,16 +242,17 @@ ReduceSummary reduce_scene(const Scene& scene, const SaidOfSolvers& solvers,
                                                reduce_export::library_versions()),
                        .options = solvers.text,
                        .ranks = n_ranks()};
-  return {.reduced = std::move(system),
-          .phases = phases.times(),
-          .n_dofs = fe.system.dofs.n_dofs(),
-          .n_nodes = fe.mesh.n_nodes(),
-          .n_masters = static_cast<int>(reduced.body.masters.size()),
-          .n_modes = n_modes,
-          .n_modes_asked = finds_modes ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
-          .factorization = phases.time_of("factorization"),
-          .factor = reduce::factor_size(reduced.body.K_ss.factor()),
-          .modes_residual = modes_residual};
+  return {
+      .reduced = std::move(system),
+      .phases = phases.times(),
+      .n_dofs = fe.system.dofs.n_dofs(),
+      .n_nodes = fe.mesh.n_nodes(),
+      .n_masters = static_cast<int>(reduced.body.masters.size()),
+      .n_modes = reduced.n_modes,
+      .n_modes_asked = finds_modes(scene) ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
+      .factorization = phases.time_of("factorization"),
+      .factor = reduce::factor_size(reduced.body.K_ss.factor()),
+      .modes_residual = reduced.modes_residual};
 }
 
 }  // namespace chladni::cli

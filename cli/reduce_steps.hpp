@@ -24,6 +24,8 @@ struct SceneReduction {
   reduce::Reduction reduction;
   std::vector<int> places;           ///< of the coordinates of the file in the model
   mbs_export::ReducedSystem system;  ///< in the order of the file
+  int n_modes;                       ///< fixed-interface or free-interface modes
+  double modes_residual;             ///< largest of the fixed-interface modes
 };
 
 /// What the body of the scene is made of; refers to the scene.

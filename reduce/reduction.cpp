@@ -41,6 +41,13 @@ Factorization factorized(const Body& body, Mat K_ss, const DofPartition& dofs,
   }
 }
 
+ReducedModel projected(const CraigBamptonBasis& Q_CB, const FactoredBody& body,
+                       PhaseListener& phases)
+{
+  return in_phase(phases, "projection",
+                  [&] { return project(Q_CB, body.K_blocks, body.M_blocks); });
+}
+
 }  // namespace
 
 FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases)
@@ -95,6 +102,17 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
              : std::move(certificate);
   return {
       .Q_CB = std::move(basis.Q), .model = std::move(model), .certificate = std::move(complete)};
+}
+
+Reduction with_responses(Reduction reduction, const FactoredBody& body,
+                         const std::vector<HarmonicLoads>& loads, PhaseListener& phases)
+{
+  reduction.Q_CB.modes = in_phase(phases, "responses of the whole model", [&] {
+    const petsc::Matrix V = full_responses(body.K, body.M, loads, body.K_ss.options().petsc);
+    return enrich(reduction.Q_CB, body.dofs, {body.K_blocks.ss, body.M_blocks.ss}, V).modes;
+  });
+  reduction.model = projected(reduction.Q_CB, body, phases);
+  return reduction;
 }
 
 std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, const ReducedModel& model)

@@ -7,6 +7,7 @@
 
 #include "reduce/certificate.hpp"
 #include "reduce/craig_bampton.hpp"
+#include "reduce/full_responses.hpp"
 #include "reduce/phases.hpp"
 #include "reduce/reduce_options.hpp"
 #include "reduce/solver_options.hpp"
@@ -69,6 +70,12 @@ struct Reduction {
 ///         converge, or the support does not fit the model.
 Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,
                     PhaseListener& phases);
+
+/// The same with room for the responses of the whole free body to harmonic loads: columns behind
+/// the fixed-interface modes (`enrich`). The certificate stays that of the model without.
+/// @throws chladni::Error as full_responses
+Reduction with_responses(Reduction reduction, const FactoredBody& body,
+                         const std::vector<HarmonicLoads>& loads, PhaseListener& phases);
 
 /// For each coordinate of the caller (masters in his order, then modes) its place in the model,
 /// whose masters ascend by DOF.
