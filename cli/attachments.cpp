@@ -15,7 +15,7 @@ using Eigen::Index, Eigen::MatrixXd;
 
 bool is_of_ring(const plate::DofMap& dofs, int node)
 {
-  return std::ranges::any_of(dofs.harmonic_rings, [&](const plate::HarmonicRing& ring) {
+  return std::ranges::any_of(dofs.harmonic_rings(), [&](const plate::HarmonicRing& ring) {
     return std::ranges::find(ring.nodes, node) != ring.nodes.end();
   });
 }
@@ -25,7 +25,7 @@ void add_node_masters(Attachments& attachments, const plate::DofMap& dofs)
   for (int i = 0; i < std::ssize(attachments.nodes); ++i) {
     const int node = attachments.nodes[static_cast<std::size_t>(i)];
     if (is_of_ring(dofs, node)) continue;
-    for (const int c : dofs.components) {
+    for (const int c : dofs.components()) {
       attachments.masters.push_back({.node = i, .component = c});
       attachments.master_dofs.push_back(dofs.dof(node, c).value());
     }
@@ -34,12 +34,12 @@ void add_node_masters(Attachments& attachments, const plate::DofMap& dofs)
 
 void add_ring_masters(Attachments& attachments, const plate::DofMap& dofs)
 {
-  for (const plate::HarmonicRing& ring : dofs.harmonic_rings) {
+  for (const plate::HarmonicRing& ring : dofs.harmonic_rings()) {
     const auto set =
         std::ranges::find(attachments.sets, ring.name, &mbs_export::AttachmentSet::name);
     for (int k = 0; k < ring.n_wanted(); ++k) {
       const plate::Harmonic harmonic = plate::harmonic_of(k);
-      for (const int c : dofs.components) {
+      for (const int c : dofs.components()) {
         attachments.masters.push_back({.node = -1,
                                        .component = c,
                                        .harmonic = mbs_export::RingHarmonic{
@@ -56,9 +56,9 @@ void add_ring_masters(Attachments& attachments, const plate::DofMap& dofs)
 void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const std::string& name,
                        int node)
 {
-  for (const int component : dofs.components) {
+  for (const int component : dofs.components()) {
     if (dofs.dof(node, component) || is_of_ring(dofs, node)) continue;
-    const std::string& followed = dofs.followed[node];
+    const std::string& followed = dofs.followed(node);
     throw Error(
         fmt::format("interface node set \"{}\": node {} follows \"{}\"; put \"{}\" into "
                     "interface.nodes instead",
@@ -70,8 +70,8 @@ void check_independent(const mesh::Mesh& mesh, const plate::DofMap& dofs, const 
 
 std::int64_t node_number(const mesh::Mesh& mesh, const plate::DofMap& dofs, int node)
 {
-  if (node < dofs.n_mesh_nodes) return mesh.node_numbers[node];
-  return mesh.node_numbers.back() + 1 + node - dofs.n_mesh_nodes;
+  if (node < dofs.n_mesh_nodes()) return mesh.node_numbers[node];
+  return mesh.node_numbers.back() + 1 + node - dofs.n_mesh_nodes();
 }
 
 Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
@@ -80,7 +80,7 @@ Attachments find_attachments(const mesh::Mesh& mesh, const plate::DofMap& dofs,
   Attachments attachments;
   for (const std::string& name : names) {
     mbs_export::AttachmentSet set{.name = name, .nodes = {}};
-    for (const int node : plate::named_nodes(mesh, dofs, name)) {
+    for (const int node : dofs.named_nodes(mesh, name)) {
       check_independent(mesh, dofs, name, node);
       const auto it = std::ranges::find(attachments.nodes, node);
       set.nodes.push_back(static_cast<int>(it - attachments.nodes.begin()));
@@ -111,7 +111,7 @@ MatrixXd master_shapes(const Attachments& attachments, const plate::DofMap& dofs
   for (Index i = 0; i < std::ssize(attachments.nodes); ++i) {
     for (const plate::MotionTerm& term :
          dofs.motion(attachments.nodes[static_cast<std::size_t>(i)])) {
-      for (const int c : dofs.components) {
+      for (const int c : dofs.components()) {
         const auto found = column_of.find(dofs.dof_of_number(term.number, c).value());
         if (found != column_of.end()) F.block<6, 1>(6 * i, found->second) += term.T.col(c);
       }

@@ -76,7 +76,7 @@ TextTable reported_table(const Scene& scene, const SupportedModel& model, const 
 {
   TextTable table{.header = {"mean displacement of", "x, m", "y, m", "z, m"}, .rows = {}};
   for (const std::string& name : scene.static_solution.value_or(StaticOptions{}).report) {
-    const std::vector<int> nodes = plate::named_nodes(model.mesh, model.system.dofs, name);
+    const std::vector<int> nodes = model.system.dofs.named_nodes(model.mesh, name);
     const Eigen::RowVectorXd mean = found.motions(nodes, Eigen::all).colwise().mean();
     table.rows.push_back({name, fmt::format("{:.6e}", mean[0]), fmt::format("{:.6e}", mean[1]),
                           fmt::format("{:.6e}", mean[2])});
@@ -89,7 +89,7 @@ Json reported_json(const Scene& scene, const SupportedModel& model, const Found&
   std::vector<Json::Member> groups;
   for (const std::string& name : scene.static_solution.value_or(StaticOptions{}).report) {
     std::vector<Json> nodes;
-    for (const int node : plate::named_nodes(model.mesh, model.system.dofs, name)) {
+    for (const int node : model.system.dofs.named_nodes(model.mesh, name)) {
       nodes.push_back(
           Json::object({{"node", node_number(model.mesh, model.system.dofs, node)},
                         {"motion", numbers_json(found.motions.row(node).transpose())}}));

@@ -14,8 +14,8 @@ namespace {
 SupportedModel assemble_supported(const Scene& scene, mesh::Mesh mesh)
 {
   std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
-  plate::DofMap dofs = plate::make_dof_map(mesh, scene.couplings, owners, n_ranks());
-  dofs.components = scene.components;
+  plate::DofMap dofs = plate::make_dof_map(
+      mesh, {.couplings = scene.couplings, .components = scene.components}, owners, n_ranks());
   plate::check_stiffness_of_all_nodes(mesh, dofs);
   std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
   plate::refuse_drilling(mesh, dofs, scene.supports, scene.springs);

@@ -80,7 +80,7 @@ mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap
     const std::vector<int> nodes(chosen.nodes.begin() + begin, chosen.nodes.begin() + end);
     const Eigen::MatrixXd rows = node_rows(nodes, dofs, rows_of);
     for (std::ptrdiff_t k = begin; k < end; ++k) {
-      const auto& x = dofs.positions[static_cast<std::size_t>(nodes[k - begin])];
+      const Eigen::Vector3d x = dofs.position(nodes[k - begin]);
       picture.positions.row(k) << x[0], x[1], x[2];
       picture.transformation.middleRows<3>(3 * k) = rows.middleRows<3>(6 * (k - begin));
     }

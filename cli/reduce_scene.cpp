@@ -16,7 +16,6 @@
 #include "cli/version.hpp"
 #include "mesh/partition.hpp"
 #include "plate/rigid_motions.hpp"
-#include "plate/ring_harmonics.hpp"
 #include "reduce/cholesky_types.hpp"
 #include "reduce_export/reduced_system.hpp"
 
@@ -27,10 +26,10 @@ using Eigen::MatrixXd;
 
 FeModel assemble_scene(const Scene& scene, mesh::Mesh mesh)
 {
-  plate::DofMap dofs =
-      plate::make_dof_map(mesh, scene.couplings, mesh::node_owners(mesh, n_ranks()), n_ranks());
-  dofs.components = scene.components;
-  dofs = plate::with_ring_harmonics(mesh, std::move(dofs), scene.ring_harmonics);
+  plate::DofMap dofs = plate::make_dof_map(
+      mesh,
+      {.couplings = scene.couplings, .components = scene.components, .rings = scene.ring_harmonics},
+      mesh::node_owners(mesh, n_ranks()), n_ranks());
   Attachments attachments = find_attachments(mesh, dofs, scene.interface_nodes);
   plate::System system =
       plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
@@ -43,9 +42,9 @@ std::string name_of_dof(const FeModel& fe, PetscInt dof)
 {
   const plate::DofMap& dofs = fe.system.dofs;
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    for (const int c : dofs.components) {
+    for (const int c : dofs.components()) {
       if (dofs.dof(node, c) != dof) continue;
-      const auto& x = dofs.positions[static_cast<std::size_t>(node)];
+      const Eigen::Vector3d x = dofs.position(node);
       return fmt::format("node {} ({:.6g}, {:.6g}, {:.6g}), {}", node_number(fe.mesh, dofs, node),
                          x[0], x[1], x[2], plate::component_names[static_cast<std::size_t>(c)]);
     }
@@ -58,7 +57,7 @@ bool geometry_tells_motions(const Scene& scene, const FeModel& fe)
 {
   const bool is_free = std::ranges::all_of(
       scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
-  return is_free && fe.system.dofs.combined_motions.empty();
+  return is_free && !fe.system.dofs.has_combined_motions();
 }
 
 /// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
@@ -111,13 +110,13 @@ mbs_export::ReducedSystem described(const Scene& scene, const FeModel& fe)
   system.sets = fe.attachments.sets;
   for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
     const int node = fe.attachments.nodes[i];
-    const auto& x = fe.system.dofs.positions[node];
+    const Eigen::Vector3d x = fe.system.dofs.position(node);
     system.attachment_nodes.push_back({.number = node_number(fe.mesh, fe.system.dofs, node),
                                        .position = {x[0], x[1], x[2]},
                                        .drilling_axis = fe.attachments.drilling_axes[i]});
   }
   system.masters = fe.attachments.masters;
-  if (!fe.system.dofs.harmonic_rings.empty()) {
+  if (!fe.system.dofs.harmonic_rings().empty()) {
     system.ring_motion = {.shapes = master_shapes(fe.attachments, fe.system.dofs),
                           .displacements = {}};
   }

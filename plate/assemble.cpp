@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "common/checked_count.hpp"
-#include "common/error.hpp"
 #include "plate/block_rows.hpp"
 #include "plate/directors.hpp"
 #include "plate/element_motion.hpp"
@@ -38,20 +37,11 @@ petsc::Matrix damping_matrix(std::span<const PointElement> points, const DofMap&
   return C.to_matrix(comm);
 }
 
-/// The DOFs of an average stand in those of its group, whatever component these are.
-void check_components(const DofMap& dofs)
-{
-  if (dofs.n_components() == 6 || dofs.combined_motions.empty()) return;
-  throw Error(
-      "an averaging coupling needs all six DOFs of each node; use a rigid one, or all six DOFs");
-}
-
 }  // namespace
 
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm)
 {
   const int rank = petsc::rank(comm);
-  check_components(dofs);
   checked_count(std::int64_t{dofs.n_active()} * dofs.n_components(), "DOFs", "use a coarser mesh");
   const SectionMap sections = map_sections(mesh, structure);
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
@@ -71,12 +61,10 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
     if (point.K.size() > 0) add_symmetric(K, point.K, motion, dofs, places);
     if (point.M.size() > 0) add_symmetric(M, point.M, motion, dofs, places);
   }
-  System system{.K = K.to_matrix(comm, round_off),
-                .M = M.to_matrix(comm, round_off),
-                .C = damping_matrix(points, dofs, comm),
-                .dofs = {}};
-  system.dofs = std::move(dofs);
-  return system;
+  return {.K = K.to_matrix(comm, round_off),
+          .M = M.to_matrix(comm, round_off),
+          .C = damping_matrix(points, dofs, comm),
+          .dofs = std::move(dofs)};
 }
 
 System assemble(const mesh::Mesh& mesh, std::span<const ShellSection> sections, DofMap dofs,

@@ -26,8 +26,7 @@ struct System {
 /// springs and dampers. Components that `dofs` does not have are held at zero and are not part of
 /// the system.
 /// @note   Collective on `comm`.
-/// @throws chladni::Error as map_sections and point_elements, and for averaging couplings where
-///         nodes have fewer than six components.
+/// @throws chladni::Error as map_sections and point_elements.
 System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs, MPI_Comm comm);
 
 /// Of shells alone.

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "common/error.hpp"
-#include "plate/follow_references.hpp"
 #include "plate/group_shares.hpp"
 
 namespace chladni::plate {
@@ -24,45 +23,32 @@ constexpr double no_rotation = 1e-9;  // of the largest pivot
 /// The blocks of a row of six equations, by active number.
 using Blocks = std::map<int, Matrix6d>;
 
-Vector3d position_of(const DofMap& map, int node)
-{
-  const auto& [x, y, z] = map.positions[node];
-  return {x, y, z};
-}
-
-Matrix3d cross_matrix(const Vector3d& r)
-{
-  Matrix3d R;
-  R << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return R;
-}
-
 /// The motion of the reference node as the mean of its group: A q.
 /// @param shares  of the nodes of the group, their weights
-Blocks mean_motion(const DofMap& map, const std::map<int, double>& shares, int reference)
+Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shares, int reference)
 {
   double sum = 0.0;
   Vector3d centre = Vector3d::Zero();
   for (const auto& [node, share] : shares) {
     sum += share;
-    centre += share * position_of(map, node);
+    centre += share * motions.position(node);
   }
   centre /= sum;
   Matrix3d J = Matrix3d::Zero();
   for (const auto& [node, share] : shares) {
-    const Matrix3d r = cross_matrix(position_of(map, node) - centre);
+    const Matrix3d r = cross_matrix(motions.position(node) - centre);
     J -= share / sum * r * r;
   }
   const Matrix3d J_inverse = J.completeOrthogonalDecomposition().pseudoInverse();
-  const Matrix6d to_reference = rigid_arm(position_of(map, reference) - centre);
+  const Matrix6d to_reference = rigid_arm(motions.position(reference) - centre);
   Blocks A;
   for (const auto& [node, share] : shares) {
     const double w = share / sum;
     Matrix6d of_node = Matrix6d::Zero();
     of_node.topLeftCorner<3, 3>() = w * Matrix3d::Identity();
     of_node.bottomLeftCorner<3, 3>() =
-        w * J_inverse * cross_matrix(position_of(map, node) - centre);
-    for (const MotionTerm& term : map.motion(node)) {
+        w * J_inverse * cross_matrix(motions.position(node) - centre);
+    for (const MotionTerm& term : motions.motion(node)) {
       A.try_emplace(term.number, Matrix6d::Zero()).first->second += to_reference * of_node * term.T;
     }
   }
@@ -115,7 +101,7 @@ CombinedMotion reference_motion(const Pivots& pivots)
     const auto [number, component] = std::pair(pivots.dof[k] / 6, pivots.dof[k] % 6);
     T.try_emplace(number, Matrix6d::Zero()).first->second(k, component) = 1.0;
   }
-  CombinedMotion motion{.terms = {}, .dof = pivots.dof};
+  CombinedMotion motion{.followed = {}, .terms = {}, .dof = pivots.dof};
   for (const auto& [number, block] : T) motion.terms.push_back({number, block});
   return motion;
 }
@@ -123,7 +109,7 @@ CombinedMotion reference_motion(const Pivots& pivots)
 /// The motion of a node that holds pivots: those displacements are P^-1 (u_ref - A_rest q_rest).
 CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivots)
 {
-  CombinedMotion motion{.terms = {}, .dof = {}};
+  CombinedMotion motion{.followed = {}, .terms = {}, .dof = {}};
   for (int c = 0; c < 6; ++c) motion.dof[c] = 6 * number + c;
   Blocks T;
   T[number] = Matrix6d::Identity();
@@ -143,11 +129,11 @@ CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivo
   return motion;
 }
 
-double size_of(const DofMap& map, const std::vector<int>& nodes, int reference)
+double size_of(const NodeMotions& motions, const std::vector<int>& nodes, int reference)
 {
   double size = 0.0;
   for (const int node : nodes) {
-    size = std::max(size, (position_of(map, node) - position_of(map, reference)).norm());
+    size = std::max(size, (motions.position(node) - motions.position(reference)).norm());
   }
   return size > 0.0 ? size : 1.0;
 }
@@ -166,32 +152,68 @@ void claim(const Blocks& A, std::map<int, int>& claimed, int index,
 
 }  // namespace
 
-void average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings, DofMap& map)
+Matrix3d cross_matrix(const Vector3d& a)
 {
+  Matrix3d A;
+  A << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return A;
+}
+
+Matrix6d rigid_arm(const Vector3d& arm)
+{
+  Matrix6d T = Matrix6d::Identity();
+  T.topRightCorner<3, 3>() = cross_matrix(arm).transpose();  // theta x arm
+  return T;
+}
+
+std::vector<MotionTerm> NodeMotions::motion(int node) const
+{
+  const int end = is_dependent(node) ? reference(node) : node;
+  const auto it = combined.find(end);
+  std::vector<MotionTerm> terms;
+  if (it != combined.end()) {
+    terms = it->second.terms;
+  } else {
+    terms.push_back({.number = number(end), .T = Matrix6d::Identity()});
+  }
+  if (end == node) return terms;
+  const Matrix6d T = rigid_arm(arm(node));
+  for (MotionTerm& term : terms) term.T = T * term.T;
+  return terms;
+}
+
+const std::string& NodeMotions::followed(int node) const
+{
+  const auto it = combined.find(node);
+  return it == combined.end() ? names_followed[node] : it->second.followed;
+}
+
+NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> couplings,
+                            NumberedNodes nodes)
+{
+  NodeMotions motions{std::move(nodes), {}};
   std::map<int, int> claimed;
-  std::vector<int> node_of(map.n_active(), -1);
-  for (int node = 0; node < map.n_nodes(); ++node) {
-    if (map.reference[node] < 0 && map.number[node] >= 0) node_of[map.number[node]] = node;
+  std::vector<int> node_of(motions.n_active(), -1);
+  for (int node = 0; node < motions.n_nodes(); ++node) {
+    if (motions.number(node) >= 0) node_of[motions.number(node)] = node;
   }
   for (int i = 0; i < std::ssize(couplings); ++i) {
     if (couplings[i].kind != CouplingKind::averaging) continue;
-    const std::vector<int>& nodes = mesh::find_group(mesh, couplings[i].group).nodes;
-    const int reference = map.reference_node(couplings[i].name).value();
-    const Blocks A = mean_motion(map, group_shares(mesh, couplings[i].group), reference);
+    const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;
+    const int reference = motions.reference_node(couplings[i].name).value();
+    const Blocks A = mean_motion(motions, group_shares(mesh, couplings[i].group), reference);
     claim(A, claimed, i, couplings);
-    const Pivots pivots = choose_pivots(A, size_of(map, nodes, reference), couplings[i]);
-    const auto combine = [&](int node, CombinedMotion motion) {
-      map.combined[node] = static_cast<int>(map.combined_motions.size());
-      map.combined_motions.push_back(std::move(motion));
-    };
-    combine(reference, reference_motion(pivots));
+    const Pivots pivots = choose_pivots(A, size_of(motions, group, reference), couplings[i]);
+    motions.combined.emplace(reference, reference_motion(pivots));
     for (const int dof : pivots.dof) {
       const int node = node_of[dof / 6];
-      if (map.combined[node] >= 0) continue;
-      combine(node, pivot_node_motion(dof / 6, A, pivots));
-      map.followed[node] = couplings[i].name;
+      if (motions.combined.contains(node)) continue;
+      CombinedMotion motion = pivot_node_motion(dof / 6, A, pivots);
+      motion.followed = couplings[i].name;
+      motions.combined.emplace(node, std::move(motion));
     }
   }
+  return motions;
 }
 
 }  // namespace chladni::plate

@@ -31,10 +31,10 @@ std::vector<bool> have_other_stiffness(const mesh::Mesh& mesh, const DofMap& dof
     for (const int node : block.nodes) have[node] = true;
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    if (dofs.is_dependent(node)) have[node] = have[dofs.reference[node]] = true;
-    if (node >= dofs.n_mesh_nodes || !dofs.is_plain(node)) have[node] = true;
+    if (dofs.is_dependent(node)) have[node] = have[dofs.reference(node)] = true;
+    if (node >= dofs.n_mesh_nodes() || !dofs.is_plain(node)) have[node] = true;
   }
-  for (const HarmonicRing& ring : dofs.harmonic_rings) {
+  for (const HarmonicRing& ring : dofs.harmonic_rings()) {
     for (const int node : ring.nodes) have[node] = false;  // combined, but of shells alone
   }
   return have;
@@ -68,7 +68,7 @@ template <typename IsWrong>
 std::optional<int> first_wrong(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& name,
                                const MatrixX3d& axes, const IsWrong& is_wrong)
 {
-  for (const int node : named_nodes(mesh, dofs, name)) {
+  for (const int node : dofs.named_nodes(mesh, name)) {
     const Vector3d n = axes.row(node);
     if (!n.isZero() && is_wrong(n)) return node;
   }
@@ -139,12 +139,12 @@ MatrixX3d drilling_axes(const mesh::Mesh& mesh, const DofMap& dofs)
   MatrixX3d axes = MatrixX3d::Zero(dofs.n_nodes(), 3);
   const NodeVectors normals = smooth_normals(mesh);
   const std::vector<bool> is_other = have_other_stiffness(mesh, dofs);
-  for (int node = 0; node < dofs.n_mesh_nodes; ++node) {
+  for (int node = 0; node < dofs.n_mesh_nodes(); ++node) {
     if (is_other[node]) continue;
     const Vector3d n = normals.row(node);
     int nearest = 0;
     n.cwiseAbs().maxCoeff(&nearest);
-    if (std::ranges::binary_search(dofs.components, 3 + nearest)) axes.row(node) = n;
+    if (std::ranges::binary_search(dofs.components(), 3 + nearest)) axes.row(node) = n;
   }
   return axes;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "mesh/mesh.hpp"
 #include "plate/dof_map.hpp"

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 class Neighbours {
  public:
   Neighbours(const DofMap& dofs, int rank)
-      : dofs_(dofs), first_(dofs.range[rank]), lists_(dofs.range[rank + 1] - first_)
+      : dofs_(dofs), first_(dofs.first_number(rank)), lists_(dofs.first_number(rank + 1) - first_)
   {}
 
   /// All active numbers of an element are neighbours.
@@ -42,7 +42,7 @@ MatrixXd only_components(const MatrixXd& A_e, const DofMap& dofs)
 {
   std::vector<Index> kept;
   for (Index node = 0; node < A_e.rows(); node += 6) {
-    for (const int c : dofs.components) kept.push_back(node + c);
+    for (const int c : dofs.components()) kept.push_back(node + c);
   }
   return A_e(kept, kept);
 }
@@ -85,7 +85,7 @@ std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> no
   std::vector<PetscInt> numbers;
   for (const int node : nodes) {
     if (dofs.is_plain(node)) {
-      numbers.push_back(dofs.number[node]);
+      numbers.push_back(dofs.number(node));
       continue;
     }
     for (const MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
@@ -101,7 +101,7 @@ ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
   const bool plain = std::ranges::all_of(nodes, [&](int node) { return dofs.is_plain(node); });
   ElementMotion motion;
   if (plain && arms.size() == 0) {
-    for (const int node : nodes) motion.numbers.push_back(dofs.number[node]);
+    for (const int node : nodes) motion.numbers.push_back(dofs.number(node));
     return motion;
   }
   motion.numbers = active_numbers(dofs, nodes);

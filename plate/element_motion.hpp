@@ -49,8 +49,8 @@ BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& d
 template <typename Visit>
 void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, const Visit& visit)
 {
-  const int first = dofs.range[rank];
-  const int last = dofs.range[rank + 1];
+  const int first = dofs.first_number(rank);
+  const int last = dofs.first_number(rank + 1);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
       const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));

@@ -1,6 +1,7 @@
 #include "plate/follow_references.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -44,12 +45,18 @@ int nearest_node(const mesh::Mesh& mesh, const mesh::Group& group, int node)
 /// What each node follows directly, and through which coupling.
 class Following {
  public:
-  Following(const mesh::Mesh& mesh, std::span<const Coupling> couplings, DofMap& map)
-      : mesh_(mesh), couplings_(couplings), map_(map), coupling_(mesh.n_nodes(), -1)
+  Following(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+      : mesh_(mesh),
+        couplings_(couplings),
+        nodes_{.positions = mesh.positions,
+               .references = std::vector<int>(mesh.n_nodes(), -1),
+               .names_followed = std::vector<std::string>(mesh.n_nodes()),
+               .reference_names = {}},
+        coupling_(mesh.n_nodes(), -1)
   {}
 
   void add(int index);
-  void follow_chains();
+  CoupledNodes follow_chains() &&;
 
  private:
   void check(const Coupling& coupling) const;
@@ -59,7 +66,7 @@ class Following {
 
   const mesh::Mesh& mesh_;
   std::span<const Coupling> couplings_;
-  DofMap& map_;
+  CoupledNodes nodes_;
   std::vector<int> coupling_;  ///< of each node that follows another one
 };
 
@@ -74,7 +81,7 @@ void Following::check(const Coupling& coupling) const
   if (coupling.kind == CouplingKind::link) return;
   const bool used =
       std::ranges::find(mesh_.groups, coupling.name, &mesh::Group::name) != mesh_.groups.end();
-  if (used || map_.reference_node(coupling.name)) {
+  if (used || nodes_.reference_node(coupling.name)) {
     throw Error(
         fmt::format("coupling \"{}\": this name is already used; choose another", coupling.name));
   }
@@ -82,12 +89,11 @@ void Following::check(const Coupling& coupling) const
 
 int Following::add_reference_node(const Coupling& coupling)
 {
-  map_.positions.push_back(centre(mesh_, mesh::find_group(mesh_, coupling.group)));
-  map_.reference.push_back(-1);
-  map_.followed.emplace_back();
-  map_.combined.push_back(-1);
-  map_.reference_names.push_back(coupling.name);
-  return static_cast<int>(map_.positions.size()) - 1;
+  nodes_.positions.push_back(centre(mesh_, mesh::find_group(mesh_, coupling.group)));
+  nodes_.references.push_back(-1);
+  nodes_.names_followed.emplace_back();
+  nodes_.reference_names.push_back(coupling.name);
+  return nodes_.n_nodes() - 1;
 }
 
 void Following::follow(int node, int parent, int index)
@@ -99,8 +105,8 @@ void Following::follow(int node, int parent, int index)
   }
   const Coupling& coupling = couplings_[index];
   coupling_[node] = index;
-  map_.reference[node] = parent;
-  map_.followed[node] = coupling.kind == CouplingKind::link ? coupling.to : coupling.name;
+  nodes_.references[node] = parent;
+  nodes_.names_followed[node] = coupling.kind == CouplingKind::link ? coupling.to : coupling.name;
 }
 
 void Following::add_link(int index)
@@ -138,9 +144,9 @@ void Following::add(int index)
 }
 
 /// A rigid body on a rigid body is one on the last of the chain.
-void Following::follow_chains()
+CoupledNodes Following::follow_chains() &&
 {
-  const std::vector<int> parent = map_.reference;
+  const std::vector<int> parent = nodes_.references;
   for (int node = 0; node < mesh_.n_nodes(); ++node) {
     if (parent[node] < 0) continue;
     int end = parent[node];
@@ -154,11 +160,31 @@ void Following::follow_chains()
                               mesh_.node_numbers[node], describe(couplings_[coupling_[end]]),
                               describe(couplings_[coupling_[parent[end]]])));
     }
-    map_.reference[node] = end;
+    nodes_.references[node] = end;
   }
+  return std::move(nodes_);
 }
 
 }  // namespace
+
+std::optional<int> CoupledNodes::reference_node(const std::string& name) const
+{
+  const auto it = std::ranges::find(reference_names, name);
+  if (it == reference_names.end()) return std::nullopt;
+  return n_mesh_nodes() + static_cast<int>(it - reference_names.begin());
+}
+
+std::vector<int> CoupledNodes::named_nodes(const mesh::Mesh& mesh, const std::string& name) const
+{
+  if (const auto reference = reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("\"{}\" is neither a group or ring of the mesh nor a coupling; there are: {}",
+                  name, fmt::join(names, ", ")));
+}
 
 std::string describe(const Coupling& coupling)
 {
@@ -167,11 +193,11 @@ std::string describe(const Coupling& coupling)
              : fmt::format("coupling \"{}\"", coupling.name);
 }
 
-void follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings, DofMap& map)
+CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
 {
-  Following following(mesh, couplings, map);
+  Following following(mesh, couplings);
   for (int i = 0; i < std::ssize(couplings); ++i) following.add(i);
-  following.follow_chains();
+  return std::move(following).follow_chains();
 }
 
 }  // namespace chladni::plate

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "common/error.hpp"
 #include "plate/point_elements.hpp"
@@ -110,9 +109,9 @@ std::vector<Extent> extents(const DofMap& dofs, const Parts& parts)
   std::vector<Extent> extents(parts.n_bodies);
   const auto for_nodes = [&](const auto& visit) {
     for (int node = 0; node < dofs.n_nodes(); ++node) {
-      if (dofs.is_dependent(node) || dofs.number[node] < 0) continue;
-      const int body = parts.body[parts.of_number[dofs.number[node]]];
-      visit(extents[body], Vector3d(dofs.positions[node].data()));
+      if (dofs.number(node) < 0) continue;
+      const int body = parts.body[parts.of_number[dofs.number(node)]];
+      visit(extents[body], dofs.position(node));
     }
   };
   for_nodes([](Extent& extent, const Vector3d& x) {
@@ -155,42 +154,37 @@ class Resistance {
   /// This component of the node does not move, but for a rotation about the axis.
   void hold(int node, int component, const Vector3d& axis)
   {
-    const Vector3d x(dofs_.positions[node].data());
-    if (component < 3 || axis.isZero(0.0)) return add(node, -1, x, component);
-    const int part = parts_.of_number[number_of(dofs_, node)];
-    const int body = parts_.body[part];
-    RowVector6d motion = rigid_row(x, extents_[body], component);
-    for (int k = 0; k < 3; ++k) {
-      motion -= axis[component - 3] * axis[k] * rigid_row(x, extents_[body], 3 + k);
+    const Vector3d x = dofs_.position(node);
+    const Extent& extent = extents_[body_of(node)];
+    RowVector6d motion = rigid_row(x, extent, component);
+    for (int k = 0; component >= 3 && k < 3; ++k) {
+      motion -= axis[component - 3] * axis[k] * rigid_row(x, extent, 3 + k);
     }
-    const auto at = 6 * parts_.place[part];
-    gram_[body].block<6, 6>(at, at) += motion.transpose() * motion;
+    resist({&node, 1}, motion);
   }
   /// A spring resists the motion against the ground or of both nodes, seen at the middle.
   void add(const PlacedSpring& spring)
   {
-    const Vector3d a(dofs_.positions[spring.nodes.front()].data());
-    const Vector3d b(dofs_.positions[spring.nodes.back()].data());
+    const int a = spring.nodes.front(), b = spring.nodes.back();
+    const Vector3d middle = 0.5 * (dofs_.position(a) + dofs_.position(b));
     for (const int component : spring.components) {
-      add(spring.nodes.front(), spring.nodes.size() > 1 ? spring.nodes.back() : -1, 0.5 * (a + b),
-          component);
+      resist(spring.nodes, rigid_row(middle, extents_[body_of(a)], component));
     }
   }
   const std::vector<MatrixXd>& gram() const { return gram_; }
 
  private:
-  /// @param other  that the first node moves against, -1 for the ground
-  void add(int node, int other, const Vector3d& at, int component)
+  int part_of(int node) const { return parts_.of_number[number_of(dofs_, node)]; }
+  int body_of(int node) const { return parts_.body[part_of(node)]; }
+
+  /// @param nodes  one against the ground, or two against each other
+  void resist(std::span<const int> nodes, const RowVector6d& motion)
   {
-    const int part = parts_.of_number[number_of(dofs_, node)];
-    const int body = parts_.body[part];
-    const RowVector6d motion = rigid_row(at, extents_[body], component);
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(gram_[body].cols());
-    row.segment<6>(6 * parts_.place[part]) += motion;
-    if (other >= 0) {
-      row.segment<6>(6 * parts_.place[parts_.of_number[number_of(dofs_, other)]]) -= motion;
-    }
-    gram_[body] += row.transpose() * row;
+    MatrixXd& G = gram_[body_of(nodes.front())];
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(G.cols());
+    row.segment<6>(6 * parts_.place[part_of(nodes.front())]) += motion;
+    if (nodes.size() > 1) row.segment<6>(6 * parts_.place[part_of(nodes.back())]) -= motion;
+    G += row.transpose() * row;
   }
 
   const DofMap& dofs_;
@@ -208,7 +202,7 @@ void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance&
         node < restraints.axes.rows() ? Vector3d(restraints.axes.row(node)) : Vector3d::Zero();
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
-      const bool has_component = std::ranges::binary_search(dofs.components, component);
+      const bool has_component = std::ranges::binary_search(dofs.components(), component);
       if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component) {
         resistance.hold(node, component, dof ? axis : Vector3d::Zero());
       }
@@ -290,10 +284,10 @@ void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
     }
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    if (dofs.is_dependent(node) || dofs.number[node] < 0 || touched[dofs.number[node]]) continue;
-    if (node >= dofs.n_mesh_nodes) {
+    if (dofs.number(node) < 0 || touched[dofs.number(node)]) continue;
+    if (node >= dofs.n_mesh_nodes()) {
       throw Error(fmt::format("coupling \"{}\": none of its nodes belongs to an element",
-                              dofs.reference_names[node - dofs.n_mesh_nodes]));
+                              dofs.reference_name(node)));
     }
     throw Error(
         fmt::format("node {} belongs to no element, so nothing gives it stiffness; take it out of "

@@ -5,6 +5,7 @@
 
 #include "plate/directors.hpp"
 #include "plate/element_motion.hpp"
+#include "plate/mass_points.hpp"
 #include "plate/point_elements.hpp"
 
 namespace chladni::plate {
@@ -45,7 +46,7 @@ template <typename Visit>
 void for_owned_points(const MassModel& model, const Visit& visit)
 {
   const int rank = petsc::rank(model.comm);
-  const PetscInt first = model.dofs.range[rank], last = model.dofs.range[rank + 1];
+  const PetscInt first = model.dofs.first_number(rank), last = model.dofs.first_number(rank + 1);
   const auto counts = [&](const std::vector<PetscInt>& numbers) {
     const PetscInt least = *std::ranges::min_element(numbers);
     return least >= first && least < last;
@@ -59,7 +60,7 @@ void for_owned_points(const MassModel& model, const Visit& visit)
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const std::array nodes{model.mass_nodes[i]};
     const ElementMotion motion = element_motion(model.dofs, nodes, {});
-    const Eigen::Vector3d x(model.dofs.positions[nodes[0]].data());
+    const Eigen::Vector3d x = model.dofs.position(nodes[0]);
     visit(rigid_mass_points(model.masses[i], x), motion, counts(motion.numbers));
   }
 }
@@ -93,7 +94,7 @@ void add_rows(const MassModel& model, MatrixXd V_e, const ElementMotion& motion,
               Eigen::Ref<MatrixXd> rows)
 {
   if (motion.T_e.size() > 0) V_e = motion.T_e.transpose() * V_e;
-  const std::vector<int>& components = model.dofs.components;
+  const std::vector<int>& components = model.dofs.components();
   const Index n = std::ssize(components);
   for (std::size_t i = 0; i < motion.numbers.size(); ++i) {
     const PetscInt place = motion.numbers[i] - model.pattern.first;
@@ -132,7 +133,7 @@ MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const D
                   .pattern = {}};
   std::vector<PointElement> points;
   for (const PointMass& mass : structure.masses) {
-    for (const int node : named_nodes(mesh, dofs, mass.at)) {
+    for (const int node : dofs.named_nodes(mesh, mass.at)) {
       model.mass_nodes.push_back(node);
       model.masses.push_back(mass);
       points.push_back({.nodes = {node}, .K = {}, .M = {}, .C = {}});

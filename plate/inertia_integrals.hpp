@@ -7,7 +7,6 @@
 #include "mesh/mesh.hpp"
 #include "plate/block_rows.hpp"
 #include "plate/dof_map.hpp"
-#include "plate/mass_points.hpp"
 #include "plate/section_map.hpp"
 
 namespace chladni::plate {

@@ -1,7 +1,6 @@
 #include "plate/loads.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <map>
 
 #include "plate/drilling.hpp"
@@ -29,7 +28,7 @@ class Forces {
   {
     for (const MotionTerm& term : dofs_.motion(node)) {
       const Vector6d share = term.T.transpose() * force;
-      for (const int c : dofs_.components) {
+      for (const int c : dofs_.components()) {
         const int dof = *dofs_.dof_of_number(term.number, c);
         if (dof < first_ || dof >= last_) continue;
         petsc::check(VecSetValue(f_, dof, share[c], ADD_VALUES));
@@ -43,6 +42,7 @@ class Forces {
     add(node, all);
   }
 
+  const DofMap& dofs() const { return dofs_; }
   petsc::Vector assembled()
   {
     petsc::check(VecAssemblyBegin(f_));
@@ -69,9 +69,9 @@ Eigen::MatrixX3d positions_of(const mesh::Mesh& mesh, std::span<const int> nodes
   return x;
 }
 
-void add_load(const mesh::Mesh& mesh, const System& system, const NodalLoad& load, Forces& forces)
+void add_load(const mesh::Mesh& mesh, const NodalLoad& load, Forces& forces)
 {
-  const std::vector<int> nodes = named_nodes(mesh, system.dofs, load.group);
+  const std::vector<int> nodes = forces.dofs().named_nodes(mesh, load.group);
   if (nodes.empty()) throw Error(fmt::format("load on \"{}\": it has no nodes", load.group));
   Vector6d force;
   force << vector_of(load.force), vector_of(load.moment);
@@ -79,7 +79,7 @@ void add_load(const mesh::Mesh& mesh, const System& system, const NodalLoad& loa
 }
 
 /// f_i = int N_i q ds along the edges.
-void add_load(const mesh::Mesh& mesh, const System&, const EdgeLoad& load, Forces& forces)
+void add_load(const mesh::Mesh& mesh, const EdgeLoad& load, Forces& forces)
 {
   const std::map<int, double> shares = edge_shares(mesh, load.group);
   if (shares.empty()) {
@@ -109,7 +109,7 @@ void add_pressure(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int e
   for (Index i = 0; i < f.rows(); ++i) forces.add_force(nodes[i], f.row(i));
 }
 
-void add_load(const mesh::Mesh& mesh, const System&, const PressureLoad& load, Forces& forces)
+void add_load(const mesh::Mesh& mesh, const PressureLoad& load, Forces& forces)
 {
   const mesh::Group& group = mesh::find_group(mesh, load.group);
   const auto index = static_cast<int>(&group - mesh.groups.data());
@@ -154,9 +154,9 @@ petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system, std::spa
   Forces forces(system);
   for (const Load& load : loads) {
     if (std::holds_alternative<GravityLoad>(load)) continue;
-    if (const auto* nodal = std::get_if<NodalLoad>(&load)) add_load(mesh, system, *nodal, forces);
-    if (const auto* edge = std::get_if<EdgeLoad>(&load)) add_load(mesh, system, *edge, forces);
-    if (const auto* p = std::get_if<PressureLoad>(&load)) add_load(mesh, system, *p, forces);
+    if (const auto* nodal = std::get_if<NodalLoad>(&load)) add_load(mesh, *nodal, forces);
+    if (const auto* edge = std::get_if<EdgeLoad>(&load)) add_load(mesh, *edge, forces);
+    if (const auto* p = std::get_if<PressureLoad>(&load)) add_load(mesh, *p, forces);
   }
   petsc::Vector f = forces.assembled();
   for (const Load& load : loads) {

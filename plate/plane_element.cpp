@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cmath>
 
 #include "plate/assumed_strains.hpp"
 #include "plate/element_rules.hpp"

@@ -111,12 +111,17 @@ struct Coupling {
   std::string to = {};  ///< of a link
 };
 
-using RigidCoupling = Coupling;  ///< one of the kind that it has when none is given
-
 /// A ring of nodes whose circumferential harmonics 0 .. `up_to` are to be coordinates.
 struct RingHarmonics {
   std::string ring;
   int up_to;  ///< 1 .. floor(N / 2) of N nodes
+};
+
+/// How the nodes of a body can move.
+struct Kinematics {
+  std::span<const Coupling> couplings = {};
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero
+  std::span<const RingHarmonics> rings = {};
 };
 
 }  // namespace chladni::plate

@@ -15,18 +15,10 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// a x b = cross(a) b.
-Matrix3d cross(const Vector3d& a)
-{
-  Matrix3d A;
-  A << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return A;
-}
-
 std::vector<int> nodes_at(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& what,
                           const std::string& name)
 {
-  std::vector<int> nodes = named_nodes(mesh, dofs, name);
+  std::vector<int> nodes = dofs.named_nodes(mesh, name);
   if (!nodes.empty()) return nodes;
   throw Error(
       fmt::format("{} \"{}\": no element of the mesh has a node of this group; its motion "
@@ -73,8 +65,7 @@ std::vector<int> nodes_between(const mesh::Mesh& mesh, const DofMap& dofs, const
 PointElement spring_between(const mesh::Mesh& mesh, const DofMap& dofs, const Spring& spring)
 {
   const std::vector<int> nodes = nodes_between(mesh, dofs, spring);
-  const Vector3d ab =
-      Vector3d(dofs.positions[nodes[1]].data()) - Vector3d(dofs.positions[nodes[0]].data());
+  const Vector3d ab = dofs.position(nodes[1]) - dofs.position(nodes[0]);
   return spring_element(nodes, spring, [&](const std::array<double, 6>& k) -> MatrixXd {
     return spring_matrix(k, ab);
   });
@@ -106,7 +97,7 @@ std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& do
 Matrix6d point_mass_matrix(const PointMass& mass)
 {
   const auto [xx, yy, zz, xy, xz, yz] = mass.inertia;
-  const Matrix3d c = cross(Vector3d(mass.offset.data()));
+  const Matrix3d c = cross_matrix(Vector3d(mass.offset.data()));
   Matrix3d J;
   J << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   Matrix6d M;
@@ -118,7 +109,7 @@ Eigen::Matrix<double, 12, 12> spring_matrix(const std::array<double, 6>& k, cons
 {
   // At the middle p: u_a + theta_a x ab / 2 and u_b - theta_b x ab / 2.
   const Matrix3d I = Matrix3d::Identity();
-  const Matrix3d arm = 0.5 * cross(ab);
+  const Matrix3d arm = 0.5 * cross_matrix(ab);
   Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();
   B.topRows<3>() << -I, arm, I, arm;
   B.block<3, 3>(3, 3) = -I;

@@ -1,5 +1,7 @@
 #include "plate/recovery.hpp"
 
+#include "plate/directors.hpp"
+
 namespace chladni::plate {
 
 namespace {
@@ -22,6 +24,30 @@ Eigen::VectorXd replicate(Vec q)
   Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, n);
   petsc::check(VecRestoreArrayRead(all, &values));
   return copy;
+}
+
+/// One element of a mesh with its section.
+struct ShellOfMesh {
+  const mesh::Mesh& mesh;
+  const mesh::ElementBlock& block;
+  int element;
+  const ShellSection& section;
+};
+
+/// Section forces of one element at its `resultant_points`.
+ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
+                                   const MatrixXd& motions)
+{
+  const auto& [mesh, block, element, section] = shell;
+  const ShellNodes shell_at = shell_nodes(mesh, block, element, normals, section);
+  const std::span<const int> nodes = block.element_nodes(element);
+  Eigen::VectorXd u_e(6 * std::ssize(nodes));
+  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
+    const auto& [x, y, z] = mesh.positions[nodes[i]];
+    const Eigen::Vector3d arm = shell_at.x.row(i).transpose() - Eigen::Vector3d(x, y, z);
+    u_e.segment<6>(6 * i) = rigid_arm(arm) * motions.row(nodes[i]).transpose();
+  }
+  return shell_resultants(block.shape, block.order, shell_at, section.material, u_e);
 }
 
 /// Sums over the elements at each node, and how many they are.
@@ -57,7 +83,7 @@ MatrixXd node_motions(const DofMap& dofs, Vec q)
   MatrixXd motions = MatrixXd::Zero(dofs.n_nodes(), 6);
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     for (const MotionTerm& term : dofs.motion(node)) {
-      for (const int c : dofs.components) {
+      for (const int c : dofs.components()) {
         motions.row(node) += all[*dofs.dof_of_number(term.number, c)] * term.T.col(c).transpose();
       }
     }
@@ -71,24 +97,9 @@ MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residua
   MatrixXd forces = MatrixXd::Zero(dofs.n_active(), 6);
   const int n = dofs.n_components();
   for (const int dof : held) {
-    forces(dof / n, dofs.components[static_cast<std::size_t>(dof % n)]) = all[dof];
+    forces(dof / n, dofs.components()[static_cast<std::size_t>(dof % n)]) = all[dof];
   }
   return forces;
-}
-
-ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
-                                   const MatrixXd& motions)
-{
-  const auto& [mesh, block, element, section] = shell;
-  const ShellNodes shell_at = shell_nodes(mesh, block, element, normals, section);
-  const std::span<const int> nodes = block.element_nodes(element);
-  Eigen::VectorXd u_e(6 * std::ssize(nodes));
-  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
-    const auto& [x, y, z] = mesh.positions[nodes[i]];
-    const Eigen::Vector3d arm = shell_at.x.row(i).transpose() - Eigen::Vector3d(x, y, z);
-    u_e.segment<6>(6 * i) = rigid_arm(arm) * motions.row(nodes[i]).transpose();
-  }
-  return shell_resultants(block.shape, block.order, shell_at, section.material, u_e);
 }
 
 ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "plate/assemble.hpp"
-#include "plate/directors.hpp"
+#include "common/petsc.hpp"
+#include "plate/dof_map.hpp"
 #include "plate/shell_resultants.hpp"
 
 namespace chladni::plate {
@@ -20,20 +20,6 @@ Eigen::MatrixXd node_motions(const DofMap& dofs, Vec q);
 /// @return [n_active x 6] N, N m, on every rank
 /// @note   Collective on the communicator of `residual`.
 Eigen::MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual);
-
-/// One element of a mesh with its section.
-struct ShellOfMesh {
-  const mesh::Mesh& mesh;
-  const mesh::ElementBlock& block;
-  int element;
-  const ShellSection& section;
-};
-
-/// Section forces of one element at its `resultant_points`.
-/// @param normals  mean_normals of the mesh.
-/// @param motions  as node_motions gives them.
-ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
-                                   const Eigen::MatrixXd& motions);
 
 /// Section forces at the nodes of the group of one section: those of each element are extrapolated
 /// to its nodes, and averaged over the elements of the group that meet there. Moments and shear

@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 Vector3d centre(const DofMap& dofs)
 {
   Vector3d sum = Vector3d::Zero();
-  for (const auto& x : dofs.positions) sum += Vector3d(x.data());
-  return sum / static_cast<double>(dofs.positions.size());
+  for (int node = 0; node < dofs.n_nodes(); ++node) sum += dofs.position(node);
+  return sum / static_cast<double>(dofs.n_nodes());
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ Vector3d centre(const DofMap& dofs)
 petsc::Matrix rigid_motions(const System& system)
 {
   const DofMap& dofs = system.dofs;
-  assert(dofs.combined_motions.empty());
+  assert(!dofs.has_combined_motions());
   petsc::Matrix R;
   PetscInt n_local = 0, first = 0, last = 0;
   petsc::check(MatGetLocalSize(system.K, &n_local, nullptr));
@@ -30,9 +30,9 @@ petsc::Matrix rigid_motions(const System& system)
   petsc::check(MatGetOwnershipRange(R, &first, &last));
   const Vector3d origin = centre(dofs);
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    if (dofs.is_dependent(node) || dofs.number[node] < 0) continue;
-    const Matrix6d motion = rigid_arm(Vector3d(dofs.positions[node].data()) - origin);
-    for (const int c : dofs.components) {
+    if (dofs.number(node) < 0) continue;
+    const Matrix6d motion = rigid_arm(dofs.position(node) - origin);
+    for (const int c : dofs.components()) {
       const int row = *dofs.dof(node, c);
       if (row < first || row >= last) continue;
       for (int k = 0; k < 6; ++k) {

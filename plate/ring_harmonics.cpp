@@ -26,12 +26,6 @@ struct Circle {
   Matrix3d axes;    ///< columns: phi = 0, phi = 90 degrees, axis
 };
 
-Vector3d position_of(const DofMap& dofs, int node)
-{
-  const auto& [x, y, z] = dofs.positions[node];
-  return {x, y, z};
-}
-
 /// The vector itself, or the coordinate axis that it is to round-off.
 Vector3d without_round_off(const Vector3d& v)
 {
@@ -57,7 +51,7 @@ Matrix3d axes_of(const Eigen::Matrix3Xd& arms)
 }
 
 /// Refuses what is not equally spaced on a circle.
-void check_circle(const DofMap& dofs, const Circle& circle, const Eigen::Matrix3Xd& arms,
+void check_circle(const CoupledNodes& nodes, const Circle& circle, const Eigen::Matrix3Xd& arms,
                   const std::string& ring)
 {
   const Index n = circle.angles.size();
@@ -69,22 +63,22 @@ void check_circle(const DofMap& dofs, const Circle& circle, const Eigen::Matrix3
     if (std::abs(local.head<2>().norm() - radius) > placement * radius ||
         std::abs(local.z()) > placement * radius ||
         std::abs(circle.angles[i] - angle) > placement) {
-      const auto [x, y, z] = dofs.positions[circle.nodes[static_cast<std::size_t>(i)]];
+      const Vector3d x = nodes.position(circle.nodes[static_cast<std::size_t>(i)]);
       throw Error(
           fmt::format("ring \"{}\": its {} nodes are not equally spaced on a circle, as harmonics "
                       "need them; the one at ({:.6g}, {:.6g}, {:.6g}) is off its place. Take the "
                       "ring out of interface.rings, or make it by mesh.rings",
-                      ring, n, x, y, z));
+                      ring, n, x[0], x[1], x[2]));
     }
   }
 }
 
-Circle circle_of(const DofMap& dofs, const std::vector<int>& group, const std::string& ring)
+Circle circle_of(const CoupledNodes& nodes, const std::vector<int>& group, const std::string& ring)
 {
   const Index n = std::ssize(group);
   if (n < 3) throw Error(fmt::format("ring \"{}\": {} nodes make no ring; take three", ring, n));
   Eigen::Matrix3Xd arms(3, n);
-  for (Index i = 0; i < n; ++i) arms.col(i) = position_of(dofs, group[std::size_t(i)]);
+  for (Index i = 0; i < n; ++i) arms.col(i) = nodes.position(group[std::size_t(i)]);
   arms.colwise() -= arms.rowwise().mean().eval();
   const Matrix3d axes = axes_of(arms);
   std::vector<std::pair<double, Index>> order;
@@ -103,7 +97,7 @@ Circle circle_of(const DofMap& dofs, const std::vector<int>& group, const std::s
     circle.angles[i] = angle;
     sorted.col(i) = arms.col(k);
   }
-  check_circle(dofs, circle, sorted, ring);
+  check_circle(nodes, circle, sorted, ring);
   return circle;
 }
 
@@ -136,22 +130,22 @@ Matrix6d directions(const Matrix3d& axes, double angle)
 }
 
 /// Active numbers that averages combine.
-std::set<int> averaged_numbers(const DofMap& dofs)
+std::set<int> averaged_numbers(const NodeMotions& motions)
 {
   std::set<int> numbers;
-  for (const CombinedMotion& motion : dofs.combined_motions)
+  for (const auto& [node, motion] : motions.combined)
     for (const MotionTerm& term : motion.terms) numbers.insert(term.number);
   return numbers;
 }
 
 /// Refuses nodes that do not stand on their own DOFs.
-void check_nodes(const DofMap& dofs, const Circle& circle, const std::set<int>& averaged,
-                 const std::string& ring)
+void check_nodes(const NodeMotions& motions, const Circle& circle, const std::string& ring)
 {
+  const std::set<int> averaged = averaged_numbers(motions);
   for (const int node : circle.nodes) {
-    const bool is_free = dofs.is_plain(node) && !averaged.contains(dofs.number[node]);
+    const bool is_free = motions.is_plain(node) && !averaged.contains(motions.number(node));
     if (is_free) continue;
-    const std::string& other = dofs.followed[node];
+    const std::string& other = motions.followed(node);
     throw Error(fmt::format(
         "ring \"{}\": its nodes {}; harmonics need nodes that belong to no coupling and to no "
         "other ring of harmonics",
@@ -170,33 +164,28 @@ void check_order(const RingHarmonics& wanted, std::size_t n)
 
 }  // namespace
 
-DofMap with_ring_harmonics(const mesh::Mesh& mesh, DofMap dofs,
-                           std::span<const RingHarmonics> rings)
+RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
+                                std::span<const RingHarmonics> rings)
 {
+  RingMotions with{std::move(motions), {}};
   for (const RingHarmonics& wanted : rings) {
-    if (dofs.n_components() != 6)
-      throw Error(
-          fmt::format("ring \"{}\": harmonics need all six DOFs of each node", wanted.ring));
-    const Circle circle = circle_of(dofs, named_nodes(mesh, dofs, wanted.ring), wanted.ring);
-    check_nodes(dofs, circle, averaged_numbers(dofs), wanted.ring);
+    const Circle circle = circle_of(with, with.named_nodes(mesh, wanted.ring), wanted.ring);
+    check_nodes(with, circle, wanted.ring);
     check_order(wanted, circle.nodes.size());
     const MatrixXd F = harmonics(circle.angles);
     HarmonicRing ring{
         .name = wanted.ring, .up_to = wanted.up_to, .nodes = circle.nodes, .numbers = {}};
-    for (const int node : circle.nodes) ring.numbers.push_back(dofs.number[node]);
+    for (const int node : circle.nodes) ring.numbers.push_back(with.number(node));
     for (Index i = 0; i < F.rows(); ++i) {
-      const int node = circle.nodes[static_cast<std::size_t>(i)];
       const Matrix6d E = directions(circle.axes, circle.angles[i]);
-      CombinedMotion motion{.terms = {}, .dof = {-1, -1, -1, -1, -1, -1}};
+      CombinedMotion motion{.followed = wanted.ring, .terms = {}, .dof = {-1, -1, -1, -1, -1, -1}};
       for (Index k = 0; k < F.cols(); ++k)
         motion.terms.push_back({ring.numbers[static_cast<std::size_t>(k)], F(i, k) * E});
-      dofs.combined[node] = static_cast<int>(dofs.combined_motions.size());
-      dofs.combined_motions.push_back(std::move(motion));
-      dofs.followed[node] = wanted.ring;
+      with.combined.emplace(circle.nodes[static_cast<std::size_t>(i)], std::move(motion));
     }
-    dofs.harmonic_rings.push_back(std::move(ring));
+    with.rings.push_back(std::move(ring));
   }
-  return dofs;
+  return with;
 }
 
 }  // namespace chladni::plate

@@ -45,16 +45,4 @@ std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSe
   return find_sections(mesh, sections, is_line, "line");
 }
 
-const ShellSection& section_of(std::span<const ShellSection> sections,
-                               const std::vector<int>& of_group, const mesh::ElementBlock& block,
-                               int element)
-{
-  const int group = block.group[element];
-  if (group < 0 || of_group[group] < 0) {
-    throw Error(fmt::format("element {} has no section: name its physical group in a [[section]]",
-                            block.numbers[element]));
-  }
-  return sections[of_group[group]];
-}
-
 }  // namespace chladni::plate

@@ -13,10 +13,4 @@ namespace chladni::plate {
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const ShellSection> sections);
 std::vector<int> section_of_group(const mesh::Mesh& mesh, std::span<const BeamSection> sections);
 
-/// @param of_group  as section_of_group gives it.
-/// @throws chladni::Error when the element has no section.
-const ShellSection& section_of(std::span<const ShellSection> sections,
-                               const std::vector<int>& of_group, const mesh::ElementBlock& block,
-                               int element);
-
 }  // namespace chladni::plate

@@ -13,7 +13,7 @@ namespace {
 [[noreturn]] void refuse_dependent(const mesh::Mesh& mesh, const DofMap& dofs,
                                    const Support& support, int node)
 {
-  const std::string& followed = dofs.followed[node];
+  const std::string& followed = dofs.followed(node);
   throw Error(fmt::format("support of \"{}\": node {} follows \"{}\"; support \"{}\" instead",
                           support.group, mesh.node_numbers[node], followed, followed));
 }
@@ -25,7 +25,7 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
 {
   std::vector<int> held;
   for (const Support& support : supports) {
-    const std::vector<int> nodes = named_nodes(mesh, dofs, support.group);
+    const std::vector<int> nodes = dofs.named_nodes(mesh, support.group);
     if (nodes.empty()) {
       throw Error(fmt::format("support of \"{}\": the group has no nodes", support.group));
     }

@@ -43,7 +43,7 @@ double resident_bytes()
 /// The rigid hub held: its six DOFs are the masters.
 petsc::IndexSet hub_dofs(const plate::System& system)
 {
-  const int first = 6 * system.dofs.number[*system.dofs.reference_node("hub")];
+  const int first = 6 * system.dofs.number(*system.dofs.reference_node("hub"));
   PetscInt begin = 0, end = 0;
   petsc::check(MatGetOwnershipRange(system.K, &begin, &end));
   petsc::IndexSet masters;
@@ -60,7 +60,7 @@ void run(int order, double element_size)
                                          .element_order = order,
                                          .rings = {}});
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  const std::vector<plate::RigidCoupling> hub{{.name = "hub", .group = "inner_edge"}};
+  const std::vector<plate::Coupling> hub{{.name = "hub", .group = "inner_edge"}};
   const std::vector<plate::ShellSection> sections{
       {.group = "disc",
        .material = {.young = 9.15915e10, .poisson = 0.3, .density = 6300.0},
@@ -69,7 +69,8 @@ void run(int order, double element_size)
   double assembly_s = 0.0, mumps_s = 0.0, supernodal_s = 0.0;
   const plate::System system = timed(assembly_s, [&] {
     return plate::assemble(
-        mesh, sections, plate::make_dof_map(mesh, hub, mesh::node_owners(mesh, n_ranks), n_ranks),
+        mesh, sections,
+        plate::make_dof_map(mesh, {.couplings = hub}, mesh::node_owners(mesh, n_ranks), n_ranks),
         PETSC_COMM_WORLD);
   });
   const double bytes = resident_bytes() - before;

@@ -47,8 +47,8 @@ void reduce_disc()
        .material = {.young = 9.15915e10, .poisson = 0.3, .density = 6300.0},
        .thickness = 0.02}};
   // 2. Its matrices K and M.
-  plate::DofMap map =
-      plate::make_dof_map(mesh, couplings, mesh::node_owners(mesh, n_ranks), n_ranks);
+  plate::DofMap map = plate::make_dof_map(mesh, {.couplings = couplings},
+                                          mesh::node_owners(mesh, n_ranks), n_ranks);
   const plate::System fe = plate::assemble(mesh, sections, std::move(map), PETSC_COMM_WORLD);
   // 3. The hub is the master; ten modes of the disc with the hub held.
   const reduce::DofPartition dofs = reduce::partition(fe.K, hub_dofs(fe));

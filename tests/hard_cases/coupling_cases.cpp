@@ -22,7 +22,7 @@ mesh::Mesh rectangle()
 
 DofMap map_of(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings)
 {
-  return make_dof_map(mesh, couplings, mesh::node_owners(mesh, 1), 1);
+  return make_dof_map(mesh, {.couplings = couplings}, mesh::node_owners(mesh, 1), 1);
 }
 
 Coupling link(const std::string& group, const std::string& to)
@@ -48,7 +48,7 @@ petsc::Vector rigid_motion(const System& system, int component)
   petsc::Vector q;
   petsc::check(MatCreateVecs(system.K, q.put(), nullptr));
   for (int node = 0; node < system.dofs.n_nodes(); ++node) {
-    const Eigen::Vector3d x(system.dofs.positions[node].data());
+    const Eigen::Vector3d x = system.dofs.position(node);
     Eigen::Vector<double, 6> motion = Eigen::Vector<double, 6>::Unit(component);
     if (component >= 3) motion.head<3>() = Eigen::Vector3d::Unit(component - 3).cross(x);
     for (int c = 0; c < 6; ++c) {
@@ -114,8 +114,8 @@ double refusal_of_reference_without_stiffness()
   mesh.node_numbers.push_back(4711);
   mesh.groups.push_back({.name = "loose", .dimension = 0, .nodes = {mesh.n_nodes() - 1}});
   const std::vector<int> owners(mesh.n_nodes(), 0);
-  const DofMap dofs =
-      make_dof_map(mesh, std::vector<Coupling>{{.name = "tip", .group = "loose"}}, owners, 1);
+  const std::vector<Coupling> tip{{.name = "tip", .group = "loose"}};
+  const DofMap dofs = make_dof_map(mesh, {.couplings = tip}, owners, 1);
   return words_missing([&] { check_stiffness_of_all_nodes(mesh, dofs); }, {"\"tip\"", "element"});
 }
 

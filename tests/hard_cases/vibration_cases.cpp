@@ -41,7 +41,8 @@ std::vector<double> frequencies(const mesh::Mesh& mesh, const std::vector<ShellS
                                 const std::vector<Coupling>& couplings,
                                 const std::vector<Support>& supports, int n)
 {
-  const plate::DofMap dofs = plate::make_dof_map(mesh, couplings, mesh::node_owners(mesh, 1), 1);
+  const plate::DofMap dofs =
+      plate::make_dof_map(mesh, {.couplings = couplings}, mesh::node_owners(mesh, 1), 1);
   const std::vector<int> held = plate::held_dofs(mesh, dofs, supports);
   const int n_rigid = plate::n_free_motions(plate::free_parts(mesh, dofs, held));
   const plate::System system = plate::assemble(mesh, sections, dofs, PETSC_COMM_SELF);
@@ -82,8 +83,8 @@ double thinner_disc_error(double ratio, mesh::AnnulusOptions options, double exa
 double miscounted_plane_motions()
 {
   const mesh::Mesh mesh = mesh::annulus(disc(0.03));
-  plate::DofMap dofs = plate::make_dof_map(mesh, {}, mesh::node_owners(mesh, 1), 1);
-  dofs.components = {2, 3, 4};
+  const plate::DofMap dofs =
+      plate::make_dof_map(mesh, {.components = {2, 3, 4}}, mesh::node_owners(mesh, 1), 1);
   return std::abs(plate::n_free_motions(plate::free_parts(mesh, dofs, {})) - 3.0);
 }
 

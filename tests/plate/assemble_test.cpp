@@ -16,9 +16,10 @@ System assemble_disc(MPI_Comm comm)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const int n_ranks = petsc::size(comm);
-  return assemble(mesh, testing::section,
-                  make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
-                  comm);
+  return assemble(
+      mesh, testing::section,
+      make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks),
+      comm);
 }
 
 /// Translation along (component < 3) or rotation about an axis, at every DOF of the system.
@@ -29,9 +30,9 @@ petsc::Vector rigid_motion(const System& system, int component)
   PetscInt first = 0, last = 0;
   petsc::check(VecGetOwnershipRange(R, &first, &last));
   for (int node = 0; node < system.dofs.n_nodes(); ++node) {
-    const PetscInt dof = 6 * system.dofs.number[node];
+    const PetscInt dof = 6 * system.dofs.number(node);
     if (system.dofs.is_dependent(node) || dof < first || dof >= last) continue;
-    const auto& x = system.dofs.positions[node];
+    const Eigen::Vector3d x = system.dofs.position(node);
     std::array<double, 6> u{};
     u[component] = 1.0;
     const int a = (component + 1) % 3, b = (component + 2) % 3;
@@ -236,10 +237,10 @@ TEST(Assemble, HasNoEntriesOfRoundOffAtAnyAngle)
   for (const double angle : {right_angle, 2.0 * right_angle, 0.3}) {
     const Eigen::Matrix3d Q = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
     const mesh::Mesh mesh = turned_disc(Q);
-    const System system =
-        assemble(mesh, testing::section,
-                 make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
-                 PETSC_COMM_WORLD);
+    const System system = assemble(
+        mesh, testing::section,
+        make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks),
+        PETSC_COMM_WORLD);
     EXPECT_EQ(round_off_entries(system.K), 0) << angle;
     EXPECT_EQ(round_off_entries(system.M), 0) << angle;
     expect_no_force_in_rigid_motion(system);
@@ -287,9 +288,10 @@ System assemble_stiffened_disc(MPI_Comm comm)
 {
   const mesh::Mesh mesh = stiffened_disc();
   const int n_ranks = petsc::size(comm);
-  return assemble(mesh, {.shells = testing::section, .beams = rim},
-                  make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
-                  comm);
+  return assemble(
+      mesh, {.shells = testing::section, .beams = rim},
+      make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks),
+      comm);
 }
 
 TEST(Assemble, JoinsBeamsAndShellsAtTheirNodes)
@@ -325,8 +327,8 @@ TEST(Assemble, HoldsComponentsThatTheModelDoesNotHave)
   section.group = "beam";
   section.theory = BeamTheory::bernoulli_euler;
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  DofMap map = make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks);
-  map.components = {2, 4};
+  DofMap map =
+      make_dof_map(mesh, {.components = {2, 4}}, mesh::node_owners(mesh, n_ranks), n_ranks);
   EXPECT_EQ(map.dof(0, 1), std::nullopt);
   const System planar =
       assemble(mesh, {.beams = std::span(&section, 1)}, std::move(map), PETSC_COMM_WORLD);
@@ -353,7 +355,8 @@ TEST(Assemble, NamesABeamSectionWithoutLines)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
+  const DofMap map =
+      make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks);
   try {
     assemble(mesh, {.shells = testing::section, .beams = rim}, map, PETSC_COMM_WORLD);
     FAIL() << "a beam section of a group without lines is accepted";
@@ -369,7 +372,8 @@ TEST(Assemble, NamesAnElementThatIsFoldedOver)
   mesh::ElementBlock& block = mesh.blocks[0];
   std::swap(mesh.positions[block.nodes[0]], mesh.positions[block.nodes[5]]);
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
+  const DofMap map =
+      make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks);
   EXPECT_THROW(assemble(mesh, testing::section, map, PETSC_COMM_WORLD), Error);
 }
 
@@ -377,7 +381,8 @@ TEST(Assemble, NamesAnElementWithoutSection)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks);
+  const DofMap map =
+      make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks);
   EXPECT_THROW(assemble(mesh, Structure{}, map, PETSC_COMM_WORLD), Error);
 }
 

@@ -21,10 +21,15 @@ inline mesh::Mesh plate()
   return rectangle({.a = 2.0, .b = 1.0, .n_x = 4, .n_y = 3, .order = 2});
 }
 
-inline DofMap map_of(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings)
+inline DofMap dofs_of(const mesh::Mesh& mesh, const Kinematics& kinematics)
 {
   const int n = petsc::size(PETSC_COMM_WORLD);
-  return make_dof_map(mesh, couplings, mesh::node_owners(mesh, n), n);
+  return make_dof_map(mesh, kinematics, mesh::node_owners(mesh, n), n);
+}
+
+inline DofMap map_of(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings)
+{
+  return dofs_of(mesh, {.couplings = couplings});
 }
 
 inline Coupling link(const std::string& group, const std::string& to)
@@ -37,14 +42,19 @@ inline Coupling average(const std::string& name, const std::string& group)
   return {.name = name, .group = group, .kind = CouplingKind::averaging};
 }
 
-inline std::string error_of(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings)
+inline std::string error_of(const mesh::Mesh& mesh, const Kinematics& kinematics)
 {
   try {
-    map_of(mesh, couplings);
+    dofs_of(mesh, kinematics);
   } catch (const Error& error) {
     return error.what();
   }
   return "";
+}
+
+inline std::string error_of(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings)
+{
+  return error_of(mesh, Kinematics{.couplings = couplings});
 }
 
 inline void expect_words(const std::string& message, const std::vector<std::string>& words)
@@ -97,7 +107,7 @@ inline double rotation_energy(const System& system, Mat A)
   PetscInt first = 0, last = 0;
   petsc::check(VecGetOwnershipRange(q, &first, &last));
   for (int node = 0; node < system.dofs.n_nodes(); ++node) {
-    const auto& x = system.dofs.positions[node];
+    const Eigen::Vector3d x = system.dofs.position(node);
     const std::array<double, 6> motion{0.0, 0.0, x[0] - 2.0 * x[1], -2.0, -1.0, 0.0};
     for (int c = 0; c < 6; ++c) {
       const auto dof = system.dofs.dof(node, c);

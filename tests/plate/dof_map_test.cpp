@@ -14,14 +14,14 @@ TEST(DofMap, NumbersTheNodesOfEachRankInOneRange)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const std::vector<int> owners = mesh::node_owners(mesh, 3);
-  const DofMap map = make_dof_map(mesh, testing::hub, owners, 3);
+  const DofMap map = make_dof_map(mesh, {.couplings = testing::hub}, owners, 3);
   std::vector<int> seen(map.n_active(), 0);
   for (int node = 0; node < map.n_nodes(); ++node) {
     if (map.is_dependent(node)) continue;
-    ++seen[map.number[node]];
+    ++seen[map.number(node)];
     if (node < mesh.n_nodes()) {
-      EXPECT_GE(map.number[node], map.range[owners[node]]);
-      EXPECT_LT(map.number[node], map.range[owners[node] + 1]);
+      EXPECT_GE(map.number(node), map.first_number(owners[node]));
+      EXPECT_LT(map.number(node), map.first_number(owners[node] + 1));
     }
   }
   EXPECT_EQ(std::ranges::count(seen, 1), map.n_active());
@@ -30,25 +30,25 @@ TEST(DofMap, NumbersTheNodesOfEachRankInOneRange)
 TEST(DofMap, PutsTheReferenceNodeInTheCentreOfItsGroup)
 {
   const mesh::Mesh mesh = testing::small_disc();
-  const DofMap map = make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, 1), 1);
+  const DofMap map = make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, 1), 1);
   const auto reference = map.reference_node("hub");
   ASSERT_TRUE(reference.has_value());
   // Gmsh puts the nodes at equal angles to 1e-11 of the radius.
-  for (const double x : map.positions[*reference]) EXPECT_NEAR(x, 0.0, 1e-12);
+  for (const double x : map.position(*reference)) EXPECT_NEAR(x, 0.0, 1e-12);
 }
 
 TEST(DofMap, NamesANodeThatTwoCouplingsClaim)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const std::vector<Coupling> twice{{"hub", "inner_edge"}, {"other", "inner_edge"}};
-  EXPECT_THROW(make_dof_map(mesh, twice, mesh::node_owners(mesh, 1), 1), Error);
+  EXPECT_THROW(make_dof_map(mesh, {.couplings = twice}, mesh::node_owners(mesh, 1), 1), Error);
 }
 
 TEST(DofMap, RefusesACouplingNamedAsAGroup)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const std::vector<Coupling> clash{{"disc", "inner_edge"}};
-  EXPECT_THROW(make_dof_map(mesh, clash, mesh::node_owners(mesh, 1), 1), Error);
+  EXPECT_THROW(make_dof_map(mesh, {.couplings = clash}, mesh::node_owners(mesh, 1), 1), Error);
 }
 
 }  // namespace

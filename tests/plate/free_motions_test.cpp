@@ -8,6 +8,7 @@
 namespace chladni::plate {
 namespace {
 
+using testing::dofs_of;
 using testing::hub;
 using testing::map_of;
 using testing::plate;
@@ -109,8 +110,7 @@ TEST(FreeParts, OfPiecesThatASpringConnectsAreOneBody)
 TEST(FreeParts, KnowTheComponentsThatNodesDoNotHave)
 {
   const mesh::Mesh mesh = plate();
-  DofMap dofs = map_of(mesh, {});
-  dofs.components = {2, 3, 4};
+  const DofMap dofs = dofs_of(mesh, {.components = {2, 3, 4}});
   const auto parts = free_parts(mesh, dofs, {});
   ASSERT_EQ(n_free_motions(parts), 3);
   EXPECT_EQ(describe_motions(parts[0]),

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plate/assemble.hpp"
+#include "plate/mass_points.hpp"
 #include "plate/point_elements.hpp"
 #include "small_disc.hpp"
 
@@ -24,17 +25,17 @@ const std::vector<PointMass> masses{{.at = "hub",
 struct Fixture {
   mesh::Mesh mesh = testing::small_disc();
   std::vector<ShellSection> sections = testing::section;
-  Structure structure;
-  System system;
+  Structure structure{.shells = sections, .masses = masses};
+  System system = assembled();
 
-  Fixture()
+  System assembled()
   {
     sections[0].offset = 0.012;
-    structure = {.shells = sections, .masses = masses};
     const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-    system = assemble(mesh, structure,
-                      make_dof_map(mesh, testing::hub, mesh::node_owners(mesh, n_ranks), n_ranks),
-                      PETSC_COMM_WORLD);
+    return assemble(
+        mesh, structure,
+        make_dof_map(mesh, {.couplings = testing::hub}, mesh::node_owners(mesh, n_ranks), n_ranks),
+        PETSC_COMM_WORLD);
   }
   MassModel model() const { return mass_model(mesh, structure, system.dofs, PETSC_COMM_WORLD); }
 };
@@ -50,9 +51,9 @@ petsc::Matrix rigid_motions(const System& system)
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(R, &first, &last));
   for (int node = 0; node < system.dofs.n_nodes(); ++node) {
-    const PetscInt dof = 6 * system.dofs.number[node];
+    const PetscInt dof = 6 * system.dofs.number(node);
     if (system.dofs.is_dependent(node) || dof < first || dof >= last) continue;
-    const Vector3d x(system.dofs.positions[node].data());
+    const Vector3d x = system.dofs.position(node);
     for (int k = 0; k < 3; ++k) {
       petsc::check(MatSetValue(R, dof + k, k, 1.0, INSERT_VALUES));
       petsc::check(MatSetValue(R, dof + 3 + k, 3 + k, 1.0, INSERT_VALUES));

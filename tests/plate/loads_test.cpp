@@ -26,7 +26,7 @@ Model model_of(mesh::Mesh mesh, const ShellSection& section,
                const std::vector<Coupling>& couplings = {})
 {
   const int n = petsc::size(PETSC_COMM_WORLD);
-  DofMap map = make_dof_map(mesh, couplings, mesh::node_owners(mesh, n), n);
+  DofMap map = make_dof_map(mesh, {.couplings = couplings}, mesh::node_owners(mesh, n), n);
   System system = assemble(mesh, std::vector{section}, std::move(map), PETSC_COMM_WORLD);
   return {.mesh = std::move(mesh), .system = std::move(system)};
 }
@@ -54,7 +54,7 @@ std::array<double, 6> resultant(const Model& model, Vec f)
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     const auto dof = dofs.dof(node, 0);
     if (!dof || *dof < first || *dof >= last) continue;
-    const auto& x = dofs.positions[node];
+    const Eigen::Vector3d x = dofs.position(node);
     const PetscScalar* q = values + (*dof - first);
     for (int c = 0; c < 3; ++c) {
       const int a = (c + 1) % 3, b = (c + 2) % 3;

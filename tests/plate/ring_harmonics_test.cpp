@@ -14,26 +14,23 @@ namespace chladni::plate {
 namespace {
 
 using Eigen::MatrixXd;
+using testing::dofs_of;
 using testing::energy;
 using testing::expect_words;
 using testing::map_of;
 using testing::random_motion;
 
-std::string ring_error(const mesh::Mesh& mesh, const DofMap& dofs, const RingHarmonics& ring)
+std::string ring_error(const mesh::Mesh& mesh, const std::vector<Coupling>& couplings,
+                       const std::vector<RingHarmonics>& rings)
 {
-  try {
-    with_ring_harmonics(mesh, dofs, std::vector{ring});
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return testing::error_of(mesh, {.couplings = couplings, .rings = rings});
 }
 
 System harmonic_disc(const mesh::Mesh& mesh, int up_to)
 {
-  DofMap dofs = with_ring_harmonics(mesh, map_of(mesh, testing::hub),
-                                    std::vector<RingHarmonics>{{"track", up_to}});
-  return assemble(mesh, testing::section, std::move(dofs), PETSC_COMM_WORLD);
+  const std::vector<RingHarmonics> rings{{"track", up_to}};
+  return assemble(mesh, testing::section,
+                  dofs_of(mesh, {.couplings = testing::hub, .rings = rings}), PETSC_COMM_WORLD);
 }
 
 /// The motion of all nodes in the coordinates of a system in which each has DOFs of its own.
@@ -77,7 +74,7 @@ TEST(RingHarmonics, OfTheDisplacementAlongTheRadiusAreUniformAndOfTheAxisTilted)
 {
   const mesh::Mesh mesh = testing::small_disc();
   const System disc = harmonic_disc(mesh, 3);
-  const HarmonicRing& ring = disc.dofs.harmonic_rings.at(0);
+  const HarmonicRing& ring = disc.dofs.harmonic_rings().at(0);
   EXPECT_EQ(ring.n_wanted(), 7);
   const auto motion_of = [&](int k, int component) {  // of the ring by one unit of a coordinate
     petsc::Vector q;
@@ -92,7 +89,7 @@ TEST(RingHarmonics, OfTheDisplacementAlongTheRadiusAreUniformAndOfTheAxisTilted)
   };
   const MatrixXd breathing = motion_of(0, 0), tilt = motion_of(1, 2), twist = motion_of(4, 4);
   for (const int node : ring.nodes) {
-    const auto& x = disc.dofs.positions[node];
+    const Eigen::Vector3d x = disc.dofs.position(node);
     const double cosine = x[0] / 0.13, sine = x[1] / 0.13;
     // sqrt(1 / 12) e_r; sqrt(2 / 12) cos(phi) e_z; sqrt(2 / 12) sin(2 phi) e_t as rotation. The
     // mesh is good to 1e-9.
@@ -107,21 +104,26 @@ TEST(RingHarmonics, OfTheDisplacementAlongTheRadiusAreUniformAndOfTheAxisTilted)
 TEST(RingHarmonics, RefuseWhatIsNoFreeRing)
 {
   const mesh::Mesh mesh = testing::small_disc();
-  const DofMap dofs = map_of(mesh, testing::hub);
-  EXPECT_EQ(ring_error(mesh, dofs, {"track", 6}), "");
-  expect_words(ring_error(mesh, dofs, {"track", 7}),
+  const std::vector<Coupling>& hub = testing::hub;
+  EXPECT_EQ(ring_error(mesh, hub, {{"track", 6}}), "");
+  expect_words(ring_error(mesh, hub, {{"track", 7}}),
                {"ring \"track\"", "harmonics = 7", "12 nodes", "1 to 6"});
-  expect_words(ring_error(mesh, dofs, {"inner_edge", 2}), {"\"inner_edge\"", "follow \"hub\""});
-  expect_words(ring_error(mesh, dofs, {"rim", 2}), {"\"rim\"", "track"});
-  expect_words(ring_error(mesh, dofs, {"disc", 2}), {"\"disc\"", "not equally spaced on a circle"});
-  expect_words(ring_error(mesh, dofs, {"hub", 1}), {"\"hub\"", "1 nodes"});
-  const DofMap averaged = map_of(mesh, {testing::average("pad", "track")});
-  expect_words(ring_error(mesh, averaged, {"track", 2}), {"\"track\"", "coupling"});
-  DofMap bending = dofs;
-  bending.components = {2, 3, 4};
-  expect_words(ring_error(mesh, bending, {"track", 2}), {"all six DOFs"});
-  const DofMap once = with_ring_harmonics(mesh, dofs, std::vector<RingHarmonics>{{"track", 2}});
-  expect_words(ring_error(mesh, once, {"track", 2}), {"follow \"track\""});
+  expect_words(ring_error(mesh, hub, {{"inner_edge", 2}}), {"\"inner_edge\"", "follow \"hub\""});
+  expect_words(ring_error(mesh, hub, {{"rim", 2}}), {"\"rim\"", "track"});
+  expect_words(ring_error(mesh, hub, {{"disc", 2}}),
+               {"\"disc\"", "not equally spaced on a circle"});
+  expect_words(ring_error(mesh, hub, {{"hub", 1}}), {"\"hub\"", "1 nodes"});
+  expect_words(ring_error(mesh, {testing::average("pad", "track")}, {{"track", 2}}),
+               {"\"track\"", "coupling"});
+  expect_words(ring_error(mesh, hub, {{"track", 2}, {"track", 2}}), {"follow \"track\""});
+}
+
+TEST(RingHarmonics, NeedAllComponents)
+{
+  const std::vector<RingHarmonics> rings{{"track", 2}};
+  const std::string error =
+      testing::error_of(testing::small_disc(), {.components = {2, 3, 4}, .rings = rings});
+  expect_words(error, {"\"track\"", "all six DOFs"});
 }
 
 TEST(RingHarmonics, NeedNodesThatAreEquallySpaced)
@@ -130,7 +132,7 @@ TEST(RingHarmonics, NeedNodesThatAreEquallySpaced)
   const int node = mesh::find_group(mesh, "track").nodes[3];
   const auto [x, y, z] = mesh.positions[node];
   mesh.positions[node] = {x - 1e-4 * y, y + 1e-4 * x, z};  // along the circle
-  expect_words(ring_error(mesh, map_of(mesh, testing::hub), {"track", 2}),
+  expect_words(ring_error(mesh, testing::hub, {{"track", 2}}),
                {"\"track\"", "not equally spaced", "off its place"});
 }
 

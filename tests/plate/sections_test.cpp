@@ -12,6 +12,7 @@
 namespace chladni::plate {
 namespace {
 
+using testing::dofs_of;
 using testing::energy;
 using testing::expect_words;
 using testing::link;
@@ -162,16 +163,16 @@ TEST(Offset, AndLinksAreThoseOfTheWholeModelWhereComponentsAreHeld)
       .group = "plate", .material = material, .thickness = 0.1, .offset = 0.03};
   const std::vector<Coupling> links{link("top", "bottom")};
   const System whole = assemble(mesh, std::vector{section}, map_of(mesh, links), PETSC_COMM_WORLD);
-  DofMap map = map_of(mesh, links);
-  map.components = {0, 2, 4};
-  const System part = assemble(mesh, std::vector{section}, std::move(map), PETSC_COMM_WORLD);
+  const System part =
+      assemble(mesh, std::vector{section},
+               dofs_of(mesh, {.couplings = links, .components = {0, 2, 4}}), PETSC_COMM_WORLD);
   petsc::Vector q_whole, q_part;
   petsc::check(MatCreateVecs(whole.K, q_whole.put(), nullptr));
   petsc::check(MatCreateVecs(part.K, q_part.put(), nullptr));
   PetscInt first = 0, last = 0;
   petsc::check(VecGetOwnershipRange(q_part, &first, &last));
   for (int node = 0; node < mesh.n_nodes(); ++node) {
-    for (const int c : part.dofs.components) {
+    for (const int c : part.dofs.components()) {
       const auto dof = part.dofs.dof(node, c);
       if (!dof || *dof < first || *dof >= last) continue;
       const double value = std::sin(double(node + 7 * c));
