@@ -1,18 +1,19 @@
 #include <fmt/format.h>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/describe.hpp"
-#include "cli/petsc_session.hpp"
-#include "cli/selection_json.hpp"
 #include "common/error.hpp"
-#include "mbs_export/body_file.hpp"
-#include "mbs_export/reduced_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "report/describe.hpp"
+#include "report/selection_json.hpp"
 
 namespace chladni::cli {
 namespace {
 
-mbs_export::ReducedSystem read_reduced_of(const Scene& scene, const SceneArguments& arguments)
+mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
+                                          const SceneArguments& arguments)
 {
   const std::filesystem::path file = reduced_file(scene, arguments);
   if (!std::filesystem::exists(file)) {
@@ -24,8 +25,8 @@ mbs_export::ReducedSystem read_reduced_of(const Scene& scene, const SceneArgumen
 
 void make_and_write_body(const SceneArguments& arguments)
 {
-  PhaseClock clock;
-  const Scene scene = read_meshed_scene(arguments.scene);
+  report::PhaseClock clock;
+  const scene::Scene scene = scene::read_meshed_scene(arguments.scene);
   const mbs_export::ReducedSystem reduced = read_reduced_of(scene, arguments);
   clock.end_phase("read");
   const mbs_export::ModalBody body = make_body_of(scene, reduced);
@@ -34,16 +35,19 @@ void make_and_write_body(const SceneArguments& arguments)
   mbs_export::write_body(file, body);
   clock.end_phase("write");
 
-  const Cost cost = cost_so_far(clock.phases());
-  const std::string selection = describe_selection(body);
-  fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title, format_table(list_modes(body)),
-             selection, selection.empty() ? "" : "\n", format_table(describe(body)),
-             format_table(cost_table(cost)), file.string());
-  std::vector<Json::Member> members = {{"n_masters", reduced.n_masters()},
-                                       {"n_modes", reduced.fixed_interface_frequencies.size()},
-                                       {"frequencies_Hz", frequencies_json(body.omega)},
-                                       {"n_rigid", body.n_rigid}};
-  for (Json::Member& member : preparation_json(body)) members.push_back(std::move(member));
+  const report::Cost cost = report::cost_so_far(clock.phases());
+  const std::string selection = report::describe_selection(body);
+  fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title,
+             report::format_table(report::list_modes(body)), selection,
+             selection.empty() ? "" : "\n", report::format_table(report::describe(body)),
+             report::format_table(report::cost_table(cost)), file.string());
+  std::vector<report::Json::Member> members = {
+      {"n_masters", reduced.n_masters()},
+      {"n_modes", reduced.fixed_interface_frequencies.size()},
+      {"frequencies_Hz", frequencies_json(body.omega)},
+      {"n_rigid", body.n_rigid}};
+  for (report::Json::Member& member : report::preparation_json(body))
+    members.push_back(std::move(member));
   write_summary(arguments, members, cost);
 }
 
@@ -51,7 +55,7 @@ void make_and_write_body(const SceneArguments& arguments)
 
 void body_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { make_and_write_body(arguments.scene); });
+  cases::on_first_rank([&] { make_and_write_body(arguments.scene); });
 }
 
 }  // namespace chladni::cli

@@ -2,15 +2,15 @@
 
 #include <cmath>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/output.hpp"
-#include "cli/petsc_session.hpp"
 #include "common/error.hpp"
-#include "mbs_export/body_file.hpp"
+#include "files/hdf5.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/hdf5.hpp"
-#include "mbs_export/reduced_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "report/output.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -19,7 +19,7 @@ using mbs_export::Check, mbs_export::Verdict;
 
 std::vector<Check> checks_of(const std::string& path)
 {
-  const mbs_export::hdf5::Reader file(path);
+  const files::Reader file(path);
   const std::string format = file.text_attribute("/", "format");
   if (format == mbs_export::reduced_format) return check_reduced(mbs_export::read_reduced(file));
   if (format == mbs_export::body_format) return check_body(mbs_export::read_body(file));
@@ -38,9 +38,9 @@ std::string number(double x)
   return std::isnan(x) ? "-" : fmt::format("{:.3g}", x);
 }
 
-TextTable table_of(const std::vector<Check>& checks)
+report::TextTable table_of(const std::vector<Check>& checks)
 {
-  TextTable table{.header = {"check", "verdict", "value", "limit"}, .rows = {}};
+  report::TextTable table{.header = {"check", "verdict", "value", "limit"}, .rows = {}};
   for (const Check& check : checks)
     table.rows.push_back(
         {check.name, name_of(check.verdict), number(check.value), number(check.limit)});
@@ -49,25 +49,25 @@ TextTable table_of(const std::vector<Check>& checks)
 
 void write_json(const std::string& file, const std::string& json, const std::vector<Check>& checks)
 {
-  std::vector<Json> list;
+  std::vector<report::Json> list;
   for (const Check& check : checks)
-    list.push_back(Json::object({{"check", check.name},
-                                 {"verdict", name_of(check.verdict)},
-                                 {"value", check.value},
-                                 {"limit", check.limit},
-                                 {"meaning", check.meaning}}));
+    list.push_back(report::Json::object({{"check", check.name},
+                                         {"verdict", name_of(check.verdict)},
+                                         {"value", check.value},
+                                         {"limit", check.limit},
+                                         {"meaning", check.meaning}}));
   write_summary({.scene = file, .output = {}, .json = json},
                 {{"file", file},
                  {"verdict", name_of(mbs_export::worst(checks))},
-                 {"checks", Json::array(list)}},
-                cost_so_far({}));
+                 {"checks", report::Json::array(list)}},
+                report::cost_so_far({}));
 }
 
 void print_checks(const std::string& file, const std::string& json)
 {
   const std::vector<Check> checks = checks_of(file);
   write_json(file, json, checks);
-  fmt::print("{}\n\n{}", file, format_table(table_of(checks)));
+  fmt::print("{}\n\n{}", file, report::format_table(table_of(checks)));
   int n_failed = 0;
   for (const Check& check : checks) {
     if (check.verdict == Verdict::pass) continue;
@@ -83,7 +83,7 @@ void print_checks(const std::string& file, const std::string& json)
 
 void check_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { print_checks(arguments.check_file, arguments.check_json); });
+  cases::on_first_rank([&] { print_checks(arguments.check_file, arguments.check_json); });
 }
 
 }  // namespace chladni::cli

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "cli/report/report.hpp"
-#include "reduce/solver_options.hpp"
+#include "linear/solver_options.hpp"
+#include "report/page/report.hpp"
 
 /// The subcommands of the program `chladni`. Each prints its summary on the first rank, writes the
 /// files at its end, and throws chladni::Error when the job failed, before anything is written.
@@ -42,9 +42,9 @@ struct ChladniArguments {
   std::string check_json;  ///< file for the summary; empty for none
   std::string seal_file;
   ExportArguments exported;
-  ReportArguments report;
+  report::ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
-  reduce::SolverOptions solver = {};       ///< what it says of the solvers
+  linear::SolverOptions solver = {};       ///< what it says of the solvers
 };
 
 /// Meshes the scene, or reads a mesh file, and says what the mesh is like.

@@ -3,17 +3,17 @@
 #include <filesystem>
 #include <optional>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/petsc_session.hpp"
-#include "cli/scene/scene.hpp"
 #include "common/error.hpp"
+#include "files/text_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/formats/exudyn.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
-#include "mbs_export/formats/text_file.hpp"
-#include "mbs_export/reduced_file.hpp"
+#include "scene/scene.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -23,7 +23,7 @@ using std::filesystem::path;
 
 /// The scene's supports and modes, or only a reduced file.
 struct Source {
-  std::optional<Scene> scene;
+  std::optional<scene::Scene> scene;
   path reduced_file;
   path stem;  ///< of the written file, when no name is given
 };
@@ -36,7 +36,7 @@ Source source_of(const ExportArguments& arguments)
     while (stem.has_extension()) stem.replace_extension();
     return {.scene = std::nullopt, .reduced_file = given, .stem = stem};
   }
-  Scene scene = read_meshed_scene(given);
+  scene::Scene scene = scene::read_meshed_scene(given);
   const path file = path(arguments.from) / (scene.name + ".reduced.h5");
   if (!std::filesystem::exists(file))
     throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
@@ -53,7 +53,7 @@ path target_of(const ExportArguments& arguments, const Source& source, const std
 
 std::string write(const path& file, const std::string& text)
 {
-  formats::write_text(file, text);
+  files::write_text(file, text);
   return file.string();
 }
 
@@ -61,37 +61,41 @@ std::vector<std::string> export_superelement(const ExportArguments& arguments, c
                                              const mbs_export::ReducedSystem& reduced)
 {
   path file = target_of(arguments, source, ".op4");
-  const auto files = formats::nastran_superelement(reduced, arguments.superelement);
+  const auto files = mbs_export::formats::nastran_superelement(reduced, arguments.superelement);
   return {write(file, files.op4), write(file.replace_extension(".asm"), files.assembly),
           write(file.replace_extension(".pch"), files.superelement)};
 }
 
-formats::FloatingBody floating_body_of(const ExportArguments& arguments, const Source& source,
-                                       const mbs_export::ReducedSystem& reduced)
+mbs_export::formats::FloatingBody floating_body_of(const ExportArguments& arguments,
+                                                   const Source& source,
+                                                   const mbs_export::ReducedSystem& reduced)
 {
   if (!source.scene)
     throw Error(fmt::format("{}: {} needs the supports and modes of [body]; give the scene",
                             arguments.source, arguments.format));
-  return formats::floating_body(reduced, source.scene->body);
+  return mbs_export::formats::floating_body(reduced, source.scene->body);
 }
 
 /// A body in a frame that moves with it.
 std::string export_floating_body(const ExportArguments& arguments, const Source& source,
-                                 const formats::FloatingBody& floating)
+                                 const mbs_export::formats::FloatingBody& floating)
 {
   if (arguments.format == "exudyn") {
     const path file = target_of(arguments, source, ".exudyn.h5");
-    formats::write_exudyn(file, floating);
+    mbs_export::formats::write_exudyn(file, floating);
     return file.string();
   }
   if (arguments.format == "sid") {
-    const auto dialect = arguments.sid_dialect == "welib" ? formats::SidDialect::welib
-                                                          : formats::SidDialect::simpack;
-    return write(target_of(arguments, source, ".SID_FEM"), formats::sid_fem(floating, dialect));
+    const auto dialect = arguments.sid_dialect == "welib"
+                             ? mbs_export::formats::SidDialect::welib
+                             : mbs_export::formats::SidDialect::simpack;
+    return write(target_of(arguments, source, ".SID_FEM"),
+                 mbs_export::formats::sid_fem(floating, dialect));
   }
-  const auto version =
-      arguments.format == "mbdyn" ? formats::MbdynVersion::v1_7 : formats::MbdynVersion::develop;
-  return write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
+  const auto version = arguments.format == "mbdyn" ? mbs_export::formats::MbdynVersion::v1_7
+                                                   : mbs_export::formats::MbdynVersion::develop;
+  return write(target_of(arguments, source, ".fem"),
+               mbs_export::formats::mbdyn_fem(floating, version));
 }
 
 /// @return the files written
@@ -100,7 +104,8 @@ std::vector<std::string> export_as(const ExportArguments& arguments)
   const Source source = source_of(arguments);
   const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
   if (arguments.format == "nastran-dmig")
-    return {write(target_of(arguments, source, ".dmig"), formats::nastran_dmig(reduced))};
+    return {
+        write(target_of(arguments, source, ".dmig"), mbs_export::formats::nastran_dmig(reduced))};
   if (arguments.format == "nastran-op4") return export_superelement(arguments, source, reduced);
   return {export_floating_body(arguments, source, floating_body_of(arguments, source, reduced))};
 }
@@ -112,8 +117,8 @@ void export_and_report(const ExportArguments& arguments)
   write_summary({.scene = arguments.source, .output = {}, .json = arguments.json},
                 {{"source", arguments.source},
                  {"format", arguments.format},
-                 {"files", Json::array({files.begin(), files.end()})}},
-                cost_so_far({}));
+                 {"files", report::Json::array({files.begin(), files.end()})}},
+                report::cost_so_far({}));
 }
 
 }  // namespace
@@ -133,7 +138,7 @@ const std::vector<std::string>& sid_dialects()
 
 void export_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { export_and_report(arguments.exported); });
+  cases::on_first_rank([&] { export_and_report(arguments.exported); });
 }
 
 }  // namespace chladni::cli

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
-#include "cli/describe.hpp"
-#include "cli/petsc_session.hpp"
+#include "report/describe.hpp"
 
 namespace chladni::cli {
 
 void info_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { fmt::print("{}", describe_file(arguments.info_file)); });
+  cases::on_first_rank([&] { fmt::print("{}", report::describe_file(arguments.info_file)); });
 }
 
 }  // namespace chladni::cli

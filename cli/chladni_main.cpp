@@ -8,14 +8,15 @@
 #include <iterator>
 #include <thread>
 
+#include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
 #include "cli/blas_kernels.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
-#include "cli/scene/keys.hpp"
 #include "cli/seal.hpp"
-#include "cli/version.hpp"
-#include "reduce/read_solver_options.hpp"
+#include "linear/read_solver_options.hpp"
+#include "report/version.hpp"
+#include "scene/keys.hpp"
 
 namespace {
 
@@ -25,45 +26,45 @@ struct Subcommand {
   const char* name;
   const char* what;
   const char* examples;
-  void (*perform)(const cli::ChladniArguments&);
+  void (*perform)(const chladni::cli::ChladniArguments&);
 };
 
 constexpr Subcommand on_scenes[] = {
     {"mesh", "meshes the scene and says what the mesh is like",
      "Examples:\n  chladni mesh scene.toml\n  chladni mesh disc.msh --quality --json mesh.json",
-     cli::mesh_command},
+     chladni::cli::mesh_command},
     {"static", "displacements and section forces under supports and loads: NAME.static.vtu",
      "Examples:\n  chladni static scene.toml --output out\n"
      "  mpirun -n 2 chladni static scene.toml --json static.json",
-     cli::static_command},
+     chladni::cli::static_command},
     {"modes", "natural modes under supports: NAME.modes.vtu",
      "Examples:\n  chladni modes scene.toml --output out\n"
      "  mpirun -n 2 chladni modes scene.toml --json modes.json",
-     cli::modes_command},
+     chladni::cli::modes_command},
     {"reduce", "meshes, assembles and reduces: NAME.reduced.h5",
      "Examples:\n  chladni reduce scene.toml --output out\n"
      "  mpirun -n 2 chladni reduce scene.toml -- -log_view",
-     cli::reduce_command},
+     chladni::cli::reduce_command},
     {"body", "makes the modal body of NAME.reduced.h5: NAME.body.h5",
      "Example (after a change of [body] in the scene):\n  chladni body scene.toml --output out",
-     cli::body_command},
+     chladni::cli::body_command},
     {"sound", "the sound of the limit cycle that `squeal run` found: NAME.sound.h5, .vtu, .wav",
      "Examples:\n  chladni sound scene.toml --output out --json out/sound.json\n"
      "  chladni sound scene.toml --radiation --output out    (before `squeal run`)",
-     cli::sound_command},
+     chladni::cli::sound_command},
     {"run", "mesh, reduce and body in one go",
      "Examples:\n  chladni run scene.toml --output out --json out/chladni.json\n"
      "  mpirun -n 2 chladni run scene.toml",
-     cli::run_command},
+     chladni::cli::run_command},
 };
 
-void declare_export(CLI::App& app, cli::ExportArguments& arguments)
+void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 {
   CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
   exported->add_option("SOURCE", arguments.source, "the scene file, or a *.reduced.h5")->required();
   exported->add_option("--format", arguments.format, "format of the other program")
       ->required()
-      ->check(CLI::IsMember(cli::export_formats()));
+      ->check(CLI::IsMember(chladni::cli::export_formats()));
   exported->add_option("--from", arguments.from, "folder of the scene's NAME.reduced.h5")
       ->type_name("DIR")
       ->capture_default_str();
@@ -72,7 +73,7 @@ void declare_export(CLI::App& app, cli::ExportArguments& arguments)
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
-      ->check(CLI::IsMember(cli::sid_dialects()))
+      ->check(CLI::IsMember(chladni::cli::sid_dialects()))
       ->capture_default_str();
   exported->add_option("--json", arguments.json, "writes the summary for other programs")
       ->type_name("FILE");
@@ -83,11 +84,11 @@ void declare_export(CLI::App& app, cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.h5");
 }
 
-void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
+void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
     CLI::App* declared = app.add_subcommand(subcommand.name, subcommand.what);
-    cli::declare_scene_arguments(*declared, arguments.scene);
+    chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
   app.get_subcommand("mesh")->add_flag(
@@ -106,47 +107,48 @@ void declare_subcommands(CLI::App& app, cli::ChladniArguments& arguments)
       ->type_name("FILE");
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
-  cli::declare_report(app, arguments.report);
-  cli::declare_seal(app, arguments.seal_file);
+  chladni::report::declare_report(app, arguments.report);
+  chladni::cli::declare_seal(app, arguments.seal_file);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  chladni scene-reference > scene_reference.md");
   app.require_subcommand(1);
 }
 
-void perform(const CLI::App& app, const cli::ChladniArguments& arguments)
+void perform(const CLI::App& app, const chladni::cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
   }
-  if (app.got_subcommand("export")) return cli::export_command(arguments);
+  if (app.got_subcommand("export")) return chladni::cli::export_command(arguments);
   if (app.got_subcommand("report"))
-    return cli::on_first_rank([&] { cli::write_report(arguments.report); });
+    return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });
   if (app.got_subcommand("seal"))
-    return cli::on_first_rank([&] { cli::seal(arguments.seal_file); });
+    return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal_file); });
   if (app.got_subcommand("scene-reference"))
-    return cli::on_first_rank([] { fmt::print("{}", cli::scene_reference()); });
-  if (app.got_subcommand("check")) return cli::check_command(arguments);
-  cli::info_command(arguments);
+    return chladni::cases::on_first_rank(
+        [] { fmt::print("{}", chladni::scene::scene_reference()); });
+  if (app.got_subcommand("check")) return chladni::cli::check_command(arguments);
+  chladni::cli::info_command(arguments);
 }
 
 /// Prints the failure once, and ends the other ranks with this one.
 int report_failure(const std::exception& error)
 {
   // A failure is the same on all ranks as a rule; time for the first one to say it.
-  if (cli::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+  if (chladni::cases::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
   fmt::print(stderr, "{}\n", error.what());
   std::fflush(nullptr);
-  if (cli::n_ranks() > 1) cli::abort_all_ranks(cli::exit_failed);
-  return cli::exit_failed;
+  if (chladni::cases::n_ranks() > 1) chladni::cli::abort_all_ranks(chladni::cli::exit_failed);
+  return chladni::cli::exit_failed;
 }
 
-int perform_with_petsc(const CLI::App& app, cli::ChladniArguments arguments)
+int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments arguments)
 {
-  const cli::PetscSession session(arguments.petsc_options);
+  const chladni::cli::PetscSession session(arguments.petsc_options);
   try {
-    arguments.solver = chladni::reduce::read_solver_options(PETSC_COMM_WORLD);
+    arguments.solver = chladni::linear::read_solver_options(PETSC_COMM_WORLD);
     perform(app, arguments);
-    return cli::exit_ok;
+    return chladni::cli::exit_ok;
   } catch (const std::exception& error) {
     return report_failure(error);
   }
@@ -156,14 +158,14 @@ int perform_with_petsc(const CLI::App& app, cli::ChladniArguments arguments)
 
 int main(int argc, char** argv)
 {
-  cli::restart_with_fitting_blas_kernels(argv);
+  chladni::cli::restart_with_fitting_blas_kernels(argv);
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
-  cli::ChladniArguments arguments;
+  chladni::cli::ChladniArguments arguments;
   if (dashes != end) arguments.petsc_options.assign(dashes + 1, end);
 
   CLI::App app("From a mesh of shells to a modal body.", "chladni");
-  app.set_version_flag("--version", fmt::format("chladni {}", cli::version));
+  app.set_version_flag("--version", fmt::format("chladni {}", chladni::report::version));
   declare_subcommands(app, arguments);
   app.footer(
       "PETSc options follow after --.\n"
@@ -172,11 +174,11 @@ int main(int argc, char** argv)
       "  mpirun -n 2 chladni reduce scene.toml -- -log_view\n"
       "  chladni info out/disc.body.h5\n"
       "  chladni report scene.toml --output out");
-  if (const auto code = cli::parse_arguments(app, {argv + 1, dashes})) return *code;
+  if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, dashes})) return *code;
   try {
     return perform_with_petsc(app, arguments);
   } catch (const std::exception& error) {  // PETSc did not start
     fmt::print(stderr, "{}\n", error.what());
-    return cli::exit_failed;
+    return chladni::cli::exit_failed;
   }
 }

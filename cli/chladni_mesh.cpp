@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/mesh_quality.hpp"
-#include "cli/petsc_session.hpp"
-#include "cli/scene/names.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
+#include "report/fe/mesh_quality.hpp"
+#include "scene/names.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -26,9 +26,9 @@ std::string name_of(mesh::Shape shape)
   return "";
 }
 
-TextTable mesh_table(const mesh::Mesh& mesh)
+report::TextTable mesh_table(const mesh::Mesh& mesh)
 {
-  TextTable table{.header = {"part of the mesh", "count"}, .rows = {}};
+  report::TextTable table{.header = {"part of the mesh", "count"}, .rows = {}};
   table.rows.push_back({"nodes", fmt::format("{}", mesh.n_nodes())});
   for (const mesh::ElementBlock& block : mesh.blocks) {
     table.rows.push_back({fmt::format("{} of order {}", name_of(block.shape), block.order),
@@ -41,14 +41,14 @@ TextTable mesh_table(const mesh::Mesh& mesh)
   return table;
 }
 
-std::vector<Json::Member> mesh_json(const mesh::Mesh& mesh)
+std::vector<report::Json::Member> mesh_json(const mesh::Mesh& mesh)
 {
   int n_elements = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) n_elements += block.n_elements();
   return {{"n_nodes", mesh.n_nodes()},
           {"n_elements", n_elements},
           {"mesh_checksum", mesh::checksum(mesh)},
-          {"notes", Json::array({mesh.notes.begin(), mesh.notes.end()})}};
+          {"notes", report::Json::array({mesh.notes.begin(), mesh.notes.end()})}};
 }
 
 /// A scene's [mesh], or a mesh file by itself.
@@ -60,31 +60,32 @@ struct Subject {
 Subject read_subject(const std::string& path)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+  if (scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     return {.title = path, .mesh = {.file = path}};
   }
-  const Scene scene = read_meshed_scene(path, Purpose::fe_model);
+  const scene::Scene scene = scene::read_meshed_scene(path, scene::Purpose::fe_model);
   return {.title = scene.title, .mesh = scene.mesh};
 }
 
 void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice)
 {
-  PhaseClock clock;
+  report::PhaseClock clock;
   const Subject subject = read_subject(arguments.scene);
   clock.end_phase("read");
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
-  std::vector<Json::Member> summary = mesh_json(mesh);
+  std::vector<report::Json::Member> summary = mesh_json(mesh);
   std::string text;
   if (choice.quality) {
     const std::vector<mesh::ElementQuality> elements = mesh::quality(mesh);
-    text = quality_text(elements) + "\n";
-    for (const Json::Member& member : quality_json(elements)) summary.push_back(member);
+    text = report::quality_text(elements) + "\n";
+    for (const report::Json::Member& member : report::quality_json(elements))
+      summary.push_back(member);
     clock.end_phase("quality");
   }
-  const Cost cost = cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}{}", subject.title, format_table(mesh_table(mesh)), text,
-             format_table(cost_table(cost)));
+  const report::Cost cost = report::cost_so_far(clock.phases());
+  fmt::print("{}\n\n{}\n{}{}", subject.title, report::format_table(mesh_table(mesh)), text,
+             report::format_table(report::cost_table(cost)));
   for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
   write_summary(arguments, summary, cost);
   if (choice.quality) mesh::check_usable(mesh, arguments.scene);
@@ -94,7 +95,7 @@ void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice
 
 void mesh_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { mesh_and_print(arguments.scene, arguments.mesh); });
+  cases::on_first_rank([&] { mesh_and_print(arguments.scene, arguments.mesh); });
 }
 
 }  // namespace chladni::cli

@@ -2,14 +2,14 @@
 
 #include <numbers>
 
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/petsc_session.hpp"
-#include "cli/sound_report.hpp"
-#include "cli/sound_vtu.hpp"
-#include "cli/version.hpp"
 #include "common/error.hpp"
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "report/fe/sound_report.hpp"
+#include "report/fe/sound_vtu.hpp"
+#include "report/version.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/study.hpp"
 #include "squeal/result_file.hpp"
@@ -47,7 +47,7 @@ sound::Onset onset_of(const squeal::SquealResults& results, sound::CycleChoice c
 }
 
 /// NAME.sound.wav, when the scene asks for it.
-void write_wav(const Scene& scene, const path& folder, const sound::SoundResults& results,
+void write_wav(const scene::Scene& scene, const path& folder, const sound::SoundResults& results,
                const sound::Onset& onset)
 {
   if (!scene.sound->wav) return;
@@ -64,7 +64,7 @@ struct Files {
   path body, squeal, sound, radiation, picture;
 };
 
-Files files_of(const Scene& scene, const SceneArguments& arguments)
+Files files_of(const scene::Scene& scene, const SceneArguments& arguments)
 {
   const path stem = path(arguments.output) / scene.name;
   const auto with = [&](const char* extension) { return path(stem.string() + extension); };
@@ -72,9 +72,9 @@ Files files_of(const Scene& scene, const SceneArguments& arguments)
           with(".sound.vtu")};
 }
 
-Scene read_sounding_scene(const std::string& file)
+scene::Scene read_sounding_scene(const std::string& file)
 {
-  Scene scene = read_meshed_scene(file);
+  scene::Scene scene = scene::read_meshed_scene(file);
   if (!scene.sound)
     throw Error(fmt::format("{}: there is no table [sound], so nothing to do", scene.path));
   return scene;
@@ -82,8 +82,8 @@ Scene read_sounding_scene(const std::string& file)
 
 void compute_sound(const ChladniArguments& arguments)
 {
-  PhaseClock clock;
-  const Scene scene = read_sounding_scene(arguments.scene.scene);
+  report::PhaseClock clock;
+  const scene::Scene scene = read_sounding_scene(arguments.scene.scene);
   const Files files = files_of(scene, arguments.scene);
   const bool whole = !arguments.sound.radiation_only;
   need(files.body, fmt::format("make it with `chladni run {} --output {}`", arguments.scene.scene,
@@ -98,7 +98,7 @@ void compute_sound(const ChladniArguments& arguments)
       whole ? squeal::read_results(files.squeal) : squeal::SquealResults{};
   clock.end_phase("read");
   const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};
-  ProgressLine line;
+  report::ProgressLine line;
   const auto report = [&](const std::string& step, double part) { line.show(step, part); };
   const sound::SoundResults results =
       whole ? sound_study(setting, squeal_results, report)
@@ -109,26 +109,26 @@ void compute_sound(const ChladniArguments& arguments)
   if (whole) {
     mbs_export::Provenance origin = body.provenance;
     origin.scene = scene.text;
-    origin.versions = fmt::format("chladni {}; body: {}", version, origin.versions);
+    origin.versions = fmt::format("chladni {}; body: {}", report::version, origin.versions);
     sound::write_sound(files.sound, results, origin);
-    write_text_atomically(files.picture, sound_vtu(results.tones));
+    report::write_text_atomically(files.picture, report::sound_vtu(results.tones));
   }
   clock.end_phase("write");
-  const Cost cost = cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, describe_sound(results),
-             format_table(cost_table(cost)), files.radiation.string());
+  const report::Cost cost = report::cost_so_far(clock.phases());
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, report::describe_sound(results),
+             report::format_table(report::cost_table(cost)), files.radiation.string());
   if (whole) {
     fmt::print("wrote {}\nwrote {}\n", files.sound.string(), files.picture.string());
     write_wav(scene, arguments.scene.output, results, onset_of(squeal_results, scene.sound->cycle));
   }
-  write_summary(arguments.scene, sound_json(results), cost);
+  write_summary(arguments.scene, report::sound_json(results), cost);
 }
 
 }  // namespace
 
 void sound_command(const ChladniArguments& arguments)
 {
-  on_first_rank([&] { compute_sound(arguments); });
+  cases::on_first_rank([&] { compute_sound(arguments); });
 }
 
 }  // namespace chladni::cli

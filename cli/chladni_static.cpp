@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/fe_solution.hpp"
+#include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/fe_solution.hpp"
-#include "cli/petsc_session.hpp"
 #include "common/error.hpp"
-#include "plate/loads.hpp"
-#include "plate/recovery.hpp"
+#include "plate/assembly/loads.hpp"
+#include "plate/assembly/recovery.hpp"
 #include "reduce/supported_solutions.hpp"
 
 namespace chladni::cli {
@@ -24,7 +24,7 @@ struct Found {
 };
 
 /// K u = f has no solution when a part of the body can move freely.
-void check_supported(const Scene& scene, const SupportedModel& model)
+void check_supported(const scene::Scene& scene, const cases::SupportedModel& model)
 {
   if (model.free.empty()) return;
   const plate::FreePart& part = model.free.front();
@@ -35,13 +35,14 @@ void check_supported(const Scene& scene, const SupportedModel& model)
       part.n_nodes, part.centre[0], part.centre[1], part.centre[2], describe_motions(part)));
 }
 
-void check_loads(const Scene& scene)
+void check_loads(const scene::Scene& scene)
 {
   if (!scene.loads.empty()) return;
   throw Error(fmt::format("{}: load is missing: `chladni static` needs a [[load]]", scene.path));
 }
 
-Found solve(const Scene& scene, const SupportedModel& model, const reduce::SolverOptions& solver)
+Found solve(const scene::Scene& scene, const cases::SupportedModel& model,
+            const linear::SolverOptions& solver)
 {
   const petsc::Vector f = plate::load_vector(model.mesh, model.system, scene.loads);
   check_supported(scene, model);
@@ -58,9 +59,9 @@ Found solve(const Scene& scene, const SupportedModel& model, const reduce::Solve
   return found;
 }
 
-TextTable solution_table(const Found& found)
+report::TextTable solution_table(const Found& found)
 {
-  TextTable table{.header = {"solution", "value"}, .rows = {}};
+  report::TextTable table{.header = {"solution", "value"}, .rows = {}};
   table.rows.push_back(
       {"largest displacement, m",
        fmt::format("{:.6e}", found.motions.leftCols<3>().rowwise().norm().maxCoeff())});
@@ -72,10 +73,11 @@ TextTable solution_table(const Found& found)
 }
 
 /// Displacements of the nodes of the groups that the scene wants reported.
-TextTable reported_table(const Scene& scene, const SupportedModel& model, const Found& found)
+report::TextTable reported_table(const scene::Scene& scene, const cases::SupportedModel& model,
+                                 const Found& found)
 {
-  TextTable table{.header = {"mean displacement of", "x, m", "y, m", "z, m"}, .rows = {}};
-  for (const std::string& name : scene.static_solution.value_or(StaticOptions{}).report) {
+  report::TextTable table{.header = {"mean displacement of", "x, m", "y, m", "z, m"}, .rows = {}};
+  for (const std::string& name : scene.static_solution.value_or(scene::StaticOptions{}).report) {
     const std::vector<int> nodes = model.system.dofs.named_nodes(model.mesh, name);
     const Eigen::RowVectorXd mean = found.motions(nodes, Eigen::all).colwise().mean();
     table.rows.push_back({name, fmt::format("{:.6e}", mean[0]), fmt::format("{:.6e}", mean[1]),
@@ -84,25 +86,27 @@ TextTable reported_table(const Scene& scene, const SupportedModel& model, const 
   return table;
 }
 
-Json reported_json(const Scene& scene, const SupportedModel& model, const Found& found)
+report::Json reported_json(const scene::Scene& scene, const cases::SupportedModel& model,
+                           const Found& found)
 {
-  std::vector<Json::Member> groups;
-  for (const std::string& name : scene.static_solution.value_or(StaticOptions{}).report) {
-    std::vector<Json> nodes;
+  std::vector<report::Json::Member> groups;
+  for (const std::string& name : scene.static_solution.value_or(scene::StaticOptions{}).report) {
+    std::vector<report::Json> nodes;
     for (const int node : model.system.dofs.named_nodes(model.mesh, name)) {
       nodes.push_back(
-          Json::object({{"node", node_number(model.mesh, model.system.dofs, node)},
-                        {"motion", numbers_json(found.motions.row(node).transpose())}}));
+          report::Json::object({{"node", cases::node_number(model.mesh, model.system.dofs, node)},
+                                {"motion", numbers_json(found.motions.row(node).transpose())}}));
     }
-    groups.emplace_back(name, Json::array(nodes));
+    groups.emplace_back(name, report::Json::array(nodes));
   }
-  return Json::object(groups);
+  return report::Json::object(groups);
 }
 
-std::vector<Json::Member> solution_json(const Scene& scene, const SupportedModel& model,
-                                        const Found& found)
+std::vector<report::Json::Member> solution_json(const scene::Scene& scene,
+                                                const cases::SupportedModel& model,
+                                                const Found& found)
 {
-  std::vector<Json::Member> members = model_json(model);
+  std::vector<report::Json::Member> members = cases::model_json(model);
   const Eigen::VectorXd sum = found.reactions.colwise().sum().head<3>();
   members.emplace_back("largest_displacement_m",
                        found.motions.leftCols<3>().rowwise().norm().maxCoeff());
@@ -112,11 +116,12 @@ std::vector<Json::Member> solution_json(const Scene& scene, const SupportedModel
   return members;
 }
 
-VtuGrid picture(const Scene& scene, const SupportedModel& model, const Found& found)
+report::VtuGrid picture(const scene::Scene& scene, const cases::SupportedModel& model,
+                        const Found& found)
 {
-  SceneGrid grid = scene_grid(model.mesh, scene.sections, model.owners);
-  add_motions(grid, found.motions, "");
-  add_resultants(grid, model.mesh, scene.sections, found.resultants);
+  report::SceneGrid grid = report::scene_grid(model.mesh, scene.sections, model.owners);
+  report::add_motions(grid, found.motions, "");
+  report::add_resultants(grid, model.mesh, scene.sections, found.resultants);
   return std::move(grid.grid);
 }
 
@@ -124,23 +129,25 @@ VtuGrid picture(const Scene& scene, const SupportedModel& model, const Found& fo
 
 void static_command(const ChladniArguments& arguments)
 {
-  const Scene scene = read_meshed_scene(arguments.scene.scene, Purpose::fe_model);
+  const scene::Scene scene =
+      scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
   check_loads(scene);
-  const ReduceProgress silent;
-  Phases phases(silent);
-  const SupportedModel model = supported_model(scene, phases);
+  const cases::ReduceProgress silent;
+  cases::Phases phases(silent);
+  const cases::SupportedModel model = cases::supported_model(scene, phases);
   const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");
-  const Cost cost = cost_of_all_ranks(phases.times());
-  on_first_rank([&] {
-    const TextTable reported = reported_table(scene, model, found);
-    make_folder(arguments.scene.output);
-    write_text_atomically(file, vtu_text(picture(scene, model, found)));
-    fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title, format_table(solution_table(found)),
-               reported.rows.empty() ? "" : format_table(reported),
-               reported.rows.empty() ? "" : "\n", format_table(model_table(model)),
-               format_table(cost_table(cost)), file.string());
+  const report::Cost cost = cost_of_all_ranks(phases.times());
+  cases::on_first_rank([&] {
+    const report::TextTable reported = reported_table(scene, model, found);
+    report::make_folder(arguments.scene.output);
+    report::write_text_atomically(file, report::vtu_text(picture(scene, model, found)));
+    fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title,
+               report::format_table(solution_table(found)),
+               reported.rows.empty() ? "" : report::format_table(reported),
+               reported.rows.empty() ? "" : "\n", report::format_table(cases::model_table(model)),
+               report::format_table(report::cost_table(cost)), file.string());
     write_summary(arguments.scene, solution_json(scene, model, found), cost);
   });
 }

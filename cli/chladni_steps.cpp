@@ -5,19 +5,19 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "cli/petsc_session.hpp"
-#include "cli/version.hpp"
+#include "cases/ranks.hpp"
 #include "common/error.hpp"
 #include "mbs_export/make_body.hpp"
+#include "report/version.hpp"
 
 namespace chladni::cli {
 
-std::filesystem::path reduced_file(const Scene& scene, const SceneArguments& arguments)
+std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments)
 {
   return std::filesystem::path(arguments.output) / (scene.name + ".reduced.h5");
 }
 
-std::filesystem::path body_file(const Scene& scene, const SceneArguments& arguments)
+std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments)
 {
   return std::filesystem::path(arguments.output) / (scene.name + ".body.h5");
 }
@@ -36,21 +36,25 @@ std::string said_of_solvers(const ChladniArguments& arguments)
 
 }  // namespace
 
-ReduceSummary reduce_with_progress(const Scene& scene, const ChladniArguments& arguments)
+cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
+                                          const ChladniArguments& arguments)
 {
   if (scene.interface_nodes.empty()) {
     throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
                             scene.path));
   }
-  const SaidOfSolvers solvers{.text = said_of_solvers(arguments), .options = arguments.solver};
-  if (rank() != 0) return reduce_scene(scene, solvers, [](const std::string&, double) {});
-  ProgressLine line;
-  return reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {
+  const cases::SaidOfSolvers solvers{.text = said_of_solvers(arguments),
+                                     .options = arguments.solver};
+  if (cases::rank() != 0)
+    return cases::reduce_scene(scene, solvers, [](const std::string&, double) {});
+  report::ProgressLine line;
+  return cases::reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {
     line.show(phase, fraction);
   });
 }
 
-mbs_export::ModalBody make_body_of(const Scene& scene, const mbs_export::ReducedSystem& reduced)
+mbs_export::ModalBody make_body_of(const scene::Scene& scene,
+                                   const mbs_export::ReducedSystem& reduced)
 {
   mbs_export::ModalBody body = mbs_export::make_body(reduced, scene.body);
   if (scene.squeal && body.n_free_rigid > 0) {
@@ -67,27 +71,27 @@ mbs_export::ModalBody make_body_of(const Scene& scene, const mbs_export::Reduced
   return body;
 }
 
-PhaseTime time_of_all_ranks(const PhaseTime& time)
+report::PhaseTime time_of_all_ranks(const report::PhaseTime& time)
 {
   return {.name = time.name,
-          .wall_s = largest_of_ranks(time.wall_s),
-          .cpu_s = sum_over_ranks(time.cpu_s)};
+          .wall_s = cases::largest_of_ranks(time.wall_s),
+          .cpu_s = cases::sum_over_ranks(time.cpu_s)};
 }
 
-Cost cost_of_all_ranks(const std::vector<PhaseTime>& phases)
+report::Cost cost_of_all_ranks(const std::vector<report::PhaseTime>& phases)
 {
-  Cost cost{.phases = {},
-            .wall_s = largest_of_ranks(process_wall_s()),
-            .cpu_s = sum_over_ranks(process_cpu_s()),
-            .peak_MiB = largest_of_ranks(peak_MiB())};
-  for (const PhaseTime& phase : phases) cost.phases.push_back(time_of_all_ranks(phase));
+  report::Cost cost{.phases = {},
+                    .wall_s = cases::largest_of_ranks(report::process_wall_s()),
+                    .cpu_s = cases::sum_over_ranks(report::process_cpu_s()),
+                    .peak_MiB = cases::largest_of_ranks(report::peak_MiB())};
+  for (const report::PhaseTime& phase : phases) cost.phases.push_back(time_of_all_ranks(phase));
   return cost;
 }
 
 namespace {
 
 /// "101 (100 asked; 1 more of the same frequency)": what a disc has twice is not parted.
-std::string number_of_modes(const ReduceSummary& summary)
+std::string number_of_modes(const cases::ReduceSummary& summary)
 {
   const int n_more = summary.n_modes - summary.n_modes_asked;
   if (summary.n_modes_asked == 0 || n_more == 0) return fmt::format("{}", summary.n_modes);
@@ -97,9 +101,9 @@ std::string number_of_modes(const ReduceSummary& summary)
 
 }  // namespace
 
-TextTable reduction_table(const ReduceSummary& summary)
+report::TextTable reduction_table(const cases::ReduceSummary& summary)
 {
-  TextTable table{.header = {"reduction", "value"}, .rows = {}};
+  report::TextTable table{.header = {"reduction", "value"}, .rows = {}};
   table.rows.push_back({"nodes of the mesh", fmt::format("{}", summary.n_nodes)});
   table.rows.push_back({"DOFs", fmt::format("{}", summary.n_dofs)});
   table.rows.push_back({"masters", fmt::format("{}", summary.n_masters)});
@@ -122,7 +126,7 @@ TextTable reduction_table(const ReduceSummary& summary)
   return table;
 }
 
-std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
+std::vector<report::Json::Member> reduction_json(const cases::ReduceSummary& summary)
 {
   return {
       {"n_dofs", summary.n_dofs},
@@ -144,28 +148,28 @@ std::vector<Json::Member> reduction_json(const ReduceSummary& summary)
       {"factor_entries", summary.factor.entries}};
 }
 
-Json numbers_json(const Eigen::VectorXd& values)
+report::Json numbers_json(const Eigen::VectorXd& values)
 {
-  std::vector<Json> numbers;
+  std::vector<report::Json> numbers;
   for (const double value : values) numbers.emplace_back(value);
-  return Json::array(numbers);
+  return report::Json::array(numbers);
 }
 
-Json frequencies_json(const Eigen::VectorXd& omega)
+report::Json frequencies_json(const Eigen::VectorXd& omega)
 {
-  std::vector<Json> f_Hz;
+  std::vector<report::Json> f_Hz;
   for (const double omega_i : omega) f_Hz.emplace_back(omega_i / (2.0 * std::numbers::pi));
-  return Json::array(f_Hz);
+  return report::Json::array(f_Hz);
 }
 
-void write_summary(const SceneArguments& arguments, const std::vector<Json::Member>& members,
-                   const Cost& cost)
+void write_summary(const SceneArguments& arguments,
+                   const std::vector<report::Json::Member>& members, const report::Cost& cost)
 {
   if (arguments.json.empty()) return;
-  std::vector<Json::Member> all = {{"program", "chladni"}, {"version", version}};
+  std::vector<report::Json::Member> all = {{"program", "chladni"}, {"version", report::version}};
   all.insert(all.end(), members.begin(), members.end());
-  for (Json::Member& member : cost_json(cost)) all.push_back(std::move(member));
-  write_text_atomically(arguments.json, Json::object(all).text() + "\n");
+  for (report::Json::Member& member : report::cost_json(cost)) all.push_back(std::move(member));
+  report::write_text_atomically(arguments.json, report::Json::object(all).text() + "\n");
 }
 
 }  // namespace chladni::cli

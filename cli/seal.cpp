@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "mbs_export/seal.hpp"
+#include "files/seal.hpp"
 
 namespace chladni::cli {
 
@@ -21,7 +21,7 @@ void declare_seal(CLI::App& app, std::string& file)
 
 void seal(const std::string& file)
 {
-  mbs_export::hdf5::seal_file(file);
+  files::seal_file(file);
   fmt::print("{}: sealed as it is now; what it holds was not checked\n", file);
 }
 

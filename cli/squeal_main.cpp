@@ -5,29 +5,29 @@
 #include <exception>
 
 #include "cli/arguments.hpp"
-#include "cli/describe.hpp"
-#include "cli/report/report.hpp"
-#include "cli/scene/keys.hpp"
 #include "cli/seal.hpp"
 #include "cli/squeal_run.hpp"
-#include "cli/version.hpp"
+#include "report/describe.hpp"
+#include "report/page/report.hpp"
+#include "report/version.hpp"
+#include "scene/keys.hpp"
 
 namespace {
 
 namespace cli = chladni::cli;
 
 struct SquealArguments {
-  cli::SceneArguments scene;
+  chladni::cli::SceneArguments scene;
   std::string body_file;
   std::string info_file;
   std::string seal_file;
-  cli::ReportArguments report;
+  chladni::report::ReportArguments report;
 };
 
 void declare_run(CLI::App& app, SquealArguments& arguments)
 {
   CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
-  cli::declare_scene_arguments(*run, arguments.scene);
+  chladni::cli::declare_scene_arguments(*run, arguments.scene);
   run->add_option("--body", arguments.body_file, "the body; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   run->footer(
@@ -51,33 +51,33 @@ int main(int argc, char** argv)
   SquealArguments arguments;
   CLI::App app("Brake squeal of a modal body: stability, growth, transients and limit cycles.",
                "squeal");
-  app.set_version_flag("--version", fmt::format("squeal {}", cli::version));
+  app.set_version_flag("--version", fmt::format("squeal {}", chladni::report::version));
   app.require_subcommand(1);
   declare_run(app, arguments);
   declare_info(app, arguments);
-  cli::declare_report(app, arguments.report);
-  cli::declare_seal(app, arguments.seal_file);
+  chladni::report::declare_report(app, arguments.report);
+  chladni::cli::declare_seal(app, arguments.seal_file);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
       "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
-  if (const auto code = cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
+  if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
   try {
     if (app.got_subcommand("run")) {
-      cli::run_squeal(arguments.scene, arguments.body_file);
+      chladni::cli::run_squeal(arguments.scene, arguments.body_file);
     } else if (app.got_subcommand("report")) {
-      cli::write_report(arguments.report);
+      chladni::report::write_report(arguments.report);
     } else if (app.got_subcommand("seal")) {
-      cli::seal(arguments.seal_file);
+      chladni::cli::seal(arguments.seal_file);
     } else if (app.got_subcommand("scene-reference")) {
-      fmt::print("{}", cli::scene_reference());
+      fmt::print("{}", chladni::scene::scene_reference());
     } else {
-      fmt::print("{}", cli::describe_file(arguments.info_file));
+      fmt::print("{}", chladni::report::describe_file(arguments.info_file));
     }
-    return cli::exit_ok;
+    return chladni::cli::exit_ok;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
-    return cli::exit_failed;
+    return chladni::cli::exit_failed;
   }
 }

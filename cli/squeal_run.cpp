@@ -4,16 +4,16 @@
 
 #include <filesystem>
 
-#include "cli/cost.hpp"
-#include "cli/describe.hpp"
-#include "cli/json.hpp"
-#include "cli/output.hpp"
-#include "cli/scene/scene.hpp"
-#include "cli/squeal_json.hpp"
-#include "cli/timing.hpp"
-#include "cli/version.hpp"
 #include "common/error.hpp"
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "report/cost.hpp"
+#include "report/describe.hpp"
+#include "report/json.hpp"
+#include "report/output.hpp"
+#include "report/squeal_json.hpp"
+#include "report/timing.hpp"
+#include "report/version.hpp"
+#include "scene/scene.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/model_run.hpp"
 #include "squeal/radiation.hpp"
@@ -36,7 +36,7 @@ mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
   return mbs_export::read_body(file);
 }
 
-squeal::Radiation read_radiation_of(const std::filesystem::path& file, const Scene& scene)
+squeal::Radiation read_radiation_of(const std::filesystem::path& file, const scene::Scene& scene)
 {
   if (!std::filesystem::exists(file)) {
     throw Error(
@@ -54,15 +54,15 @@ struct Performed {
 };
 
 /// The analyses of a disc that is this body, damped by the file `radiation` if the scene says so.
-Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body,
-                          const std::filesystem::path& radiation, PhaseClock& clock)
+Performed perform_on_body(const scene::Scene& scene, const mbs_export::ModalBody& body,
+                          const std::filesystem::path& radiation, report::PhaseClock& clock)
 {
   squeal::Disc disc =
       squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
   clock.end_phase("read");
-  ProgressLine line;
+  report::ProgressLine line;
   Performed performed{squeal::run(disc, *scene.squeal,
                                   [&](const std::string& analysis, double fraction) {
                                     line.show(analysis, fraction);
@@ -70,26 +70,26 @@ Performed perform_on_body(const Scene& scene, const mbs_export::ModalBody& body,
                       body.provenance};
   performed.origin.scene = scene.text;
   performed.origin.versions =
-      fmt::format("squeal {}; body: {}", version, performed.origin.versions);
+      fmt::format("squeal {}; body: {}", report::version, performed.origin.versions);
   return performed;
 }
 
 /// The analyses of a model that needs no body.
-Performed perform_on_model(const Scene& scene)
+Performed perform_on_model(const scene::Scene& scene)
 {
-  ProgressLine line;
+  report::ProgressLine line;
   Performed performed{
       squeal::run(*scene.squeal_model, [&](const std::string& analysis,
                                            double fraction) { line.show(analysis, fraction); }),
       {}};
   performed.origin.scene = scene.text;
-  performed.origin.versions = fmt::format("squeal {}", version);
+  performed.origin.versions = fmt::format("squeal {}", report::version);
   performed.origin.ranks = 1;
   return performed;
 }
 
 /// NAME.wav beside the results, when the scene asks for it.
-void write_sound(const Scene& scene, const std::filesystem::path& folder,
+void write_sound(const scene::Scene& scene, const std::filesystem::path& folder,
                  const squeal::SquealResults& results)
 {
   if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
@@ -99,20 +99,22 @@ void write_sound(const Scene& scene, const std::filesystem::path& folder,
   fmt::print("wrote {}, full scale {:.6g} m/s\n", file.string(), scale);
 }
 
-void write_json(const std::string& file, const squeal::SquealResults& results, const Cost& cost)
+void write_json(const std::string& file, const squeal::SquealResults& results,
+                const report::Cost& cost)
 {
-  std::vector<Json::Member> members = {{"program", "squeal"}, {"version", version}};
-  for (Json::Member& member : results_json(results)) members.push_back(std::move(member));
-  for (Json::Member& member : cost_json(cost)) members.push_back(std::move(member));
-  write_text_atomically(file, Json::object(members).text() + "\n");
+  std::vector<report::Json::Member> members = {{"program", "squeal"}, {"version", report::version}};
+  for (report::Json::Member& member : report::results_json(results))
+    members.push_back(std::move(member));
+  for (report::Json::Member& member : report::cost_json(cost)) members.push_back(std::move(member));
+  report::write_text_atomically(file, report::Json::object(members).text() + "\n");
 }
 
 }  // namespace
 
 void run_squeal(const SceneArguments& arguments, const std::string& body_file)
 {
-  PhaseClock clock;
-  const Scene scene = read_scene(arguments.scene);
+  report::PhaseClock clock;
+  const scene::Scene scene = scene::read_scene(arguments.scene);
   if (!scene.squeal && !scene.squeal_model) {
     throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
   }
@@ -131,13 +133,14 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
   clock.end_phase("analyses");
 
   const std::filesystem::path file = folder / (scene.name + ".squeal.h5");
-  make_folder(folder);
+  report::make_folder(folder);
   squeal::write_results(file, results, origin);
   clock.end_phase("write");
-  const Cost cost = cost_so_far(clock.phases());
+  const report::Cost cost = report::cost_so_far(clock.phases());
 
-  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, format_table(describe(results)),
-             format_table(cost_table(cost)), file.string());
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title,
+             report::format_table(report::describe(results)),
+             report::format_table(report::cost_table(cost)), file.string());
   write_sound(scene, folder, results);
   if (!arguments.json.empty()) write_json(arguments.json, results, cost);
   if (results.failure) throw Error(*results.failure);

@@ -5,9 +5,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
-set(light_libraries common mbs_export squeal)
-set(fe_libraries petsc mesh elements plate reduce reduce_export sound)
-set(header_folders common mbs_export squeal mesh plate reduce reduce_export sound)
+set(light_libraries common files dense mbs_export squeal)
+set(fe_libraries petsc linear mesh elements plate reduce reduce_export sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
 function(chladni_export set)
@@ -37,15 +36,100 @@ if(CHLADNI_FE)
           COMPONENT dev)
 endif()
 
-foreach(folder IN LISTS header_folders)
-  if(NOT CHLADNI_FE AND NOT folder IN_LIST light_libraries)
-    continue()
-  endif()
-  if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}
-            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chladni COMPONENT dev
-            FILES_MATCHING PATTERN "*.hpp" PATTERN plugin EXCLUDE)
-  endif()
+# The headers of the interface, which the README.md of each folder names; what they include is installed
+# with them and may change without notice.
+set(light_headers
+    common/error.hpp
+    files/hdf5.hpp
+    files/seal.hpp
+    linear/dense/dense_solvers.hpp
+    linear/dense/eigenmodes.hpp
+    mbs_export/make_body.hpp
+    mbs_export/check_body.hpp
+    mbs_export/held_modes.hpp
+    mbs_export/mass_integrals.hpp
+    mbs_export/files/body_file.hpp
+    mbs_export/files/reduced_file.hpp
+    mbs_export/formats/exudyn.hpp
+    mbs_export/formats/mbdyn.hpp
+    mbs_export/formats/nastran.hpp
+    mbs_export/formats/sid.hpp
+    squeal/disc.hpp
+    squeal/run.hpp
+    squeal/result_file.hpp
+    squeal/stability_search.hpp
+    squeal/stability_map.hpp
+    squeal/rotation_stability.hpp
+    squeal/limit_cycle_direct.hpp
+    squeal/limit_cycle_branch.hpp
+    squeal/transient.hpp
+    squeal/rigid_disc.hpp
+    squeal/pad_system.hpp
+    squeal/radiation.hpp)
+set(fe_headers
+    common/petsc.hpp
+    linear/kernels/dense_matrices.hpp
+    linear/kernels/small_matrices.hpp
+    linear/cholesky/factorization.hpp
+    linear/cholesky/sylvester.hpp
+    linear/lanczos/block_lanczos.hpp
+    linear/progress.hpp
+    linear/read_solver_options.hpp
+    mesh/generators.hpp
+    mesh/mesh.hpp
+    mesh/partition.hpp
+    mesh/quality.hpp
+    plate/elements/beam_element.hpp
+    plate/elements/shell_element.hpp
+    plate/dofs/dof_map.hpp
+    plate/dofs/free_motions.hpp
+    plate/dofs/supports.hpp
+    plate/assembly/assemble.hpp
+    plate/assembly/loads.hpp
+    plate/assembly/recovery.hpp
+    plate/assembly/rigid_motions.hpp
+    reduce/reduction.hpp
+    reduce/held_masters.hpp
+    reduce/craig_bampton.hpp
+    reduce/guyan.hpp
+    reduce/free_interface.hpp
+    reduce/error_estimates.hpp
+    reduce/completeness.hpp
+    reduce/tolerance_search.hpp
+    reduce/supported_solutions.hpp
+    reduce_export/reduced_system.hpp
+    sound/study.hpp
+    sound/sound_file.hpp
+    sound/field.hpp)
+
+# chladni_with_included(OUT HEADERS...): these and what they include of the project.
+function(chladni_with_included out)
+  set(headers "")
+  set(next ${ARGN})
+  while(next)
+    list(POP_FRONT next header)
+    if(header IN_LIST headers)
+      continue()
+    endif()
+    list(APPEND headers ${header})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^#include \"")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" name "${line}")
+      list(APPEND next ${name})
+    endforeach()
+  endwhile()
+  set(${out} ${headers} PARENT_SCOPE)
+endfunction()
+
+set(interface ${light_headers})
+if(CHLADNI_FE)
+  list(APPEND interface ${fe_headers})
+endif()
+chladni_with_included(headers ${interface})
+foreach(header IN LISTS headers)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chladni/${folder} COMPONENT dev)
 endforeach()
 
 configure_package_config_file(

@@ -1,7 +1,7 @@
 # Run by cmake -P: OUTPUT becomes a header with the text of each of INPUTS (separated by |) as a
-# string_view in chladni::cli::page_parts: plot.js is `plot_js`.
+# string_view in chladni::report::page_parts: plot.js is `plot_js`.
 string(REPLACE "|" ";" INPUTS "${INPUTS}")
-set(header "#pragma once\n\n#include <string_view>\n\nnamespace chladni::cli::page_parts {\n\n")
+set(header "#pragma once\n\n#include <string_view>\n\nnamespace chladni::report::page_parts {\n\n")
 foreach(input IN LISTS INPUTS)
   file(READ ${input} hex HEX)
   # Bytes as numbers: a literal of any length, whatever the text holds.
@@ -12,5 +12,5 @@ foreach(input IN LISTS INPUTS)
                        "inline const std::string_view ${name}(\n"
                        "    reinterpret_cast<const char*>(${name}_bytes), sizeof ${name}_bytes);\n\n")
 endforeach()
-string(APPEND header "}  // namespace chladni::cli::page_parts\n")
+string(APPEND header "}  // namespace chladni::report::page_parts\n")
 file(WRITE ${OUTPUT} "${header}")

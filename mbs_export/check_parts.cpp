@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/check_body.hpp"
 #include "mbs_export/check_parts.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/orthogonalize.hpp"
 #include "mbs_export/rigid_body.hpp"
 
@@ -100,7 +100,7 @@ double first_elastic(const ReducedSystem& reduced, const MatrixXd& B)
       MatrixXd::Identity(reduced.K.rows(), reduced.K.rows()) - B * (B.transpose() * reduced.M);
   const MatrixXd K = P.transpose() * reduced.K * P;
   try {
-    const Eigenmodes modes = eigenmodes(0.5 * (K + K.transpose()), reduced.M, B);
+    const linear::Eigenmodes modes = linear::eigenmodes(0.5 * (K + K.transpose()), reduced.M, B);
     if (modes.lambda.size() > 0) return modes.lambda[0];
   } catch (const Error&) {  // a mechanism; it has a check of its own
   }

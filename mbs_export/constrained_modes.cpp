@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "mbs_export/eigenmodes.hpp"
+#include "linear/dense/eigenmodes.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -45,7 +45,7 @@ std::vector<char> chosen(const Eigen::VectorXd& omega, const KeptModes& keep)
 
 ConstrainedModes constrained_modes(const ModeShift& shift)
 {
-  const Eigenmodes elastic = eigenmodes(shift.K_c, shift.M_c, shift.R_c);
+  const linear::Eigenmodes elastic = linear::eigenmodes(shift.K_c, shift.M_c, shift.R_c);
   const Index n_rigid = shift.R_c.cols(), n_elastic = elastic.lambda.size();
   ConstrainedModes modes{.omega = Eigen::VectorXd::Zero(n_rigid + n_elastic),
                          .X = Eigen::MatrixXd(shift.K_c.rows(), n_rigid + n_elastic),

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/drilling.hpp"
-#include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/mode_shift.hpp"
 #include "mbs_export/orthogonalize.hpp"
@@ -38,7 +38,7 @@ std::vector<int> other_rows(const std::vector<int>& rows, Index n)
 }  // namespace
 
 HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
-                                const LowestModes& wanted)
+                                const linear::LowestModes& wanted)
 {
   const HeldDofs held = held_dofs(reduced, fixed);
   refuse_drilling_support(reduced, held);
@@ -46,8 +46,8 @@ HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<
   const RigidModes rigid = rigid_modes(reduced);
   const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, Eigen::all));
   const std::vector<int> rows = other_rows(held.rows, reduced.K.rows());
-  const Eigenmodes elastic = lowest_eigenmodes(reduced.K(rows, rows), reduced.M(rows, rows),
-                                               unheld(rows, Eigen::all), wanted);
+  const linear::Eigenmodes elastic = linear::lowest_eigenmodes(
+      reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, Eigen::all), wanted);
   HeldModeShapes shapes{.omega = elastic.lambda.cwiseSqrt(),
                         .X = MatrixXd::Zero(reduced.K.rows(), elastic.X.cols()),
                         .n_rigid = static_cast<int>(unheld.cols()),
@@ -60,7 +60,7 @@ double rigid_residual(const ReducedSystem& reduced)
 {
   const RigidModes rigid = rigid_modes(reduced);
   if (rigid.R.cols() == 0) return 0.0;
-  const double first = first_eigenvalue(reduced.K, reduced.M, rigid.R);
+  const double first = linear::first_eigenvalue(reduced.K, reduced.M, rigid.R);
   return first > 0.0 ? rigid.largest_energy / first : 0.0;
 }
 

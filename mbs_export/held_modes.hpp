@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mbs_export/eigenmodes.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/reduced_system.hpp"
 
 namespace chladni::mbs_export {
@@ -20,7 +20,7 @@ struct HeldModeShapes {
 /// @param fixed  as BodyOptions::fixed.
 /// @throws chladni::Error as orthogonalize, held_dofs and shift_modes.
 HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<std::string>& fixed,
-                                const LowestModes& wanted = {});
+                                const linear::LowestModes& wanted = {});
 
 /// Of the rigid-body motions without any support, as FreeModes::rigid_residual; to a few per cent.
 /// @throws chladni::Error as rigid_modes.

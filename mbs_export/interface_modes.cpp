@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::mbs_export {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "mbs_export/eigenmodes.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/rigid_body.hpp"
 
 namespace chladni::mbs_export {
@@ -70,7 +70,7 @@ RigidModes rigid_modes(const ReducedSystem& reduced)
 FreeModes orthogonalize(const ReducedSystem& reduced)
 {
   const RigidModes rigid = rigid_modes(reduced);
-  const Eigenmodes elastic = eigenmodes(reduced.K, reduced.M, rigid.R);
+  const linear::Eigenmodes elastic = linear::eigenmodes(reduced.K, reduced.M, rigid.R);
   const Index n_rigid = rigid.R.cols(), n_elastic = elastic.lambda.size();
   FreeModes modes{.omega = VectorXd::Zero(n_rigid + n_elastic),
                   .Q_e = MatrixXd(reduced.K.rows(), n_rigid + n_elastic),

@@ -5,7 +5,7 @@
 
 #include "common/error.hpp"
 #include "mesh/circles.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
 #include "mesh/structured_disc.hpp"

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 
 namespace chladni::mesh {
 

@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "mesh/coincident_nodes.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/gmsh_files.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/quality.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "mesh/entities.hpp"
+#include "mesh/entity_groups.hpp"
 #include "mesh/gmsh_files.hpp"
 
 namespace chladni::mesh {

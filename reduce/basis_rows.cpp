@@ -44,17 +44,17 @@ PetscInt masters_before(IS masters)
 
 }  // namespace
 
-SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
-                       const std::vector<PetscInt>& dofs)
+linear::SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
+                               const std::vector<PetscInt>& dofs)
 {
-  const LocalRows Psi(Q_CB.Psi);
-  const std::optional<LocalRows> Phi =
-      Q_CB.modes ? std::optional<LocalRows>(std::in_place, Q_CB.modes->Phi) : std::nullopt;
+  const linear::LocalRows Psi(Q_CB.Psi);
+  const std::optional<linear::LocalRows> Phi =
+      Q_CB.modes ? std::optional<linear::LocalRows>(std::in_place, Q_CB.modes->Phi) : std::nullopt;
   const LocalPlaces masters(rows_of.masters);
   const LocalPlaces slaves(rows_of.slaves);
   const PetscInt first_master = masters_before(rows_of.masters);
   const PetscInt n_m = Psi.n_cols();
-  SmallMatrix rows(static_cast<PetscInt>(dofs.size()), n_m + Q_CB.n_modes());
+  linear::SmallMatrix rows(static_cast<PetscInt>(dofs.size()), n_m + Q_CB.n_modes());
   std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
   for (PetscInt i = 0; i < rows.n_rows; ++i) {
     if (const auto m = masters.find(dofs[i])) rows(i, first_master + *m) = 1.0;
@@ -66,7 +66,7 @@ SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_o
   for (PetscInt j = 0; j < Q_CB.n_modes(); ++j) {
     for (const auto& [i, s] : own) rows(i, n_m + j) = (*Phi)(s, j);
   }
-  sum_over_ranks(rows, petsc::communicator(Q_CB.Psi));
+  linear::sum_over_ranks(rows, petsc::communicator(Q_CB.Psi));
   return rows;
 }
 

@@ -35,8 +35,8 @@ struct OwnRows {
 petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like)
 {
   const OwnRows slaves(X, dofs.slaves);
-  const LocalRows x(X);
-  petsc::Matrix X_s = uninitialized_dense(like, x.n_cols());
+  const linear::LocalRows x(X);
+  petsc::Matrix X_s = linear::uninitialized_dense(like, x.n_cols());
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X_s, &values));
   for (PetscInt j = 0; j < x.n_cols(); ++j) {
@@ -48,26 +48,26 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like)
   return X_s;
 }
 
-SmallMatrix master_rows(Mat X, const DofPartition& dofs)
+linear::SmallMatrix master_rows(Mat X, const DofPartition& dofs)
 {
   const OwnRows masters(X, dofs.masters);
-  SmallMatrix X_m(masters.n_all, LocalRows(X).n_cols());
+  linear::SmallMatrix X_m(masters.n_all, linear::LocalRows(X).n_cols());
   {
-    const LocalRows x(X);
+    const linear::LocalRows x(X);
     for (PetscInt j = 0; j < x.n_cols(); ++j) {
       for (PetscInt i = 0; i < masters.size(); ++i) {
         X_m(masters.before + i, j) = x(masters.rows[i], j);
       }
     }
   }
-  sum_over_ranks(X_m, petsc::communicator(X));
+  linear::sum_over_ranks(X_m, petsc::communicator(X));
   return X_m;
 }
 
-void set_rows(Mat X, const DofPartition& dofs, const SmallMatrix& X_m, Mat X_s)
+void set_rows(Mat X, const DofPartition& dofs, const linear::SmallMatrix& X_m, Mat X_s)
 {
   const OwnRows masters(X, dofs.masters), slaves(X, dofs.slaves);
-  const LocalRows x_s(X_s);
+  const linear::LocalRows x_s(X_s);
   PetscScalar* values = nullptr;
   PetscInt ld = 0;
   petsc::check(MatDenseGetLDA(X, &ld));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/dense.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "reduce/partition.hpp"
 
 /// Dense matrices in the rows of all DOFs, against those in the rows of masters and slaves.
@@ -12,9 +12,9 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like);
 
 /// The rows of a dense X at the masters, on every rank.
 /// @note   Collective.
-SmallMatrix master_rows(Mat X, const DofPartition& dofs);
+linear::SmallMatrix master_rows(Mat X, const DofPartition& dofs);
 
 /// Writes X_m and X_s to the rows of X.
-void set_rows(Mat X, const DofPartition& dofs, const SmallMatrix& X_m, Mat X_s);
+void set_rows(Mat X, const DofPartition& dofs, const linear::SmallMatrix& X_m, Mat X_s);
 
 }  // namespace chladni::reduce

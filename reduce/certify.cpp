@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/all_ranks.hpp"
-#include "reduce/sylvester.hpp"
+#include "linear/cholesky/sylvester.hpp"
 
 namespace chladni::reduce {
 
@@ -18,7 +18,7 @@ void broadcast(std::vector<double>& values, MPI_Comm comm)
   auto n = static_cast<int>(values.size());
   MPI_Bcast(&n, 1, MPI_INT, 0, comm);
   values.resize(static_cast<std::size_t>(n));
-  broadcast_numbers(values, comm);
+  linear::broadcast_numbers(values, comm);
 }
 
 double zero_energy_everywhere(const Support& support, const ReducedModel& model,
@@ -26,7 +26,7 @@ double zero_energy_everywhere(const Support& support, const ReducedModel& model,
 {
   double energy = 0.0;
   on_first_rank(comm, [&] { energy = support.zero_energy(model, modes); });
-  return value_of_first_rank(energy, comm);
+  return linear::value_of_first_rank(energy, comm);
 }
 
 /// The lambda from which on fixed-interface modes are left out of the basis.
@@ -50,9 +50,10 @@ SupportedModes modes_everywhere(const Support& support, const ReducedModel& mode
   modes.n_free_zero = numbers[2];
   broadcast(modes.pairs.lambda, comm);
   if (petsc::rank(comm) != 0) {
-    modes.pairs.X = SmallMatrix(model.K.n_rows, static_cast<PetscInt>(modes.pairs.lambda.size()));
+    modes.pairs.X =
+        linear::SmallMatrix(model.K.n_rows, static_cast<PetscInt>(modes.pairs.lambda.size()));
   }
-  broadcast_numbers(modes.pairs.X.values, comm);
+  linear::broadcast_numbers(modes.pairs.X.values, comm);
   return modes;
 }
 
@@ -112,17 +113,18 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
                     const Support& support)
 {
   const FactoredBody& body = reduced.body;
-  const OptionSource& source = body.K_ss.options().petsc;
+  const linear::OptionSource& source = body.K_ss.options().petsc;
   Certificate certificate = std::move(certified.certificate);
   if (!certified.modes.are_all)
     certified.modes = modes_everywhere(support, reduced.model, {}, body.comm());
-  Completeness found = count_modes({.lambda = std::move(certified.modes.pairs.lambda),
-                                    .residuals = std::move(certified.residuals),
-                                    .n_zero = certified.modes.n_zero,
-                                    .comm = body.comm()},
-                                   [&, held = support.held()](double sigma) {
-                                     return eigenvalues_below(body.K, body.M, sigma, held, source);
-                                   });
+  Completeness found =
+      count_modes({.lambda = std::move(certified.modes.pairs.lambda),
+                   .residuals = std::move(certified.residuals),
+                   .n_zero = certified.modes.n_zero,
+                   .comm = body.comm()},
+                  [&, held = support.held()](double sigma) {
+                    return linear::eigenvalues_below(body.K, body.M, sigma, held, source);
+                  });
   certificate.range = found.range;
   certificate.complete = found.complete;
   certificate.bounds = std::move(found.bounds);
@@ -133,7 +135,7 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
   }
   if (options.basis.method == Method::craig_bampton) {
     certificate.fixed_interface = count_fixed_interface(reduced.model.omega, [&](double sigma) {
-      return eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, sigma, source);
+      return linear::eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, sigma, source);
     });
   }
   return certificate;

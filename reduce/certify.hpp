@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/cholesky_factor.hpp"
+#include "linear/cholesky/cholesky_factor.hpp"
 #include "reduce/reduction.hpp"
 
 namespace chladni::reduce {
@@ -35,7 +35,7 @@ class CountPlan {
 
   ReduceOptions basis_;
   std::optional<bool> count_;
-  FactorSize factor_;
+  linear::FactorSize factor_;
   double n_slaves_, n_masters_;
   MPI_Comm comm_;
 };
@@ -56,7 +56,7 @@ struct Reduced {
 struct Certified {
   Certificate certificate;
   SupportedModes modes;
-  SmallMatrix residuals{0, 0};  ///< `ErrorEstimates::inner_products`; empty but for bounds
+  linear::SmallMatrix residuals{0, 0};  ///< `ErrorEstimates::inner_products`; empty but for bounds
 };
 
 /// The error estimates of the modes of a range.

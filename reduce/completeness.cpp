@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "reduce/symmetric_eigen.hpp"
+#include "linear/kernels/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
@@ -16,7 +16,7 @@ namespace {
 
 /// Upper bounds of the eigenvalues of K^-1 M above alpha, the first one of Ritz value `first`,
 /// descending; what rounding may have taken off is in them.
-std::vector<double> upper_bounds(const std::vector<double>& lambda, const SmallMatrix& H,
+std::vector<double> upper_bounds(const std::vector<double>& lambda, const linear::SmallMatrix& H,
                                  std::size_t first, double alpha)
 {
   constexpr double units = 16.0 * std::numeric_limits<double>::epsilon();
@@ -24,7 +24,7 @@ std::vector<double> upper_bounds(const std::vector<double>& lambda, const SmallM
   const auto at = [first](PetscInt i) { return first + static_cast<std::size_t>(i); };
   std::vector<double> root;  // of theta - alpha
   for (PetscInt i = 0; i < n; ++i) root.push_back(std::sqrt(1.0 / lambda[at(i)] - alpha));
-  SmallMatrix A(n, n);
+  linear::SmallMatrix A(n, n);
   double largest = 0.0;
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) {
@@ -34,7 +34,7 @@ std::vector<double> upper_bounds(const std::vector<double>& lambda, const SmallM
     }
     largest = std::max(largest, A(j, j));
   }
-  std::vector<double> bounds = symmetric_eigen(std::move(A)).values;
+  std::vector<double> bounds = linear::symmetric_eigen(std::move(A)).values;
   std::ranges::reverse(bounds);
   for (double& bound : bounds) bound += alpha + units * largest;
   return bounds;
@@ -102,7 +102,7 @@ EigenvalueCount count_near(const ReducedSpectrum& ritz, double sigma,
       const EigenvalueCount count{
           .sigma = shift, .expected = eigenvalues_below(shift), .found = found};
       if (count.missing() >= 0 || is_last) return counted(count);
-    } catch (const SingularShift&) {
+    } catch (const linear::SingularShift&) {
       if (is_last) throw;
     }
   }
@@ -110,8 +110,8 @@ EigenvalueCount count_near(const ReducedSpectrum& ritz, double sigma,
 
 }  // namespace
 
-std::vector<double> error_bounds(const std::vector<double>& lambda, const SmallMatrix& residuals,
-                                 double sigma)
+std::vector<double> error_bounds(const std::vector<double>& lambda,
+                                 const linear::SmallMatrix& residuals, double sigma)
 {
   constexpr double reach = 1e3;  // low values would bury far higher ones in round-off
   std::vector<double> bounds;
@@ -134,7 +134,7 @@ std::vector<double> bounds_below(const ReducedSpectrum& ritz, double sigma)
   if (n > ritz.residuals.n_rows) return {};
   std::vector<double> bounds =
       error_bounds({ritz.lambda.begin(), ritz.lambda.begin() + n}, ritz.residuals, sigma);
-  broadcast_numbers(bounds, ritz.comm);  // they decide what is done next
+  linear::broadcast_numbers(bounds, ritz.comm);  // they decide what is done next
   return bounds;
 }
 
@@ -160,7 +160,7 @@ Completeness count_modes(ReducedSpectrum ritz,
                          const std::function<int(double sigma)>& eigenvalues_below)
 {
   Completeness result;
-  broadcast_numbers(ritz.residuals.values, ritz.comm);  // they decide what is counted
+  linear::broadcast_numbers(ritz.residuals.values, ritz.comm);  // they decide what is counted
   const auto k = static_cast<std::size_t>(ritz.residuals.n_rows);
   if (k == 0) return result;
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };

@@ -4,15 +4,10 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "reduce/dense.hpp"
+#include "linear/cholesky/sylvester.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::reduce {
-
-/// K - sigma M has no factor: sigma is an eigenvalue to round-off.
-class SingularShift : public Error {
- public:
-  using Error::Error;
-};
 
 /// Eigenvalues below sigma: of the full pencil by Sylvester's law, and of the reduced one.
 struct EigenvalueCount {
@@ -25,10 +20,10 @@ struct EigenvalueCount {
 
 /// The eigenvalues of the reduced pencil under some support.
 struct ReducedSpectrum {
-  std::vector<double> lambda;  ///< all positive ones, ascending; rad^2/s^2
-  SmallMatrix residuals;       ///< [k x k] of the first k, `ErrorEstimates::inner_products`
-  int n_zero;                  ///< zero eigenvalues before them
-  MPI_Comm comm;               ///< ranks that count together; the first one decides
+  std::vector<double> lambda;     ///< all positive ones, ascending; rad^2/s^2
+  linear::SmallMatrix residuals;  ///< [k x k] of the first k, `ErrorEstimates::inner_products`
+  int n_zero;                     ///< zero eigenvalues before them
+  MPI_Comm comm;                  ///< ranks that count together; the first one decides
 };
 
 /// What a count of eigenvalues certifies.
@@ -66,7 +61,7 @@ Completeness count_modes(ReducedSpectrum ritz,
 /// @return [k]
 /// Source: Lehmann, Z. angew. Math. Mech. 29 (1949) 341; Temple, Proc. R. Soc. Lond. A 119 (1928)
 /// 276.
-std::vector<double> error_bounds(const std::vector<double>& lambda, const SmallMatrix& residuals,
-                                 double sigma);
+std::vector<double> error_bounds(const std::vector<double>& lambda,
+                                 const linear::SmallMatrix& residuals, double sigma);
 
 }  // namespace chladni::reduce

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "reduce/cholesky_types.hpp"
-#include "reduce/dense.hpp"
+#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::reduce {
 
@@ -15,7 +15,7 @@ constexpr PetscInt block_columns = 64;  // right-hand sides at a time: bounds th
 void copy_columns(Mat A, PetscInt first, PetscInt last, Mat B)
 {
   petsc::check(MatZeroEntries(B));
-  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+  linear::for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
     if (column < first || column >= last) return;
     petsc::check(MatSetValue(B, row, column - first, value, INSERT_VALUES));
   });
@@ -45,12 +45,12 @@ void solve_by_blocks(Mat factor, Mat K_sm, Mat Psi)
 
 }  // namespace
 
-petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K)
+petsc::Matrix constraint_modes(const linear::Factorization& K_ss, const Blocks& K)
 {
   PetscInt n_m = 0;
   petsc::check(MatGetSize(K.ms, &n_m, nullptr));
-  petsc::Matrix Psi = uninitialized_dense(K.ss, n_m);
-  if (petsc::size(petsc::communicator(K.ms)) == 1 || is_ours(K_ss.factor())) {
+  petsc::Matrix Psi = linear::uninitialized_dense(K.ss, n_m);
+  if (petsc::size(petsc::communicator(K.ms)) == 1 || linear::is_ours(K_ss.factor())) {
     petsc::Matrix minus_K_ms;
     petsc::check(MatDuplicate(K.ms, MAT_COPY_VALUES, minus_K_ms.put()));
     petsc::check(MatScale(minus_K_ms, -1.0));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/factorization.hpp"
+#include "linear/cholesky/factorization.hpp"
 #include "reduce/partition.hpp"
 
 namespace chladni::reduce {
@@ -10,6 +10,6 @@ namespace chladni::reduce {
 /// @param K  blocks of the stiffness; K.ms = K.sm^T.
 /// @return [n_s x n_m] dense, rows as K_ss.
 /// @note   Collective on the communicator of `K.ms`.
-petsc::Matrix constraint_modes(const Factorization& K_ss, const Blocks& K);
+petsc::Matrix constraint_modes(const linear::Factorization& K_ss, const Blocks& K);
 
 }  // namespace chladni::reduce

@@ -1,13 +1,13 @@
+#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/machine_memory.hpp"
 #include "reduce/certify.hpp"
-#include "reduce/cholesky_types.hpp"
-#include "reduce/machine_memory.hpp"
 
 namespace chladni::reduce {
 
 CountPlan::CountPlan(const FactoredBody& body, const ReductionOptions& options)
     : basis_(options.basis),
       count_(options.count),
-      factor_(factor_size(body.K_ss.factor())),
+      factor_(linear::factor_size(body.K_ss.factor())),
       n_masters_(static_cast<double>(body.masters.size())),
       comm_(body.comm())
 {
@@ -45,8 +45,8 @@ bool CountPlan::fits() const
 {
   if (count_) return true;  // and the factor was refused else
   const double own_MiB = sizeof(double) * entries_of_counting_factor * factor_.entries /
-                         petsc::size(comm_) / bytes_in_MiB;
-  return tightest_machine(own_MiB, free_MiB(), comm_).fits();
+                         petsc::size(comm_) / linear::bytes_in_MiB;
+  return linear::tightest_machine(own_MiB, linear::free_MiB(), comm_).fits();
 }
 
 bool CountPlan::is_due(PetscInt n_modes) const

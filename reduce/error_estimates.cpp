@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "reduce/progress.hpp"
-#include "reduce/small_matrices.hpp"
-#include "reduce/sparse_product.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
+#include "linear/progress.hpp"
 
 namespace chladni::reduce {
 
@@ -34,11 +34,12 @@ struct Residuals {
 
 /// u^T A u of each column of u = (u_s, x_m).
 /// @param A_u_s  A_ss u_s
-std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const SmallMatrix& x_m)
+std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s,
+                                    const linear::SmallMatrix& x_m)
 {
-  const std::vector<double> ss = column_products(u_s, A_u_s);
-  const SmallMatrix sm = inner_product_sparse(u_s, A.sm);
-  const SmallMatrix mm = replicate(A.mm);
+  const std::vector<double> ss = linear::column_products(u_s, A_u_s);
+  const linear::SmallMatrix sm = linear::inner_product_sparse(u_s, A.sm);
+  const linear::SmallMatrix mm = linear::replicate(A.mm);
   std::vector<double> forms;
   for (PetscInt k = 0; k < x_m.n_cols; ++k) {
     double form = ss[k];
@@ -72,11 +73,11 @@ void add_form_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
   petsc::check(VecRestoreArrayRead(diagonal, &A_jj));
 }
 
-std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const SmallMatrix& x_m)
+std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const linear::SmallMatrix& x_m)
 {
   const MPI_Comm comm = petsc::communicator(A.ss);
   std::vector<double> sums(x_m.n_cols, 0.0);
-  add_form_of_diagonal(A.ss, LocalRows(u_s), sums);
+  add_form_of_diagonal(A.ss, linear::LocalRows(u_s), sums);
   PetscInt first = 0;
   petsc::check(MatGetOwnershipRange(A.mm, &first, nullptr));
   add_form_of_diagonal(
@@ -93,27 +94,27 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
   const auto& [K_ss, Q_CB, K, M] = system;
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
-  const SmallMatrix x_m = row_range(pairs.X, 0, n_m);
-  const SmallMatrix x_q = row_range(pairs.X, n_m, pairs.X.n_rows);
+  const linear::SmallMatrix x_m = linear::row_range(pairs.X, 0, n_m);
+  const linear::SmallMatrix x_q = linear::row_range(pairs.X, n_m, pairs.X.n_rows);
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
-  if (Q_CB.modes) add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
-  petsc::Matrix r = uninitialized_dense(K.ss, pairs.X.n_cols);
-  SparseProduct(K.ss).apply(elastic, r);
-  add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
-  petsc::Matrix product = uninitialized_dense(K.ss, pairs.X.n_cols);
-  SparseProduct(K.ss).apply(elastic, product);
+  if (Q_CB.modes) linear::add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
+  petsc::Matrix r = linear::uninitialized_dense(K.ss, pairs.X.n_cols);
+  linear::SparseProduct(K.ss).apply(elastic, r);
+  linear::add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
+  petsc::Matrix product = linear::uninitialized_dense(K.ss, pairs.X.n_cols);
+  linear::SparseProduct(K.ss).apply(elastic, product);
   std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
-  SparseProduct(M.ss).apply(elastic, product);
+  linear::SparseProduct(M.ss).apply(elastic, product);
   const std::vector<double> inertia = quadratic_forms(M, product, elastic, x_m);
   std::vector<double> inertia_of_diagonal = form_of_diagonal(M, elastic, x_m);
   for (std::size_t k = 0; k < rayleigh.size(); ++k) {
     rayleigh[k] /= inertia[k];
     inertia_of_diagonal[k] /= inertia[k];
   }
-  add_sparse_product(M.sm, x_m, product);
-  SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
+  linear::add_sparse_product(M.sm, x_m, product);
+  linear::SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
   for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
-  add_product(1.0, product, minus_lambda, r);
+  linear::add_product(1.0, product, minus_lambda, r);
   return {.r_s = std::move(r),
           .energy_of_diagonal = form_of_diagonal(K, elastic, x_m),
           .inertia_of_diagonal = std::move(inertia_of_diagonal),
@@ -133,14 +134,14 @@ ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
 
 /// Those of the newest block with itself and all before.
 void add_inner_products(const std::vector<petsc::Matrix>& solved, Mat r_s,
-                        const std::vector<double>& lambda, SmallMatrix& H)
+                        const std::vector<double>& lambda, linear::SmallMatrix& H)
 {
   PetscInt last = 0;
-  for (const petsc::Matrix& z : solved) last += LocalRows(z).n_cols();
-  const PetscInt newest = last - LocalRows(r_s).n_cols();
+  for (const petsc::Matrix& z : solved) last += linear::LocalRows(z).n_cols();
+  const PetscInt newest = last - linear::LocalRows(r_s).n_cols();
   PetscInt first = 0;
   for (const petsc::Matrix& z : solved) {
-    const SmallMatrix z_r = inner_product(z, r_s);
+    const linear::SmallMatrix z_r = linear::inner_product(z, r_s);
     for (PetscInt j = 0; j < z_r.n_cols; ++j) {
       for (PetscInt i = 0; i < z_r.n_rows; ++i) {
         const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
@@ -161,16 +162,17 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   ErrorEstimates estimates;
   const bool with_inner_products = purpose == Purpose::bounds;
-  if (with_inner_products) estimates.inner_products = SmallMatrix(n_pairs, n_pairs);
+  if (with_inner_products) estimates.inner_products = linear::SmallMatrix(n_pairs, n_pairs);
   std::vector<petsc::Matrix> solved;  // K_ss^-1 r of the pairs so far
   for (PetscInt first = 0; first < n_pairs; first += most) {
-    report_progress(double(first) / n_pairs);
+    linear::report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
     const Residuals of = residuals(system, some);
     if (!with_inner_products) solved.clear();
-    const petsc::Matrix& z = solved.emplace_back(uninitialized_dense(system.K.ss, some.X.n_cols));
+    const petsc::Matrix& z =
+        solved.emplace_back(linear::uninitialized_dense(system.K.ss, some.X.n_cols));
     petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
-    const std::vector<double> r_z = column_products(of.r_s, z);
+    const std::vector<double> r_z = linear::column_products(of.r_s, z);
     for (std::size_t i = 0; i < r_z.size(); ++i) {
       estimates.eta2.push_back(std::max(0.0, r_z[i]) / some.lambda[i]);
       const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];

@@ -18,7 +18,7 @@ FixedInterfaceModes modes_by_number(ModeSearch& search, PetscInt n_modes)
   }
   search.find(n_modes);
   if (std::ssize(search.omega()) < n_modes) {
-    search.require_resolved(all_of_them);
+    search.require_resolved(linear::all_of_them);
     throw Error(fmt::format("fixed_interface_modes: {} of {} modes found; M_ss has no more",
                             search.omega().size(), n_modes));
   }
@@ -35,7 +35,7 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
     n_asked = std::max<PetscInt>(32, n_found + n_found / 2);
     search.find(n_asked);
     if (omega.empty()) {
-      search.require_resolved(all_of_them);
+      search.require_resolved(linear::all_of_them);
       throw Error("fixed_interface_modes: no mode found; M_ss is zero or indefinite, use Guyan");
     }
   } while (omega.back() < omega_cutoff && std::ssize(omega) > n_found);
@@ -51,7 +51,7 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
 
 }  // namespace
 
-FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
+FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat M_ss,
                                           const ReduceOptions& wanted)
 {
   ModeSearch search(K_ss, M_ss);

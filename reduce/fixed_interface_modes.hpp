@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reduce/factorization.hpp"
+#include "linear/cholesky/factorization.hpp"
 #include "reduce/reduce_options.hpp"
 
 namespace chladni::reduce {
@@ -20,7 +20,7 @@ struct FixedInterfaceModes {
 /// @note   Collective on the communicator of `M_ss`.
 /// @throws chladni::Error when the solver does not converge or more modes are asked than exist.
 /// The solver is that of the options of `K_ss`; `-<prefix>eps_...` are those of Krylov-Schur.
-FixedInterfaceModes fixed_interface_modes(const Factorization& K_ss, Mat M_ss,
+FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat M_ss,
                                           const ReduceOptions& wanted);
 
 /// The worst of |K phi - lambda M phi| / |lambda M phi| over the modes: what the eigen-solver left,

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/cholesky/cholesky_callbacks.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
+#include "linear/kernels/symmetric_eigen.hpp"
 #include "reduce/block_rows.hpp"
-#include "reduce/cholesky_callbacks.hpp"
-#include "reduce/small_matrices.hpp"
-#include "reduce/sparse_product.hpp"
-#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
@@ -17,7 +17,7 @@ namespace {
 
 /// The inverse of K_G on the complement of its r motions without energy, in units that its diagonal
 /// gives; all else is as wrong as any, since the forces have no share of it.
-SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
+linear::SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
 {
   const PetscInt n = K_G.K.n_rows, r = K_G.R.n_cols;
   double largest = 0.0;
@@ -27,21 +27,21 @@ SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
     const double k = K_G.K(i, i) > 0.0 ? K_G.K(i, i) : largest;
     scale.push_back(k > 0.0 ? 1.0 / std::sqrt(k) : 1.0);
   }
-  SmallMatrix scaled = K_G.K;
+  linear::SmallMatrix scaled = K_G.K;
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
   }
-  const SymmetricEigen eigen = symmetric_eigen(std::move(scaled));
-  SmallMatrix V(n, n - r);  // of the others, times lambda^(-1/2)
+  const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(scaled));
+  linear::SmallMatrix V(n, n - r);  // of the others, times lambda^(-1/2)
   for (PetscInt k = r; k < n; ++k) {
     for (PetscInt i = 0; i < n; ++i) {
       V(i, k - r) = scale[i] * eigen.vectors(i, k) / std::sqrt(eigen.values[k]);
     }
   }
-  return product(V, transposed(V));
+  return linear::product(V, linear::transposed(V));
 }
 
-double form(const SmallMatrix& G, const SmallMatrix& S, PetscInt i, PetscInt j)
+double form(const linear::SmallMatrix& G, const linear::SmallMatrix& S, PetscInt i, PetscInt j)
 {
   double sum = 0.0;
   for (PetscInt b = 0; b < G.n_cols; ++b) {
@@ -51,10 +51,10 @@ double form(const SmallMatrix& G, const SmallMatrix& S, PetscInt i, PetscInt j)
 }
 
 /// The combinations S of motions with the mass matrix G that make S^T G S = I.
-SmallMatrix orthonormal_in(const SmallMatrix& G)
+linear::SmallMatrix orthonormal_in(const linear::SmallMatrix& G)
 {
   constexpr double no_mass = 1e-14;  // of that of the motion before the others are taken out
-  SmallMatrix S(G.n_rows, G.n_cols);
+  linear::SmallMatrix S(G.n_rows, G.n_cols);
   for (PetscInt j = 0; j < G.n_cols; ++j) {
     S(j, j) = 1.0;
     for (int pass = 0; pass < 2; ++pass) {
@@ -76,22 +76,22 @@ SmallMatrix orthonormal_in(const SmallMatrix& G)
 
 petsc::Matrix times(Mat A, Mat X)
 {
-  petsc::Matrix AX = uninitialized_dense(A, LocalRows(X).n_cols());
-  SparseProduct(A).apply(X, AX);
+  petsc::Matrix AX = linear::uninitialized_dense(A, linear::LocalRows(X).n_cols());
+  linear::SparseProduct(A).apply(X, AX);
   return AX;
 }
 
 /// Rigid motions of all DOFs, R^T M R = I.
-petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const SmallMatrix& R_m)
+petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const linear::SmallMatrix& R_m)
 {
-  const petsc::Matrix R_s = uninitialized_dense(Psi, R_m.n_cols);
+  const petsc::Matrix R_s = linear::uninitialized_dense(Psi, R_m.n_cols);
   petsc::check(MatZeroEntries(R_s));
-  add_product(1.0, Psi, R_m, R_s);
-  const petsc::Matrix R = uninitialized_dense(body.K, R_m.n_cols);
+  linear::add_product(1.0, Psi, R_m, R_s);
+  const petsc::Matrix R = linear::uninitialized_dense(body.K, R_m.n_cols);
   set_rows(R, body.dofs, R_m, R_s);
-  petsc::Matrix normal = uninitialized_dense(body.K, R_m.n_cols);
+  petsc::Matrix normal = linear::uninitialized_dense(body.K, R_m.n_cols);
   petsc::check(MatZeroEntries(normal));
-  add_product(1.0, R, orthonormal_in(inner_product(R, times(body.M, R))), normal);
+  linear::add_product(1.0, R, orthonormal_in(linear::inner_product(R, times(body.M, R))), normal);
   return normal;
 }
 
@@ -102,26 +102,27 @@ struct FreeFlexibility::Parts {
   Mat Psi;
   Mat R;
   petsc::Matrix MR;
-  SmallMatrix K_G_inverse;
+  linear::SmallMatrix K_G_inverse;
 
   /// U = A F.
   void apply(Mat F, Mat U) const
   {
     petsc::Matrix f;
     petsc::check(MatDuplicate(F, MAT_COPY_VALUES, f.put()));
-    add_product(-1.0, MR, inner_product(R, f), f);
+    linear::add_product(-1.0, MR, linear::inner_product(R, f), f);
     const petsc::Matrix f_s = slave_rows(f, body.dofs, body.K_blocks.ss);
-    const petsc::Matrix u_s = uninitialized_dense(body.K_blocks.ss, LocalRows(f_s).n_cols());
+    const petsc::Matrix u_s =
+        linear::uninitialized_dense(body.K_blocks.ss, linear::LocalRows(f_s).n_cols());
     petsc::check(MatMatSolve(body.K_ss.factor(), f_s, u_s));
-    SmallMatrix f_m = master_rows(f, body.dofs);
-    const SmallMatrix held = inner_product_sparse(u_s, body.K_blocks.sm);
+    linear::SmallMatrix f_m = master_rows(f, body.dofs);
+    const linear::SmallMatrix held = linear::inner_product_sparse(u_s, body.K_blocks.sm);
     for (PetscInt j = 0; j < f_m.n_cols; ++j) {
       for (PetscInt i = 0; i < f_m.n_rows; ++i) f_m(i, j) -= held(j, i);
     }
-    const SmallMatrix u_m = product(K_G_inverse, f_m);
-    add_product(1.0, Psi, u_m, u_s);
+    const linear::SmallMatrix u_m = linear::product(K_G_inverse, f_m);
+    linear::add_product(1.0, Psi, u_m, u_s);
     set_rows(U, body.dofs, u_m, u_s);
-    add_product(-1.0, R, inner_product(MR, U), U);
+    linear::add_product(-1.0, R, linear::inner_product(MR, U), U);
   }
 };
 
@@ -139,7 +140,7 @@ FreeFlexibility::FreeFlexibility(const WholeSystem& body, Mat Psi, const GuyanSt
   petsc::check(MatCreateShell(petsc::communicator(body.K), n_local, n_local, n, n, parts_.get(),
                               factor_.put()));
   PetscErrorCode (*solve)(Mat, Mat, Mat) = [](Mat A, Mat F, Mat U) {
-    return guarded([&] {
+    return linear::guarded([&] {
       const Parts* parts = nullptr;
       petsc::check(MatShellGetContext(A, &parts));
       parts->apply(F, U);

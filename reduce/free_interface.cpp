@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/block_lanczos.hpp"
+#include "linear/kernels/orthonormalisation.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
+#include "linear/kernels/symmetric_eigen.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
 #include "reduce/block_rows.hpp"
 #include "reduce/free_flexibility.hpp"
 #include "reduce/guyan.hpp"
-#include "reduce/orthonormalisation.hpp"
-#include "reduce/small_matrices.hpp"
-#include "reduce/sparse_product.hpp"
-#include "reduce/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
@@ -44,8 +44,8 @@ PetscInt n_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda
 
 /// The lowest elastic modes, as many or as far up as wanted, with all partners of the last one:
 /// which combinations of some of them came first would be chance.
-EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibility,
-                         const ReduceOptions& wanted)
+linear::EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibility,
+                                 const ReduceOptions& wanted)
 {
   if (!wanted.modes && !wanted.cutoff_Hz) {
     throw Error(
@@ -54,9 +54,10 @@ EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibi
   }
   PetscInt n = 0;
   petsc::check(MatGetSize(body.K, &n, nullptr));
-  n -= LocalRows(flexibility.R()).n_cols();
-  BlockLanczos lanczos(flexibility.factor(), body.M, {.n_pairs = 0, .tolerance = tolerance});
-  EigenPairs pairs;
+  n -= linear::LocalRows(flexibility.R()).n_cols();
+  linear::BlockLanczos lanczos(flexibility.factor(), body.M,
+                               {.n_pairs = 0, .tolerance = tolerance});
+  linear::EigenPairs pairs;
   for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;; n_asked *= 2) {
     lanczos.converge(std::min(n_asked, n));
     pairs.lambda.clear();
@@ -64,7 +65,7 @@ EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibi
     const PetscInt n_found = lanczos.n_pairs(), n_taken = n_wanted(wanted, pairs.lambda);
     const bool are_all = n_found < n_asked;
     if (are_all && !(wanted.modes && n_taken <= n_found)) {
-      lanczos.require_resolved(wanted.modes ? all_of_them : lambda_max(wanted));
+      lanczos.require_resolved(wanted.modes ? linear::all_of_them : lambda_max(wanted));
     }
     if (n_taken > n_found) {
       throw Error(
@@ -82,27 +83,28 @@ EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibi
 /// [R, X] of the first k columns of X.
 petsc::Matrix beside(Mat R, Mat X, PetscInt k)
 {
-  const PetscInt r = LocalRows(R).n_cols();
-  petsc::Matrix both = uninitialized_dense(R, r + k);
+  const PetscInt r = linear::LocalRows(R).n_cols();
+  petsc::Matrix both = linear::uninitialized_dense(R, r + k);
   if (r > 0) {
-    petsc::check(MatCopy(R, ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
+    petsc::check(MatCopy(R, linear::ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
   }
   if (k > 0) {
-    petsc::check(MatCopy(ColumnRange(X, 0, k), ColumnRange(both, r, r + k), SAME_NONZERO_PATTERN));
+    petsc::check(MatCopy(linear::ColumnRange(X, 0, k), linear::ColumnRange(both, r, r + k),
+                         SAME_NONZERO_PATTERN));
   }
   return both;
 }
 
 /// T^T A T
-SmallMatrix gram(Mat T, Mat A)
+linear::SmallMatrix gram(Mat T, Mat A)
 {
-  const petsc::Matrix AT = uninitialized_dense(A, LocalRows(T).n_cols());
-  SparseProduct(A).apply(T, AT);
-  return inner_product(T, AT);
+  const petsc::Matrix AT = linear::uninitialized_dense(A, linear::LocalRows(T).n_cols());
+  linear::SparseProduct(A).apply(T, AT);
+  return linear::inner_product(T, AT);
 }
 
 /// The lengths of columns, from their Gram matrix; 1 where there is none.
-std::vector<double> lengths(const SmallMatrix& G)
+std::vector<double> lengths(const linear::SmallMatrix& G)
 {
   std::vector<double> lengths;
   for (PetscInt i = 0; i < G.n_rows; ++i) {
@@ -121,15 +123,16 @@ petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
   petsc::Matrix Q;
   for (int pass = 0; pass < 2; ++pass) {
     const Mat from = pass == 0 ? T : Mat(Q);
-    const SmallMatrix G = gram(from, K);
+    const linear::SmallMatrix G = gram(from, K);
     std::vector<double> units = lengths(G);
     for (std::size_t i = 0; i < units.size() && pass == 0; ++i) {
       units[i] = std::max(units[i], round_off / dependent * sizes[i]);
     }
-    const Orthonormalisation o = orthonormalisation(G, units, dependent, petsc::communicator(K));
-    petsc::Matrix orthonormal = uninitialized_dense(K, o.to_Q.n_cols);
+    const linear::Orthonormalisation o =
+        linear::orthonormalisation(G, units, dependent, petsc::communicator(K));
+    petsc::Matrix orthonormal = linear::uninitialized_dense(K, o.to_Q.n_cols);
     petsc::check(MatZeroEntries(orthonormal));
-    add_product(1.0, from, o.to_Q, orthonormal);
+    linear::add_product(1.0, from, o.to_Q, orthonormal);
     Q = std::move(orthonormal);
   }
   return Q;
@@ -140,20 +143,21 @@ petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
 FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const WholeSystem& body)
 {
   const petsc::Matrix Q = orthonormal_basis(T, sizes, body.K_blocks.ss);
-  const SymmetricEigen ritz = symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
+  const linear::SymmetricEigen ritz =
+      linear::symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
   const auto n = static_cast<PetscInt>(ritz.values.size());
   FixedInterfaceModes modes;
-  SmallMatrix V(n, n);
+  linear::SmallMatrix V(n, n);
   for (PetscInt k = 0; k < n; ++k) {
     const PetscInt at = n - 1 - k;
     if (!(ritz.values[at] > 0.0)) break;  // shapes without mass
     for (PetscInt i = 0; i < n; ++i) V(i, k) = ritz.vectors(i, at) / std::sqrt(ritz.values[at]);
     modes.omega.push_back(1.0 / std::sqrt(ritz.values[at]));
   }
-  V = column_range(V, 0, static_cast<PetscInt>(modes.omega.size()));
-  modes.Phi = uninitialized_dense(body.K_blocks.ss, V.n_cols);
+  V = linear::column_range(V, 0, static_cast<PetscInt>(modes.omega.size()));
+  modes.Phi = linear::uninitialized_dense(body.K_blocks.ss, V.n_cols);
   petsc::check(MatZeroEntries(modes.Phi));
-  add_product(1.0, Q, V, modes.Phi);
+  linear::add_product(1.0, Q, V, modes.Phi);
   return modes;
 }
 
@@ -163,13 +167,13 @@ FreeInterfaceModes free_interface_modes(const WholeSystem& body, Mat Psi,
                                         const ReduceOptions& wanted)
 {
   const FreeFlexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks));
-  const EigenPairs elastic = elastic_pairs(body, flexibility, wanted);
+  const linear::EigenPairs elastic = elastic_pairs(body, flexibility, wanted);
   const petsc::Matrix X =
       beside(flexibility.R(), elastic.X, static_cast<PetscInt>(elastic.lambda.size()));
   FreeInterfaceModes free{.X_s = slave_rows(X, body.dofs, body.K_blocks.ss),
                           .X_m = master_rows(X, body.dofs),
                           .omega = {},
-                          .n_rigid = LocalRows(flexibility.R()).n_cols()};
+                          .n_rigid = linear::LocalRows(flexibility.R()).n_cols()};
   free.omega.resize(free.n_rigid, 0.0);
   for (const double lambda : elastic.lambda) free.omega.push_back(std::sqrt(lambda));
   return free;
@@ -180,14 +184,15 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
   petsc::Matrix T;  // X_s - Psi X_m, in the first columns K_ss^-1 (M_ss X_s + M_sm X_m)
   petsc::check(MatDuplicate(free.X_s, MAT_COPY_VALUES, T.put()));
   std::vector<double> sizes = lengths(gram(T, body.K_blocks.ss));  // before the difference
-  add_product(-1.0, Psi, free.X_m, T);
+  linear::add_product(-1.0, Psi, free.X_m, T);
   if (free.n_rigid > 0) {
-    const SmallMatrix R_m = column_range(free.X_m, 0, free.n_rigid);
-    const ColumnRange inertia(T, 0, free.n_rigid);
-    const petsc::Matrix R_s = uninitialized_dense(body.K_blocks.ss, free.n_rigid);
-    petsc::check(MatCopy(ColumnRange(free.X_s, 0, free.n_rigid), R_s, SAME_NONZERO_PATTERN));
-    SparseProduct(body.M_blocks.ss).apply(R_s, inertia);
-    add_sparse_product(body.M_blocks.sm, R_m, inertia);
+    const linear::SmallMatrix R_m = linear::column_range(free.X_m, 0, free.n_rigid);
+    const linear::ColumnRange inertia(T, 0, free.n_rigid);
+    const petsc::Matrix R_s = linear::uninitialized_dense(body.K_blocks.ss, free.n_rigid);
+    petsc::check(
+        MatCopy(linear::ColumnRange(free.X_s, 0, free.n_rigid), R_s, SAME_NONZERO_PATTERN));
+    linear::SparseProduct(body.M_blocks.ss).apply(R_s, inertia);
+    linear::add_sparse_product(body.M_blocks.sm, R_m, inertia);
     petsc::check(MatMatSolve(body.K_ss.factor(), inertia, R_s));
     petsc::check(MatCopy(R_s, inertia, SAME_NONZERO_PATTERN));
     std::ranges::copy(lengths(gram(R_s, body.K_blocks.ss)), sizes.begin());
@@ -195,30 +200,30 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
   return ritz_modes(T, sizes, body);
 }
 
-SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
-                         const FreeInterfaceModes& free)
+linear::SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
+                                 const FreeInterfaceModes& free)
 {
   const PetscInt n_m = free.X_m.n_rows, n = n_m + Q.n_modes();
   // Z of the masters: X_s^T (M_ss Psi + M_sm) + X_m^T (M_ms Psi + M_mm)
-  const SmallMatrix at_slaves = inertial_coupling(free.X_s, Q.Psi, M);
-  SmallMatrix M_mm = replicate(M.mm);
-  const SmallMatrix Psi_M_sm = inner_product_sparse(Q.Psi, M.sm);
+  const linear::SmallMatrix at_slaves = inertial_coupling(free.X_s, Q.Psi, M);
+  linear::SmallMatrix M_mm = linear::replicate(M.mm);
+  const linear::SmallMatrix Psi_M_sm = linear::inner_product_sparse(Q.Psi, M.sm);
   for (PetscInt j = 0; j < n_m; ++j) {
     for (PetscInt i = 0; i < n_m; ++i) M_mm(i, j) += Psi_M_sm(j, i);
   }
-  const SmallMatrix at_masters = product(transposed(free.X_m), M_mm);
+  const linear::SmallMatrix at_masters = linear::product(linear::transposed(free.X_m), M_mm);
   // and of the modes: (M_ss X_s + M_sm X_m)^T Phi
-  petsc::Matrix momentum = uninitialized_dense(M.ss, free.n_modes());
-  SparseProduct(M.ss).apply(free.X_s, momentum);
-  add_sparse_product(M.sm, free.X_m, momentum);
-  const SmallMatrix of_modes = inner_product(momentum, Q.modes->Phi);
-  SmallMatrix Z(free.n_modes(), n);
+  petsc::Matrix momentum = linear::uninitialized_dense(M.ss, free.n_modes());
+  linear::SparseProduct(M.ss).apply(free.X_s, momentum);
+  linear::add_sparse_product(M.sm, free.X_m, momentum);
+  const linear::SmallMatrix of_modes = linear::inner_product(momentum, Q.modes->Phi);
+  linear::SmallMatrix Z(free.n_modes(), n);
   for (PetscInt k = 0; k < Z.n_rows; ++k) {
     for (PetscInt j = 0; j < n; ++j) {
       Z(k, j) = j < n_m ? at_slaves(k, j) + at_masters(k, j) : of_modes(k, j - n_m);
     }
   }
-  return product(transposed(Z), Z);
+  return linear::product(linear::transposed(Z), Z);
 }
 
 }  // namespace chladni::reduce

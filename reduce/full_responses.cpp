@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduce/block_basis.hpp"
-#include "reduce/inner_solver.hpp"
-#include "reduce/sylvester.hpp"
-#include "reduce/symmetric_eigen.hpp"
+#include "linear/cholesky/inner_solver.hpp"
+#include "linear/cholesky/sylvester.hpp"
+#include "linear/kernels/symmetric_eigen.hpp"
+#include "linear/lanczos/block_basis.hpp"
 
 namespace chladni::reduce {
 
@@ -17,7 +17,7 @@ namespace {
 /// One unit load in each column.
 petsc::Matrix unit_loads(Mat K, const std::vector<PetscInt>& loaded)
 {
-  petsc::Matrix E = uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
+  petsc::Matrix E = linear::uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
   petsc::check(MatZeroEntries(E));
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(K, &first, &last));
@@ -31,9 +31,9 @@ petsc::Matrix unit_loads(Mat K, const std::vector<PetscInt>& loaded)
 }
 
 /// L D L^T of an indefinite matrix.
-petsc::LinearSolver indefinite_factor(Mat A, const OptionSource& source)
+petsc::LinearSolver indefinite_factor(Mat A, const linear::OptionSource& source)
 {
-  petsc::LinearSolver solver = new_solver(petsc::communicator(A), source);
+  petsc::LinearSolver solver = linear::new_solver(petsc::communicator(A), source);
   PC pc = nullptr;
   petsc::check(KSPSetOperators(solver, A, A));
   petsc::check(KSPSetType(solver, KSPPREONLY));
@@ -41,7 +41,7 @@ petsc::LinearSolver indefinite_factor(Mat A, const OptionSource& source)
   petsc::check(PCSetType(pc, PCCHOLESKY));
   petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check(KSPSetFromOptions(solver));
-  set_up_factor(pc, source);
+  linear::set_up_factor(pc, source);
   petsc::check(KSPSetUp(solver));
   return solver;
 }
@@ -49,8 +49,8 @@ petsc::LinearSolver indefinite_factor(Mat A, const OptionSource& source)
 /// Largest |A v - e| over |A| |v| of the columns in the Frobenius norm.
 double backward_error(Mat A, Mat V, Mat E)
 {
-  petsc::Matrix R = uninitialized_dense(A, LocalRows(V).n_cols());
-  SparseProduct(A).apply(V, R);
+  petsc::Matrix R = linear::uninitialized_dense(A, linear::LocalRows(V).n_cols());
+  linear::SparseProduct(A).apply(V, R);
   petsc::check(MatAXPY(R, -1.0, E, SAME_NONZERO_PATTERN));
   double residual = 0.0, of_A = 0.0, of_V = 0.0;
   petsc::check(MatNorm(R, NORM_FROBENIUS, &residual));
@@ -66,8 +66,8 @@ petsc::Matrix beyond_constraint_modes(const CraigBamptonBasis& Q_CB, const DofPa
   petsc::Matrix V_m, V_s;
   petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
   petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
-  const SmallMatrix at_masters = replicate(V_m);
-  const LocalRows Psi(Q_CB.Psi);
+  const linear::SmallMatrix at_masters = linear::replicate(V_m);
+  const linear::LocalRows Psi(Q_CB.Psi);
   const PetscBLASInt m = Psi.n_rows(), n = at_masters.n_cols, k = at_masters.n_rows,
                      lda = Psi.leading_dimension();
   const PetscScalar minus_one = -1.0, one = 1.0;
@@ -87,9 +87,9 @@ petsc::Matrix beyond_constraint_modes(const CraigBamptonBasis& Q_CB, const DofPa
 /// Columns of unit length in M, so that none is dropped for its unit.
 void normalise(Mat X, Mat M)
 {
-  const petsc::Matrix M_X = uninitialized_dense(M, LocalRows(X).n_cols());
-  SparseProduct(M).apply(X, M_X);
-  const SmallMatrix G = inner_product(X, M_X);
+  const petsc::Matrix M_X = linear::uninitialized_dense(M, linear::LocalRows(X).n_cols());
+  linear::SparseProduct(M).apply(X, M_X);
+  const linear::SmallMatrix G = linear::inner_product(X, M_X);
   PetscInt ld = 0, n_rows = 0;
   PetscScalar* rows = nullptr;
   petsc::check(MatGetLocalSize(X, &n_rows, nullptr));
@@ -105,11 +105,11 @@ void normalise(Mat X, Mat M)
 /// [A, B]
 petsc::Matrix side_by_side(Mat A, Mat B, Mat rows_of)
 {
-  const LocalRows a(A), b(B);
-  petsc::Matrix both = uninitialized_dense(rows_of, a.n_cols() + b.n_cols());
+  const linear::LocalRows a(A), b(B);
+  petsc::Matrix both = linear::uninitialized_dense(rows_of, a.n_cols() + b.n_cols());
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(both, &values));
-  for (const LocalRows* part : {&a, &b}) {
+  for (const linear::LocalRows* part : {&a, &b}) {
     for (PetscInt j = 0; j < part->n_cols(); ++j, values += part->n_rows()) {
       std::copy_n(part->values() + std::size_t(j) * part->leading_dimension(), part->n_rows(),
                   values);
@@ -122,7 +122,7 @@ petsc::Matrix side_by_side(Mat A, Mat B, Mat rows_of)
 
 /// How many of the new directions are more than what round-off left of vectors of unit length;
 /// they come by falling length.
-PetscInt genuine_directions(const SmallMatrix& R)
+PetscInt genuine_directions(const linear::SmallMatrix& R)
 {
   constexpr double round_off = 1e-9;
   PetscInt n = 0;
@@ -140,24 +140,26 @@ struct Ritz {
   std::vector<double> lambda;
 };
 
-Ritz ritz_of(BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
+Ritz ritz_of(linear::BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
 {
   if (n == 0) return {.X = basis.new_block(0), .lambda = {}};
   const petsc::Matrix Q = basis.columns(n_before, n);
   const petsc::Matrix K_Q = basis.new_block(n);
-  SparseProduct(K).apply(Q, K_Q);
-  SymmetricEigen ritz = symmetric_eigen(inner_product(Q, K_Q), petsc::communicator(K));
-  SmallMatrix S(basis.n_columns(), n);
+  linear::SparseProduct(K).apply(Q, K_Q);
+  linear::SymmetricEigen ritz =
+      linear::symmetric_eigen(linear::inner_product(Q, K_Q), petsc::communicator(K));
+  linear::SmallMatrix S(basis.n_columns(), n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) S(n_before + i, j) = ritz.vectors(i, j);
   }
   return {.X = basis.combine(S), .lambda = std::move(ritz.values)};
 }
 
-petsc::Matrix responses(Mat K, Mat M, const HarmonicLoads& loads, const OptionSource& source)
+petsc::Matrix responses(Mat K, Mat M, const HarmonicLoads& loads,
+                        const linear::OptionSource& source)
 {
   const auto& [Omega_0, loaded] = loads;
-  const petsc::Matrix A = shifted(K, M, Omega_0 * Omega_0);
+  const petsc::Matrix A = linear::shifted(K, M, Omega_0 * Omega_0);
   const petsc::LinearSolver solver = indefinite_factor(A, source.part("response_"));
   PC pc = nullptr;
   Mat factor = nullptr;
@@ -166,7 +168,7 @@ petsc::Matrix responses(Mat K, Mat M, const HarmonicLoads& loads, const OptionSo
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
   const petsc::Matrix E = unit_loads(K, loaded);
-  petsc::Matrix V = uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
+  petsc::Matrix V = linear::uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
   petsc::check(MatZeroEntries(V));
   if (error == MAT_FACTOR_NOERROR) petsc::check(MatMatSolve(factor, E, V));
   constexpr double round_off = 1e-12;
@@ -187,9 +189,9 @@ petsc::Matrix full_responses(Mat K, Mat M, double Omega_0, const std::vector<Pet
 }
 
 petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads,
-                             const OptionSource& source)
+                             const linear::OptionSource& source)
 {
-  petsc::Matrix all = uninitialized_dense(K, 0);
+  petsc::Matrix all = linear::uninitialized_dense(K, 0);
   for (const HarmonicLoads& each : loads) {
     const petsc::Matrix V = responses(K, M, each, source);
     all = side_by_side(all, V, K);
@@ -202,7 +204,7 @@ Enrichment enrich(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, const
 {
   petsc::Matrix R = beyond_constraint_modes(Q_CB, dofs, V);
   normalise(R, ss.M);
-  BlockBasis basis(ss.M, Q_CB.n_modes() + LocalRows(R).n_cols());
+  linear::BlockBasis basis(ss.M, Q_CB.n_modes() + linear::LocalRows(R).n_cols());
   if (Q_CB.modes) basis.append(Q_CB.modes->Phi);
   const PetscInt n_before = basis.n_columns();
   PetscInt n_added = genuine_directions(basis.append(R).R);

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "linear/solver_options.hpp"
 #include "reduce/craig_bampton.hpp"
-#include "reduce/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -24,7 +24,7 @@ struct HarmonicLoads {
 /// The responses to all of these, side by side; a factorisation for each.
 /// Options: `-<prefix>response_mat_mumps_...`
 petsc::Matrix full_responses(Mat K, Mat M, const std::vector<HarmonicLoads>& loads,
-                             const OptionSource& source = {});
+                             const linear::OptionSource& source = {});
 
 /// K_ss and M_ss.
 struct SlaveBlocks {

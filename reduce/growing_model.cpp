@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "reduce/progress.hpp"
-#include "reduce/small_matrices.hpp"
-#include "reduce/sparse_product.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
+#include "linear/progress.hpp"
 
 namespace chladni::reduce {
 
@@ -15,20 +15,20 @@ namespace {
 constexpr PetscInt block_columns = 64;  // of the solves: bounds the memory
 
 /// B_j = M_ss (Psi - Phi P)_j + M_sm,j of columns first .. last - 1.
-petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, const SmallMatrix& P,
-                               PetscInt first)
+petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi,
+                               const linear::SmallMatrix& P, PetscInt first)
 {
-  petsc::Matrix shape, B = uninitialized_dense(system.M.ss, P.n_cols);
-  petsc::check(
-      MatDuplicate(ColumnRange(system.Psi, first, first + P.n_cols), MAT_COPY_VALUES, shape.put()));
-  add_product(-1.0, Phi, P, shape);
-  SparseProduct(system.M.ss).apply(shape, B);
+  petsc::Matrix shape, B = linear::uninitialized_dense(system.M.ss, P.n_cols);
+  petsc::check(MatDuplicate(linear::ColumnRange(system.Psi, first, first + P.n_cols),
+                            MAT_COPY_VALUES, shape.put()));
+  linear::add_product(-1.0, Phi, P, shape);
+  linear::SparseProduct(system.M.ss).apply(shape, B);
   PetscInt first_row = 0;
   PetscScalar* values = nullptr;
   petsc::check(MatGetOwnershipRange(B, &first_row, nullptr));
   petsc::check(MatDenseGetArray(B, &values));
-  const PetscInt n_local = LocalRows(shape).n_rows();
-  for_local_entries(system.M.sm, [&](PetscInt row, PetscInt column, double value) {
+  const PetscInt n_local = linear::LocalRows(shape).n_rows();
+  linear::for_local_entries(system.M.sm, [&](PetscInt row, PetscInt column, double value) {
     if (column < first || column >= first + P.n_cols) return;
     values[row - first_row + std::size_t(column - first) * n_local] += value;
   });
@@ -52,19 +52,20 @@ void GrowingModel::start_errors(Mat Phi)
 {
   const PetscInt n_m = M_G_.n_rows;
   n_first_ = P_.n_rows;
-  G_ = SmallMatrix(n_m, n_m);
+  G_ = linear::SmallMatrix(n_m, n_m);
   for (PetscInt first = 0; first < n_m; first += block_columns) {
-    report_progress(double(first) / n_m);
+    linear::report_progress(double(first) / n_m);
     const PetscInt last = std::min(first + block_columns, n_m);
-    const SmallMatrix P = column_range(P_, first, last);
+    const linear::SmallMatrix P = linear::column_range(P_, first, last);
     const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
-    const petsc::Matrix Z = uninitialized_dense(system_.M.ss, last - first);
+    const petsc::Matrix Z = linear::uninitialized_dense(system_.M.ss, last - first);
     petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
-    const petsc::Matrix MZ = uninitialized_dense(system_.M.ss, last - first);
-    SparseProduct(system_.M.ss).apply(Z, MZ);
-    const SmallMatrix Psi_MZ = inner_product(ColumnRange(system_.Psi, 0, last), MZ);
-    const SmallMatrix Phi_MZ = inner_product(Phi, MZ);
-    const SmallMatrix Z_M_sm = inner_product_sparse(Z, system_.M.sm);
+    const petsc::Matrix MZ = linear::uninitialized_dense(system_.M.ss, last - first);
+    linear::SparseProduct(system_.M.ss).apply(Z, MZ);
+    const linear::SmallMatrix Psi_MZ =
+        linear::inner_product(linear::ColumnRange(system_.Psi, 0, last), MZ);
+    const linear::SmallMatrix Phi_MZ = linear::inner_product(Phi, MZ);
+    const linear::SmallMatrix Z_M_sm = linear::inner_product_sparse(Z, system_.M.sm);
     for (PetscInt j = first; j < last; ++j) {
       for (PetscInt i = 0; i <= j; ++i) {
         double deflation = 0.0;
@@ -78,7 +79,7 @@ void GrowingModel::start_errors(Mat Phi)
 void GrowingModel::append(Mat Phi, const std::vector<double>& omega)
 {
   const bool is_first = omega_.empty();
-  P_ = stacked(P_, inertial_coupling(Phi, system_.Psi, system_.M));
+  P_ = linear::stacked(P_, inertial_coupling(Phi, system_.Psi, system_.M));
   omega_.insert(omega_.end(), omega.begin(), omega.end());
   if (is_first) start_errors(Phi);
 }
@@ -89,9 +90,9 @@ ReducedModel GrowingModel::model(PetscInt n) const
 }
 
 /// G_n
-SmallMatrix GrowingModel::G(PetscInt n) const
+linear::SmallMatrix GrowingModel::G(PetscInt n) const
 {
-  SmallMatrix G_n = G_;
+  linear::SmallMatrix G_n = G_;
   const double sign = n > n_first_ ? -1.0 : 1.0;
   for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
     const double factor = sign / (omega_[k] * omega_[k]);
@@ -105,7 +106,7 @@ SmallMatrix GrowingModel::G(PetscInt n) const
 ReducedModel GrowingModel::heavier_model(PetscInt n, double sigma, double lambda_left_out) const
 {
   ReducedModel heavier = model(n);
-  const SmallMatrix G_n = G(n);
+  const linear::SmallMatrix G_n = G(n);
   const double factor = sigma / (1.0 - sigma / lambda_left_out);
   for (PetscInt j = 0; j < G_n.n_cols; ++j) {
     for (PetscInt i = 0; i < G_n.n_rows; ++i) heavier.M(i, j) += factor * G_n(i, j);

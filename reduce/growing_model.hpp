@@ -16,7 +16,7 @@ namespace chladni::reduce {
 class GrowingModel {
  public:
   struct System {
-    const Factorization& K_ss;
+    const linear::Factorization& K_ss;
     Mat Psi;
     const Blocks& K;
     const Blocks& M;
@@ -45,14 +45,14 @@ class GrowingModel {
 
  private:
   void start_errors(Mat Phi);
-  SmallMatrix G(PetscInt n) const;
+  linear::SmallMatrix G(PetscInt n) const;
 
   System system_;
   GuyanStiffness K_G_;
-  SmallMatrix M_G_;
-  SmallMatrix P_;         ///< [n_modes x n_m]
-  SmallMatrix G_;         ///< G_n of the modes that came first
-  PetscInt n_first_ = 0;  ///< how many these are
+  linear::SmallMatrix M_G_;
+  linear::SmallMatrix P_;  ///< [n_modes x n_m]
+  linear::SmallMatrix G_;  ///< G_n of the modes that came first
+  PetscInt n_first_ = 0;   ///< how many these are
   std::vector<double> omega_;
 };
 

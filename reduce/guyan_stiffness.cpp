@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reduce/small_matrices.hpp"
-#include "reduce/symmetric_eigen.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/symmetric_eigen.hpp"
 
 namespace chladni::reduce {
 
@@ -17,9 +17,9 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // above the round-off of K_G where K_G itself is nothing else.
 
 /// K_mm + K_ms Psi, symmetric to the last bit.
-SmallMatrix condensed(SmallMatrix K_mm, Mat Psi, const Blocks& K)
+linear::SmallMatrix condensed(linear::SmallMatrix K_mm, Mat Psi, const Blocks& K)
 {
-  const SmallMatrix Psi_K_sm = inner_product_sparse(Psi, K.sm);
+  const linear::SmallMatrix Psi_K_sm = linear::inner_product_sparse(Psi, K.sm);
   for (PetscInt j = 0; j < K_mm.n_cols; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       const double mean = 0.5 * (K_mm(i, j) + K_mm(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
@@ -30,7 +30,7 @@ SmallMatrix condensed(SmallMatrix K_mm, Mat Psi, const Blocks& K)
 }
 
 /// sqrt(K_ii), of the largest one for rows without a diagonal.
-std::vector<double> row_scales(const SmallMatrix& K_mm)
+std::vector<double> row_scales(const linear::SmallMatrix& K_mm)
 {
   double largest = 0.0;
   for (PetscInt i = 0; i < K_mm.n_rows; ++i) largest = std::max(largest, K_mm(i, i));
@@ -53,13 +53,14 @@ void broadcast(std::vector<double>& values, MPI_Comm comm)
 }
 
 /// Eigenpairs of K_G scaled, those of the first rank on all ranks.
-SymmetricEigen energies_of(SmallMatrix K_G, const std::vector<double>& scales, MPI_Comm comm)
+linear::SymmetricEigen energies_of(linear::SmallMatrix K_G, const std::vector<double>& scales,
+                                   MPI_Comm comm)
 {
   for (PetscInt j = 0; j < K_G.n_cols; ++j) {
     for (PetscInt i = 0; i < K_G.n_rows; ++i) K_G(i, j) /= scales[i] * scales[j];
   }
-  SymmetricEigen eigen{.values = std::vector<double>(K_G.n_rows), .vectors = K_G};
-  if (petsc::rank(comm) == 0) eigen = symmetric_eigen(std::move(K_G));
+  linear::SymmetricEigen eigen{.values = std::vector<double>(K_G.n_rows), .vectors = K_G};
+  if (petsc::rank(comm) == 0) eigen = linear::symmetric_eigen(std::move(K_G));
   broadcast(eigen.values, comm);
   broadcast(eigen.vectors.values, comm);
   return eigen;
@@ -77,30 +78,31 @@ PetscInt n_candidates(const std::vector<double>& energies)
 }
 
 /// u^T diag(K) u of the first k eigenvectors, u = [u_m; Psi u_m].
-SmallMatrix energies_of_rows(const SymmetricEigen& eigen, const std::vector<double>& scales,
-                             PetscInt k, Mat Psi, Mat K_ss)
+linear::SmallMatrix energies_of_rows(const linear::SymmetricEigen& eigen,
+                                     const std::vector<double>& scales, PetscInt k, Mat Psi,
+                                     Mat K_ss)
 {
-  SmallMatrix Z(eigen.vectors.n_rows, k);
+  linear::SmallMatrix Z(eigen.vectors.n_rows, k);
   for (PetscInt j = 0; j < k; ++j) {
     for (PetscInt i = 0; i < Z.n_rows; ++i) Z(i, j) = eigen.vectors(i, j) / scales[i];
   }
-  const petsc::Matrix U = uninitialized_dense(Psi, k);
+  const petsc::Matrix U = linear::uninitialized_dense(Psi, k);
   petsc::check(MatZeroEntries(U));
-  add_product(1.0, Psi, Z, U);
+  linear::add_product(1.0, Psi, Z, U);
   petsc::Vector d;
   petsc::check(MatCreateVecs(K_ss, nullptr, d.put()));
   petsc::check(MatGetDiagonal(K_ss, d));
   petsc::check(VecSqrtAbs(d));
   petsc::check(MatDiagonalScale(U, d, nullptr));
-  SmallMatrix N = inner_product(U, U);
+  linear::SmallMatrix N = linear::inner_product(U, U);
   for (PetscInt j = 0; j < k; ++j) N(j, j) += 1.0;  // of the masters
   return N;
 }
 
 /// S N^(-1/2) with the eigenvectors S of N, which is at least I.
-SmallMatrix inverse_root(const SmallMatrix& N)
+linear::SmallMatrix inverse_root(const linear::SmallMatrix& N)
 {
-  SymmetricEigen eigen = symmetric_eigen(N);
+  linear::SymmetricEigen eigen = linear::symmetric_eigen(N);
   for (PetscInt j = 0; j < N.n_cols; ++j) {
     for (PetscInt i = 0; i < N.n_rows; ++i) eigen.vectors(i, j) /= std::sqrt(eigen.values[j]);
   }
@@ -108,7 +110,7 @@ SmallMatrix inverse_root(const SmallMatrix& N)
 }
 
 /// Columns made orthonormal one after the other.
-void orthonormalize(SmallMatrix& Y)
+void orthonormalize(linear::SmallMatrix& Y)
 {
   for (PetscInt j = 0; j < Y.n_cols; ++j) {
     double* column = &Y(0, j);
@@ -127,23 +129,23 @@ void orthonormalize(SmallMatrix& Y)
 
 /// Combinations of the first eigenvectors, first those that K does not resist, all orthonormal.
 struct Combinations {
-  SmallMatrix Y;
+  linear::SmallMatrix Y;
   PetscInt n_unresisted;
   double least;  ///< energy over that of the rows
 };
 
-Combinations combinations(const std::vector<double>& energies, const SmallMatrix& N)
+Combinations combinations(const std::vector<double>& energies, const linear::SmallMatrix& N)
 {
-  const SmallMatrix S = inverse_root(N);
-  SmallMatrix C(N.n_rows, N.n_rows);
+  const linear::SmallMatrix S = inverse_root(N);
+  linear::SmallMatrix C(N.n_rows, N.n_rows);
   for (PetscInt j = 0; j < C.n_cols; ++j) {
     for (PetscInt i = 0; i < C.n_rows; ++i) {
       for (PetscInt k = 0; k < C.n_rows; ++k) C(i, j) += S(k, i) * energies[k] * S(k, j);
     }
   }
-  const SymmetricEigen share = symmetric_eigen(std::move(C));
+  const linear::SymmetricEigen share = linear::symmetric_eigen(std::move(C));
   Combinations found{.Y = {N.n_rows, N.n_rows}, .n_unresisted = 0, .least = share.values.front()};
-  found.Y = product(S, share.vectors);
+  found.Y = linear::product(S, share.vectors);
   orthonormalize(found.Y);
   // Twice eps at most on solids and plates from 300 to 15000 DOFs. Negative energies tell how exact
   // K is, in files with few digits less than the machine.
@@ -154,8 +156,8 @@ Combinations combinations(const std::vector<double>& energies, const SmallMatrix
 }
 
 /// Those of the first rank on all ranks, that none decides otherwise.
-Combinations combinations_everywhere(const std::vector<double>& energies, const SmallMatrix& N,
-                                     MPI_Comm comm)
+Combinations combinations_everywhere(const std::vector<double>& energies,
+                                     const linear::SmallMatrix& N, MPI_Comm comm)
 {
   Combinations found{.Y = N, .n_unresisted = 0, .least = 0.0};
   if (petsc::rank(comm) == 0) found = combinations(energies, N);
@@ -167,12 +169,12 @@ Combinations combinations_everywhere(const std::vector<double>& energies, const 
 
 /// (I - U U^T) A (I - U U^T) of the scaled A = K_G and orthonormal U, symmetric to the last bit and
 /// without scales; rows that hold round-off alone are zero.
-SmallMatrix without_motions(const SmallMatrix& K_G, const SmallMatrix& U,
-                            const std::vector<double>& scales)
+linear::SmallMatrix without_motions(const linear::SmallMatrix& K_G, const linear::SmallMatrix& U,
+                                    const std::vector<double>& scales)
 {
   constexpr double round_off = 64.0 * eps;
   const PetscInt n = U.n_rows, r = U.n_cols;
-  SmallMatrix AU(n, r), half(r, r);  // half of U^T A U
+  linear::SmallMatrix AU(n, r), half(r, r);  // half of U^T A U
   const auto scaled = [&](PetscInt i, PetscInt j) { return K_G(i, j) / (scales[i] * scales[j]); };
   for (PetscInt k = 0; k < r; ++k) {
     for (PetscInt j = 0; j < n; ++j) {
@@ -182,8 +184,8 @@ SmallMatrix without_motions(const SmallMatrix& K_G, const SmallMatrix& U,
       for (PetscInt i = 0; i < n; ++i) half(l, k) += 0.5 * U(i, l) * AU(i, k);
     }
   }
-  const SmallMatrix share = product(U, half);
-  SmallMatrix K(n, n);
+  const linear::SmallMatrix share = linear::product(U, half);
+  linear::SmallMatrix K(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       double value = scaled(i, j);
@@ -219,20 +221,21 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
 {
   constexpr double indefinite = -1e-8;
   const MPI_Comm comm = petsc::communicator(Psi);
-  const SmallMatrix K_mm = replicate(K.mm);
+  const linear::SmallMatrix K_mm = linear::replicate(K.mm);
   const std::vector<double> scales = row_scales(K_mm);
   GuyanStiffness guyan{.K = condensed(K_mm, Psi, K), .R = {0, 0}};
-  const SymmetricEigen eigen = energies_of(guyan.K, scales, comm);
+  const linear::SymmetricEigen eigen = energies_of(guyan.K, scales, comm);
   const PetscInt k = n_candidates(eigen.values);
-  const SmallMatrix N = energies_of_rows(eigen, scales, k, Psi, K.ss);
+  const linear::SmallMatrix N = energies_of_rows(eigen, scales, k, Psi, K.ss);
   const Combinations found = combinations_everywhere(eigen.values, N, comm);
   if (found.least < indefinite) refuse_indefinite(found.least);
   if (found.n_unresisted == 0) {
-    guyan.R = SmallMatrix(guyan.K.n_rows, 0);
+    guyan.R = linear::SmallMatrix(guyan.K.n_rows, 0);
     return guyan;
   }
-  const SmallMatrix U = product(column_range(eigen.vectors, 0, found.Y.n_rows),
-                                column_range(found.Y, 0, found.n_unresisted));
+  const linear::SmallMatrix U =
+      linear::product(linear::column_range(eigen.vectors, 0, found.Y.n_rows),
+                      linear::column_range(found.Y, 0, found.n_unresisted));
   guyan.K = without_motions(guyan.K, U, scales);
   broadcast(guyan.K.values, comm);
   guyan.R = U;

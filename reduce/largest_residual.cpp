@@ -1,19 +1,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduce/dense.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
 #include "reduce/fixed_interface_modes.hpp"
-#include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
 /// Squares of the lengths of K phi - lambda M phi and of lambda M phi, column by column.
-SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
+linear::SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
 {
-  const LocalRows k(K_Phi), m(M_Phi);
-  SmallMatrix sums(2, k.n_cols());
+  const linear::LocalRows k(K_Phi), m(M_Phi);
+  linear::SmallMatrix sums(2, k.n_cols());
   for (PetscInt j = 0; j < k.n_cols(); ++j) {
     const double lambda = omega[j] * omega[j];
     for (PetscInt i = 0; i < k.n_rows(); ++i) {
@@ -23,7 +23,7 @@ SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
       sums(1, j) += inertia * inertia;
     }
   }
-  sum_over_ranks(sums, petsc::communicator(K_Phi));
+  linear::sum_over_ranks(sums, petsc::communicator(K_Phi));
   return sums;
 }
 
@@ -32,16 +32,16 @@ SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
 double largest_residual(const FixedInterfaceModes& modes, Mat K_ss, Mat M_ss)
 {
   constexpr PetscInt most = 32;  // columns at a time: bounds the memory
-  const SparseProduct K(K_ss), M(M_ss);
+  const linear::SparseProduct K(K_ss), M(M_ss);
   const auto n = static_cast<PetscInt>(modes.omega.size());
   double largest = 0.0;
   for (PetscInt first = 0; first < n; first += most) {
     const PetscInt last = std::min(first + most, n);
-    const petsc::Matrix K_Phi = uninitialized_dense(K_ss, last - first);
-    const petsc::Matrix M_Phi = uninitialized_dense(K_ss, last - first);
-    K.apply(ColumnRange(modes.Phi, first, last), K_Phi);
-    M.apply(ColumnRange(modes.Phi, first, last), M_Phi);
-    const SmallMatrix lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
+    const petsc::Matrix K_Phi = linear::uninitialized_dense(K_ss, last - first);
+    const petsc::Matrix M_Phi = linear::uninitialized_dense(K_ss, last - first);
+    K.apply(linear::ColumnRange(modes.Phi, first, last), K_Phi);
+    M.apply(linear::ColumnRange(modes.Phi, first, last), M_Phi);
+    const linear::SmallMatrix lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
     for (PetscInt j = 0; j < lengths.n_cols; ++j) {
       largest = std::max(largest, std::sqrt(lengths(0, j) / lengths(1, j)));
     }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
-#include "reduce/machine_memory.hpp"
 
 namespace chladni::reduce {
 
@@ -24,7 +24,7 @@ double own_MiB(Mat A)
   MatInfo info{};
   petsc::check(MatGetInfo(A, MAT_LOCAL, &info));
   constexpr double for_each_entry = sizeof(PetscScalar) + sizeof(PetscInt);
-  return for_each_entry * info.nz_used / bytes_in_MiB;
+  return for_each_entry * info.nz_used / linear::bytes_in_MiB;
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ bool needs_matrices(const ReductionOptions& options, bool counts)
   return options.keeps_matrices || counts || is_free_interface(options.basis.method);
 }
 
-FactorOptions with_what_comes_beside(FactorOptions factor, const Body& body, Mat K_ss,
-                                     const ReductionOptions& options)
+linear::FactorOptions with_what_comes_beside(linear::FactorOptions factor, const Body& body,
+                                             Mat K_ss, const ReductionOptions& options)
 {
   PetscInt n_local = 0, n_s = 0;
   petsc::check(MatGetLocalSize(K_ss, &n_local, nullptr));
@@ -49,7 +49,7 @@ FactorOptions with_what_comes_beside(FactorOptions factor, const Body& body, Mat
   const bool counts = options.count.value_or(false);
   const double bounds = counts ? std::min(n_modes, 100.0) : 0.0;  // residuals
   const double later = options.later_columns + options.later_columns_for_each_mode * n_modes;
-  const double in_MiB = sizeof(double) * double(n_local) / bytes_in_MiB;
+  const double in_MiB = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
   const double let_go = needs_matrices(options, counts) ? 0.0 : own_MiB(body.K) + own_MiB(body.M);
   factor.beside_MiB =
       in_MiB * std::max(in_search, kept + std::max(in_estimates + bounds, later)) - let_go;

@@ -11,7 +11,7 @@ bool needs_matrices(const ReductionOptions& options, bool counts);
 /// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
 /// error estimates or the caller work in; or all of these with the factor that counts eigenvalues
 /// where that is asked for. The numbers are measured.
-FactorOptions with_what_comes_beside(FactorOptions factor, const Body& body, Mat K_ss,
-                                     const ReductionOptions& options);
+linear::FactorOptions with_what_comes_beside(linear::FactorOptions factor, const Body& body,
+                                             Mat K_ss, const ReductionOptions& options);
 
 }  // namespace chladni::reduce

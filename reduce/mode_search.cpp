@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduce/inner_solver.hpp"
+#include "linear/cholesky/inner_solver.hpp"
 
 namespace chladni::reduce {
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pair_gap = 1e-4;  // relative distance of frequencies of one cluster
 
-EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
+linear::EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
 {
   PetscInt n = 0, n_local = 0, n_s = 0, n_iterations = 0;
   petsc::check(EPSGetConverged(eps, &n));
@@ -24,7 +24,7 @@ EigenPairs converged_pairs(EPS eps, Mat M_ss, PetscInt n_modes)
   }
   petsc::check(MatGetLocalSize(M_ss, &n_local, nullptr));
   petsc::check(MatGetSize(M_ss, &n_s, nullptr));
-  EigenPairs pairs{.lambda = {}, .residual = {}, .X = {}, .n_solves = 0};
+  linear::EigenPairs pairs{.lambda = {}, .residual = {}, .X = {}, .n_solves = 0};
   petsc::check(MatCreateDense(petsc::communicator(M_ss), n_local, PETSC_DECIDE, n_s, n, nullptr,
                               pairs.X.put()));
   for (PetscInt i = 0; i < n; ++i) {
@@ -47,11 +47,11 @@ void take_back_solver(ST st)
 }
 
 /// By SLEPc's Krylov-Schur, one column at a time.
-EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
+linear::EigenPairs krylov_schur(const linear::Factorization& K_ss, Mat M_ss, PetscInt n_modes)
 {
   petsc::EigenSolver eps;
   petsc::check(EPSCreate(petsc::communicator(M_ss), eps.put()));
-  set_options_source(eps, K_ss.options().petsc);
+  linear::set_options_source(eps, K_ss.options().petsc);
   petsc::check(EPSSetOperators(eps, K_ss.matrix(), M_ss));
   petsc::check(EPSSetProblemType(eps, EPS_GHEP));
   petsc::check(EPSSetDimensions(eps, n_modes, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -67,12 +67,12 @@ EigenPairs krylov_schur(const Factorization& K_ss, Mat M_ss, PetscInt n_modes)
   petsc::check(STSetKSP(st, K_ss.solver()));  // the same matrix object: no second factorisation
   petsc::check(EPSSetFromOptions(eps));
   petsc::check(EPSSolve(eps));
-  EigenPairs pairs = converged_pairs(eps, M_ss, n_modes);
+  linear::EigenPairs pairs = converged_pairs(eps, M_ss, n_modes);
   take_back_solver(st);
   return pairs;
 }
 
-BlockLanczosOptions block_options(const LanczosOptions& options)
+linear::BlockLanczosOptions block_options(const linear::LanczosOptions& options)
 {
   return {.n_pairs = 0,
           .block_size = options.block_size,
@@ -91,18 +91,18 @@ double angular_frequency(double lambda)
 
 }  // namespace
 
-ModeSearch::ModeSearch(const Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
+ModeSearch::ModeSearch(const linear::Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
-  const LanczosOptions& options = K_ss.options().lanczos;
-  if (options.solver == ModeSolver::block_lanczos) {
+  const linear::LanczosOptions& options = K_ss.options().lanczos;
+  if (options.solver == linear::ModeSolver::block_lanczos) {
     lanczos_.emplace(K_ss.factor(), M_ss, block_options(options));
   }
 }
 
 void ModeSearch::find_by_krylov_schur(PetscInt n)
 {
-  EigenPairs pairs = krylov_schur(K_ss_, M_ss_, n);
+  linear::EigenPairs pairs = krylov_schur(K_ss_, M_ss_, n);
   X_ = std::move(pairs.X);
   omega_.clear();
   for (const double lambda : pairs.lambda) omega_.push_back(angular_frequency(lambda));
@@ -147,7 +147,7 @@ petsc::Matrix ModeSearch::shapes(PetscInt first, PetscInt last) const
 {
   if (lanczos_) return lanczos_->vectors(first, last);
   petsc::Matrix columns;
-  petsc::check(MatDuplicate(ColumnRange(X_, first, last), MAT_COPY_VALUES, columns.put()));
+  petsc::check(MatDuplicate(linear::ColumnRange(X_, first, last), MAT_COPY_VALUES, columns.put()));
   return columns;
 }
 

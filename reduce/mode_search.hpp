@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "reduce/block_lanczos.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
 #include "reduce/fixed_interface_modes.hpp"
 
 namespace chladni::reduce {
@@ -14,7 +14,7 @@ namespace chladni::reduce {
 class ModeSearch {
  public:
   /// Both must outlive the search. The eigen-solver is that of the options of `K_ss`.
-  ModeSearch(const Factorization& K_ss, Mat M_ss);
+  ModeSearch(const linear::Factorization& K_ss, Mat M_ss);
 
   /// Number of slaves, which bounds the number of modes.
   PetscInt n_slaves() const { return n_s_; }
@@ -29,7 +29,10 @@ class ModeSearch {
     if (lanczos_) lanczos_->require_resolved(lambda);
   }
   /// The lambda from which on there may be modes that do not converge; infinity without any.
-  double unresolved_from() const { return lanczos_ ? lanczos_->unresolved_from() : all_of_them; }
+  double unresolved_from() const
+  {
+    return lanczos_ ? lanczos_->unresolved_from() : linear::all_of_them;
+  }
   /// Whether all modes that there are have been found.
   bool has_all() const { return has_all_; }
   /// Angular frequencies of all that are found, ascending; rad/s.
@@ -47,11 +50,11 @@ class ModeSearch {
   void find_all(PetscInt n);
   void find_by_krylov_schur(PetscInt n);
 
-  const Factorization& K_ss_;
+  const linear::Factorization& K_ss_;
   Mat M_ss_;
   PetscInt n_s_ = 0;
-  std::optional<BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
-  petsc::Matrix X_;                      ///< then all vectors that it found
+  std::optional<linear::BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
+  petsc::Matrix X_;                              ///< then all vectors that it found
   std::vector<double> omega_;
   bool has_all_ = false;
 };

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "linear/kernels/sparse_product.hpp"
+#include "linear/progress.hpp"
 #include "reduce/guyan.hpp"
-#include "reduce/progress.hpp"
-#include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
@@ -11,21 +11,21 @@ namespace {
 constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough for dgemm
 
 /// From above in the columns of `to` from first_column on.
-void copy_columns(SmallMatrix& to, PetscInt first_column, const SmallMatrix& from)
+void copy_columns(linear::SmallMatrix& to, PetscInt first_column, const linear::SmallMatrix& from)
 {
   for (PetscInt j = 0; j < from.n_cols; ++j) {
     for (PetscInt i = 0; i < from.n_rows; ++i) to(i, first_column + j) = from(i, j);
   }
 }
 
-void mirror_upper_triangle(SmallMatrix& A)
+void mirror_upper_triangle(linear::SmallMatrix& A)
 {
   for (PetscInt j = 0; j < A.n_cols; ++j) {
     for (PetscInt i = 0; i < j; ++i) A(j, i) = A(i, j);
   }
 }
 
-void set_leading_block(SmallMatrix& A, const SmallMatrix& block)
+void set_leading_block(linear::SmallMatrix& A, const linear::SmallMatrix& block)
 {
   for (PetscInt j = 0; j < block.n_cols; ++j) {
     for (PetscInt i = 0; i < block.n_rows; ++i) A(i, j) = block(i, j);
@@ -49,17 +49,17 @@ PetscInt n_columns(Mat A)
 }
 
 /// Psi^T M_ss Psi
-SmallMatrix slave_mass(Mat Psi, Mat M_ss)
+linear::SmallMatrix slave_mass(Mat Psi, Mat M_ss)
 {
   const PetscInt n_m = n_columns(Psi);
-  SmallMatrix Psi_M_Psi(n_m, n_m);
-  const SparseProduct product(M_ss);
+  linear::SmallMatrix Psi_M_Psi(n_m, n_m);
+  const linear::SparseProduct product(M_ss);
   for_column_blocks(n_m, [&](PetscInt first, PetscInt last) {
-    report_progress(double(first) / n_m);
-    const petsc::Matrix M_Psi = uninitialized_dense(M_ss, last - first);
-    product.apply(ColumnRange(Psi, first, last), M_Psi);
+    linear::report_progress(double(first) / n_m);
+    const petsc::Matrix M_Psi = linear::uninitialized_dense(M_ss, last - first);
+    product.apply(linear::ColumnRange(Psi, first, last), M_Psi);
     // The upper triangle of Psi^T M Psi is enough.
-    copy_columns(Psi_M_Psi, first, inner_product(ColumnRange(Psi, 0, last), M_Psi));
+    copy_columns(Psi_M_Psi, first, linear::inner_product(linear::ColumnRange(Psi, 0, last), M_Psi));
   });
   mirror_upper_triangle(Psi_M_Psi);
   return Psi_M_Psi;
@@ -67,11 +67,11 @@ SmallMatrix slave_mass(Mat Psi, Mat M_ss)
 
 }  // namespace
 
-SmallMatrix guyan_mass(Mat Psi, const Blocks& M)
+linear::SmallMatrix guyan_mass(Mat Psi, const Blocks& M)
 {
-  const SmallMatrix Psi_M_Psi = slave_mass(Psi, M.ss);
-  SmallMatrix M_G = replicate(M.mm);
-  const SmallMatrix Psi_M_sm = inner_product_sparse(Psi, M.sm);
+  const linear::SmallMatrix Psi_M_Psi = slave_mass(Psi, M.ss);
+  linear::SmallMatrix M_G = linear::replicate(M.mm);
+  const linear::SmallMatrix Psi_M_sm = linear::inner_product_sparse(Psi, M.sm);
   for (PetscInt j = 0; j < M_G.n_cols; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       const double M_mm = 0.5 * (M_G(i, j) + M_G(j, i));
@@ -81,14 +81,14 @@ SmallMatrix guyan_mass(Mat Psi, const Blocks& M)
   return M_G;
 }
 
-SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
+linear::SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
 {
-  SmallMatrix P = inner_product_sparse(Phi, M.sm);
-  const SparseProduct product(M.ss);
+  linear::SmallMatrix P = linear::inner_product_sparse(Phi, M.sm);
+  const linear::SparseProduct product(M.ss);
   for_column_blocks(n_columns(Phi), [&](PetscInt first, PetscInt last) {
-    const petsc::Matrix M_Phi = uninitialized_dense(M.ss, last - first);
-    product.apply(ColumnRange(Phi, first, last), M_Phi);
-    const SmallMatrix rows = inner_product(M_Phi, Psi);
+    const petsc::Matrix M_Phi = linear::uninitialized_dense(M.ss, last - first);
+    product.apply(linear::ColumnRange(Phi, first, last), M_Phi);
+    const linear::SmallMatrix rows = linear::inner_product(M_Phi, Psi);
     for (PetscInt j = 0; j < P.n_cols; ++j) {
       for (PetscInt k = first; k < last; ++k) P(k, j) += rows(k - first, j);
     }
@@ -96,8 +96,8 @@ SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
   return P;
 }
 
-ReducedModel join(const GuyanStiffness& K_G, const SmallMatrix& M_G, const SmallMatrix& P,
-                  std::vector<double> omega)
+ReducedModel join(const GuyanStiffness& K_G, const linear::SmallMatrix& M_G,
+                  const linear::SmallMatrix& P, std::vector<double> omega)
 {
   const PetscInt n_m = K_G.K.n_rows;
   const auto n_q = static_cast<PetscInt>(omega.size());
@@ -119,7 +119,7 @@ ReducedModel join(const GuyanStiffness& K_G, const SmallMatrix& M_G, const Small
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M)
 {
   const GuyanStiffness K_G = guyan_stiffness(Q_CB.Psi, K);
-  const SmallMatrix M_G = guyan_mass(Q_CB.Psi, M);
+  const linear::SmallMatrix M_G = guyan_mass(Q_CB.Psi, M);
   if (!Q_CB.modes) return join(K_G, M_G, {0, 0}, {});
   return join(K_G, M_G, inertial_coupling(Q_CB.modes->Phi, Q_CB.Psi, M), Q_CB.modes->omega);
 }

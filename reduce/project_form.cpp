@@ -1,14 +1,15 @@
 #include <algorithm>
 
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
 #include "reduce/craig_bampton.hpp"
-#include "reduce/small_matrices.hpp"
-#include "reduce/sparse_product.hpp"
 
 namespace chladni::reduce {
 
 namespace {
 
-void add_block(SmallMatrix& A, PetscInt first_row, PetscInt first_column, const SmallMatrix& block)
+void add_block(linear::SmallMatrix& A, PetscInt first_row, PetscInt first_column,
+               const linear::SmallMatrix& block)
 {
   for (PetscInt j = 0; j < block.n_cols; ++j) {
     for (PetscInt i = 0; i < block.n_rows; ++i) A(first_row + i, first_column + j) += block(i, j);
@@ -66,9 +67,9 @@ petsc::Matrix take_rows(Mat X, const std::vector<PetscInt>& rows)
 
 /// Adds X^T A_ss X. What has displacements in one direction alone leaves most rows empty: these do
 /// not take part in the products of dense matrices, where the time goes.
-void add_slaves(SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_ss)
+void add_slaves(linear::SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_ss)
 {
-  const SparseProduct product(A_ss);
+  const linear::SparseProduct product(A_ss);
   const std::vector<PetscInt> rows = rows_with_entries(A_ss);
   std::vector<petsc::Matrix> left;
   for (const Columns& part : X) left.push_back(take_rows(part.X, rows));
@@ -77,11 +78,11 @@ void add_slaves(SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_ss)
     petsc::check(MatGetSize(right.X, nullptr, &n));
     for (PetscInt first = 0; first < n; first += block_columns) {
       const PetscInt last = std::min(first + block_columns, n);
-      const petsc::Matrix A_X = uninitialized_dense(A_ss, last - first);
-      product.apply(ColumnRange(right.X, first, last), A_X);
+      const petsc::Matrix A_X = linear::uninitialized_dense(A_ss, last - first);
+      product.apply(linear::ColumnRange(right.X, first, last), A_X);
       const petsc::Matrix taken = take_rows(A_X, rows);
       for (std::size_t i = 0; i < X.size(); ++i)
-        add_block(A_r, X[i].first, right.first + first, inner_product(left[i], taken));
+        add_block(A_r, X[i].first, right.first + first, linear::inner_product(left[i], taken));
     }
   }
 }
@@ -89,34 +90,34 @@ void add_slaves(SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_ss)
 }  // namespace
 
 /// With Q_CB = [I 0; X], X = [Psi Phi]: A_r = A_mm + A_ms X + X^T A_sm + X^T A_ss X.
-SmallMatrix project_form(const CraigBamptonBasis& Q_CB, const Blocks& A)
+linear::SmallMatrix project_form(const CraigBamptonBasis& Q_CB, const Blocks& A)
 {
-  const SmallMatrix A_mm = replicate(A.mm);
+  const linear::SmallMatrix A_mm = linear::replicate(A.mm);
   const PetscInt n_m = A_mm.n_rows;
   std::vector<Columns> X{{Q_CB.Psi, 0}};
   if (Q_CB.modes) X.push_back({Q_CB.modes->Phi, n_m});
-  SmallMatrix A_r(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
+  linear::SmallMatrix A_r(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
   add_block(A_r, 0, 0, A_mm);
   petsc::Matrix A_ms_T;  // that its product with X is one with sparse columns
   petsc::check(MatTranspose(A.ms, MAT_INITIAL_MATRIX, A_ms_T.put()));
   for (const Columns& part : X) {
-    add_block(A_r, part.first, 0, inner_product_sparse(part.X, A.sm));
-    add_block(A_r, 0, part.first, transposed(inner_product_sparse(part.X, A_ms_T)));
+    add_block(A_r, part.first, 0, linear::inner_product_sparse(part.X, A.sm));
+    add_block(A_r, 0, part.first, linear::transposed(linear::inner_product_sparse(part.X, A_ms_T)));
   }
   add_slaves(A_r, X, A.ss);
   return A_r;
 }
 
-SmallMatrix project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)
+linear::SmallMatrix project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)
 {
   petsc::Matrix V_m, V_s;
   petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
   petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
-  const SmallMatrix V_mm = replicate(V_m);
-  SmallMatrix V_r(V_mm.n_rows + Q_CB.n_modes(), V_mm.n_cols);
+  const linear::SmallMatrix V_mm = linear::replicate(V_m);
+  linear::SmallMatrix V_r(V_mm.n_rows + Q_CB.n_modes(), V_mm.n_cols);
   add_block(V_r, 0, 0, V_mm);
-  add_block(V_r, 0, 0, inner_product(Q_CB.Psi, V_s));
-  if (Q_CB.modes) add_block(V_r, V_mm.n_rows, 0, inner_product(Q_CB.modes->Phi, V_s));
+  add_block(V_r, 0, 0, linear::inner_product(Q_CB.Psi, V_s));
+  if (Q_CB.modes) add_block(V_r, V_mm.n_rows, 0, linear::inner_product(Q_CB.modes->Phi, V_s));
   return V_r;
 }
 

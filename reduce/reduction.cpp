@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "linear/cholesky/condition_estimate.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
-#include "reduce/condition_estimate.hpp"
 #include "reduce/memory_forecast.hpp"
 
 namespace chladni::reduce {
@@ -26,12 +26,12 @@ petsc::IndexSet own_masters(Mat K, const std::vector<PetscInt>& masters)
 }
 
 /// With the name of the DOF that moves most where a part of the body is free.
-Factorization factorized(const Body& body, Mat K_ss, const DofPartition& dofs,
-                         const SolverOptions& options)
+linear::Factorization factorized(const Body& body, Mat K_ss, const DofPartition& dofs,
+                                 const linear::SolverOptions& options)
 {
   try {
-    return factorize(K_ss, options);
-  } catch (const FreeMotion& free) {
+    return linear::factorize(K_ss, options);
+  } catch (const linear::FreeMotion& free) {
     if (free.row < 0) throw;
     const PetscInt dof = dof_of_slave(dofs, free.row);
     const std::string name =
@@ -61,10 +61,10 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
     Blocks K = split(body.K, dofs), M = split(body.M, dofs);
     return Parted{std::move(dofs), std::move(K), std::move(M)};
   });
-  SolverOptions solver = options.solver;
+  linear::SolverOptions solver = options.solver;
   solver.factor = with_what_comes_beside(solver.factor, body, parted.K.ss, options);
-  Factorization K_ss = in_phase(phases, "factorization",
-                                [&] { return factorized(body, parted.K.ss, parted.dofs, solver); });
+  linear::Factorization K_ss = in_phase(
+      phases, "factorization", [&] { return factorized(body, parted.K.ss, parted.dofs, solver); });
   return {.K = std::move(body.K),
           .M = std::move(body.M),
           .masters = std::move(body.masters),
@@ -94,7 +94,7 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
   });
   Certificate& certificate = certified.certificate;
   certificate.condition =
-      in_phase(phases, "condition", [&] { return condition_estimate(body.K_ss); });
+      in_phase(phases, "condition", [&] { return linear::condition_estimate(body.K_ss); });
   certificate.count_share = count.share(basis.Q.n_modes());
   Certificate complete =
       counts ? in_phase(phases, "count of eigenvalues",

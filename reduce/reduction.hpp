@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "linear/solver_options.hpp"
 #include "reduce/certificate.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/full_responses.hpp"
 #include "reduce/phases.hpp"
 #include "reduce/reduce_options.hpp"
-#include "reduce/solver_options.hpp"
 #include "reduce/support.hpp"
 
 /// From K and M to the certified reduced model: what `chladni reduce` and the class CMS run.
@@ -29,7 +29,7 @@ struct Body {
 /// How a body is reduced.
 struct ReductionOptions {
   ReduceOptions basis = {};
-  SolverOptions solver = {};
+  linear::SolverOptions solver = {};
   /// Whether eigenvalues of the FE model are counted, which makes bounds of estimates; nothing:
   /// where that is less than a tenth of the work and there is memory for it.
   std::optional<bool> count = false;
@@ -46,7 +46,7 @@ struct FactoredBody {
   petsc::Matrix R;
   DofPartition dofs;
   Blocks K_blocks, M_blocks;
-  Factorization K_ss;
+  linear::Factorization K_ss;
 
   MPI_Comm comm() const { return petsc::communicator(K_ss.matrix()); }
 };

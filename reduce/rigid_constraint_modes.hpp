@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/dense.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 #include "reduce/partition.hpp"
 
 namespace chladni::reduce {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "reduce/block_lanczos.hpp"
-#include "reduce/dense.hpp"
-#include "reduce/factorization.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
 
 namespace chladni::reduce {
 
@@ -54,22 +54,22 @@ double least_diagonal_ratio(Mat K, Mat M)
 /// A positive definite K + mu M.
 struct Shifted {
   petsc::Matrix A;
-  Factorization factor;
+  linear::Factorization factor;
   double mu;
 };
 
 /// With mu as it is, or as much larger as K + mu M needs to be definite in spite of round-off: a
 /// thin plate resists bending by less than that share of what resists its stretching.
-Shifted shifted(Mat K, Mat M, double mu, const SolverOptions& options)
+Shifted shifted(Mat K, Mat M, double mu, const linear::SolverOptions& options)
 {
   constexpr double step = 1e3;
   constexpr int attempts = 4;
   for (int attempt = 1;; ++attempt, mu *= step) {
     petsc::Matrix A = with_mass(K, M, mu);
     try {
-      Factorization factor = factorize(A, options);
+      linear::Factorization factor = linear::factorize(A, options);
       return {.A = std::move(A), .factor = std::move(factor), .mu = mu};
-    } catch (const FreeMotion&) {
+    } catch (const linear::FreeMotion&) {
       if (attempt == attempts) throw;
     }
   }
@@ -79,8 +79,8 @@ Shifted shifted(Mat K, Mat M, double mu, const SolverOptions& options)
 double first_elastic(const Shifted& shift, Mat M, int n_rigid)
 {
   constexpr double rough = 1e-2;
-  const EigenPairs pairs =
-      block_lanczos(shift.factor.factor(), M, {.n_pairs = n_rigid + 1, .tolerance = rough});
+  const linear::EigenPairs pairs =
+      linear::block_lanczos(shift.factor.factor(), M, {.n_pairs = n_rigid + 1, .tolerance = rough});
   if (std::ssize(pairs.lambda) <= n_rigid) return shift.mu;  // nothing but rigid motions
   return std::max(pairs.lambda[n_rigid] - shift.mu, 0.0);
 }
@@ -108,19 +108,20 @@ Shifted near_first_elastic(Mat K, Mat M, const NaturalModesOptions& options)
 }
 
 /// The pairs of a body with rigid-body motions.
-EigenPairs free_pairs(Mat K, Mat M, const NaturalModesOptions& options)
+linear::EigenPairs free_pairs(Mat K, Mat M, const NaturalModesOptions& options)
 {
   const Shifted shift = near_first_elastic(K, M, options);
-  EigenPairs pairs = block_lanczos(shift.factor.factor(), M, {.n_pairs = options.n_modes});
+  linear::EigenPairs pairs =
+      linear::block_lanczos(shift.factor.factor(), M, {.n_pairs = options.n_modes});
   for (double& lambda : pairs.lambda) lambda -= shift.mu;
   return pairs;
 }
 
-EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options)
+linear::EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options)
 {
   if (options.n_rigid > 0) return free_pairs(K, M, options);
-  const Factorization factor = factorize(K, options.solver);
-  return block_lanczos(factor.factor(), M, {.n_pairs = options.n_modes});
+  const linear::Factorization factor = linear::factorize(K, options.solver);
+  return linear::block_lanczos(factor.factor(), M, {.n_pairs = options.n_modes});
 }
 
 /// The first n columns of X in the rows of all DOFs.
@@ -136,7 +137,7 @@ petsc::Matrix expand(Mat X, const FreeDofs& free, Mat K, PetscInt n)
   petsc::check(ISGetLocalSize(free.indices, &n_free));
   const PetscInt* rows = nullptr;
   petsc::check(ISGetIndices(free.indices, &rows));
-  const LocalRows from(X);
+  const linear::LocalRows from(X);
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(all, &values));
   std::fill_n(values, std::size_t(n_local) * n, 0.0);
@@ -170,10 +171,11 @@ FreeDofs free_dofs(Mat K, const std::vector<int>& held)
   return free;
 }
 
-StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free, const SolverOptions& options)
+StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
+                               const linear::SolverOptions& options)
 {
   const petsc::Matrix K_ff = free_block(K, free);
-  const Factorization factor = factorize(K_ff, options);
+  const linear::Factorization factor = linear::factorize(K_ff, options);
   StaticSolution solution;
   petsc::check(VecDuplicate(f, solution.u.put()));
   petsc::check(VecSet(solution.u, 0.0));
@@ -199,7 +201,7 @@ NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalMode
     throw Error(fmt::format("natural_modes: {} modes asked of {} free DOFs; give 1 to {}",
                             options.n_modes, n_free, n_free));
   }
-  EigenPairs pairs = lowest_pairs(K_ff, M_ff, options);
+  linear::EigenPairs pairs = lowest_pairs(K_ff, M_ff, options);
   if (std::ssize(pairs.lambda) < options.n_modes) {
     throw Error(fmt::format("natural_modes: {} of {} modes found; the mass allows no more",
                             pairs.lambda.size(), options.n_modes));

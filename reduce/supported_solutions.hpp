@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/petsc.hpp"
-#include "reduce/solver_options.hpp"
+#include "linear/solver_options.hpp"
 
 namespace chladni::reduce {
 
@@ -28,7 +28,7 @@ struct StaticSolution {
 /// @note   Collective on the communicator of `K`.
 /// @throws chladni::Error when K of the free DOFs is not positive definite.
 StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
-                               const SolverOptions& options = {});
+                               const linear::SolverOptions& options = {});
 
 /// K x = lambda M x on the free DOFs, X^T M X = I, lambda ascending.
 struct NaturalModes {
@@ -39,7 +39,7 @@ struct NaturalModes {
 struct NaturalModesOptions {
   int n_modes;      ///< as many as are wanted, rigid-body motions included
   int n_rigid = 0;  ///< rigid-body motions among them
-  SolverOptions solver = {};
+  linear::SolverOptions solver = {};
 };
 
 /// The lowest natural modes by block Lanczos. A free body is factorised as K + mu M: mu > 0 is near

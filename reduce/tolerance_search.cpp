@@ -79,7 +79,7 @@ double ToleranceSearch::error(PetscInt n) const
     errors[i] = Hz * (1.0 - of_frequency) > goal_.up_to_Hz ? 0.0 : of_frequency;
   }
   const double largest = errors.empty() ? 0.0 : std::ranges::max(errors);
-  return value_of_first_rank(largest, petsc::communicator(system_.Psi));
+  return linear::value_of_first_rank(largest, petsc::communicator(system_.Psi));
 }
 
 /// Of the first mode beyond the first n, or less.
@@ -103,7 +103,8 @@ bool ToleranceSearch::may_lack_a_frequency(PetscInt n) const
   };
   const auto most = n_below(model_->heavier_model(n, sigma, left_out), sigma);
   const auto found = n_below(model_->model(n), sigma * (1.0 + 2.0 * goal_.tolerance));
-  return value_of_first_rank(most > found ? 1.0 : 0.0, petsc::communicator(system_.Psi)) != 0.0;
+  return linear::value_of_first_rank(most > found ? 1.0 : 0.0, petsc::communicator(system_.Psi)) !=
+         0.0;
 }
 
 /// Of the modes at hand, those of the range.

@@ -22,7 +22,7 @@ mbs_export::ModeCount as_mode_count(const reduce::EigenvalueCount& count)
 
 }  // namespace
 
-MatrixXd in_order(const reduce::SmallMatrix& A, const std::vector<int>& places)
+MatrixXd in_order(const linear::SmallMatrix& A, const std::vector<int>& places)
 {
   return Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols)(places, places);
 }

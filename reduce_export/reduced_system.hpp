@@ -12,7 +12,7 @@ namespace chladni::reduce_export {
 
 /// Rows and columns of a matrix of the model in the order of the caller.
 /// @param places  `reduce::coordinate_places`
-Eigen::MatrixXd in_order(const reduce::SmallMatrix& A, const std::vector<int>& places);
+Eigen::MatrixXd in_order(const linear::SmallMatrix& A, const std::vector<int>& places);
 
 /// `described` with K, M and the frequencies of a model.
 /// @param described  title, nodes, sets and masters, in the order of `reduce::Body::masters`; of a

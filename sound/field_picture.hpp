@@ -3,16 +3,16 @@
 #include <array>
 #include <vector>
 
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "sound/tone.hpp"
 
 namespace chladni::sound {
 
 /// The elements of a meridian plane before the absorbing shell, each cut into straight triangles.
 struct Triangles {
-  Eigen::MatrixXd nodes;                    ///< [n x 2] m
-  std::vector<int> index;                   ///< [n] of these nodes in the mesh
-  mbs_export::hdf5::IntegerMatrix corners;  ///< [n_triangles x 3] rows of `nodes`
+  Eigen::MatrixXd nodes;         ///< [n x 2] m
+  std::vector<int> index;        ///< [n] of these nodes in the mesh
+  files::IntegerMatrix corners;  ///< [n_triangles x 3] rows of `nodes`
 };
 
 Triangles inner_triangles(const AirMesh& mesh);

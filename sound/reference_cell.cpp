@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -5,14 +5,14 @@
 #include <numbers>
 #include <span>
 
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "sound/field_picture.hpp"
 
 namespace chladni::sound {
 namespace {
 
 using Eigen::Index;
-using mbs_export::hdf5::Writer;
+using files::Writer;
 
 void write_radiation(Writer& file, const squeal::Radiation& radiation)
 {

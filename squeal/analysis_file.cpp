@@ -9,8 +9,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd& im)
 {

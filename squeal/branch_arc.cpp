@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -10,8 +10,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 Eigen::VectorXcd complex_vector(const Eigen::VectorXd& re, const Eigen::VectorXd& im)
 {

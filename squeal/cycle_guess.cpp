@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

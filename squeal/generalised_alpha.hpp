@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/integrator.hpp"
 
 namespace chladni::squeal {

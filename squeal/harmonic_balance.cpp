@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

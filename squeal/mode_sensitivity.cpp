@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_search.hpp"

@@ -2,7 +2,7 @@
 
 #include <complex>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/stability.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/derivative.hpp"
 #include "squeal/pads.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/dormand_prince.hpp"
 
 namespace chladni::squeal {

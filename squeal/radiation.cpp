@@ -8,7 +8,7 @@
 #include <span>
 
 #include "common/error.hpp"
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -43,7 +43,7 @@ Disc with_radiation(Disc disc, const Radiation& radiation)
 void write_radiation(const std::filesystem::path& file, const Radiation& radiation,
                      const std::string& title)
 {
-  mbs_export::hdf5::Writer writer(file.string());
+  files::Writer writer(file.string());
   writer.attribute("/", "format", format);
   writer.attribute("/", "version", version);
   writer.attribute("/", "title", title);
@@ -57,7 +57,7 @@ void write_radiation(const std::filesystem::path& file, const Radiation& radiati
 
 Radiation read_radiation(const std::filesystem::path& file)
 {
-  const mbs_export::hdf5::Reader reader(file.string());
+  const files::Reader reader(file.string());
   reader.expect_format(format, version);
   const auto numbers = reader.integers("mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());

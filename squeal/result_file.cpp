@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
 #include "squeal/sensitivity_file.hpp"
@@ -12,8 +12,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 constexpr std::int64_t file_version = 1;
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "squeal/results.hpp"
 
@@ -20,6 +20,6 @@ void write_results(const std::filesystem::path& file, const SquealResults& resul
 /// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
 /// finite.
 SquealResults read_results(const std::filesystem::path& path);
-SquealResults read_results(const mbs_export::hdf5::Reader& file);
+SquealResults read_results(const files::Reader& file);
 
 }  // namespace chladni::squeal

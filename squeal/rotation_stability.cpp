@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/oscillator_flow.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/parallel.hpp"

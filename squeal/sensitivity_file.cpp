@@ -5,8 +5,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 std::string subset_group(std::size_t i)
 {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/eigenvalue_branches.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/stability_search.hpp"

@@ -5,8 +5,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 /// Points as rows: value, growth, frequency.
 using Points = Eigen::MatrixX3d;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/growth_rate.hpp"
 #include "squeal/inertial_frame.hpp"

@@ -5,8 +5,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::hdf5::Reader;
-using mbs_export::hdf5::Writer;
+using files::Reader;
+using files::Writer;
 
 std::vector<double> read_series(const Reader& file, const std::string& name, Eigen::Index size = -1)
 {

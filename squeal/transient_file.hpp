@@ -3,23 +3,22 @@
 #include <optional>
 #include <string>
 
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "squeal/results.hpp"
 
 namespace chladni::squeal {
 
 /// A number that may be absent, with its dataset.
-void write_optional(mbs_export::hdf5::Writer& file, const std::string& name,
-                    const std::optional<double>& x, const std::string& unit);
-std::optional<double> read_optional(const mbs_export::hdf5::Reader& file, const std::string& name);
+void write_optional(files::Writer& file, const std::string& name, const std::optional<double>& x,
+                    const std::string& unit);
+std::optional<double> read_optional(const files::Reader& file, const std::string& name);
 
 /// An envelope below the group `group` of a result file.
-void write_envelope(mbs_export::hdf5::Writer& file, const std::string& group,
-                    const Envelope& envelope);
-Envelope read_envelope(const mbs_export::hdf5::Reader& file, const std::string& group);
+void write_envelope(files::Writer& file, const std::string& group, const Envelope& envelope);
+Envelope read_envelope(const files::Reader& file, const std::string& group);
 
 /// The group /transient of a result file.
-void write_transient(mbs_export::hdf5::Writer& file, const Transient& run);
-Transient read_transient(const mbs_export::hdf5::Reader& file);
+void write_transient(files::Writer& file, const Transient& run);
+Transient read_transient(const files::Reader& file);
 
 }  // namespace chladni::squeal

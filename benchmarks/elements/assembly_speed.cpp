@@ -9,10 +9,10 @@
 #include <exception>
 
 #include "common/petsc.hpp"
-#include "mesh/generate.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
-#include "reduce/factorization.hpp"
+#include "plate/assembly/assemble.hpp"
 #include "reduce/partition.hpp"
 
 namespace chladni::benchmarks {
@@ -77,7 +77,7 @@ void run(int order, double element_size)
   const reduce::Blocks K = reduce::split(system.K, reduce::partition(system.K, hub_dofs(system)));
   const auto factorize = [&](double& seconds, const char* type) {
     petsc::check(PetscOptionsSetValue(nullptr, "-cms_pc_factor_mat_solver_type", type));
-    timed(seconds, [&] { return reduce::factorize(K.ss); });
+    timed(seconds, [&] { return linear::factorize(K.ss); });
   };
   factorize(mumps_s, "mumps-metis");
   factorize(supernodal_s, "supernodal");

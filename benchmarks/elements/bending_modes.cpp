@@ -7,8 +7,8 @@
 #include <ctime>
 #include <numbers>
 
-#include "plate/directors.hpp"
-#include "plate/shell_element.hpp"
+#include "plate/elements/shell_element.hpp"
+#include "plate/sections/directors.hpp"
 #include "reduce/fixed_interface_modes.hpp"
 #include "serendipity.hpp"
 
@@ -160,7 +160,7 @@ BendingModes bending_modes(const mesh::Mesh& plate, Formulation formulation,
   const petsc::Matrix M = to_petsc(entries.M, equations.n);
   const double assembled = cpu_seconds();
   const reduce::FixedInterfaceModes modes =
-      reduce::fixed_interface_modes(reduce::factorize(K), M, {.modes = n_modes});
+      reduce::fixed_interface_modes(linear::factorize(K), M, {.modes = n_modes});
   const double solved = cpu_seconds();
   const auto n = static_cast<int>(modes.omega.size());
   return {.n_dofs = equations.n,

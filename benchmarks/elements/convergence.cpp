@@ -14,7 +14,7 @@
 
 #include "bending_modes.hpp"
 #include "common/petsc.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "polar_grid.hpp"
 
 namespace chladni::benchmarks {

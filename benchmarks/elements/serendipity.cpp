@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "plate/strain_energy.hpp"
+#include "plate/elements/strain_energy.hpp"
 
 namespace chladni::benchmarks {
 

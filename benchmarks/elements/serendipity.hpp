@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plate/shell_element.hpp"
+#include "plate/elements/shell_element.hpp"
 
 /// The mainstream to compare with: quadratic serendipity shells with uniform reduced integration.
 namespace chladni::benchmarks {

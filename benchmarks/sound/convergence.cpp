@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "exact_fields.hpp"
+#include "references/sound/exact_fields.hpp"
+#include "references/sound/thesis_disc.hpp"
 #include "sound/field.hpp"
 #include "sound/mesh_air.hpp"
-#include "thesis_disc.hpp"
 
 namespace {
 

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
 #include "squeal/transient.hpp"
-#include "tests/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::squeal::bench {
 namespace {

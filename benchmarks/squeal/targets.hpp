@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/disc.hpp"
-#include "tests/squeal/analytic_body.hpp"
 
 namespace chladni::squeal::bench {
 

@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/squeal/cvode.hpp"
 #include "benchmarks/squeal/hard_cases.hpp"
 #include "benchmarks/squeal/targets.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/cvode.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/dormand_prince.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
@@ -22,8 +24,6 @@
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
 #include "squeal/transient_steps.hpp"
-#include "tests/squeal/analytic_body.hpp"
-#include "tests/squeal/kirchhoff_modes.hpp"
 
 namespace {
 

@@ -1,34 +1,45 @@
-// From a mesh to a reduced model with PETSc matrices: mpirun -n 2 reduce_disc
+// From a mesh to the body that `squeal` reads: mpirun -n 2 reduce_disc
 #include <slepcsys.h>
 
 #include <cstdio>
 #include <numbers>
 #include <vector>
 
-#include "mesh/generate.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/make_body.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
-#include "reduce/craig_bampton.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "reduce/held_masters.hpp"
+#include "reduce/reduction.hpp"
+#include "reduce_export/reduced_system.hpp"
 
 namespace {
 
 using namespace chladni;
 
-/// The six DOFs of the hub that this rank owns.
-petsc::IndexSet hub_dofs(const plate::System& fe)
+constexpr int n_components = 6;
+
+/// The six DOFs of the hub.
+std::vector<PetscInt> hub_dofs(const plate::DofMap& dofs)
 {
-  PetscInt first = 0, last = 0;
-  petsc::check(MatGetOwnershipRange(fe.K, &first, &last));
-  std::vector<PetscInt> own;
-  const int hub = fe.dofs.reference_node("hub").value();
-  for (int component = 0; component < 6; ++component) {
-    const PetscInt dof = fe.dofs.dof(hub, component).value();
-    if (first <= dof && dof < last) own.push_back(dof);
-  }
-  petsc::IndexSet masters;
-  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
-                               PETSC_COPY_VALUES, masters.put()));
-  return masters;
+  std::vector<PetscInt> hub;
+  for (int c = 0; c < n_components; ++c)
+    hub.push_back(dofs.dof(dofs.reference_node("hub").value(), c).value());
+  return hub;
+}
+
+/// What the rows of the reduced system are: the components of one node.
+mbs_export::ReducedSystem described(const plate::DofMap& dofs)
+{
+  mbs_export::ReducedSystem system;
+  system.title = "Disc on its hub";
+  system.attachment_nodes = {
+      {.number = 1, .position = dofs.position(dofs.reference_node("hub").value())}};
+  system.sets = {{.name = "hub", .nodes = {0}}};
+  for (int c = 0; c < n_components; ++c) system.masters.push_back({.node = 0, .component = c});
+  return system;
 }
 
 void reduce_disc()
@@ -49,18 +60,29 @@ void reduce_disc()
   // 2. Its matrices K and M.
   plate::DofMap map = plate::make_dof_map(mesh, {.couplings = couplings},
                                           mesh::node_owners(mesh, n_ranks), n_ranks);
-  const plate::System fe = plate::assemble(mesh, sections, std::move(map), PETSC_COMM_WORLD);
-  // 3. The hub is the master; ten modes of the disc with the hub held.
-  const reduce::DofPartition dofs = reduce::partition(fe.K, hub_dofs(fe));
-  const reduce::Blocks K = reduce::split(fe.K, dofs), M = reduce::split(fe.M, dofs);
-  const reduce::Factorization K_ss = reduce::factorize(K.ss);
-  const reduce::CraigBamptonBasis Q_CB{reduce::constraint_modes(K_ss, K),
-                                       reduce::fixed_interface_modes(K_ss, M.ss, {.modes = 10})};
-  const reduce::ReducedModel reduced = reduce::project(Q_CB, K, M);
-  // 4. The first of them.
-  PetscPrintf(PETSC_COMM_WORLD, "%d DOFs -> %d masters and %zu modes, the first at %.2f Hz\n",
-              fe.dofs.n_dofs(), static_cast<int>(reduced.n_masters), reduced.omega.size(),
-              reduced.omega.front() / (2.0 * std::numbers::pi));
+  plate::System fe = plate::assemble(mesh, sections, std::move(map), PETSC_COMM_WORLD);
+  // 3. The hub is kept, with ten modes of the disc held there. The frequencies of that support get
+  //    bounds of their errors, since the eigenvalues of the mesh are counted.
+  reduce::PhaseListener silent;
+  const reduce::ReductionOptions options{.basis = {.modes = 10}, .count = true};
+  const std::vector<PetscInt> hub = hub_dofs(fe.dofs);
+  reduce::FactoredBody body = reduce::factored(
+      {.K = std::move(fe.K), .M = std::move(fe.M), .masters = hub}, options, silent);
+  const reduce::Reduction reduction =
+      reduce::reduction(body, options, reduce::HeldMasters(hub, hub), silent);
+  // 4. The system that is written, and from it, here or elsewhere, the body of the squeal solver.
+  const mbs_export::ReducedSystem reduced =
+      reduce_export::reduced_system(described(fe.dofs), body, reduction, {"hub"});
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) {
+    mbs_export::write_reduced("disc.reduced.h5", reduced);
+    mbs_export::write_body("disc.body.h5", mbs_export::make_body(reduced, {.fixed = {"hub"}}));
+  }
+  // 5. The first frequency.
+  PetscPrintf(PETSC_COMM_WORLD,
+              "%d DOFs -> %d masters and %zu modes, the first at %.2f Hz, at most %.1e off\n",
+              fe.dofs.n_dofs(), static_cast<int>(hub.size()), reduction.model.omega.size(),
+              reduction.model.omega.front() / (2.0 * std::numbers::pi),
+              0.5 * reduction.certificate.bounds.front());
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "files/hdf5.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
-#include "mbs_export/hdf5.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
@@ -26,7 +26,7 @@ class Dictionary {
     file_.write(name, x, "SI");
     is(name, "ndarray");
   }
-  void array(const std::string& name, const hdf5::IntegerMatrix& x)
+  void array(const std::string& name, const files::IntegerMatrix& x)
   {
     file_.write(name, x, "1");
     is(name, "ndarray");
@@ -64,7 +64,7 @@ class Dictionary {
   {
     file_.variable_attribute(name, "datatype", type);
   }
-  hdf5::Writer file_;
+  files::Writer file_;
 };
 
 Matrix3d tilde(const Vector3d& a)
@@ -95,7 +95,7 @@ Nodes all_nodes(const ModalBody& body)
 }
 
 /// Triangles of the picture, two for each quadrilateral; lines have none.
-hdf5::IntegerMatrix triangles(const ModalBody& body)
+files::IntegerMatrix triangles(const ModalBody& body)
 {
   const auto first = static_cast<std::int64_t>(body.attachment_nodes.size());
   std::vector<std::array<std::int64_t, 3>> found;
@@ -104,7 +104,7 @@ hdf5::IntegerMatrix triangles(const ModalBody& body)
     found.push_back({first + a, first + b, first + c});
     if (c != d) found.push_back({first + a, first + c, first + d});
   }
-  hdf5::IntegerMatrix matrix(Index(found.size()), 3);
+  files::IntegerMatrix matrix(Index(found.size()), 3);
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < 3; ++j) matrix(i, j) = found[std::size_t(i)][std::size_t(j)];
   return matrix;

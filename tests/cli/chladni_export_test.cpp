@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/reduced_file.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/mbs_export/wheel.hpp"
 

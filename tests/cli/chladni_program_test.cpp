@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "mbs_export/body_file.hpp"
-#include "mbs_export/reduced_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "tests/cli/programs.hpp"
 
 namespace chladni::cli::testing {

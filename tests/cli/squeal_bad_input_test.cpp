@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "squeal/result_file.hpp"
 #include "tests/cli/two_mode_body.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "squeal/result_file.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/cli/two_mode_body.hpp"

@@ -7,12 +7,12 @@
 #include <limits>
 #include <vector>
 
-#include "mbs_export/hdf5_handle.hpp"
+#include "files/hdf5_handle.hpp"
 
 namespace chladni::fuzz {
 namespace {
 
-using mbs_export::hdf5::Handle;
+using files::Handle;
 
 herr_t add_name(hid_t, const char* name, const H5O_info_t* info, void* names)
 {
@@ -44,9 +44,9 @@ Handle strange_type(unsigned how)
     case 3:
       return {H5Tcopy(H5T_NATIVE_UINT8), H5Tclose};
     case 4:
-      return mbs_export::hdf5::text_type(how);
+      return files::text_type(how);
     default: {
-      Handle type = mbs_export::hdf5::text_type(1);
+      Handle type = files::text_type(1);
       H5Tset_size(type.get(), H5T_VARIABLE);
       return type;
     }
@@ -129,7 +129,7 @@ void change_version(hid_t file, unsigned how)
 
 void damage(const std::string& path, std::span<const std::uint8_t> bytes)
 {
-  mbs_export::hdf5::silence_errors();
+  files::silence_errors();
   const Handle file{H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
   if (!file.valid()) return;
   const std::vector<std::string> names = dataset_names(file.get());

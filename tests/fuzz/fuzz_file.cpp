@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "damage.hpp"
-#include "mbs_export/seal.hpp"
+#include "files/seal.hpp"
 #include "memory_file.hpp"
 
 /// Read by the address sanitizer before main. libhdf5 believes a damaged file that its metadata
@@ -20,14 +20,12 @@ extern "C" const char* __asan_default_options()  // NOLINT: the name is the sani
 namespace chladni::fuzz {
 namespace {
 
-namespace hdf5 = mbs_export::hdf5;
-
 /// A golden file behind an empty user block.
 const std::string& with_room_for_a_seal(const std::string& golden)
 {
   static std::map<std::string, std::string> files;
   const auto [file, is_new] = files.try_emplace(golden);
-  if (is_new) file->second = std::string(hdf5::seal_size, '\0') + bytes_of(golden);
+  if (is_new) file->second = std::string(files::seal_size, '\0') + bytes_of(golden);
   return file->second;
 }
 
@@ -46,14 +44,14 @@ void feed(std::span<const std::uint8_t> bytes, const std::string& golden,
           const std::function<void(const std::string& path)>& read)
 {
   const std::string& whole = with_room_for_a_seal(golden);
-  if (bytes.size() > 8 && std::memcmp(bytes.data(), whole.data() + hdf5::seal_size, 8) == 0) {
+  if (bytes.size() > 8 && std::memcmp(bytes.data(), whole.data() + files::seal_size, 8) == 0) {
     const MemoryFile file(bytes);
     read_or_refuse(file.path(), read);
     return;
   }
   const MemoryFile file({reinterpret_cast<const std::uint8_t*>(whole.data()), whole.size()});
   damage(file.path(), bytes);
-  if (!hdf5::write_seal(file.path())) throw std::runtime_error("the damaged file has no seal");
+  if (!files::write_seal(file.path())) throw std::runtime_error("the damaged file has no seal");
   read_or_refuse(file.path(), read);
 }
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "hard_case.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/constrained_modes.hpp"
-#include "mbs_export/dense_solvers.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/interface_modes.hpp"
 #include "mbs_export/make_body.hpp"

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "hard_case.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle.hpp"
@@ -12,8 +14,6 @@
 #include "squeal/rotation_stability.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
-#include "tests/squeal/analytic_body.hpp"
-#include "tests/squeal/kirchhoff_modes.hpp"
 #include "tests/squeal/source_disc.hpp"
 
 namespace chladni::hard_cases {

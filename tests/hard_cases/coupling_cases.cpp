@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "hard_case.hpp"
-#include "plate/assemble.hpp"
-#include "plate/free_motions.hpp"
-#include "plate/supports.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "plate/dofs/free_motions.hpp"
+#include "plate/dofs/supports.hpp"
 #include "tests/plate/small_disc.hpp"
 #include "tests/plate/square_plate.hpp"
 

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "hard_case.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "plate/shell_element.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "plate/elements/shell_element.hpp"
+#include "tests/plate/elements/patch.hpp"
+#include "tests/plate/elements/sample_elements.hpp"
 #include "tests/plate/obstacle_course.hpp"
-#include "tests/plate/patch.hpp"
-#include "tests/plate/sample_elements.hpp"
 
 namespace chladni::hard_cases {
 namespace {

@@ -11,23 +11,23 @@
 #include <set>
 #include <thread>
 
+#include "files/seal.hpp"
 #include "hard_case.hpp"
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/reduced_file.hpp"
-#include "mbs_export/seal.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
-#include "tests/mbs_export/scratch_folder.hpp"
 #include "tests/mbs_export/wheel.hpp"
-#include "tests/squeal/analytic_body.hpp"
 
 namespace chladni::hard_cases {
 namespace {
 
 using namespace mbs_export;
-using test::ScratchFolder, test::bytes_of;
+using files::test::ScratchFolder, files::test::bytes_of;
 
 ModalBody wheel_body(int n_modes)
 {
@@ -53,7 +53,7 @@ std::string body_bytes()
 /// As the first releases wrote it: libhdf5 sees the damage.
 std::string body_bytes_without_seal()
 {
-  return body_bytes().substr(hdf5::seal_size);
+  return body_bytes().substr(files::seal_size);
 }
 
 struct Ends {

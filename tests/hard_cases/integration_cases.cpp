@@ -2,14 +2,14 @@
 #include <cmath>
 
 #include "hard_case.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/dormand_prince.hpp"
 #include "squeal/generalised_alpha.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
-#include "tests/squeal/analytic_body.hpp"
-#include "tests/squeal/kirchhoff_modes.hpp"
 
 namespace chladni::hard_cases {
 namespace {

@@ -6,16 +6,17 @@
 #include <numeric>
 
 #include "hard_case.hpp"
+#include "linear/cholesky/sylvester.hpp"
 #include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
-#include "reduce/sylvester.hpp"
-#include "tests/reduce/chain.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::hard_cases {
 namespace {
 
 using namespace reduce;
-using reduce::testing::master_set;
+using linear::testing::master_set;
 using Dense = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Masses in a row, a spring between each and the next.
@@ -36,7 +37,7 @@ struct Pencil {
 
 Pencil pencil(const Chain& chain)
 {
-  Pencil A{.K = reduce::testing::empty(chain.size()), .M = reduce::testing::empty(chain.size())};
+  Pencil A{.K = linear::testing::empty(chain.size()), .M = linear::testing::empty(chain.size())};
   for (PetscInt i = 0; i < chain.size(); ++i) {
     const double left = i > 0 ? chain.spring[i - 1] : 0.0;
     const double right = i + 1 < chain.size() ? chain.spring[i] : 0.0;
@@ -45,8 +46,8 @@ Pencil pencil(const Chain& chain)
     if (i + 1 < chain.size()) petsc::check(MatSetValue(A.K, i, i + 1, -right, INSERT_VALUES));
     petsc::check(MatSetValue(A.M, i, i, chain.mass[i], INSERT_VALUES));
   }
-  reduce::testing::finish(A.K);
-  reduce::testing::finish(A.M);
+  linear::testing::finish(A.K);
+  linear::testing::finish(A.M);
   return A;
 }
 
@@ -54,13 +55,13 @@ Pencil pencil(const Chain& chain)
 struct Reduction {
   DofPartition dofs;
   Blocks K, M;
-  Factorization K_ss;
+  linear::Factorization K_ss;
 
   Reduction(const Pencil& A, const std::vector<PetscInt>& masters)
       : dofs(partition(A.K, master_set(A.K, masters))),
         K(split(A.K, dofs)),
         M(split(A.M, dofs)),
-        K_ss(factorize(K.ss))
+        K_ss(linear::factorize(K.ss))
   {}
   FixedInterfaceModes modes(int n) const
   {
@@ -107,7 +108,7 @@ double translation_error(const Chain& chain, const std::vector<PetscInt>& master
   const Reduction r(pencil(chain), masters);
   std::vector<PetscInt> all(chain.size());
   std::iota(all.begin(), all.end(), 0);
-  const SmallMatrix Q =
+  const linear::SmallMatrix Q =
       basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all);
   double worst = 0.0;
   for (PetscInt i = 0; i < Q.n_rows; ++i) {
@@ -130,7 +131,7 @@ double orthonormality_error(const FixedInterfaceModes& modes, Mat M_ss)
 {
   petsc::Matrix M_Phi;
   petsc::check(MatMatMult(M_ss, modes.Phi, MAT_INITIAL_MATRIX, PETSC_DEFAULT, M_Phi.put()));
-  const SmallMatrix I = inner_product(modes.Phi, M_Phi);
+  const linear::SmallMatrix I = linear::inner_product(modes.Phi, M_Phi);
   double worst = 0.0;
   for (PetscInt i = 0; i < I.n_rows; ++i)
     for (PetscInt j = 0; j < I.n_cols; ++j)
@@ -150,7 +151,7 @@ double error_over_bound_in_a_cluster()
 {
   const double theta[] = {1.0, 1.0 / 1.0001, 0.1};
   std::vector<double> lambda;
-  SmallMatrix residuals(2, 2);
+  linear::SmallMatrix residuals(2, 2);
   for (int i = 0; i < 2; ++i) {
     const double c = std::cos(0.02), s = std::sin(0.02);
     const double rho = theta[i] * c * c + theta[2] * s * s;
@@ -175,7 +176,7 @@ double miscount_beside_fivefold_eigenvalues()
     for (const int side : {-1, 1}) {
       const PetscInt expected = 5 * (side < 0 ? k - 1 : k);
       const double sigma = lambda * (1.0 + side * 1e-9);
-      wrong += std::abs(eigenvalues_below(A.K, A.M, sigma, five.masters) - expected);
+      wrong += std::abs(linear::eigenvalues_below(A.K, A.M, sigma, five.masters) - expected);
     }
   }
   return wrong;

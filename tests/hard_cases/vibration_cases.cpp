@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "hard_case.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
-#include "plate/free_motions.hpp"
-#include "plate/supports.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "plate/dofs/free_motions.hpp"
+#include "plate/dofs/supports.hpp"
 #include "reduce/supported_solutions.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 

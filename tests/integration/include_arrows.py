@@ -7,38 +7,89 @@ import re
 import sys
 from pathlib import Path
 
-# A folder may include itself and what stands before it (the plugin delivers the reduced file) ...
-ORDER = ["common", "mesh", "plate", "reduce", "mbs_export", "reduce_export", "reduce/plugin", "squeal", "sound", "cli"]
-# ... but these two cuts are deeper: reduce/ takes any matrices, and right of the modal body nobody
-# has heard of the finite elements or of their libraries. (Folder: forbidden beginnings.)
-HEAVY = ("common/petsc", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
+# What each room may include besides itself; a room within a folder has rules of its own. "plate" is what stands in
+# plate/ itself, "plate/" that and all rooms below it.
+LIGHT = ("common", "files", "linear/dense")
+LINEAR = ("common", "linear/")
+BODIES = (*LIGHT, "mbs_export/")
+MODELS = ("common", "mesh", "plate/", "reduce", "reduce_export", "linear/", "files", "mbs_export/", "squeal", "sound")
+ALLOWED = {
+    "common": (),
+    "files": ("common",),
+    "linear": ("common",),
+    "linear/dense": ("common",),
+    "linear/kernels": ("common", "linear"),
+    "linear/cholesky": ("common", "linear", "linear/kernels", "linear/cholesky/supernodal"),
+    "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
+    "linear/lanczos": ("common", "linear", "linear/kernels"),
+    "mesh": ("common",),
+    "plate": ("common", "mesh"),
+    "plate/elements": ("common", "mesh", "plate"),
+    "plate/sections": ("common", "mesh", "plate", "plate/elements"),
+    "plate/dofs": ("common", "mesh", "plate", "plate/elements", "plate/sections"),
+    "plate/assembly": ("common", "mesh", "plate/"),
+    "reduce": LINEAR,
+    "mbs_export": BODIES,
+    "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
+    "plugin": (*LINEAR, "files", "reduce", "mbs_export/", "reduce_export"),
+    "squeal": BODIES,
+    "sound": (*BODIES, "squeal"),
+    "scene": ("common",),  # and OPTIONS
+    "report": (*BODIES, "squeal", "scene/"),
+    "report/fe": (*BODIES, "squeal", "sound", "mesh", "plate/", "scene/", "report/"),
+    "cases": (*MODELS, "scene/", "report/"),
+    "cli": (*MODELS, "scene/", "report/", "cases"),
+}
+# The scene knows the options of all libraries: plain structs, which include nothing of theirs.
+OPTIONS = re.compile(r"\w+/(\w+_options|friction|cycle_harmonics)\.hpp$")
+# Right of the modal body nobody has heard of the finite elements or of their libraries; METIS orders the matrices of linear/.
+HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {
-    "reduce": ("mesh/", "plate/", "gmsh.h"),  # METIS orders its matrices
-    "reduce_export": ("mesh/", "plate/", "gmsh.h", "metis.h"),
-    "reduce/plugin": ("mesh/", "plate/", "gmsh.h", "metis.h"),
-    "mbs_export": ("mesh/", "plate/", "reduce/", *HEAVY),
-    "squeal": ("mesh/", "plate/", "reduce/", *HEAVY),
+    "files": HEAVY,
+    "linear/dense": HEAVY,
+    "linear": ("gmsh.h",),
+    "reduce": ("gmsh.h", "metis.h"),
+    "plugin": ("gmsh.h", "metis.h"),
+    "mbs_export": HEAVY,
+    "squeal": HEAVY,
+    "scene": HEAVY,
+    "report": tuple(name for name in HEAVY),
     # The sound field needs complex equations and a mesh of the air, not the body's elements.
-    "sound": ("mesh/", "plate/", "reduce/", "common/petsc", "petsc", "slepc", "dmumps"),
+    "sound": ("common/petsc", "common/all_ranks", "petsc", "slepc", "dmumps"),
 }
 # One source of the folder knows this header.
 ONLY_IN = {"sound": ("gmsh.h", "mesh_air.cpp")}
 
 
+def room_of(path, rooms):
+    """The innermost room that a path is in; None for headers of other libraries."""
+    inside = [room for room in rooms if path.startswith(room + "/")]
+    return max(inside, key=len, default=None)
+
+
+def is_allowed(room, header, name=""):
+    """Whether a source of this name in `room` may include the header."""
+    folder = room.split("/")[0]
+    if header.startswith(CUTS.get(room, CUTS.get(folder, ()))):
+        return False
+    only, source = ONLY_IN.get(folder, ("", ""))
+    if only and header == only and name != source:
+        return False
+    target = room_of(header, ALLOWED)
+    if target in (None, room) or (room == "scene" and OPTIONS.match(header)):
+        return True
+    return any(target == a or (a.endswith("/") and (target + "/").startswith(a)) for a in ALLOWED[room])
+
+
 def offences(root):
     """Yields file:line and text of each #include that is not allowed."""
-    for folder in ORDER:
-        later = tuple(f"{name}/" for name in ORDER[ORDER.index(folder) + 1 :])
-        forbidden = later + CUTS.get(folder, ())
+    for folder in sorted({room.split("/")[0] for room in ALLOWED}):
         for path in sorted((root / folder).rglob("*.[ch]pp")):
-            if folder == "reduce" and "plugin" in path.parts:
-                continue
+            here = path.relative_to(root).as_posix()
             for number, line in enumerate(path.read_text().splitlines(), start=1):
                 found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)', line)
-                header, source = ONLY_IN.get(folder, ("", ""))
-                misplaced = found and header and found[1] == header and path.name != source
-                if found and (found[1].startswith(forbidden) or misplaced):
-                    yield f"{path.relative_to(root)}:{number}: {line.strip()}"
+                if found and not is_allowed(room_of(here, ALLOWED), found[1], path.name):
+                    yield f"{here}:{number}: {line.strip()}"
 
 
 if __name__ == "__main__":

@@ -9,18 +9,22 @@ from pathlib import Path
 
 PROLOGUE = """
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/reduced_file.hpp"
-#include "mesh/generate.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
-#include "reduce/craig_bampton.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "reduce/held_masters.hpp"
+#include "reduce/reduction.hpp"
+#include "reduce_export/reduced_system.hpp"
 #include "squeal/run.hpp"
 using namespace chladni;
 """
 # What each piece of the README takes as given.
 GIVEN = [
     "const mesh::AnnulusOptions& annulus_options, std::vector<plate::Coupling> couplings, "
-    "std::vector<plate::ShellSection> sections, int n_ranks, IS masters",
+    "std::vector<plate::ShellSection> sections, int n_ranks, "
+    "const reduce::ReductionOptions& options, std::vector<PetscInt> masters, "
+    "std::vector<PetscInt> held, mbs_export::ReducedSystem described",
     "const squeal::SquealOptions& options",
 ]
 

@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-READERS = [file for file in (ROOT / "cli/scene").glob("*.cpp") if file.name != "keys.cpp"]
+READERS = [file for file in (ROOT / "scene").glob("*.cpp") if file.name != "keys.cpp"]
 ASKED = re.compile(
     r'\b(?:has|number|numbers|integer|integers|text|texts|truth|table|tables|choice<[\w:]+>|is_\w+|'
     r'read_vector|read_by_component|read_profile|read_rotation|read_translation|read_shear_factor|or_wall|'
@@ -41,7 +41,7 @@ def main(programs):
     fail_on("row without a meaning", {line.split("`")[1] for line in printed.splitlines() if line.startswith("| `") and line.endswith("|  |")})
     names = {row.split(".")[-1] for row in rows} - {"*"}
     source = "".join(file.read_text() for file in READERS)
-    fail_on("key that is read but has no row in cli/scene/keys", set(ASKED.findall(source)) - names)
+    fail_on("key that is read but has no row in scene/keys", set(ASKED.findall(source)) - names)
     fail_on("row that nobody reads", {name for name in names if f'"{name}"' not in source})
     patterns = [re.compile(re.escape(row).replace(r"\*", r"[^.]+") + "$") for row in rows]
     scenes = [*ROOT.glob("examples/*/*.toml"), *ROOT.glob("tests/data/*.toml")]

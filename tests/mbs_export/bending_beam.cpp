@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::mbs_export::test {
 namespace {

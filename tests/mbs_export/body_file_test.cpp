@@ -1,4 +1,4 @@
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,18 +11,18 @@
 #include "bending_beam.hpp"
 #include "damaged_numbers.hpp"
 #include "expect_equal.hpp"
+#include "files/hdf5.hpp"
+#include "files/seal.hpp"
 #include "mbs_export/contact_rings.hpp"
-#include "mbs_export/hdf5.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/seal.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "version_1.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
-using test::ScratchFolder, test::error_of, test::expect_equal;
+using files::test::ScratchFolder, files::test::error_of, test::expect_equal;
 
 /// Everything that the format can hold.
 ModalBody complete_body()
@@ -56,7 +56,7 @@ TEST(BodyFile, SaysWhichNodeAndComponentEachRowOfItsModesIs)
   const std::string path = folder.file("a.h5");
   write_body(path, complete_body());
   {
-    const hdf5::Reader file(path);
+    const files::Reader file(path);
     EXPECT_EQ(file.integers("modes/row_nodes")[75], 12);
     EXPECT_EQ(file.integers("modes/row_components")[75], 3);
     EXPECT_FALSE(file.text_attribute("/", "frame").empty());
@@ -66,7 +66,7 @@ TEST(BodyFile, SaysWhichNodeAndComponentEachRowOfItsModesIs)
   H5Lcreate_hard(changed, "modes/row_components", changed, "modes/row_nodes", H5P_DEFAULT,
                  H5P_DEFAULT);
   H5Fclose(changed);
-  hdf5::seal_file(path);
+  files::seal_file(path);
   EXPECT_NE(error_of([&] { read_body(path); }).find("modes/row_nodes: expected all six"),
             std::string::npos);
 }
@@ -81,7 +81,7 @@ TEST(BodyFile, IsReadWithDatasetsThatNobodyKnows)
   for (const char* name : {"modes/of_somebody_else", "somebody_else"})
     H5Lcreate_hard(file, "modes/damping", file, name, H5P_DEFAULT, H5P_DEFAULT);
   H5Fclose(file);
-  hdf5::seal_file(path);
+  files::seal_file(path);
   expect_equal(read_body(path), body);
 }
 
@@ -104,7 +104,7 @@ TEST(BodyFile, ShowsItsModesAsFieldsOfVtk)
   const ScratchFolder folder;
   const ModalBody body = complete_body();
   write_body(folder.file("a.h5"), body);
-  const hdf5::Reader file(folder.file("a.h5"));
+  const files::Reader file(folder.file("a.h5"));
   EXPECT_EQ(file.integers("VTKHDF/Connectivity"), (std::vector<std::int64_t>{0, 1}));
   EXPECT_EQ(file.integers("VTKHDF/Offsets"), (std::vector<std::int64_t>{0, 2}));
   EXPECT_EQ(file.integers("VTKHDF/Types"), std::vector<std::int64_t>{3});  // a line
@@ -129,7 +129,7 @@ TEST(BodyFile, HoldsTheFourierCoefficientsOfTheRings)
   const ScratchFolder folder;
   const ModalBody body = complete_body();
   write_body(folder.file("a.h5"), body);
-  const hdf5::Reader file(folder.file("a.h5"));
+  const files::Reader file(folder.file("a.h5"));
   const ContactRing& ring = body.rings[0];
   EXPECT_EQ(file.matrix("rings/rim/displacement_cosine"),
             fourier_coefficients(ring.angles, ring.W).cosine);

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bending_beam.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -91,17 +91,19 @@ TEST(SelectModes, NeverPartsTheTwoModesOfAPair)
 TEST(SelectModes, RefusesWhatDoesNotExist)
 {
   const Eigen::VectorXd omega{{1.0, 2.0}};
-  EXPECT_NE(test::error_of([&] { select_modes(omega, {.count = 3, .up_to_Hz = {}, .list = {}}); }),
-            "");
-  EXPECT_NE(test::error_of([&] {
+  EXPECT_NE(
+      files::test::error_of([&] { select_modes(omega, {.count = 3, .up_to_Hz = {}, .list = {}}); }),
+      "");
+  EXPECT_NE(files::test::error_of([&] {
               select_modes(omega, {.count = {}, .up_to_Hz = {}, .list = std::vector{0}});
             }),
             "");
-  EXPECT_NE(test::error_of([&] {
+  EXPECT_NE(files::test::error_of([&] {
               select_modes(omega, {.count = {}, .up_to_Hz = 0.01, .list = {}});
             }).find("no mode is left"),
             std::string::npos);
-  EXPECT_NE(test::error_of([&] { select_modes(omega, {.count = 1, .up_to_Hz = 1.0, .list = {}}); }),
+  EXPECT_NE(files::test::error_of(
+                [&] { select_modes(omega, {.count = 1, .up_to_Hz = 1.0, .list = {}}); }),
             "");
 }
 

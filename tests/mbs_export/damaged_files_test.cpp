@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "mbs_export/body_file.hpp"
 #include "mbs_export/check_body.hpp"
-#include "mbs_export/reduced_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mbs_export/seal.hpp"
+#include "files/seal.hpp"
 
 namespace chladni::mbs_export::test {
 
@@ -45,7 +45,7 @@ inline double replace_last(const std::string& path, const std::string& name, dou
   H5Sclose(space);
   H5Dclose(dataset);
   H5Fclose(file);
-  hdf5::seal_file(path);
+  files::seal_file(path);
   return before;
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -28,14 +28,15 @@ TEST(HeldDofs, OfOneComponentCoverEachNodeOfASetOnce)
 TEST(HeldDofs, NameWhatExistsWhenAskedForSomethingElse)
 {
   const ReducedSystem wheel = test::wheel();
-  EXPECT_EQ(test::error_of([&] { held_dofs(wheel, {"axle"}); }),
+  EXPECT_EQ(files::test::error_of([&] { held_dofs(wheel, {"axle"}); }),
             "no attachment set 'axle'; there is 'rim', 'hub'");
-  EXPECT_EQ(test::error_of([&] { held_dofs(wheel, {"hub.w"}); }),
+  EXPECT_EQ(files::test::error_of([&] { held_dofs(wheel, {"hub.w"}); }),
             "'hub.w': no component 'w'; there is x, y, z, rx, ry, rz");
   ReducedSystem translations = wheel;
   std::erase_if(translations.masters, [](const MasterDof& dof) { return dof.component == 5; });
-  EXPECT_NE(test::error_of([&] { held_dofs(translations, {"hub.rz"}); }).find("component rz"),
-            std::string::npos);
+  EXPECT_NE(
+      files::test::error_of([&] { held_dofs(translations, {"hub.rz"}); }).find("component rz"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "bending_beam.hpp"
+#include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/constrained_modes.hpp"
-#include "mbs_export/eigenmodes.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "wheel.hpp"
 
@@ -55,10 +55,11 @@ TEST(FirstEigenvalue, IsTheFirstOfAll)
   const ReducedSystem beam = test::reduced_beam(60, 8);
   const MatrixXd R = rigid_modes(beam).R;
   ASSERT_EQ(R.cols(), 2);
-  const double first = eigenmodes(beam.K, beam.M, R).lambda[0];
-  EXPECT_NEAR(first_eigenvalue(beam.K, beam.M, R) / first, 1.0, 1e-6);
-  EXPECT_EQ(first_eigenvalue(MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1), MatrixXd::Ones(1, 1)),
-            0.0);
+  const double first = linear::eigenmodes(beam.K, beam.M, R).lambda[0];
+  EXPECT_NEAR(linear::first_eigenvalue(beam.K, beam.M, R) / first, 1.0, 1e-6);
+  EXPECT_EQ(
+      linear::first_eigenvalue(MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1), MatrixXd::Ones(1, 1)),
+      0.0);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -23,12 +23,13 @@ TEST(ResponseModes, ProposeAnotherFrequencyBesideANeglectedOne)
 {
   const VectorXd omega{{2.0, 5.0, 5.0, 9.0}};
   const MatrixXd g = MatrixXd::Ones(4, 1);
-  const std::string error = test::error_of([&] { response_modes(omega, g, 5.0 * (1.0 + 1e-12)); });
+  const std::string error =
+      files::test::error_of([&] { response_modes(omega, g, 5.0 * (1.0 + 1e-12)); });
   EXPECT_NE(error.find("take omega0 = 3.5"), std::string::npos) << error;
   // A free body whose rigid modes are neglected has no static response.
   const VectorXd free{{0.0, 4.0}};
   const std::string rigid =
-      test::error_of([&] { response_modes(free, MatrixXd::Ones(2, 1), 0.0); });
+      files::test::error_of([&] { response_modes(free, MatrixXd::Ones(2, 1), 0.0); });
   EXPECT_NE(rigid.find("take omega0 = 2"), std::string::npos) << rigid;
 }
 

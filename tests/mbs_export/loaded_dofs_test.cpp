@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bending_beam.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -99,7 +99,7 @@ TEST(LoadedDofs, RefusesWhatCannotBeLoaded)
   const ReducedSystem wheel = test::wheel();
   const auto message = [&](const std::vector<std::string>& fixed,
                            const std::vector<InterfaceModes>& wanted) {
-    return test::error_of([&] { loads_of(wheel, fixed, wanted); });
+    return files::test::error_of([&] { loads_of(wheel, fixed, wanted); });
   };
   EXPECT_NE(message({"hub"}, {frm("hub", {2})}).find("hub.z is held"), std::string::npos);
   EXPECT_NE(message({"hub", "rim"}, {}).find("every attachment DOF is held"), std::string::npos);

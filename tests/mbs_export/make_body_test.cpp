@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "bending_beam.hpp"
-#include "mbs_export/body_file.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "scratch_folder.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -190,7 +190,7 @@ TEST(MakeBody, GivesARingOfTheSetsThatAreOne)
 {
   const ModalBody body = make_body(test::wheel(), {});
   EXPECT_EQ(find_ring(body, "rim").W.cols(), 78);
-  EXPECT_NE(test::error_of([&] { find_ring(body, "hub"); }).find("there is 'rim'"),
+  EXPECT_NE(files::test::error_of([&] { find_ring(body, "hub"); }).find("there is 'rim'"),
             std::string::npos);
 }
 
@@ -215,7 +215,7 @@ TEST(MakeBody, CarriesThePictureAlong)
 
 TEST(MakeBody, CarriesTheResultantsAlong)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   ReducedSystem wheel = test::wheel();
   wheel.resultants = {{.name = "hub",
                        .kinds = {"a", "b"},
@@ -257,11 +257,13 @@ TEST(MakeBody, DampsAsTheSceneSays)
   EXPECT_DOUBLE_EQ(rayleigh.C(0, 0), 3.0 + 1e-6 * rayleigh.omega[0] * rayleigh.omega[0]);
   // C_r = alpha M_r + beta K_r must give the same.
   options.damping = {.type = Damping::Type::matrix};
-  EXPECT_NE(test::error_of([&] { make_body(wheel, options); }).find("none"), std::string::npos);
+  EXPECT_NE(files::test::error_of([&] { make_body(wheel, options); }).find("none"),
+            std::string::npos);
   wheel.C = 3.0 * wheel.M + 1e-6 * wheel.K;
   EXPECT_NEAR(make_body(wheel, options).C(0, 0) / rayleigh.C(0, 0), 1.0, 1e-9);
   options.damping = {.type = Damping::Type::modal, .ratios = std::vector(7, 0.01)};
-  EXPECT_NE(test::error_of([&] { make_body(wheel, options); }).find("7 ratios"), std::string::npos);
+  EXPECT_NE(files::test::error_of([&] { make_body(wheel, options); }).find("7 ratios"),
+            std::string::npos);
 }
 
 TEST(MakeBody, RefusesLoadsThatCannotActOrDoNotExist)
@@ -269,10 +271,10 @@ TEST(MakeBody, RefusesLoadsThatCannotActOrDoNotExist)
   BodyOptions options;
   options.fixed = {"hub"};
   options.interface_modes = {frm("hub", 2)};
-  EXPECT_NE(test::error_of([&] { make_body(test::wheel(), options); }).find("hub.z is held"),
+  EXPECT_NE(files::test::error_of([&] { make_body(test::wheel(), options); }).find("hub.z is held"),
             std::string::npos);
   options.interface_modes = {frm("track", 2)};
-  EXPECT_NE(test::error_of([&] { make_body(test::wheel(), options); }).find("'rim', 'hub'"),
+  EXPECT_NE(files::test::error_of([&] { make_body(test::wheel(), options); }).find("'rim', 'hub'"),
             std::string::npos);
 }
 

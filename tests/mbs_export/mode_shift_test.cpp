@@ -7,7 +7,7 @@
 
 #include "bending_beam.hpp"
 #include "mbs_export/constrained_modes.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -121,10 +121,10 @@ TEST(ModeShift, RefusesDependentModesThatCannotFollow)
   const ReducedSystem& beam = test::regression_beam();
   const FreeModes modes = orthogonalize(beam);
   const HeldDofs held = held_dofs(beam, {"A.z", "C.z"});
-  const std::string error = test::error_of([&] { shift_modes(modes, held, {2, 4}); });
+  const std::string error = files::test::error_of([&] { shift_modes(modes, held, {2, 4}); });
   EXPECT_NE(error.find("cond(Q_dd)"), std::string::npos) << error;
   EXPECT_TRUE(error.find("A.z") != std::string::npos || error.find("C.z") != std::string::npos);
-  EXPECT_NE(test::error_of([&] { shift_modes(modes, held, {0}); }), "");
+  EXPECT_NE(files::test::error_of([&] { shift_modes(modes, held, {0}); }), "");
 }
 
 TEST(ModeShift, RefusesMoreSupportsThanTheModesCanHold)
@@ -136,7 +136,7 @@ TEST(ModeShift, RefusesMoreSupportsThanTheModesCanHold)
   beam.M.col(5).setZero();
   const FreeModes modes = orthogonalize(beam);
   EXPECT_EQ(modes.n_massless, 1);
-  const std::string error = test::error_of([&] {
+  const std::string error = files::test::error_of([&] {
     shift_modes(modes, held_dofs(beam, {"A", "B", "C"}));
   });
   EXPECT_NE(error.find("cannot hold"), std::string::npos) << error;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bending_beam.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -80,14 +80,15 @@ TEST(Orthogonalize, RefusesAStructureInTwoParts)
   const int hub = 6 * test::wheel_rim_nodes;
   wheel.K.middleRows(hub, 6).setZero();
   wheel.K.middleCols(hub, 6).setZero();
-  EXPECT_NE(test::error_of([&] { orthogonalize(wheel); }), "");
+  EXPECT_NE(files::test::error_of([&] { orthogonalize(wheel); }), "");
 }
 
 TEST(Orthogonalize, RefusesABodyWithoutMass)
 {
   ReducedSystem wheel = test::wheel();
   wheel.M.setZero();
-  EXPECT_NE(test::error_of([&] { orthogonalize(wheel); }).find("no mass"), std::string::npos);
+  EXPECT_NE(files::test::error_of([&] { orthogonalize(wheel); }).find("no mass"),
+            std::string::npos);
 }
 
 }  // namespace

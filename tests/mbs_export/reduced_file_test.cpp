@@ -1,4 +1,4 @@
-#include "mbs_export/reduced_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -9,16 +9,16 @@
 
 #include "bending_beam.hpp"
 #include "expect_equal.hpp"
-#include "mbs_export/body_file.hpp"
+#include "files/seal.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "mbs_export/make_body.hpp"
-#include "mbs_export/seal.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
-using test::ScratchFolder, test::error_of, test::expect_equal;
+using files::test::ScratchFolder, files::test::error_of, test::expect_equal;
 
 /// Shear and moment at two points, the second one in turned axes.
 ResultantModes two_points(Eigen::Index n_coordinates)
@@ -148,7 +148,7 @@ TEST(ReducedFile, IsRefusedWithoutOneOfItsDatasets)
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(file, name, H5P_DEFAULT);
     H5Fclose(file);
-    hdf5::seal_file(path);
+    files::seal_file(path);
     expect_mention(error_of([&] { read_reduced(path); }), std::string(name) + ": is missing");
   }
 }
@@ -167,7 +167,7 @@ TEST(ReducedFile, IsRefusedInAnotherFormatOrVersion)
   H5Awrite(attribute, H5T_NATIVE_INT64, &version);
   H5Aclose(attribute);
   H5Fclose(file);
-  hdf5::seal_file(path);
+  files::seal_file(path);
   expect_mention(error_of([&] { read_reduced(path); }), "version 2");
 }
 
@@ -200,7 +200,7 @@ TEST(ReducedFile, IsRefusedWhateverBytesAreDamaged)
 {
   const ScratchFolder folder;
   write_reduced(folder.file("a.h5"), test::reduced_beam(6, 2));
-  EXPECT_EQ(n_refused_of(300, test::bytes_of(folder.file("a.h5"))), 300);
+  EXPECT_EQ(n_refused_of(300, files::test::bytes_of(folder.file("a.h5"))), 300);
 }
 
 // Here libhdf5 sees the damage.
@@ -208,7 +208,7 @@ TEST(ReducedFile, WithoutSealIsReadOrRefusedWhateverBytesAreDamaged)
 {
   const ScratchFolder folder;
   write_reduced(folder.file("a.h5"), test::reduced_beam(6, 2));
-  const std::string bytes = test::bytes_of(folder.file("a.h5")).substr(hdf5::seal_size);
+  const std::string bytes = files::test::bytes_of(folder.file("a.h5")).substr(files::seal_size);
   EXPECT_GT(n_refused_of(300, bytes), 150);  // all that are cut short, and more
 }
 

@@ -6,19 +6,19 @@
 #include "expect_equal.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/check_body.hpp"
+#include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/orthogonalize.hpp"
-#include "mbs_export/reduced_file.hpp"
 #include "mbs_export/rigid_body.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
-using test::error_of;
+using files::test::error_of;
 
 constexpr Index n_rim = test::wheel_rim_nodes;
 
@@ -117,7 +117,7 @@ TEST(RingMotion, IsZeroAtANodeThatIsHeld)
 
 TEST(RingMotion, IsReadAsItWasWritten)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   const ReducedSystem wheel = harmonic_wheel(2);
   write_reduced(folder.file("a.reduced.h5"), wheel);
   test::expect_equal(read_reduced(folder.file("a.reduced.h5")), wheel);
@@ -125,7 +125,7 @@ TEST(RingMotion, IsReadAsItWasWritten)
 
 TEST(RingMotion, IsRefusedWhenItMakesNoSense)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   const auto error_after = [&](const auto& damage) {
     ReducedSystem wheel = harmonic_wheel(2);
     damage(wheel);

@@ -1,17 +1,17 @@
-#include "mbs_export/seal.hpp"
+#include "files/seal.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "mbs_export/body_file.hpp"
-#include "mbs_export/hdf5.hpp"
-#include "scratch_folder.hpp"
+#include "files/hdf5.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::hdf5 {
 namespace {
 
-using test::ScratchFolder, test::bytes_of, test::error_of;
+using files::test::ScratchFolder, files::test::bytes_of, files::test::error_of;
 
 void put_bytes(const std::string& path, const std::string& bytes)
 {
@@ -21,7 +21,7 @@ void put_bytes(const std::string& path, const std::string& bytes)
 /// A file with n numbers; its bytes.
 std::string sealed_bytes(const std::string& path, Eigen::Index n)
 {
-  Writer writer(path);
+  files::Writer writer(path);
   writer.write("x", Eigen::VectorXd::LinSpaced(n, 0.0, 1.0), "m");
   writer.commit();
   return bytes_of(path);
@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part)
 /// Whether the seal speaks, and not libhdf5 or what reads with it.
 bool is_refused_by_the_seal(const std::string& path)
 {
-  const std::string error = error_of([&] { Reader(path).vector("x"); });
+  const std::string error = error_of([&] { files::Reader(path).vector("x"); });
   return contains(error, path) && (contains(error, "is not as it was written") ||
                                    contains(error, "is neither an HDF5 file nor"));
 }
@@ -46,9 +46,9 @@ TEST(Seal, IsTextBeforeAFileOfHdf5)
   const std::string path = folder.file("a.h5");
   const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5");
   put_bytes(path, golden);
-  seal_file(path);
-  EXPECT_EQ(bytes_of(path).substr(seal_size), golden);
-  const std::string seal = bytes_of(path).substr(0, seal_size);
+  files::seal_file(path);
+  EXPECT_EQ(bytes_of(path).substr(files::seal_size), golden);
+  const std::string seal = bytes_of(path).substr(0, files::seal_size);
   EXPECT_EQ(seal.substr(0, seal.find_last_not_of(" \n") + 1),
             "Chladni seal 1\n"
             "bytes 28872\n"
@@ -85,9 +85,9 @@ TEST(Seal, GuardsTheLastByteOfALargeFile)
 {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100000);
-  EXPECT_EQ(Reader(path).vector("x").size(), 100000);
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 100000);
   for (const std::size_t at :
-       {whole.size() - 1, seal_size + (1u << 18), seal_size + (1u << 18) - 1}) {
+       {whole.size() - 1, files::seal_size + (1u << 18), files::seal_size + (1u << 18) - 1}) {
     std::string bytes = whole;
     ++bytes[at];
     put_bytes(path, bytes);
@@ -100,7 +100,7 @@ TEST(Seal, ErrorSaysHowToAcceptAChange)
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
   put_bytes(path, whole.substr(0, 1000));
-  EXPECT_EQ(error_of([&] { Reader reader(path); }),
+  EXPECT_EQ(error_of([&] { files::Reader reader(path); }),
             path + ": is not as it was written: it has 1000 bytes and had " +
                 std::to_string(whole.size()) +
                 ". Make it anew or take a copy; if it was changed on purpose, `chladni seal " +
@@ -111,9 +111,10 @@ TEST(Seal, IsNotNeededWhereAFileBeginsAsHdf5Does)
 {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
-  put_bytes(path, whole.substr(seal_size));
-  EXPECT_EQ(Reader(path).vector("x").size(), 100);
-  put_bytes(path, std::string(seal_size, ' ') + whole.substr(seal_size));  // for libhdf5 as good
+  put_bytes(path, whole.substr(files::seal_size));
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 100);
+  put_bytes(path, std::string(files::seal_size, ' ') +
+                      whole.substr(files::seal_size));  // for libhdf5 as good
   EXPECT_TRUE(is_refused_by_the_seal(path));
 }
 
@@ -128,11 +129,11 @@ TEST(SealFile, AcceptsAChangeAndMakesUpForAMissingOrDamagedSeal)
                   sizeof other);
   put_bytes(path, changed);
   EXPECT_TRUE(is_refused_by_the_seal(path));
-  seal_file(path);
-  EXPECT_EQ(Reader(path).vector("x")[99], 2.0);
-  for (const std::string& before : {std::string(), std::string(seal_size, '?')}) {
-    put_bytes(path, before + whole.substr(seal_size));
-    seal_file(path);
+  files::seal_file(path);
+  EXPECT_EQ(files::Reader(path).vector("x")[99], 2.0);
+  for (const std::string& before : {std::string(), std::string(files::seal_size, '?')}) {
+    put_bytes(path, before + whole.substr(files::seal_size));
+    files::seal_file(path);
     EXPECT_EQ(bytes_of(path), whole);
   }
 }
@@ -143,10 +144,11 @@ TEST(SealFile, LeavesWhatLibhdf5CannotOpen)
   const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
   for (const std::string& bytes : {std::string("text"), std::string(), whole.substr(0, 2000)}) {
     put_bytes(path, bytes);
-    EXPECT_TRUE(contains(error_of([&] { seal_file(path); }), path + ": cannot be sealed"));
+    EXPECT_TRUE(contains(error_of([&] { files::seal_file(path); }), path + ": cannot be sealed"));
     EXPECT_EQ(bytes_of(path), bytes);
   }
-  EXPECT_TRUE(contains(error_of([&] { seal_file(folder.file("none.h5")); }), "no such file"));
+  EXPECT_TRUE(
+      contains(error_of([&] { files::seal_file(folder.file("none.h5")); }), "no such file"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "bending_beam.hpp"
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "mbs_export/make_body.hpp"
-#include "scratch_folder.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "wheel.hpp"
 
 namespace chladni::mbs_export {
@@ -246,7 +246,7 @@ TEST(SelectByTolerance, SaysHowFarItGotWithAToleranceBelowRoundOff)
 
 TEST(SelectByTolerance, IsKeptInTheBodyFile)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   const ModalBody a = make_body(test::wheel(), loaded_rim(1e-2));
   write_body(folder.file("a.h5"), a);
   const ModalBody b = read_body(folder.file("a.h5"));
@@ -267,7 +267,7 @@ TEST(SelectByTolerance, RefusesASecondCriterion)
 {
   BodyOptions options = loaded_rim(1e-2);
   options.keep.count = 10;
-  EXPECT_NE(test::error_of([&] { make_body(test::wheel(), options); }).find("nothing else"),
+  EXPECT_NE(files::test::error_of([&] { make_body(test::wheel(), options); }).find("nothing else"),
             std::string::npos);
 }
 

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "expect_equal.hpp"
-#include "mbs_export/body_file.hpp"
-#include "mbs_export/reduced_file.hpp"
-#include "scratch_folder.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -31,7 +31,7 @@ TEST(Version1, OfABodyIsReadBitByBit)
 
 TEST(Version1, IsWhatIsStillWritten)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   write_reduced(folder.file("a.reduced.h5"), test::version_1_reduced());
   expect_equal(read_reduced(folder.file("a.reduced.h5")), test::version_1_reduced());
   write_body(folder.file("a.body.h5"), test::version_1_body());

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "surface.hpp"
 
 namespace chladni::mesh {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 
 namespace chladni::mesh {

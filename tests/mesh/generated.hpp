@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "surface.hpp"
 
 /// Small generated meshes, and what there is to measure on them.

@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 #include "file_test.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "surface.hpp"
 
 namespace chladni::mesh::testing {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 
 namespace chladni::mesh {
 namespace {

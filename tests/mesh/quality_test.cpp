@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 
 namespace chladni::mesh {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "file_test.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 
 namespace chladni::mesh {
 namespace {

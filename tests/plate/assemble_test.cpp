@@ -1,4 +1,4 @@
-#include "plate/assemble.hpp"
+#include "plate/assembly/assemble.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Averaging couplings, as the assembled system shows them.
-#include "plate/average_motions.hpp"
+#include "plate/dofs/average_motions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "coupled_models.hpp"
-#include "plate/free_motions.hpp"
-#include "plate/group_shares.hpp"
-#include "plate/recovery.hpp"
+#include "plate/assembly/recovery.hpp"
+#include "plate/dofs/free_motions.hpp"
+#include "plate/dofs/group_shares.hpp"
 
 namespace chladni::plate {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "plate/assemble.hpp"
+#include "plate/assembly/assemble.hpp"
 #include "small_disc.hpp"
 #include "square_plate.hpp"
 

@@ -1,11 +1,11 @@
 // Links and chains of couplings, and what stands at the nodes that they move.
-#include "plate/follow_references.hpp"
+#include "plate/dofs/follow_references.hpp"
 
 #include <gtest/gtest.h>
 
 #include "coupled_models.hpp"
-#include "plate/point_elements.hpp"
-#include "plate/recovery.hpp"
+#include "plate/assembly/recovery.hpp"
+#include "plate/dofs/point_elements.hpp"
 
 namespace chladni::plate {
 namespace {

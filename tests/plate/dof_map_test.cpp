@@ -1,4 +1,4 @@
-#include "plate/dof_map.hpp"
+#include "plate/dofs/dof_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plate/drilling.hpp"
+#include "plate/dofs/drilling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 
 #include "common/error.hpp"
 #include "coupled_models.hpp"
-#include "plate/loads.hpp"
-#include "plate/point_elements.hpp"
-#include "plate/supports.hpp"
+#include "plate/assembly/loads.hpp"
+#include "plate/dofs/point_elements.hpp"
+#include "plate/dofs/supports.hpp"
 
 namespace chladni::plate {
 namespace {

@@ -1,9 +1,9 @@
-#include "plate/free_motions.hpp"
+#include "plate/dofs/free_motions.hpp"
 
 #include <gtest/gtest.h>
 
 #include "coupled_models.hpp"
-#include "plate/supports.hpp"
+#include "plate/dofs/supports.hpp"
 
 namespace chladni::plate {
 namespace {

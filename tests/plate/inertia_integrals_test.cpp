@@ -1,13 +1,13 @@
-#include "plate/inertia_integrals.hpp"
+#include "plate/assembly/inertia_integrals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "plate/assemble.hpp"
-#include "plate/mass_points.hpp"
-#include "plate/point_elements.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "plate/dofs/point_elements.hpp"
+#include "plate/elements/mass_points.hpp"
 #include "small_disc.hpp"
 
 namespace chladni::plate {

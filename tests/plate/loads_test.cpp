@@ -1,4 +1,4 @@
-#include "plate/loads.hpp"
+#include "plate/assembly/loads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "mesh/partition.hpp"
-#include "plate/supports.hpp"
+#include "plate/dofs/supports.hpp"
 #include "small_disc.hpp"
 #include "square_plate.hpp"
 

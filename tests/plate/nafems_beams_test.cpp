@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "plate/beam_element.hpp"
-#include "plate/point_elements.hpp"
+#include "plate/dofs/point_elements.hpp"
+#include "plate/elements/beam_element.hpp"
 
 namespace chladni::plate {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements_under_test.hpp"
+#include "tests/plate/elements/elements_under_test.hpp"
 
 namespace chladni::plate::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "plate/point_elements.hpp"
+#include "plate/dofs/point_elements.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
-#include "plate/assemble.hpp"
+#include "plate/assembly/assemble.hpp"
 
 namespace chladni::plate {
 namespace {

@@ -1,4 +1,4 @@
-#include "plate/recovery.hpp"
+#include "plate/assembly/recovery.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "mesh/partition.hpp"
-#include "plate/loads.hpp"
-#include "plate/supports.hpp"
+#include "plate/assembly/loads.hpp"
+#include "plate/dofs/supports.hpp"
 #include "square_plate.hpp"
 
 namespace chladni::plate {

@@ -1,5 +1,5 @@
 // A ring in its harmonics, as the assembled system shows it.
-#include "plate/ring_harmonics.hpp"
+#include "plate/dofs/ring_harmonics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "coupled_models.hpp"
-#include "mesh/generate.hpp"
-#include "plate/recovery.hpp"
+#include "mesh/generators.hpp"
+#include "plate/assembly/recovery.hpp"
 
 namespace chladni::plate {
 namespace {

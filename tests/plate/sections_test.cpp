@@ -1,5 +1,5 @@
 // Thickness and offset that vary, as the assembled system shows them.
-#include "plate/profile.hpp"
+#include "plate/sections/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "coupled_models.hpp"
-#include "plate/free_motions.hpp"
+#include "plate/dofs/free_motions.hpp"
 
 namespace chladni::plate {
 namespace {

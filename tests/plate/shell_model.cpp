@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "common/error.hpp"
-#include "sample_elements.hpp"
+#include "tests/plate/elements/sample_elements.hpp"
 
 namespace chladni::plate::testing {
 

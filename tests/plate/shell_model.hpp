@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "plate/directors.hpp"
-#include "plate/shell_element.hpp"
+#include "plate/elements/shell_element.hpp"
+#include "plate/sections/directors.hpp"
 
 namespace chladni::plate::testing {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/generate.hpp"
+#include "mesh/generators.hpp"
 #include "mesh/partition.hpp"
 #include "plate/plate_options.hpp"
 

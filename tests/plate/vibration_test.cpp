@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "elements_under_test.hpp"
 #include "obstacle_course.hpp"
 #include "shell_model.hpp"
+#include "tests/plate/elements/elements_under_test.hpp"
 
 namespace chladni::plate::testing {
 namespace {

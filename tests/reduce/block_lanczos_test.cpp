@@ -1,19 +1,20 @@
-#include "reduce/block_lanczos.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "chain.hpp"
-#include "reduce/block_basis.hpp"
-#include "reduce/factorization.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "linear/lanczos/block_basis.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 /// A chain of n masses between fixed ends: lambda_k = 4 sin^2(k pi / (2 (n + 1))).
 struct FixedChain {
@@ -23,7 +24,7 @@ struct FixedChain {
     K = split(chain.K, dofs);
     M = split(chain.M, dofs);
   }
-  testing::Chain chain;
+  linear::testing::Chain chain;
   Blocks K, M;
 };
 
@@ -32,7 +33,7 @@ double exact(int k, int n)
   return 4.0 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n + 1)), 2);
 }
 
-void expect_exact(const EigenPairs& pairs, int n)
+void expect_exact(const linear::EigenPairs& pairs, int n)
 {
   for (std::size_t i = 0; i < pairs.lambda.size(); ++i) {
     const double lambda = exact(static_cast<int>(i) + 1, n);
@@ -45,8 +46,8 @@ void expect_exact(const EigenPairs& pairs, int n)
 TEST(BlockLanczos, FindsTheLowestPairsOfAChain)
 {
   const FixedChain c(200);
-  const Factorization factor(c.K.ss);
-  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 12});
+  const linear::Factorization factor(c.K.ss);
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 12});
   ASSERT_EQ(pairs.lambda.size(), 12u);
   expect_exact(pairs, 200);
 }
@@ -54,9 +55,9 @@ TEST(BlockLanczos, FindsTheLowestPairsOfAChain)
 TEST(BlockLanczos, GivesTheSameWhenItMustRestart)
 {
   const FixedChain c(400);
-  const Factorization factor(c.K.ss);
-  const BlockLanczosOptions options{.n_pairs = 40, .block_size = 4, .max_subspace = 60};
-  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, options);
+  const linear::Factorization factor(c.K.ss);
+  const linear::BlockLanczosOptions options{.n_pairs = 40, .block_size = 4, .max_subspace = 60};
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, options);
   EXPECT_GT(pairs.n_solves, 64);  // it did restart
   expect_exact(pairs, 400);
 }
@@ -64,20 +65,21 @@ TEST(BlockLanczos, GivesTheSameWhenItMustRestart)
 TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
 {
   const FixedChain c(200);
-  const Factorization factor(c.K.ss);
+  const linear::Factorization factor(c.K.ss);
   for (const PetscInt subspace : {0, 40}) {  // the latter restarts in between
-    const BlockLanczosOptions options{.n_pairs = 20, .block_size = 4, .max_subspace = subspace};
-    BlockLanczos lanczos(factor.factor(), c.M.ss, options);
+    const linear::BlockLanczosOptions options{
+        .n_pairs = 20, .block_size = 4, .max_subspace = subspace};
+    linear::BlockLanczos lanczos(factor.factor(), c.M.ss, options);
     lanczos.converge(6);
     const PetscInt n_first = lanczos.n_solves();
     lanczos.converge(20);
     // A restart forgets the directions that it drops; nothing else is done twice.
-    const PetscInt n_alone = block_lanczos(factor.factor(), c.M.ss, options).n_solves;
+    const PetscInt n_alone = linear::block_lanczos(factor.factor(), c.M.ss, options).n_solves;
     EXPECT_LE(lanczos.n_solves(), n_alone + (subspace > 0 ? n_first : options.block_size));
     ASSERT_EQ(lanczos.n_pairs(), 20);
     for (int i = 0; i < 20; ++i) EXPECT_NEAR(lanczos.lambda(i) / exact(i + 1, 200), 1.0, 1e-11);
     const petsc::Matrix X = lanczos.vectors(3, 15);
-    const SmallMatrix I = inner_product(X, X);  // M = I
+    const linear::SmallMatrix I = linear::inner_product(X, X);  // M = I
     for (PetscInt i = 0; i < 12; ++i) {
       for (PetscInt j = 0; j < 12; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
     }
@@ -87,9 +89,9 @@ TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
 TEST(BlockLanczos, HasOrthonormalVectors)
 {
   const FixedChain c(200);
-  const Factorization factor(c.K.ss);
-  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20});
-  const SmallMatrix I = inner_product(pairs.X, pairs.X);  // M = I
+  const linear::Factorization factor(c.K.ss);
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20});
+  const linear::SmallMatrix I = linear::inner_product(pairs.X, pairs.X);  // M = I
   for (PetscInt i = 0; i < I.n_rows; ++i) {
     for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
   }
@@ -98,8 +100,8 @@ TEST(BlockLanczos, HasOrthonormalVectors)
 TEST(BlockLanczos, ExhaustsASmallProblem)
 {
   const FixedChain c(9);
-  const Factorization factor(c.K.ss);
-  const EigenPairs pairs = block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 9});
+  const linear::Factorization factor(c.K.ss);
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 9});
   ASSERT_EQ(pairs.lambda.size(), 9u);
   expect_exact(pairs, 9);
 }
@@ -107,14 +109,15 @@ TEST(BlockLanczos, ExhaustsASmallProblem)
 TEST(BlockLanczos, SaysWhenItDoesNotConverge)
 {
   const FixedChain c(200);
-  const Factorization factor(c.K.ss);
-  EXPECT_THROW(block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20, .max_steps = 2}), Error);
+  const linear::Factorization factor(c.K.ss);
+  EXPECT_THROW(linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20, .max_steps = 2}),
+               Error);
 }
 
 TEST(BlockBasis, LeavesOutADependentDirection)
 {
   const FixedChain c(30);
-  BlockBasis basis(c.M.ss, 10);
+  linear::BlockBasis basis(c.M.ss, 10);
   petsc::Matrix block = basis.new_block(3);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(block, &first, &last));
@@ -123,7 +126,7 @@ TEST(BlockBasis, LeavesOutADependentDirection)
     petsc::check(MatSetValue(block, i, 1, double(i), INSERT_VALUES));
     petsc::check(MatSetValue(block, i, 2, 2.0 * i - 3.0, INSERT_VALUES));  // of the first two
   }
-  testing::finish(block);
+  linear::testing::finish(block);
   EXPECT_EQ(basis.append(block).R.n_rows, 2);
   EXPECT_EQ(basis.n_columns(), 2);
 }

@@ -7,10 +7,11 @@
 #include <numbers>
 #include <utility>
 
-#include "chain.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "reduce/condition_estimate.hpp"
-#include "reduce/sylvester.hpp"
+#include "linear/cholesky/condition_estimate.hpp"
+#include "linear/cholesky/sylvester.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
@@ -25,31 +26,32 @@ double free_eigenvalue(int k)
 
 TEST(EigenvaluesBelow, CountsThoseOfTheFreeChain)
 {
-  const testing::Chain chain = testing::free_chain(n);
+  const linear::testing::Chain chain = linear::testing::free_chain(n);
   for (const int k : {1, 7, 39}) {
     const double sigma = 0.5 * (free_eigenvalue(k - 1) + free_eigenvalue(k));
-    EXPECT_EQ(eigenvalues_below(chain.K, chain.M, sigma), k);
+    EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, sigma), k);
   }
-  EXPECT_EQ(eigenvalues_below(chain.K, chain.M, 5.0), n);  // all are below 4
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, 5.0), n);  // all are below 4
 }
 
 TEST(EigenvaluesBelow, CountsWithoutTheHeldDofs)
 {
-  const testing::Chain chain = testing::free_chain(n);
+  const linear::testing::Chain chain = linear::testing::free_chain(n);
   const auto held_eigenvalue = [](int k) {  // n - 2 masses between fixed ends
     return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n - 1)), 2);
   };
   const double sigma = 0.5 * (held_eigenvalue(9) + held_eigenvalue(10));
-  EXPECT_EQ(eigenvalues_below(chain.K, chain.M, sigma, {n - 1, 0}), 9);
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, sigma, {n - 1, 0}), 9);
 }
 
 TEST(ConditionEstimate, IsExactForTheChainBetweenFixedEnds)
 {
-  const testing::Chain chain = testing::free_chain(n + 1);
-  const DofPartition dofs = partition(chain.K, testing::master_set(chain.K, {0, n}));
+  const linear::testing::Chain chain = linear::testing::free_chain(n + 1);
+  const DofPartition dofs = partition(chain.K, linear::testing::master_set(chain.K, {0, n}));
   const Blocks K = split(chain.K, dofs);
   // |K|_1 = 4; column j of the inverse sums to j (m + 1 - j) / 2, at most (m + 1)^2 / 8, m = n - 1.
-  EXPECT_NEAR(condition_estimate(factorize(K.ss)), 4.0 * n * n / 8.0, 1e-9 * n * n);  // round-off
+  EXPECT_NEAR(linear::condition_estimate(linear::factorize(K.ss)), 4.0 * n * n / 8.0,
+              1e-9 * n * n);  // round-off
 }
 
 /// A symmetric matrix with eigenvalues 1 and 10 and its Ritz value in the direction (cos, sin).
@@ -65,10 +67,10 @@ struct TwoByTwo {
 };
 
 /// [1 x 1], or diagonal.
-SmallMatrix diagonal(const std::vector<double>& values)
+linear::SmallMatrix diagonal(const std::vector<double>& values)
 {
   const auto k = static_cast<PetscInt>(values.size());
-  SmallMatrix A(k, k);
+  linear::SmallMatrix A(k, k);
   for (PetscInt i = 0; i < k; ++i) A(i, i) = values[static_cast<std::size_t>(i)];
   return A;
 }
@@ -101,7 +103,7 @@ Leaning leaning(const Eigen::VectorXd& exact, const Eigen::MatrixXd& basis, doub
   const MatrixXd K_inverse = exact.cwiseInverse().asDiagonal();
   const MatrixXd H = scale * R.transpose() * K_inverse * R * scale;
   const auto k = static_cast<PetscInt>(lambda.size());
-  SmallMatrix residuals(k, k);
+  linear::SmallMatrix residuals(k, k);
   std::copy_n(H.data(), H.size(), residuals.values.begin());
   return {exact, lambda, error_bounds({lambda.begin(), lambda.end()}, residuals, sigma)};
 }
@@ -180,7 +182,7 @@ TEST(CountModes, FindsTheModeThatIsMissing)
   const auto below = [&](double sigma) {
     return static_cast<int>(std::ranges::lower_bound(full, sigma) - full.begin());
   };
-  const SmallMatrix tiny = diagonal(std::vector<double>(5, 1e-8));
+  const linear::SmallMatrix tiny = diagonal(std::vector<double>(5, 1e-8));
   const auto whole = count_modes({.lambda = {1.0, 2.0, 4.0, 7.0, 11.0},
                                   .residuals = tiny,
                                   .n_zero = 0,

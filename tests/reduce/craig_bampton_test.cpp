@@ -6,24 +6,25 @@
 #include <numbers>
 #include <numeric>
 
-#include "chain.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 constexpr PetscInt n = 40;  // masses
 constexpr double round_off = 1e-12;
 
 /// The chain reduced to its two ends.
 struct Reduction {
-  testing::Chain chain = free_chain(n);
+  linear::testing::Chain chain = free_chain(n);
   DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
-  Factorization K_ss = factorize(K.ss);
+  linear::Factorization K_ss = linear::factorize(K.ss);
 };
 
 CraigBamptonBasis craig_bampton(const Reduction& r, int n_modes)
@@ -48,7 +49,7 @@ std::vector<PetscInt> all_dofs()
 TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
 {
   const Reduction r;
-  const SmallMatrix Q =
+  const linear::SmallMatrix Q =
       basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all_dofs());
   for (PetscInt i = 0; i < n; ++i) {
     EXPECT_NEAR(Q(i, 1), double(i) / (n - 1), round_off);
@@ -70,7 +71,8 @@ TEST(FixedInterfaceModes, AreTheSameByKrylovSchur)
 {
   const Reduction r;
   const auto blocks = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
-  const Factorization K_ss = factorize(r.K.ss, {.lanczos = {.solver = ModeSolver::krylov_schur}});
+  const linear::Factorization K_ss =
+      linear::factorize(r.K.ss, {.lanczos = {.solver = linear::ModeSolver::krylov_schur}});
   const auto single = fixed_interface_modes(K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
   ASSERT_EQ(single.omega.size(), 7u);
   for (int k = 0; k < 7; ++k) {
@@ -91,7 +93,7 @@ TEST(FixedInterfaceModes, AreOrthonormalInTheMass)
 {
   const Reduction r;
   const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 9, .cutoff_Hz = {}});
-  const SmallMatrix I = inner_product(modes.Phi, modes.Phi);  // M_ss = I
+  const linear::SmallMatrix I = linear::inner_product(modes.Phi, modes.Phi);  // M_ss = I
   for (PetscInt i = 0; i < I.n_rows; ++i) {
     for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, round_off);
   }
@@ -107,18 +109,19 @@ TEST(FixedInterfaceModes, KeepTheTwoPartnersOfADoubleModeTogether)
 {
   // Two equal chains that share the masters of a third between them: masters hold both ends of
   // each.
-  const testing::Chain chain = free_chain(2 * n - 1);
+  const linear::testing::Chain chain = free_chain(2 * n - 1);
   const DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1, 2 * n - 2}));
   const Blocks K = split(chain.K, dofs);
   const Blocks M = split(chain.M, dofs);
-  const auto modes = fixed_interface_modes(factorize(K.ss), M.ss, {.modes = 3, .cutoff_Hz = {}});
+  const auto modes =
+      fixed_interface_modes(linear::factorize(K.ss), M.ss, {.modes = 3, .cutoff_Hz = {}});
   EXPECT_EQ(modes.omega.size(), 4u);  // the cut through the second pair moves
 }
 
 TEST(Factorization, RefusesAPartThatNoMasterHolds)
 {
-  const testing::Chain chain = free_chain(12);
-  EXPECT_THROW(factorize(chain.K), Error);
+  const linear::testing::Chain chain = free_chain(12);
+  EXPECT_THROW(linear::factorize(chain.K), Error);
 }
 
 TEST(Project, GivesTheGuyanMatricesOfTheChain)
@@ -137,9 +140,9 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
   const Reduction r;
   const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
   const ReducedModel reduced = project(Q_CB, r.K, r.M);
-  const SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const linear::SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
   const auto product = [&](Mat A, PetscInt i, PetscInt j) {
-    const SmallMatrix full = replicate(A);
+    const linear::SmallMatrix full = linear::replicate(A);
     double sum = 0.0;
     for (PetscInt a = 0; a < n; ++a) {
       for (PetscInt b = 0; b < n; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
@@ -158,7 +161,7 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
 /// gyroscopic pair.
 petsc::Matrix dampers()
 {
-  petsc::Matrix C = testing::empty(n);
+  petsc::Matrix C = linear::testing::empty(n);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(C, &first, &last));
   const auto set = [&](PetscInt i, PetscInt j, double value) {
@@ -174,7 +177,7 @@ petsc::Matrix dampers()
   set(20, 20, 0.7);
   set(5, 6, 0.4);
   set(6, 5, -0.4);
-  testing::finish(C);
+  linear::testing::finish(C);
   return C;
 }
 
@@ -183,9 +186,9 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   const Reduction r;
   const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
   const petsc::Matrix C = dampers();
-  const SmallMatrix C_r = project_form(Q_CB, split(C, r.dofs));
-  const SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
-  const SmallMatrix C_all = replicate(C);
+  const linear::SmallMatrix C_r = project_form(Q_CB, split(C, r.dofs));
+  const linear::SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const linear::SmallMatrix C_all = linear::replicate(C);
   ASSERT_EQ(C_r.n_rows, 8);
   for (PetscInt a = 0; a < 8; ++a) {
     for (PetscInt b = 0; b < 8; ++b) {

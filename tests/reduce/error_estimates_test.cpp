@@ -6,17 +6,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "pencils.hpp"
+#include "reduce/partition.hpp"
 #include "reduce/tolerance_search.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
 using Eigen::MatrixXd;
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 constexpr PetscInt n = 60;
 
@@ -24,7 +25,7 @@ constexpr PetscInt n = 60;
 ReducedPairs lowest(const ReducedModel& model, PetscInt n_pairs)
 {
   const PetscInt n_r = model.K.n_rows;
-  const auto held = [&](const SmallMatrix& A) {
+  const auto held = [&](const linear::SmallMatrix& A) {
     return MatrixXd(
         Eigen::Map<const MatrixXd>(A.values.data(), n_r, n_r).bottomRightCorner(n_r - 1, n_r - 1));
   };
@@ -43,11 +44,11 @@ struct HeldChain {
       : Q_CB{.Psi = constraint_modes(K_ss, K),
              .modes = fixed_interface_modes(K_ss, M.ss, {.modes = n_modes, .cutoff_Hz = {}})}
   {}
-  testing::Chain chain = free_chain(n);
+  linear::testing::Chain chain = free_chain(n);
   DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
-  Factorization K_ss = factorize(K.ss);
+  linear::Factorization K_ss = linear::factorize(K.ss);
   CraigBamptonBasis Q_CB;
 
   Condensation system() const { return {.K_ss = K_ss, .Q_CB = Q_CB, .K = K, .M = M}; }
@@ -117,8 +118,8 @@ TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
   GrowingModel growing({.K_ss = all.K_ss, .Psi = all.Q_CB.Psi, .K = all.K, .M = all.M});
   const FixedInterfaceModes& modes = *all.Q_CB.modes;
   const auto omega = modes.omega.begin();
-  growing.append(ColumnRange(modes.Phi, 0, 8), {omega, omega + 8});
-  growing.append(ColumnRange(modes.Phi, 8, 20), {omega + 8, omega + 20});
+  growing.append(linear::ColumnRange(modes.Phi, 0, 8), {omega, omega + 8});
+  growing.append(linear::ColumnRange(modes.Phi, 8, 20), {omega + 8, omega + 20});
   for (const int n_modes : {3, 8, 15, 20}) {
     const HeldChain some(n_modes);
     const ReducedModel expected = project(some.Q_CB, some.K, some.M);
@@ -178,10 +179,10 @@ TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
   testing::ElementPencil element{.dofs = {0, 1, 2}, .K = MatrixXd(3, 3), .M = MatrixXd(3, 3)};
   element.K << 20.0, 0.0, 0.0, 0.0, 7.0, 0.0, 0.0, 0.0, 8.4;
   element.M << 1.0, 0.01, 0.9, 0.01, 1.0, 0.0, 0.9, 0.0, 1.0;  // frequencies^2: 6.19, 7.0, 142
-  const testing::Chain pencil = testing::assemble(3, {element});
+  const linear::testing::Chain pencil = testing::assemble(3, {element});
   const DofPartition dofs = partition(pencil.K, master_set(pencil.K, {0}));
   const Blocks K = split(pencil.K, dofs), M = split(pencil.M, dofs);
-  const Factorization K_ss = factorize(K.ss);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
   const petsc::Matrix Psi = constraint_modes(K_ss, K);
   const double end = 8.0;  // of the range
   const auto in_range = [&](const ReducedModel& model) {

@@ -5,16 +5,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
 using Eigen::MatrixXd;
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 constexpr PetscInt n = 60;
 constexpr int n_modes = 7;
@@ -27,18 +28,18 @@ double exact(int k)
 
 /// The free chain with masters at an end and within, reduced by its own modes.
 struct ReducedChain {
-  testing::Chain chain = free_chain(n);
+  linear::testing::Chain chain = free_chain(n);
   DofPartition dofs = partition(chain.K, master_set(chain.K, {0, 23}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
-  Factorization K_ss = factorize(K.ss);
+  linear::Factorization K_ss = linear::factorize(K.ss);
   WholeSystem body{
       .K = chain.K, .M = chain.M, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
   CraigBamptonBasis Q{.Psi = constraint_modes(K_ss, K), .modes = {}};
   FreeInterfaceModes free = free_interface_modes(body, Q.Psi, {.modes = n_modes});
 };
 
-MatrixXd dense(const SmallMatrix& A)
+MatrixXd dense(const linear::SmallMatrix& A)
 {
   return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
 }

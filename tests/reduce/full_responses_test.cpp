@@ -5,25 +5,26 @@
 #include <Eigen/Dense>
 #include <numeric>
 
-#include "chain.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
 using Eigen::MatrixXd;
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 constexpr PetscInt n = 40;  // masses
 constexpr double Omega_0 = 0.31;
 
 /// The chain reduced to its two ends.
 struct Reduction {
-  testing::Chain chain = free_chain(n);
+  linear::testing::Chain chain = free_chain(n);
   DofPartition dofs = partition(chain.K, master_set(chain.K, {0, n - 1}));
   Blocks K = split(chain.K, dofs);
   Blocks M = split(chain.M, dofs);
-  Factorization K_ss = factorize(K.ss);
+  linear::Factorization K_ss = linear::factorize(K.ss);
 
   CraigBamptonBasis basis(int n_modes) const
   {
@@ -32,7 +33,7 @@ struct Reduction {
   }
 };
 
-MatrixXd as_eigen(const SmallMatrix& A)
+MatrixXd as_eigen(const linear::SmallMatrix& A)
 {
   return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
 }
@@ -52,7 +53,7 @@ TEST(FullResponses, SolveTheWholeChain)
 {
   const Reduction r;
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n - 1});
-  const MatrixXd v = as_eigen(replicate(V));
+  const MatrixXd v = as_eigen(linear::replicate(V));
   // u_j of the free chain: (2 - Omega^2) u_j = u_(j-1) + u_(j+1) but for the ends.
   for (PetscInt j = 1; j + 1 < n; ++j) {
     EXPECT_NEAR((2.0 - Omega_0 * Omega_0) * v(j, 0), v(j - 1, 0) + v(j + 1, 0), 1e-12);
@@ -66,7 +67,7 @@ TEST(Enrich, MakesTheReducedResponseExactAtItsFrequency)
   const Reduction r;
   CraigBamptonBasis Q_CB = r.basis(3);
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0});
-  const MatrixXd exact = as_eigen(replicate(V));
+  const MatrixXd exact = as_eigen(linear::replicate(V));
   const MatrixXd before = response(Q_CB, r, Omega_0);
   EXPECT_GT((before - exact).norm(), 1e-5 * exact.norm());  // three modes alone are not enough
   Enrichment enriched = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V);
@@ -99,7 +100,7 @@ TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, loads);
   Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;
   ASSERT_EQ(Q_CB.n_modes(), 5);
-  const MatrixXd exact = as_eigen(replicate(V));
+  const MatrixXd exact = as_eigen(linear::replicate(V));
   for (Eigen::Index i = 0; i < 2; ++i) {
     const MatrixXd found = response(Q_CB, r, loads[std::size_t(i)].Omega_0);
     EXPECT_LT((found.col(0) - exact.col(i)).norm(), 1e-10 * exact.col(i).norm()) << i;

@@ -5,15 +5,17 @@
 #include <functional>
 #include <numbers>
 
-#include "chain.hpp"
-#include "mbs_export/dense_solvers.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "reduce/error_estimates.hpp"
+#include "reduce/partition.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
-using testing::Chain, testing::empty, testing::finish, testing::master_set;
+using linear::testing::Chain, linear::testing::empty, linear::testing::finish,
+    linear::testing::master_set;
 
 constexpr double pi = std::numbers::pi;
 
@@ -74,12 +76,12 @@ Reduced reduce(const Chain& body, const std::vector<PetscInt>& masters, int n_mo
 {
   const DofPartition rows = partition(body.K, master_set(body.K, masters));
   const Blocks K = split(body.K, rows), M = split(body.M, rows);
-  const Factorization K_ss = factorize(K.ss);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
   const CraigBamptonBasis Q_CB{.Psi = constraint_modes(K_ss, K),
                                .modes = fixed_interface_modes(K_ss, M.ss, {.modes = n_modes})};
   Reduced reduced{.model = project(Q_CB, K, M), .lambda = {}, .eta2 = {}};
   const PetscInt n = reduced.model.K.n_rows;
-  const auto dense = [n](const SmallMatrix& A) {
+  const auto dense = [n](const linear::SmallMatrix& A) {
     return MatrixXd(Eigen::Map<const MatrixXd>(A.values.data(), n, n));
   };
   // M x = mu (K + s M) x, s near the low eigenvalues, keeps these accurate.
@@ -186,7 +188,7 @@ TEST(HardCase, AlmostAllDofsAreMasters)
   const Chain body = chain(1200, unit, unit);
   const DofPartition rows = partition(body.K, master_set(body.K, masters));
   const Blocks K = split(body.K, rows), M = split(body.M, rows);
-  const Factorization K_ss = factorize(K.ss);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
   const ReducedModel model = project(
       {.Psi = constraint_modes(K_ss, K), .modes = fixed_interface_modes(K_ss, M.ss, {.modes = 5})},
       K, M);

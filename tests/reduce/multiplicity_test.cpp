@@ -1,5 +1,5 @@
 // Eigenvalues of any multiplicity: block Lanczos beside spectra that are known.
-#include "reduce/multiplicity.hpp"
+#include "linear/lanczos/multiplicity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,17 @@
 #include <functional>
 #include <numbers>
 
-#include "chain.hpp"
-#include "matrices.hpp"
+#include "linear/cholesky/factorization.hpp"
+#include "linear/lanczos/block_lanczos.hpp"
 #include "pencils.hpp"
-#include "reduce/block_lanczos.hpp"
-#include "reduce/factorization.hpp"
 #include "reduce/fixed_interface_modes.hpp"
+#include "tests/linear/chain.hpp"
+#include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using testing::diagonal, testing::matrix;
+using linear::testing::diagonal, linear::testing::matrix;
 
 petsc::Matrix identity(PetscInt n)
 {
@@ -64,7 +64,7 @@ std::vector<double> hypercube_spectrum(int d, double shift)
 
 /// Values, residuals by the matrices, and orthonormality. Errors of the values are the squares of
 /// residuals of 1e-9, and round-off of well-conditioned K.
-void expect_pairs(Mat K, Mat M, const EigenPairs& pairs, const std::vector<double>& exact,
+void expect_pairs(Mat K, Mat M, const linear::EigenPairs& pairs, const std::vector<double>& exact,
                   double allowed = 1e-11)
 {
   ASSERT_GE(pairs.lambda.size(), exact.size());
@@ -74,7 +74,7 @@ void expect_pairs(Mat K, Mat M, const EigenPairs& pairs, const std::vector<doubl
   petsc::Matrix KX, MX;
   petsc::check(MatMatMult(K, pairs.X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, KX.put()));
   petsc::check(MatMatMult(M, pairs.X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, MX.put()));
-  const SmallMatrix I = inner_product(pairs.X, MX);
+  const linear::SmallMatrix I = linear::inner_product(pairs.X, MX);
   for (PetscInt i = 0; i < I.n_rows; ++i) {
     for (PetscInt j = 0; j < I.n_cols; ++j) ASSERT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
   }
@@ -96,9 +96,9 @@ void expect_pairs(Mat K, Mat M, const EigenPairs& pairs, const std::vector<doubl
 
 void expect_lowest(Mat K, Mat M, const std::vector<double>& exact, double allowed = 1e-11)
 {
-  const Factorization factor(K);
+  const linear::Factorization factor(K);
   const auto n = static_cast<PetscInt>(exact.size());
-  expect_pairs(K, M, block_lanczos(factor.factor(), M, {.n_pairs = n}), exact, allowed);
+  expect_pairs(K, M, linear::block_lanczos(factor.factor(), M, {.n_pairs = n}), exact, allowed);
 }
 
 std::vector<double> blade_spectrum(PetscInt n_blades, PetscInt n)
@@ -133,10 +133,10 @@ TEST(Multiplicity, LeavesVectorsOrthonormalWhereTheSpaceEnds)
     return row;
   });
   const petsc::Matrix M = diagonal(n, [](PetscInt i) { return 1.25 + 0.25 * double(i % 4); });
-  const Factorization factor(K);
+  const linear::Factorization factor(K);
   for (const PetscInt n_pairs : {40, 80, 144}) {
-    const EigenPairs pairs =
-        block_lanczos(factor.factor(), M, {.n_pairs = n_pairs, .tolerance = 1e-7});
+    const linear::EigenPairs pairs =
+        linear::block_lanczos(factor.factor(), M, {.n_pairs = n_pairs, .tolerance = 1e-7});
     expect_pairs(K, M, pairs, pairs.lambda);
   }
 }
@@ -180,9 +180,9 @@ TEST(Multiplicity, IsSeenThroughSpacingsOfRoundOff)
 TEST(Multiplicity, GrowsWithWhatIsAskedFor)
 {
   const petsc::Matrix K = blades(36), M = identity(36 * blade_size);
-  const Factorization factor(K);
+  const linear::Factorization factor(K);
   for (const PetscInt subspace : {0, 60}) {
-    BlockLanczos lanczos(factor.factor(), M, {.n_pairs = 0, .max_subspace = subspace});
+    linear::BlockLanczos lanczos(factor.factor(), M, {.n_pairs = 0, .max_subspace = subspace});
     for (const PetscInt n : {4, 36, 38, 72, 80, 150}) {
       lanczos.converge(n);
       ASSERT_EQ(lanczos.n_pairs(), n);
@@ -195,7 +195,7 @@ TEST(Multiplicity, GrowsWithWhatIsAskedFor)
 TEST(Multiplicity, OfTheLastModeIsCompleteByNumberAndBelowAFrequency)
 {
   const petsc::Matrix K = blades(36), M = identity(36 * blade_size);
-  const Factorization factor(K);
+  const linear::Factorization factor(K);
   const auto n_modes = [&](const ReduceOptions& wanted) {
     return std::ssize(fixed_interface_modes(factor, M, wanted).omega);
   };
@@ -235,8 +235,8 @@ TEST(Multiplicity, OfOneDoesNotHideBehindAMassOf1e12)
 {
   const petsc::Matrix K = blades(5);
   const petsc::Matrix M = diagonal(5 * blade_size, [](PetscInt i) { return i == 7 ? 1e12 : 1.0; });
-  const Factorization factor(K);
-  const EigenPairs pairs = block_lanczos(factor.factor(), M, {.n_pairs = 13});
+  const linear::Factorization factor(K);
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), M, {.n_pairs = 13});
   ASSERT_EQ(pairs.lambda.size(), 13u);
   // The heavy mass on springs of 7 and 13 others in a row; for all others it stands still.
   EXPECT_NEAR(pairs.lambda[0], (1.0 / 8.0 + 1.0 / 13.0) * 1e-12, 1e-20);
@@ -266,29 +266,32 @@ TEST(Multiplicity, EndsWithTheRankOfAConsistentMass)
   for (PetscInt i = 0; i < n; i += 2) {
     exact.push_back(1.0 / (c * c / (1.0 + 0.37 * i) + s * s / (1.0 + 0.37 * (i + 1))));
   }
-  const Factorization factor(K);
-  const EigenPairs pairs = block_lanczos(factor.factor(), M, {.n_pairs = n});
+  const linear::Factorization factor(K);
+  const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), M, {.n_pairs = n});
   EXPECT_EQ(pairs.lambda.size(), exact.size());
   expect_pairs(K, M, pairs, exact);
 }
 
 TEST(CopiesAmong, AsksForMoreThanTheSequenceCanHold)
 {
-  const RitzValues pairs{.theta = {3.0, 2.0, 2.0, 1.0, 1.0}, .residual = std::vector(5, 0.0)};
-  EXPECT_EQ(copies_among(pairs, 5, {.n_sources = 2}, 1e-7), Copies::may_lack);  // of 2.0
-  EXPECT_EQ(copies_among(pairs, 5, {.n_sources = 3}, 1e-7), Copies::all_there);
-  EXPECT_EQ(copies_among(pairs, 3, {.n_sources = 2}, 1e-7), Copies::all_there);  // the last one
-  const KrylovSequence second{.n_sources = 2, .known = {3.0, 2.0, 2.0}};
-  EXPECT_EQ(copies_among(pairs, 4, second, 1e-7), Copies::all_there);
+  const linear::RitzValues pairs{.theta = {3.0, 2.0, 2.0, 1.0, 1.0},
+                                 .residual = std::vector(5, 0.0)};
+  EXPECT_EQ(linear::copies_among(pairs, 5, {.n_sources = 2}, 1e-7),
+            linear::Copies::may_lack);  // of 2.0
+  EXPECT_EQ(linear::copies_among(pairs, 5, {.n_sources = 3}, 1e-7), linear::Copies::all_there);
+  EXPECT_EQ(linear::copies_among(pairs, 3, {.n_sources = 2}, 1e-7),
+            linear::Copies::all_there);  // the last one
+  const linear::KrylovSequence second{.n_sources = 2, .known = {3.0, 2.0, 2.0}};
+  EXPECT_EQ(linear::copies_among(pairs, 4, second, 1e-7), linear::Copies::all_there);
 }
 
 TEST(CopiesAmong, WaitsForTheLargestOfANewSequence)
 {
-  RitzValues pairs{.theta = {3.0, 2.0, 1.0}, .residual = {0.0, 0.0, 0.1}};
-  const KrylovSequence second{.n_sources = 2, .known = {3.0, 2.0}};
-  EXPECT_EQ(copies_among(pairs, 2, second, 1e-7), Copies::not_yet_known);
+  linear::RitzValues pairs{.theta = {3.0, 2.0, 1.0}, .residual = {0.0, 0.0, 0.1}};
+  const linear::KrylovSequence second{.n_sources = 2, .known = {3.0, 2.0}};
+  EXPECT_EQ(linear::copies_among(pairs, 2, second, 1e-7), linear::Copies::not_yet_known);
   pairs.residual[2] = 1e-5;
-  EXPECT_EQ(copies_among(pairs, 2, second, 1e-7), Copies::all_there);
+  EXPECT_EQ(linear::copies_among(pairs, 2, second, 1e-7), linear::Copies::all_there);
 }
 
 /// A small rigid body that is described ten thousand of its own sizes away: the mass of one of its
@@ -300,9 +303,9 @@ TEST(Multiplicity, OfAPairWithHardlyAnyMassIsNotMissedInSilence)
       .dofs = {0, 1}, .K = Eigen::MatrixXd(2, 2), .M = Eigen::MatrixXd(2, 2)};
   element.K << 0.5 + d, 0.5 - d, 0.5 - d, 0.5 + d;  // lambda = 0.5 and 2
   element.M << 1.0, 1.0 - d, 1.0 - d, 1.0;
-  const testing::Chain pencil = testing::assemble(2, {element});
-  const Factorization factor = factorize(pencil.K);
-  BlockLanczos lanczos(factor.factor(), pencil.M, {.n_pairs = 0});
+  const linear::testing::Chain pencil = testing::assemble(2, {element});
+  const linear::Factorization factor = linear::factorize(pencil.K);
+  linear::BlockLanczos lanczos(factor.factor(), pencil.M, {.n_pairs = 0});
   lanczos.converge(2);
   ASSERT_GE(lanczos.n_pairs(), 1);
   EXPECT_NEAR(lanczos.lambda(0), 0.5, 1e-8);

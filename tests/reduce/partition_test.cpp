@@ -2,17 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "chain.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using testing::free_chain;
-using testing::master_set;
+using linear::testing::free_chain;
+using linear::testing::master_set;
 
 TEST(Partition, DividesAllDofsIntoMastersAndSlaves)
 {
-  const testing::Chain chain = free_chain(12);
+  const linear::testing::Chain chain = free_chain(12);
   const DofPartition dofs = partition(chain.K, master_set(chain.K, {11, 0, 5}));
   PetscInt n_m = 0, n_s = 0;
   petsc::check(ISGetSize(dofs.masters, &n_m));
@@ -23,20 +23,20 @@ TEST(Partition, DividesAllDofsIntoMastersAndSlaves)
 
 TEST(Partition, RefusesNoMastersAndNoSlavesOnAllRanks)
 {
-  const testing::Chain chain = free_chain(6);
+  const linear::testing::Chain chain = free_chain(6);
   EXPECT_THROW(partition(chain.K, master_set(chain.K, {})), Error);
   EXPECT_THROW(partition(chain.K, master_set(chain.K, {0, 1, 2, 3, 4, 5})), Error);
 }
 
 TEST(Partition, RefusesADoubleMaster)
 {
-  const testing::Chain chain = free_chain(6);
+  const linear::testing::Chain chain = free_chain(6);
   EXPECT_THROW(partition(chain.K, master_set(chain.K, {2, 2})), Error);
 }
 
 TEST(Split, HasTheTransposeOfSmInMs)
 {
-  const testing::Chain chain = free_chain(12);
+  const linear::testing::Chain chain = free_chain(12);
   const DofPartition dofs = partition(chain.K, master_set(chain.K, {3, 8}));
   const Blocks K = split(chain.K, dofs);
   petsc::Matrix transposed;

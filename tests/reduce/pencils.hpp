@@ -5,16 +5,16 @@
 #include <cmath>
 #include <vector>
 
-#include "chain.hpp"
-#include "mbs_export/dense_solvers.hpp"
-#include "reduce/dense.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "tests/linear/chain.hpp"
 
 /// Pencils (K, M) of bodies that need no mesh: solid blocks and straight beams.
 namespace chladni::reduce::testing {
 
 /// An elastic body; DOF `n_components * node + component`.
 struct Body {
-  Chain pencil;
+  linear::testing::Chain pencil;
   std::vector<std::array<double, 3>> positions;
 };
 
@@ -25,7 +25,7 @@ struct ElementPencil {
 };
 
 /// The sum of all elements; each rank adds the rows that it owns.
-inline Chain assemble(PetscInt n, const std::vector<ElementPencil>& elements)
+inline linear::testing::Chain assemble(PetscInt n, const std::vector<ElementPencil>& elements)
 {
   const auto sum = [&](Eigen::MatrixXd ElementPencil::*matrix) {
     petsc::Matrix A;
@@ -44,7 +44,7 @@ inline Chain assemble(PetscInt n, const std::vector<ElementPencil>& elements)
             MatSetValues(A, 1, &row, size, element.dofs.data(), values.data(), ADD_VALUES));
       }
     }
-    finish(A);
+    linear::testing::finish(A);
     return A;
   };
   return {.K = sum(&ElementPencil::K), .M = sum(&ElementPencil::M)};
@@ -120,7 +120,7 @@ inline Body solid_block(const std::array<int, 3>& n, const std::array<double, 3>
 
 /// A beam of n equal Bernoulli-Euler elements with EI = rho A = length = 1; DOF 2 i is the
 /// deflection, 2 i + 1 the rotation of node i. The first `n_held` DOFs are left out.
-inline Chain euler_beam(int n, PetscInt n_held)
+inline linear::testing::Chain euler_beam(int n, PetscInt n_held)
 {
   const double h = 1.0 / n;
   ElementPencil one{.dofs = {}, .K = Eigen::MatrixXd(4, 4), .M = Eigen::MatrixXd(4, 4)};
@@ -157,12 +157,12 @@ inline Chain euler_beam(int n, PetscInt n_held)
 /// All entries, on every rank.
 inline Eigen::MatrixXd whole(Mat A)
 {
-  const SmallMatrix all = replicate(A);
+  const linear::SmallMatrix all = linear::replicate(A);
   return Eigen::Map<const Eigen::MatrixXd>(all.values.data(), all.n_rows, all.n_cols);
 }
 
 /// Eigenvalues of K x = lambda M x with M positive definite, ascending, by LAPACK's way.
-inline Eigen::VectorXd exact_eigenvalues(const Chain& pencil)
+inline Eigen::VectorXd exact_eigenvalues(const linear::testing::Chain& pencil)
 {
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(whole(pencil.K), whole(pencil.M),
                                                                    Eigen::EigenvaluesOnly)

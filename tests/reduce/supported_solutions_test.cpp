@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain.hpp"
-#include "reduce/dense.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
 namespace {
 
-using testing::free_chain;
+using linear::testing::free_chain;
 
 /// 1 at one DOF.
 petsc::Vector unit(Mat K, PetscInt i)
@@ -38,7 +38,7 @@ double entry(Vec x, PetscInt i)
 
 TEST(StaticSolution, StretchesAHeldChainEvenly)
 {
-  const testing::Chain chain = free_chain(21);
+  const linear::testing::Chain chain = free_chain(21);
   const StaticSolution solution =
       static_solution(chain.K, unit(chain.K, 20), free_dofs(chain.K, {0}));
   for (const PetscInt i : {0, 7, 20}) EXPECT_NEAR(entry(solution.u, i), i, 1e-12);  // cond ~ 1e2
@@ -48,7 +48,7 @@ TEST(StaticSolution, StretchesAHeldChainEvenly)
 
 TEST(StaticSolution, RefusesAnIndefiniteMatrix)
 {
-  const testing::Chain chain = free_chain(21);
+  const linear::testing::Chain chain = free_chain(21);
   petsc::check(MatScale(chain.K, -1.0));
   EXPECT_THROW(static_solution(chain.K, unit(chain.K, 20), free_dofs(chain.K, {0})), Error);
 }
@@ -61,7 +61,7 @@ double free_eigenvalue(int k, int n)
 
 TEST(NaturalModes, OfAFreeChainBeginWithTheRigidOne)
 {
-  const testing::Chain chain = free_chain(200);
+  const linear::testing::Chain chain = free_chain(200);
   const NaturalModes modes =
       natural_modes(chain.K, chain.M, free_dofs(chain.K, {}), {.n_modes = 8, .n_rigid = 1});
   ASSERT_EQ(modes.lambda.size(), 8u);
@@ -75,10 +75,10 @@ TEST(NaturalModes, OfAFreeChainBeginWithTheRigidOne)
 TEST(NaturalModes, OfAHeldChainAreZeroAtTheSupportAndNormal)
 {
   const int n = 50;
-  const testing::Chain chain = free_chain(n + 1);
+  const linear::testing::Chain chain = free_chain(n + 1);
   const NaturalModes modes =
       natural_modes(chain.K, chain.M, free_dofs(chain.K, {0}), {.n_modes = 5});
-  const SmallMatrix gram = inner_product(modes.X, modes.X);  // M = I
+  const linear::SmallMatrix gram = linear::inner_product(modes.X, modes.X);  // M = I
   for (PetscInt i = 0; i < 5; ++i) {
     for (PetscInt j = 0; j < 5; ++j) EXPECT_NEAR(gram(i, j), i == j ? 1.0 : 0.0, 1e-9);
     const double exact =
@@ -87,7 +87,7 @@ TEST(NaturalModes, OfAHeldChainAreZeroAtTheSupportAndNormal)
   }
   PetscInt first = 0;
   petsc::check(MatGetOwnershipRange(modes.X, &first, nullptr));
-  const LocalRows rows(modes.X);
+  const linear::LocalRows rows(modes.X);
   if (first == 0) {
     EXPECT_EQ(rows(0, 0), 0.0);
   }
@@ -95,7 +95,7 @@ TEST(NaturalModes, OfAHeldChainAreZeroAtTheSupportAndNormal)
 
 TEST(NaturalModes, RefuseMoreThanThereAre)
 {
-  const testing::Chain chain = free_chain(10);
+  const linear::testing::Chain chain = free_chain(10);
   const FreeDofs free = free_dofs(chain.K, {0});
   EXPECT_THROW(natural_modes(chain.K, chain.M, free, {.n_modes = 10}), Error);
   EXPECT_THROW(free_dofs(chain.K, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}), Error);

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "common/error.hpp"
-#include "exact_fields.hpp"
+#include "references/sound/exact_fields.hpp"
+#include "references/sound/thesis_disc.hpp"
 #include "sound/field.hpp"
 #include "sound/mesh_air.hpp"
-#include "thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "exact_fields.hpp"
+#include "references/sound/exact_fields.hpp"
+#include "references/sound/thesis_disc.hpp"
 #include "sound/levels.hpp"
 #include "sound/tone.hpp"
-#include "thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "squeal/limit_cycle_direct.hpp"
-#include "thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "references/sound/thesis_disc.hpp"
 #include "sound/mesh_air.hpp"
-#include "thesis_disc.hpp"
 
 namespace chladni::sound {
 namespace {

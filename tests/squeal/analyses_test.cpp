@@ -4,8 +4,8 @@
 #include <cmath>
 #include <complex>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/hopf.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle_direct.hpp"

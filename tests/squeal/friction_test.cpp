@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analytic_body.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/pads.hpp"

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analytic_body.hpp"
-#include "benchmarks/squeal/cvode.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/cvode.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/limit_cycle_direct.hpp"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
-#include "kirchhoff_modes.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/integrator_choice.hpp"
 #include "squeal/stability.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
-#include "kirchhoff_modes.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/dormand_prince.hpp"
 #include "squeal/generalised_alpha.hpp"
 #include "squeal/inertial_frame.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "analytic_body.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/limit_cycle.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 

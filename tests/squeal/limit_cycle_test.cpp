@@ -4,8 +4,8 @@
 
 #include <complex>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/transient.hpp"
 
 namespace chladni::squeal {

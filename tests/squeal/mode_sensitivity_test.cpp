@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
-#include "kirchhoff_modes.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"
 

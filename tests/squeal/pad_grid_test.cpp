@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/pad_system.hpp"

@@ -7,8 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/limit_cycle_direct.hpp"
 #include "squeal/mode_shapes.hpp"
 #include "squeal/sliding_disc.hpp"

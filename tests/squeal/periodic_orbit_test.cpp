@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "analytic_body.hpp"
 #include "planar_motions.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/cycle_problem.hpp"
 #include "squeal/harmonic_balance.hpp"
 #include "squeal/limit_cycle_branch.hpp"

@@ -5,9 +5,9 @@
 
 #include <fstream>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
-#include "mbs_export/hdf5.hpp"
+#include "files/hdf5.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/run.hpp"
 #include "tests/mbs_export/damaged_numbers.hpp"
 
@@ -184,7 +184,7 @@ TEST(ResultFile, NamesFormatUnitsAndOrigin)
   mbs_export::Provenance provenance;
   provenance.scene = "title = \"x\"";
   write_results(file.path, complete_results(), provenance);
-  const mbs_export::hdf5::Reader reader(file.path.string());
+  const files::Reader reader(file.path.string());
   EXPECT_NO_THROW(reader.expect_format("chladni-squeal", 1));
   EXPECT_EQ(reader.text("provenance/scene"), "title = \"x\"");
   EXPECT_EQ(reader.text_attribute("transient/tail/N_up", "unit"), "N");

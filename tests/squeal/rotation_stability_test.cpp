@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analytic_body.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient.hpp"

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

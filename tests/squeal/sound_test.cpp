@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/resampler.hpp"
 #include "squeal/spectrum.hpp"
 #include "squeal/wav_file.hpp"

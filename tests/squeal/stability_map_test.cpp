@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "analytic_body.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/stability.hpp"
 
 namespace chladni::squeal {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "kirchhoff_modes.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/oscillator.hpp"
 #include "squeal/stability.hpp"

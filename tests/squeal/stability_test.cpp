@@ -4,8 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "analytic_body.hpp"
-#include "kirchhoff_modes.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/stability_search.hpp"
 
 namespace chladni::squeal {

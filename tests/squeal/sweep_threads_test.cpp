@@ -1,7 +1,7 @@
 // Each sweep on several threads, small enough for the thread sanitizer without optimisation.
 #include <gtest/gtest.h>
 
-#include "analytic_body.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/rotation_stability.hpp"

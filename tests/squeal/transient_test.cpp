@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/contact_kick.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/oscillator_flow.hpp"

@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "analytic_body.hpp"
 #include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
 namespace {

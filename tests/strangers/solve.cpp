@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/dense.hpp"
+#include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::strangers {
 
@@ -49,7 +49,7 @@ std::string message_of(PetscErrorCode code)
 
 Eigen::MatrixXd everywhere(Mat A)
 {
-  const reduce::SmallMatrix B = reduce::replicate(A);
+  const linear::SmallMatrix B = linear::replicate(A);
   return Eigen::Map<const Eigen::MatrixXd>(B.values.data(), B.n_rows, B.n_cols);
 }
 

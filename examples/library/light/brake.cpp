@@ -3,7 +3,7 @@
 #include <exception>
 #include <numbers>
 
-#include "mbs_export/body_file.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/run.hpp"
 #include "squeal/stability_search.hpp"
@@ -14,9 +14,10 @@ try {
   if (argc != 2) return std::fputs("usage: brake FILE.body.h5\n", stderr), 2;
   // 1. The body, and of its modes the pair with three nodal diameters on the ring of the pads.
   const auto body = chladni::mbs_export::read_body(argv[1]);
-  const squeal::Disc disc = squeal::make_disc(body, "track", {.nodal_diameters = 3});
+  const chladni::squeal::Disc disc =
+      chladni::squeal::make_disc(body, "track", {.nodal_diameters = 3});
   // 2. One pair of pads at the angle 0.
-  const squeal::SquealOptions options{
+  const chladni::squeal::SquealOptions options{
       .ring = "track",
       .thickness = 0.02,
       .speeds = {.from = 3.0, .to = 60.0, .count = 20},
@@ -24,10 +25,11 @@ try {
       .pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}},
       .analyses = {"eigenvalues", "critical-speed"}};
   // 3. Where the sliding disc loses its stability.
-  const squeal::SquealResults results = squeal::run(disc, options);
+  const chladni::squeal::SquealResults results = chladni::squeal::run(disc, options);
   if (!results.critical_speed) {
-    const squeal::Stability stability = squeal::stability_of(results.speed_stability.value());
-    return std::printf("no critical speed: %s\n", squeal::name_of(stability)), 0;
+    const chladni::squeal::Stability stability =
+        chladni::squeal::stability_of(results.speed_stability.value());
+    return std::printf("no critical speed: %s\n", chladni::squeal::name_of(stability)), 0;
   }
   std::printf("squeals from %.4f pi rad/s on, at %.1f Hz\n",
               results.critical_speed->speed / std::numbers::pi,

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <map>
 
-#include "../scratch_folder.hpp"
 #include "../version_1.hpp"
 #include "../wheel.hpp"
-#include "mbs_export/hdf5.hpp"
-#include "mbs_export/hdf5_handle.hpp"
+#include "files/hdf5.hpp"
+#include "files/hdf5_handle.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
@@ -49,9 +49,9 @@ MatrixXd skew(const MatrixXd& A)
 
 TEST(Exudyn, HasTheProductsThatItComputesOfPointMasses)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   write_exudyn(folder.file("a.h5"), wheel_of_points());
-  const hdf5::Reader file(folder.file("a.h5"));
+  const files::Reader file(folder.file("a.h5"));
   const MatrixXd Psi = file.matrix("modeBasis", {48, 5});
   const VectorXd xRef = file.vector("xRef", 48);
   VectorXd m = VectorXd::Zero(48);
@@ -80,10 +80,10 @@ TEST(Exudyn, HasTheProductsThatItComputesOfPointMasses)
 
 TEST(Exudyn, NumbersThePictureBehindTheAttachmentNodes)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   write_exudyn(folder.file("a.h5"), wheel_of_points());
-  const hdf5::Reader file(folder.file("a.h5"));
-  hdf5::IntegerMatrix triangle(1, 3);
+  const files::Reader file(folder.file("a.h5"));
+  files::IntegerMatrix triangle(1, 3);
   triangle << 13, 14, 15;  // and none of the line
   EXPECT_EQ(file.integer_matrix("trigList"), triangle);
   EXPECT_EQ(file.text("type"), "ObjectFFRFreducedOrderInterface");
@@ -104,9 +104,9 @@ struct Entry {
 
 std::string datatype_of(hid_t object)
 {
-  const hdf5::Handle attribute{H5Aopen(object, "datatype", H5P_DEFAULT), H5Aclose};
+  const files::Handle attribute{H5Aopen(object, "datatype", H5P_DEFAULT), H5Aclose};
   if (!attribute.valid()) return "";
-  const hdf5::Handle type{H5Aget_type(attribute.get()), H5Tclose};
+  const files::Handle type{H5Aget_type(attribute.get()), H5Tclose};
   EXPECT_GT(H5Tis_variable_str(type.get()), 0);  // what else would come as bytes
   char* text = nullptr;
   H5Aread(attribute.get(), type.get(), static_cast<void*>(&text));
@@ -117,11 +117,11 @@ std::string datatype_of(hid_t object)
 
 herr_t add_entry(hid_t file, const char* name, const H5O_info_t* info, void* entries)
 {
-  const hdf5::Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
+  const files::Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
   Entry entry{.datatype = datatype_of(object.get()), .shape = {}, .bytes = {}};
   if (info->type == H5O_TYPE_DATASET) {
-    const hdf5::Handle type{H5Dget_type(object.get()), H5Tclose};
-    const hdf5::Handle space{H5Dget_space(object.get()), H5Sclose};
+    const files::Handle type{H5Dget_type(object.get()), H5Tclose};
+    const files::Handle space{H5Dget_space(object.get()), H5Sclose};
     entry.shape.resize(std::size_t(H5Sget_simple_extent_ndims(space.get())));
     H5Sget_simple_extent_dims(space.get(), entry.shape.data(), nullptr);
     entry.bytes.resize(H5Tget_size(type.get()) *
@@ -135,7 +135,7 @@ herr_t add_entry(hid_t file, const char* name, const H5O_info_t* info, void* ent
 std::map<std::string, Entry> entries_of(const std::string& path)
 {
   std::map<std::string, Entry> entries;
-  const hdf5::Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  const files::Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   EXPECT_TRUE(file.valid()) << path;
   H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, add_entry, &entries, H5O_INFO_BASIC);
   return entries;
@@ -143,7 +143,7 @@ std::map<std::string, Entry> entries_of(const std::string& path)
 
 TEST(Exudyn, IsTheSameDictionaryAsBefore)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   write_exudyn(folder.file("a.h5"), test::version_1_floating());
   const auto found = entries_of(folder.file("a.h5"));
   const auto golden = entries_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.exudyn.h5");
@@ -160,10 +160,11 @@ TEST(Exudyn, IsTheSameDictionaryAsBefore)
 
 TEST(Exudyn, NeedsMassIntegralsAndLeavesNothingWithoutThem)
 {
-  const test::ScratchFolder folder;
+  const files::test::ScratchFolder folder;
   FloatingBody floating = wheel_of_points();
   floating.body.mass_integrals.reset();
-  const std::string text = test::error_of([&] { write_exudyn(folder.file("a.h5"), floating); });
+  const std::string text =
+      files::test::error_of([&] { write_exudyn(folder.file("a.h5"), floating); });
   EXPECT_NE(text.find("reduce the scene again"), std::string::npos) << text;
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.h5")));
 }

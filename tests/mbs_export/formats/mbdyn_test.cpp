@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "../bending_beam.hpp"
-#include "../scratch_folder.hpp"
 #include "../version_1.hpp"
 #include "../wheel.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
@@ -274,13 +274,14 @@ TEST(MbdynFem, OfAFreeBodyHasNoRigidModesAndNoMomentum)
 TEST(MbdynFem, IsRefusedWhereTheReaderWouldLoseTheCoupling)
 {
   const FloatingBody floating = floating_body(test::wheel(), held_hub());
-  const std::string text = test::error_of([&] { mbdyn_fem(floating, MbdynVersion::v1_7); });
+  const std::string text = files::test::error_of([&] { mbdyn_fem(floating, MbdynVersion::v1_7); });
   EXPECT_NE(text.find("mbdyn-develop"), std::string::npos) << text;
 }
 
 TEST(FloatingBody, NeedsAllSixRigidMotions)
 {
-  const std::string text = test::error_of([] { floating_body(test::reduced_beam(30, 5), {}); });
+  const std::string text =
+      files::test::error_of([] { floating_body(test::reduced_beam(30, 5), {}); });
   EXPECT_NE(text.find("2 of the 6"), std::string::npos) << text;
 }
 
@@ -304,13 +305,13 @@ TEST(MbdynFem, IsTheSameTextAsBefore)
   floating.angular_momentum = MatrixXd::Zero(3, 2);
   floating.angular_momentum(0, 1) = -4.0;
   EXPECT_EQ(mbdyn_fem(floating, MbdynVersion::develop),
-            test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_masses.fem"));
+            files::test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_masses.fem"));
 }
 
 TEST(MbdynFem, WithAllInvariantsIsTheSameTextAsBefore)
 {
   EXPECT_EQ(mbdyn_fem(test::version_1_floating(), MbdynVersion::develop),
-            test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.fem"));
+            files::test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.fem"));
 }
 
 }  // namespace

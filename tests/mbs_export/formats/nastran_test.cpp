@@ -7,10 +7,10 @@
 #include <map>
 #include <sstream>
 
-#include "../scratch_folder.hpp"
 #include "../wheel.hpp"
+#include "files/text_file.hpp"
 #include "mbs_export/formats/op4.hpp"
-#include "mbs_export/formats/text_file.hpp"
+#include "tests/files/scratch_folder.hpp"
 #include "two_nodes.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -20,7 +20,7 @@ using Eigen::Index, Eigen::MatrixXd;
 
 std::string golden(const std::string& name)
 {
-  return test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/" + name);
+  return files::test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/" + name);
 }
 
 std::vector<std::string> lines_of(const std::string& text)
@@ -199,10 +199,11 @@ TEST(NastranDmig, RefusesWhatItsFieldsCannotHold)
   ReducedSystem system = test::two_nodes();
   system.C = system.K;
   system.C(0, 1) *= 2.0;
-  EXPECT_NE(test::error_of([&] { nastran_dmig(system); }).find("not symmetric"), std::string::npos);
+  EXPECT_NE(files::test::error_of([&] { nastran_dmig(system); }).find("not symmetric"),
+            std::string::npos);
   system.C.resize(0, 0);
   system.K(0, 0) = 1e120;
-  EXPECT_NE(test::error_of([&] { nastran_dmig(system); }).find("1e+120"), std::string::npos);
+  EXPECT_NE(files::test::error_of([&] { nastran_dmig(system); }).find("1e+120"), std::string::npos);
 }
 
 TEST(Op4, ReturnsEveryDigit)
@@ -281,16 +282,18 @@ TEST(NastranSuperelement, NamesEveryRowOfItsMatricesOnce)
 
 TEST(NastranSuperelement, RefusesNumbersThatAreNone)
 {
-  EXPECT_FALSE(test::error_of([] { nastran_superelement(test::two_nodes(), 0); }).empty());
+  EXPECT_FALSE(files::test::error_of([] { nastran_superelement(test::two_nodes(), 0); }).empty());
 }
 
 TEST(WriteText, ReplacesAFileOrLeavesItAsItWas)
 {
-  const test::ScratchFolder folder;
-  write_text(folder.file("a.txt"), "old");
-  write_text(folder.file("a.txt"), "new");
-  EXPECT_EQ(test::bytes_of(folder.file("a.txt")), "new");
-  EXPECT_NE(test::error_of([&] { write_text(folder.file("none/a.txt"), "x"); }).find("none/a.txt"),
+  const files::test::ScratchFolder folder;
+  files::write_text(folder.file("a.txt"), "old");
+  files::write_text(folder.file("a.txt"), "new");
+  EXPECT_EQ(files::test::bytes_of(folder.file("a.txt")), "new");
+  EXPECT_NE(files::test::error_of([&] {
+              files::write_text(folder.file("none/a.txt"), "x");
+            }).find("none/a.txt"),
             std::string::npos);
   const auto n_files = std::distance(std::filesystem::directory_iterator(folder.path()), {});
   EXPECT_EQ(n_files, 1);

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "../bending_beam.hpp"
-#include "../scratch_folder.hpp"
 #include "../version_1.hpp"
 #include "../wheel.hpp"
+#include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
 namespace {
@@ -327,7 +327,7 @@ TEST(SidFem, SaysTheSameInBothDialects)
 TEST(SidFem, IsTheSameTextAsBefore)
 {
   EXPECT_EQ(sid_fem(test::version_1_floating(), SidDialect::simpack),
-            test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.SID_FEM"));
+            files::test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.SID_FEM"));
 }
 
 TEST(SidFem, NeedsMassIntegrals)
@@ -335,7 +335,7 @@ TEST(SidFem, NeedsMassIntegrals)
   ReducedSystem wheel = test::wheel();
   wheel.mass_integrals.reset();
   const std::string text =
-      test::error_of([&] { sid_fem(floating_body(wheel, {}), SidDialect::simpack); });
+      files::test::error_of([&] { sid_fem(floating_body(wheel, {}), SidDialect::simpack); });
   EXPECT_NE(text.find("reduce the scene again"), std::string::npos) << text;
 }
 

@@ -1,0 +1,57 @@
+#include "cases/fe_solution.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/mesh_scene.hpp"
+#include "cases/ranks.hpp"
+#include "mesh/partition.hpp"
+#include "plate/dofs/drilling.hpp"
+#include "plate/dofs/supports.hpp"
+
+namespace chladni::cases {
+namespace {
+
+SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
+{
+  std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
+  plate::DofMap dofs = plate::make_dof_map(
+      mesh, {.couplings = scene.couplings, .components = scene.components}, owners, n_ranks());
+  plate::check_stiffness_of_all_nodes(mesh, dofs);
+  std::vector<int> held = plate::held_dofs(mesh, dofs, scene.supports);
+  plate::refuse_drilling(mesh, dofs, scene.supports, scene.springs);
+  std::vector<plate::FreePart> free = plate::free_parts(mesh, dofs, held, scene.springs);
+  plate::System system =
+      plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
+  return {.mesh = std::move(mesh),
+          .system = std::move(system),
+          .owners = std::move(owners),
+          .held = std::move(held),
+          .free = std::move(free)};
+}
+
+}  // namespace
+
+SupportedModel supported_model(const scene::Scene& scene, Phases& phases)
+{
+  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
+  return phases.run("assembly", [&] { return assemble_supported(scene, std::move(mesh)); });
+}
+
+report::TextTable model_table(const SupportedModel& model)
+{
+  report::TextTable table{.header = {"model", "value"}, .rows = {}};
+  table.rows.push_back({"nodes of the mesh", fmt::format("{}", model.mesh.n_nodes())});
+  table.rows.push_back({"DOFs", fmt::format("{}", model.system.dofs.n_dofs())});
+  table.rows.push_back({"DOFs held by supports", fmt::format("{}", model.held.size())});
+  return table;
+}
+
+std::vector<report::Json::Member> model_json(const SupportedModel& model)
+{
+  return {{"n_nodes", model.mesh.n_nodes()},
+          {"n_dofs", model.system.dofs.n_dofs()},
+          {"n_held", model.held.size()},
+          {"n_rigid", plate::n_free_motions(model.free)}};
+}
+
+}  // namespace chladni::cases

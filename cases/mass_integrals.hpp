@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cases/reduce_steps.hpp"
+#include "mbs_export/mass_integrals.hpp"
+
+namespace chladni::cases {
+
+/// Of the FE model in the coordinates of the reduced system.
+/// @note   Collective.
+mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, const FeModel& fe,
+                                         const SceneReduction& reduced);
+
+}  // namespace chladni::cases

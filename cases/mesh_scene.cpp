@@ -1,0 +1,26 @@
+#include "cases/mesh_scene.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/broadcast_mesh.hpp"
+#include "cases/ranks.hpp"
+#include "mesh/generators.hpp"
+
+namespace chladni::cases {
+
+mesh::Mesh mesh_scene(const scene::Scene& scene)
+{
+  return mesh::generate(scene.mesh);
+}
+
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene)
+{
+  mesh::Mesh mesh;
+  on_first_rank([&] {
+    mesh = mesh_scene(scene);
+    for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+  });
+  return broadcast(mesh);
+}
+
+}  // namespace chladni::cases

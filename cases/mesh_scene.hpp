@@ -1,0 +1,17 @@
+#pragma once
+
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
+
+namespace chladni::cases {
+
+/// The mesh of the scene, with its rings.
+/// @throws chladni::Error as mesh::generate.
+mesh::Mesh mesh_scene(const scene::Scene& scene);
+
+/// The mesh of the first rank on all ranks.
+/// @note   Collective on all ranks.
+/// @throws chladni::Error on all ranks alike.
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene);
+
+}  // namespace chladni::cases

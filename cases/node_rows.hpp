@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "plate/dofs/dof_map.hpp"
+
+namespace chladni::cases {
+
+/// Rows of the transformation for a list of DOFs, [n x n_FE].
+using RowsOf = std::function<Eigen::MatrixXd(const std::vector<int>& dofs)>;
+
+/// Displacement and rotation of nodes for each reduced coordinate: row 6 k + c is component c of
+/// nodes[k]. Dependent nodes follow their reference nodes; components that the model does not have
+/// are zero.
+/// @return [6 n x n_FE], m and rad per unit of each coordinate
+Eigen::MatrixXd node_rows(const std::vector<int>& nodes, const plate::DofMap& dofs,
+                          const RowsOf& rows_of);
+
+}  // namespace chladni::cases

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cases/node_rows.hpp"
+#include "mbs_export/reduced_system.hpp"
+#include "mesh/mesh.hpp"
+#include "plate/dofs/dof_map.hpp"
+#include "scene/scene.hpp"
+
+namespace chladni::cases {
+
+/// The nodes and cells of a picture: vertices only, or the whole lattice of each element.
+struct PictureNodes {
+  std::vector<int> nodes;  ///< of the mesh
+  std::vector<std::array<int, 4>>
+      cells;  ///< indices into `nodes`; a triangle repeats its last one, a line twice
+};
+PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice);
+
+/// Positions, cells and displacements; dependent nodes follow their reference nodes.
+mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
+                                 const RowsOf& rows_of);
+
+}  // namespace chladni::cases

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+/// The processes that mpirun started, while PETSc runs.
+namespace chladni::cases {
+
+/// Of this process among those that mpirun started.
+int rank();
+int n_ranks();
+
+/// Over all ranks. @note Collective.
+double sum_over_ranks(double x);
+double largest_of_ranks(double x);
+
+/// Performs `work` on the first rank, while the others wait for it.
+/// @throws chladni::Error on all ranks, with the text of what `work` threw on the first.
+/// @note   Collective.
+void on_first_rank(const std::function<void()>& work);
+
+}  // namespace chladni::cases

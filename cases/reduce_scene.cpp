@@ -1,0 +1,257 @@
+#include "cases/reduce_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "cases/enrich_scene.hpp"
+#include "cases/mass_integrals.hpp"
+#include "cases/mesh_scene.hpp"
+#include "cases/picture.hpp"
+#include "cases/ranks.hpp"
+#include "cases/reduce_steps.hpp"
+#include "cases/scene_support.hpp"
+#include "cases/section_forces.hpp"
+#include "linear/cholesky/cholesky_types.hpp"
+#include "mesh/partition.hpp"
+#include "plate/assembly/rigid_motions.hpp"
+#include "reduce_export/reduced_system.hpp"
+#include "report/version.hpp"
+
+namespace chladni::cases {
+namespace {
+
+using Eigen::MatrixXd;
+
+FeModel assemble_scene(const scene::Scene& scene, mesh::Mesh mesh)
+{
+  plate::DofMap dofs = plate::make_dof_map(
+      mesh,
+      {.couplings = scene.couplings, .components = scene.components, .rings = scene.ring_harmonics},
+      mesh::node_owners(mesh, n_ranks()), n_ranks());
+  Attachments attachments = find_attachments(mesh, dofs, scene.interface_nodes);
+  plate::System system =
+      plate::assemble(mesh, structure_of(scene), std::move(dofs), PETSC_COMM_WORLD);
+  return {
+      .mesh = std::move(mesh), .system = std::move(system), .attachments = std::move(attachments)};
+}
+
+/// "node 17 (0.1, 0.2, 0), z"; nothing for a DOF that is no component of a node.
+std::string name_of_dof(const FeModel& fe, PetscInt dof)
+{
+  const plate::DofMap& dofs = fe.system.dofs;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    for (const int c : dofs.components()) {
+      if (dofs.dof(node, c) != dof) continue;
+      const Eigen::Vector3d x = dofs.position(node);
+      return fmt::format("node {} ({:.6g}, {:.6g}, {:.6g}), {}", node_number(fe.mesh, dofs, node),
+                         x[0], x[1], x[2], plate::component_names[static_cast<std::size_t>(c)]);
+    }
+  }
+  return "";
+}
+
+/// Whether the rigid-body motions are those of the nodes, and no spring resists them.
+bool geometry_tells_motions(const scene::Scene& scene, const FeModel& fe)
+{
+  const bool is_free = std::ranges::all_of(
+      scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
+  return is_free && !fe.system.dofs.has_combined_motions();
+}
+
+/// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
+/// what else PETSc's viewers know.
+void view_from_options(const FeModel& fe)
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(fe.system.K, &first, &last));
+  std::vector<PetscInt> own;
+  std::ranges::copy_if(fe.attachments.master_dofs, std::back_inserter(own),
+                       [&](PetscInt dof) { return dof >= first && dof < last; });
+  petsc::IndexSet masters;
+  petsc::check(ISCreateGeneral(PETSC_COMM_WORLD, static_cast<PetscInt>(own.size()), own.data(),
+                               PETSC_COPY_VALUES, masters.put()));
+  petsc::check(MatViewFromOptions(fe.system.K, nullptr, "-cms_view_stiffness"));
+  petsc::check(MatViewFromOptions(fe.system.M, nullptr, "-cms_view_mass"));
+  petsc::check(ISViewFromOptions(masters, nullptr, "-cms_view_masters"));
+}
+
+/// The body takes the matrices of the model.
+reduce::Body body_of(const scene::Scene& scene, FeModel& fe)
+{
+  view_from_options(fe);
+  petsc::Matrix R =
+      geometry_tells_motions(scene, fe) ? plate::rigid_motions(fe.system) : petsc::Matrix();
+  return {.K = std::move(fe.system.K),
+          .M = std::move(fe.system.M),
+          .masters = {fe.attachments.master_dofs.begin(), fe.attachments.master_dofs.end()},
+          .R = std::move(R),
+          .name_of_dof = [&](PetscInt dof) { return name_of_dof(fe, dof); }};
+}
+
+reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::SolverOptions& solver)
+{
+  constexpr double in_mass_integrals = 350.0, for_each_mode = 0.6;  // columns, measured
+  const bool has_integrals = scene.mass_integrals;
+  return {.basis = scene.reduce,
+          .solver = solver,
+          .count = scene.sylvester,
+          .keeps_matrices = wants_full_responses(scene),
+          .later_columns = has_integrals ? in_mass_integrals : 0.0,
+          .later_columns_for_each_mode = has_integrals ? for_each_mode : 0.0};
+}
+
+/// The system that is written without its matrices.
+mbs_export::ReducedSystem described(const scene::Scene& scene, const FeModel& fe)
+{
+  mbs_export::ReducedSystem system;
+  system.title = scene.title;
+  system.sets = fe.attachments.sets;
+  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
+    const int node = fe.attachments.nodes[i];
+    const Eigen::Vector3d x = fe.system.dofs.position(node);
+    system.attachment_nodes.push_back({.number = node_number(fe.mesh, fe.system.dofs, node),
+                                       .position = {x[0], x[1], x[2]},
+                                       .drilling_axis = fe.attachments.drilling_axes[i]});
+  }
+  system.masters = fe.attachments.masters;
+  if (!fe.system.dofs.harmonic_rings().empty()) {
+    system.ring_motion = {.shapes = master_shapes(fe.attachments, fe.system.dofs),
+                          .displacements = {}};
+  }
+  return system;
+}
+
+/// The supports of the scene's body that hold masters: those that hold nodes of a ring of harmonics
+/// leave a residual that the certificate does not know.
+std::vector<std::string> certified_support(const scene::Scene& scene, const FeModel& fe)
+{
+  std::vector<std::string> support;
+  for (const std::string& fixed : scene.body.fixed) {
+    const bool is_master = std::ranges::none_of(fe.attachments.sets, [&](const auto& set) {
+      const bool is_meant = fixed == set.name || fixed.substr(0, fixed.rfind('.')) == set.name;
+      return is_meant && has_ring_nodes(fe.attachments, fe.system.dofs, set);
+    });
+    if (is_master) support.push_back(fixed);
+  }
+  return support;
+}
+
+bool finds_modes(const scene::Scene& scene)
+{
+  return scene.reduce.method == reduce::Method::craig_bampton;
+}
+
+SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
+                            const linear::SolverOptions& solver, Phases& phases)
+{
+  const reduce::ReductionOptions options = options_of(scene, solver);
+  mbs_export::ReducedSystem system = described(scene, fe);
+  reduce::FactoredBody body = reduce::factored(body_of(scene, fe), options, phases);
+  const SceneSupport support(system, body.masters, certified_support(scene, fe));
+  reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
+  system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  const auto n_modes = static_cast<int>(reduction.model.omega.size());
+  const double residual = phases.run("residuals", [&] {
+    return finds_modes(scene)
+               ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
+               : 0.0;
+  });
+  if (wants_full_responses(scene)) {
+    reduction = reduce::with_responses(std::move(reduction), body,
+                                       full_response_loads(scene, system, body.masters), phases);
+    system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  }
+  std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
+  SceneReduction reduced{.body = std::move(body),
+                         .reduction = std::move(reduction),
+                         .places = std::move(places),
+                         .system = std::move(system),
+                         .n_modes = n_modes,
+                         .modes_residual = residual};
+  if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
+  return reduced;
+}
+
+/// Of the transformation, with the columns in the order of the file.
+RowsOf rows_of(const SceneReduction& reduced)
+{
+  return [&](const std::vector<int>& dofs) -> MatrixXd {
+    const linear::SmallMatrix rows =
+        reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs);
+    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(Eigen::all,
+                                                                                    reduced.places);
+  };
+}
+
+/// Room for interface modes of the whole model, mass integrals, pictures and section forces.
+SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& fe,
+                                     SceneReduction reduced, Phases& phases)
+{
+  if (scene.mass_integrals) {
+    reduced.system.mass_integrals = phases.run(
+        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, reduced); });
+  }
+  const RowsOf rows = rows_of(reduced);
+  if (reduced.system.ring_motion) {
+    reduced.system.ring_motion->displacements =
+        node_rows(fe.attachments.nodes, fe.system.dofs, rows);
+  }
+  reduced.system.picture = phases.run("pictures", [&] {
+    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
+  });
+  if (!scene.resultants.groups.empty()) {
+    reduced.system.resultants = phases.run("section forces", [&] {
+      return section_forces(scene.resultants, structure_of(scene), fe, rows);
+    });
+  }
+  return reduced;
+}
+
+}  // namespace
+
+plate::Structure structure_of(const scene::Scene& scene)
+{
+  return {.shells = scene.sections,
+          .beams = scene.beams,
+          .masses = scene.masses,
+          .springs = scene.springs};
+}
+
+MatrixXd projected(const SceneReduction& reduced, Mat A)
+{
+  return reduce_export::in_order(
+      reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs)),
+      reduced.places);
+}
+
+ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
+                           const ReduceProgress& progress)
+{
+  Phases phases(progress);
+  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
+  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
+  SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
+  reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
+  mbs_export::ReducedSystem& system = reduced.system;
+  system.provenance = {.scene = scene.text,
+                       .mesh_checksum = mesh::checksum(fe.mesh),
+                       .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API",
+                                               report::version, reduce_export::library_versions()),
+                       .options = solvers.text,
+                       .ranks = n_ranks()};
+  return {
+      .reduced = std::move(system),
+      .phases = phases.times(),
+      .n_dofs = fe.system.dofs.n_dofs(),
+      .n_nodes = fe.mesh.n_nodes(),
+      .n_masters = static_cast<int>(reduced.body.masters.size()),
+      .n_modes = reduced.n_modes,
+      .n_modes_asked = finds_modes(scene) ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
+      .factorization = phases.time_of("factorization"),
+      .factor = linear::factor_size(reduced.body.K_ss.factor()),
+      .modes_residual = reduced.modes_residual};
+}
+
+}  // namespace chladni::cases

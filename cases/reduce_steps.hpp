@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "cases/attachments.hpp"
+#include "cases/phases.hpp"
+#include "mesh/mesh.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "reduce/reduction.hpp"
+#include "scene/scene.hpp"
+
+/// What the steps of reduce_scene hand on.
+namespace chladni::cases {
+
+struct FeModel {
+  mesh::Mesh mesh;
+  plate::System system;
+  Attachments attachments;
+};
+
+/// A reduction of it, and the system that is written.
+struct SceneReduction {
+  reduce::FactoredBody body;
+  reduce::Reduction reduction;
+  std::vector<int> places;           ///< of the coordinates of the file in the model
+  mbs_export::ReducedSystem system;  ///< in the order of the file
+  int n_modes;                       ///< fixed-interface or free-interface modes
+  double modes_residual;             ///< largest of the fixed-interface modes
+};
+
+/// What the body of the scene is made of; refers to the scene.
+plate::Structure structure_of(const scene::Scene& scene);
+
+/// A matrix of the FE model in the coordinates of the file.
+/// @note   Collective.
+Eigen::MatrixXd projected(const SceneReduction& reduced, Mat A);
+
+}  // namespace chladni::cases

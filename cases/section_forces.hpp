@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/node_rows.hpp"
+#include "cases/reduce_steps.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+namespace chladni::cases {
+
+/// Of beams the section forces N, Q_y, Q_z, M_x, M_y, M_z (on the face with normal +x, in the local
+/// axes) at both ends of every beam of each group, of shells those of shell_section_forces; kinds
+/// that no component of the model can cause are left out.
+/// @note   Collective, as rows_of.
+/// @throws chladni::Error for a group without section, or without any of the chosen elements.
+std::vector<mbs_export::ResultantModes> section_forces(const scene::ResultantChoice& choice,
+                                                       const plate::Structure& structure,
+                                                       const FeModel& fe, const RowsOf& rows_of);
+
+}  // namespace chladni::cases

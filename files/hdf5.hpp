@@ -1,0 +1,138 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/replacement.hpp"
+
+/// A thin layer over the HDF5 C library: atomic writing, sealed files (seal.hpp), strict reading.
+/// Paths of datasets are relative to the root ("rings/track/W"); groups on the way are created as
+/// needed.
+namespace chladni::files {
+
+using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Extents that a dataset must have; `any` leaves one open.
+constexpr Eigen::Index any = -1;
+struct Shape {
+  Eigen::Index rows = any;
+  Eigen::Index cols = any;
+};
+
+/// A column of a matrix that a file holds.
+struct Column {
+  std::string matrix;
+  Eigen::Index rows, cols;  ///< of the matrix
+  Eigen::Index column;
+};
+
+/// Writes a file under a temporary name beside the target; only `commit` gives it its name.
+class Writer {
+ public:
+  /// @throws chladni::Error when the folder does not exist or cannot be written.
+  explicit Writer(std::string target);
+  /// Removes the temporary file when there was no commit.
+  ~Writer();
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  /// Closes, seals, flushes to disk and renames. The writer takes nothing more afterwards.
+  void commit();
+
+  void group(const std::string& name);
+
+  /// A vector becomes [n], a matrix [rows x cols] as h5py sees it (stored by rows).
+  /// @param unit  "m", "rad/s", ...; "1" for a pure number
+  template <class Derived>
+  void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)
+  {
+    RowMajorMatrix rows(x.rows(), x.cols());
+    rows = x.template cast<double>();
+    if constexpr (Derived::IsVectorAtCompileTime)
+      write_reals(name, rows.data(), {static_cast<std::uint64_t>(rows.size())}, unit);
+    else
+      write_reals(name, rows.data(), extents(rows.rows(), rows.cols()), unit);
+  }
+  void write(const std::string& name, double x, const std::string& unit);
+  void write(const std::string& name, std::span<const double> x, const std::string& unit);
+  void write(const std::string& name, std::int64_t x, const std::string& unit);
+  void write(const std::string& name, std::span<const std::int64_t> x, const std::string& unit);
+  void write(const std::string& name, std::span<const int> x, const std::string& unit);
+  void write(const std::string& name, const IntegerMatrix& x, const std::string& unit);
+  void write(const std::string& name, std::span<const std::uint8_t> x, const std::string& unit);
+  void write(const std::string& name, const std::string& text);
+  void write(const std::string& name, const std::vector<std::string>& texts);
+
+  /// Another name for a dataset of the file.
+  void link(const std::string& name, const std::string& target);
+  /// The column seen as rows of three values: a dataset [rows / 3 x 3] that stores nothing.
+  void view_column(const std::string& name, const Column& column);
+
+  /// An attribute of a dataset or group; "/" is the root.
+  void attribute(const std::string& object, const std::string& name, const std::string& text);
+  void attribute(const std::string& object, const std::string& name, std::int64_t number);
+  void attribute(const std::string& object, const std::string& name,
+                 std::span<const std::int64_t> numbers);
+  /// Of variable length, for readers that compare text as h5py gives it to them: what is of fixed
+  /// length comes as bytes. Reader refuses it.
+  void variable_attribute(const std::string& object, const std::string& name,
+                          const std::string& text);
+
+ private:
+  using Extents = std::vector<std::uint64_t>;
+  static Extents extents(Eigen::Index rows, Eigen::Index cols)
+  {
+    return {static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(cols)};
+  }
+  void write_reals(const std::string& name, const double* x, const Extents& shape,
+                   const std::string& unit);
+  void write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,
+                      const std::string& unit);
+
+  const std::string& path() const { return replacement_.path(); }
+
+  Replacement replacement_;
+  std::int64_t file_ = -1;  ///< hid_t; negative once closed
+};
+
+/// Reads a file that need not be trusted: every dataset must exist, hold the right kind of value,
+/// have the rank and the extents that are asked for, fit into the file, and be finite.
+/// Every function throws chladni::Error that names the file, the dataset and what was expected.
+class Reader {
+ public:
+  /// Checks the seal before libhdf5 opens the file.
+  explicit Reader(std::string path);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool contains(const std::string& name) const;
+  /// Throws unless the root attributes `format` and `version` are these.
+  void expect_format(const std::string& format, std::int64_t version) const;
+
+  Eigen::MatrixXd matrix(const std::string& name, Shape shape = {}) const;
+  Eigen::VectorXd vector(const std::string& name, Eigen::Index size = any) const;
+  double real(const std::string& name) const;
+  std::int64_t integer(const std::string& name) const;
+  std::vector<std::int64_t> integers(const std::string& name, Eigen::Index size = any) const;
+  IntegerMatrix integer_matrix(const std::string& name, Shape shape = {}) const;
+  std::string text(const std::string& name) const;
+  std::vector<std::string> texts(const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+  const std::string& path() const { return path_; }
+  /// "PATH: NAME: WHAT" as an exception: for checks that the caller makes.
+  [[noreturn]] void fail(const std::string& name, const std::string& what) const;
+
+ private:
+  std::string path_;
+  std::int64_t file_ = -1;  ///< hid_t
+  std::uint64_t size_ = 0;  ///< of the file, bytes
+};
+
+}  // namespace chladni::files

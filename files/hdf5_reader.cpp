@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "files/hdf5.hpp"
+#include "files/hdf5_dataset.hpp"
+#include "files/seal.hpp"
+#include "files/trial_reading.hpp"
+
+namespace chladni::files {
+namespace {
+
+template <class T>
+std::vector<T> read_values(const Source& source, const std::string& name, const Dataset& dataset,
+                           hid_t type)
+{
+  std::vector<T> values(dataset.n_values());
+  if (H5Dread(dataset.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    source.reader.fail(name, "cannot be read; the file is damaged");
+  return values;
+}
+
+std::vector<double> read_reals(const Source& source, const std::string& name,
+                               const Dataset& dataset)
+{
+  const auto values = read_values<double>(source, name, dataset, H5T_NATIVE_DOUBLE);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      source.reader.fail(name, fmt::format("value {} of {} is {}, expected finite numbers", i + 1,
+                                           values.size(), values[i]));
+  return values;
+}
+
+/// Cuts n texts of `size` bytes each at their padding.
+std::vector<std::string> split_texts(const std::vector<char>& padded, std::size_t size)
+{
+  std::vector<std::string> texts;
+  for (auto text = padded.begin(); text != padded.end(); text += std::ptrdiff_t(size))
+    texts.emplace_back(text, std::find(text, text + std::ptrdiff_t(size), '\0'));
+  return texts;
+}
+
+std::vector<std::string> read_texts(const Source& source, const std::string& name,
+                                    const Dataset& dataset)
+{
+  const Handle type{H5Dget_type(dataset.id.get()), H5Tclose};
+  if (H5Tis_variable_str(type.get()) != 0)
+    source.reader.fail(name, "holds text of variable length, expected fixed length");
+  const std::size_t size = H5Tget_size(type.get());
+  std::vector<char> padded(dataset.n_values() * size);
+  if (H5Dread(dataset.id.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0)
+    source.reader.fail(name, "cannot be read; the file is damaged");
+  return split_texts(padded, size);
+}
+
+Handle open_attribute(const Source& source, const std::string& object, const std::string& name)
+{
+  Handle id{H5Aopen_by_name(source.file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+            H5Aclose};
+  if (!id.valid()) source.reader.fail(object, fmt::format("has no attribute '{}'", name));
+  return id;
+}
+
+/// Throws unless the attribute is one value of this kind.
+Handle attribute_type(const Source& source, hid_t attribute, const std::string& name,
+                      H5T_class_t expected)
+{
+  Handle type{H5Aget_type(attribute), H5Tclose};
+  const Handle space{H5Aget_space(attribute), H5Sclose};
+  const bool is_text = expected == H5T_STRING;
+  if (H5Tget_class(type.get()) != expected || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      (is_text && H5Tis_variable_str(type.get()) != 0) || H5Tget_size(type.get()) == 0 ||
+      H5Tget_size(type.get()) > source.size)
+    source.reader.fail("attribute " + name,
+                       fmt::format("expected one value, {}{}", class_name(expected),
+                                   is_text ? " of fixed length" : ""));
+  return type;
+}
+
+}  // namespace
+
+Reader::Reader(std::string path) : path_(std::move(path))
+{
+  silence_errors();
+  std::error_code absent;
+  size_ = std::filesystem::file_size(path_, absent);
+  if (absent) throw Error(fmt::format("{}: no such file, or not readable", path_));
+  if (!check_seal(path_) && !survives_reading(path_))
+    throw Error(fmt::format(
+        "{}: is so damaged that libhdf5 ends over it; make it anew or take a copy", path_));
+  file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_ < 0) throw Error(fmt::format("{}: not an HDF5 file, or cut short", path_));
+}
+
+Reader::~Reader()
+{
+  H5Fclose(file_);
+}
+
+void Reader::fail(const std::string& name, const std::string& what) const
+{
+  throw Error(fmt::format("{}: {}: {}", path_, name, what));
+}
+
+bool Reader::contains(const std::string& name) const
+{
+  for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
+    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+void Reader::expect_format(const std::string& format, std::int64_t version) const
+{
+  const std::string found = text_attribute("/", "format");
+  if (found != format) fail("/", fmt::format("has format '{}', expected '{}'", found, format));
+  const std::int64_t number = integer_attribute("/", "version");
+  if (number != version)
+    fail("/", fmt::format("has version {} of format '{}'; this program reads version {}", number,
+                          format, version));
+}
+
+Eigen::MatrixXd Reader::matrix(const std::string& name, Shape shape) const
+{
+  const Source source{*this, file_, size_};
+  const Dataset dataset = open_dataset(source, name, {H5T_FLOAT, {shape.rows, shape.cols}});
+  const auto values = read_reals(source, name, dataset);
+  return Eigen::Map<const RowMajorMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
+}
+
+Eigen::VectorXd Reader::vector(const std::string& name, Eigen::Index size) const
+{
+  const Source source{*this, file_, size_};
+  const auto values = read_reals(source, name, open_dataset(source, name, {H5T_FLOAT, {size}}));
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
+}
+
+double Reader::real(const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  return read_reals(source, name, open_dataset(source, name, {H5T_FLOAT, {}})).front();
+}
+
+std::int64_t Reader::integer(const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {}});
+  return read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64).front();
+}
+
+std::vector<std::int64_t> Reader::integers(const std::string& name, Eigen::Index size) const
+{
+  const Source source{*this, file_, size_};
+  const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {size}});
+  return read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64);
+}
+
+IntegerMatrix Reader::integer_matrix(const std::string& name, Shape shape) const
+{
+  const Source source{*this, file_, size_};
+  const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {shape.rows, shape.cols}});
+  const auto values = read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64);
+  return Eigen::Map<const IntegerMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
+}
+
+std::string Reader::text(const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  return read_texts(source, name, open_dataset(source, name, {H5T_STRING, {}})).front();
+}
+
+std::vector<std::string> Reader::texts(const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  return read_texts(source, name, open_dataset(source, name, {H5T_STRING, {any}}));
+}
+
+std::string Reader::text_attribute(const std::string& object, const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  const Handle attribute = open_attribute(source, object, name);
+  const Handle type = attribute_type(source, attribute.get(), name, H5T_STRING);
+  std::vector<char> padded(H5Tget_size(type.get()));
+  if (H5Aread(attribute.get(), type.get(), padded.data()) < 0)
+    fail(object, fmt::format("attribute '{}' cannot be read", name));
+  return split_texts(padded, padded.size()).front();
+}
+
+std::int64_t Reader::integer_attribute(const std::string& object, const std::string& name) const
+{
+  const Source source{*this, file_, size_};
+  const Handle attribute = open_attribute(source, object, name);
+  const Handle type = attribute_type(source, attribute.get(), name, H5T_INTEGER);
+  std::int64_t number = 0;
+  if (H5Aread(attribute.get(), H5T_NATIVE_INT64, &number) < 0)
+    fail(object, fmt::format("attribute '{}' cannot be read", name));
+  return number;
+}
+
+}  // namespace chladni::files

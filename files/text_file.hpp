@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace chladni::files {
+
+/// Writes `text` under a temporary name beside `path`, flushes it to disk and renames it.
+/// @throws chladni::Error when the file cannot be written; an older one is then left as it was.
+void write_text(const std::string& path, std::string_view text);
+
+}  // namespace chladni::files

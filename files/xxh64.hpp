@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace chladni::files {
+
+/// The digest XXH64 with seed 0, as `xxhsum -H64` prints it, of bytes that arrive in pieces. It
+/// finds damage, not forgery. Source: Collet, xxHash fast digest algorithm, specification 0.1.1
+/// (XXH64).
+class Xxh64 {
+ public:
+  static constexpr std::size_t stripe = 32;
+
+  /// @param bytes  whole stripes: a multiple of 32 bytes
+  void add(std::span<const std::uint8_t> bytes);
+  /// @param rest   what follows them, any number of bytes
+  /// @return the digest of all
+  std::uint64_t finish(std::span<const std::uint8_t> rest);
+
+ private:
+  std::uint64_t merged_lanes() const;
+
+  static constexpr std::uint64_t p1 = 0x9E3779B185EBCA87, p2 = 0xC2B2AE3D27D4EB4F,
+                                 p3 = 0x165667B19E3779F9, p4 = 0x85EBCA77C2B2AE63,
+                                 p5 = 0x27D4EB2F165667C5;
+  static constexpr std::uint64_t round(std::uint64_t lane, std::uint64_t word);
+
+  std::array<std::uint64_t, 4> lanes_ = {p1 + p2, p2, 0, 0 - p1};
+  std::uint64_t length_ = 0;
+};
+
+}  // namespace chladni::files

@@ -1,0 +1,254 @@
+#include "linear/cholesky/cholesky_types.hpp"
+
+#include <petsc/private/matimpl.h>
+
+#include <memory>
+#include <string_view>
+
+#include "linear/cholesky/cholesky_callbacks.hpp"
+#include "linear/cholesky/mumps_factor.hpp"
+#include "linear/cholesky/pivoting_fallback.hpp"
+#include "linear/cholesky/supernodal/supernodal_factor.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+PetscErrorCode factorize(Mat F, Mat A, const MatFactorInfo*)
+{
+  return guarded([&] {
+    factor_of(F).factorize(A);
+    F->factorerrortype = factor_of(F).error();
+    F->assembled = PETSC_TRUE;
+    F->ops->solve = solve_vector;
+    F->ops->solvetranspose = solve_vector;
+    F->ops->matsolve = solve_block;
+    F->ops->matsolvetranspose = solve_block;
+    F->ops->mattransposesolve = solve_sparse;
+  });
+}
+
+PetscErrorCode analyze(Mat F, Mat A, IS, const MatFactorInfo*)
+{
+  F->ops->choleskyfactornumeric = factorize;
+  return guarded([&] {
+    CholeskyFactor& factor = factor_of(F);
+    factor.analyze(A);
+    F->factorerrortype = factor.error();
+    if (!factor.memory_need(petsc::communicator(A)).fits())
+      F->factorerrortype = MAT_FACTOR_OUTMEMORY;
+  });
+}
+
+PetscErrorCode destroy(Mat F)
+{
+  delete static_cast<CholeskyFactor*>(F->data);
+  F->data = nullptr;
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
+                                       nullptr));
+  for (const char* method :
+       {"MatMumpsGetInfog_C", "MatMumpsGetIcntl_C", "MatMumpsSetIcntl_C", "MatMumpsSetCntl_C"}) {
+    PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), method, nullptr));
+  }
+  return 0;
+}
+
+PetscErrorCode solver_type(Mat F, MatSolverType* type)
+{
+  *type = F->solvertype;
+  return 0;
+}
+
+MumpsFactor& mumps_of(Mat F)
+{
+  return dynamic_cast<MumpsFactor&>(factor_of(F).active());
+}
+
+PetscErrorCode get_infog(Mat F, PetscInt index, PetscInt* value)
+{
+  *value = mumps_of(F).info(index);
+  return 0;
+}
+
+PetscErrorCode get_icntl(Mat F, PetscInt index, PetscInt* value)
+{
+  *value = mumps_of(F).control(static_cast<int>(index));
+  return 0;
+}
+
+PetscErrorCode set_icntl(Mat F, PetscInt index, PetscInt value)
+{
+  mumps_of(F).set_control(static_cast<int>(index), static_cast<int>(value));
+  return 0;
+}
+
+PetscErrorCode set_cntl(Mat F, PetscInt index, PetscReal value)
+{
+  mumps_of(F).set_control(static_cast<int>(index), value);
+  return 0;
+}
+
+PetscErrorCode get_info(Mat F, MatInfoType, MatInfo* info)
+{
+  *info = {};
+  info->nz_used = info->nz_allocated = factor_of(F).size().entries;
+  return 0;
+}
+
+PetscErrorCode view(Mat F, PetscViewer viewer)
+{
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", factor_of(F).description().c_str()));
+  return 0;
+}
+
+PetscErrorCode set_from_options(MumpsFactor& factor, MPI_Comm comm, const char* prefix)
+{
+  constexpr int n_integer = 40, n_real = 15;
+  PetscFunctionBegin;
+  PetscOptionsBegin(comm, prefix, "MUMPS ordered by METIS", "Mat");
+  for (int i = 1; i <= n_integer; ++i) {
+    PetscInt value = factor.control(i);
+    PetscBool given = PETSC_FALSE;
+    PetscCall(PetscOptionsInt(fmt::format("-mat_mumps_icntl_{}", i).c_str(),
+                              fmt::format("ICNTL({}) of MUMPS' manual", i).c_str(), nullptr, value,
+                              &value, &given));
+    if (given) factor.set_control(i, static_cast<int>(value));
+  }
+  for (int i = 1; i <= n_real; ++i) {
+    PetscReal value = factor.real_control(i);
+    PetscBool given = PETSC_FALSE;
+    PetscCall(PetscOptionsReal(fmt::format("-mat_mumps_cntl_{}", i).c_str(),
+                               fmt::format("CNTL({}) of MUMPS' manual", i).c_str(), nullptr, value,
+                               &value, &given));
+    if (given) factor.set_control(i, value);
+  }
+  PetscOptionsEnd();
+  PetscFunctionReturn(0);
+}
+
+/// As PETSc's own interface to MUMPS: pivoting unless the matrix is known to be definite.
+std::unique_ptr<CholeskyFactor> new_mumps_factor(Mat A)
+{
+  const MPI_Comm comm = petsc::communicator(A);
+  PetscBool is_known = PETSC_FALSE, is_definite = PETSC_FALSE;
+  petsc::check(MatIsSPDKnown(A, &is_known, &is_definite));
+  const Definiteness definiteness =
+      is_known && is_definite ? Definiteness::positive : Definiteness::unknown;
+  auto factor = std::make_unique<MumpsFactor>(comm, definiteness);
+  const char* prefix = A->factorprefix ? A->factorprefix : reinterpret_cast<PetscObject>(A)->prefix;
+  petsc::check(set_from_options(*factor, comm, prefix));
+  return std::make_unique<PivotingFallback>(std::move(factor), comm);
+}
+
+std::unique_ptr<CholeskyFactor> new_supernodal_factor(Mat A)
+{
+  const MPI_Comm comm = petsc::communicator(A);
+  return std::make_unique<PivotingFallback>(std::make_unique<SupernodalFactor>(comm), comm);
+}
+
+PetscErrorCode create_factor(Mat A, MatFactorType type, const char* name,
+                             std::unique_ptr<CholeskyFactor> (*make)(Mat), Mat* F)
+{
+  Mat B = nullptr;
+  PetscCall(MatCreate(petsc::communicator(A), &B));
+  PetscCall(MatSetSizes(B, A->rmap->n, A->cmap->n, A->rmap->N, A->cmap->N));
+  PetscCall(PetscStrallocpy(name, &reinterpret_cast<PetscObject>(B)->type_name));
+  PetscCall(MatSetUp(B));
+  PetscCall(guarded([&] { B->data = make(A).release(); }));
+  B->ops->choleskyfactorsymbolic = analyze;
+  B->ops->destroy = destroy;
+  B->ops->view = view;
+  B->ops->getinfo = get_info;
+  B->factortype = type;
+  B->canuseordering = PETSC_FALSE;
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(B), "MatFactorGetSolverType_C",
+                                       solver_type));
+  PetscCall(PetscFree(B->solvertype));
+  PetscCall(PetscStrallocpy(name, &B->solvertype));
+  *F = B;
+  return 0;
+}
+
+PetscErrorCode create_mumps_metis(Mat A, MatFactorType type, Mat* F)
+{
+  PetscCall(create_factor(A, type, mumps_metis, new_mumps_factor, F));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsGetInfog_C",
+                                       get_infog));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsGetIcntl_C",
+                                       get_icntl));
+  PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsSetIcntl_C",
+                                       set_icntl));
+  PetscCall(
+      PetscObjectComposeFunction(reinterpret_cast<PetscObject>(*F), "MatMumpsSetCntl_C", set_cntl));
+  return 0;
+}
+
+PetscErrorCode create_supernodal(Mat A, MatFactorType type, Mat* F)
+{
+  PetscCall(create_factor(A, type, supernodal, new_supernodal_factor, F));
+  return 0;
+}
+
+/// The C++ object behind a factor of our types, otherwise null.
+CholeskyFactor* ours(Mat F)
+{
+  MatSolverType type = nullptr;
+  petsc::check(MatFactorGetSolverType(F, &type));
+  const bool is_ours =
+      std::string_view(type) == mumps_metis || std::string_view(type) == supernodal;
+  return is_ours ? &factor_of(F) : nullptr;
+}
+
+}  // namespace
+
+bool is_ours(Mat F)
+{
+  return ours(F) != nullptr;
+}
+
+void set_budget(Mat F, const MemoryBudget& budget)
+{
+  if (CholeskyFactor* factor = ours(F)) factor->budget = budget;
+}
+
+void require_definite(Mat F)
+{
+  if (CholeskyFactor* factor = ours(F)) factor->must_be_definite = true;
+}
+
+PetscInt our_negative_pivots(Mat F)
+{
+  return factor_of(F).n_negative_pivots();
+}
+
+FactorSize factor_size(Mat F)
+{
+  const CholeskyFactor* factor = ours(F);
+  return factor ? factor->size() : FactorSize{.operations = 0.0, .entries = 0.0};
+}
+
+MemoryNeed memory_need(Mat F)
+{
+  const CholeskyFactor* factor = ours(F);
+  return factor ? factor->memory_need(petsc::communicator(F)) : MemoryNeed{.needed_MiB = 0.0};
+}
+
+void register_cholesky_types()
+{
+  static bool registered = false;
+  if (registered) return;
+  // PETSc 3.18 reads its list of solvers before it fills it on the first call: it would forget all
+  // of its own ones where this is that call, as under -dll_append.
+  petsc::check(MatInitializePackage());
+  for (const MatType type : {MATSEQAIJ, MATMPIAIJ}) {
+    petsc::check(MatSolverTypeRegister(mumps_metis, type, MAT_FACTOR_CHOLESKY, create_mumps_metis));
+    petsc::check(MatSolverTypeRegister(supernodal, type, MAT_FACTOR_CHOLESKY, create_supernodal));
+  }
+  petsc::check(PetscRegisterFinalize([]() -> PetscErrorCode {
+    registered = false;  // PETSc forgets its list of solvers
+    return 0;
+  }));
+  registered = true;
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,169 @@
+#include "linear/cholesky/elimination_order.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <numeric>
+
+#include "common/all_ranks.hpp"
+#include "linear/kernels/adjacency.hpp"
+#include "linear/kernels/gather.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+/// The columns of one local row.
+std::vector<PetscInt> pattern(Mat A, PetscInt row)
+{
+  PetscInt n = 0;
+  const PetscInt* columns = nullptr;
+  petsc::check(MatGetRow(A, row, &n, &columns, nullptr));
+  std::vector<PetscInt> copy(columns, columns + n);
+  petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
+  return copy;
+}
+
+/// The first rows of the blocks of this rank, and behind them the end.
+std::vector<PetscInt> block_starts(Mat A)
+{
+  PetscInt first = 0, last = 0, block_size = 1;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  petsc::check(MatGetBlockSize(A, &block_size));
+  std::vector<PetscInt> starts;
+  if (block_size > 1) {
+    for (PetscInt row = first; row < last; row += block_size) starts.push_back(row);
+  } else {
+    std::vector<PetscInt> before;
+    for (PetscInt row = first; row < last; ++row) {
+      std::vector<PetscInt> now = pattern(A, row);
+      if (row == first || now != before) starts.push_back(row);
+      before = std::move(now);
+    }
+  }
+  starts.push_back(last);
+  return starts;
+}
+
+/// Number of the block of each row of A, on all ranks.
+std::vector<int> block_of_rows(const std::vector<PetscInt>& starts, PetscInt n, MPI_Comm comm)
+{
+  const auto n_own = static_cast<int>(starts.size()) - 1;
+  int first = 0;
+  MPI_Exscan(&n_own, &first, 1, MPI_INT, MPI_SUM, comm);
+  if (petsc::rank(comm) == 0) first = 0;
+  std::vector<int> own;
+  for (int b = 0; b < n_own; ++b) own.insert(own.end(), starts[b + 1] - starts[b], first + b);
+  std::vector<int> all = gather(own, MPI_INT, comm);
+  all.resize(n);
+  MPI_Bcast(all.data(), n, MPI_INT, 0, comm);
+  return all;
+}
+
+/// Adjacency of the blocks of this rank without themselves: length of each list, then the lists.
+struct BlockGraph {
+  std::vector<int> degrees;
+  std::vector<int> neighbours;
+};
+
+BlockGraph own_graph(Mat A, const std::vector<PetscInt>& starts, const std::vector<int>& block_of)
+{
+  BlockGraph graph;
+  std::vector<int> seen_by(block_of.empty() ? 0 : block_of.back() + 1, -1);
+  for (std::size_t b = 0; b + 1 < starts.size(); ++b) {
+    const std::size_t before = graph.neighbours.size();
+    const int self = block_of[starts[b]];
+    seen_by[self] = self;
+    for (PetscInt row = starts[b]; row < starts[b + 1]; ++row) {
+      PetscInt n = 0;
+      const PetscInt* columns = nullptr;
+      petsc::check(MatGetRow(A, row, &n, &columns, nullptr));
+      for (PetscInt k = 0; k < n; ++k) {
+        const int other = block_of[columns[k]];
+        if (seen_by[other] == self) continue;
+        seen_by[other] = self;
+        graph.neighbours.push_back(other);
+      }
+      petsc::check(MatRestoreRow(A, row, &n, &columns, nullptr));
+    }
+    graph.degrees.push_back(static_cast<int>(graph.neighbours.size() - before));
+  }
+  return graph;
+}
+
+/// Blocks with ten times as many neighbours as the mean (harmonics of a ring) come last, in tenths.
+constexpr idx_t dense_degree = 100;
+
+bool is_permutation_of_all(std::vector<idx_t> places)
+{
+  std::ranges::sort(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (std::cmp_not_equal(places[i], i)) return false;
+  }
+  return true;
+}
+
+/// Place of each block in the elimination.
+std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
+{
+  assert(is_symmetric(graph));  // or METIS loops for ever
+  auto n = static_cast<idx_t>(graph.n_vertices());
+  std::vector<idx_t> starts(graph.starts.begin(), graph.starts.end());
+  std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
+  std::vector<idx_t> order(weights.size()), place(weights.size());
+  if (neighbours.empty()) {  // METIS rejects a graph without edges
+    std::iota(place.begin(), place.end(), idx_t{0});
+    return place;
+  }
+  std::array<idx_t, METIS_NOPTIONS> options{};
+  METIS_SetDefaultOptions(options.data());
+  options[METIS_OPTION_PFACTOR] = dense_degree;
+  const int status = METIS_NodeND(&n, starts.data(), neighbours.data(), weights.data(),
+                                  options.data(), order.data(), place.data());
+  if (status != METIS_OK || !is_permutation_of_all(place)) {
+    throw Error(fmt::format(
+        "elimination_order: METIS finds no order of {} blocks with {} edges (status {}); take "
+        "-cms_pc_factor_mat_solver_type mumps, which orders by itself",
+        n, neighbours.size(), status));
+  }
+  return place;
+}
+
+/// From places of blocks to places of rows, from 1.
+std::vector<int> row_places(const std::vector<idx_t>& place, const std::vector<int>& block_of,
+                            const std::vector<idx_t>& sizes)
+{
+  std::vector<int> size_at(place.size() + 1, 0), next(place.size());
+  for (std::size_t b = 0; b < place.size(); ++b) size_at[place[b] + 1] = sizes[b];
+  std::inclusive_scan(size_at.begin(), size_at.end(), size_at.begin());
+  for (std::size_t b = 0; b < place.size(); ++b) next[b] = size_at[place[b]] + 1;
+  std::vector<int> places;
+  places.reserve(block_of.size());
+  for (const int block : block_of) places.push_back(next[block]++);
+  return places;
+}
+
+}  // namespace
+
+std::vector<int> elimination_order(Mat A)
+{
+  const MPI_Comm comm = petsc::communicator(A);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  const std::vector<PetscInt> starts = block_starts(A);
+  const std::vector<int> block_of = block_of_rows(starts, n, comm);
+  const BlockGraph own = own_graph(A, starts, block_of);
+  const std::vector<int> degrees = gather(own.degrees, MPI_INT, comm);
+  const std::vector<int> neighbours = gather(own.neighbours, MPI_INT, comm);
+  return on_all_ranks(comm, [&]() -> std::vector<int> {
+    if (petsc::rank(comm) != 0) return {};
+    const Adjacency graph = symmetrized({.starts = offsets(degrees), .neighbours = neighbours});
+    std::vector<idx_t> sizes(degrees.size(), 0);
+    for (const int block : block_of) ++sizes[block];
+    return row_places(dissect(graph, sizes), block_of, sizes);
+  });
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "common/error.hpp"
+#include "common/petsc.hpp"
+#include "linear/solver_options.hpp"
+
+namespace chladni::linear {
+
+/// A part of the body can move while all masters are held.
+class FreeMotion : public Error {
+ public:
+  FreeMotion(const std::string& message, PetscInt most) : Error(message), row(most) {}
+  PetscInt row;  ///< of the matrix, where the motion is largest; -1 where it is not known
+};
+
+/// The Cholesky factor of a symmetric positive-definite matrix, made once and shared by constraint
+/// modes and eigen-solver. By MUMPS unless the options say otherwise.
+class Factorization {
+ public:
+  /// @note   Collective on the communicator of `A`.
+  /// @throws FreeMotion when `A` is not positive definite to working precision: a motion z has an
+  ///         energy of round-off, z^T A z < 32 eps z^T diag(A) z.
+  /// @throws chladni::Error, before any arithmetic, when the factor does not fit into the memory
+  ///         that is free or that `options` allow.
+  /// Options: `-<prefix>pc_factor_mat_solver_type supernodal|mumps-metis|mumps|...`,
+  /// `-<prefix>pc_...`, `-<prefix>mat_mumps_...`
+  explicit Factorization(Mat A, SolverOptions options = {});
+
+  /// Solves with the factor only; for SLEPc's spectral transformation at shift 0.
+  KSP solver() const { return solver_; }
+  /// The factored matrix, for MatMatTransposeSolve.
+  Mat factor() const;
+  /// The matrix itself.
+  Mat matrix() const;
+  /// What it was made with; eigen-solvers that work with this factor go by them too.
+  const SolverOptions& options() const { return options_; }
+
+ private:
+  SolverOptions options_;
+  petsc::LinearSolver solver_;
+};
+
+/// The factor of K_ss.
+Factorization factorize(Mat K_ss, const SolverOptions& options = {});
+
+}  // namespace chladni::linear

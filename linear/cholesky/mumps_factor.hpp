@@ -1,0 +1,68 @@
+#pragma once
+
+#include <dmumps_c.h>
+
+#include <string>
+#include <vector>
+
+#include "linear/cholesky/cholesky_factor.hpp"
+#include "linear/cholesky/row_exchange.hpp"
+#include "linear/kernels/matrix_state.hpp"
+
+namespace chladni::linear {
+
+/// What is known of a matrix.
+enum class Definiteness { positive, unknown };
+
+/// Cholesky factor by MUMPS through its C interface: nested dissection by METIS, matrix,
+/// right-hand sides and solutions distributed. Debian's MUMPS has no METIS inside, and what PETSc
+/// gathers for several right-hand sides on several ranks costs more than the solve.
+class MumpsFactor : public CholeskyFactor {
+ public:
+  /// @param definiteness  without it MUMPS pivots
+  MumpsFactor(MPI_Comm comm, Definiteness definiteness);
+  ~MumpsFactor() override;
+
+  /// ICNTL(index) = value, from 1 as in MUMPS' manual.
+  void set_control(int index, int value) { mumps_.icntl[index - 1] = value; }
+  void set_control(int index, double value) { mumps_.cntl[index - 1] = value; }
+  int control(int index) const { return mumps_.icntl[index - 1]; }
+  double real_control(int index) const { return mumps_.cntl[index - 1]; }
+  /// INFOG(index), from 1.
+  int info(int index) const { return mumps_.infog[index - 1]; }
+  double real_info(int index) const { return mumps_.rinfog[index - 1]; }
+  void analyze(Mat A) override;
+  void factorize(Mat A) override;
+  MatFactorError error() const override;
+  PetscInt n_negative_pivots() const override;
+  bool is_reliable() const override;
+  void solve(LocalColumns X) override;
+  void solve(const SparseColumns& B, LocalColumns X) override;
+  PetscInt columns_at_a_time() const override;
+  Memory forecast() const override;
+  FactorSize size() const override;
+  std::string description() const override;
+
+ private:
+  void call(int job);
+  void call_solve();
+  bool lacks_room() const;
+  void load_entries(Mat A);
+  PetscInt most_columns(PetscInt leading_dimension) const;
+  void solve_at_once(LocalColumns X);
+  void solve_distributed(LocalColumns X);
+  void take_solution(LocalColumns X);
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  DMUMPS_STRUC_C mumps_{};
+  std::vector<PetscInt> first_rows_;  ///< [n_ranks + 1]
+  std::vector<int> own_rows_;         ///< from 1
+  std::vector<int> row_indices_, column_indices_;
+  std::vector<double> values_;
+  MatrixState loaded_;  ///< of the matrix whose entries these are
+  std::vector<double> solution_;
+  std::vector<int> solution_rows_;
+  RowExchange exchange_;
+};
+
+}  // namespace chladni::linear

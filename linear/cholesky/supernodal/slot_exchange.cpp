@@ -1,0 +1,125 @@
+#include "linear/cholesky/supernodal/slot_exchange.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "linear/cholesky/supernodal/subtrees.hpp"
+#include "linear/kernels/gather.hpp"
+#include "linear/kernels/tile_kernels.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+/// Columns first to first + n of some rows, eight numbers for each row, filled up with zeros.
+void pack(LocalColumns X, PetscInt first, const std::vector<int>& rows, double* to)
+{
+  const PetscInt n = std::min<PetscInt>(panel_width, X.n_columns - first);
+  const double* from = X.values + std::size_t(first) * X.leading_dimension;
+  for (const int row : rows) {
+    for (PetscInt c = 0; c < n; ++c) to[c] = from[row + std::size_t(c) * X.leading_dimension];
+    for (PetscInt c = n; c < panel_width; ++c) to[c] = 0.0;
+    to += panel_width;
+  }
+}
+
+void unpack(const double* from, PetscInt first, const std::vector<int>& rows, LocalColumns X)
+{
+  const PetscInt n = std::min<PetscInt>(panel_width, X.n_columns - first);
+  double* to = X.values + std::size_t(first) * X.leading_dimension;
+  for (const int row : rows) {
+    for (PetscInt c = 0; c < n; ++c) to[row + std::size_t(c) * X.leading_dimension] = from[c];
+    from += panel_width;
+  }
+}
+
+void put(const double* from, const std::vector<int>& slots, double* panel)
+{
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    std::copy_n(from + i * panel_width, panel_width, panel + std::size_t(slots[i]) * panel_width);
+}
+
+void get(const double* panel, const std::vector<int>& slots, double* to)
+{
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    std::copy_n(panel + std::size_t(slots[i]) * panel_width, panel_width, to + i * panel_width);
+}
+
+}  // namespace
+
+SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vector<int>& slot)
+    : comm_(petsc::communicator(A))
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  const int n_ranks = petsc::size(comm_);
+  std::vector<std::vector<int>> rows_of_rank(n_ranks);
+  for (PetscInt row = first; row < last; ++row) {
+    if (owner[row] != all_ranks) {
+      rows_of_rank[owner[row]].push_back(row);
+    } else {
+      common_rows_.push_back(row - first);
+      common_slots_.push_back(slot[row]);
+    }
+  }
+  for (std::size_t row = 0; row < owner.size(); ++row) {
+    const bool is_elsewhere = std::cmp_less(row, first) || std::cmp_greater_equal(row, last);
+    if (owner[row] == all_ranks && is_elsewhere) other_common_slots_.push_back(slot[row]);
+  }
+  slot_counts_.resize(n_ranks);
+  for (const std::vector<int>& rows : rows_of_rank) {
+    row_counts_.push_back(static_cast<int>(rows.size()));
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+  }
+  // In the order of slots a single rank has nothing left to do.
+  if (n_ranks == 1) std::ranges::sort(rows_, {}, [&](int row) { return slot[row]; });
+  MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
+  row_starts_ = offsets(row_counts_);
+  slot_starts_ = offsets(slot_counts_);
+  slots_.resize(slot_starts_.back());
+  MPI_Alltoallv(rows_.data(), row_counts_.data(), row_starts_.data(), MPI_INT, slots_.data(),
+                slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
+  for (int& row : slots_) row = slot[row];
+  for (int& row : rows_) row -= first;
+}
+
+void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
+{
+  const bool alone = petsc::size(comm_) == 1;
+  const RowType row_of_panel(panel_width);
+  std::vector<double> out(alone ? 0 : rows_.size() * panel_width),
+      in(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
+  for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
+    double* panel = panels.values + p * panels.stride;
+    pack(X, first, rows_, alone ? panel : out.data());
+    if (alone) continue;
+    MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
+                  slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
+    put(in.data(), slots_, panel);
+    pack(X, first, common_rows_, common.data());
+    put(common.data(), common_slots_, panel);
+    for (const int slot : other_common_slots_)
+      std::fill_n(panel + std::size_t(slot) * panel_width, panel_width, 0.0);
+  }
+}
+
+void SlotExchange::to_rows(Panels panels, PetscInt first, LocalColumns X) const
+{
+  const bool alone = petsc::size(comm_) == 1;
+  const RowType row_of_panel(panel_width);
+  std::vector<double> in(alone ? 0 : rows_.size() * panel_width),
+      out(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
+  for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
+    const double* panel = panels.values + p * panels.stride;
+    if (!alone) {
+      get(panel, slots_, out.data());
+      MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
+                    row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
+      get(panel, common_slots_, common.data());
+      unpack(common.data(), first, common_rows_, X);
+    }
+    unpack(alone ? panel : in.data(), first, rows_, X);
+  }
+}
+
+}  // namespace chladni::linear

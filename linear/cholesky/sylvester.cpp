@@ -1,0 +1,144 @@
+#include "linear/cholesky/sylvester.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "linear/cholesky/inner_solver.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+/// Own rows that are not held.
+petsc::IndexSet free_rows(Mat K, std::vector<PetscInt> held)
+{
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  std::ranges::sort(held);
+  std::vector<PetscInt> rows;
+  for (PetscInt i = first; i < last; ++i) {
+    if (!std::ranges::binary_search(held, i)) rows.push_back(i);
+  }
+  petsc::IndexSet set;
+  petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(rows.size()),
+                               rows.data(), PETSC_COPY_VALUES, set.put()));
+  return set;
+}
+
+petsc::Matrix submatrix(Mat A, IS rows)
+{
+  petsc::Matrix block;
+  petsc::check(MatCreateSubMatrix(A, rows, rows, MAT_INITIAL_MATRIX, block.put()));
+  return block;
+}
+
+constexpr PetscInt root_on_one_rank = 13;  // ICNTL
+
+/// Keeps the last front on one rank: of one that ScaLAPACK shares among ranks MUMPS does not count
+/// the negative pivots.
+void count_every_pivot(Mat factor, const OptionSource& source)
+{
+  MatSolverType package = nullptr;
+  petsc::check(MatFactorGetSolverType(factor, &package));
+  if (std::string_view(package) != MATSOLVERMUMPS) {
+    throw Error(fmt::format(
+        "-{}pc_factor_mat_solver_type {}: eigenvalues are counted by the pivots of mumps; "
+        "leave the option out",
+        source.prefix, package));
+  }
+  petsc::check(MatMumpsSetIcntl(factor, root_on_one_rank, 1));
+}
+
+/// @throws chladni::Error when options had the last word.
+void check_every_pivot(Mat factor, const OptionSource& source)
+{
+  PetscInt control = 0;
+  petsc::check(MatMumpsGetIcntl(factor, root_on_one_rank, &control));
+  if (control == 1) return;
+  throw Error(
+      fmt::format("-{}mat_mumps_icntl_13 {}: negative pivots are counted only where the last front "
+                  "is on one rank; leave the option out",
+                  source.prefix, control));
+}
+
+/// The largest K_jj / M_jj of all rows.
+double stiffest(Mat K, Mat M)
+{
+  petsc::Vector k, m;
+  petsc::check(MatCreateVecs(K, nullptr, k.put()));
+  petsc::check(MatCreateVecs(M, nullptr, m.put()));
+  petsc::check(MatGetDiagonal(K, k));
+  petsc::check(MatGetDiagonal(M, m));
+  petsc::check(VecPointwiseDivide(k, k, m));  // 0 where M_jj is
+  PetscReal largest = 0.0;
+  petsc::check(VecMax(k, nullptr, &largest));
+  return largest;
+}
+
+/// Refuses a sigma so far above all stiffness that none of it is left in K - sigma M: where M is
+/// singular the signs of the pivots would be those of round-off.
+void check_stiffness_is_seen(Mat K, Mat M, double sigma)
+{
+  constexpr double two_digits = 100.0 * std::numeric_limits<double>::epsilon();
+  if (two_digits * sigma <= stiffest(K, M)) return;
+  throw Error(fmt::format(
+      "eigenvalues_below: at sigma = {:.3e} rad^2/s^2 no digits of K are left in K - "
+      "sigma M; the mass of a coordinate is round-off: ask for a range that ends lower, "
+      "or for no count",
+      sigma));
+}
+
+}  // namespace
+
+petsc::Matrix shifted(Mat K, Mat M, double sigma)
+{
+  petsc::Matrix A;
+  petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
+  petsc::check(MatAXPY(A, -sigma, M, DIFFERENT_NONZERO_PATTERN));
+  petsc::check(MatSetOption(A, MAT_SPD, PETSC_FALSE));  // K_ss is marked definite, A is not
+  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+  return A;
+}
+
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source)
+{
+  check_stiffness_is_seen(K, M, sigma);
+  const petsc::Matrix A = shifted(K, M, sigma);
+  const OptionSource own = source.part("sylvester_");
+  const petsc::LinearSolver solver = new_solver(petsc::communicator(K), own);
+  PC pc = nullptr;
+  petsc::check(KSPSetOperators(solver, A, A));
+  petsc::check(KSPSetType(solver, KSPPREONLY));
+  petsc::check(KSPGetPC(solver, &pc));
+  petsc::check(PCSetType(pc, PCCHOLESKY));
+  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  petsc::check(KSPSetFromOptions(solver));
+  Mat factor = set_up_factor(pc, own);
+  count_every_pivot(factor, own);
+  petsc::check(KSPSetUp(solver));
+  check_every_pivot(factor, own);
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  petsc::check(MatFactorGetError(factor, &error));
+  if (error != MAT_FACTOR_NOERROR) {
+    PetscInt code = 0;
+    petsc::check(MatMumpsGetInfog(factor, 1, &code));
+    throw SingularShift(
+        fmt::format("eigenvalues_below: K - sigma M has no factor at sigma = {:.15g} (MUMPS: "
+                    "INFOG(1) = {}); sigma is an eigenvalue, or the memory does not suffice",
+                    sigma, code));
+  }
+  PetscInt negative = 0;
+  petsc::check(MatMumpsGetInfog(factor, 12, &negative));
+  return negative;
+}
+
+PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
+                           const OptionSource& source)
+{
+  if (held.empty()) return eigenvalues_below(K, M, sigma, source);
+  const petsc::IndexSet rows = free_rows(K, held);
+  return eigenvalues_below(submatrix(K, rows), submatrix(M, rows), sigma, source);
+}
+
+}  // namespace chladni::linear

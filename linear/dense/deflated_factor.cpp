@@ -1,0 +1,47 @@
+#include "linear/dense/deflated_factor.hpp"
+
+#include "common/error.hpp"
+
+namespace chladni::linear {
+namespace {
+
+using Eigen::MatrixXd, Eigen::VectorXd;
+
+/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off.
+double deflation_shift(const MatrixXd& K, const MatrixXd& M)
+{
+  const VectorXd ratio =
+      (M.diagonal().array() > 0.0).select(K.diagonal().array() / M.diagonal().array(), 0.0);
+  const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
+  if (largest <= 0.0) return 1.0;
+  return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
+}
+
+/// Pi^T K Pi with Pi = I - R R^T M: K without the round-off that it has along its zero-energy
+/// vectors. Where these are most of the coordinates, as of a body with a single attachment node,
+/// round-off is all that stands there, and may be of either sign.
+MatrixXd without_zero_energy(const MatrixXd& K, const MatrixXd& MR, const MatrixXd& R)
+{
+  const MatrixXd KR = K * R;
+  MatrixXd K_d = K - MR * KR.transpose() - KR * MR.transpose();
+  K_d += MR * (R.transpose() * KR) * MR.transpose();
+  return 0.5 * (K_d + K_d.transpose());
+}
+
+}  // namespace
+
+Eigen::LLT<MatrixXd> deflated_factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  const MatrixXd MR = M * R;
+  const MatrixXd K_d = without_zero_energy(K, MR, R);
+  Eigen::LLT<MatrixXd> B(MatrixXd(K_d + deflation_shift(K_d, M) * MR * MR.transpose()));
+  if (B.info() != Eigen::Success)
+    throw Error(
+        "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
+        " is the structure in one piece, without mechanisms, and no attachment node so close to "
+        "another"
+        " that round-off is all there is between them?");
+  return B;
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "common/petsc.hpp"
+
+namespace chladni::linear {
+
+/// A matrix as plain AIJ: a reference where it is just that, else a converted copy. PETSc's
+/// variants of AIJ (aijperm, aijsell) and its block formats keep their entries elsewhere.
+/// @note   Collective.
+petsc::Matrix as_aij(Mat A);
+
+}  // namespace chladni::linear

@@ -1,0 +1,172 @@
+#include "linear/kernels/dense_matrices.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace chladni::linear {
+
+namespace {
+
+PetscInt first_row(Mat A)
+{
+  PetscInt first = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, nullptr));
+  return first;
+}
+
+/// A count of MPI is an int.
+template <typename Work>
+void for_pieces(std::span<double> values, const Work& work)
+{
+  constexpr std::size_t piece = std::size_t(1) << 28;
+  for (std::size_t at = 0; at < values.size(); at += piece)
+    work(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)));
+}
+
+}  // namespace
+
+void sum_over_ranks(std::span<double> values, MPI_Comm comm)
+{
+  for_pieces(values, [&](double* piece, int n) {
+    MPI_Allreduce(MPI_IN_PLACE, piece, n, MPI_DOUBLE, MPI_SUM, comm);
+  });
+}
+
+void broadcast_numbers(std::span<double> values, MPI_Comm comm)
+{
+  for_pieces(values, [&](double* piece, int n) { MPI_Bcast(piece, n, MPI_DOUBLE, 0, comm); });
+}
+
+double value_of_first_rank(double value, MPI_Comm comm)
+{
+  MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm);
+  return value;
+}
+
+LocalRows::LocalRows(Mat dense) : dense_(dense)
+{
+  petsc::check(MatGetLocalSize(dense_, &n_rows_, nullptr));
+  petsc::check(MatGetSize(dense_, nullptr, &n_cols_));
+  petsc::check(MatDenseGetLDA(dense_, &lda_));
+  petsc::check(MatDenseGetArrayRead(dense_, &values_));
+}
+
+LocalRows::~LocalRows()
+{
+  MatDenseRestoreArrayRead(dense_, &values_);
+}
+
+petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns)
+{
+  PetscInt n_local = 0, n = 0;
+  petsc::check(MatGetLocalSize(A, &n_local, nullptr));
+  petsc::check(MatGetSize(A, &n, nullptr));
+  petsc::Matrix dense;
+  PetscScalar placeholder = 0.0;  // keeps PETSc from allocating
+  petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n, n_columns,
+                              &placeholder, dense.put()));
+  PetscScalar* values = nullptr;
+  petsc::check(PetscMalloc1(std::max<std::size_t>(std::size_t(n_local) * n_columns, 1), &values));
+  petsc::check(MatDenseReplaceArray(dense, values));  // which owns them now
+  return dense;
+}
+
+SmallMatrix inner_product(Mat X, Mat Y)
+{
+  const LocalRows x(X);
+  const LocalRows y(Y);
+  SmallMatrix product(x.n_cols(), y.n_cols());
+  const PetscBLASInt m = x.n_cols();
+  const PetscBLASInt n = y.n_cols();
+  const PetscBLASInt k = x.n_rows();
+  const PetscBLASInt ldx = x.leading_dimension();
+  const PetscBLASInt ldy = y.leading_dimension();
+  const PetscScalar one = 1.0;
+  const PetscScalar zero = 0.0;
+  if (k > 0) {
+    BLASgemm_("T", "N", &m, &n, &k, &one, x.values(), &ldx, y.values(), &ldy, &zero,
+              product.values.data(), &m);
+  }
+  sum_over_ranks(product, petsc::communicator(X));
+  return product;
+}
+
+std::vector<double> column_products(Mat X, Mat Y)
+{
+  const LocalRows x(X), y(Y);
+  std::vector<double> products(x.n_cols(), 0.0);
+  for (PetscInt k = 0; k < x.n_cols(); ++k) {
+    const double* x_k = x.values() + std::size_t(k) * x.leading_dimension();
+    const double* y_k = y.values() + std::size_t(k) * y.leading_dimension();
+    products[k] = std::inner_product(x_k, x_k + x.n_rows(), y_k, 0.0);
+  }
+  sum_over_ranks(products, petsc::communicator(X));
+  return products;
+}
+
+void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)
+{
+  const LocalRows x(X);
+  PetscScalar* y = nullptr;
+  PetscInt ldy = 0;
+  petsc::check(MatDenseGetLDA(Y, &ldy));
+  petsc::check(MatDenseGetArray(Y, &y));
+  const PetscBLASInt m = x.n_rows();
+  const PetscBLASInt n = S.n_cols;
+  const PetscBLASInt k = S.n_rows;
+  const PetscBLASInt ldx = x.leading_dimension();
+  const PetscBLASInt ld = ldy;
+  const PetscScalar one = 1.0;
+  if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.values.data(), &k, &one, y, &ld);
+  }
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
+{
+  PetscInt first = 0;
+  PetscInt ld = 0;
+  PetscScalar* y = nullptr;
+  petsc::check(MatGetOwnershipRange(Y, &first, nullptr));
+  petsc::check(MatDenseGetLDA(Y, &ld));
+  petsc::check(MatDenseGetArray(Y, &y));
+  for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+    for (PetscInt j = 0; j < S.n_cols; ++j) {
+      y[row - first + std::size_t(j) * ld] += value * S(column, j);
+    }
+  });
+  petsc::check(MatDenseRestoreArray(Y, &y));
+}
+
+SmallMatrix inner_product_sparse(Mat X, Mat A)
+{
+  PetscInt n_cols = 0;
+  petsc::check(MatGetSize(A, nullptr, &n_cols));
+  SmallMatrix product(LocalRows(X).n_cols(), n_cols);
+  {
+    const LocalRows x(X);
+    const PetscInt first = first_row(A);
+    for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
+      for (PetscInt i = 0; i < x.n_cols(); ++i) product(i, column) += x(row - first, i) * value;
+    });
+  }
+  sum_over_ranks(product, petsc::communicator(X));
+  return product;
+}
+
+SmallMatrix replicate(Mat A)
+{
+  PetscInt n_rows = 0;
+  PetscInt n_cols = 0;
+  petsc::check(MatGetSize(A, &n_rows, &n_cols));
+  SmallMatrix dense(n_rows, n_cols);
+  for_local_entries(
+      A, [&](PetscInt row, PetscInt column, double value) { dense(row, column) = value; });
+  sum_over_ranks(dense, petsc::communicator(A));
+  return dense;
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/petsc.hpp"
+
+namespace chladni::linear {
+
+/// A small dense matrix, the same on every rank; column-major.
+struct SmallMatrix {
+  PetscInt n_rows = 0, n_cols = 0;
+  std::vector<double> values;
+
+  SmallMatrix(PetscInt rows, PetscInt cols)
+      : n_rows(rows), n_cols(cols), values(std::size_t(rows) * cols, 0.0)
+  {}
+  double& operator()(PetscInt i, PetscInt j) { return values[i + std::size_t(j) * n_rows]; }
+  double operator()(PetscInt i, PetscInt j) const { return values[i + std::size_t(j) * n_rows]; }
+};
+
+/// Any number of values <- their sums over all ranks, on every rank.
+/// @note   Collective.
+void sum_over_ranks(std::span<double> values, MPI_Comm comm);
+inline void sum_over_ranks(SmallMatrix& A, MPI_Comm comm)
+{
+  sum_over_ranks(std::span(A.values), comm);
+}
+
+/// Any number of values <- those of rank 0.
+/// @note   Collective.
+void broadcast_numbers(std::span<double> values, MPI_Comm comm);
+
+/// The value of the first rank, for decisions: ranks on unlike processors may differ in the last
+/// bit.
+/// @note   Collective.
+double value_of_first_rank(double value, MPI_Comm comm);
+
+/// Read access to the rows of a dense Mat that this rank owns, column-major.
+class LocalRows {
+ public:
+  explicit LocalRows(Mat dense);
+  ~LocalRows();
+  LocalRows(const LocalRows&) = delete;
+  LocalRows& operator=(const LocalRows&) = delete;
+
+  PetscInt n_rows() const { return n_rows_; }
+  PetscInt n_cols() const { return n_cols_; }
+  PetscInt leading_dimension() const { return lda_; }
+  const double* values() const { return values_; }
+  double operator()(PetscInt i, PetscInt j) const { return values_[i + std::size_t(j) * lda_]; }
+
+ private:
+  Mat dense_;
+  PetscInt n_rows_ = 0, n_cols_ = 0, lda_ = 0;
+  const PetscScalar* values_ = nullptr;
+};
+
+/// visit(global row, global column, value) for each stored entry of the rows of A on this rank.
+template <typename Visit>
+void for_local_entries(Mat A, const Visit& visit)
+{
+  PetscInt first = 0;
+  PetscInt last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (PetscInt row = first; row < last; ++row) {
+    PetscInt n = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    petsc::check(MatGetRow(A, row, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k) visit(row, columns[k], values[k]);
+    petsc::check(MatRestoreRow(A, row, &n, &columns, &values));
+  }
+}
+
+/// A dense matrix with the rows of A, its values not set: PETSc would zero them, which touches the
+/// memory once more than needed.
+/// @note   Collective.
+petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns);
+
+/// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
+class ColumnRange {
+ public:
+  ColumnRange(Mat dense, PetscInt first, PetscInt last) : dense_(dense)
+  {
+    petsc::check(MatDenseGetSubMatrix(dense, PETSC_DECIDE, PETSC_DECIDE, first, last, &columns_));
+  }
+  ~ColumnRange() { MatDenseRestoreSubMatrix(dense_, &columns_); }
+  ColumnRange(const ColumnRange&) = delete;
+  ColumnRange& operator=(const ColumnRange&) = delete;
+  operator Mat() const { return columns_; }  // NOLINT(google-explicit-constructor): as PETSc's
+
+ private:
+  Mat dense_;
+  Mat columns_ = nullptr;
+};
+
+/// X^T Y of two dense matrices with equally distributed rows, on every rank.
+/// @note   Collective.
+SmallMatrix inner_product(Mat X, Mat Y);
+
+/// x_k^T y_k of the columns of two dense matrices with equally distributed rows, on every rank.
+/// @note   Collective.
+std::vector<double> column_products(Mat X, Mat Y);
+
+/// Y <- Y + alpha X S for dense distributed X, Y and a small S.
+void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y);
+
+/// Y <- Y + A S for a sparse A [n x few columns] and a small S.
+void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y);
+
+/// X^T A for a dense X and a sparse A [n x few columns] with equally distributed rows, on every
+/// rank.
+/// @note   Collective.
+SmallMatrix inner_product_sparse(Mat X, Mat A);
+
+/// A small distributed sparse matrix as dense one on every rank.
+/// @note   Collective.
+SmallMatrix replicate(Mat A);
+
+}  // namespace chladni::linear

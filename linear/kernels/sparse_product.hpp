@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "common/petsc.hpp"
+#include "linear/kernels/aligned_numbers.hpp"
+
+namespace chladni::linear {
+
+/// Products of one sparse matrix with blocks of columns, sixteen or eight columns for each
+/// pass over the matrix: bound by memory traffic, which it reads a quarter as often as PETSc's
+/// MatMatMult of AIJ and dense matrices; it does not allocate the product anew either.
+class SparseProduct {
+ public:
+  /// @param A  [n x n], kept by reference where it is of type AIJ, otherwise converted; must not
+  ///           change while this lives.
+  /// @note   Collective on the communicator of A.
+  explicit SparseProduct(Mat A);
+  ~SparseProduct();
+  SparseProduct(const SparseProduct&) = delete;
+  SparseProduct& operator=(const SparseProduct&) = delete;
+
+  /// Y <- A X for dense X, Y whose rows are distributed as those of A.
+  /// @note   Collective.
+  void apply(Mat X, Mat Y) const;
+
+ private:
+  /// One of PETSc's sequential matrices, its arrays borrowed.
+  struct Rows {
+    Mat matrix = nullptr;
+    const PetscInt* starts = nullptr;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+  };
+  /// Global columns of other ranks that the rows of this one need, and the first row of each rank.
+  struct Ghosts {
+    const PetscInt* columns;
+    const PetscInt* first_rows;
+  };
+  static Rows borrow(Mat sequential);
+  static void give_back(Rows& rows);
+  void plan_exchange(const Ghosts& ghosts);
+  void exchange(PetscInt width) const;
+
+  petsc::Matrix A_;  ///< AIJ
+  MPI_Comm comm_;
+  PetscInt n_rows_ = 0;
+  PetscInt n_ghosts_ = 0;
+  Rows own_, other_;  ///< columns of this rank, and of others (by place among the ghosts)
+  std::vector<int> send_rows_, send_counts_, receive_counts_;
+  AlignedNumbers panel_, product_;
+  mutable std::vector<double> outbox_;
+};
+
+}  // namespace chladni::linear

@@ -1,0 +1,125 @@
+#include "linear/lanczos/block_basis.hpp"
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "linear/kernels/small_matrices.hpp"
+#include "linear/kernels/tall_products.hpp"
+#include "linear/machine_memory.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+/// Dense matrix on given storage, or on its own.
+petsc::Matrix dense(MPI_Comm comm, PetscInt n_local, PetscInt n_global, PetscInt n_columns,
+                    double* values)
+{
+  petsc::Matrix A;
+  petsc::check(MatCreateDense(comm, n_local, PETSC_DECIDE, n_global, n_columns, values, A.put()));
+  return A;
+}
+
+}  // namespace
+
+BlockBasis::BlockBasis(Mat M, PetscInt capacity) : M_(M), product_with_M_(M)
+{
+  petsc::check(MatGetLocalSize(M, &n_local_, nullptr));
+  petsc::check(MatGetSize(M, &n_global_, nullptr));
+  reserve(capacity);
+}
+
+void BlockBasis::reserve(PetscInt capacity)
+{
+  if (capacity <= capacity_) return;
+  const double untouched = double(n_local_) * (capacity - n_columns_);
+  require_memory(
+      untouched * sizeof(double) / bytes_in_MiB,
+      fmt::format("block Lanczos: a basis of {} vectors of {} DOFs", capacity, n_global_),
+      "ask for fewer modes, use more machines or -cms_lanczos_subspace", petsc::communicator(M_));
+  // Not a vector, which would touch all of it and, when it grows, hold it twice.
+  const std::size_t n_bytes =
+      std::max<std::size_t>(std::size_t(n_local_) * capacity, 1) * sizeof(double);
+  void* larger = std::realloc(values_.get(), n_bytes);
+  int refused = larger == nullptr ? 1 : 0;
+  if (larger != nullptr) {
+    static_cast<void>(values_.release());
+    values_.reset(static_cast<double*>(larger));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
+  if (refused == 1) {
+    throw Error(
+        fmt::format("block Lanczos: no memory for {} vectors of {} DOFs; ask for fewer "
+                    "modes, use more machines or -cms_lanczos_subspace",
+                    capacity, n_global_));
+  }
+  capacity_ = capacity;
+}
+
+petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const
+{
+  return uninitialized_dense(M_, n_columns);
+}
+
+petsc::Matrix BlockBasis::columns(PetscInt first, PetscInt n_columns)
+{
+  return dense(petsc::communicator(M_), n_local_, n_global_, n_columns,
+               values_.get() + std::size_t(first) * n_local_);
+}
+
+petsc::Matrix BlockBasis::times_mass(Mat X) const
+{
+  petsc::Matrix MX = new_block(LocalRows(X).n_cols());
+  product_with_M_.apply(X, MX);
+  return MX;
+}
+
+void BlockBasis::truncate(PetscInt n)
+{
+  n_columns_ = n;
+  newest_M_ = {};
+  second_last_M_ = {};
+}
+
+void BlockBasis::unite_newest(PetscInt n)
+{
+  second_last_M_ = {};
+  newest_M_ = times_mass(columns(n_columns_ - n, n));
+}
+
+void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)
+{
+  constexpr PetscInt piece = 512;  // rows at a time, in place
+  std::vector<double> rows(std::size_t(piece) * n_first);
+  for (PetscInt at = 0; at < n_local_; at += piece) {
+    const PetscInt n = std::min(piece, n_local_ - at);
+    for (PetscInt j = 0; j < n_first; ++j) {
+      std::copy_n(values_.get() + at + std::size_t(j) * n_local_, n,
+                  rows.data() + std::size_t(j) * n);
+    }
+    const PetscBLASInt m = n, columns = S.n_cols, k = n_first, ld = n_local_;
+    const PetscScalar one = 1.0, zero = 0.0;
+    BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.values.data(), &k, &zero,
+              values_.get() + at, &ld);
+  }
+  const PetscInt n_behind = n_columns_ - n_first;
+  std::copy_n(values_.get() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
+              values_.get() + std::size_t(S.n_cols) * n_local_);
+  n_columns_ = S.n_cols + n_behind;
+  second_last_M_ = {};
+}
+
+petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
+{
+  petsc::Matrix X = new_block(S.n_cols);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(X, &values));
+  add_product(1.0, values_.get(), n_local_, S, 0.0, values);
+  petsc::check(MatDenseRestoreArrayWrite(X, &values));
+  return X;
+}
+
+}  // namespace chladni::linear

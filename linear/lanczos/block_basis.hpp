@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/petsc.hpp"
+#include "linear/kernels/aligned_numbers.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/sparse_product.hpp"
+
+namespace chladni::linear {
+
+/// A growing set of vectors that are orthonormal in the inner product of a symmetric positive
+/// semidefinite M; rows distributed as those of M. All operations are collective and by blocks.
+class BlockBasis {
+ public:
+  BlockBasis(Mat M, PetscInt capacity);
+
+  MPI_Comm comm() const { return petsc::communicator(M_); }
+  PetscInt n_rows() const { return n_global_; }
+  PetscInt n_columns() const { return n_columns_; }
+  PetscInt capacity() const { return capacity_; }
+
+  /// Room for more columns; those that are there keep their place in memory or move by pages.
+  /// @throws chladni::Error when the machine refuses.
+  void reserve(PetscInt capacity);
+
+  /// An empty dense matrix with the rows of the basis.
+  petsc::Matrix new_block(PetscInt n_columns) const;
+  /// Columns of the basis without a copy; valid until the next append or compress.
+  petsc::Matrix columns(PetscInt first, PetscInt n_columns);
+  /// M X
+  petsc::Matrix times_mass(Mat X) const;
+
+  /// block = V coefficients + Q R, with Q orthonormal and orthogonal to V; Q joins the basis.
+  /// Directions that are dependent to round-off are left out: Q may have fewer columns or none.
+  struct Appended {
+    SmallMatrix coefficients;  ///< [n_columns before x columns of block]
+    SmallMatrix R;             ///< [columns of Q x columns of block]
+    /// [columns of block] length in M of what the directions left out had of each column.
+    std::vector<double> left_out;
+  };
+  Appended append(Mat block);
+  /// Directions that blocks had and that were left out since the last call, because products of M
+  /// with them have too few digits.
+  std::vector<petsc::Matrix> take_lost() { return std::exchange(lost_, {}); }
+  /// M times the columns that the last append added.
+  Mat newest_times_mass() const { return newest_M_; }
+
+  /// Makes the last n columns the newest block.
+  void unite_newest(PetscInt n);
+  /// Keeps the first n columns; there is no newest block then.
+  void truncate(PetscInt n);
+
+  /// Replaces the first `n_first` columns V by V S; the columns behind them follow.
+  void compress(const SmallMatrix& S, PetscInt n_first);
+
+  /// V S of all columns.
+  petsc::Matrix combine(const SmallMatrix& S) const;
+
+ private:
+  SmallMatrix project_out_newest(Mat block, Mat M_block);
+  SmallMatrix project_out(Mat block, Mat M_block);
+  /// How a block has joined the basis: as Appended, with all that was left out of it.
+  struct Joined {
+    SmallMatrix coefficients, R, left_out;
+  };
+  /// Columns by the digits that M times them has: six, or fewer, of which some have two.
+  struct Chosen {
+    std::vector<PetscInt> resolved, others, unsure;
+  };
+  Chosen by_digits_of_mass(PetscInt n);
+  void clean(Joined& joined);
+  Joined join(Mat block, Mat M_block, const SmallMatrix& G, const std::vector<double>& sizes);
+  Appended look_again(Mat block, Mat M_block, const Joined& first, SmallMatrix h,
+                      const std::vector<double>& lengths);
+  void store(Mat X, Mat MX, const SmallMatrix& to_Q);
+
+  Mat M_;
+  SparseProduct product_with_M_;
+  PetscInt n_local_ = 0, n_global_ = 0;
+  PetscInt capacity_ = 0;
+  PetscInt n_columns_ = 0;
+  petsc::Matrix newest_M_;  ///< M times the last block
+  std::vector<petsc::Matrix> lost_;
+  petsc::Matrix second_last_M_;           ///< M times the block before; empty after compress
+  std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
+};
+
+}  // namespace chladni::linear

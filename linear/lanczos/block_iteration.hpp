@@ -1,0 +1,107 @@
+#pragma once
+
+#include <functional>
+
+#include "linear/kernels/symmetric_eigen.hpp"
+#include "linear/lanczos/block_basis.hpp"
+#include "linear/lanczos/multiplicity.hpp"
+
+namespace chladni::linear {
+
+/// Y <- Op Q for an operator that is self-adjoint in the inner product of M; M Q is at hand.
+using BlockOperator = std::function<void(Mat Q, Mat MQ, Mat Y)>;
+
+/// The iteration of block Lanczos with full reorthogonalisation and thick restart, one step at a
+/// time, for any operator self-adjoint in M: Op V = V T + Q R E_last^T + F with V^T M V = I. Ritz
+/// values come in the order that the caller prefers. How long to go on is the caller's decision.
+/// F is what the blocks held along directions that were left out as dependent to round-off; random
+/// ones take their place, so that the blocks keep their width until the whole space is spanned.
+/// Source: as `block_lanczos`.
+class BlockIteration {
+ public:
+  /// True where the Ritz value a is to come before b.
+  using Order = std::function<bool(double a, double b)>;
+
+  /// @param capacity  most basis vectors, the newest block included
+  BlockIteration(Mat M, PetscInt block_size, PetscInt capacity);
+
+  /// Room for a larger basis.
+  void reserve(PetscInt capacity) { basis_.reserve(capacity); }
+  /// Takes a deterministic block of random vectors once through the operator.
+  /// @throws chladni::Error when M maps it to zero.
+  void start(const BlockOperator& op);
+  /// Starts with guesses of eigenvectors beside the random vectors.
+  /// @param guesses  dense; at most as many columns as a block, each a sum of guesses
+  /// @param n_guesses  how many they are in all
+  void start(const BlockOperator& op, Mat guesses, PetscInt n_guesses);
+  /// An empty dense matrix with the rows of M.
+  petsc::Matrix new_block(PetscInt n_columns) const { return basis_.new_block(n_columns); }
+  /// Joins the newest block to V, and what the operator makes of it becomes the newest.
+  void step(const BlockOperator& op);
+  /// Solves the projected problem; fills `theta`.
+  void order_ritz_values(const Order& before);
+  /// Keeps the first `n` Ritz vectors and the newest block.
+  /// @param n  up to n_vectors() - 1 and most_kept()
+  void restart(PetscInt n);
+  /// Keeps the first `n` Ritz vectors, which must have converged, and begins a new Krylov sequence
+  /// with random vectors that are orthogonal to them: it finds what the old one cannot.
+  /// @param width  new block size
+  void begin_anew(PetscInt n, PetscInt width, const BlockOperator& op);
+
+  PetscInt block_size() const { return block_size_; }
+  PetscInt n_vectors() const { return n_old_; }
+  bool is_full() const { return basis_.n_columns() + block_size_ > basis_.capacity(); }
+  /// Ritz vectors that a restart may keep, with room for a step after it.
+  PetscInt most_kept() const { return basis_.capacity() - 2 * block_size_; }
+  /// The subspace is all that M can see: its Ritz pairs are exact and it cannot grow.
+  bool is_exhausted() const { return basis_.n_columns() == n_old_; }
+  /// An upper estimate of the eigenvalues whose eigenvectors the blocks of this sequence had and
+  /// the basis has not, because M times them has too few digits; 0 without any.
+  double lost_theta() const { return lost_theta_; }
+  /// Ritz values in order.
+  double theta(PetscInt i) const { return ritz_.values[order_[i]]; }
+  /// ||Op x - theta x||_M of Ritz pair i.
+  double residual(PetscInt i) const;
+  /// All Ritz values and residuals.
+  RitzValues pairs() const;
+  /// Whether the first n pairs, all converged, may lack copies of a multiple eigenvalue.
+  Copies copies_among_first(PetscInt n, double tolerance) const;
+  /// The sequence of random vectors that the newest block belongs to.
+  const KrylovSequence& sequence() const { return sequence_; }
+  /// Ritz vectors 0 .. n - 1, X^T M X = I; [n_rows x n] dense.
+  petsc::Matrix ritz_vectors(PetscInt n) const;
+  /// Ritz vectors first .. last - 1 after x <- Op x / theta: without the null space of a singular M
+  /// that round-off brings in. For the largest |theta| only: smaller ones amplify what errors they
+  /// have along those. The recurrence gives Op x for nothing where F is zero; else it is computed.
+  petsc::Matrix purified_vectors(PetscInt first, PetscInt last, const BlockOperator& op) const;
+
+ private:
+  /// Coefficients of Ritz vectors first .. last - 1 in (V, Q).
+  SmallMatrix ritz_coefficients(PetscInt first, PetscInt last) const;
+  /// The same of Op x / theta where F is zero.
+  SmallMatrix purified_coefficients(PetscInt first, PetscInt last) const;
+  petsc::Matrix applied_vectors(PetscInt first, PetscInt last, const BlockOperator& op) const;
+  /// || F s || of Ritz pair i, or more.
+  double left_out(PetscInt i) const;
+  /// T, R and F after the first n Ritz vectors have taken the place of V.
+  void take_ritz_values(PetscInt n);
+  PetscInt append_random(PetscInt n, const BlockOperator& op);
+  void note_lost(const BlockOperator& op);
+  petsc::Matrix random_directions(PetscInt n);
+
+  Mat M_;
+  PetscInt block_size_;
+  BlockBasis basis_;              ///< V and, behind it, the newest block Q
+  PetscInt n_old_ = 0;            ///< columns of V
+  SmallMatrix T_{0, 0};           ///< [n_old x n_old]
+  SmallMatrix R_{0, 0};           ///< [columns of Q x columns of the last block of V]
+  std::vector<double> left_out_;  ///< [n_old] lengths of the columns of F
+  SymmetricEigen ritz_{{}, {0, 0}};
+  std::vector<PetscInt> order_;
+  PetscInt n_random_ = 0;  ///< random vectors made so far
+  KrylovSequence sequence_;
+  double lost_theta_ = 0.0;
+  PetscInt forgotten_from_ = PETSC_MAX_INT;  ///< a restart dropped pairs behind it that were found
+};
+
+}  // namespace chladni::linear

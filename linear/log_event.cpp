@@ -1,0 +1,46 @@
+#include "linear/log_event.hpp"
+
+#include <array>
+#include <optional>
+
+namespace chladni::linear {
+
+namespace {
+
+constexpr std::array names{"CMSOrdering", "CMSAnalysis", "CMSFactor",
+                           "CMSSolve",    "CMSSpMM",     "CMSOrthogonal"};
+
+using Events = std::array<PetscLogEvent, names.size()>;
+
+/// Those of this session of PETSc, which ends with PetscFinalize.
+std::optional<Events> events;
+
+void register_events()
+{
+  PetscClassId class_id = 0;
+  petsc::check(PetscClassIdRegister("Component mode synthesis", &class_id));
+  events.emplace();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    petsc::check(PetscLogEventRegister(names[i], class_id, &(*events)[i]));
+  }
+  petsc::check(PetscRegisterFinalize([]() -> PetscErrorCode {
+    events.reset();
+    return 0;
+  }));
+}
+
+}  // namespace
+
+LogEvent::LogEvent(Event event)
+{
+  if (!events) register_events();
+  event_ = (*events)[static_cast<std::size_t>(event)];
+  petsc::check(PetscLogEventBegin(event_, 0, 0, 0, 0));
+}
+
+LogEvent::~LogEvent()
+{
+  PetscLogEventEnd(event_, 0, 0, 0, 0);
+}
+
+}  // namespace chladni::linear

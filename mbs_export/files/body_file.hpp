@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "files/hdf5.hpp"
+#include "mbs_export/modal_body.hpp"
+
+namespace chladni::mbs_export {
+
+/// The attribute `format` of such a file.
+inline constexpr auto body_format = "chladni-body";
+
+/// Writes *.body.h5, format "chladni-body" version 1 (docs/file_formats.md), in full precision,
+/// with the circumferential Fourier coefficients of each contact ring for other programs. The file
+/// appears complete or not at all.
+/// @throws chladni::Error when the file cannot be written.
+void write_body(const std::string& path, const ModalBody& body);
+
+/// Reads what `write_body` wrote, bit by bit, and any file that keeps to the format.
+/// @throws chladni::Error naming the file, the dataset and what was expected.
+ModalBody read_body(const std::string& path);
+ModalBody read_body(const files::Reader& file);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "files/hdf5.hpp"
+#include "mbs_export/certificate.hpp"
+
+/// The group `certificate` of the reduced file (docs/file_formats.md).
+namespace chladni::mbs_export {
+
+/// Nothing where the certificate is empty.
+void write_certificate(files::Writer& file, const Certificate& certificate);
+
+/// An empty one where the file has none.
+/// @throws chladni::Error as files::Reader.
+Certificate read_certificate(const files::Reader& file);
+
+}  // namespace chladni::mbs_export

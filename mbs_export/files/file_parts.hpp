@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/hdf5.hpp"
+#include "mbs_export/mass_integrals.hpp"
+#include "mbs_export/reduced_system.hpp"
+
+/// The groups that the files of a reduced system and of a modal body have in common.
+namespace chladni::mbs_export::file_parts {
+
+struct Attachment {
+  std::vector<AttachmentNode> nodes;
+  std::vector<AttachmentSet> sets;
+};
+
+void write_attachment(files::Writer& file, const std::vector<AttachmentNode>& nodes,
+                      const std::vector<AttachmentSet>& sets);
+Attachment read_attachment(const files::Reader& file);
+
+/// Nothing is written for an empty picture.
+void write_picture(files::Writer& file, const Picture& picture);
+/// @param n_columns  that `transformation` must have
+Picture read_picture(const files::Reader& file, Eigen::Index n_columns);
+
+/// `resultant_names` and a group `resultants/NAME` for each; nothing is written when there are
+/// none.
+void write_resultants(files::Writer& file, const std::vector<ResultantModes>& resultants);
+/// @param n_columns  that each `modes` must have
+std::vector<ResultantModes> read_resultants(const files::Reader& file, Eigen::Index n_columns);
+
+/// Group `mass_integrals`; nothing is written when there are none.
+void write_mass_integrals(files::Writer& file, const std::optional<MassIntegrals>& integrals);
+/// @param n  number of coordinates
+std::optional<MassIntegrals> read_mass_integrals(const files::Reader& file, Eigen::Index n);
+
+void write_provenance(files::Writer& file, const Provenance& provenance);
+Provenance read_provenance(const files::Reader& file);
+
+/// Integers of which each must be an index 0 .. limit - 1.
+std::vector<int> read_indices(const files::Reader& file, const std::string& name,
+                              Eigen::Index limit, Eigen::Index size = files::any);
+/// A count or index of 0 or more.
+int read_count(const files::Reader& file, const std::string& name);
+
+/// A name that can be a link of HDF5; returned unchanged.
+/// @throws chladni::Error when it is empty, "." or contains "/".
+const std::string& link_name(const std::string& name);
+
+}  // namespace chladni::mbs_export::file_parts

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "files/hdf5.hpp"
+#include "mbs_export/modal_body.hpp"
+
+/// The group `selection` of the body file (docs/file_formats.md).
+namespace chladni::mbs_export {
+
+void write_selection(files::Writer& file, const SelectionTable& table);
+
+/// Nothing where no tolerance chose the modes.
+/// @throws chladni::Error as files::Reader.
+std::optional<SelectionTable> read_selection(const files::Reader& file);
+
+}  // namespace chladni::mbs_export

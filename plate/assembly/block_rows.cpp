@@ -1,0 +1,183 @@
+#include "plate/assembly/block_rows.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "common/all_ranks.hpp"
+#include "plate/assembly/split_rows.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+/// A matrix on these rows, which it keeps: a copy of the arrays would cost as much as their sums.
+petsc::Matrix matrix_of(SplitRows split, PetscInt n_rows, MPI_Comm comm)
+{
+  auto kept = std::make_unique<SplitRows>(std::move(split));
+  petsc::Matrix A;
+  if (petsc::size(comm) == 1)
+    petsc::check(MatCreateSeqAIJWithArrays(comm, n_rows, n_rows, kept->start.data(),
+                                           kept->column.get(), kept->value.data(), A.put()));
+  else
+    petsc::check(MatCreateMPIAIJWithSplitArrays(
+        comm, n_rows, n_rows, PETSC_DETERMINE, PETSC_DETERMINE, kept->start.data(),
+        kept->column.get(), kept->value.data(), kept->other_start.data(), kept->other_column.data(),
+        kept->other_value.data(), A.put()));
+  PetscContainer container = nullptr;
+  petsc::check(PetscContainerCreate(comm, &container));
+  petsc::check(PetscContainerSetPointer(container, kept.release()));
+  petsc::check(PetscContainerSetUserDestroy(container, [](void* rows) -> PetscErrorCode {
+    delete static_cast<SplitRows*>(rows);
+    return 0;
+  }));
+  petsc::check(PetscObjectCompose(reinterpret_cast<PetscObject>(static_cast<Mat>(A)),
+                                  "chladni_rows", reinterpret_cast<PetscObject>(container)));
+  petsc::check(PetscContainerDestroy(&container));  // the matrix keeps it
+  return A;
+}
+
+/// Bit n * i + j: some block of the transposed matrix has an entry (i, j).
+std::uint64_t components_of(const Eigen::Ref<const Eigen::MatrixXd>& A_e, int n)
+{
+  std::uint64_t found = 0;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Index n_nodes = A_e.rows() / n;
+      const auto entries = A_e(Eigen::seqN(i, n_nodes, n), Eigen::seqN(j, n_nodes, n));
+      if ((entries.array() != 0.0).any()) found |= std::uint64_t{1} << (n * j + i);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+BlockPattern block_pattern(int n, PetscInt first, std::vector<std::vector<PetscInt>> neighbours)
+{
+  BlockPattern pattern{.n = n, .first = first, .start = {0}, .column = {}};
+  for (std::vector<PetscInt>& row : neighbours) {
+    std::ranges::sort(row);
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+    pattern.start.push_back(std::ssize(pattern.column));
+  }
+  return pattern;
+}
+
+std::vector<std::ptrdiff_t> block_places(const BlockPattern& pattern,
+                                         std::span<const PetscInt> nodes)
+{
+  std::vector<std::ptrdiff_t> places(nodes.size() * nodes.size(), -1);
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const PetscInt row = nodes[a] - pattern.first;
+    if (row < 0 || row >= pattern.n_rows()) continue;
+    const auto begin = pattern.column.begin() + pattern.start[row];
+    const auto end = pattern.column.begin() + pattern.start[row + 1];
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+      const auto it = std::lower_bound(begin, end, nodes[b]);
+      assert(it != end && *it == nodes[b]);
+      places[a * nodes.size() + b] = it - pattern.column.begin();
+    }
+  }
+  return places;
+}
+
+void BlockRows::widen(std::uint64_t components)
+{
+  const int n = pattern_.n;
+  for (int i = 0; i < n; ++i) components |= std::uint64_t{1} << (n + 1) * i;
+  std::vector<int> held, place;  // place in the new ones of each that was held
+  for (int c = 0; c < n * n; ++c) {
+    if (((components_ | components) >> c & 1) == 0) continue;
+    if ((components_ >> c & 1) != 0) place.push_back(static_cast<int>(held.size()));
+    held.push_back(c);
+  }
+  if (held.size() == held_.size()) return;
+  const auto is_full = [&](PetscInt node) {
+    return std::ranges::binary_search(pattern_.full, node);
+  };
+  std::vector<std::ptrdiff_t> offset{0};
+  for (PetscInt row = 0; row < pattern_.n_rows(); ++row) {
+    const bool whole_row = is_full(pattern_.first + row);
+    for (std::ptrdiff_t k = pattern_.start[row]; k < pattern_.start[row + 1]; ++k) {
+      const bool all = whole_row || is_full(pattern_.column[k]);
+      offset.push_back(offset.back() + (all ? std::ptrdiff_t(n) * n : std::ssize(held)));
+    }
+  }
+  std::vector<double> values(static_cast<std::size_t>(offset.back()), 0.0);
+  for (std::ptrdiff_t k = 0; k + 1 < std::ssize(offset_); ++k) {
+    const double* from = values_.data() + offset_[k];
+    double* to = values.data() + offset[k];
+    if (holds_all(k)) {
+      std::copy(from, from + std::ptrdiff_t(n) * n, to);
+      continue;
+    }
+    for (std::size_t s = 0; s < place.size(); ++s) to[place[s]] = from[s];
+  }
+  components_ |= components;
+  held_ = std::move(held);
+  offset_ = std::move(offset);
+  values_ = std::move(values);
+}
+
+void BlockRows::make_room(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
+{
+  if ((components_of(A_e, pattern_.n) & ~components_) == 0 && !offset_.empty()) return;
+  if (offset_.empty()) widen(0);
+  const int n = pattern_.n;
+  const Eigen::Index n_nodes = A_e.rows() / n;
+  std::uint64_t components = 0;
+  for (Eigen::Index a = 0; a < n_nodes; ++a) {
+    for (Eigen::Index b = 0; b < n_nodes; ++b) {
+      const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
+      if (place >= 0 && !holds_all(place))
+        components |= components_of(A_e.block(n * b, n * a, n, n), n);
+    }
+  }
+  if ((components & ~components_) != 0) widen(components);
+}
+
+void BlockRows::add(const Eigen::MatrixXd& A_e, std::span<const std::ptrdiff_t> places)
+{
+  const int n = pattern_.n;
+  const Eigen::Index n_nodes = A_e.rows() / n;
+  make_room(A_e, places);
+  // A column of the transposed block is a row, and contiguous.
+  std::vector<Eigen::Index> distance(held_.size());
+  for (std::size_t s = 0; s < held_.size(); ++s)
+    distance[s] = held_[s] / n * A_e.outerStride() + held_[s] % n;
+  for (Eigen::Index a = 0; a < n_nodes; ++a) {
+    for (Eigen::Index b = 0; b < n_nodes; ++b) {
+      const std::ptrdiff_t place = places[static_cast<std::size_t>(a * n_nodes + b)];
+      if (place < 0) continue;
+      double* block = values_.data() + offset_[place];
+      if (holds_all(place)) {
+        Eigen::Map<Eigen::MatrixXd>(block, n, n) += A_e.block(n * b, n * a, n, n);
+        continue;
+      }
+      const double* source = &A_e(n * b, n * a);
+      for (std::size_t s = 0; s < distance.size(); ++s) block[s] += source[distance[s]];
+    }
+  }
+}
+
+petsc::Matrix BlockRows::to_matrix(MPI_Comm comm, double negligible)
+{
+  widen(0);  // a matrix without elements has its diagonal, too
+  const HeldBlocks blocks{pattern_, held_, offset_};
+  std::optional<EntryScales> scales;
+  if (negligible > 0.0) scales.emplace(pattern_, diagonal_scales(blocks, values_), comm);
+  const Sieve sieve{.negligible = negligible, .scales = scales ? &*scales : nullptr};
+  SplitRows rows =
+      on_all_ranks(comm, [&] { return split_rows(blocks, std::move(values_), sieve); });
+  petsc::Matrix A = matrix_of(std::move(rows), pattern_.n * pattern_.n_rows(), comm);
+  petsc::check(MatSetBlockSize(A, pattern_.n));
+  petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+  petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  return A;
+}
+
+}  // namespace chladni::plate

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "plate/assembly/block_rows.hpp"
+#include "plate/dofs/dof_map.hpp"
+#include "plate/dofs/point_elements.hpp"
+#include "plate/elements/covariant_strains.hpp"
+
+/// How the DOFs of elements follow from the active ones: what the assembly of any matrix shares.
+namespace chladni::plate {
+
+/// The active numbers on which the motion of some nodes depends, ascending.
+std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes);
+
+/// u_e = T_e q of the points where the DOFs of an element stand, with q at active numbers.
+struct ElementMotion {
+  std::vector<PetscInt> numbers;
+  Eigen::MatrixXd T_e;  ///< [6 n_e x 6 n]; empty where u_e = q
+};
+
+/// Through the couplings to the nodes of the mesh, and along the arms from these to the points.
+/// @param arms  [n_e x 3] m; empty for zero
+ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
+                             const NodeVectors& arms);
+
+/// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
+/// @param A_e     symmetric, or the transposed of what is to be added
+/// @param places  block_places of motion.numbers
+void add(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
+         std::span<const std::ptrdiff_t> places);
+
+/// The same for what is symmetric: the mean of both sides of the diagonal is added, so that the
+/// sums are symmetric to the last bit and an entry that cancels does so on both sides.
+void add_symmetric(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion,
+                   const DofMap& dofs, std::span<const std::ptrdiff_t> places);
+
+/// The neighbours of each node of this rank: all active numbers of an element are neighbours.
+BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
+                             const DofMap& dofs, int rank);
+/// Of the point elements alone.
+BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank);
+
+/// Calls visit(block, element, its active numbers) for each element that depends on a number that
+/// this rank owns.
+template <typename Visit>
+void for_owned_elements(const mesh::Mesh& mesh, const DofMap& dofs, int rank, const Visit& visit)
+{
+  const int first = dofs.first_number(rank);
+  const int last = dofs.first_number(rank + 1);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const std::vector<PetscInt> numbers = active_numbers(dofs, block.element_nodes(e));
+      const auto owned = std::ranges::lower_bound(numbers, first);
+      if (owned != numbers.end() && *owned < last) visit(block, e, numbers);
+    }
+  }
+}
+
+}  // namespace chladni::plate

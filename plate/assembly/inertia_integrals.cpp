@@ -1,0 +1,189 @@
+#include "plate/assembly/inertia_integrals.hpp"
+
+#include <array>
+#include <numeric>
+
+#include "plate/assembly/element_motion.hpp"
+#include "plate/dofs/point_elements.hpp"
+#include "plate/elements/mass_points.hpp"
+#include "plate/sections/directors.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr Index n_moments = 12;
+
+/// Mass points of an element, and how its DOFs follow from the active ones.
+struct PlacedPoints {
+  MassPoints points;
+  NodeVectors arms;  ///< [n x 3] from the nodes of the mesh, m; empty where they stand there
+};
+
+PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& block, int element)
+{
+  const int group = block.group[element];
+  const NodeVectors x = element_positions(model.mesh, block, element);
+  if (block.shape == mesh::Shape::line) {
+    return {.points = beam_mass_points(x, model.structure.beams[model.sections.beam[group]]),
+            .arms = {}};
+  }
+  const ShellSection& section = model.structure.shells[model.sections.shell[group]];
+  const ShellNodes shell = shell_nodes(model.mesh, block, element, model.normals, section);
+  PlacedPoints placed{
+      .points = shell_mass_points(block.shape, block.order, shell, section.material.density),
+      .arms = {}};
+  if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
+  return placed;
+}
+
+/// Calls visit(mass points, motion, is counted here) for all elements and masses that have to do
+/// with numbers of this rank; each is counted on one rank alone.
+template <typename Visit>
+void for_owned_points(const MassModel& model, const Visit& visit)
+{
+  const int rank = petsc::rank(model.comm);
+  const PetscInt first = model.dofs.first_number(rank), last = model.dofs.first_number(rank + 1);
+  const auto counts = [&](const std::vector<PetscInt>& numbers) {
+    const PetscInt least = *std::ranges::min_element(numbers);
+    return least >= first && least < last;
+  };
+  for_owned_elements(
+      model.mesh, model.dofs, rank,
+      [&](const mesh::ElementBlock& block, int e, const std::vector<PetscInt>& numbers) {
+        const auto [points, arms] = element_points(model, block, e);
+        visit(points, element_motion(model.dofs, block.element_nodes(e), arms), counts(numbers));
+      });
+  for (std::size_t i = 0; i < model.masses.size(); ++i) {
+    const std::array nodes{model.mass_nodes[i]};
+    const ElementMotion motion = element_motion(model.dofs, nodes, {});
+    const Eigen::Vector3d x = model.dofs.position(nodes[0]);
+    visit(rigid_mass_points(model.masses[i], x), motion, counts(motion.numbers));
+  }
+}
+
+/// [6 n_nodes x 12]: sum over the points of (1, x) u_l.
+MatrixXd element_moments(const MassPoints& points)
+{
+  MatrixXd moments(points.N[0].cols(), n_moments);
+  for (Index l = 0; l < 3; ++l) {
+    const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
+    moments.col(l) = N_l.transpose() * points.dm;
+    for (Index k = 0; k < 3; ++k) {
+      moments.col(3 + 3 * k + l) = N_l.transpose() * points.dm.cwiseProduct(points.x.col(k));
+    }
+  }
+  return moments;
+}
+
+/// A dense matrix of zeros with the rows of the system.
+petsc::Matrix dense_rows(const MassModel& model)
+{
+  const int n = model.dofs.n_components();
+  petsc::Matrix rows;
+  petsc::check(MatCreateDense(model.comm, n * model.pattern.n_rows(), PETSC_DECIDE, PETSC_DETERMINE,
+                              n_moments, nullptr, rows.put()));
+  return rows;
+}
+
+/// Adds the rows of this rank's numbers.
+void add_rows(const MassModel& model, MatrixXd V_e, const ElementMotion& motion,
+              Eigen::Ref<MatrixXd> rows)
+{
+  if (motion.T_e.size() > 0) V_e = motion.T_e.transpose() * V_e;
+  const std::vector<int>& components = model.dofs.components();
+  const Index n = std::ssize(components);
+  for (std::size_t i = 0; i < motion.numbers.size(); ++i) {
+    const PetscInt place = motion.numbers[i] - model.pattern.first;
+    if (place < 0 || place >= model.pattern.n_rows()) continue;
+    for (Index c = 0; c < n; ++c) {
+      rows.row(n * place + c) +=
+          V_e.row(6 * static_cast<Index>(i) + components[static_cast<std::size_t>(c)]);
+    }
+  }
+}
+
+/// mass, int x dm, int x x^T dm in one row to be summed over ranks.
+using Totals = Eigen::Matrix<double, 13, 1>;
+
+Totals totals(const MassPoints& points)
+{
+  Totals sums;
+  const Eigen::Matrix3d second = points.x.transpose() * points.dm.asDiagonal() * points.x;
+  sums << points.dm.sum(), points.x.transpose() * points.dm, second.reshaped();
+  return sums;
+}
+
+}  // namespace
+
+MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const DofMap& dofs,
+                     MPI_Comm comm)
+{
+  MassModel model{.mesh = mesh,
+                  .structure = structure,
+                  .dofs = dofs,
+                  .comm = comm,
+                  .sections = map_sections(mesh, structure),
+                  .normals = mean_normals(mesh),
+                  .mass_nodes = {},
+                  .masses = {},
+                  .pattern = {}};
+  std::vector<PointElement> points;
+  for (const PointMass& mass : structure.masses) {
+    for (const int node : dofs.named_nodes(mesh, mass.at)) {
+      model.mass_nodes.push_back(node);
+      model.masses.push_back(mass);
+      points.push_back({.nodes = {node}, .K = {}, .M = {}, .C = {}});
+    }
+  }
+  model.pattern = element_pattern(mesh, points, dofs, petsc::rank(comm));
+  return model;
+}
+
+petsc::Matrix displacement_product(const MassModel& model, int k, int l)
+{
+  BlockRows S(model.pattern);
+  for_owned_points(model, [&](const MassPoints& points, const ElementMotion& motion, bool) {
+    const StrainRows& N_k = points.N[static_cast<std::size_t>(k)];
+    const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
+    // `add` reads columns as rows, so it wants S_kl^T = S_lk.
+    add(S, N_l.transpose() * points.dm.asDiagonal() * N_k, motion, model.dofs,
+        block_places(model.pattern, motion.numbers));
+  });
+  petsc::Matrix A = S.to_matrix(model.comm);
+  if (k != l) {
+    petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_FALSE));
+    petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_FALSE));
+  }
+  return A;
+}
+
+MassMoments mass_moments(const MassModel& model)
+{
+  petsc::Matrix displacement = dense_rows(model);
+  PetscScalar* values = nullptr;
+  PetscInt lda = 0;
+  petsc::check(MatDenseGetLDA(displacement, &lda));
+  petsc::check(MatDenseGetArray(displacement, &values));
+  Eigen::Map<MatrixXd> rows(values, lda, n_moments);
+  Totals sums = Totals::Zero();
+  for_owned_points(model,
+                   [&](const MassPoints& points, const ElementMotion& motion, bool is_counted) {
+                     add_rows(model, element_moments(points), motion, rows);
+                     if (is_counted) sums += totals(points);
+                   });
+  petsc::check(MatDenseRestoreArray(displacement, &values));
+  petsc::check(MatAssemblyBegin(displacement, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(displacement, MAT_FINAL_ASSEMBLY));
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                model.comm);
+  return {.mass = sums[0],
+          .first = sums.segment<3>(1),
+          .second = sums.tail<9>().reshaped(3, 3),
+          .displacement = std::move(displacement)};
+}
+
+}  // namespace chladni::plate

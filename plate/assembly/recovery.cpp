@@ -1,0 +1,129 @@
+#include "plate/assembly/recovery.hpp"
+
+#include "plate/sections/directors.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::MatrixXd;
+
+/// All entries of a distributed vector, on every rank.
+Eigen::VectorXd replicate(Vec q)
+{
+  VecScatter scatter = nullptr;
+  petsc::Vector all;
+  petsc::check(VecScatterCreateToAll(q, &scatter, all.put()));
+  petsc::check(VecScatterBegin(scatter, q, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterEnd(scatter, q, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterDestroy(&scatter));
+  PetscInt n = 0;
+  const PetscScalar* values = nullptr;
+  petsc::check(VecGetSize(all, &n));
+  petsc::check(VecGetArrayRead(all, &values));
+  Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, n);
+  petsc::check(VecRestoreArrayRead(all, &values));
+  return copy;
+}
+
+/// One element of a mesh with its section.
+struct ShellOfMesh {
+  const mesh::Mesh& mesh;
+  const mesh::ElementBlock& block;
+  int element;
+  const ShellSection& section;
+};
+
+/// Section forces of one element at its `resultant_points`.
+ShellResultants element_resultants(const ShellOfMesh& shell, const NodeVectors& normals,
+                                   const MatrixXd& motions)
+{
+  const auto& [mesh, block, element, section] = shell;
+  const ShellNodes shell_at = shell_nodes(mesh, block, element, normals, section);
+  const std::span<const int> nodes = block.element_nodes(element);
+  Eigen::VectorXd u_e(6 * std::ssize(nodes));
+  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
+    const auto& [x, y, z] = mesh.positions[nodes[i]];
+    const Eigen::Vector3d arm = shell_at.x.row(i).transpose() - Eigen::Vector3d(x, y, z);
+    u_e.segment<6>(6 * i) = rigid_arm(arm) * motions.row(nodes[i]).transpose();
+  }
+  return shell_resultants(block.shape, block.order, shell_at, section.material, u_e);
+}
+
+/// Sums over the elements at each node, and how many they are.
+struct NodalSums {
+  MatrixXd values;  ///< [n_nodes x 17] N, M, Q, the elements and their sides of the normal
+};
+
+/// Adds the extrapolated section forces of one element.
+void add_element(const ShellOfMesh& shell, const NodeVectors& normals, const MatrixXd& motions,
+                 NodalSums& sums)
+{
+  const ShellResultants at_points = element_resultants(shell, normals, motions);
+  const MatrixXd E = extrapolation_to_nodes(shell.block.shape, shell.block.order);
+  const MatrixXd N = E * at_points.N, M = E * at_points.M, Q = E * at_points.Q;
+  const NodeVectors D =
+      shell_nodes(shell.mesh, shell.block, shell.element, normals, shell.section).D;
+  const std::span<const int> nodes = shell.block.element_nodes(shell.element);
+  for (Eigen::Index i = 0; i < E.rows(); ++i) {
+    const double side = D.row(i).dot(normals.row(nodes[i])) < 0.0 ? -1.0 : 1.0;
+    sums.values.row(nodes[i]).segment<6>(0) += N.row(i);
+    sums.values.row(nodes[i]).segment<6>(6) += side * M.row(i);
+    sums.values.row(nodes[i]).segment<3>(12) += side * Q.row(i);
+    sums.values(nodes[i], 15) += 1.0;
+    sums.values(nodes[i], 16) += side;
+  }
+}
+
+}  // namespace
+
+MatrixXd node_motions(const DofMap& dofs, Vec q)
+{
+  const Eigen::VectorXd all = replicate(q);
+  MatrixXd motions = MatrixXd::Zero(dofs.n_nodes(), 6);
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    for (const MotionTerm& term : dofs.motion(node)) {
+      for (const int c : dofs.components()) {
+        motions.row(node) += all[*dofs.dof_of_number(term.number, c)] * term.T.col(c).transpose();
+      }
+    }
+  }
+  return motions;
+}
+
+MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual)
+{
+  const Eigen::VectorXd all = replicate(residual);
+  MatrixXd forces = MatrixXd::Zero(dofs.n_active(), 6);
+  const int n = dofs.n_components();
+  for (const int dof : held) {
+    forces(dof / n, dofs.components()[static_cast<std::size_t>(dof % n)]) = all[dof];
+  }
+  return forces;
+}
+
+ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,
+                                 const MatrixXd& motions, MPI_Comm comm)
+{
+  const mesh::Group& group = mesh::find_group(mesh, section.group);
+  const auto index = static_cast<int>(&group - mesh.groups.data());
+  const NodeVectors normals = mean_normals(mesh);
+  NodalSums sums{.values = MatrixXd::Zero(mesh.n_nodes(), 17)};
+  const int rank = petsc::rank(comm), n_ranks = petsc::size(comm);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (block.shape == mesh::Shape::line) continue;
+    for (int e = rank; e < block.n_elements(); e += n_ranks) {
+      if (block.group[e] != index) continue;
+      add_element({mesh, block, e, section}, normals, motions, sums);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.values.data(), static_cast<int>(sums.values.size()), MPI_DOUBLE,
+                MPI_SUM, comm);
+  const Eigen::VectorXd share = sums.values.col(15).cwiseMax(1.0).cwiseInverse();
+  const Eigen::VectorXd of_most = (sums.values.col(16).array() < 0.0).select(-share, share);
+  return {.N = share.asDiagonal() * sums.values.middleCols<6>(0),
+          .M = of_most.asDiagonal() * sums.values.middleCols<6>(6),
+          .Q = of_most.asDiagonal() * sums.values.middleCols<3>(12)};
+}
+
+}  // namespace chladni::plate

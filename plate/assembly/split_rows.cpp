@@ -1,0 +1,141 @@
+#include "plate/assembly/split_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "common/checked_count.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+/// Calls visit(j, value) for the entries that row i of a block holds.
+template <typename Visit>
+void for_held(std::span<const double> block, int i, const HeldBlocks& blocks, const Visit& visit)
+{
+  const int n = blocks.pattern.n;
+  if (std::ssize(block) == std::ptrdiff_t(n) * n) {
+    for (int j = 0; j < n; ++j) visit(j, block[i * n + j]);
+    return;
+  }
+  for (std::size_t s = 0; s < block.size(); ++s)
+    if (blocks.held[s] / n == i) visit(blocks.held[s] % n, block[s]);
+}
+
+class RowSplitter {
+ public:
+  RowSplitter(const HeldBlocks& blocks, const Sieve& sieve, std::vector<double> values)
+      : blocks_(blocks), sieve_(sieve)
+  {
+    rows_.column = std::make_unique_for_overwrite<PetscInt[]>(values.size());
+    rows_.value = std::move(values);
+  }
+
+  SplitRows rows() &&
+  {
+    const BlockPattern& pattern = blocks_.pattern;
+    for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+      const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
+      of_node_.assign(rows_.value.begin() + blocks_.offset[begin],
+                      rows_.value.begin() + blocks_.offset[end]);
+      for (int i = 0; i < pattern.n; ++i) {
+        append(node, i);
+        rows_.start.push_back(checked(count_));
+        rows_.other_start.push_back(checked(std::ssize(rows_.other_column)));
+      }
+    }
+    give_back_room();
+    return std::move(rows_);
+  }
+
+ private:
+  /// Of entries that do not count: in a shell that is flat in parts these are half of all.
+  void give_back_room()
+  {
+    const auto n = static_cast<std::size_t>(count_);
+    if (n == rows_.value.size()) return;
+    rows_.value.resize(n);
+    rows_.value.shrink_to_fit();
+    auto column = std::make_unique_for_overwrite<PetscInt[]>(n);
+    std::copy_n(rows_.column.get(), n, column.get());
+    rows_.column = std::move(column);
+  }
+
+  static PetscInt checked(std::ptrdiff_t n)
+  {
+    return checked_count(n, "entries of K or M in the rows of one rank", "use more ranks");
+  }
+
+  void append(PetscInt node, int i)
+  {
+    const BlockPattern& pattern = blocks_.pattern;
+    const std::ptrdiff_t begin = pattern.start[node], end = pattern.start[node + 1];
+    const double row_scale = sieve_.of(pattern.first + node)[i];
+    for (std::ptrdiff_t k = begin; k < end; ++k) {
+      const std::span<const double> block(
+          of_node_.data() + blocks_.offset[k] - blocks_.offset[begin],
+          static_cast<std::size_t>(blocks_.offset[k + 1] - blocks_.offset[k]));
+      const PetscInt column_node = pattern.column[k], own_node = column_node - pattern.first;
+      const double* column_scales = sieve_.of(column_node);
+      const auto counts = [&](int j, double value) {
+        return sieve_.counts(value, row_scale, column_scales[j]);
+      };
+      if (own_node >= 0 && own_node < pattern.n_rows()) {
+        for_held(block, i, blocks_, [&](int j, double value) {  // the next overwrites what is none
+          rows_.column[count_] = pattern.n * own_node + j;
+          rows_.value[static_cast<std::size_t>(count_)] = value;
+          count_ += static_cast<std::ptrdiff_t>((own_node == node && i == j) || counts(j, value));
+        });
+        continue;
+      }
+      for_held(block, i, blocks_, [&](int j, double value) {
+        if (!counts(j, value)) return;
+        rows_.other_column.push_back(pattern.n * column_node + j);
+        rows_.other_value.push_back(value);
+      });
+    }
+  }
+
+  const HeldBlocks& blocks_;
+  const Sieve& sieve_;
+  SplitRows rows_;
+  std::ptrdiff_t count_ = 0;
+  std::vector<double> of_node_;  ///< the sums of the node at hand, whose place its rows take
+};
+
+}  // namespace
+
+std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<double>& values)
+{
+  const BlockPattern& pattern = blocks.pattern;
+  const int n = pattern.n;
+  std::vector<double> scales;
+  scales.reserve(std::size_t(pattern.n_rows()) * n);
+  for (PetscInt node = 0; node < pattern.n_rows(); ++node) {
+    const auto begin = pattern.column.begin() + pattern.start[node];
+    const auto end = pattern.column.begin() + pattern.start[node + 1];
+    const auto found = std::lower_bound(begin, end, pattern.first + node);
+    if (found == end || *found != pattern.first + node) {  // no element has this node
+      scales.insert(scales.end(), n, 0.0);
+      continue;
+    }
+    const auto place = found - pattern.column.begin();
+    const std::span<const double> block(
+        values.data() + blocks.offset[place],
+        static_cast<std::size_t>(blocks.offset[place + 1] - blocks.offset[place]));
+    for (int i = 0; i < n; ++i) {
+      for_held(block, i, blocks, [&](int j, double value) {
+        if (i == j) scales.push_back(std::sqrt(std::abs(value)));
+      });
+    }
+  }
+  return scales;
+}
+
+SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values, const Sieve& sieve)
+{
+  return RowSplitter(blocks, sieve, std::move(values)).rows();
+}
+
+}  // namespace chladni::plate

@@ -1,0 +1,203 @@
+#include "plate/dofs/follow_references.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "common/error.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
+{
+  std::array<double, 3> sum{};
+  for (const int node : group.nodes) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += mesh.positions[node][c];
+  }
+  for (double& s : sum) s /= static_cast<double>(group.nodes.size());
+  return sum;
+}
+
+double squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  double sum = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return sum;
+}
+
+int nearest_node(const mesh::Mesh& mesh, const mesh::Group& group, int node)
+{
+  int nearest = -1;
+  double least = std::numeric_limits<double>::max();
+  for (const int candidate : group.nodes) {
+    const double distance = squared_distance(mesh.positions[candidate], mesh.positions[node]);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+/// What each node follows directly, and through which coupling.
+class Following {
+ public:
+  Following(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+      : mesh_(mesh),
+        couplings_(couplings),
+        nodes_{.positions = mesh.positions,
+               .references = std::vector<int>(mesh.n_nodes(), -1),
+               .names_followed = std::vector<std::string>(mesh.n_nodes()),
+               .reference_names = {}},
+        coupling_(mesh.n_nodes(), -1)
+  {}
+
+  void add(int index);
+  CoupledNodes follow_chains() &&;
+
+ private:
+  void check(const Coupling& coupling) const;
+  int add_reference_node(const Coupling& coupling);
+  void add_link(int index);
+  void follow(int node, int parent, int index);
+
+  const mesh::Mesh& mesh_;
+  std::span<const Coupling> couplings_;
+  CoupledNodes nodes_;
+  std::vector<int> coupling_;  ///< of each node that follows another one
+};
+
+void Following::check(const Coupling& coupling) const
+{
+  for (const std::string& group : {coupling.group, coupling.to}) {
+    if (group.empty()) continue;
+    if (mesh::find_group(mesh_, group).nodes.empty()) {
+      throw Error(fmt::format("{}: group \"{}\" has no nodes", describe(coupling), group));
+    }
+  }
+  if (coupling.kind == CouplingKind::link) return;
+  const bool used =
+      std::ranges::find(mesh_.groups, coupling.name, &mesh::Group::name) != mesh_.groups.end();
+  if (used || nodes_.reference_node(coupling.name)) {
+    throw Error(
+        fmt::format("coupling \"{}\": this name is already used; choose another", coupling.name));
+  }
+}
+
+int Following::add_reference_node(const Coupling& coupling)
+{
+  nodes_.positions.push_back(centre(mesh_, mesh::find_group(mesh_, coupling.group)));
+  nodes_.references.push_back(-1);
+  nodes_.names_followed.emplace_back();
+  nodes_.reference_names.push_back(coupling.name);
+  return nodes_.n_nodes() - 1;
+}
+
+void Following::follow(int node, int parent, int index)
+{
+  if (coupling_[node] >= 0) {
+    throw Error(fmt::format("node {} depends on two couplings: {} and {}; take it out of one group",
+                            mesh_.node_numbers[node], describe(couplings_[coupling_[node]]),
+                            describe(couplings_[index])));
+  }
+  const Coupling& coupling = couplings_[index];
+  coupling_[node] = index;
+  nodes_.references[node] = parent;
+  nodes_.names_followed[node] = coupling.kind == CouplingKind::link ? coupling.to : coupling.name;
+}
+
+void Following::add_link(int index)
+{
+  const Coupling& link = couplings_[index];
+  const mesh::Group& to = mesh::find_group(mesh_, link.to);
+  std::vector<int> partner_of(mesh_.n_nodes(), -1);
+  for (const int node : mesh::find_group(mesh_, link.group).nodes) {
+    const int nearest = nearest_node(mesh_, to, node);
+    if (nearest == node) {
+      throw Error(fmt::format("{}: node {} belongs to both groups", describe(link),
+                              mesh_.node_numbers[node]));
+    }
+    if (partner_of[nearest] >= 0) {
+      throw Error(fmt::format(
+          "{}: nodes {} and {} are both nearest to node {}; the nodes of the two groups must pair",
+          describe(link), mesh_.node_numbers[partner_of[nearest]], mesh_.node_numbers[node],
+          mesh_.node_numbers[nearest]));
+    }
+    partner_of[nearest] = node;
+    follow(node, nearest, index);
+  }
+}
+
+void Following::add(int index)
+{
+  const Coupling& coupling = couplings_[index];
+  check(coupling);
+  if (coupling.kind == CouplingKind::link) return add_link(index);
+  const int reference = add_reference_node(coupling);
+  if (coupling.kind == CouplingKind::averaging) return;
+  for (const int node : mesh::find_group(mesh_, coupling.group).nodes) {
+    follow(node, reference, index);
+  }
+}
+
+/// A rigid body on a rigid body is one on the last of the chain.
+CoupledNodes Following::follow_chains() &&
+{
+  const std::vector<int> parent = nodes_.references;
+  for (int node = 0; node < mesh_.n_nodes(); ++node) {
+    if (parent[node] < 0) continue;
+    int end = parent[node];
+    int n_links = 1;
+    while (parent[end] >= 0 && n_links <= mesh_.n_nodes()) {
+      end = parent[end];
+      ++n_links;
+    }
+    if (parent[end] >= 0) {
+      throw Error(fmt::format("node {} follows a circle of nodes, {} and {}; take one of them out",
+                              mesh_.node_numbers[node], describe(couplings_[coupling_[end]]),
+                              describe(couplings_[coupling_[parent[end]]])));
+    }
+    nodes_.references[node] = end;
+  }
+  return std::move(nodes_);
+}
+
+}  // namespace
+
+std::optional<int> CoupledNodes::reference_node(const std::string& name) const
+{
+  const auto it = std::ranges::find(reference_names, name);
+  if (it == reference_names.end()) return std::nullopt;
+  return n_mesh_nodes() + static_cast<int>(it - reference_names.begin());
+}
+
+std::vector<int> CoupledNodes::named_nodes(const mesh::Mesh& mesh, const std::string& name) const
+{
+  if (const auto reference = reference_node(name)) return {*reference};
+  const auto group = std::ranges::find(mesh.groups, name, &mesh::Group::name);
+  if (group != mesh.groups.end()) return group->nodes;
+  std::vector<std::string> names = reference_names;
+  for (const mesh::Group& g : mesh.groups) names.push_back(g.name);
+  throw Error(
+      fmt::format("\"{}\" is neither a group or ring of the mesh nor a coupling; there are: {}",
+                  name, fmt::join(names, ", ")));
+}
+
+std::string describe(const Coupling& coupling)
+{
+  return coupling.kind == CouplingKind::link
+             ? fmt::format("link of \"{}\" to \"{}\"", coupling.group, coupling.to)
+             : fmt::format("coupling \"{}\"", coupling.name);
+}
+
+CoupledNodes follow_references(const mesh::Mesh& mesh, std::span<const Coupling> couplings)
+{
+  Following following(mesh, couplings);
+  for (int i = 0; i < std::ssize(couplings); ++i) following.add(i);
+  return std::move(following).follow_chains();
+}
+
+}  // namespace chladni::plate

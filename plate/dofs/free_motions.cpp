@@ -1,0 +1,299 @@
+#include "plate/dofs/free_motions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "plate/dofs/point_elements.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using RowVector6d = Eigen::Matrix<double, 1, 6>;
+
+constexpr double same_motion = 1e-8;  // of unit motions; the mesh's coordinates have 12 digits
+
+/// Disjoint sets of active numbers that elements and couplings connect.
+class Connection {
+ public:
+  explicit Connection(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i)
+  {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) { parent_[root(i)] = root(j); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// The part of each active number, and which parts springs connect.
+struct Parts {
+  std::vector<int> of_number;
+  std::vector<int> body;   ///< [n_parts] parts that springs connect are one body
+  std::vector<int> place;  ///< [n_parts] of the part in its body
+  int n_bodies = 0;
+};
+
+/// Consecutive numbers of the disjoint sets.
+std::vector<int> numbered(Connection& connection, int n)
+{
+  std::vector<int> of(n, -1), of_root(n, -1);
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    int& set = of_root[connection.root(i)];
+    if (set < 0) set = count++;
+    of[i] = set;
+  }
+  return of;
+}
+
+int count_of(const std::vector<int>& numbered)
+{
+  return numbered.empty() ? 0 : *std::ranges::max_element(numbered) + 1;
+}
+
+int number_of(const DofMap& dofs, int node)
+{
+  return dofs.motion(node).front().number;
+}
+
+Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
+                      std::span<const PlacedSpring> springs)
+{
+  Connection connection(dofs.n_active());
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const int first = number_of(dofs, block.element_nodes(e)[0]);
+      for (const int node : block.element_nodes(e)) {
+        for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
+      }
+    }
+  }
+  Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
+  const int n_parts = count_of(parts.of_number);
+  Connection bodies(n_parts);
+  for (const PlacedSpring& spring : springs) {
+    if (spring.nodes.size() < 2) continue;
+    bodies.join(parts.of_number[number_of(dofs, spring.nodes[0])],
+                parts.of_number[number_of(dofs, spring.nodes[1])]);
+  }
+  parts.body = numbered(bodies, n_parts);
+  parts.n_bodies = count_of(parts.body);
+  std::vector<int> n_of_body(parts.n_bodies, 0);
+  for (const int body : parts.body) parts.place.push_back(n_of_body[body]++);
+  return parts;
+}
+
+/// Centre and mean radius of each body, the geometry that scales rotations.
+struct Extent {
+  Vector3d centre = Vector3d::Zero();
+  double length = 0.0;
+  int n_nodes = 0;
+  int n_parts = 0;
+};
+
+std::vector<Extent> extents(const DofMap& dofs, const Parts& parts)
+{
+  std::vector<Extent> extents(parts.n_bodies);
+  const auto for_nodes = [&](const auto& visit) {
+    for (int node = 0; node < dofs.n_nodes(); ++node) {
+      if (dofs.number(node) < 0) continue;
+      const int body = parts.body[parts.of_number[dofs.number(node)]];
+      visit(extents[body], dofs.position(node));
+    }
+  };
+  for_nodes([](Extent& extent, const Vector3d& x) {
+    extent.centre += x;
+    ++extent.n_nodes;
+  });
+  for (Extent& extent : extents) extent.centre /= std::max(extent.n_nodes, 1);
+  for_nodes([](Extent& extent, const Vector3d& x) {
+    extent.length += (x - extent.centre).norm() / extent.n_nodes;
+  });
+  for (Extent& extent : extents) {
+    if (!(extent.length > 0.0)) extent.length = 1.0;  // a single node
+  }
+  for (const int body : parts.body) ++extents[body].n_parts;
+  return extents;
+}
+
+/// What one unit of each rigid motion of a part is at this component of one of its points.
+RowVector6d rigid_row(const Vector3d& position, const Extent& extent, int component)
+{
+  const Vector3d r = (position - extent.centre) / extent.length;
+  RowVector6d row = RowVector6d::Zero();
+  row[component] = 1.0;  // of a rotation times 1 / length
+  if (component >= 3) return row;
+  for (int axis = 0; axis < 3; ++axis) row[3 + axis] = Vector3d::Unit(axis).cross(r)[component];
+  return row;
+}
+
+/// For each body G with x^T G x = 0 for the rigid motions x of its parts that nothing resists.
+class Resistance {
+ public:
+  Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents)
+      : dofs_(dofs), parts_(parts), extents_(extents)
+  {
+    for (const Extent& extent : extents) {
+      gram_.push_back(MatrixXd::Zero(6 * extent.n_parts, 6 * extent.n_parts));
+    }
+  }
+
+  /// This component of the node does not move, but for a rotation about the axis.
+  void hold(int node, int component, const Vector3d& axis)
+  {
+    const Vector3d x = dofs_.position(node);
+    const Extent& extent = extents_[body_of(node)];
+    RowVector6d motion = rigid_row(x, extent, component);
+    for (int k = 0; component >= 3 && k < 3; ++k) {
+      motion -= axis[component - 3] * axis[k] * rigid_row(x, extent, 3 + k);
+    }
+    resist({&node, 1}, motion);
+  }
+  /// A spring resists the motion against the ground or of both nodes, seen at the middle.
+  void add(const PlacedSpring& spring)
+  {
+    const int a = spring.nodes.front(), b = spring.nodes.back();
+    const Vector3d middle = 0.5 * (dofs_.position(a) + dofs_.position(b));
+    for (const int component : spring.components) {
+      resist(spring.nodes, rigid_row(middle, extents_[body_of(a)], component));
+    }
+  }
+  const std::vector<MatrixXd>& gram() const { return gram_; }
+
+ private:
+  int part_of(int node) const { return parts_.of_number[number_of(dofs_, node)]; }
+  int body_of(int node) const { return parts_.body[part_of(node)]; }
+
+  /// @param nodes  one against the ground, or two against each other
+  void resist(std::span<const int> nodes, const RowVector6d& motion)
+  {
+    MatrixXd& G = gram_[body_of(nodes.front())];
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(G.cols());
+    row.segment<6>(6 * parts_.place[part_of(nodes.front())]) += motion;
+    if (nodes.size() > 1) row.segment<6>(6 * parts_.place[part_of(nodes.back())]) -= motion;
+    G += row.transpose() * row;
+  }
+
+  const DofMap& dofs_;
+  const Parts& parts_;
+  const std::vector<Extent>& extents_;
+  std::vector<MatrixXd> gram_;
+};
+
+/// What supports, and the components that the nodes do not have, hold.
+void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance& resistance)
+{
+  const std::vector<int>& held = restraints.held;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    const Vector3d axis =
+        node < restraints.axes.rows() ? Vector3d(restraints.axes.row(node)) : Vector3d::Zero();
+    for (int component = 0; component < 6; ++component) {
+      const auto dof = dofs.dof(node, component);
+      const bool has_component = std::ranges::binary_search(dofs.components(), component);
+      if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component) {
+        resistance.hold(node, component, dof ? axis : Vector3d::Zero());
+      }
+    }
+  }
+}
+
+MatrixXd null_space(const MatrixXd& G)
+{
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(G);
+  Index n = 0;
+  while (n < G.rows() &&
+         eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace())) {
+    ++n;
+  }
+  return eigen.eigenvectors().leftCols(n);
+}
+
+}  // namespace
+
+std::vector<FreePart> free_parts(const mesh::Mesh& mesh, const DofMap& dofs,
+                                 const std::vector<int>& held, std::span<const Spring> springs)
+{
+  const Eigen::MatrixX3d no_axes;
+  return free_parts_under(mesh, dofs, {.held = held, .springs = springs, .axes = no_axes});
+}
+
+std::vector<FreePart> free_parts_under(const mesh::Mesh& mesh, const DofMap& dofs,
+                                       const Restraints& restraints)
+{
+  const std::vector<PlacedSpring> placed = place_springs(mesh, dofs, restraints.springs);
+  const Parts parts = connected_parts(mesh, dofs, placed);
+  const std::vector<Extent> extent = extents(dofs, parts);
+  Resistance resistance(dofs, parts, extent);
+  hold_supports(dofs, restraints, resistance);
+  for (const PlacedSpring& spring : placed) resistance.add(spring);
+  std::vector<FreePart> free;
+  for (int body = 0; body < parts.n_bodies; ++body) {
+    MatrixXd motions = null_space(resistance.gram()[static_cast<std::size_t>(body)]);
+    if (motions.cols() == 0) continue;
+    free.push_back({.n_nodes = extent[body].n_nodes,
+                    .centre = extent[body].centre,
+                    .motions = std::move(motions)});
+  }
+  return free;
+}
+
+int n_free_motions(const std::vector<FreePart>& parts)
+{
+  int n = 0;
+  for (const FreePart& part : parts) n += static_cast<int>(part.motions.cols());
+  return n;
+}
+
+std::string describe_motions(const FreePart& part)
+{
+  constexpr std::array names{"translation along x", "translation along y", "translation along z",
+                             "rotation about x",    "rotation about y",    "rotation about z"};
+  std::vector<std::string> pure;
+  for (Index c = 0; c < 6; ++c) {
+    // A motion of all pieces alike, if all of it lies in the space of the free ones.
+    Eigen::VectorXd alike = Eigen::VectorXd::Zero(part.motions.rows());
+    alike(Eigen::seq(c, Eigen::last, 6)).setConstant(std::sqrt(6.0 / double(alike.size())));
+    if ((alike.transpose() * part.motions).norm() > 1.0 - same_motion) {
+      pure.emplace_back(names[static_cast<std::size_t>(c)]);
+    }
+  }
+  const auto n = part.motions.cols();
+  return fmt::format("{} way{}{}", n, n == 1 ? "" : "s",
+                     pure.empty() ? "" : fmt::format(" ({})", fmt::join(pure, ", ")));
+}
+
+void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
+{
+  std::vector<bool> touched(dofs.n_active(), false);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    for (const int node : block.nodes) {
+      for (const MotionTerm& term : dofs.motion(node)) touched[term.number] = true;
+    }
+  }
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    if (dofs.number(node) < 0 || touched[dofs.number(node)]) continue;
+    if (node >= dofs.n_mesh_nodes()) {
+      throw Error(fmt::format("coupling \"{}\": none of its nodes belongs to an element",
+                              dofs.reference_name(node)));
+    }
+    throw Error(
+        fmt::format("node {} belongs to no element, so nothing gives it stiffness; take it out of "
+                    "the mesh or let it follow a coupling",
+                    mesh.node_numbers[node]));
+  }
+}
+
+}  // namespace chladni::plate

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+
+#include "plate/dofs/average_motions.hpp"
+
+namespace chladni::plate {
+
+/// A circumferential harmonic of a ring: cos(n phi), or sin(n phi).
+struct Harmonic {
+  int order;  ///< n
+  bool is_sine;
+};
+
+/// Harmonics are counted 1, cos(phi), sin(phi), cos(2 phi), ...
+constexpr Harmonic harmonic_of(int k)
+{
+  return {.order = (k + 1) / 2, .is_sine = k > 0 && k % 2 == 0};
+}
+
+/// A ring whose nodes have the harmonics of their motion as DOFs.
+struct HarmonicRing {
+  std::string name;
+  int up_to;                 ///< highest harmonic that is wanted as a master
+  std::vector<int> nodes;    ///< [N] by angle
+  std::vector<int> numbers;  ///< [N] active number at which harmonic k stands
+
+  /// Harmonics 0 .. up_to with cosine and sine, as far as N nodes tell them apart.
+  int n_wanted() const { return std::min(2 * up_to + 1, static_cast<int>(nodes.size())); }
+};
+
+/// Where a ring has its harmonics as DOFs, these stand where the DOFs of its nodes were.
+struct RingMotions : NodeMotions {
+  std::vector<HarmonicRing> rings;
+};
+
+/// Gives the nodes of rings their harmonics as DOFs. With unit vectors E_i = (e_r, e_t, e_a) at
+/// node i, radial, tangential and along the axis of the circle, and the coordinates c_k = (u_r,
+/// u_t, u_a, theta_r, theta_t, theta_a) of harmonic k,
+///   (u, theta)_i = sum_k F_ik diag(E_i, E_i) c_k,  F_ik = a_n cos(n phi_i) or a_n sin(n phi_i)
+/// for all n = 0 .. floor(N / 2). F is orthogonal, so that this is another basis of the same space:
+/// nothing is lost, and harmonics beyond `up_to` are DOFs like any other. In these components a
+/// harmonic of the ring belongs to the same number of nodal diameters of an axisymmetric body.
+/// The axis points to the side of its largest component; phi counts from the projection of the x
+/// axis, or of the y axis where x is nearly the axis.
+/// @throws chladni::Error for a name that is no group, fewer than three nodes, nodes that are not
+///         equally spaced on a circle, that follow others or are averaged, rings with a node in
+///         common, and a harmonic that so few nodes cannot show.
+RingMotions with_ring_harmonics(const mesh::Mesh& mesh, NodeMotions motions,
+                                std::span<const RingHarmonics> rings);
+
+}  // namespace chladni::plate

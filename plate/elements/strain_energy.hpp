@@ -1,0 +1,32 @@
+#pragma once
+
+#include "plate/elements/covariant_strains.hpp"
+#include "plate/plate_options.hpp"
+
+namespace chladni::plate {
+
+/// Which strain components an energy counts.
+enum class Strains { all, without_shear, shear };
+
+/// Two Gauss points through the thickness, weights 1.
+extern const std::array<double, 2> thickness_points;
+
+/// S with S^T S = plane-stress elasticity, kappa = 5/6, for the Cartesian components
+/// (e_11, e_22, 2 e_12, 2 e_13, 2 e_23); the rows of components that do not count are left out.
+/// @return [n x 5], sqrt(Pa)
+Eigen::Matrix<double, Eigen::Dynamic, 5> elasticity_root(const Material& material, Strains which);
+
+/// det(g) of the shell at point `q` of `frame` and height `zeta`.
+double volume_element(const ShellFrame& frame, Eigen::Index q, double zeta);
+
+/// K = sum over points of B^T C B det(g) w, with B the Cartesian strains in a frame whose third
+/// axis is the director.
+/// @param root  of C, from `elasticity_root`.
+Eigen::MatrixXd stiffness(const CovariantStrains& strains, const ShellFrame& frame,
+                          const Points& points,
+                          const Eigen::Matrix<double, Eigen::Dynamic, 5>& root);
+
+/// R^T R, both triangles.
+Eigen::MatrixXd gram_matrix(const StrainRows& R);
+
+}  // namespace chladni::plate

@@ -1,0 +1,89 @@
+#include "plate/sections/section_map.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "plate/elements/beam_element.hpp"
+#include "plate/elements/shell_element.hpp"
+#include "plate/sections/directors.hpp"
+#include "plate/sections/profile.hpp"
+#include "plate/sections/sections.hpp"
+
+namespace chladni::plate {
+
+namespace {
+
+enum class Kind { shell, beam };
+
+Kind kind_of(const mesh::ElementBlock& block)
+{
+  return block.shape == mesh::Shape::line ? Kind::beam : Kind::shell;
+}
+
+int index_of_section(const SectionMap& map, const mesh::ElementBlock& block, int element)
+{
+  const int group = block.group[element];
+  if (group < 0) return -1;
+  return kind_of(block) == Kind::beam ? map.beam[group] : map.shell[group];
+}
+
+/// A formula may be negative where a table cannot.
+void check_thickness(const mesh::Mesh& mesh, const ShellSection& section)
+{
+  if (section.thickness.formula.empty()) return;
+  for (const int node : mesh::find_group(mesh, section.group).nodes) {
+    const double t = value_at(section.thickness, mesh.positions[node]);
+    if (t > 0.0) continue;
+    throw Error(fmt::format(
+        "section of group \"{}\": the thickness \"{}\" is {:.6g} m at node {}; it must be > 0",
+        section.group, section.thickness.formula, t, mesh.node_numbers[node]));
+  }
+}
+
+/// The axes of all beams of a line are defined.
+void check_axes(const NodeVectors& x, const BeamSection& section)
+{
+  for (Eigen::Index i = 0; i + 1 < x.rows(); ++i) beam_axes(x.row(i + 1) - x.row(i), section);
+}
+
+}  // namespace
+
+SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
+{
+  const SectionMap map{.shell = section_of_group(mesh, structure.shells),
+                       .beam = section_of_group(mesh, structure.beams)};
+  for (const ShellSection& section : structure.shells) check_thickness(mesh, section);
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (kind_of(block) == Kind::shell) check_element_exists(block.shape, block.order);
+    for (int e = 0; e < block.n_elements(); ++e) {
+      const int section = index_of_section(map, block, e);
+      if (section < 0) {
+        throw Error(
+            fmt::format("element {} has no section: name its physical group in a [[section]]",
+                        block.numbers[e]));
+      }
+      if (kind_of(block) == Kind::beam) {
+        check_axes(element_positions(mesh, block, e), structure.beams[section]);
+      }
+    }
+  }
+  return map;
+}
+
+PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                                int element, const ElementContext& context)
+{
+  const int index = index_of_section(context.sections, block, element);
+  const NodeVectors x = element_positions(mesh, block, element);
+  if (kind_of(block) == Kind::beam) {
+    return {.matrices = beam_matrices(x, context.structure.beams[index]), .arms = {}};
+  }
+  const ShellSection& section = context.structure.shells[index];
+  const ShellNodes shell = shell_nodes(mesh, block, element, context.normals, section);
+  PlacedMatrices placed{
+      .matrices = shell_matrices(block.shape, block.order, shell, section.material), .arms = {}};
+  if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
+  return placed;
+}
+
+}  // namespace chladni::plate

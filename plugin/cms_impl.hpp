@@ -1,0 +1,125 @@
+#pragma once
+
+#include <petsc/private/petscimpl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linear/progress.hpp"
+#include "plugin/check_operators.hpp"
+#include "plugin/chladni_cms.h"
+#include "reduce/reduction.hpp"
+
+/// Inside of the PETSc class CMS; nothing of it crosses the C header.
+namespace chladni::plugin {
+
+/// Where a master stands, for the file.
+struct MasterPlace {
+  PetscInt node;
+  PetscInt component;
+  double x[3];
+};
+
+/// What CMSSetUp makes.
+struct SetUp {
+  reduce::FactoredBody body;  ///< K and M are references, or AIJ copies of other types
+  VelocityForces velocity;    ///< C likewise, or nothing
+};
+
+/// Masters in the user's order, then the modes.
+struct Result {
+  reduce::Reduction reduction;
+  std::vector<PetscReal> f_Hz;  ///< [k] of the certified modes
+  CMSQuality quality;
+  petsc::Matrix K_r = {}, M_r = {}, C_r = {},
+                T = {};  ///< made when asked for; C_r only with damping
+};
+
+/// What the user has said.
+struct Settings {
+  reduce::ReductionOptions options{.basis = {.method = reduce::Method::craig_bampton, .modes = 20}};
+  CMSMonitorFunction monitor = nullptr;
+  void* monitor_context = nullptr;
+  bool prints_phases = false;
+};
+
+/// All that a CMS holds.
+struct Inside {
+  petsc::Matrix K, M, C;              ///< as given
+  petsc::IndexSet interface, output;  ///< as given
+  std::vector<MasterPlace> geometry;  ///< of this rank's part of the interface, or empty
+  Settings settings;
+  std::optional<SetUp> set_up;
+  std::optional<Result> result;
+};
+
+struct Events {
+  PetscLogEvent set_up, check, solve, factor, constraint, modes, project, errors, count, view;
+  PetscLogStage stage_set_up, stage_solve;
+};
+extern Events events;
+
+/// Another reference to a PETSc object; empty for null.
+template <class Handle, class Object>
+Handle reference(Object object)
+{
+  if (object) petsc::check(PetscObjectReference(reinterpret_cast<PetscObject>(object)));
+  return Handle(object);
+}
+
+/// Brackets a phase: log event, wall time, monitor; with -cms_monitor on a terminal also how much
+/// of it is done and how long the rest will take.
+class Phase {
+ public:
+  Phase(CMS cms, PetscLogEvent event, std::string name);
+  ~Phase();
+  Phase(const Phase&) = delete;
+  Phase& operator=(const Phase&) = delete;
+  /// Calls the monitor; left out when an exception ends the phase.
+  void done();
+
+ private:
+  void show(double fraction);
+  void call_monitor(PetscLogDouble seconds);
+
+  CMS cms_;
+  PetscLogEvent event_;
+  std::string name_;
+  PetscLogDouble started_ = 0.0;
+  PetscLogDouble shown_ = 0.0;
+  std::optional<linear::ListenToProgress> listener_;
+};
+
+/// Makes phases of a CMS of those of a reduction; short ones have none of their own.
+class CMSPhases : public reduce::PhaseListener {
+ public:
+  explicit CMSPhases(CMS cms) : cms_(cms) {}
+  void begin(const std::string& name) override;
+  void end() override;
+
+ private:
+  CMS cms_;
+  std::optional<Phase> phase_;
+};
+
+/// Where the solvers inside find the options of the object: `-PREFIXcms_...` in its own database.
+linear::OptionSource option_source(CMS cms);
+
+/// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
+SetUp make_set_up(CMS cms);
+Result make_result(CMS cms);
+/// T^T C T; masters ascending by DOF. Symmetric where C is.
+linear::SmallMatrix reduced_velocity_forces(const Inside& in);
+void write_file(CMS cms, const std::string& path);
+
+}  // namespace chladni::plugin
+
+struct _CMSOps {};
+
+/// The object that the C header hides.
+struct _p_CMS {
+  PETSCHEADER(struct _CMSOps);
+  chladni::plugin::Inside* inside;
+};

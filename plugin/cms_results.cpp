@@ -1,0 +1,260 @@
+// What a solved CMS hands out.
+#include <algorithm>
+#include <numeric>
+
+#include "plugin/cms_impl.hpp"
+#include "plugin/guard.hpp"
+
+namespace chladni::plugin {
+
+namespace {
+
+std::vector<int> places_of(const Inside& in)
+{
+  return reduce::coordinate_places(in.set_up->body.masters, in.result->reduction.model);
+}
+
+/// A replicated matrix as dense one of the communicator, in the order of the user.
+petsc::Matrix distributed(const linear::SmallMatrix& A, const std::vector<int>& places,
+                          MPI_Comm comm)
+{
+  petsc::Matrix B;
+  PetscInt first = 0, last = 0;
+  const auto n = static_cast<PetscInt>(places.size());
+  petsc::check(MatCreateDense(comm, PETSC_DECIDE, PETSC_DECIDE, n, n, nullptr, B.put()));
+  petsc::check(MatGetOwnershipRange(B, &first, &last));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArrayWrite(B, &values));
+  for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt i = first; i < last; ++i) {
+      values[i - first + std::size_t(j) * (last - first)] = A(places[i], places[j]);
+    }
+  }
+  petsc::check(MatDenseRestoreArrayWrite(B, &values));
+  petsc::check(MatSetOption(B, MAT_SYMMETRIC, PETSC_TRUE));
+  return B;
+}
+
+petsc::Matrix dense_rows(MPI_Comm comm, PetscInt n_local, PetscInt n_columns)
+{
+  petsc::Matrix T;
+  petsc::check(
+      MatCreateDense(comm, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, nullptr, T.put()));
+  return T;
+}
+
+/// Own indices of a set.
+std::vector<PetscInt> own_indices(IS set)
+{
+  PetscInt n = 0;
+  const PetscInt* indices = nullptr;
+  petsc::check(ISGetLocalSize(set, &n));
+  petsc::check(ISGetIndices(set, &indices));
+  std::vector<PetscInt> own(indices, indices + n);
+  petsc::check(ISRestoreIndices(set, &indices));
+  return own;
+}
+
+/// How many indices the ranks before this one have.
+PetscInt before(const std::vector<PetscInt>& own, MPI_Comm comm)
+{
+  const auto n = static_cast<PetscInt>(own.size());
+  PetscInt sum = 0;
+  MPI_Exscan(&n, &sum, 1, MPIU_INT, MPI_SUM, comm);
+  return petsc::rank(comm) == 0 ? 0 : sum;
+}
+
+/// All rows, each rank its own: no communication.
+petsc::Matrix whole_transformation(const reduce::FactoredBody& body,
+                                   const reduce::CraigBamptonBasis& Q_CB,
+                                   const std::vector<int>& places)
+{
+  const MPI_Comm comm = petsc::communicator(body.K);
+  PetscInt first = 0, n_local = 0;
+  petsc::check(MatGetOwnershipRange(body.K, &first, nullptr));
+  petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
+  petsc::Matrix T = dense_rows(comm, n_local, static_cast<PetscInt>(places.size()));
+  const linear::LocalRows Psi(Q_CB.Psi);
+  std::optional<linear::LocalRows> Phi;
+  if (Q_CB.modes) Phi.emplace(Q_CB.modes->Phi);
+  const std::vector<PetscInt> masters = own_indices(body.dofs.masters);
+  const std::vector<PetscInt> slaves = own_indices(body.dofs.slaves);
+  const PetscInt first_master = before(masters, comm);
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(T, &values));
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    PetscScalar* column = values + j * n_local;
+    for (std::size_t m = 0; m < masters.size(); ++m) {
+      column[masters[m] - first] = places[j] == first_master + static_cast<int>(m) ? 1.0 : 0.0;
+    }
+    for (std::size_t s = 0; s < slaves.size(); ++s) {
+      const auto row = static_cast<PetscInt>(s);
+      column[slaves[s] - first] =
+          places[j] < Psi.n_cols() ? Psi(row, places[j]) : (*Phi)(row, places[j] - Psi.n_cols());
+    }
+  }
+  petsc::check(MatDenseRestoreArray(T, &values));
+  return T;
+}
+
+/// The rows of `output`, each rank those of its part.
+petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
+{
+  const MPI_Comm comm = petsc::communicator(in.set_up->body.K);
+  petsc::IndexSet gathered;
+  petsc::check(ISAllGather(in.output, gathered.put()));
+  const std::vector<PetscInt> dofs = own_indices(gathered);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
+  for (const PetscInt dof : dofs) {
+    if (dof < 0 || dof >= n) {
+      throw Error(
+          fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", dof, n - 1));
+    }
+  }
+  const linear::SmallMatrix rows =
+      reduce::basis_rows(in.result->reduction.Q_CB, in.set_up->body.dofs, dofs);
+  const std::vector<PetscInt> own = own_indices(in.output);
+  const PetscInt first = before(own, comm);
+  petsc::Matrix T =
+      dense_rows(comm, static_cast<PetscInt>(own.size()), static_cast<PetscInt>(places.size()));
+  PetscScalar* values = nullptr;
+  petsc::check(MatDenseGetArray(T, &values));
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      values[i + j * own.size()] = rows(first + static_cast<PetscInt>(i), places[j]);
+    }
+  }
+  petsc::check(MatDenseRestoreArray(T, &values));
+  return T;
+}
+
+void make_reduced_operators(Inside& in)
+{
+  Result& result = *in.result;
+  if (result.K_r) return;
+  const MPI_Comm comm = in.set_up->body.comm();
+  const std::vector<int> places = places_of(in);
+  const reduce::ReducedModel& model = result.reduction.model;
+  result.M_r = distributed(model.M, places, comm);
+  if (const VelocityForces& velocity = in.set_up->velocity; velocity.C) {
+    result.C_r = distributed(reduced_velocity_forces(in), places, comm);
+    petsc::check(
+        MatSetOption(result.C_r, MAT_SYMMETRIC, velocity.is_symmetric ? PETSC_TRUE : PETSC_FALSE));
+  }
+  result.K_r = distributed(model.K, places, comm);
+}
+
+}  // namespace
+
+linear::SmallMatrix reduced_velocity_forces(const Inside& in)
+{
+  const auto& [C, is_symmetric] = in.set_up->velocity;
+  linear::SmallMatrix C_r =
+      reduce::project_form(in.result->reduction.Q_CB, reduce::split(C, in.set_up->body.dofs));
+  for (PetscInt j = 0; is_symmetric && j < C_r.n_cols; ++j) {
+    for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
+  }
+  return C_r;
+}
+
+}  // namespace chladni::plugin
+
+using namespace chladni::plugin;  // NOLINT(google-build-using-namespace)
+
+// After CMSSolve only.
+#define CMSCheckSolved(cms)                                                               \
+  PetscCheck((cms)->inside->result, PetscObjectComm((PetscObject)(cms)), PETSC_ERR_ORDER, \
+             "Call CMSSolve() first")
+
+PetscErrorCode CMSGetReducedOperators(CMS cms, Mat* K, Mat* M, Mat* C)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  PetscCall(guarded((PetscObject)cms, __func__, [&] { make_reduced_operators(*cms->inside); }));
+  const Result& result = *cms->inside->result;
+  if (K) *K = result.K_r;
+  if (M) *M = result.M_r;
+  if (C) *C = result.C_r;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetTransformation(CMS cms, Mat* T)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(T, 2);
+  CMSCheckSolved(cms);
+  PetscCall(guarded((PetscObject)cms, __func__, [&] {
+    Inside& in = *cms->inside;
+    if (in.result->T) return;
+    const std::vector<int> places = places_of(in);
+    in.result->T = in.output
+                       ? chosen_rows(in, places)
+                       : whole_transformation(in.set_up->body, in.result->reduction.Q_CB, places);
+  }));
+  *T = cms->inside->result->T;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetDimensions(CMS cms, PetscInt* nmasters, PetscInt* nmodes)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  const Inside& in = *cms->inside;
+  if (nmasters) *nmasters = in.set_up ? static_cast<PetscInt>(in.set_up->body.masters.size()) : 0;
+  if (nmodes)
+    *nmodes = in.result ? static_cast<PetscInt>(in.result->reduction.model.omega.size()) : 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt* n, const PetscReal* f[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->f_Hz.size());
+  if (f) *f = cms->inside->result->f_Hz.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.eta2.size());
+  if (eta2) *eta2 = cms->inside->result->reduction.certificate.eta2.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal* rounding[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.rounding.size());
+  if (rounding) *rounding = cms->inside->result->reduction.certificate.rounding.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt* n, const PetscReal* bounds[])
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  CMSCheckSolved(cms);
+  if (n) *n = static_cast<PetscInt>(cms->inside->result->reduction.certificate.bounds.size());
+  if (bounds) *bounds = cms->inside->result->reduction.certificate.bounds.data();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CMSGetQuality(CMS cms, CMSQuality* quality)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  PetscValidPointer(quality, 2);
+  CMSCheckSolved(cms);
+  *quality = cms->inside->result->quality;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,109 @@
+// The reduced file of a CMS, of the same format as that of `chladni reduce`.
+#include <slepcsys.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+
+#include "common/all_ranks.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "plugin/cms_impl.hpp"
+#include "reduce_export/reduced_system.hpp"
+
+namespace chladni::plugin {
+
+namespace {
+
+/// Blocks of K's rows are nodes where a block fits the six components of one; else each row is.
+std::vector<MasterPlace> default_places(const reduce::FactoredBody& body)
+{
+  PetscInt block_size = 1;
+  petsc::check(MatGetBlockSize(body.K, &block_size));
+  if (block_size > 6) block_size = 1;
+  std::vector<MasterPlace> places;
+  for (const PetscInt dof : body.masters) {
+    places.push_back(
+        {.node = dof / block_size, .component = dof % block_size, .x = {0.0, 0.0, 0.0}});
+  }
+  return places;
+}
+
+/// Of all ranks, on every rank, in the order of the interface.
+std::vector<MasterPlace> gathered_places(const std::vector<MasterPlace>& own, MPI_Comm comm)
+{
+  std::vector<int> sizes(petsc::size(comm)), offsets(petsc::size(comm));
+  const auto n_bytes = static_cast<int>(own.size() * sizeof(MasterPlace));
+  MPI_Allgather(&n_bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm);
+  for (std::size_t i = 1; i < sizes.size(); ++i) offsets[i] = offsets[i - 1] + sizes[i - 1];
+  std::vector<MasterPlace> all((offsets.back() + sizes.back()) / sizeof(MasterPlace));
+  MPI_Allgatherv(own.data(), n_bytes, MPI_BYTE, all.data(), sizes.data(), offsets.data(), MPI_BYTE,
+                 comm);
+  return all;
+}
+
+/// Nodes in the order of their first master.
+void add_attachments(mbs_export::ReducedSystem& system, const std::vector<MasterPlace>& places)
+{
+  std::map<PetscInt, int> index_of;
+  for (const MasterPlace& place : places) {
+    const auto [found, is_new] = index_of.try_emplace(place.node, std::ssize(index_of));
+    if (is_new) {
+      system.attachment_nodes.push_back(
+          {.number = place.node, .position = {place.x[0], place.x[1], place.x[2]}});
+    }
+    system.masters.push_back(
+        {.node = found->second, .component = static_cast<int>(place.component)});
+  }
+  mbs_export::AttachmentSet all{.name = "interface", .nodes = {}};
+  for (int i = 0; i < std::ssize(system.attachment_nodes); ++i) all.nodes.push_back(i);
+  system.sets.push_back(std::move(all));
+}
+
+mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
+{
+  char* options = nullptr;
+  petsc::check(PetscOptionsGetAll(reinterpret_cast<PetscObject>(cms)->options, &options));
+  mbs_export::Provenance result{.scene = "",
+                                .mesh_checksum = "",
+                                .versions = fmt::format("libchladni_petsc {}; {}", CHLADNI_VERSION,
+                                                        reduce_export::library_versions()),
+                                .options = options,
+                                .ranks = petsc::size(comm)};
+  petsc::check(PetscFree(options));
+  return result;
+}
+
+}  // namespace
+
+void write_file(CMS cms, const std::string& path)
+{
+  const Inside& in = *cms->inside;
+  const reduce::FactoredBody& body = in.set_up->body;
+  const VelocityForces& velocity = in.set_up->velocity;
+  const MPI_Comm comm = body.comm();
+  if (velocity.C && !velocity.is_symmetric) {
+    throw Error(
+        "CMSWrite: C is not symmetric (gyroscopic forces), and the reduced file holds damping "
+        "only; give damping alone, and take the rest by CMSGetReducedOperators()");
+  }
+  mbs_export::ReducedSystem described;
+  const char* name = nullptr;
+  petsc::check(PetscObjectGetName(reinterpret_cast<PetscObject>(cms), &name));
+  described.title = name;
+  int n_places = static_cast<int>(in.geometry.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_places, 1, MPI_INT, MPI_SUM, comm);
+  add_attachments(described,
+                  n_places > 0 ? gathered_places(in.geometry, comm) : default_places(body));
+  const reduce::Reduction& reduction = in.result->reduction;
+  mbs_export::ReducedSystem system =
+      reduce_export::reduced_system(std::move(described), body, reduction);
+  if (velocity.C) {
+    system.C = reduce_export::in_order(reduced_velocity_forces(in),
+                                       reduce::coordinate_places(body.masters, reduction.model));
+  }
+  system.provenance = provenance(cms, comm);
+  on_first_rank(comm, [&] { mbs_export::write_reduced(path, system); });
+}
+
+}  // namespace chladni::plugin

@@ -1,0 +1,111 @@
+#include "reduce/held_masters.hpp"
+
+#include <algorithm>
+
+#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/eigenmodes.hpp"
+
+namespace chladni::reduce {
+
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd;
+
+MatrixXd as_eigen(const linear::SmallMatrix& A)
+{
+  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
+}
+
+/// M_r-orthonormal motions that K_r does not resist.
+MatrixXd zero_energy_motions(const ReducedModel& model, const MatrixXd& M)
+{
+  const MatrixXd R = as_eigen(model.R);
+  const Index n_m = R.rows(), r = R.cols();
+  if (r == 0) return MatrixXd(M.rows(), 0);
+  const Eigen::LLT<MatrixXd> mass(MatrixXd(R.transpose() * M.topLeftCorner(n_m, n_m) * R));
+  if (mass.info() != Eigen::Success) {
+    throw Error("a motion has neither stiffness nor mass; the pencil (K, M) is singular");
+  }
+  MatrixXd Z = MatrixXd::Zero(M.rows(), r);
+  Z.topRows(n_m) = mass.matrixL().solve(R.transpose()).transpose();
+  return Z;
+}
+
+void refuse_indefinite_mass(const MatrixXd& M)
+{
+  constexpr double round_off = 1e-8;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M, Eigen::EigenvaluesOnly);
+  const double least = mass.eigenvalues()[0], largest = mass.eigenvalues()[M.rows() - 1];
+  if (least >= -round_off * largest) return;
+  throw Error(
+      fmt::format("M is indefinite: an eigenvalue of M_r is {:.1e} of its largest; M must be "
+                  "positive semidefinite",
+                  least / largest));
+}
+
+/// Orthonormal combinations of the columns of R that leave these rows at rest.
+MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
+{
+  if (rows.empty() || R.cols() == 0) return R;
+  constexpr double round_off = 1e-10;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(R(rows, Eigen::all).transpose()));
+  qr.setThreshold(round_off);
+  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(R.cols(), R.cols());
+  return R * Q.rightCols(R.cols() - qr.rank());
+}
+
+std::vector<int> all_but(const std::vector<int>& rows, Index n)
+{
+  std::vector<int> others;
+  for (int i = 0; i < n; ++i) {
+    if (!std::ranges::binary_search(rows, i)) others.push_back(i);
+  }
+  return others;
+}
+
+}  // namespace
+
+HeldMasters::HeldMasters(const std::vector<PetscInt>& masters, std::vector<PetscInt> held)
+    : held_(std::move(held))
+{
+  std::vector<PetscInt> ascending = masters;
+  std::ranges::sort(ascending);
+  for (const PetscInt dof : held_) {
+    const auto found = std::ranges::lower_bound(ascending, dof);
+    if (found == ascending.end() || *found != dof)
+      throw Error(fmt::format("row {} cannot be held: it is no master", dof));
+    rows_.push_back(static_cast<int>(found - ascending.begin()));
+  }
+  std::ranges::sort(rows_);
+}
+
+SupportedModes HeldMasters::modes(const ReducedModel& model, const SpectrumRange& /*wanted*/) const
+{
+  const MatrixXd K = as_eigen(model.K), M = as_eigen(model.M);
+  refuse_indefinite_mass(M);
+  const MatrixXd R = zero_energy_motions(model, M), R_free = at_rest(R, rows_);
+  const std::vector<int> free = all_but(rows_, M.rows());
+  constexpr double three_digits = 1e-3;  // of a mass: the certificate tells of the others
+  const linear::Eigenmodes found =
+      linear::eigenmodes(K(free, free), M(free, free), R_free(free, Eigen::all), three_digits);
+  SupportedModes modes{.are_all = true,
+                       .n_zero = static_cast<int>(R_free.cols()),
+                       .n_free_zero = static_cast<int>(R.cols())};
+  modes.pairs.lambda.assign(found.lambda.begin(), found.lambda.end());
+  modes.pairs.X = linear::SmallMatrix(model.K.n_rows, static_cast<PetscInt>(found.lambda.size()));
+  for (Index j = 0; j < found.X.cols(); ++j) {
+    for (Index i = 0; i < found.X.rows(); ++i)
+      modes.pairs.X(free[static_cast<std::size_t>(i)], static_cast<PetscInt>(j)) = found.X(i, j);
+  }
+  return modes;
+}
+
+double HeldMasters::zero_energy(const ReducedModel& model, const SupportedModes& modes) const
+{
+  const MatrixXd R = zero_energy_motions(model, as_eigen(model.M));
+  if (R.cols() == 0 || modes.pairs.lambda.empty()) return 0.0;
+  const MatrixXd energy = R.transpose() * as_eigen(model.K) * R;
+  return energy.diagonal().cwiseAbs().maxCoeff() / modes.pairs.lambda.front();
+}
+
+}  // namespace chladni::reduce

@@ -1,0 +1,197 @@
+#include "report/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "common/error.hpp"
+#include "files/hdf5.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "report/describe_certificate.hpp"
+#include "report/quantities.hpp"
+#include "squeal/result_file.hpp"
+
+namespace chladni::report {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void add_sets(TextTable& table, const std::vector<mbs_export::AttachmentSet>& sets)
+{
+  for (const mbs_export::AttachmentSet& set : sets) {
+    add_count(table, fmt::format("nodes of {}", set.name),
+              static_cast<Eigen::Index>(set.nodes.size()));
+  }
+}
+
+void add_picture(TextTable& table, const mbs_export::Picture& picture)
+{
+  add_count(table, "nodes for pictures", picture.positions.rows());
+}
+
+std::string name_of(mbs_export::ModeKind kind)
+{
+  switch (kind) {
+    case mbs_export::ModeKind::rigid:
+      return "rigid";
+    case mbs_export::ModeKind::constrained:
+      return "constrained";
+    case mbs_export::ModeKind::interface:
+      return "interface";
+  }
+  return "";
+}
+
+using Steps = std::vector<mbs_export::SelectionStep>;
+
+/// The last step that needs no more than `size` modes; null before the first and after the last.
+const mbs_export::SelectionStep* step_at(const Steps& steps, int size)
+{
+  if (steps.empty() || size > steps.back().size()) return nullptr;
+  const auto after = std::ranges::upper_bound(steps, size, {}, &mbs_export::SelectionStep::size);
+  return after == steps.begin() ? nullptr : &*(after - 1);
+}
+
+/// Sizes at which the error of a path falls to another half of a power of ten, and the last one.
+void add_telling_sizes(std::set<int>& sizes, const Steps& steps)
+{
+  int last = std::numeric_limits<int>::max();
+  for (const mbs_export::SelectionStep& step : steps) {
+    const int level = static_cast<int>(std::floor(2.0 * std::log10(step.error + 1e-300)));
+    if (level < last || &step == &steps.back()) sizes.insert(step.size());
+    last = std::min(last, level);
+  }
+}
+
+TextTable selection_table(const mbs_export::SelectionTable& selection)
+{
+  std::set<int> sizes;
+  add_telling_sizes(sizes, selection.modes_only);
+  add_telling_sizes(sizes, selection.with_interface_modes);
+  TextTable table{
+      .header = {"size", "error, modes alone", "error, with interface modes", "interface modes"},
+      .rows = {}};
+  for (const int size : sizes) {
+    const auto* modes = step_at(selection.modes_only, size);
+    const auto* mixed = step_at(selection.with_interface_modes, size);
+    table.rows.push_back({fmt::format("{}", size),
+                          modes != nullptr ? fmt::format("{:.2e}", modes->error) : "",
+                          mixed != nullptr ? fmt::format("{:.2e}", mixed->error) : "",
+                          mixed != nullptr ? fmt::format("{}", mixed->n_interface) : ""});
+  }
+  return table;
+}
+
+template <class Object>
+std::string titled(const Object& object)
+{
+  return object.title + "\n\n" + format_table(describe(object));
+}
+
+/// The highest harmonic of each ring that has harmonics as masters.
+void add_harmonics(TextTable& table, const mbs_export::ReducedSystem& reduced)
+{
+  for (std::size_t set = 0; set < reduced.sets.size(); ++set) {
+    int highest = -1;
+    for (const mbs_export::MasterDof& dof : reduced.masters)
+      if (dof.harmonic && dof.harmonic->set == static_cast<int>(set))
+        highest = std::max(highest, dof.harmonic->order);
+    if (highest >= 0)
+      add_count(table, "harmonics of " + reduced.sets[set].name + " up to", highest);
+  }
+}
+
+}  // namespace
+
+TextTable describe(const mbs_export::ReducedSystem& reduced)
+{
+  TextTable table = quantities();
+  add_count(table, "attachment nodes", static_cast<Eigen::Index>(reduced.attachment_nodes.size()));
+  add_sets(table, reduced.sets);
+  add_harmonics(table, reduced);
+  add_count(table, "masters", reduced.n_masters());
+  const Eigen::VectorXd f_Hz = reduced.fixed_interface_frequencies / (2.0 * pi);
+  add_count(table, "fixed-interface modes", f_Hz.size());
+  if (f_Hz.size() > 0) {
+    add(table, "lowest of them", f_Hz.minCoeff(), "Hz");
+    add(table, "highest of them", f_Hz.maxCoeff(), "Hz");
+  }
+  add_picture(table, reduced.picture);
+  return table;
+}
+
+TextTable describe(const mbs_export::ModalBody& body)
+{
+  TextTable table = quantities();
+  add_count(table, "modes", body.n_modes());
+  add_count(table, "rigid-body motions of the free body", body.n_rigid);
+  add_count(table, "rigid-body motions left by the supports", body.n_free_rigid);
+  add(table, "condition of the mode shift", body.condition_Q_dd, "");
+  if (body.preparation.condition_directions)
+    add(table, "condition with rows of unit length", *body.preparation.condition_directions, "");
+  add_count(table, "attachment nodes", static_cast<Eigen::Index>(body.attachment_nodes.size()));
+  add_sets(table, body.sets);
+  add_count(table, "contact rings", static_cast<Eigen::Index>(body.rings.size()));
+  add(table, "mass", body.mass, "kg");
+  add(table, "moment of inertia about z", body.inertia(2, 2), "kg m^2");
+  add_picture(table, body.picture);
+  return table;
+}
+
+TextTable list_modes(const mbs_export::ModalBody& body)
+{
+  TextTable table{.header = {"mode", "frequency, Hz", "kind"}, .rows = {}};
+  for (Eigen::Index i = 0; i < body.n_modes(); ++i) {
+    table.rows.push_back({fmt::format("{}", i + 1),
+                          fmt::format("{:.4f}", body.omega[i] / (2.0 * pi)),
+                          name_of(body.kinds[static_cast<std::size_t>(i)])});
+  }
+  return table;
+}
+
+std::string describe_selection(const mbs_export::ModalBody& body)
+{
+  if (!body.selection) return "";
+  const mbs_export::SelectionTable& selection = *body.selection;
+  const auto n_interface = std::ranges::count(body.kinds, mbs_export::ModeKind::interface);
+  const Steps& steps = n_interface > 0 ? selection.with_interface_modes : selection.modes_only;
+  const double error = steps.empty() ? 0.0 : steps.back().error;
+  return fmt::format(
+      "selection for loads at {} up to {:.6g} Hz, tolerance {:.3g}\n\n{}\n{}: {} modes and {} "
+      "interface modes, error {:.2e}\n",
+      fmt::join(selection.loads, ", "), selection.Omega_max / (2.0 * pi), selection.error,
+      format_table(selection_table(selection)),
+      error <= selection.error ? "chosen" : "the tolerance cannot be reached; the best is",
+      body.n_modes() - n_interface, n_interface, error);
+}
+
+std::string describe_file(const std::filesystem::path& path)
+{
+  const files::Reader file(path.string());  // one for all: its seal is a digest of it
+  const std::string format = file.text_attribute("/", "format");
+  if (format == mbs_export::reduced_format) {
+    const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
+    const std::string certificate = describe_certificate(reduced.certificate);
+    return titled(reduced) + (certificate.empty() ? "" : "\n" + certificate);
+  }
+  if (format == mbs_export::body_format) {
+    const mbs_export::ModalBody body = mbs_export::read_body(file);
+    const std::string selection = describe_selection(body);
+    const bool is_certified = body.fixed == body.certificate.fixed;  // or it is of other modes
+    const std::string certificate = is_certified ? describe_certificate(body.certificate) : "";
+    return titled(body) + "\n" + format_table(list_modes(body)) +
+           (selection.empty() ? "" : "\n" + selection) +
+           (certificate.empty() ? "" : "\n" + certificate);
+  }
+  if (format == squeal::results_format) return format_table(describe(squeal::read_results(file)));
+  throw Error(
+      fmt::format("{}: holds \"{}\", which this program does not know", file.path(), format));
+}
+
+}  // namespace chladni::report

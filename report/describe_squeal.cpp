@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "report/describe.hpp"
+#include "report/quantities.hpp"
+#include "squeal/growth_rate.hpp"
+#include "squeal/rotation_stability.hpp"
+#include "squeal/stability_search.hpp"
+
+namespace chladni::report {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+/// Growth that rounding can make of a neutral motion, relative to the largest frequency of a map.
+constexpr double rounding = 1e-12;
+
+/// What the parameter of a search is called and measured in.
+struct Searched {
+  std::string name;    ///< "speed"
+  std::string values;  ///< "speeds"
+  std::string unit;    ///< empty for a pure number
+
+  std::string operator()(double value) const
+  {
+    return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+  }
+};
+
+/// Why there is no value at which stability is lost.
+std::string none_because(squeal::Stability stability, const std::string& values)
+{
+  switch (stability) {
+    case squeal::Stability::stable:
+      return "none: stable at all " + values;
+    case squeal::Stability::unstable:
+      return "none: unstable at all " + values;
+    default:
+      return "none: unstable at first";
+  }
+}
+
+/// Growth and frequency at both ends of a range without any stability.
+void add_ends(TextTable& table, const squeal::StabilityProfile& profile, const Searched& searched)
+{
+  for (const squeal::StabilityPoint& end : {profile.from, profile.to}) {
+    add(table, "growth at " + searched(end.value), end.growth, "1/s");
+    add(table, "frequency at " + searched(end.value), end.frequency_Hz, "Hz");
+  }
+}
+
+/// All intervals, unless there is one alone that begins at the critical value and has no end.
+void add_intervals(TextTable& table, const squeal::StabilityProfile& profile,
+                   const Searched& searched)
+{
+  if (profile.unstable.empty()) return;
+  if (squeal::stability_of(profile) == squeal::Stability::unstable) {
+    add_ends(table, profile, searched);
+    return;
+  }
+  const bool alone = profile.unstable.size() == 1;
+  if (alone && !squeal::first_regain(profile)) return;
+  for (const squeal::UnstableInterval& interval : profile.unstable) {
+    const std::string name = fmt::format("unstable from {} to {}", searched(interval.from.value),
+                                         searched(interval.to.value));
+    add(table, name + ", growth up to", interval.worst.growth, "1/s");
+    add(table, "its frequency there", interval.worst.frequency_Hz, "Hz");
+  }
+}
+
+void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
+{
+  const Searched speed{"speed", "speeds", "rad/s"};
+  if (results.critical_speed) {
+    add(table, "critical speed", results.critical_speed->speed, "rad/s");
+    add(table, "critical speed / pi", results.critical_speed->speed / pi, "rad/s");
+    add(table, "critical frequency", results.critical_speed->frequency_Hz, "Hz");
+  } else if (results.speed_stability) {
+    const squeal::Stability stability = squeal::stability_of(*results.speed_stability);
+    table.rows.push_back({"critical speed", none_because(stability, speed.values), ""});
+  } else if (results.searched_critical_speed) {
+    // A file of an earlier version does not tell stable from unstable.
+    table.rows.push_back({"critical speed", "stability is not lost in the range", ""});
+  }
+  if (results.speed_stability) add_intervals(table, *results.speed_stability, speed);
+}
+
+void add_critical(TextTable& table, const squeal::CriticalValue& value)
+{
+  const Searched searched{value.parameter, "values",
+                          value.parameter == "preload"     ? "N"
+                          : value.parameter == "stiffness" ? "N/m"
+                                                           : ""};
+  const bool regained =
+      value.profile && squeal::stability_of(*value.profile) == squeal::Stability::regained;
+  const std::string name = fmt::format("critical {} at {:.4f} pi rad/s{}", value.parameter,
+                                       value.speed / pi, regained ? ", stable above" : "");
+  if (value.value) {
+    add(table, name, *value.value, searched.unit);
+    add(table, "its frequency", value.frequency_Hz, "Hz");
+  } else {
+    const std::string why =
+        value.profile ? none_because(squeal::stability_of(*value.profile), searched.values)
+                      : "stability does not change in the range";
+    table.rows.push_back({name, why, ""});
+  }
+  if (value.profile) add_intervals(table, *value.profile, searched);
+}
+
+/// The four largest.
+void add_peaks(TextTable& table, const squeal::Spectrum& spectrum)
+{
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, spectrum.peaks.size()); ++i) {
+    add(table, fmt::format("pad velocity at {:.2f} Hz", spectrum.peaks[i].frequency_Hz),
+        spectrum.peaks[i].amplitude, "m/s");
+  }
+}
+
+void add_map(TextTable& table, const squeal::StabilityMap& map)
+{
+  add_count(table, fmt::format("points of the map of speed and {}", map.parameter),
+            map.growth.size());
+  const double zero = rounding * 2.0 * pi * map.frequency_Hz.maxCoeff();
+  add_count(table, "unstable ones of them", (map.growth.array() > zero).count());
+  add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
+}
+
+void add_rotation_stability(TextTable& table, const squeal::RotationStability& stability)
+{
+  add(table, "largest growth rate over the speeds (rotation)", stability.growth.maxCoeff(), "1/s");
+  if (stability.critical_speed) {
+    add(table, "critical speed / pi (rotation)", *stability.critical_speed / pi, "rad/s");
+  } else {
+    const std::string why = none_because(squeal::stability_of(stability), "speeds");
+    table.rows.push_back({"critical speed (rotation)", why, ""});
+    if (stability.growth.minCoeff() > 0.0)
+      add(table, "least growth rate over the speeds (rotation)", stability.growth.minCoeff(),
+          "1/s");
+  }
+}
+
+void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivity)
+{
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
+    const std::string name = fmt::format("critical speed / pi, {} modes to {:.0f} Hz",
+                                         subset.n_modes, subset.highest_Hz);
+    if (!subset.critical_speed) {
+      // A file of an earlier version does not tell stable from unstable.
+      table.rows.push_back(
+          {name, "none: " + (subset.stability.empty() ? "not lost in the range" : subset.stability),
+           ""});
+      continue;
+    }
+    lowest = std::min(lowest, *subset.critical_speed);
+    highest = std::max(highest, *subset.critical_speed);
+    add(table, name, *subset.critical_speed / pi, "rad/s");
+  }
+  if (highest > 0.0) add(table, "spread of them", 100.0 * (highest - lowest) / highest, "%");
+  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
+    const std::string name =
+        fmt::format("{:.1f} Hz, {} nodal diameters", mode.frequency_Hz, mode.nodal_diameters);
+    if (!mode.growth_without) {
+      add(table, "critical mode: " + name, 100.0 * mode.participation, "% of its energy");
+    } else if (mode.critical_speed_without) {
+      add(table, "critical speed / pi without " + name, *mode.critical_speed_without / pi, "rad/s");
+    } else {
+      add(table, "growth without " + name, *mode.growth_without, "1/s");
+    }
+  }
+}
+
+void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
+{
+  // What still grows or decays is the end of a transient and no limit cycle.
+  const std::string name = cycle.settled ? "limit cycle: " : "end of the transient, not settled: ";
+  add(table, name + "speed", cycle.speed, "rad/s");
+  add(table, name + "frequency", cycle.frequency_Hz, "Hz");
+  add(table, name + "pad velocity", cycle.pad_velocity, "m/s");
+  add(table, name + "pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, name + "least normal force", cycle.N_min, "N");
+  add(table, name + "largest normal force", cycle.N_max, "N");
+  if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
+}
+
+/// The eigenvalue's where there is one. A short run may show other motions than the least stable
+/// one: what it measured stands beside it where the two disagree.
+void add_growth(TextTable& table, const squeal::Growth& growth)
+{
+  const std::string name = fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi);
+  add(table, name, growth.eigenvalue_rate.value_or(growth.rate), "1/s");
+  if (growth.eigenvalue_rate && squeal::disagree(growth.rate, *growth.eigenvalue_rate))
+    add(table, name + ", measured in a run too short for it", growth.rate, "1/s");
+}
+
+void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
+{
+  add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
+  add(table, "direct limit cycle: frequency", cycle.frequency_Hz, "Hz");
+  add(table, "direct limit cycle: pad velocity", cycle.pad_velocity, "m/s");
+  add(table, "direct limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
+  add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
+  add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
+  if (!cycle.stable) table.rows.push_back({"direct limit cycle", "not stable", ""});
+  add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
+}
+
+void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
+{
+  add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
+  if (branch.points.empty()) return;
+  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
+    add(table, fmt::format("pad velocity at {:.4f} pi rad/s", end.speed / pi), end.pad_velocity,
+        "m/s");
+  }
+  for (const squeal::BranchPoint& fold : branch.folds) {
+    add(table, "fold of the limit cycle at speed / pi", fold.speed / pi, "rad/s");
+  }
+  if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
+  if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
+}
+
+void add_transient(TextTable& table, const squeal::Transient& run)
+{
+  table.rows.push_back({"integrator of the transient", run.integrator, ""});
+  if (run.growth_rate) add(table, "growth in the transient", *run.growth_rate, "1/s");
+  if (!run.warning.empty()) table.rows.push_back({"transient, doubtful", run.warning, ""});
+  if (!run.finished) table.rows.push_back({"transient", "diverged", ""});
+}
+
+}  // namespace
+
+TextTable describe(const squeal::SquealResults& results)
+{
+  TextTable table = quantities();
+  if (results.eigenvalues) {
+    add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
+  }
+  add_critical_speed(table, results);
+  for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
+  if (results.map) add_map(table, *results.map);
+  if (results.rotation_stability) add_rotation_stability(table, *results.rotation_stability);
+  if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
+  for (const squeal::Growth& growth : results.growth) {
+    add_growth(table, growth);
+  }
+  if (results.transient) add_transient(table, *results.transient);
+  if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
+  if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
+  if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);
+  if (results.spectrum) add_peaks(table, *results.spectrum);
+  return table;
+}
+
+}  // namespace chladni::report

@@ -1,0 +1,135 @@
+#include "report/fe/vtu.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace chladni::report {
+namespace {
+
+/// RFC 4648.
+std::string base64(std::span<const unsigned char> bytes)
+{
+  constexpr std::string_view letters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = bytes[i] << 16U;
+    if (i + 1 < bytes.size()) three |= bytes[i + 1] << 8U;
+    if (i + 2 < bytes.size()) three |= bytes[i + 2];
+    text += letters[three >> 18U];
+    text += letters[(three >> 12U) & 63U];
+    text += i + 1 < bytes.size() ? letters[(three >> 6U) & 63U] : '=';
+    text += i + 2 < bytes.size() ? letters[three & 63U] : '=';
+  }
+  return text;
+}
+
+/// The number of bytes as UInt64, then the values.
+template <typename T>
+std::string encoded(const T* values, std::size_t n)
+{
+  const std::uint64_t n_bytes = n * sizeof(T);
+  std::vector<unsigned char> bytes(sizeof(n_bytes) + n_bytes);
+  std::memcpy(bytes.data(), &n_bytes, sizeof(n_bytes));
+  if (n > 0) std::memcpy(bytes.data() + sizeof(n_bytes), values, n_bytes);
+  return base64(bytes);
+}
+
+std::string array_of(const VtuField& field)
+{
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor values = field.values;
+  return fmt::format(
+      "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n"
+      "</DataArray>\n",
+      field.name, values.cols(), encoded(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+std::string array_of(const char* name, const std::vector<int>& values)
+{
+  const std::vector<std::int64_t> wide(values.begin(), values.end());
+  return fmt::format("<DataArray type=\"Int64\" Name=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
+                     name, encoded(wide.data(), wide.size()));
+}
+
+std::string arrays_of(const char* element, const std::vector<VtuField>& fields)
+{
+  std::string text = fmt::format("<{}>\n", element);
+  for (const VtuField& field : fields) text += array_of(field);
+  return text + fmt::format("</{}>\n", element);
+}
+
+std::vector<int> quadrilateral_order(int p)
+{
+  const auto place = [&](int i, int j) { return j * (p + 1) + i; };
+  std::vector<int> order{place(0, 0), place(p, 0), place(p, p), place(0, p)};
+  for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
+  for (int j = 1; j < p; ++j) order.push_back(place(p, j));
+  for (int i = 1; i < p; ++i) order.push_back(place(i, p));
+  for (int j = 1; j < p; ++j) order.push_back(place(0, j));
+  for (int j = 1; j < p; ++j) {
+    for (int i = 1; i < p; ++i) order.push_back(place(i, j));
+  }
+  return order;
+}
+
+/// Up to order 3: a single inner node, which needs no order.
+std::vector<int> triangle_order(int p)
+{
+  const auto place = [&](int i, int j) { return j * (p + 1) - j * (j - 1) / 2 + i; };
+  std::vector<int> order{place(0, 0), place(p, 0), place(0, p)};
+  for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
+  for (int i = 1; i < p; ++i) order.push_back(place(p - i, i));
+  for (int i = 1; i < p; ++i) order.push_back(place(0, p - i));
+  if (p == 3) order.push_back(place(1, 1));
+  return order;
+}
+
+std::vector<int> line_order(int p)
+{
+  std::vector<int> order{0, p};
+  for (int i = 1; i < p; ++i) order.push_back(i);
+  return order;
+}
+
+}  // namespace
+
+int vtu_cell_type(mesh::Shape shape, int order)
+{
+  switch (shape) {
+    case mesh::Shape::line:
+      return order == 1 ? 3 : 68;
+    case mesh::Shape::triangle:
+      return order == 1 ? 5 : 69;
+    case mesh::Shape::quadrilateral:
+      return order == 1 ? 9 : 70;
+  }
+  return 0;
+}
+
+std::vector<int> vtu_node_order(mesh::Shape shape, int order)
+{
+  if (shape == mesh::Shape::line) return line_order(order);
+  return shape == mesh::Shape::triangle ? triangle_order(order) : quadrilateral_order(order);
+}
+
+std::string vtu_text(const VtuGrid& grid)
+{
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points.rows(),
+                      grid.types.size());
+  text += "<Points>\n" + array_of({.name = "points", .values = grid.points}) + "</Points>\n";
+  text += "<Cells>\n" + array_of("connectivity", grid.connectivity) +
+          array_of("offsets", grid.offsets) + array_of("types", grid.types) + "</Cells>\n";
+  text += arrays_of("PointData", grid.of_points) + arrays_of("CellData", grid.of_cells);
+  return text + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace chladni::report

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace chladni::report {
+
+/// Values at the points or of the cells of a grid, one row for each; columns are components.
+/// Six components are a symmetric tensor in the order of VTK: xx, yy, zz, xy, yz, xz.
+struct VtuField {
+  std::string name;
+  Eigen::MatrixXd values;
+};
+
+/// An unstructured grid of VTK.
+struct VtuGrid {
+  Eigen::MatrixX3d points;        ///< m
+  std::vector<int> connectivity;  ///< indices into `points`, cell by cell
+  std::vector<int> offsets;       ///< of the end of each cell in `connectivity`
+  std::vector<int> types;         ///< VTK's cell types
+  std::vector<VtuField> of_points, of_cells;
+};
+
+/// VTK's number for a cell with the nodes of an element: linear cells at order 1, else Lagrange's.
+int vtu_cell_type(mesh::Shape shape, int order);
+
+/// For each node of VTK's cell its place in the lattice of mesh::ElementBlock: corners, then edges,
+/// then the inner nodes.
+std::vector<int> vtu_node_order(mesh::Shape shape, int order);
+
+/// The text of a .vtu file: VTK's XML with base64 arrays.
+std::string vtu_text(const VtuGrid& grid);
+
+}  // namespace chladni::report

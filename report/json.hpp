@@ -1,0 +1,35 @@
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace chladni::report {
+
+/// A JSON value, serialised when it is made (RFC 8259).
+class Json {
+ public:
+  /// null
+  Json() = default;
+  /// Shortest text that reads back as the same double; null when not finite.
+  Json(double number);
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, bool>) Json(Integer number) : text_(std::to_string(number)) {}
+  Json(std::string_view text);
+  Json(const char* text) : Json(std::string_view(text)) {}
+  Json(const std::string& text) : Json(std::string_view(text)) {}
+
+  using Member = std::pair<std::string, Json>;
+  static Json array(const std::vector<Json>& elements);
+  /// Members keep their order.
+  static Json object(const std::vector<Member>& members);
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_ = "null";
+};
+
+}  // namespace chladni::report

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+
+#include "mbs_export/modal_body.hpp"
+#include "report/json.hpp"
+
+namespace chladni::report {
+
+/// The modes of a body: number, frequency, kind, nodal diameters where `diameters` has them (by
+/// mode number), and for modes that the certificate knows the estimated relative error of the
+/// frequency and half the bound of the error of omega^2.
+Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate& certificate,
+                const std::map<int, int>& diameters);
+
+/// Where eigenvalues were counted: up to, expected, found. Null when nowhere.
+Json counts_json(const mbs_export::Certificate& certificate);
+
+/// What each size of the basis would have brought; null when no tolerance chose the modes.
+Json selection_json(const mbs_export::ModalBody& body);
+
+}  // namespace chladni::report

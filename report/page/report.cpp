@@ -1,0 +1,177 @@
+#include "report/page/report.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "report/describe.hpp"
+#include "report/describe_certificate.hpp"
+#include "report/output.hpp"
+#include "report/page/modes.hpp"
+#include "report/page/numbers.hpp"
+#include "report/page/page.hpp"
+#include "report/page/shapes.hpp"
+#include "report/page/squeal_results.hpp"
+#include "report/version.hpp"
+#include "scene/scene.hpp"
+#include "squeal/disc.hpp"
+#include "squeal/result_file.hpp"
+
+namespace chladni::report {
+namespace {
+
+using std::filesystem::path;
+
+/// What the folder holds of a scene.
+struct Found {
+  scene::Scene scene;
+  std::optional<mbs_export::ModalBody> body;
+  mbs_export::Certificate certificate;
+  std::optional<squeal::SquealResults> results;
+};
+
+Found find_files(const ReportArguments& arguments)
+{
+  Found found{
+      .scene = scene::read_scene(arguments.scene), .body = {}, .certificate = {}, .results = {}};
+  const auto file = [&](const char* kind) {
+    return path(arguments.output) / (found.scene.name + kind);
+  };
+  if (exists(file(".body.h5"))) found.body = mbs_export::read_body(file(".body.h5"));
+  if (exists(file(".reduced.h5")))
+    found.certificate = mbs_export::read_reduced(file(".reduced.h5")).certificate;
+  if (exists(file(".squeal.h5"))) found.results = squeal::read_results(file(".squeal.h5"));
+  if (!found.body && !found.results) {
+    throw Error(fmt::format(
+        "{}: holds neither {} nor {}; make them with `chladni run {} --output {}` and `squeal run`",
+        arguments.output, file(".body.h5").filename().string(),
+        file(".squeal.h5").filename().string(), arguments.scene, arguments.output));
+  }
+  return found;
+}
+
+std::string read_benchmark(const std::string& file)
+{
+  if (file.empty()) return "null";
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw Error(fmt::format("{}: cannot be read", file));
+  const auto json = nlohmann::json::parse(text.str(), nullptr, false);
+  if (!json.is_object() || !json.contains("studies") || !json["studies"].is_array()) {
+    throw Error(
+        fmt::format("{}: must be the end_to_end.json of `./dev bench`; docs/report.md "
+                    "says what is read of it",
+                    file));
+  }
+  return json["studies"].dump();
+}
+
+Json table_json(const std::string& title, const TextTable& table)
+{
+  std::vector<Json> rows;
+  for (const auto& row : table.rows) rows.push_back(texts(row));
+  return Json::object(
+      {{"title", title}, {"header", texts(table.header)}, {"rows", Json::array(rows)}});
+}
+
+Json provenance_json(const mbs_export::Provenance& origin)
+{
+  return Json::object({{"mesh_checksum", origin.mesh_checksum},
+                       {"versions", origin.versions},
+                       {"options", origin.options},
+                       {"ranks", origin.ranks}});
+}
+
+/// The disc of the study; absent without body or [squeal], or when the study does not fit the body.
+std::optional<squeal::Disc> disc_of(const Found& found)
+{
+  if (!found.body || !found.scene.squeal) return std::nullopt;
+  const squeal::SquealOptions& study = *found.scene.squeal;
+  if (found.results) return squeal::make_disc(*found.body, study.ring, study.modes);
+  return std::nullopt;
+}
+
+std::map<int, int> diameters_of(const Found& found, const std::optional<squeal::Disc>& used)
+{
+  std::map<int, int> diameters;
+  if (!used) return diameters;
+  const squeal::Disc all = squeal::make_disc(*found.body, found.scene.squeal->ring, {});
+  const std::vector<int> n = squeal::nodal_diameters(all);
+  for (std::size_t i = 0; i < n.size(); ++i) diameters[all.mode_numbers[i]] = n[i];
+  return diameters;
+}
+
+std::vector<Json::Member> body_members(const Found& found)
+{
+  const std::optional<squeal::Disc> disc = disc_of(found);
+  const std::vector<Motion> motions =
+      disc ? squeal_motions(*found.results, disc->mode_numbers, found.body->n_modes())
+           : std::vector<Motion>();
+  return {{"surface", shapes_json(*found.body, motions)},
+          {"modes", modes_json(*found.body, found.certificate, diameters_of(found, disc))},
+          {"certified_support", texts(found.certificate.fixed)},
+          {"support", texts(found.body->fixed)},
+          {"counts", counts_json(found.certificate)},
+          {"selection", selection_json(*found.body)},
+          {"provenance", provenance_json(found.body->provenance)}};
+}
+
+Json content_of(const Found& found)
+{
+  std::vector<Json::Member> members{
+      {"title", found.scene.title}, {"version", version}, {"scene", found.scene.text}};
+  std::vector<Json> tables;
+  if (found.body) {
+    tables.push_back(table_json("Modal body", describe(*found.body)));
+    for (Json::Member& member : body_members(found)) members.push_back(std::move(member));
+  }
+  if (found.results) {
+    tables.push_back(table_json("Squeal", describe(*found.results)));
+    for (Json::Member& member : squeal_members(*found.results))
+      members.push_back(std::move(member));
+  }
+  members.emplace_back("tables", Json::array(tables));
+  return Json::object(members);
+}
+
+}  // namespace
+
+void declare_report(CLI::App& app, ReportArguments& arguments)
+{
+  CLI::App* report = app.add_subcommand(
+      "report", "one page with pictures of a body and of its squeal: NAME.report.html");
+  report->add_option("SCENE", arguments.scene, "the scene file (TOML)")->required();
+  report->add_option("--output", arguments.output, "folder of the scene's files, and of the report")
+      ->type_name("DIR")
+      ->capture_default_str();
+  report
+      ->add_option("--benchmark", arguments.benchmark,
+                   "end_to_end.json of ./dev bench: speed against error, drawn too")
+      ->type_name("FILE");
+  report->footer(
+      fmt::format("Example (after `chladni run` and `squeal run` with the same SCENE and DIR):\n"
+                  "  {} report scene.toml --output out\n"
+                  "The page opens in any browser and loads nothing from elsewhere.",
+                  app.get_name()));
+}
+
+void write_report(const ReportArguments& arguments)
+{
+  const Found found = find_files(arguments);
+  const std::string page =
+      report_page(found.scene.title, content_of(found), read_benchmark(arguments.benchmark));
+  const path file = path(arguments.output) / (found.scene.name + ".report.html");
+  write_text_atomically(file, page);
+  fmt::print("wrote {}, {:.1f} MB\n", file.string(), static_cast<double>(page.size()) / 1e6);
+}
+
+}  // namespace chladni::report

@@ -1,0 +1,220 @@
+#include "report/page/squeal_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "report/page/numbers.hpp"
+#include "squeal/analysis_file.hpp"
+#include "squeal/stability_search.hpp"
+
+namespace chladni::report {
+namespace {
+
+using Eigen::Index;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr std::size_t n_windows = 600;  ///< of a thinned history
+constexpr std::size_t most_orbit_points = 1500;
+
+std::span<const double> part(const std::vector<double>& x, std::size_t from, std::size_t to)
+{
+  return std::span(x).subspan(from, to - from);
+}
+
+/// Smallest and largest values within windows of a long history.
+Json band_json(const std::vector<double>& t, const std::vector<double>& x)
+{
+  std::vector<double> times, least, largest;
+  const std::size_t n = std::min(t.size(), n_windows);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t from = i * t.size() / n, to = (i + 1) * t.size() / n;
+    const auto [low, high] = std::ranges::minmax(part(x, from, to));
+    times.push_back(t[from]);
+    least.push_back(low);
+    largest.push_back(high);
+  }
+  return Json::object(
+      {{"t", rounded(times)}, {"least", rounded(least)}, {"largest", rounded(largest)}});
+}
+
+/// The end of the run, sample by sample.
+Json orbit_json(const squeal::History& tail)
+{
+  const std::size_t n = tail.t.size(), from = n - std::min(n, most_orbit_points);
+  return Json::object({{"t", rounded(part(tail.t, from, n))},
+                       {"displacement", rounded(part(tail.pad_displacement, from, n))},
+                       {"velocity", rounded(part(tail.pad_velocity, from, n))},
+                       {"N_up", rounded(part(tail.N_up, from, n))},
+                       {"N_lo", rounded(part(tail.N_lo, from, n))}});
+}
+
+Json transient_json(const squeal::Transient& transient)
+{
+  return Json::object({{"speed", rounded(transient.speed)},
+                       {"integrator", transient.integrator},
+                       {"t", rounded(transient.envelope.t)},
+                       {"envelope", rounded(transient.envelope.pad_velocity)},
+                       {"N_up", band_json(transient.history.t, transient.history.N_up)},
+                       {"N_lo", band_json(transient.history.t, transient.history.N_lo)},
+                       {"tail", orbit_json(transient.tail)}});
+}
+
+Json campbell_json(const squeal::EigenvalueMap& map)
+{
+  return Json::object({{"speeds", rounded(map.speeds)},
+                       {"frequency_Hz", rounded_rows(map.lambda.imag().transpose() / two_pi)},
+                       {"growth", rounded_rows(map.lambda.real().transpose())}});
+}
+
+Json map_json(const squeal::StabilityMap& map)
+{
+  return Json::object({{"parameter", map.parameter},
+                       {"unit", squeal::unit_of(map.parameter)},
+                       {"values", rounded(map.values)},
+                       {"speeds", rounded(map.speeds)},
+                       {"growth", rounded_rows(map.growth)},
+                       {"frequency_Hz", rounded_rows(map.frequency_Hz)}});
+}
+
+Json branch_json(const std::vector<squeal::BranchPoint>& points)
+{
+  std::vector<double> speed, velocity, frequency_Hz, multiplier;
+  for (const squeal::BranchPoint& point : points) {
+    speed.push_back(point.speed);
+    velocity.push_back(point.pad_velocity);
+    frequency_Hz.push_back(point.frequency_Hz);
+    multiplier.push_back(point.largest_multiplier);
+  }
+  return Json::object({{"speed", rounded(speed)},
+                       {"pad_velocity", rounded(velocity)},
+                       {"frequency_Hz", rounded(frequency_Hz)},
+                       {"largest_multiplier", rounded(multiplier)}});
+}
+
+Json growth_json(const std::vector<squeal::Growth>& growths)
+{
+  std::vector<Json> points;
+  for (const squeal::Growth& growth : growths)
+    points.push_back(
+        Json::object({{"speed", rounded(growth.speed)}, {"rate", rounded(growth.rate)}}));
+  return Json::array(points);
+}
+
+/// Large ones only: the rest cannot be seen beside them.
+Json spectrum_json(const squeal::Spectrum& spectrum)
+{
+  std::vector<double> f_Hz, amplitude;
+  const double floor = 1e-6 * spectrum.amplitude.maxCoeff();
+  for (Index i = 0; i < spectrum.amplitude.size(); ++i) {
+    if (spectrum.amplitude[i] < floor) continue;
+    f_Hz.push_back(spectrum.frequency_Hz[i]);
+    amplitude.push_back(spectrum.amplitude[i]);
+  }
+  return Json::object({{"frequency_Hz", rounded(f_Hz)}, {"amplitude", rounded(amplitude)}});
+}
+
+bool is_settled(const squeal::LimitCycle& cycle)
+{
+  return cycle.settled;
+}
+
+bool is_settled(const squeal::DirectLimitCycle& /*periodic*/)
+{
+  return true;
+}
+
+template <class Cycle>
+Json cycle_json(const Cycle& cycle)
+{
+  return Json::object({{"speed", rounded(cycle.speed)},
+                       {"frequency_Hz", rounded(cycle.frequency_Hz)},
+                       {"pad_velocity", rounded(cycle.pad_velocity)},
+                       {"pad_displacement", rounded(cycle.pad_displacement)},
+                       {"N_min", rounded(cycle.N_min)},
+                       {"N_max", rounded(cycle.N_max)},
+                       {"settled", is_settled(cycle) ? 1 : 0}});
+}
+
+/// Amplitudes of the modes used, among all modes of the body.
+/// @throws chladni::Error when the body has no such modes: the results are of another one.
+Eigen::VectorXcd spread(const Eigen::VectorXcd& amplitude, const std::vector<int>& mode_numbers,
+                        Index n_modes)
+{
+  if (amplitude.size() != std::ssize(mode_numbers)) {
+    throw Error(
+        fmt::format("the results of squeal have {} modes, and the study {}: body or study have "
+                    "changed since; make them again with `squeal run`",
+                    amplitude.size(), mode_numbers.size()));
+  }
+  for (const int number : mode_numbers) {
+    if (number >= 1 && number <= n_modes) continue;
+    throw Error(
+        fmt::format("the results of squeal name mode {}, and the body has {}: they are of another "
+                    "body; make them again with `squeal run`",
+                    number, n_modes));
+  }
+  Eigen::VectorXcd all = Eigen::VectorXcd::Zero(n_modes);
+  for (std::size_t i = 0; i < mode_numbers.size(); ++i)
+    all[mode_numbers[i] - 1] = amplitude[static_cast<Index>(i)];
+  return all;
+}
+
+template <class Cycle>
+void add_cycle(std::vector<Motion>& motions, const std::optional<Cycle>& cycle, Index n_modes)
+{
+  if (!cycle || cycle->amplitude.size() == 0) return;
+  motions.push_back({.name = fmt::format("Limit cycle at {:.5g} rad/s", cycle->speed),
+                     .frequency_Hz = cycle->frequency_Hz,
+                     .amplitude = spread(cycle->amplitude, cycle->mode_numbers, n_modes)});
+}
+
+}  // namespace
+
+std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
+{
+  std::vector<Json::Member> members;
+  if (results.eigenvalues) members.emplace_back("campbell", campbell_json(*results.eigenvalues));
+  if (results.critical_speed) {
+    members.emplace_back(
+        "critical",
+        Json::object({{"speed", rounded(results.critical_speed->speed)},
+                      {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)}}));
+  }
+  if (results.speed_stability)
+    members.emplace_back("stability",
+                         squeal::name_of(squeal::stability_of(*results.speed_stability)));
+  if (results.map) members.emplace_back("map", map_json(*results.map));
+  if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
+  if (results.transient) members.emplace_back("transient", transient_json(*results.transient));
+  if (results.limit_cycle) members.emplace_back("limit_cycle", cycle_json(*results.limit_cycle));
+  if (results.limit_cycle_direct)
+    members.emplace_back("limit_cycle_direct", cycle_json(*results.limit_cycle_direct));
+  if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
+    members.emplace_back("branch", branch_json(results.limit_cycle_branch->points));
+  if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
+  return members;
+}
+
+std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
+                                   const std::vector<int>& mode_numbers, Index n_modes)
+{
+  std::vector<Motion> motions;
+  add_cycle(motions, results.limit_cycle, n_modes);
+  add_cycle(motions, results.limit_cycle_direct, n_modes);
+  if (!results.eigenvalues || results.eigenvalues->shapes.empty()) return motions;
+  const squeal::EigenvalueMap& map = *results.eigenvalues;
+  Index i = 0, j = 0;
+  const double growth = map.lambda.real().maxCoeff(&i, &j);
+  const Eigen::VectorXcd shape = map.shapes[static_cast<std::size_t>(i)].col(j);
+  const double f_Hz = map.lambda(i, j).imag() / two_pi;
+  motions.push_back(
+      {.name = fmt::format("Least stable at {:.5g} rad/s, {:+.3g} 1/s", map.speeds[i], growth),
+       .frequency_Hz = f_Hz,
+       .amplitude = spread(shape, mode_numbers, n_modes)});
+  return motions;
+}
+
+}  // namespace chladni::report

@@ -1,0 +1,226 @@
+#include "report/squeal_json.hpp"
+
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include "squeal/rotation_stability.hpp"
+#include "squeal/stability_search.hpp"
+
+namespace chladni::report {
+namespace {
+
+Json eigenvalues_json(const squeal::EigenvalueMap& map)
+{
+  std::vector<Json> speeds;
+  for (Eigen::Index i = 0; i < map.speeds.size(); ++i) {
+    std::vector<Json> lambda;
+    for (const std::complex<double>& value : map.lambda.row(i)) {
+      lambda.push_back(Json::array({value.real(), value.imag()}));
+    }
+    speeds.push_back(
+        Json::object({{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}}));
+  }
+  return Json::array(speeds);
+}
+
+Json growth_json(const std::vector<squeal::Growth>& growths)
+{
+  std::vector<Json> speeds;
+  for (const squeal::Growth& growth : growths) {
+    speeds.push_back(
+        Json::object({{"speed_rad_s", growth.speed},
+                      {"growth_1_s", growth.rate},
+                      {"eigenvalue_growth_1_s",
+                       growth.eigenvalue_rate ? Json(*growth.eigenvalue_rate) : Json()}}));
+  }
+  return Json::array(speeds);
+}
+
+Json limit_cycle_json(const squeal::LimitCycle& cycle)
+{
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"drift", cycle.drift},
+                       {"settled", cycle.settled ? 1 : 0}});
+}
+
+Json direct_json(const squeal::DirectLimitCycle& cycle)
+{
+  std::vector<Json> multipliers;
+  for (const std::complex<double>& value : cycle.multipliers) {
+    multipliers.push_back(Json::array({value.real(), value.imag()}));
+  }
+  return Json::object({{"speed_rad_s", cycle.speed},
+                       {"frequency_Hz", cycle.frequency_Hz},
+                       {"pad_velocity_m_s", cycle.pad_velocity},
+                       {"pad_displacement_m", cycle.pad_displacement},
+                       {"friction_work_J", cycle.energy.friction.sum()},
+                       {"normal_work_J", cycle.energy.normal.sum()},
+                       {"damping_work_J", cycle.energy.damping},
+                       {"multipliers", Json::array(multipliers)},
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
+}
+
+Json branch_json(const squeal::LimitCycleBranch& branch)
+{
+  std::vector<Json> points;
+  for (const squeal::BranchPoint& point : branch.points) {
+    points.push_back(Json::object({{"speed_rad_s", point.speed},
+                                   {"frequency_Hz", point.frequency_Hz},
+                                   {"pad_velocity_m_s", point.pad_velocity},
+                                   {"pad_displacement_m", point.pad_displacement},
+                                   {"largest_multiplier", point.largest_multiplier}}));
+  }
+  return Json::array(points);
+}
+
+/// Something of two points, as a pair.
+Json pair_json(const squeal::StabilityPoint& from, const squeal::StabilityPoint& to,
+               double squeal::StabilityPoint::*of)
+{
+  return Json::array({from.*of, to.*of});
+}
+
+/// Stability over a parameter whose key ends in `values`: "speeds_rad_s", "values".
+std::vector<Json::Member> stability_json(const squeal::StabilityProfile& profile,
+                                         const std::string& values)
+{
+  using squeal::StabilityPoint;
+  std::vector<Json> unstable, growth, frequency_Hz, largest;
+  for (const squeal::UnstableInterval& interval : profile.unstable) {
+    unstable.push_back(pair_json(interval.from, interval.to, &StabilityPoint::value));
+    growth.push_back(pair_json(interval.from, interval.to, &StabilityPoint::growth));
+    frequency_Hz.push_back(pair_json(interval.from, interval.to, &StabilityPoint::frequency_Hz));
+    largest.push_back(interval.worst.growth);
+  }
+  return {{"stability", squeal::name_of(squeal::stability_of(profile))},
+          {"unstable_" + values, Json::array(unstable)},
+          {"unstable_growth_1_s", Json::array(growth)},
+          {"unstable_frequency_Hz", Json::array(frequency_Hz)},
+          {"unstable_largest_growth_1_s", Json::array(largest)},
+          {"searched_" + values, pair_json(profile.from, profile.to, &StabilityPoint::value)},
+          {"searched_growth_1_s", pair_json(profile.from, profile.to, &StabilityPoint::growth)},
+          {"searched_frequency_Hz",
+           pair_json(profile.from, profile.to, &StabilityPoint::frequency_Hz)}};
+}
+
+Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
+{
+  std::vector<Json> searches;
+  for (const squeal::CriticalValue& value : values) {
+    std::vector<Json::Member> members = {
+        {"parameter", value.parameter},
+        {"speed_rad_s", value.speed},
+        {"value", value.value ? Json(*value.value) : Json()},
+        {"frequency_Hz", value.value ? Json(value.frequency_Hz) : Json()}};
+    if (value.profile)
+      for (Json::Member& member : stability_json(*value.profile, "values"))
+        members.push_back(std::move(member));
+    searches.push_back(Json::object(members));
+  }
+  return Json::array(searches);
+}
+
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
+Json rotation_json(const squeal::RotationStability& stability)
+{
+  std::vector<Json> growth;
+  for (Eigen::Index i = 0; i < stability.speeds.size(); ++i) {
+    growth.push_back(
+        Json::object({{"speed_rad_s", stability.speeds[i]}, {"growth_1_s", stability.growth[i]}}));
+  }
+  return Json::object({{"critical_speed_rad_s", optional_json(stability.critical_speed)},
+                       {"stability", squeal::name_of(squeal::stability_of(stability))},
+                       {"growth", Json::array(growth)}});
+}
+
+Json peaks_json(const squeal::Spectrum& spectrum)
+{
+  std::vector<Json> peaks;
+  for (const squeal::Spectrum::Peak& peak : spectrum.peaks) {
+    peaks.push_back(
+        Json::object({{"frequency_Hz", peak.frequency_Hz}, {"pad_velocity_m_s", peak.amplitude}}));
+  }
+  return Json::array(peaks);
+}
+
+Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
+{
+  std::vector<Json> subsets, modes;
+  for (const squeal::ModeSubset& subset : sensitivity.subsets) {
+    subsets.push_back(
+        Json::object({{"n_modes", double(subset.n_modes)},
+                      {"highest_Hz", subset.highest_Hz},
+                      {"critical_speed_rad_s", optional_json(subset.critical_speed)},
+                      {"critical_frequency_Hz", optional_json(subset.critical_frequency_Hz)},
+                      {"growth_1_s", subset.growth},
+                      {"stability", subset.stability.empty() ? Json() : Json(subset.stability)}}));
+  }
+  for (const squeal::ModeInfluence& mode : sensitivity.influences) {
+    modes.push_back(Json::object(
+        {{"frequency_Hz", mode.frequency_Hz},
+         {"nodal_diameters", double(mode.nodal_diameters)},
+         {"participation", mode.participation},
+         {"growth_without_1_s", optional_json(mode.growth_without)},
+         {"critical_speed_without_rad_s", optional_json(mode.critical_speed_without)}}));
+  }
+  return Json::object({{"critical_speed_rad_s", sensitivity.critical_speed},
+                       {"critical_frequency_Hz", sensitivity.critical_frequency_Hz},
+                       {"subsets", Json::array(subsets)},
+                       {"modes", Json::array(modes)}});
+}
+
+}  // namespace
+
+std::vector<Json::Member> results_json(const squeal::SquealResults& results)
+{
+  std::vector<Json::Member> members;
+  if (results.eigenvalues) {
+    members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
+  }
+  if (results.searched_critical_speed) {
+    const auto& critical = results.critical_speed;
+    members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
+    members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+    if (results.speed_stability)
+      for (Json::Member& member : stability_json(*results.speed_stability, "speeds_rad_s"))
+        members.push_back(std::move(member));
+  }
+  if (results.rotation_stability) {
+    members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
+  }
+  if (!results.critical_values.empty()) {
+    members.emplace_back("critical_values", critical_values_json(results.critical_values));
+  }
+  if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
+  if (results.mode_sensitivity) {
+    members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
+  }
+  if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
+  if (results.transient) {
+    const auto& rate = results.transient->growth_rate;
+    members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+    members.emplace_back("integrator", results.transient->integrator);
+    const std::string& warning = results.transient->warning;
+    members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));
+  }
+  if (results.limit_cycle) {
+    members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
+  }
+  if (results.limit_cycle_direct) {
+    members.emplace_back("limit_cycle_direct", direct_json(*results.limit_cycle_direct));
+  }
+  if (results.limit_cycle_branch) {
+    members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
+  }
+  return members;
+}
+
+}  // namespace chladni::report

@@ -1,0 +1,71 @@
+#include "report/timing.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace chladni::report {
+namespace {
+
+const std::chrono::steady_clock::time_point start_of_process = std::chrono::steady_clock::now();
+
+rusage usage_of_this_process()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage;
+}
+
+double seconds(const timeval& time)
+{
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+Stopwatch::Stopwatch()
+    : wall_start_(std::chrono::steady_clock::now()), cpu_start_s_(process_cpu_s())
+{}
+
+double Stopwatch::wall_s() const
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count();
+}
+
+double Stopwatch::cpu_s() const
+{
+  return process_cpu_s() - cpu_start_s_;
+}
+
+void PhaseClock::end_phase(std::string name)
+{
+  PhaseTime now{.name = std::move(name), .wall_s = watch_.wall_s(), .cpu_s = watch_.cpu_s()};
+  const auto earlier = std::ranges::find(phases_, now.name, &PhaseTime::name);
+  if (earlier == phases_.end()) {
+    phases_.push_back(std::move(now));
+  } else {
+    earlier->wall_s += now.wall_s;
+    earlier->cpu_s += now.cpu_s;
+  }
+  watch_ = Stopwatch();
+}
+
+double process_wall_s()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_of_process).count();
+}
+
+double process_cpu_s()
+{
+  const rusage usage = usage_of_this_process();
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double peak_MiB()
+{
+  constexpr double KiB_per_MiB = 1024.0;
+  return static_cast<double>(usage_of_this_process().ru_maxrss) / KiB_per_MiB;
+}
+
+}  // namespace chladni::report

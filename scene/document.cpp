@@ -1,0 +1,297 @@
+#include "scene/document.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/error.hpp"
+#include "scene/document_values.hpp"
+#include "scene/keys.hpp"
+
+namespace chladni::scene {
+
+struct Table::Node {
+  using MessagesByLine = std::multimap<toml::source_index, std::string>;
+
+  std::shared_ptr<const toml::table> file_table;  ///< keeps all nodes of the file alive
+  std::string file;
+  std::string path;  ///< of keys; empty for the root
+  std::string row;   ///< the same without the places in lists, as in the rows of keys.hpp
+  const toml::table* table;
+  std::set<std::string, std::less<>> asked;
+  std::vector<std::shared_ptr<Node>> opened;
+
+  std::string path_of(std::string_view key) const
+  {
+    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
+  std::string element_path_of(std::string_view key, std::size_t i) const
+  {
+    return fmt::format("{}[{}]", path_of(key), i + 1);
+  }
+  std::string at(toml::source_index line) const { return fmt::format("{}:{}: ", file, line); }
+  const toml::node* find(std::string_view key)
+  {
+    asked.emplace(key);
+    return table->get(key);
+  }
+  MessagesByLine unknown_keys() const;
+  std::vector<std::string> keys_not_asked() const
+  {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : *table) {
+      if (!asked.contains(key.str())) keys.emplace_back(key.str());
+    }
+    return keys;
+  }
+  toml::source_index line_of_key(std::string_view key) const
+  {
+    return table->find(key)->first.source().begin.line;
+  }
+  /// Throws when a key that nobody asked for looks like a slip for the missing `key`.
+  void refuse_slip(std::string_view key) const;
+  const toml::node& require(std::string_view key, std::string_view kind);
+  std::shared_ptr<Node> open(const toml::table& inner, std::string_view key,
+                             std::string inner_path);
+  std::string row_of(std::string_view key) const
+  {
+    return row.empty() ? std::string(key) : fmt::format("{}.{}", row, key);
+  }
+  /// What the row of the key and the reader admit.
+  Admissible admitted(std::string_view key, const Admissible& further) const
+  {
+    const Key* known = find_key(row_of(key));
+    return known != nullptr ? both(known->admits, further) : further;
+  }
+  /// The value at `key`; `objection` says what is wrong with it, or nothing.
+  template <class T>
+  T value(std::string_view key, std::string_view kind, const Objection& objection);
+  /// The list at `key`; `objection` says what is wrong with an element, or nothing.
+  template <class T>
+  std::vector<T> elements(std::string_view key, std::string_view kind, const Objection& objection);
+  [[noreturn]] void refuse(const toml::node& value, std::string_view value_path,
+                           std::string_view why) const;
+};
+
+void Table::Node::refuse_slip(std::string_view key) const
+{
+  const std::string slip = nearest_name(key, keys_not_asked());
+  if (slip.empty()) return;
+  throw Error(at(line_of_key(slip)) +
+              fmt::format("{} is not a key here; did you mean {}?", path_of(slip), key));
+}
+
+const toml::node& Table::Node::require(std::string_view key, std::string_view kind)
+{
+  if (const toml::node* value = find(key)) return *value;
+  refuse_slip(key);
+  const std::string place = path.empty() ? file + ": " : at(table->source().begin.line);
+  throw Error(place + fmt::format("{} is missing: must be {}", path_of(key), kind));
+}
+
+Table::Node::MessagesByLine Table::Node::unknown_keys() const
+{
+  const std::vector<std::string> allowed(asked.begin(), asked.end());
+  MessagesByLine unknown;
+  for (const std::string& key : keys_not_asked()) {
+    const auto line = line_of_key(key);
+    const std::string near = nearest_name(key, allowed);
+    const std::string hint = near.empty() ? "" : fmt::format(" did you mean {}?", near);
+    unknown.emplace(line, fmt::format("{}{} is not a key here;{} allowed: {}", at(line),
+                                      path_of(key), hint, fmt::join(allowed, ", ")));
+  }
+  for (const auto& inner : opened) unknown.merge(inner->unknown_keys());
+  return unknown;
+}
+
+std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string_view key,
+                                               std::string inner_path)
+{
+  for (const auto& node : opened) {
+    if (node->table == &inner) return node;
+  }
+  return opened.emplace_back(std::make_shared<Node>(
+      Node{file_table, file, std::move(inner_path), row_of(key), &inner, {}, {}}));
+}
+
+template <class T>
+T Table::Node::value(std::string_view key, std::string_view kind, const Objection& objection)
+{
+  const toml::node& found = require(key, kind);
+  const std::string why = objection(found);
+  if (!why.empty()) refuse(found, path_of(key), why);
+  return *found.value<T>();
+}
+
+template <class T>
+std::vector<T> Table::Node::elements(std::string_view key, std::string_view kind,
+                                     const Objection& objection)
+{
+  const toml::node& list = require(key, kind);
+  if (!list.is_array()) refuse(list, path_of(key), fmt::format("must be {} in [ ]", kind));
+  std::vector<T> values;
+  for (const toml::node& element : *list.as_array()) {
+    const std::string why = objection(element);
+    if (!why.empty()) refuse(element, element_path_of(key, values.size()), why);
+    values.push_back(*element.value<T>());
+  }
+  return values;
+}
+
+void Table::Node::refuse(const toml::node& value, std::string_view value_path,
+                         std::string_view why) const
+{
+  const std::string text = value.is_table() ? "" : " = " + value_text(value);
+  throw Error(at(value.source().begin.line) + fmt::format("{}{}: {}", value_path, text, why));
+}
+
+bool Table::has(std::string_view key) const
+{
+  return node_->find(key) != nullptr;
+}
+
+bool Table::is_number(std::string_view key) const
+{
+  return node_->require(key, "a value").is_number();
+}
+
+bool Table::is_list(std::string_view key) const
+{
+  return node_->require(key, "a value").is_array();
+}
+
+bool Table::is_table(std::string_view key) const
+{
+  return node_->require(key, "a value").is_table();
+}
+
+bool Table::is_text(std::string_view key) const
+{
+  return node_->require(key, "a value").is_string();
+}
+
+double Table::number(std::string_view key, const Admissible& further) const
+{
+  const Admissible admissible = node_->admitted(key, further);
+  return node_->value<double>(key, requirement(admissible, "a number"),
+                              objection_to_number(admissible));
+}
+
+int Table::integer(std::string_view key, const Admissible& further) const
+{
+  const Admissible admissible = node_->admitted(key, further);
+  return node_->value<int>(key, requirement(admissible, "a whole number"),
+                           objection_to_integer(admissible));
+}
+
+std::string Table::text(std::string_view key) const
+{
+  return node_->value<std::string>(key, "a text in quotes", objection_to_text);
+}
+
+void Table::check_word(std::string_view key, const std::string& word) const
+{
+  const Key* known = find_key(node_->row_of(key));
+  if (known == nullptr || known->words.empty()) return;
+  const std::vector<std::string> words = words_of(*known);
+  if (!contains(words, word)) refuse(key, "must be one of " + quoted_list(words));
+}
+
+bool Table::truth(std::string_view key) const
+{
+  return node_->value<bool>(key, "true or false", objection_to_truth);
+}
+
+std::vector<double> Table::numbers(std::string_view key, const Admissible& further) const
+{
+  const Admissible admissible = node_->admitted(key, further);
+  return node_->elements<double>(key, "a list of numbers", objection_to_number(admissible));
+}
+
+std::vector<int> Table::integers(std::string_view key, const Admissible& further) const
+{
+  const Admissible admissible = node_->admitted(key, further);
+  return node_->elements<int>(key, "a list of whole numbers", objection_to_integer(admissible));
+}
+
+std::vector<std::string> Table::texts(std::string_view key) const
+{
+  return node_->elements<std::string>(key, "a list of texts in quotes", objection_to_text);
+}
+
+std::string_view Table::only_one_of(std::initializer_list<std::string_view> keys) const
+{
+  std::vector<std::string_view> present;
+  for (const std::string_view key : keys) {
+    if (has(key)) present.push_back(key);
+  }
+  if (present.size() == 1) return present.front();
+  const std::string wanted = fmt::format("give exactly one of {}", fmt::join(keys, ", "));
+  if (present.size() > 1) refuse(present[1], wanted);
+  for (const std::string_view key : keys) node_->refuse_slip(key);
+  node_->refuse(*node_->table, node_->path, wanted);
+}
+
+Table Table::table(std::string_view key) const
+{
+  const toml::node& value = node_->require(key, "a table");
+  if (!value.is_table()) refuse(key, "must be a table");
+  return Table(node_->open(*value.as_table(), key, node_->path_of(key)));
+}
+
+std::vector<Table> Table::tables(std::string_view key) const
+{
+  const toml::node& value = node_->require(key, "a list of tables");
+  if (!value.is_array()) refuse(key, "must be a list of tables");
+  const toml::array& array = *value.as_array();
+  std::vector<Table> tables;
+  for (const toml::node& element : array) {
+    const std::string element_path =
+        array.size() == 1 ? node_->path_of(key) : node_->element_path_of(key, tables.size());
+    if (!element.is_table()) node_->refuse(element, element_path, "must be a table");
+    tables.push_back(Table(node_->open(*element.as_table(), key, element_path)));
+  }
+  return tables;
+}
+
+std::vector<std::string> Table::names() const
+{
+  std::vector<std::string> names;
+  for (const auto& [key, value] : *node_->table) names.emplace_back(key.str());
+  return names;
+}
+
+void Table::refuse(std::string_view key, std::string_view why) const
+{
+  node_->refuse(*node_->find(key), node_->path_of(key), why);
+}
+
+void Table::refuse_element(std::string_view key, std::size_t i, std::string_view why) const
+{
+  node_->refuse(*node_->find(key)->as_array()->get(i), node_->element_path_of(key, i), why);
+}
+
+void Table::refuse_unknown_keys() const
+{
+  std::string message;
+  for (const auto& [line, text] : node_->unknown_keys()) {
+    message += (message.empty() ? "" : "\n") + text;
+  }
+  if (!message.empty()) throw Error(message);
+}
+
+Table parse_toml(const std::string& text, const std::string& file)
+{
+  try {
+    const auto root = std::make_shared<const toml::table>(toml::parse(text, file));
+    return Table(
+        std::make_shared<Table::Node>(Table::Node{root, file, {}, {}, root.get(), {}, {}}));
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
+  }
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "scene/admissible.hpp"
+#include "scene/names.hpp"
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace chladni::scene {
+
+/// One word of a scene and what it stands for.
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+
+/// A table of a TOML file. It knows its place in the file, so that each of its errors names file,
+/// line, key and value, and it remembers which keys were asked for, so that the others can be
+/// refused. Copies share that memory. In key paths the tables of an array count from 1.
+/// Every reading function throws chladni::Error when the key is missing or its value is not as
+/// asked.
+class Table {
+ public:
+  bool has(std::string_view key) const;
+  bool is_number(std::string_view key) const;
+  bool is_list(std::string_view key) const;
+  bool is_table(std::string_view key) const;
+  bool is_text(std::string_view key) const;
+  /// Numbers are checked by the row of the key (keys.hpp), and by `further`, which may depend on
+  /// other keys.
+  double number(std::string_view key, const Admissible& further = {}) const;
+  int integer(std::string_view key, const Admissible& further = {}) const;
+  std::string text(std::string_view key) const;
+  bool truth(std::string_view key) const;
+  std::vector<double> numbers(std::string_view key, const Admissible& further = {}) const;
+  std::vector<int> integers(std::string_view key, const Admissible& further = {}) const;
+  std::vector<std::string> texts(std::string_view key) const;
+
+  /// The one key of these that the table holds.
+  /// @throws chladni::Error when it holds none or several.
+  std::string_view only_one_of(std::initializer_list<std::string_view> keys) const;
+
+  /// The value of the word that stands at `key`.
+  template <class T>
+  T choice(std::string_view key, const std::vector<Choice<T>>& choices) const;
+
+  /// The table `key = {...}` or `[key]`.
+  Table table(std::string_view key) const;
+  /// The tables `[[key]]` or `key = [{...}, ...]`.
+  std::vector<Table> tables(std::string_view key) const;
+  /// The keys of the table in alphabetic order, for names that the user chooses: `[material.NAME]`.
+  std::vector<std::string> names() const;
+
+  /// Throws `FILE:LINE: PATH.key = VALUE: why`.
+  [[noreturn]] void refuse(std::string_view key, std::string_view why) const;
+  /// Throws `FILE:LINE: PATH.key[i+1] = VALUE: why`; `i` counts from 0.
+  [[noreturn]] void refuse_element(std::string_view key, std::size_t i, std::string_view why) const;
+
+  /// @throws chladni::Error that lists every key, here and in the tables opened from here, that
+  ///         nobody asked for, with the keys that are allowed in its place.
+  void refuse_unknown_keys() const;
+
+ private:
+  /// Refuses a word that the row of the key does not list.
+  void check_word(std::string_view key, const std::string& word) const;
+
+  struct Node;
+  explicit Table(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+  friend Table parse_toml(const std::string& text, const std::string& file);
+
+  std::shared_ptr<Node> node_;
+};
+
+/// The root table of a TOML text; `file` is its name in messages.
+/// @throws chladni::Error with file and line when the text is not TOML.
+Table parse_toml(const std::string& text, const std::string& file);
+
+template <class T>
+T Table::choice(std::string_view key, const std::vector<Choice<T>>& choices) const
+{
+  const std::string name = text(key);
+  check_word(key, name);
+  std::vector<std::string> names;
+  for (const Choice<T>& choice : choices) {
+    if (choice.name == name) return choice.value;
+    names.emplace_back(choice.name);
+  }
+  refuse(key, "must be one of " + quoted_list(names));
+}
+
+}  // namespace chladni::scene

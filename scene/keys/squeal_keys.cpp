@@ -1,0 +1,108 @@
+#include "scene/keys.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using enum KeyKind;
+
+constexpr Admissible speed{.above = 0.0, .unit = "rad/s"};
+constexpr Admissible duration{.above = 0.0, .unit = "s"};
+constexpr std::string_view parameters = "friction | preload | stiffness";
+
+constexpr Key squeal_rows[] = {
+    {"squeal", table, "not asked for", "what `squeal run` does, [squeal](squeal.md)"},
+    {"squeal.model",
+     word,
+     "flexible disc",
+     "the others need neither mesh nor body",
+     {},
+     "flexible disc | rigid disc | oscillator"},
+    {"squeal.ring", text, "required", "ring of the mesh on which the pads rub"},
+    {"squeal.thickness",
+     number,
+     "required",
+     "distance of the two contact planes",
+     {.above = 0.0, .unit = "m"}},
+    {"squeal.use_modes",
+     text,
+     "all",
+     "\"all\", \"nodal-diameters N\", or a list of mode numbers",
+     {.at_least = 1}},
+    {"squeal.speeds", table, "required", "rotation speeds, equally spaced"},
+    {"squeal.speeds.from_rad_s", number, "required", "the lowest", speed},
+    {"squeal.speeds.to_rad_s", number, "required", "the highest", speed},
+    {"squeal.speeds.count", integer, "required", "how many", {.at_least = 1}},
+    {"squeal.analyses",
+     texts,
+     "required",
+     "one behind the other",
+     {},
+     "eigenvalues | critical-speed | growth | transient | limit-cycle | limit-cycle-direct | "
+     "limit-cycle-branch | stability-map | critical-values | spectrum | mode-sensitivity | "
+     "rotation-stability"},
+    {"squeal.transient", table, "for transient, limit-cycle", "a run from a small disturbance"},
+    {"squeal.transient.speed_rad_s", number, "required", "rotation speed", speed},
+    {"squeal.transient.duration_s", number, "required", "time simulated", duration},
+    {"squeal.transient.initial_pad_displacement",
+     number,
+     "required",
+     "the disturbance",
+     {.above = 0.0, .unit = "m"}},
+    {"squeal.transient.steps_per_period",
+     integer,
+     "from growth_error_1_s",
+     "of the highest frequency",
+     {.at_least = 8}},
+    {"squeal.transient.integrator",
+     word,
+     "auto",
+     "how it is integrated",
+     {},
+     "auto | splitting | exponential | dormand-prince | generalised-alpha"},
+    {"squeal.transient.growth_error_1_s",
+     number,
+     "1e-3",
+     "that the integration may add to a growth rate",
+     {.above = 0.0, .unit = "1/s"}},
+    {"squeal.transient.speed_program", tables, "constant speed",
+     "[speeds to follow](squeal_models.md)"},
+    {"squeal.transient.speed_program.t_s", number, "required", "ascending", {.unit = "s"}},
+    {"squeal.transient.speed_program.speed_rad_s",
+     number,
+     "required",
+     "speed at that time",
+     {.at_least = 0.0, .unit = "rad/s"}},
+    {"squeal.growth", table, "for growth", "growth rates measured in transients"},
+    {"squeal.growth.speeds_rad_s", numbers, "required", "rotation speeds", speed},
+    {"squeal.growth.duration_s", number, "required", "of each", duration},
+    {"squeal.limit_cycle_direct", table, "speed of the transient",
+     "a periodic motion without a transient"},
+    {"squeal.limit_cycle_direct.speed_rad_s", number, "required", "rotation speed", speed},
+    {"squeal.map", table, "for stability-map", "growth over the speeds and one more parameter"},
+    {"squeal.map.parameter", word, "required", "of all pads", {}, parameters},
+    {"squeal.map.from", number, "required", "1, N or N/m", {.at_least = 0.0}},
+    {"squeal.map.to", number, "required", "as from", {.at_least = 0.0}},
+    {"squeal.map.count", integer, "required", "values of the parameter", {.at_least = 1}},
+    {"squeal.critical", tables, "for critical-values", "searches for the limit of stability"},
+    {"squeal.critical.parameter", word, "required", "of all pads", {}, parameters},
+    {"squeal.critical.from", number, "required", "1, N or N/m", {.above = 0.0}},
+    {"squeal.critical.to", number, "required", "as from", {.above = 0.0}},
+    {"squeal.critical.speed_rad_s", number, "required", "rotation speed", speed},
+    {"squeal.radiation", truth, "false",
+     "damps the modes by the sound that they radiate, from `chladni sound`"},
+    {"squeal.wav", table, "none", "pad velocity of the transient as sound, NAME.wav"},
+    {"squeal.wav.rate_Hz",
+     integer,
+     "required",
+     "of the samples",
+     {.at_least = 8000.0, .at_most = 192000.0, .unit = "Hz"}},
+};
+
+}  // namespace
+
+std::span<const Key> squeal_keys()
+{
+  return squeal_rows;
+}
+
+}  // namespace chladni::scene

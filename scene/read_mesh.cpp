@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "scene/read_mesh_parts.hpp"
+
+namespace chladni::scene {
+namespace {
+
+mesh::RingOptions read_ring(const Table& ring, const Admissible& radii)
+{
+  mesh::RingOptions options{.name = ring.text("name"),
+                            .radius = ring.number("radius", radii),
+                            .nodes = ring.integer("nodes")};
+  if (ring.has("z")) options.z = ring.number("z");
+  return options;
+}
+
+std::string read_file_name(const Table& mesh, const std::string& scene_path)
+{
+  const std::filesystem::path file = mesh.text("file");
+  const std::string extension = file.extension().string();
+  if (!contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+    mesh.refuse("file", "must be a .msh, .geo or .step file");
+  }
+  return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();
+}
+
+/// What 1 in a file is, m.
+double read_length_unit(const Table& mesh)
+{
+  return mesh.choice<double>("length_unit",
+                             {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"inch", 0.0254}});
+}
+
+/// The names go into a script of Gmsh.
+void check_is_identifier(const Table& table, const std::string& name)
+{
+  const auto is_letter = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+  };
+  const auto is_part = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
+  if (is_letter(name.front()) && std::ranges::all_of(name, is_part)) return;
+  table.refuse(name, "names a parameter of Gmsh: letters, digits and _ only");
+}
+
+std::vector<std::pair<std::string, double>> read_parameters(const Table& mesh)
+{
+  std::vector<std::pair<std::string, double>> parameters;
+  const Table table = mesh.table("parameters");
+  for (const std::string& name : table.names()) {
+    check_is_identifier(table, name);
+    parameters.emplace_back(name, table.number(name, {}));
+  }
+  return parameters;
+}
+
+std::vector<mesh::EntityGroup> read_entity_groups(const Table& mesh)
+{
+  std::vector<mesh::EntityGroup> groups;
+  const Table table = mesh.table("groups");
+  for (const std::string& name : table.names()) {
+    groups.push_back({.name = name, .entities = table.texts(name)});
+    if (groups.back().entities.empty()) {
+      table.refuse(name, "must name entities, such as \"surface_1\"");
+    }
+  }
+  return groups;
+}
+
+mesh::Coincident read_coincident_nodes(const Table& mesh)
+{
+  return mesh.choice<mesh::Coincident>("coincident_nodes", {{"refuse", mesh::Coincident::refuse},
+                                                            {"merge", mesh::Coincident::merge},
+                                                            {"keep", mesh::Coincident::keep}});
+}
+
+/// Refuses a key that makes no sense with this kind of file.
+void check_only_for(const Table& mesh, const char* key, bool makes_sense, const char* why)
+{
+  if (mesh.has(key) && !makes_sense) mesh.refuse(key, why);
+}
+
+mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
+{
+  mesh::MeshOptions options{.file = read_file_name(mesh, scene_path)};
+  const bool is_msh = options.file->ends_with(".msh");
+  const bool is_geo = options.file->ends_with(".geo");
+  const bool is_step = !is_msh && !is_geo;
+  check_only_for(mesh, "element_order", !is_msh,
+                 "a .msh file has its own order; take this key out");
+  check_only_for(mesh, "element_size", is_step, "is for .step files; a .geo has its own sizes");
+  check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
+  check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
+  if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
+  if (is_step) options.element_size = mesh.number("element_size");
+  if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
+  if (mesh.has("length_unit")) options.length_unit = read_length_unit(mesh);
+  if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
+  if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
+  if (mesh.has("merge_tolerance")) {
+    options.merge_tolerance = mesh.number("merge_tolerance");
+  }
+  std::vector<std::string> taken;
+  for (const mesh::EntityGroup& group : options.groups) taken.push_back(group.name);
+  options.rings = read_rings(mesh, taken, {.above = 0.0, .unit = "m"});
+  return options;
+}
+
+}  // namespace
+
+int read_element_order(const Table& mesh)
+{
+  return mesh.integer("element_order");
+}
+
+std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<std::string>& taken,
+                                          const Admissible& radii)
+{
+  std::set<std::string> names(taken.begin(), taken.end());
+  std::set<std::pair<double, std::optional<double>>> circles;
+  std::vector<mesh::RingOptions> rings;
+  if (!mesh.has("rings")) return rings;
+  for (const Table& table : mesh.tables("rings")) {
+    const mesh::RingOptions ring = read_ring(table, radii);
+    if (!names.insert(ring.name).second) {
+      table.refuse("name", "is the name of another ring or group of the mesh");
+    }
+    if (!circles.insert({ring.radius, ring.z}).second) {
+      table.refuse("radius", "is the radius of another ring");
+    }
+    rings.push_back(ring);
+  }
+  return rings;
+}
+
+mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
+{
+  const Table mesh = root.table("mesh");
+  if (mesh.only_one_of({"generator", "file"}) == "generator") return read_generator(mesh);
+  return read_file(mesh, scene_path);
+}
+
+const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh)
+{
+  if (mesh.annulus) return mesh.annulus->rings;
+  return mesh.hat_disc ? mesh.hat_disc->rings : mesh.rings;
+}
+
+std::vector<std::string> ring_names(const mesh::MeshOptions& mesh)
+{
+  std::vector<std::string> names;
+  for (const mesh::RingOptions& ring : rings_of(mesh)) names.push_back(ring.name);
+  return names;
+}
+
+std::vector<std::string> group_names(const mesh::MeshOptions& mesh)
+{
+  std::vector<std::string> names = generated_groups(mesh);
+  if (names.empty()) return {};
+  const std::vector<std::string> rings = ring_names(mesh);
+  names.insert(names.end(), rings.begin(), rings.end());
+  return names;
+}
+
+}  // namespace chladni::scene

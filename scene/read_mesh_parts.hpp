@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/read_tables.hpp"
+
+/// The parts of [mesh].
+namespace chladni::scene {
+
+/// The options of the generator that `mesh` names.
+mesh::MeshOptions read_generator(const Table& mesh);
+
+/// The groups that a generator makes besides its rings; empty for a file.
+std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh);
+
+int read_element_order(const Table& mesh);
+
+/// @param taken  names that no ring may have
+std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<std::string>& taken,
+                                          const Admissible& radii);
+
+}  // namespace chladni::scene

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <numbers>
+
+#include "scene/squeal_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+squeal::Suspension read_suspension(const Table& table, std::string_view stiffness_unit)
+{
+  return {.stiffness = table.number("stiffness", {.above = 0.0, .unit = stiffness_unit}),
+          .damping = table.number("damping")};
+}
+
+std::optional<squeal::Suspension> read_translation(const Table& body, std::string_view key)
+{
+  if (!body.has(key)) return std::nullopt;
+  return read_suspension(body.table(key), "N/m");
+}
+
+std::optional<squeal::RotarySuspension> read_rotation(const Table& body, std::string_view key)
+{
+  if (!body.has(key)) return std::nullopt;
+  const Table table = body.table(key);
+  return squeal::RotarySuspension{.inertia = table.number("inertia"),
+                                  .suspension = read_suspension(table, "N m")};
+}
+
+std::optional<squeal::PadBody> read_body_of_pad(const Table& pad)
+{
+  if (!pad.has("body")) return std::nullopt;
+  const Table table = pad.table("body");
+  squeal::PadBody body{.mass = table.number("mass")};
+  if (table.has("height")) body.height = table.number("height");
+  body.radial = read_translation(table, "radial");
+  body.tangential = read_translation(table, "tangential");
+  body.axial = read_translation(table, "axial");
+  body.about_radial = read_rotation(table, "about_radial");
+  body.about_tangential = read_rotation(table, "about_tangential");
+  body.about_axial = read_rotation(table, "about_axial");
+  if (!body.radial && !body.tangential && !body.axial && !body.about_radial &&
+      !body.about_tangential && !body.about_axial) {
+    pad.refuse("body",
+               "needs a suspension: radial, tangential, axial, about_radial, about_tangential or "
+               "about_axial");
+  }
+  return body;
+}
+
+std::optional<squeal::Caliper> read_caliper(const Table& pad,
+                                            const std::optional<squeal::PadBody>& body)
+{
+  if (!pad.has("caliper")) return std::nullopt;
+  if (!body || !body->axial) {
+    pad.refuse("caliper", "carries the pads by their axial suspension: give body.axial");
+  }
+  const Table table = pad.table("caliper");
+  return squeal::Caliper{.mass = table.number("mass"), .axial = read_suspension(table, "N/m")};
+}
+
+std::optional<squeal::PadGrid> read_grid(const Table& pad)
+{
+  if (!pad.has("grid")) return std::nullopt;
+  const Table table = pad.table("grid");
+  squeal::PadGrid grid{.sector = degree * table.number("sector_deg"),
+                       .points = table.integer("points")};
+  if (table.has("rings")) {
+    grid.rings = table.texts("rings");
+    if (grid.rings.empty()) table.refuse("rings", "must name at least one ring");
+    std::vector<std::string> sorted = grid.rings;
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) {
+      table.refuse("rings", "must not name a ring twice");
+    }
+  }
+  return grid;
+}
+
+squeal::PadPair read_pad(const Table& pad)
+{
+  const squeal::PadSpring spring = read_pad_spring(pad);
+  const std::optional<squeal::PadBody> body = read_body_of_pad(pad);
+  return {.angle = degree * pad.number("angle_deg"),
+          .stiffness = spring.linear,
+          .damping = pad.number("damping"),
+          .preload = pad.number("preload"),
+          .cubic_stiffness = spring.cubic,
+          .grid = read_grid(pad),
+          .body = body,
+          .caliper = read_caliper(pad, body)};
+}
+
+}  // namespace
+
+std::vector<squeal::PadPair> read_pads(const Table& squeal)
+{
+  std::vector<squeal::PadPair> pads;
+  for (const Table& pad : squeal.tables("pads")) pads.push_back(read_pad(pad));
+  if (pads.empty()) squeal.refuse("pads", "must hold at least one pad pair");
+  return pads;
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "scene/read_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+plate::Material read_material(const Table& material)
+{
+  return {.young = material.number("young"),
+          .poisson = material.number("poisson"),
+          .density = material.number("density")};
+}
+
+std::map<std::string, plate::Material> read_materials(const Table& root)
+{
+  const Table table = root.table("material");
+  std::map<std::string, plate::Material> materials;
+  for (const std::string& name : table.names()) {
+    materials[name] = read_material(table.table(name));
+  }
+  return materials;
+}
+
+/// The group of a section or a coupling, checked where the scene alone knows the groups.
+std::string read_group(const Table& table, const std::vector<std::string>& groups)
+{
+  const std::string group = table.text("group");
+  if (!groups.empty() && !contains(groups, group)) {
+    table.refuse("group", no_such_name("group", group, groups));
+  }
+  return group;
+}
+
+const plate::Material& read_material_of(const Table& section,
+                                        const std::map<std::string, plate::Material>& materials)
+{
+  const auto found = materials.find(section.text("material"));
+  if (found != materials.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, material] : materials) names.push_back(name);
+  section.refuse("material", no_such_name("material", section.text("material"), names));
+}
+
+/// A constant, a table over a coordinate or the radius, or a formula, which the mesh will check.
+plate::Profile read_profile(const Table& section, std::string_view key)
+{
+  if (section.has(key) && section.is_text(key)) {
+    return plate::Profile::by_formula(section.text(key));
+  }
+  if (!section.has(key) || !section.is_table(key)) return section.number(key);
+  using plate::Coordinate;
+  const Table table = section.table(key);
+  const auto over = table.choice<Coordinate>("over", {{"x", Coordinate::x},
+                                                      {"y", Coordinate::y},
+                                                      {"z", Coordinate::z},
+                                                      {"radius", Coordinate::radius}});
+  const std::vector<double> at = table.numbers("at");
+  if (at.size() < 2) table.refuse("at", "must hold at least two places");
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
+  }
+  const std::vector<double> values = table.numbers("values");
+  if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
+  return {over, at, values};
+}
+
+plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups)
+{
+  using plate::CouplingKind;
+  const auto kind = table.choice<CouplingKind>("type", {{"rigid", CouplingKind::rigid},
+                                                        {"averaging", CouplingKind::averaging},
+                                                        {"link", CouplingKind::link}});
+  plate::Coupling coupling{.name = {}, .group = read_group(table, groups), .kind = kind};
+  if (kind != CouplingKind::link) {
+    coupling.name = table.text("name");
+    return coupling;
+  }
+  coupling.to = table.text("to");
+  if (!groups.empty() && !contains(groups, coupling.to)) {
+    table.refuse("to", no_such_name("group", coupling.to, groups));
+  }
+  if (coupling.to == coupling.group) table.refuse("to", "must be another group");
+  return coupling;
+}
+
+enum class SectionKind { shell, beam };
+
+/// A generated mesh has either surfaces or lines; a file shows when it is read.
+void check_kind(const Table& section, SectionKind kind, const mesh::MeshOptions& mesh)
+{
+  if (mesh.beam && kind != SectionKind::beam) {
+    section.refuse("type", "the generator \"beam\" makes lines; use \"beam\"");
+  }
+  if (!mesh.beam && !mesh.file && kind != SectionKind::shell) {
+    section.refuse("type", "this generator makes surfaces; use \"shell\"");
+  }
+}
+
+double read_shear_factor(const Table& section, std::string_view key, plate::BeamTheory theory)
+{
+  if (!section.has(key)) return 5.0 / 6.0;
+  if (theory == plate::BeamTheory::bernoulli_euler) {
+    section.refuse(key, "a beam of Bernoulli and Euler is rigid in shear; take this key out");
+  }
+  return section.number(key);
+}
+
+std::optional<std::array<double, 3>> read_orientation(const Table& section)
+{
+  if (!section.has("orientation")) return std::nullopt;
+  const std::array<double, 3> v = read_vector(section, "orientation");
+  if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
+    section.refuse("orientation", "must not be zero; it points towards the z axis of the section");
+  }
+  return v;
+}
+
+plate::BeamSection read_beam_section(const Table& section, const std::string& group,
+                                     const plate::Material& material)
+{
+  plate::BeamSection beam{.group = group,
+                          .material = material,
+                          .area = section.number("area"),
+                          .I_y = section.number("I_y"),
+                          .I_z = section.number("I_z"),
+                          .J = section.number("J")};
+  if (section.has("theory")) {
+    beam.theory = section.choice<plate::BeamTheory>(
+        "theory", {{"timoshenko", plate::BeamTheory::timoshenko},
+                   {"bernoulli-euler", plate::BeamTheory::bernoulli_euler}});
+  }
+  beam.shear_factor_y = read_shear_factor(section, "shear_factor_y", beam.theory);
+  beam.shear_factor_z = read_shear_factor(section, "shear_factor_z", beam.theory);
+  if (section.has("rotary_inertia")) {
+    beam.has_rotary_inertia =
+        section.choice<bool>("rotary_inertia", {{"full", true}, {"none", false}});
+  }
+  beam.orientation = read_orientation(section);
+  const bool alike = beam.I_y == beam.I_z && beam.shear_factor_y == beam.shear_factor_z;
+  if (!beam.orientation && !alike) {
+    section.refuse("I_y",
+                   "differs from the z axis, so that the section needs `orientation`, a "
+                   "vector [x, y, z] towards its z axis");
+  }
+  return beam;
+}
+
+void check_coupling_name(const Table& coupling, const std::set<std::string>& taken)
+{
+  const std::string name = coupling.text("name");
+  if (taken.contains(name)) {
+    coupling.refuse("name", "is the name of another coupling, ring or group");
+  }
+}
+
+}  // namespace
+
+std::vector<int> read_model_components(const Table& root)
+{
+  if (!root.has("model")) return {0, 1, 2, 3, 4, 5};
+  std::vector<int> components = read_component_list(root.table("model"), "dofs");
+  std::sort(components.begin(), components.end());
+  return components;
+}
+
+Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
+{
+  const std::map<std::string, plate::Material> materials = read_materials(root);
+  const std::vector<std::string> groups = surface_groups(mesh);
+  std::set<std::string> taken;
+  Sections sections;
+  for (const Table& table : root.tables("section")) {
+    const auto kind = table.choice<SectionKind>(
+        "type", {{"shell", SectionKind::shell}, {"beam", SectionKind::beam}});
+    const std::string group = read_group(table, groups);
+    if (!taken.insert(group).second) table.refuse("group", "has another section already");
+    check_kind(table, kind, mesh);
+    const plate::Material& material = read_material_of(table, materials);
+    if (kind == SectionKind::beam) {
+      sections.beams.push_back(read_beam_section(table, group, material));
+      continue;
+    }
+    sections.shells.push_back(
+        {.group = group,
+         .material = material,
+         .thickness = read_profile(table, "thickness"),
+         .offset = table.has("offset") ? read_profile(table, "offset") : 0.0});
+  }
+  if (taken.empty()) root.refuse("section", "must hold at least one section");
+  return sections;
+}
+
+std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene)
+{
+  const std::vector<std::string> groups = group_names(scene.mesh);
+  const std::vector<std::string> rings = ring_names(scene.mesh);
+  std::set<std::string> taken(groups.begin(), groups.end());
+  taken.insert(rings.begin(), rings.end());
+  std::vector<plate::Coupling> couplings;
+  if (!root.has("coupling")) return couplings;
+  for (const Table& table : root.tables("coupling")) {
+    couplings.push_back(read_coupling(table, groups));
+    if (couplings.back().kind == plate::CouplingKind::averaging && scene.components.size() != 6) {
+      table.refuse("type",
+                   "an average needs all six DOFs of each node; use \"rigid\", or take "
+                   "[model] out");
+    }
+    if (couplings.back().kind == plate::CouplingKind::link) continue;
+    check_coupling_name(table, taken);
+    taken.insert(couplings.back().name);
+  }
+  return couplings;
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/read_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+/// What may be an attachment: couplings, rings and, where the scene alone knows them, edges.
+std::vector<std::string> attachable_names(const Scene& scene)
+{
+  std::vector<std::string> names = ring_names(scene.mesh);
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (!coupling.name.empty()) names.push_back(coupling.name);
+  }
+  for (const std::string& group : group_names(scene.mesh)) {
+    if (!contains(names, group) && !contains(surface_groups(scene.mesh), group)) {
+      names.push_back(group);
+    }
+  }
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (coupling.kind != plate::CouplingKind::averaging) std::erase(names, coupling.group);
+  }
+  return names;
+}
+
+void check_interface_node(const Table& interface, std::size_t i, const Scene& scene)
+{
+  const std::vector<std::string> nodes = interface.texts("nodes");
+  const std::string& name = nodes[i];
+  if (std::find(nodes.begin(), nodes.begin() + i, name) != nodes.begin() + i) {
+    interface.refuse_element("nodes", i, "is named twice");
+  }
+  for (const plate::Coupling& coupling : scene.couplings) {
+    if (coupling.group != name || coupling.kind == plate::CouplingKind::averaging) continue;
+    const bool link = coupling.kind == plate::CouplingKind::link;
+    interface.refuse_element(
+        "nodes", i,
+        link ? fmt::format("follows \"{0}\"; name \"{0}\" instead", coupling.to)
+             : fmt::format("follows the reference node \"{0}\"; name \"{0}\" instead",
+                           coupling.name));
+  }
+  // The groups of a mesh file are known only once it is read.
+  const std::vector<std::string> names = attachable_names(scene);
+  if (!group_names(scene.mesh).empty() && !contains(names, name)) {
+    const char* kind = scene.mesh.beam ? "point or coupling" : "ring, edge or coupling";
+    interface.refuse_element("nodes", i, no_such_name(kind, name, names));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> read_interface(const Table& root, const Scene& scene)
+{
+  const Table interface = root.table("interface");
+  if (interface.has("dofs")) {
+    interface.refuse("dofs",
+                     "not available yet; all six DOFs of each node are masters, take it out");
+  }
+  std::vector<std::string> nodes = interface.texts("nodes");
+  if (nodes.empty()) interface.refuse("nodes", "must name at least one ring, edge or coupling");
+  for (std::size_t i = 0; i < nodes.size(); ++i) check_interface_node(interface, i, scene);
+  return nodes;
+}
+
+std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene)
+{
+  const Table interface = root.table("interface");
+  std::vector<plate::RingHarmonics> rings;
+  if (!interface.has("rings")) return rings;
+  for (const Table& ring : interface.tables("rings")) {
+    plate::RingHarmonics wanted{.ring = ring.text("name"), .up_to = ring.integer("harmonics")};
+    if (!contains(scene.interface_nodes, wanted.ring)) {
+      ring.refuse("name", no_such_name("interface node", wanted.ring, scene.interface_nodes));
+    }
+    if (std::ranges::find(rings, wanted.ring, &plate::RingHarmonics::ring) != rings.end()) {
+      ring.refuse("name", "is given twice");
+    }
+    const auto& made = rings_of(scene.mesh);
+    const auto known = std::ranges::find(made, wanted.ring, &mesh::RingOptions::name);
+    if (known != made.end() && 2 * wanted.up_to > known->nodes) {
+      ring.refuse("harmonics", fmt::format("a ring of {} nodes has the harmonics 1 to {}",
+                                           known->nodes, known->nodes / 2));
+    }
+    rings.push_back(std::move(wanted));
+  }
+  return rings;
+}
+
+reduce::ReduceOptions read_reduce(const Table& root)
+{
+  const Table table = root.table("reduce");
+  reduce::ReduceOptions options;
+  options.method =
+      table.choice<reduce::Method>("method", {{"craig-bampton", reduce::Method::craig_bampton},
+                                              {"guyan", reduce::Method::guyan},
+                                              {"rubin", reduce::Method::rubin},
+                                              {"macneal", reduce::Method::macneal}});
+  if (options.method == reduce::Method::guyan) {
+    for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"}) {
+      if (table.has(key))
+        table.refuse(key, "Guyan has no fixed-interface modes; take this key out");
+    }
+    return options;
+  }
+  const std::string_view criterion = table.only_one_of({"modes", "cutoff_Hz", "tolerance"});
+  if (criterion == "modes") {
+    options.modes = table.integer("modes");
+  } else if (criterion == "cutoff_Hz") {
+    options.cutoff_Hz = table.number("cutoff_Hz");
+  } else {
+    if (options.method != reduce::Method::craig_bampton) {
+      table.refuse("tolerance", "needs method \"craig-bampton\"; give modes or cutoff_Hz");
+    }
+    options.tolerance = {.tolerance = table.number("tolerance"),
+                         .up_to_Hz = table.number("up_to_Hz")};
+  }
+  return options;
+}
+
+ResultantChoice read_resultants(const Table& root, const Scene& scene)
+{
+  const Table table = root.table("reduce");
+  if (!table.has("resultants")) return {};
+  std::vector<std::string> groups = table.texts("resultants");
+  std::vector<std::string> known;
+  for (const plate::BeamSection& beam : scene.beams) known.push_back(beam.group);
+  for (const plate::ShellSection& shell : scene.sections) known.push_back(shell.group);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!contains(known, groups[i])) {
+      table.refuse_element("resultants", i, no_such_name("group of elements", groups[i], known));
+    }
+    if (std::find(groups.begin(), groups.begin() + i, groups[i]) != groups.begin() + i) {
+      table.refuse_element("resultants", i, "is named twice");
+    }
+  }
+  ResultantChoice choice{.groups = std::move(groups), .elements = {}};
+  if (table.has("resultant_elements")) {
+    choice.elements = table.integers("resultant_elements");
+    if (choice.elements.empty()) table.refuse("resultant_elements", "must name an element");
+  }
+  return choice;
+}
+
+PictureChoice read_pictures(const Table& root)
+{
+  const Table table = root.table("reduce");
+  if (!table.has("pictures")) return PictureChoice::vertices;
+  return table.choice<PictureChoice>("pictures", {{"vertices", PictureChoice::vertices},
+                                                  {"all", PictureChoice::all},
+                                                  {"none", PictureChoice::none}});
+}
+
+bool read_mass_integrals(const Table& root)
+{
+  const Table table = root.table("reduce");
+  return !table.has("mass_integrals") || table.truth("mass_integrals");
+}
+
+std::optional<bool> read_sylvester(const Table& root)
+{
+  const Table table = root.table("reduce");
+  if (!table.has("sylvester")) return std::nullopt;
+  return table.truth("sylvester");
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,55 @@
+#include "scene/squeal_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using squeal::MapParameter;
+
+MapParameter read_parameter(const Table& table)
+{
+  return table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
+                                                  {"preload", MapParameter::preload},
+                                                  {"stiffness", MapParameter::stiffness}});
+}
+
+}  // namespace
+
+std::optional<squeal::DirectCase> read_direct(const Table& squeal,
+                                              const std::optional<squeal::TransientCase>& transient)
+{
+  if (squeal.has("limit_cycle_direct")) {
+    const Table table = squeal.table("limit_cycle_direct");
+    return squeal::DirectCase{table.number("speed_rad_s")};
+  }
+  if (transient) return squeal::DirectCase{transient->speed};
+  return std::nullopt;
+}
+
+std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
+{
+  std::vector<squeal::CriticalCase> searches;
+  if (!squeal.has("critical")) return searches;
+  for (const Table& table : squeal.tables("critical")) {
+    const double from = table.number("from");
+    searches.push_back({.parameter = read_parameter(table),
+                        .from = from,
+                        .to = table.number("to", {.above = from, .unit = "from"}),
+                        .speed = table.number("speed_rad_s")});
+  }
+  return searches;
+}
+
+std::optional<squeal::MapCase> read_map(const Table& squeal)
+{
+  if (!squeal.has("map")) return std::nullopt;
+  const Table table = squeal.table("map");
+  const MapParameter parameter = read_parameter(table);
+  const double from = parameter == MapParameter::friction ? table.number("from")
+                                                          : table.number("from", {.above = 0.0});
+  return squeal::MapCase{.parameter = parameter,
+                         .from = from,
+                         .to = table.number("to", {.at_least = from}),
+                         .count = table.integer("count")};
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,125 @@
+#include "scene/read_tables.hpp"
+#include "scene/squeal_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using squeal::Drive;
+using squeal::RigidEquations;
+
+enum class ModelChoice { flexible_disc, rigid_disc, oscillator };
+
+const std::vector<std::string> analysis_names = {
+    "eigenvalues", "critical-speed", "critical-values",    "stability-map",     "growth",
+    "transient",   "limit-cycle",    "limit-cycle-direct", "limit-cycle-branch"};
+
+/// The only pad pair of a rigid disc; its angle does not matter.
+Table read_only_pad(const Table& squeal)
+{
+  const std::vector<Table> pads = squeal.tables("pads");
+  if (pads.size() != 1) squeal.refuse("pads", "must hold one pad pair: the rigid disc has no more");
+  return pads.front();
+}
+
+/// A drive by a constant moment is in balance with a constant coefficient only.
+Drive read_drive(const Table& table, const squeal::FrictionLaw& friction)
+{
+  if (!table.has("drive")) return Drive::speed;
+  const auto drive =
+      table.choice<Drive>("drive", {{"speed", Drive::speed}, {"moment", Drive::moment}});
+  if (drive == Drive::moment && (friction.rise > 0.0 || friction.regularisation > 0.0)) {
+    table.refuse("drive", "the constant moment 2 mu r_0 N_0 needs a constant friction coefficient");
+  }
+  return drive;
+}
+
+squeal::RigidDiscStudy read_rigid_disc(const Table& squeal)
+{
+  const Table table = squeal.table("rigid_disc");
+  const Table pad = read_only_pad(squeal);
+  const squeal::FrictionLaw friction = read_friction(squeal);
+  squeal::RigidDiscStudy study{.disc = {.Theta = table.number("diametral_inertia"),
+                                        .Phi = table.number("axial_inertia"),
+                                        .k_t = table.number("stiffness"),
+                                        .d_t = table.number("damping"),
+                                        .radius = table.number("pad_radius"),
+                                        .thickness = squeal.number("thickness"),
+                                        .spring = read_pad_spring(pad),
+                                        .damping = pad.number("damping"),
+                                        .preload = pad.number("preload"),
+                                        .friction = friction,
+                                        .law = read_contact(squeal)},
+                               .drive = read_drive(table, friction)};
+  if (table.has("equations")) {
+    study.equations = table.choice<RigidEquations>(
+        "equations",
+        {{"nonlinear", RigidEquations::nonlinear}, {"linear", RigidEquations::linear}});
+  }
+  return study;
+}
+
+squeal::Oscillator read_oscillator(const Table& squeal)
+{
+  const Table table = squeal.table("oscillator");
+  const auto stiffness = [&](const char* key) { return table.number(key); };
+  const auto damping = [&](const char* key) { return table.number(key); };
+  squeal::Oscillator oscillator{.mass = table.number("mass"),
+                                .k_x = stiffness("stiffness_along"),
+                                .k_y = stiffness("stiffness_normal"),
+                                .k_xy = table.number("stiffness_coupling"),
+                                .d_x = damping("damping_along"),
+                                .d_y = damping("damping_normal"),
+                                .contact_stiffness = stiffness("contact_stiffness"),
+                                .preload = table.number("preload"),
+                                .radius = table.number("radius"),
+                                .friction = read_friction(squeal),
+                                .law = read_contact(squeal)};
+  if (!(oscillator.k_xy * oscillator.k_xy < oscillator.k_x * oscillator.k_y)) {
+    table.refuse("stiffness_coupling",
+                 "its square must be below stiffness_along times stiffness_normal, or the springs "
+                 "do not hold the mass");
+  }
+  return oscillator;
+}
+
+/// The model that a scene asks for; a scene without [squeal] asks for none of these.
+ModelChoice read_choice(const Table& root)
+{
+  if (!root.has("squeal")) return ModelChoice::flexible_disc;
+  const Table squeal = root.table("squeal");
+  if (!squeal.has("model")) return ModelChoice::flexible_disc;
+  return squeal.choice<ModelChoice>("model", {{"flexible disc", ModelChoice::flexible_disc},
+                                              {"rigid disc", ModelChoice::rigid_disc},
+                                              {"oscillator", ModelChoice::oscillator}});
+}
+
+}  // namespace
+
+std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
+{
+  const ModelChoice choice = read_choice(root);
+  if (choice == ModelChoice::flexible_disc) return std::nullopt;
+  const Table squeal = root.table("squeal");
+  squeal::ModelOptions options{};
+  if (choice == ModelChoice::rigid_disc) {
+    options.model = read_rigid_disc(squeal);
+  } else {
+    options.model = read_oscillator(squeal);
+  }
+  options.speeds = read_speeds(squeal);
+  options.analyses = read_analyses(squeal, analysis_names);
+  options.transient = read_transient(squeal);
+  if (options.transient && (options.transient->integrator != squeal::IntegratorKind::automatic ||
+                            !options.transient->speed_program.empty())) {
+    squeal.refuse("transient",
+                  "integrator and speed_program are for a flexible disc; this model takes steps of "
+                  "order 8 at a constant speed");
+  }
+  options.growth = read_growth(squeal);
+  options.limit_cycle_direct = read_direct(squeal, options.transient);
+  options.map = read_map(squeal);
+  options.critical = read_critical(squeal);
+  return options;
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+#include "scene/scene.hpp"
+
+/// The readers of the scene's tables. Each takes the root table and the part of the scene that was
+/// read before it, so that names which refer to other tables can be checked.
+namespace chladni::scene {
+
+/// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene.
+mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
+
+/// [model] dofs: the components of each node; without the table all six.
+std::vector<int> read_model_components(const Table& root);
+
+/// The sections by type.
+struct Sections {
+  std::vector<plate::ShellSection> shells;
+  std::vector<plate::BeamSection> beams;
+};
+
+/// [[section]] with the [material.NAME] that they name.
+Sections read_sections(const Table& root, const mesh::MeshOptions& mesh);
+
+/// [[coupling]]
+std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene);
+
+/// [[mass]] and [[spring]]; their places may be groups, rings and couplings of `scene`.
+std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene);
+std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene);
+
+/// [[support]]; needs the mesh and the couplings of `scene`.
+std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);
+
+/// [[load]]; as the supports.
+std::vector<plate::Load> read_loads(const Table& root, const Scene& scene);
+
+/// [static]; as the supports.
+std::optional<StaticOptions> read_static(const Table& root, const Scene& scene);
+
+/// [modes]
+std::optional<ModesOptions> read_natural_modes(const Table& root);
+
+/// [interface] nodes; needs the mesh and the couplings of `scene`.
+std::vector<std::string> read_interface(const Table& root, const Scene& scene);
+
+/// [interface] rings; needs the nodes of the interface, too.
+std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
+
+/// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
+/// `mass_integrals` and `sylvester`.
+reduce::ReduceOptions read_reduce(const Table& root);
+
+/// [reduce] resultants, resultant_elements; needs the sections of `scene`.
+ResultantChoice read_resultants(const Table& root, const Scene& scene);
+
+/// [reduce] pictures
+PictureChoice read_pictures(const Table& root);
+
+/// [reduce] mass_integrals
+bool read_mass_integrals(const Table& root);
+
+/// [reduce] sylvester
+std::optional<bool> read_sylvester(const Table& root);
+
+/// [body]; without the table the body is free and keeps all modes. Reads `interface_nodes` and
+/// `reduce` of the scene.
+mbs_export::BodyOptions read_body(const Table& root, const Scene& scene);
+
+/// [squeal]; needs the mesh and the interface of `scene`.
+std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
+
+/// [squeal] radiation
+bool read_radiation(const Table& root);
+
+/// [sound]; needs the mesh, the sections and the squeal of `scene`.
+std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& scene);
+
+/// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
+/// body; absent for any other scene.
+std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
+
+/// The names of the rings of a mesh.
+const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh);
+std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
+
+/// The groups of a mesh, its rings among them; empty for a mesh file, which alone knows them.
+std::vector<std::string> group_names(const mesh::MeshOptions& mesh);
+
+/// Those groups that are surfaces, or lines of a generated beam.
+std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);
+
+/// One number for each component that the table `key = { z = ..., ry = ... }` names, else 0.
+std::array<double, 6> read_by_component(const Table& table, std::string_view key);
+
+/// A list of three numbers.
+std::array<double, 3> read_vector(const Table& table, std::string_view key);
+
+/// A list of components by name as numbers 0 to 5, in the order of the list.
+std::vector<int> read_component_list(const Table& table, std::string_view key);
+
+/// A list of mode numbers, counted from 1, ascending.
+std::vector<int> read_mode_list(const Table& table, std::string_view key);
+
+}  // namespace chladni::scene

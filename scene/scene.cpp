@@ -1,0 +1,104 @@
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "scene/read_tables.hpp"
+
+namespace chladni::scene {
+namespace {
+
+/// The stem of the files that the programs write; it must not lead out of their folder.
+std::string read_name(const Table& root)
+{
+  if (!root.has("name")) return "disc";
+  const std::string name = root.text("name");
+  const std::string allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (name.find_first_not_of(allowed) != std::string::npos) {
+    root.refuse("name", "names files: only letters, digits, _ and -");
+  }
+  return name;
+}
+
+/// A scene for `chladni static` or `chladni modes` alone needs no reduction.
+bool is_reduced(const Table& root, const Scene& scene, Purpose purpose)
+{
+  if (root.has("interface") || root.has("reduce")) return true;
+  return purpose == Purpose::everything && !scene.static_solution && !scene.natural_modes;
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& path, Purpose purpose)
+{
+  const Table root = parse_toml(text, path);
+  Scene scene;
+  scene.name = read_name(root);
+  scene.title = root.has("title") ? root.text("title") : scene.name;
+  scene.text = text;
+  scene.path = path;
+  scene.squeal_model = read_squeal_model(root);
+  if (scene.squeal_model) {
+    root.refuse_unknown_keys();
+    return scene;
+  }
+  scene.mesh = read_mesh(root, path);
+  scene.components = read_model_components(root);
+  const Sections sections = read_sections(root, scene.mesh);
+  scene.sections = sections.shells;
+  scene.beams = sections.beams;
+  for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
+  scene.couplings = read_couplings(root, scene);
+  scene.masses = read_masses(root, scene);
+  scene.springs = read_springs(root, scene);
+  scene.supports = read_supports(root, scene);
+  scene.loads = read_loads(root, scene);
+  scene.static_solution = read_static(root, scene);
+  scene.natural_modes = read_natural_modes(root);
+  if (is_reduced(root, scene, purpose)) {
+    scene.interface_nodes = read_interface(root, scene);
+    scene.ring_harmonics = read_ring_harmonics(root, scene);
+    scene.reduce = read_reduce(root);
+    scene.resultants = read_resultants(root, scene);
+    scene.pictures = read_pictures(root);
+    scene.mass_integrals = read_mass_integrals(root);
+    scene.sylvester = read_sylvester(root);
+  }
+  scene.body = read_body(root, scene);
+  scene.squeal = read_squeal(root, scene);
+  scene.radiation = read_radiation(root);
+  scene.sound = read_sound(root, scene);
+  // Dampers of the model are not lost when the body says nothing of damping.
+  const auto damps = [](const plate::Spring& spring) {
+    return spring.damping != std::array<double, 6>{};
+  };
+  const bool said = root.has("body") && root.table("body").has("damping");
+  if (!said && std::any_of(scene.springs.begin(), scene.springs.end(), damps)) {
+    scene.body.damping.type = mbs_export::Damping::Type::matrix;
+  }
+  root.refuse_unknown_keys();
+  return scene;
+}
+
+Scene read_scene(const std::string& path, Purpose purpose)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || !text) throw Error(fmt::format("{}: the scene file cannot be read", path));
+  return parse_scene(text.str(), path, purpose);
+}
+
+Scene read_meshed_scene(const std::string& path, Purpose purpose)
+{
+  Scene scene = read_scene(path, purpose);
+  if (!scene.squeal_model) return scene;
+  throw Error(
+      fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mbs_export/body_options.hpp"
+#include "mesh/mesh_options.hpp"
+#include "plate/load_options.hpp"
+#include "plate/plate_options.hpp"
+#include "reduce/reduce_options.hpp"
+#include "sound/sound_options.hpp"
+#include "squeal/model_options.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::scene {
+
+/// Of which nodes the reduced file keeps the displacements, for pictures.
+enum class PictureChoice { none, vertices, all };
+
+/// Of which elements the section forces are kept, as linear forms in the coordinates.
+struct ResultantChoice {
+  std::vector<std::string> groups;
+  std::vector<int>
+      elements;  ///< of the groups only these, by their numbers in the mesh; empty: all
+};
+
+/// `chladni static`: whose displacements the summary lists.
+struct StaticOptions {
+  std::vector<std::string> report;  ///< groups, rings or couplings
+};
+
+/// `chladni modes`
+struct ModesOptions {
+  int count = 10;  ///< natural modes, rigid-body motions included
+};
+
+/// A scene file, read and checked: one case from the mesh to the squeal.
+struct Scene {
+  std::string name;  ///< stem of the files that the programs write
+  std::string title;
+  std::string text;  ///< of the file, for provenance
+  std::string path;  ///< of the file
+  mesh::MeshOptions mesh;
+  /// Of each node; the others are held at zero and not part of the model.
+  std::vector<int> components = {0, 1, 2, 3, 4, 5};
+  std::vector<plate::ShellSection> sections;
+  std::vector<plate::BeamSection> beams;
+  std::vector<plate::PointMass> masses;
+  std::vector<plate::Spring> springs;
+  std::vector<plate::Coupling> couplings;
+  std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
+  std::vector<plate::Load> loads;        ///< of `static`
+  std::optional<StaticOptions> static_solution;
+  std::optional<ModesOptions> natural_modes;
+  std::vector<std::string> interface_nodes;  ///< rings, couplings or groups, all DOFs of each node;
+                                             ///< empty in a scene for `static` or `modes` alone
+  std::vector<plate::RingHarmonics> ring_harmonics;  ///< of interface nodes that are rings
+  PictureChoice pictures = PictureChoice::vertices;
+  ResultantChoice resultants;
+  reduce::ReduceOptions reduce;
+  bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
+  std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
+  mbs_export::BodyOptions body;
+  std::optional<squeal::SquealOptions> squeal;
+  bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate
+  std::optional<sound::SoundOptions> sound;
+  std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
+};
+
+/// What a scene is read for; its FE model alone needs neither [interface] nor [reduce].
+enum class Purpose { everything, fe_model };
+
+/// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
+/// @throws chladni::Error naming file, line, key and value of what is wrong, and what is allowed.
+Scene parse_scene(const std::string& text, const std::string& path,
+                  Purpose purpose = Purpose::everything);
+
+/// The scene of a file.
+/// @throws chladni::Error as parse_scene, and when the file cannot be read.
+Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
+
+/// The scene of a file, for a program that needs its mesh or its body.
+/// @throws chladni::Error as read_scene, and when the scene's model has neither.
+Scene read_meshed_scene(const std::string& path, Purpose purpose = Purpose::everything);
+
+}  // namespace chladni::scene

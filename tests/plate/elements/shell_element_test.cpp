@@ -1,0 +1,125 @@
+#include "plate/elements/shell_element.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "common/error.hpp"
+#include "plate/elements/plane_element.hpp"
+#include "sample_elements.hpp"
+
+namespace chladni::plate {
+namespace {
+
+using Eigen::MatrixXd;
+using mesh::Shape;
+using testing::curved_element;
+using testing::rigid_motions;
+using testing::steel_like;
+
+class ShellElement : public ::testing::TestWithParam<std::pair<Shape, int>> {
+ protected:
+  Shape shape() const { return GetParam().first; }
+  int order() const { return GetParam().second; }
+  ElementMatrices matrices(const ShellNodes& nodes) const
+  {
+    return shell_matrices(shape(), order(), nodes, steel_like);
+  }
+};
+
+TEST_P(ShellElement, HasExactlySixZeroModes)
+{
+  const MatrixXd K = matrices(curved_element(shape(), order())).K;
+  const Eigen::VectorXd lambda = Eigen::SelfAdjointEigenSolver<MatrixXd>(K).eigenvalues();
+  // Round-off leaves 1e-15 of the largest; the softest true mode is drilling at 1e-8 or more.
+  EXPECT_LT(lambda.head(6).cwiseAbs().maxCoeff(), 1e-13 * lambda.maxCoeff());
+  EXPECT_GT(lambda[6], 1e-9 * lambda.maxCoeff());
+}
+
+TEST_P(ShellElement, FeelsNoForceInRigidMotion)
+{
+  const ShellNodes nodes = curved_element(shape(), order());
+  const MatrixXd K = matrices(nodes).K;
+  const MatrixXd force = K * rigid_motions(nodes.x);
+  EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-13 * K.cwiseAbs().maxCoeff());
+}
+
+TEST_P(ShellElement, TurnsWithTheFrame)
+{
+  const ShellNodes nodes = curved_element(shape(), order());
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  MatrixXd T = MatrixXd::Zero(6 * nodes.x.rows(), 6 * nodes.x.rows());
+  for (Eigen::Index i = 0; i < 2 * nodes.x.rows(); ++i) T.block<3, 3>(3 * i, 3 * i) = R;
+  const ElementMatrices here = matrices(nodes);
+  const ElementMatrices there = matrices(testing::rotated(nodes, R));
+  // Round-off of the rotated coordinates, amplified by the ratio of membrane to bending stiffness.
+  EXPECT_LT((T * here.K * T.transpose() - there.K).norm(), 1e-12 * here.K.norm());
+  EXPECT_LT((T * here.M * T.transpose() - there.M).norm(), 1e-12 * here.M.norm());
+}
+
+TEST_P(ShellElement, HasTheMassAndInertiaOfAFlatPlate)
+{
+  const Eigen::MatrixX2d P = testing::lattice(shape(), order());
+  const double t = 0.3;
+  ShellNodes nodes{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
+  nodes.x.leftCols<2>() = P;
+  nodes.D.col(2).setConstant(t / 2);
+  const MatrixXd R = rigid_motions(nodes.x);
+  const MatrixXd m = R.transpose() * matrices(nodes).M * R;
+  const bool triangle = shape() == Shape::triangle;
+  const double area = triangle ? 0.5 : 4.0;
+  const double second_moment = triangle ? 1.0 / 12.0 : 4.0 / 3.0;  // int x^2 dA = int y^2 dA
+  const double rho = steel_like.density;
+  constexpr double round_off = 1e-12;
+  EXPECT_NEAR(m(0, 0), rho * t * area, round_off);
+  EXPECT_NEAR(m(3, 3), rho * (t * second_moment + t * t * t / 12.0 * area), round_off);
+  EXPECT_NEAR(m(5, 5), rho * t * 2.0 * second_moment, round_off);  // drilling has no mass
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ShapesAndOrders, ShellElement,
+    ::testing::Values(std::pair{Shape::quadrilateral, 1}, std::pair{Shape::quadrilateral, 2},
+                      std::pair{Shape::quadrilateral, 3}, std::pair{Shape::quadrilateral, 4},
+                      std::pair{Shape::triangle, 1}, std::pair{Shape::triangle, 2},
+                      std::pair{Shape::triangle, 3}));
+
+/// Quadrilaterals that are computed in their plane, where bending and membrane are independent.
+class PlaneElement : public ::testing::TestWithParam<int> {};
+
+TEST_P(PlaneElement, IsTheCurvedOneWhereThatIsFlat)
+{
+  const Eigen::MatrixX2d P = testing::lattice(Shape::quadrilateral, GetParam());
+  ShellNodes flat{.x = NodeVectors::Zero(P.rows(), 3), .D = NodeVectors::Zero(P.rows(), 3)};
+  for (Eigen::Index k = 0; k < P.rows(); ++k) {
+    const double r = P(k, 0), s = P(k, 1);
+    flat.x.row(k) << r + 0.1 * s * s + 0.2 * r * s, 0.8 * s + 0.2 * r, 0.0;
+  }
+  flat.D.col(2).setConstant(0.15);
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  for (const Eigen::Matrix3d& turn : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), R}) {
+    const ShellNodes plane = testing::rotated(flat, turn);
+    // The least curvature that takes the element out of its plane.
+    ShellNodes bent = flat;
+    for (Eigen::Index k = 0; k < P.rows(); ++k) bent.x(k, 2) = 1e-9 * P(k, 0) * P(k, 0);
+    bent = testing::rotated(bent, turn);
+    ASSERT_TRUE(in_its_plane(plane).has_value());
+    ASSERT_FALSE(in_its_plane(bent).has_value());
+    const ElementMatrices A = shell_matrices(Shape::quadrilateral, GetParam(), plane, steel_like);
+    const ElementMatrices B = shell_matrices(Shape::quadrilateral, GetParam(), bent, steel_like);
+    EXPECT_LT((A.K - B.K).cwiseAbs().maxCoeff(), 1e-8 * A.K.cwiseAbs().maxCoeff());
+    EXPECT_LT((A.M - B.M).cwiseAbs().maxCoeff(), 1e-8 * A.M.cwiseAbs().maxCoeff());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, PlaneElement, ::testing::Values(2, 3, 4));
+
+TEST(ShellElement, RefusesAnOrderThatDoesNotExist)
+{
+  EXPECT_THROW(check_element_exists(Shape::triangle, 4), Error);
+  EXPECT_THROW(check_element_exists(Shape::quadrilateral, 5), Error);
+}
+
+}  // namespace
+}  // namespace chladni::plate

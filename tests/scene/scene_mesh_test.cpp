@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scene/scene.hpp"
+#include "tests/scene/scene_texts.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using test::error_of;
+
+/// A scene with this [mesh] and a section for `group`.
+std::string scene_of(const std::string& mesh, const std::string& group)
+{
+  return "[mesh]\n" + mesh + R"([material.iron]
+young = 9e10
+poisson = 0.3
+density = 6300.0
+[[section]]
+type = "shell"
+material = "iron"
+thickness = 0.02
+group = ")" +
+         group + "\"\n[interface]\nnodes = [\"" + (group == "plate" ? "right" : "outer_edge") +
+         "\"]\n[reduce]\nmethod = \"craig-bampton\"\nmodes = 9\n";
+}
+
+mesh::MeshOptions options_of(const std::string& mesh, const std::string& group)
+{
+  return parse_scene(scene_of(mesh, group), "folder/scene.toml").mesh;
+}
+
+std::string mesh_error(const std::string& mesh, const std::string& group = "disc")
+{
+  return error_of(scene_of(mesh, group));
+}
+
+/// Lines 2 to 8.
+const std::string hat = R"(generator = "hat_disc"
+wall_radius = 0.08
+outer_radius = 0.16
+hub_radius = 0.03
+height = 0.05
+element_size = 0.02
+rings = [{ name = "track", radius = 0.13, nodes = 60 }]
+)";
+
+TEST(SceneMesh, HoldsTheHatDiscWithItsDefaults)
+{
+  const auto options = options_of(hat, "flange").hat_disc;
+  ASSERT_TRUE(options);
+  EXPECT_EQ(options->inner_radius, 0.08);
+  EXPECT_EQ(options->top_radius, 0.08);
+  EXPECT_EQ(options->foot, 0.0);
+  EXPECT_EQ(options->element_order, 3);
+  EXPECT_EQ(options->pattern, mesh::Pattern::structured);
+  EXPECT_FALSE(options->edge_row);
+  EXPECT_EQ(options->rings.at(0).nodes, 60);
+}
+
+TEST(SceneMesh, HoldsTheHatDiscAsTold)
+{
+  const auto options = options_of(hat +
+                                      "inner_radius = 0.07\ntop_radius = 0.06\nfoot = 0.01\n"
+                                      "edge_row = 0.004\nelement_order = 4\n"
+                                      "bolts = { count = 5, circle_radius = 0.045, "
+                                      "hole_radius = 0.006 }\n",
+                                  "wall")
+                           .hat_disc;
+  ASSERT_TRUE(options && options->bolts);
+  EXPECT_EQ(options->inner_radius, 0.07);
+  EXPECT_EQ(options->top_radius, 0.06);
+  EXPECT_EQ(options->foot, 0.01);
+  EXPECT_EQ(options->edge_row, 0.004);
+  EXPECT_EQ(options->element_order, 4);
+  EXPECT_EQ(options->pattern, mesh::Pattern::unstructured);  // holes leave no choice
+  EXPECT_EQ(options->bolts->count, 5);
+  EXPECT_EQ(options->bolts->circle_radius, 0.045);
+  EXPECT_EQ(options->bolts->hole_radius, 0.006);
+}
+
+TEST(SceneMesh, HoldsThePadInRadians)
+{
+  const auto options = options_of(
+      "generator = \"pad\"\ninner_radius = 0.1\nouter_radius = 0.15\nangle_deg = 60.0\n"
+      "centre_deg = 90.0\nelement_size = 0.01\npattern = \"triangles\"\n",
+      "pad");
+  ASSERT_TRUE(options.pad);
+  EXPECT_DOUBLE_EQ(options.pad->angle, std::numbers::pi / 3.0);
+  EXPECT_DOUBLE_EQ(options.pad->centre_angle, std::numbers::pi / 2.0);
+  EXPECT_EQ(options.pad->pattern, mesh::Pattern::triangles);
+}
+
+TEST(SceneMesh, HoldsTheRectangle)
+{
+  const auto options = options_of(
+      "generator = \"rectangle\"\nlength = 0.3\nwidth = 0.2\nelement_size = 0.05\n"
+      "edge_row = 0.01\n",
+      "plate");
+  ASSERT_TRUE(options.rectangle);
+  EXPECT_EQ(options.rectangle->length, 0.3);
+  EXPECT_EQ(options.rectangle->width, 0.2);
+  EXPECT_EQ(options.rectangle->edge_row, 0.01);
+}
+
+TEST(SceneMeshError, NamesWhatAGeneratorDoesNotAdmit)
+{
+  EXPECT_EQ(mesh_error("generator = \"sphere\"\n"),
+            "scene.toml:2: mesh.generator = \"sphere\": must be one of \"annulus\", \"hat_disc\", "
+            "\"pad\", \"rectangle\", \"beam\"");
+  EXPECT_EQ(mesh_error(hat + "inner_radius = 0.09\n"),
+            "scene.toml:9: mesh.inner_radius = 0.09: must be > 0 and <= 0.08 (m)");
+  EXPECT_EQ(mesh_error(hat + "foot = 0.05\n"),
+            "scene.toml:9: mesh.foot = 0.05: must be >= 0 and < 0.05 (m)");
+  EXPECT_EQ(mesh_error(hat + "edge_row = 0.04\n"),
+            "scene.toml:9: mesh.edge_row = 0.04: must be > 0 and < 0.04 (m, half of the width)");
+  EXPECT_EQ(mesh_error(hat + "pattern = \"spiral\"\n"),
+            "scene.toml:9: mesh.pattern = \"spiral\": must be one of \"structured\", "
+            "\"unstructured\", \"triangles\"");
+  EXPECT_EQ(mesh_error(hat + "pattern = \"structured\"\nbolts = { count = 5 }\n").substr(0, 24),
+            "scene.toml:10: mesh.bolt");
+  EXPECT_NE(mesh_error(hat, "plate").find("there are: \"disc\", \"wall\", \"flange\""),
+            std::string::npos);
+  EXPECT_NE(
+      mesh_error("generator = \"rectangle\"\nlength = 0.3\nwidth = 0.2\nelement_size = 0.25\n")
+          .find("element_size = 0.25"),
+      std::string::npos);
+  EXPECT_NE(mesh_error("generator = \"pad\"\ninner_radius = 0.1\nouter_radius = 0.15\n"
+                       "angle_deg = 180.0\nelement_size = 0.01\n")
+                .find("angle_deg = 180"),
+            std::string::npos);
+}
+
+TEST(SceneMesh, HoldsWhatAFileNeeds)
+{
+  const auto options = options_of(
+      "file = \"a.geo\"\nlength_unit = \"mm\"\nelement_order = 2\n"
+      "parameters = { n_holes = 24, size = 6.5 }\n"
+      "groups = { disc = [\"surface_1\", \"surface_2\"], outer_edge = [\"curve_3\"] }\n"
+      "coincident_nodes = \"merge\"\nmerge_tolerance = 1e-6\n"
+      "rings = [{ name = \"track\", radius = 0.13, nodes = 60, z = 0.01 }]\n",
+      "disc");
+  EXPECT_EQ(options.file, "folder/a.geo");
+  EXPECT_EQ(options.length_unit, 1e-3);
+  EXPECT_EQ(options.element_order, 2);
+  const std::vector<std::pair<std::string, double>> parameters{{"n_holes", 24.0}, {"size", 6.5}};
+  EXPECT_EQ(options.parameters, parameters);
+  ASSERT_EQ(options.groups.size(), 2u);
+  EXPECT_EQ(options.groups[0].name, "disc");
+  EXPECT_EQ(options.groups[0].entities, (std::vector<std::string>{"surface_1", "surface_2"}));
+  EXPECT_EQ(options.coincident_nodes, mesh::Coincident::merge);
+  EXPECT_EQ(options.merge_tolerance, 1e-6);
+  EXPECT_EQ(options.rings.at(0).z, 0.01);
+  const auto step = options_of("file = \"a.step\"\nelement_size = 0.01\n", "surface_1");
+  EXPECT_EQ(step.element_size, 0.01);
+}
+
+TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
+{
+  EXPECT_EQ(mesh_error("file = \"a.iges\"\n"),
+            "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo or .step file");
+  EXPECT_EQ(mesh_error("file = \"a.msh\"\nelement_order = 2\n"),
+            "scene.toml:3: mesh.element_order = 2: a .msh file has its own order; take this key "
+            "out");
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nelement_size = 0.1\n"),
+            "scene.toml:3: mesh.element_size = 0.1: is for .step files; a .geo has its own sizes");
+  EXPECT_EQ(mesh_error("file = \"a.step\"\nelement_size = 0.1\nlength_unit = \"mm\"\n"),
+            "scene.toml:4: mesh.length_unit = \"mm\": a .step file tells its own unit");
+  EXPECT_NE(mesh_error("file = \"a.step\"\n").find("element_size"), std::string::npos);
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nparameters = { \"a-b\" = 1.0 }\n").substr(0, 13),
+            "scene.toml:3:");
+  EXPECT_EQ(mesh_error("file = \"a.geo\"\nlength_unit = \"yard\"\n"),
+            "scene.toml:3: mesh.length_unit = \"yard\": must be one of \"m\", \"cm\", \"mm\", "
+            "\"inch\"");
+  EXPECT_NE(mesh_error("file = \"a.geo\"\ngroups = { disc = [] }\n").find("surface_1"),
+            std::string::npos);
+  EXPECT_NE(mesh_error("file = \"a.geo\"\ncoincident_nodes = \"glue\"\n").find("\"keep\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::scene
