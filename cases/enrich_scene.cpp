@@ -44,7 +44,7 @@ void add_loads(const ReducedSystem& system, const InterfaceModes& wanted, int co
                std::set<int>& rows)
 {
   const mbs_export::AttachmentSet& set = mbs_export::find_set(system, wanted.at);
-  const char* name = plate::component_names[std::size_t(component)];
+  const char* name = mbs_export::component_name(component);
   const auto index = static_cast<int>(&set - system.sets.data());
   const bool is_ring = std::ranges::any_of(
       system.masters, [&](const auto& dof) { return dof.harmonic && dof.harmonic->set == index; });
