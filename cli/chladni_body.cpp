@@ -27,17 +27,18 @@ void make_and_write_body(const SceneArguments& arguments)
 {
   report::PhaseClock clock;
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene);
+  const std::filesystem::path file = body_file(scene, arguments);
   const mbs_export::ReducedSystem reduced = read_reduced_of(scene, arguments);
+  const ReservedOutputs reserved = reserve_outputs(arguments, {file});
   clock.end_phase("read");
   const mbs_export::ModalBody body = make_body_of(scene, reduced);
   clock.end_phase("body");
-  const std::filesystem::path file = body_file(scene, arguments);
   mbs_export::write_body(file, body);
   clock.end_phase("write");
 
   const report::Cost cost = report::cost_so_far(clock.phases());
   const std::string selection = report::describe_selection(body);
-  fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title,
+  fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", report::printable(scene.title),
              report::format_table(report::list_modes(body)), selection,
              selection.empty() ? "" : "\n", report::format_table(report::describe(body)),
              report::format_table(report::cost_table(cost)), file.string());

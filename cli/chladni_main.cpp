@@ -14,7 +14,10 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
+#include "files/hdf5.hpp"
+#include "files/unfinished_file.hpp"
 #include "linear/read_solver_options.hpp"
+#include "report/output.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
 
@@ -136,7 +139,7 @@ int report_failure(const std::exception& error)
 {
   // A failure is the same on all ranks as a rule; time for the first one to say it.
   if (chladni::cases::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
-  fmt::print(stderr, "{}\n", error.what());
+  fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
   std::fflush(nullptr);
   if (chladni::cases::n_ranks() > 1) chladni::cli::abort_all_ranks(chladni::cli::exit_failed);
   return chladni::cli::exit_failed;
@@ -145,9 +148,12 @@ int report_failure(const std::exception& error)
 int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments arguments)
 {
   const chladni::cli::PetscSession session(arguments.petsc_options);
+  chladni::files::leave_nothing_to_exit();
+  chladni::files::remove_unfinished_files_on_signals();
   try {
     arguments.solver = chladni::linear::read_solver_options(PETSC_COMM_WORLD);
     perform(app, arguments);
+    chladni::report::finish_printing();
     return chladni::cli::exit_ok;
   } catch (const std::exception& error) {
     return report_failure(error);
@@ -178,7 +184,7 @@ int main(int argc, char** argv)
   try {
     return perform_with_petsc(app, arguments);
   } catch (const std::exception& error) {  // PETSc did not start
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
     return chladni::cli::exit_failed;
   }
 }

@@ -71,6 +71,7 @@ void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice
 {
   report::PhaseClock clock;
   const Subject subject = read_subject(arguments.scene);
+  const ReservedOutputs reserved = reserve_outputs(arguments, {});
   clock.end_phase("read");
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
@@ -84,7 +85,8 @@ void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice
     clock.end_phase("quality");
   }
   const report::Cost cost = report::cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}{}", subject.title, report::format_table(mesh_table(mesh)), text,
+  fmt::print("{}\n\n{}\n{}{}", report::printable(subject.title),
+             report::format_table(mesh_table(mesh)), text,
              report::format_table(report::cost_table(cost)));
   for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
   write_summary(arguments, summary, cost);

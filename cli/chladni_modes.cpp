@@ -8,6 +8,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "files/text_file.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "reduce/supported_solutions.hpp"
 
@@ -61,6 +62,9 @@ void modes_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene =
       scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
+  const std::filesystem::path file =
+      std::filesystem::path(arguments.scene.output) / (scene.name + ".modes.vtu");
+  const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
   const cases::ReduceProgress silent;
   cases::Phases phases(silent);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
@@ -73,13 +77,10 @@ void modes_command(const ChladniArguments& arguments)
   });
   const Eigen::VectorXd omega = angular_frequencies(modes.lambda, n_rigid);
   const report::SceneGrid grid = mode_grid(scene, model, modes);
-  const std::filesystem::path file =
-      std::filesystem::path(arguments.scene.output) / (scene.name + ".modes.vtu");
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {
-    report::make_folder(arguments.scene.output);
-    report::write_text_atomically(file, report::vtu_text(grid.grid));
-    fmt::print("{}\n\n{}\n{}\n{}\nwrote {}\n", scene.title,
+    files::write_text(file, report::vtu_text(grid.grid));
+    fmt::print("{}\n\n{}\n{}\n{}\nwrote {}\n", report::printable(scene.title),
                report::format_table(mode_table(omega, n_rigid)),
                report::format_table(cases::model_table(model)),
                report::format_table(report::cost_table(cost)), file.string());

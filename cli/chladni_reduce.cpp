@@ -12,7 +12,7 @@ namespace {
 void print_and_write_summary(const SceneArguments& arguments, const cases::ReduceSummary& summary,
                              const report::Cost& cost)
 {
-  fmt::print("{}\n\n{}\n{}\n{}", summary.reduced.title,
+  fmt::print("{}\n\n{}\n{}\n{}", report::printable(summary.reduced.title),
              report::format_table(reduction_table(summary)),
              report::format_table(report::describe(summary.reduced)),
              report::format_table(report::cost_table(cost)));
@@ -27,13 +27,11 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 void reduce_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
-  cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
   const std::filesystem::path file = reduced_file(scene, arguments.scene);
+  const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
+  cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
   report::PhaseClock clock;
-  cases::on_first_rank([&] {
-    report::make_folder(arguments.scene.output);
-    mbs_export::write_reduced(file, summary.reduced);
-  });
+  cases::on_first_rank([&] { mbs_export::write_reduced(file, summary.reduced); });
   clock.end_phase("write");
   summary.phases.push_back(clock.phases().front());
   summary.factorization = time_of_all_ranks(summary.factorization);

@@ -3,6 +3,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "common/error.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe.hpp"
@@ -11,22 +12,29 @@
 namespace chladni::cli {
 namespace {
 
-void write_both_files(const scene::Scene& scene, const SceneArguments& arguments,
-                      const mbs_export::ReducedSystem& reduced, const mbs_export::ModalBody& body)
+/// The body of a reduction that is in its file already: what is wrong with [body] costs no second
+/// one.
+mbs_export::ModalBody body_of(const scene::Scene& scene, const SceneArguments& arguments,
+                              const mbs_export::ReducedSystem& reduced)
 {
-  report::make_folder(arguments.output);
-  mbs_export::write_reduced(reduced_file(scene, arguments), reduced);
-  mbs_export::write_body(body_file(scene, arguments), body);
+  try {
+    return make_body_of(scene, reduced);
+  } catch (const Error& error) {
+    throw Error(fmt::format(
+        "{}\nThe reduction is kept in {}; mend [body] and go on with `chladni body {} --output {}`",
+        error.what(), reduced_file(scene, arguments).string(), arguments.scene, arguments.output));
+  }
 }
 
 void print_and_write_summary(const SceneArguments& arguments, const cases::ReduceSummary& summary,
                              const mbs_export::ModalBody& body, const report::Cost& cost)
 {
   const std::string selection = report::describe_selection(body);
-  fmt::print(
-      "{}\n\n{}\n{}{}{}\n{}\n{}", body.title, report::format_table(report::list_modes(body)),
-      selection, selection.empty() ? "" : "\n", report::format_table(reduction_table(summary)),
-      report::format_table(report::describe(body)), report::format_table(report::cost_table(cost)));
+  fmt::print("{}\n\n{}\n{}{}{}\n{}\n{}", report::printable(body.title),
+             report::format_table(report::list_modes(body)), selection,
+             selection.empty() ? "" : "\n", report::format_table(reduction_table(summary)),
+             report::format_table(report::describe(body)),
+             report::format_table(report::cost_table(cost)));
   std::vector<report::Json::Member> members = reduction_json(summary);
   members.emplace_back("frequencies_Hz", frequencies_json(body.omega));
   members.emplace_back("n_rigid", body.n_rigid);
@@ -40,22 +48,27 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 void run_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
+  const SceneArguments& said = arguments.scene;
+  const ReservedOutputs reserved =
+      reserve_on_first_rank(said, {reduced_file(scene, said), body_file(scene, said)});
   cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
-  // Both files are written at the end: a scene whose body cannot be made leaves none.
   report::PhaseClock clock;
-  mbs_export::ModalBody body;
-  cases::on_first_rank([&] { body = make_body_of(scene, summary.reduced); });
-  clock.end_phase("body");
-  cases::on_first_rank([&] { write_both_files(scene, arguments.scene, summary.reduced, body); });
+  cases::on_first_rank(
+      [&] { mbs_export::write_reduced(reduced_file(scene, said), summary.reduced); });
   clock.end_phase("write");
+  mbs_export::ModalBody body;
+  cases::on_first_rank([&] { body = body_of(scene, said, summary.reduced); });
+  clock.end_phase("body");
+  cases::on_first_rank([&] { mbs_export::write_body(body_file(scene, said), body); });
+  clock.end_phase("write body");
 
   for (const report::PhaseTime& phase : clock.phases()) summary.phases.push_back(phase);
   summary.factorization = time_of_all_ranks(summary.factorization);
   const report::Cost cost = cost_of_all_ranks(summary.phases);
   cases::on_first_rank([&] {
-    print_and_write_summary(arguments.scene, summary, body, cost);
-    fmt::print("\nwrote {}\nwrote {}\n", reduced_file(scene, arguments.scene).string(),
-               body_file(scene, arguments.scene).string());
+    print_and_write_summary(said, summary, body, cost);
+    fmt::print("\nwrote {}\nwrote {}\n", reduced_file(scene, said).string(),
+               body_file(scene, said).string());
   });
 }
 

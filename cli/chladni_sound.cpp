@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <utility>
 
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
+#include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "report/fe/sound_report.hpp"
 #include "report/fe/sound_vtu.hpp"
@@ -47,29 +49,35 @@ sound::Onset onset_of(const squeal::SquealResults& results, sound::CycleChoice c
 }
 
 /// NAME.sound.wav, when the scene asks for it.
-void write_wav(const scene::Scene& scene, const path& folder, const sound::SoundResults& results,
+void write_wav(const scene::Scene& scene, const path& file, const sound::SoundResults& results,
                const sound::Onset& onset)
 {
   if (!scene.sound->wav) return;
   const sound::WavCase& wav = *scene.sound->wav;
   std::size_t i = 0;
   while (results.microphones[i].name != wav.microphone) ++i;
-  const path file = folder / (scene.name + ".sound.wav");
   const auto samples = sound::samples(results.tones, results.heard[i].pressure, wav, onset);
   const double scale = squeal::write_wav(file, samples, wav.rate_Hz, "Pa");
   fmt::print("wrote {}, full scale {:.6g} Pa\n", file.string(), scale);
 }
 
 struct Files {
-  path body, squeal, sound, radiation, picture;
+  path body, squeal, sound, radiation, picture, wav;
 };
 
 Files files_of(const scene::Scene& scene, const SceneArguments& arguments)
 {
   const path stem = path(arguments.output) / scene.name;
   const auto with = [&](const char* extension) { return path(stem.string() + extension); };
-  return {with(".body.h5"), with(".squeal.h5"), with(".sound.h5"), with(".radiation.h5"),
-          with(".sound.vtu")};
+  return {with(".body.h5"),      with(".squeal.h5"), with(".sound.h5"),
+          with(".radiation.h5"), with(".sound.vtu"), with(".sound.wav")};
+}
+
+ReservedOutputs reserve(const SceneArguments& arguments, const Files& files,
+                        const SoundChoice& choice)
+{
+  if (choice.radiation_only) return reserve_outputs(arguments, {files.radiation});
+  return reserve_outputs(arguments, {files.radiation, files.sound, files.picture, files.wav});
 }
 
 scene::Scene read_sounding_scene(const std::string& file)
@@ -96,6 +104,7 @@ void compute_sound(const ChladniArguments& arguments)
   const mbs_export::ModalBody body = mbs_export::read_body(files.body);
   const squeal::SquealResults squeal_results =
       whole ? squeal::read_results(files.squeal) : squeal::SquealResults{};
+  const ReservedOutputs reserved = reserve(arguments.scene, files, arguments.sound);
   clock.end_phase("read");
   const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};
   report::ProgressLine line;
@@ -108,18 +117,19 @@ void compute_sound(const ChladniArguments& arguments)
   squeal::write_radiation(files.radiation, results.radiation, scene.title);
   if (whole) {
     mbs_export::Provenance origin = body.provenance;
-    origin.scene = scene.text;
+    origin.body_scene = std::exchange(origin.scene, scene.text);
     origin.versions = fmt::format("chladni {}; body: {}", report::version, origin.versions);
     sound::write_sound(files.sound, results, origin);
-    report::write_text_atomically(files.picture, report::sound_vtu(results.tones));
+    files::write_text(files.picture, report::sound_vtu(results.tones));
   }
   clock.end_phase("write");
   const report::Cost cost = report::cost_so_far(clock.phases());
-  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title, report::describe_sound(results),
-             report::format_table(report::cost_table(cost)), files.radiation.string());
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", report::printable(scene.title),
+             report::describe_sound(results), report::format_table(report::cost_table(cost)),
+             files.radiation.string());
   if (whole) {
     fmt::print("wrote {}\nwrote {}\n", files.sound.string(), files.picture.string());
-    write_wav(scene, arguments.scene.output, results, onset_of(squeal_results, scene.sound->cycle));
+    write_wav(scene, files.wav, results, onset_of(squeal_results, scene.sound->cycle));
   }
   write_summary(arguments.scene, report::sound_json(results), cost);
 }

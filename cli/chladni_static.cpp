@@ -6,6 +6,7 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
+#include "files/text_file.hpp"
 #include "plate/assembly/loads.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "reduce/supported_solutions.hpp"
@@ -132,18 +133,18 @@ void static_command(const ChladniArguments& arguments)
   const scene::Scene scene =
       scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
   check_loads(scene);
+  const std::filesystem::path file =
+      std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");
+  const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
   const cases::ReduceProgress silent;
   cases::Phases phases(silent);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
   const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
-  const std::filesystem::path file =
-      std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {
     const report::TextTable reported = reported_table(scene, model, found);
-    report::make_folder(arguments.scene.output);
-    report::write_text_atomically(file, report::vtu_text(picture(scene, model, found)));
-    fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", scene.title,
+    files::write_text(file, report::vtu_text(picture(scene, model, found)));
+    fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", report::printable(scene.title),
                report::format_table(solution_table(found)),
                reported.rows.empty() ? "" : report::format_table(reported),
                reported.rows.empty() ? "" : "\n", report::format_table(cases::model_table(model)),

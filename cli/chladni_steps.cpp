@@ -4,9 +4,12 @@
 
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "cases/ranks.hpp"
 #include "common/error.hpp"
+#include "files/text_file.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/make_body.hpp"
 #include "report/version.hpp"
 
@@ -20,6 +23,14 @@ std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArgumen
 std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments)
 {
   return std::filesystem::path(arguments.output) / (scene.name + ".body.h5");
+}
+
+ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
+                                      const std::vector<std::filesystem::path>& files)
+{
+  ReservedOutputs reserved;
+  cases::on_first_rank([&] { reserved = reserve_outputs(arguments, files); });
+  return reserved;
 }
 
 namespace {
@@ -53,21 +64,34 @@ cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
   });
 }
 
+namespace {
+
+/// What [body] asks for in vain is told with its place in the scene.
+mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
+{
+  try {
+    return mbs_export::make_body(reduced, scene.body);
+  } catch (const mbs_export::BodyOptionError& error) {
+    scene::refuse_key(scene, "body." + error.key(), error.why());
+  }
+}
+
+}  // namespace
+
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,
                                    const mbs_export::ReducedSystem& reduced)
 {
-  mbs_export::ModalBody body = mbs_export::make_body(reduced, scene.body);
+  mbs_export::ModalBody body = made_body(scene, reduced);
   if (scene.squeal && body.n_free_rigid > 0) {
-    throw Error(
-        fmt::format("{}: body.fixed = [{}] leaves the body free to move as a rigid one in {} ways, "
-                    "but [squeal] "
-                    "needs a body that is held; hold an interface node ({}) with all its DOFs, or "
-                    "take [squeal] "
-                    "out",
-                    scene.path, fmt::join(scene.body.fixed, ", "), body.n_free_rigid,
-                    fmt::join(scene.interface_nodes, ", ")));
+    scene::refuse_key(
+        scene, "body.fixed",
+        fmt::format("leaves the body free to move as a rigid one in {} ways, but [squeal] "
+                    "needs a body that is held; hold an interface node ({}) with all its "
+                    "DOFs, or take [squeal] out",
+                    body.n_free_rigid, fmt::join(scene.interface_nodes, ", ")));
   }
-  body.provenance.scene = scene.text;  // of the body, which may be younger than the reduction
+  // That of the body may be younger.
+  body.provenance.reduction_scene = std::exchange(body.provenance.scene, scene.text);
   return body;
 }
 
@@ -169,7 +193,7 @@ void write_summary(const SceneArguments& arguments,
   std::vector<report::Json::Member> all = {{"program", "chladni"}, {"version", report::version}};
   all.insert(all.end(), members.begin(), members.end());
   for (report::Json::Member& member : report::cost_json(cost)) all.push_back(std::move(member));
-  report::write_text_atomically(arguments.json, report::Json::object(all).text() + "\n");
+  files::write_text(arguments.json, report::Json::object(all).text() + "\n");
 }
 
 }  // namespace chladni::cli

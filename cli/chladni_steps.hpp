@@ -5,6 +5,7 @@
 
 #include "cases/reduce_scene.hpp"
 #include "cli/chladni_commands.hpp"
+#include "cli/reserve_outputs.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "report/cost.hpp"
 
@@ -13,6 +14,10 @@ namespace chladni::cli {
 
 std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments);
 std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments);
+
+/// On the first rank; see reserve_outputs.hpp. @note Collective.
+ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
+                                      const std::vector<std::filesystem::path>& files);
 
 /// The reduction, with a line of progress on the first rank. @note Collective.
 cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,

@@ -7,7 +7,10 @@
 #include "cli/arguments.hpp"
 #include "cli/seal.hpp"
 #include "cli/squeal_run.hpp"
+#include "files/hdf5.hpp"
+#include "files/unfinished_file.hpp"
 #include "report/describe.hpp"
+#include "report/output.hpp"
 #include "report/page/report.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
@@ -63,6 +66,8 @@ int main(int argc, char** argv)
       "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
   if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
+  chladni::files::leave_nothing_to_exit();
+  chladni::files::remove_unfinished_files_on_signals();
   try {
     if (app.got_subcommand("run")) {
       chladni::cli::run_squeal(arguments.scene, arguments.body_file);
@@ -75,9 +80,10 @@ int main(int argc, char** argv)
     } else {
       fmt::print("{}", chladni::report::describe_file(arguments.info_file));
     }
+    chladni::report::finish_printing();
     return chladni::cli::exit_ok;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
     return chladni::cli::exit_failed;
   }
 }

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
+#include <utility>
 
+#include "cli/reserve_outputs.hpp"
 #include "common/error.hpp"
+#include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "report/cost.hpp"
 #include "report/describe.hpp"
@@ -68,7 +72,7 @@ Performed perform_on_body(const scene::Scene& scene, const mbs_export::ModalBody
                                     line.show(analysis, fraction);
                                   }),
                       body.provenance};
-  performed.origin.scene = scene.text;
+  performed.origin.body_scene = std::exchange(performed.origin.scene, scene.text);
   performed.origin.versions =
       fmt::format("squeal {}; body: {}", report::version, performed.origin.versions);
   return performed;
@@ -88,12 +92,26 @@ Performed perform_on_model(const scene::Scene& scene)
   return performed;
 }
 
-/// NAME.wav beside the results, when the scene asks for it.
-void write_sound(const scene::Scene& scene, const std::filesystem::path& folder,
+struct Files {
+  std::filesystem::path body, radiation;  ///< read
+  std::filesystem::path results, sound;   ///< written
+};
+
+Files files_of(const scene::Scene& scene, const std::filesystem::path& folder,
+               const std::filesystem::path& body)
+{
+  const auto with = [&](const char* extension) { return folder / (scene.name + extension); };
+  return {.body = body.empty() ? with(".body.h5") : body,
+          .radiation = with(".radiation.h5"),
+          .results = with(".squeal.h5"),
+          .sound = with(".wav")};
+}
+
+/// The sound, when the scene asks for it.
+void write_sound(const scene::Scene& scene, const std::filesystem::path& file,
                  const squeal::SquealResults& results)
 {
   if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
-  const std::filesystem::path file = folder / (scene.name + ".wav");
   const double scale =
       squeal::write_wav(file, results.transient->sound, scene.squeal->sound->rate_Hz);
   fmt::print("wrote {}, full scale {:.6g} m/s\n", file.string(), scale);
@@ -106,7 +124,7 @@ void write_json(const std::string& file, const squeal::SquealResults& results,
   for (report::Json::Member& member : report::results_json(results))
     members.push_back(std::move(member));
   for (report::Json::Member& member : report::cost_json(cost)) members.push_back(std::move(member));
-  report::write_text_atomically(file, report::Json::object(members).text() + "\n");
+  files::write_text(file, report::Json::object(members).text() + "\n");
 }
 
 }  // namespace
@@ -118,30 +136,25 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
   if (!scene.squeal && !scene.squeal_model) {
     throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
   }
-  const std::filesystem::path folder = arguments.output;
   if (scene.squeal_model && !body_file.empty()) {
     throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
   }
+  const Files files = files_of(scene, arguments.output, body_file);
+  std::optional<mbs_export::ModalBody> body;
+  if (!scene.squeal_model) body = read_body_of(files.body, arguments);
+  const ReservedOutputs reserved = reserve_outputs(arguments, {files.results, files.sound});
   const auto [results, origin] =
-      scene.squeal_model
-          ? perform_on_model(scene)
-          : perform_on_body(scene,
-                            read_body_of(body_file.empty() ? folder / (scene.name + ".body.h5")
-                                                           : std::filesystem::path(body_file),
-                                         arguments),
-                            folder / (scene.name + ".radiation.h5"), clock);
+      body ? perform_on_body(scene, *body, files.radiation, clock) : perform_on_model(scene);
   clock.end_phase("analyses");
 
-  const std::filesystem::path file = folder / (scene.name + ".squeal.h5");
-  report::make_folder(folder);
-  squeal::write_results(file, results, origin);
+  squeal::write_results(files.results, results, origin);
   clock.end_phase("write");
   const report::Cost cost = report::cost_so_far(clock.phases());
 
-  fmt::print("{}\n\n{}\n{}\nwrote {}\n", scene.title,
+  fmt::print("{}\n\n{}\n{}\nwrote {}\n", report::printable(scene.title),
              report::format_table(report::describe(results)),
-             report::format_table(report::cost_table(cost)), file.string());
-  write_sound(scene, folder, results);
+             report::format_table(report::cost_table(cost)), files.results.string());
+  write_sound(scene, files.sound, results);
   if (!arguments.json.empty()) write_json(arguments.json, results, cost);
   if (results.failure) throw Error(*results.failure);
 }

@@ -16,6 +16,10 @@ namespace chladni::files {
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// For programs, before all else of HDF5: libhdf5 does nothing at exit. There it would flush once
+/// more what it could not write to a full disk, and crash.
+void leave_nothing_to_exit();
+
 /// Extents that a dataset must have; `any` leaves one open.
 constexpr Eigen::Index any = -1;
 struct Shape {

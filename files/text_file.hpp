@@ -5,7 +5,7 @@
 
 namespace chladni::files {
 
-/// Writes `text` under a temporary name beside `path`, flushes it to disk and renames it.
+/// Writes `text` as a whole or not at all (replacement.hpp).
 /// @throws chladni::Error when the file cannot be written; an older one is then left as it was.
 void write_text(const std::string& path, std::string_view text);
 

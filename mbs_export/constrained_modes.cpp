@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "common/error.hpp"
 #include "linear/dense/eigenmodes.hpp"
+#include "mbs_export/body_option_error.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -27,14 +27,16 @@ std::vector<char> chosen(const Eigen::VectorXd& omega, const KeptModes& keep)
   std::vector<char> is_kept(static_cast<std::size_t>(n), !keep.list);
   if (keep.count) {
     if (*keep.count < 0 || *keep.count > n)
-      throw Error(fmt::format("keep: {} modes asked for, the held body has {}", *keep.count, n));
+      throw BodyOptionError(
+          "keep.modes", fmt::format("{} modes asked for, the held body has {}", *keep.count, n));
     std::fill(is_kept.begin() + *keep.count, is_kept.end(), false);
   } else if (keep.up_to_Hz) {
     for (Index i = 0; i < n; ++i) is_kept[i] = hertz(omega[i]) <= *keep.up_to_Hz;
   } else if (keep.list) {
     for (const int number : *keep.list) {
       if (number < 1 || number > n)
-        throw Error(fmt::format("keep: mode {} asked for, the modes are 1 to {}", number, n));
+        throw BodyOptionError("keep.list",
+                              fmt::format("mode {} asked for, the modes are 1 to {}", number, n));
       is_kept[number - 1] = true;
     }
   }
@@ -69,7 +71,8 @@ std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega)
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
 {
   if (int(keep.count.has_value()) + int(keep.up_to_Hz.has_value()) + int(keep.list.has_value()) > 1)
-    throw Error("keep: give only one of a number of modes, a highest frequency, and a list");
+    throw BodyOptionError("keep",
+                          "give only one of a number of modes, a highest frequency, and a list");
   const std::vector<char> asked = chosen(omega, keep);
   ModeSelection selection{.kept = {}, .neglected = {}, .n_partners = 0};
   for (const auto [first, end] : mode_clusters(omega)) {
@@ -79,7 +82,8 @@ ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
       (n_asked > 0 ? selection.kept : selection.neglected).push_back(i);
   }
   if (selection.kept.empty())
-    throw Error(fmt::format("keep: no mode is left; the lowest of {} has {:.6g} Hz", omega.size(),
+    throw BodyOptionError(
+        "keep", fmt::format("no mode is left; the lowest of {} has {:.6g} Hz", omega.size(),
                             omega.size() > 0 ? hertz(omega[0]) : 0.0));
   return selection;
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/mode_shift.hpp"
 #include "mbs_export/orthogonalize.hpp"
 
@@ -62,10 +62,11 @@ bool is_drilling(const ReducedSystem& reduced, int node, int component)
 void refuse_drilling_load(const ReducedSystem& reduced, int node, int component)
 {
   if (!is_drilling(reduced, node, component)) return;
-  throw Error(fmt::format(
-      "interface_modes: {}, so that a moment about it would only turn this node; take {} out of "
-      "\"dofs\", {}",
-      words_of(reduced, node, component), component_name(component), couple_instead));
+  throw BodyOptionError(
+      "interface_modes",
+      fmt::format("{}, so that a moment about it would only turn this node; take {} out of "
+                  "\"dofs\", {}",
+                  words_of(reduced, node, component), component_name(component), couple_instead));
 }
 
 void refuse_drilling_support(const ReducedSystem& reduced, const HeldDofs& held)
@@ -79,11 +80,11 @@ void refuse_drilling_support(const ReducedSystem& reduced, const HeldDofs& held)
   both << motion, spins;
   const Index n_free = unheld_combinations(motion).cols();
   if (unheld_combinations(both).cols() == n_free) return;
-  throw Error(
-      fmt::format("body.fixed: {}, and nothing else holds the body there; hold displacements of "
-                  "another node as "
-                  "well, {}",
-                  words_of(reduced, *first / 6, *first % 6), couple_instead));
+  throw BodyOptionError(
+      "fixed", fmt::format("{}, and nothing else holds the body there; hold displacements of "
+                           "another node as "
+                           "well, {}",
+                           words_of(reduced, *first / 6, *first % 6), couple_instead));
 }
 
 }  // namespace chladni::mbs_export

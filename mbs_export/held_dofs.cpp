@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/body_option_error.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -25,8 +25,9 @@ Specification parse(const ReducedSystem& reduced, const std::string& text)
   const AttachmentSet& set = find_set(reduced, text.substr(0, dot));
   for (int component = 0; component < 6; ++component)
     if (component_name(component) == text.substr(dot + 1)) return {set, component};
-  throw Error(fmt::format("'{}': no component '{}'; there is x, y, z, rx, ry, rz", text,
-                          text.substr(dot + 1)));
+  throw BodyOptionError("fixed",
+                        fmt::format("'{}': no component '{}'; there is x, y, z, rx, ry, rz", text,
+                                    text.substr(dot + 1)));
 }
 
 std::string dof_name(const ReducedSystem& reduced, const AttachmentSet& set, int node,

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/drilling.hpp"
 
@@ -174,8 +174,9 @@ int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loa
   const int dof = attachment_dof(reduced, loaded.node, loaded.component);
   const auto found = std::ranges::find(held.dofs, dof);
   if (found != held.dofs.end())
-    throw Error(fmt::format("interface modes: {} is held; a load there moves nothing",
-                            held.names[std::size_t(found - held.dofs.begin())]));
+    throw BodyOptionError("interface_modes",
+                          fmt::format("{} is held; a load there moves nothing",
+                                      held.names[std::size_t(found - held.dofs.begin())]));
   refuse_drilling_load(reduced, loaded.node, loaded.component);
   return dof;
 }
@@ -197,10 +198,12 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
       loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
   }
   if (loads.dofs.empty())
-    throw Error("keep: a tolerance is about loads, and every attachment DOF is held");
+    throw BodyOptionError("keep.tolerance",
+                          "a tolerance is about loads, and every attachment DOF is held");
   if (loads.dofs.size() > most_loads)
-    throw Error(
-        fmt::format("keep: {} loaded DOFs are more than the {} that a tolerance can compare; "
+    throw BodyOptionError(
+        "keep.tolerance",
+        fmt::format("{} loaded DOFs are more than the {} that a tolerance can compare; "
                     "name those that matter by interface_modes",
                     loads.dofs.size(), most_loads));
   for (const Pattern& pattern : patterns)

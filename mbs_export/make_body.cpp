@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/error.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/drilling.hpp"
@@ -89,7 +89,8 @@ Choice choose_by_hand(const HeldModes& modes, const BodyOptions& options)
 Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
 {
   if (options.keep.count || options.keep.up_to_Hz || options.keep.list)
-    throw Error("keep: a tolerance chooses the modes itself; give nothing else with it");
+    throw BodyOptionError("keep",
+                          "a tolerance chooses the modes itself; give nothing else with it");
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
   const MatrixXd B = modes.U(loads.dofs, Eigen::all).transpose();
   ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
@@ -134,14 +135,16 @@ MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
       return VectorXd(damping.alpha + damping.beta * modes.omega.array().square()).asDiagonal();
     case Damping::Type::matrix:
       if (reduced.C.size() == 0)
-        throw Error("damping: 'matrix' needs a reduced damping matrix, and this system has none");
+        throw BodyOptionError("damping.type",
+                              "'matrix' needs a reduced damping matrix, and this system has none");
       return modes.T.transpose() * reduced.C * modes.T;
     case Damping::Type::modal:
       break;
   }
   if (damping.ratios.size() != 1 && Index(damping.ratios.size()) != n)
-    throw Error(fmt::format("damping: {} ratios for {} modes; give one for all or one for each",
-                            damping.ratios.size(), n));
+    throw BodyOptionError("damping.ratio",
+                          fmt::format("{} ratios for {} modes; give one for all or one for each",
+                                      damping.ratios.size(), n));
   const VectorXd zeta = damping.ratios.size() == 1
                             ? VectorXd(VectorXd::Constant(n, damping.ratios[0]))
                             : VectorXd(Eigen::Map<const VectorXd>(damping.ratios.data(), n));

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "mbs_export/body_option_error.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -115,10 +116,12 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
   const MatrixXd Q_dd = Q_held(Eigen::all, dependent);
   const double directions = condition(rows_of_unit_length(Q_dd));
   if (!(directions <= largest_condition))
-    throw Error(fmt::format(
-        "mode shifting: cond(Q_dd) = {:.1e} with the dependent modes {}, so {} cannot be held; "
-        "choose other dependent modes or fix fewer displacements",
-        directions, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
+    throw BodyOptionError(
+        "fixed",
+        fmt::format(
+            "mode shifting: cond(Q_dd) = {:.1e} with the dependent modes {}, so {} cannot be held; "
+            "choose other dependent modes or fix fewer displacements",
+            directions, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
 
   // q_d = G q_i,  K_c = G^T Lambda_d G + Lambda_i,  M_c = G^T G + I
   const VectorXd lambda = modes.omega.cwiseAbs2();
@@ -169,10 +172,10 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
       condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
     if (dependent.size() < held.dofs.size())
-      throw Error(fmt::format(
-          "mode shifting: the modes cannot hold {} apart from the other held displacements; fix "
-          "fewer, or reduce with more masters or modes",
-          dependent_names(Q_held, held)));
+      throw BodyOptionError("fixed", fmt::format("mode shifting: the modes cannot hold {} apart "
+                                                 "from the other held displacements; fix "
+                                                 "fewer, or reduce with more masters or modes",
+                                                 dependent_names(Q_held, held)));
   }
   std::ranges::sort(dependent);
   return shift_by(modes, held, dependent);

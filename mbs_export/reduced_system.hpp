@@ -75,13 +75,16 @@ struct ResultantModes {
   Eigen::MatrixXd S;  ///< [n_points n_kinds x n_coordinates] all kinds of each point in turn
 };
 
-/// Where a result comes from; written into every file.
+/// Where a result comes from; written into every file. What a step reads from a file hands its own
+/// scene down: it may be older than the step's.
 struct Provenance {
   std::string scene;          ///< text of the scene file
   std::string mesh_checksum;  ///< FNV-1a of node coordinates and connectivity, hexadecimal
   std::string versions;       ///< of Chladni and its libraries
   std::string options;        ///< options of the solvers
   int ranks = 1;
+  std::string reduction_scene = {};  ///< of the reduced system that a body was made of
+  std::string body_scene = {};       ///< of the body that a study used
 };
 
 /// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates

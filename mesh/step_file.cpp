@@ -2,6 +2,8 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -68,8 +70,22 @@ std::map<Entity, std::vector<Entity>> join(const std::vector<RingOptions>& rings
   return became;
 }
 
+/// Across the box of the body, from corner to corner, m.
+double size_of_body()
+{
+  std::array<double, 3> low{}, high{};
+  gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+  return mm * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
 void set_sizes(double element_size)
 {
+  constexpr double most_across = 1e4;
+  const double least = size_of_body() / most_across;
+  if (element_size < least)
+    throw Error(fmt::format(
+        "mesh.element_size = {} m is too small for a body of {:.3g} m; take {:.1g} m or more",
+        element_size, most_across * least, least));
   gmsh::option::setNumber("Mesh.MeshSizeMax", element_size / mm);
   gmsh::option::setNumber("Mesh.MeshSizeMin", 0.02 * element_size / mm);
   // A cubic edge of 90 degrees folds its element over.

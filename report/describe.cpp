@@ -91,7 +91,7 @@ TextTable selection_table(const mbs_export::SelectionTable& selection)
 template <class Object>
 std::string titled(const Object& object)
 {
-  return object.title + "\n\n" + format_table(describe(object));
+  return printable(object.title) + "\n\n" + format_table(describe(object));
 }
 
 /// The highest harmonic of each ring that has harmonics as masters.

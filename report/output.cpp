@@ -1,6 +1,5 @@
 #include "report/output.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -43,59 +42,34 @@ std::string format_row(const std::vector<std::string>& cells,
   return line + "\n";
 }
 
-/// A file descriptor that is closed at the end.
-class OutputFile {
- public:
-  explicit OutputFile(const std::string& path)
-      : descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
-  {}
-  ~OutputFile()
-  {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-
-  bool is_open() const { return descriptor_ >= 0; }
-  /// @return whether all of `text` is on the disk
-  bool write(std::string_view text)
-  {
-    while (!text.empty()) {
-      const ssize_t n = ::write(descriptor_, text.data(), text.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      text.remove_prefix(static_cast<std::size_t>(n));
-    }
-    return ::fsync(descriptor_) == 0;
-  }
-
- private:
-  int descriptor_;
-};
-
-bool write_file(const std::string& path, std::string_view text)
-{
-  OutputFile file(path);
-  return file.is_open() && file.write(text);
-}
-
 }  // namespace
+
+std::string printable(std::string_view text)
+{
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    const bool is_c1 = c == 0xC2 && next >= 0x80 && next < 0xA0;  // in UTF-8
+    const bool is_control = (c < 0x20 && c != '\n') || c == 0x7F || is_c1;
+    shown.push_back(is_control ? '?' : text[i]);
+    if (is_c1) ++i;
+  }
+  return shown;
+}
 
 std::string format_table(const TextTable& table)
 {
   const std::vector<std::size_t> widths = column_widths(table);
   std::string text = format_row(table.header, widths);
   for (const auto& row : table.rows) text += format_row(row, widths);
-  return text;
+  return printable(text);
 }
 
-void write_text_atomically(const std::filesystem::path& path, std::string_view text)
+void finish_printing()
 {
-  const std::string temporary = fmt::format("{}.{}.tmp", path.string(), ::getpid());
-  if (write_file(temporary, text) && std::rename(temporary.c_str(), path.c_str()) == 0) return;
-  const std::string reason = std::strerror(errno);
-  std::remove(temporary.c_str());
-  throw Error(fmt::format("{}: cannot be written: {}", path.string(), reason));
+  if (std::fflush(stdout) != 0)
+    throw Error(fmt::format("stdout: cannot be written ({})", std::strerror(errno)));
 }
 
 void make_folder(const std::filesystem::path& folder)

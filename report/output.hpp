@@ -9,6 +9,10 @@
 
 namespace chladni::report {
 
+/// The text with `?` for each control character (C0, DEL and C1) but newlines: titles and names
+/// come from files, and must not command a terminal.
+std::string printable(std::string_view text);
+
 /// A table for terminals; every row has as many cells as the header.
 struct TextTable {
   std::vector<std::string> header;
@@ -18,10 +22,9 @@ struct TextTable {
 /// Columns two blanks apart, the first flush left, the others flush right; ends with a newline.
 std::string format_table(const TextTable& table);
 
-/// Writes `text` to a temporary name beside `path`, flushes it to disk and renames it: `path` holds
-/// the old text or the new one, never a part of one.
-/// @throws chladni::Error when the file cannot be written.
-void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+/// Flushes stdout.
+/// @throws chladni::Error when not all that was printed can be written.
+void finish_printing();
 
 /// Makes the folder for the files of a program, if need be.
 /// @throws chladni::Error when it cannot be made.

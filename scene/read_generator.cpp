@@ -25,10 +25,19 @@ std::optional<double> read_edge_row(const Table& mesh, double width)
                      {.above = 0.0, .below = 0.5 * width, .unit = "m, half of the width"});
 }
 
-double read_element_size(const Table& mesh, double width)
+/// For a body of this width (m) and area (m^2), of ten million elements at most.
+double read_element_size(const Table& mesh, double width, double area)
 {
-  return mesh.number("element_size",
-                     {.above = 0.0, .at_most = width, .unit = "m, up to the width"});
+  constexpr double most_elements = 1e7;
+  return mesh.number("element_size", {.at_least = std::sqrt(area / most_elements),
+                                      .at_most = width,
+                                      .unit = "m, from 10 million elements up to the width"});
+}
+
+/// m^2
+double area_of_ring(double inner_radius, double outer_radius)
+{
+  return std::numbers::pi * (outer_radius * outer_radius - inner_radius * inner_radius);
 }
 
 double read_outer_radius(const Table& mesh, double inner_radius)
@@ -42,7 +51,8 @@ mesh::AnnulusOptions read_annulus(const Table& mesh)
   annulus.inner_radius = mesh.number("inner_radius");
   annulus.outer_radius = read_outer_radius(mesh, annulus.inner_radius);
   const double width = annulus.outer_radius - annulus.inner_radius;
-  annulus.element_size = read_element_size(mesh, width);
+  annulus.element_size =
+      read_element_size(mesh, width, area_of_ring(annulus.inner_radius, annulus.outer_radius));
   if (mesh.has("element_order")) annulus.element_order = read_element_order(mesh);
   annulus.pattern = read_pattern(mesh, mesh::Pattern::unstructured);
   annulus.edge_row = read_edge_row(mesh, width);
@@ -86,7 +96,8 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
     hat.foot = mesh.number("foot", {.at_least = 0.0, .below = hat.height, .unit = "m"});
   }
   const double width = hat.outer_radius - hat.wall_radius;
-  hat.element_size = read_element_size(mesh, width);
+  hat.element_size =
+      read_element_size(mesh, width, area_of_ring(hat.wall_radius, hat.outer_radius));
   if (mesh.has("element_order")) hat.element_order = read_element_order(mesh);
   hat.pattern = read_pattern(
       mesh, mesh.has("bolts") ? mesh::Pattern::unstructured : mesh::Pattern::structured);
@@ -110,7 +121,7 @@ mesh::PadOptions read_pad(const Table& mesh)
   }
   const double length = 0.5 * (pad.inner_radius + pad.outer_radius) * pad.angle;
   const double width = std::min(pad.outer_radius - pad.inner_radius, length);
-  pad.element_size = read_element_size(mesh, width);
+  pad.element_size = read_element_size(mesh, width, length * (pad.outer_radius - pad.inner_radius));
   if (mesh.has("element_order")) pad.element_order = read_element_order(mesh);
   pad.pattern = read_pattern(mesh, mesh::Pattern::structured);
   pad.edge_row = read_edge_row(mesh, width);
@@ -123,7 +134,7 @@ mesh::RectangleOptions read_rectangle(const Table& mesh)
   plate.length = mesh.number("length");
   plate.width = mesh.number("width");
   const double width = std::min(plate.length, plate.width);
-  plate.element_size = read_element_size(mesh, width);
+  plate.element_size = read_element_size(mesh, width, plate.length * plate.width);
   if (mesh.has("element_order")) plate.element_order = read_element_order(mesh);
   plate.pattern = read_pattern(mesh, mesh::Pattern::structured);
   plate.edge_row = read_edge_row(mesh, width);

@@ -46,10 +46,14 @@ std::optional<squeal::MapCase> read_map(const Table& squeal)
   const MapParameter parameter = read_parameter(table);
   const double from = parameter == MapParameter::friction ? table.number("from")
                                                           : table.number("from", {.above = 0.0});
+  constexpr int most_points = 10'000'000;
+  const int most_values = most_points / squeal.table("speeds").integer("count");
   return squeal::MapCase{.parameter = parameter,
                          .from = from,
                          .to = table.number("to", {.at_least = from}),
-                         .count = table.integer("count")};
+                         .count = table.integer("count", {.at_most = double(most_values),
+                                                          .unit = "10 million points with the "
+                                                                  "speeds"})};
 }
 
 }  // namespace chladni::scene

@@ -84,6 +84,20 @@ Scene parse_scene(const std::string& text, const std::string& path, Purpose purp
   return scene;
 }
 
+void refuse_key(const Scene& scene, const std::string& key, const std::string& why)
+{
+  Table table = parse_toml(scene.text, scene.path);
+  std::string_view rest = key;
+  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    const std::string_view name = rest.substr(0, dot);
+    if (!table.has(name)) break;
+    table = table.table(name);
+    rest.remove_prefix(dot + 1);
+  }
+  if (table.has(rest)) table.refuse(rest, why);
+  throw Error(fmt::format("{}: {}: {}", scene.path, key, why));
+}
+
 Scene read_scene(const std::string& path, Purpose purpose)
 {
   std::ifstream file(path, std::ios::binary);

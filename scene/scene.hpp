@@ -80,6 +80,10 @@ Scene parse_scene(const std::string& text, const std::string& path,
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
+/// Refuses the value of a key ("body.keep.modes") that turns out wrong after the reading.
+/// @throws chladni::Error naming file, line, key and value.
+[[noreturn]] void refuse_key(const Scene& scene, const std::string& key, const std::string& why);
+
 /// The scene of a file, for a program that needs its mesh or its body.
 /// @throws chladni::Error as read_scene, and when the scene's model has neither.
 Scene read_meshed_scene(const std::string& path, Purpose purpose = Purpose::everything);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "files/hdf5.hpp"
+#include "mbs_export/files/file_parts.hpp"
 #include "sound/field_picture.hpp"
 
 namespace chladni::sound {
@@ -139,9 +140,7 @@ void write_sound(const std::filesystem::path& path, const SoundResults& results,
     file.write("directivity/rms", results.directivity->rms, "Pa m");
   }
   if (!results.loudness.empty()) write_loudness(file, results.loudness);
-  file.write("provenance/scene", provenance.scene);
-  file.write("provenance/mesh_checksum", provenance.mesh_checksum);
-  file.write("provenance/versions", provenance.versions);
+  mbs_export::file_parts::write_provenance(file, provenance);
   file.commit();
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "files/hdf5.hpp"
+#include "mbs_export/files/file_parts.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
 #include "squeal/sensitivity_file.hpp"
@@ -129,15 +130,6 @@ LimitCycle read_limit_cycle(const Reader& file)
           .amplitude = complex_matrix(re, im)};
 }
 
-void write_provenance(Writer& file, const mbs_export::Provenance& provenance)
-{
-  file.write("provenance/scene", provenance.scene);
-  file.write("provenance/mesh_checksum", provenance.mesh_checksum);
-  file.write("provenance/versions", provenance.versions);
-  file.write("provenance/options", provenance.options);
-  file.write("provenance/ranks", std::int64_t{provenance.ranks}, "1");
-}
-
 }  // namespace
 
 void write_results(const std::filesystem::path& path, const SquealResults& results,
@@ -146,7 +138,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   Writer file(path.string());
   file.attribute("/", "format", results_format);
   file.attribute("/", "version", file_version);
-  write_provenance(file, provenance);
+  mbs_export::file_parts::write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
   if (results.searched_critical_speed) write_critical_speed(file, results);

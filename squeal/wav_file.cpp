@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <string>
 
-#include "common/error.hpp"
+#include "files/replacement.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -58,16 +57,9 @@ double write_wav(const std::filesystem::path& path, std::span<const float> x, in
   const std::string content = "WAVE" + format_chunk(rate_Hz) +
                               chunk("LIST", "INFO" + chunk("ICMT", comment)) +
                               chunk("data", samples);
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  std::ofstream file(temporary, std::ios::binary);
-  file << chunk("RIFF", content);
-  file.close();
-  std::error_code failed;
-  if (file) std::filesystem::rename(temporary, path, failed);
-  if (!file || failed) {
-    std::filesystem::remove(temporary, failed);
-    throw Error(fmt::format("{}: cannot be written", path.string()));
-  }
+  files::Replacement file(path.string());
+  file.write(chunk("RIFF", content));
+  file.commit();
   return scale;
 }
 

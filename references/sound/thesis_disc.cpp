@@ -90,7 +90,8 @@ mbs_export::ModalBody thesis_body()
   body.picture.transformation = Eigen::MatrixXd::Zero(3 * n_radii * n_angles, 2);
   for (int i = 0; i < n_radii * n_angles; ++i) {
     const double r = hub_radius + (disc_radius - hub_radius) * (i % n_radii) / (n_radii - 1);
-    const double phi = 2.0 * pi * (i / n_radii) / n_angles;
+    const int angle = i / n_radii;
+    const double phi = 2.0 * pi * angle / n_angles;
     body.picture.positions.row(i) << r * std::cos(phi), r * std::sin(phi), 0.0;
     body.picture.transformation.row(3 * i + 2) << std::cos(3 * phi), std::sin(3 * phi);
     body.picture.transformation.row(3 * i + 2) *= scale * deflection(r);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
+#include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe.hpp"
@@ -170,7 +171,7 @@ void write_report(const ReportArguments& arguments)
   const std::string page =
       report_page(found.scene.title, content_of(found), read_benchmark(arguments.benchmark));
   const path file = path(arguments.output) / (found.scene.name + ".report.html");
-  write_text_atomically(file, page);
+  files::write_text(file, page);
   fmt::print("wrote {}, {:.1f} MB\n", file.string(), static_cast<double>(page.size()) / 1e6);
 }
 

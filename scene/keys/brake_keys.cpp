@@ -56,7 +56,7 @@ constexpr Key brake_rows[] = {
      "required",
      "angle that the points cover",
      {.above = 0.0, .at_most = 360.0, .unit = "degrees"}},
-    {"squeal.pads.grid.points", integer, "required", "how many", {.at_least = 1}},
+    {"squeal.pads.grid.points", integer, "required", "how many", {.at_least = 1, .at_most = 1e4}},
     {"squeal.pads.grid.rings", texts, "the ring of the study", "rings that share the points"},
     {"squeal.pads.body", table, "massless", "each plate as a rigid body; needs a suspension"},
     {"squeal.pads.body.mass", number, "required", "of each plate", mass},

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "files/hdf5.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "squeal/result_file.hpp"
 #include "tests/cli/programs.hpp"
@@ -115,6 +116,21 @@ TEST(SquealProgram, DescribesBodiesAndResults)
   const Ending body = run(folder, squeal_program + " info other.h5");
   EXPECT_EQ(body.exit_code, 0) << body.err;
   EXPECT_NE(body.out.find("1672.1300"), std::string::npos);
+}
+
+TEST(SquealProgram, TellsTheScenesOfTheBodyThatItUsed)
+{
+  const Folder folder;
+  write_text(folder.path() / "scene.toml", example_scene());
+  mbs_export::ModalBody body = kirchhoff_body();
+  body.provenance.scene = "title = \"yesterday's\"";
+  body.provenance.reduction_scene = "title = \"older still\"";
+  mbs_export::write_body(folder.path() / "disc.body.h5", body);
+  ASSERT_EQ(run(folder, squeal_program + " run scene.toml").exit_code, 0);
+  const files::Reader results((folder.path() / "disc.squeal.h5").string());
+  EXPECT_EQ(results.text("provenance/scene"), example_scene());
+  EXPECT_EQ(results.text("provenance/body_scene"), body.provenance.scene);
+  EXPECT_EQ(results.text("provenance/reduction_scene"), body.provenance.reduction_scene);
 }
 
 TEST(SquealProgram, RunsTheModelsThatNeedNoBody)

@@ -63,7 +63,7 @@ TEST(Hdf5Writer, LeavesTheOldFileWhenInterrupted)
   {
     Writer writer(path);
     writer.write("x", 2.0, "m");
-    EXPECT_EQ(n_files(folder), 2u);
+    EXPECT_EQ(n_files(folder), 3u);
     EXPECT_EQ(bytes_of(path), before);
   }
   EXPECT_EQ(bytes_of(path), before);

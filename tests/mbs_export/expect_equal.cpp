@@ -40,6 +40,8 @@ void expect_equal(const Provenance& a, const Provenance& b)
   EXPECT_EQ(a.versions, b.versions);
   EXPECT_EQ(a.options, b.options);
   EXPECT_EQ(a.ranks, b.ranks);
+  EXPECT_EQ(a.reduction_scene, b.reduction_scene);
+  EXPECT_EQ(a.body_scene, b.body_scene);
 }
 
 void expect_equal(const std::vector<SelectionStep>& a, const std::vector<SelectionStep>& b)

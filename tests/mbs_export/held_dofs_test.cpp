@@ -31,7 +31,7 @@ TEST(HeldDofs, NameWhatExistsWhenAskedForSomethingElse)
   EXPECT_EQ(files::test::error_of([&] { held_dofs(wheel, {"axle"}); }),
             "no attachment set 'axle'; there is 'rim', 'hub'");
   EXPECT_EQ(files::test::error_of([&] { held_dofs(wheel, {"hub.w"}); }),
-            "'hub.w': no component 'w'; there is x, y, z, rx, ry, rz");
+            "fixed: 'hub.w': no component 'w'; there is x, y, z, rx, ry, rz");
   ReducedSystem translations = wheel;
   std::erase_if(translations.masters, [](const MasterDof& dof) { return dof.component == 5; });
   EXPECT_NE(

@@ -1,12 +1,9 @@
 #include "report/output.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "common/error.hpp"
 #include "report/json.hpp"
@@ -16,31 +13,6 @@
 namespace chladni::report {
 namespace {
 
-std::string content(const std::filesystem::path& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// A folder of the test's own, removed at its end.
-class Folder {
- public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("chladni_output_test_" + std::to_string(::getpid())))
-  {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 TEST(TextTable, AlignsNumbersRightAndCountsUtf8AsItShows)
 {
   const TextTable table{.header = {"mode", "f"}, .rows = {{"1", "9.5"}, {"äöü-7", "1672.13"}}};
@@ -48,6 +20,13 @@ TEST(TextTable, AlignsNumbersRightAndCountsUtf8AsItShows)
             "mode         f\n"
             "1          9.5\n"
             "äöü-7  1672.13\n");
+}
+
+TEST(TextTable, CommandsNoTerminal)
+{
+  const TextTable table{.header = {"set"}, .rows = {{"\x1b]0;owned\a\x9b"}, {"\xc2\x9b\x7f ä"}}};
+  EXPECT_EQ(format_table(table), "set\n?]0;owned?\x9b\n?? ä\n");
+  EXPECT_EQ(printable("two\nlines\r\x1b[2J"), "two\nlines??[2J");
 }
 
 TEST(Json, EscapesTexts)
@@ -73,35 +52,6 @@ TEST(Json, NestsObjectsAndArrays)
   const Json json =
       Json::object({{"n", 3}, {"x", Json::array({1.5, Json(), "t"})}, {"e", Json::array({})}});
   EXPECT_EQ(json.text(), R"({"n": 3, "x": [1.5, null, "t"], "e": []})");
-}
-
-TEST(WriteTextAtomically, ReplacesTheOldTextAndLeavesNothingElse)
-{
-  const Folder folder;
-  const auto path = folder.path() / "summary.json";
-  write_text_atomically(path, "old");
-  write_text_atomically(path, "new and longer");
-  EXPECT_EQ(content(path), "new and longer");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-}
-
-TEST(WriteTextAtomically, LeavesNoFileWhenItCannotRename)
-{
-  const Folder folder;
-  const auto path = folder.path() / "taken";
-  std::filesystem::create_directories(path / "inside");  // a folder cannot be replaced by a file
-  EXPECT_THROW(write_text_atomically(path, "text"), Error);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-}
-
-TEST(WriteTextAtomically, NamesAFolderThatDoesNotExist)
-{
-  try {
-    write_text_atomically("/nowhere/summary.json", "text");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("/nowhere/summary.json"), std::string::npos);
-  }
 }
 
 TEST(ProgressText, IsSilentForTwoSecondsAndThenTellsTheTimeLeft)

@@ -309,11 +309,17 @@ TEST(SceneError, NamesPlaceAndRangeOfANumber)
       {"radius = 0.13", "radius = 0.2",
        "scene.toml:8: mesh.rings.radius = 0.2: must be > 0.025 and < 0.162 "
        "(m, between the edges of the annulus)"},
-      {"nodes = 60", "nodes = 2", "scene.toml:8: mesh.rings.nodes = 2: must be >= 3"},
+      {"nodes = 60", "nodes = 2", "scene.toml:8: mesh.rings.nodes = 2: must be >= 3 and <= 100000"},
       {"friction = 0.6", "friction = -0.1", "scene.toml:37: squeal.friction = -0.1: must be >= 0"},
       {"from_rad_s = 3.0", "from_rad_s = 0.0",
        "scene.toml:36: squeal.speeds.from_rad_s = 0: must be > 0 (rad/s)"},
-      {"count = 60", "count = 0", "scene.toml:36: squeal.speeds.count = 0: must be >= 2"},
+      {"analyses = [",
+       "map = { parameter = \"friction\", from = 0.1, to = 1.0, count = 1000000 "
+       "}\nanalyses = [",
+       "scene.toml:40: squeal.map.count = 1000000: must be >= 1 and <= 166666 (10 million points "
+       "with the speeds)"},
+      {"count = 60", "count = 0",
+       "scene.toml:36: squeal.speeds.count = 0: must be >= 2 and <= 1000000"},
       {"angle_deg = 90.0", "angle_deg = inf",
        "scene.toml:39: squeal.pads.angle_deg = inf: must be finite (degrees)"},
       {"[12.0, 13.0]", "[12.0, -1.0]",
@@ -396,7 +402,7 @@ TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
     return error_of(replaced(disc, plain, replaced(good, from, to)));
   };
   EXPECT_EQ(error_after("points = 5", "points = 0"),
-            "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1");
+            "scene.toml:39: squeal.pads.grid.points = 0: must be >= 1 and <= 10000");
   EXPECT_EQ(error_after("sector_deg = 40.0", "sector_deg = 400.0"),
             "scene.toml:39: squeal.pads.grid.sector_deg = 400: must be > 0 and <= 360 (degrees)");
   EXPECT_EQ(error_after("mass = 0.4", "mass = 0.0"),

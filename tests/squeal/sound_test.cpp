@@ -86,5 +86,17 @@ TEST(WavFile, HoldsTheSamplesAndWhatFullScaleMeans)
   EXPECT_THROW(write_wav("/nowhere/at/all.wav", x, 48000), Error);
 }
 
+TEST(WavFile, FollowsNoLinkThatWaitsUnderATemporaryName)
+{
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("wav_file_test-" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::filesystem::create_symlink(folder / "victim", folder / "disc.wav.tmp");
+  write_wav(folder / "disc.wav", std::vector<float>{1.0F}, 48000);
+  EXPECT_FALSE(std::filesystem::exists(folder / "victim"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "disc.wav"));
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace chladni::squeal
