@@ -28,6 +28,7 @@ struct FactorOptions {
   std::optional<double> memory_MiB = {};  ///< of each machine; by default what is free there
   double beside_MiB = 0.0;  ///< what this rank takes later, while the factor alone is there
   SecondFactor second = {};
+  bool is_least = false;  ///< more may come beside it than can be foreseen
   bool operator==(const FactorOptions&) const = default;
 };
 

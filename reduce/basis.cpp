@@ -30,13 +30,14 @@ FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
   const ModesByTolerance& wanted = *options.basis.tolerance;
   ReduceOptions further = options.basis;
   further.tolerance->up_to_Hz *= beyond;
-  ToleranceSearch search({.K_ss = body.K_ss, .Psi = Psi, .K = body.K_blocks, .M = body.M_blocks},
-                         {.tolerance = margin * wanted.tolerance, .up_to_Hz = wanted.up_to_Hz},
-                         [&](const ReducedModel& model) {
-                           const SpectrumRange range = certified_range(further, model);
-                           return leading_pairs(
-                               modes_everywhere(support, model, range, body.comm()), range);
-                         });
+  ToleranceSearch search(
+      {.K_ss = body.K_ss, .Psi = Psi, .K = body.K_blocks, .M = body.M_blocks},
+      {.tolerance = margin * wanted.tolerance, .up_to_Hz = wanted.up_to_Hz},
+      [&](const ReducedModel& model) {
+        const SpectrumRange range = certified_range(further, model);
+        return leading_pairs(modes_everywhere(support, model, range, body.comm()), range);
+      },
+      body.require_memory);
   const auto find_modes = [&] {
     search.find_modes();
     return 0;
@@ -90,7 +91,7 @@ Basis make_basis(const FactoredBody& body, const ReductionOptions& options, cons
     basis.Q.modes = modes_to_tolerance(body, basis.Q.Psi, options, support, phases);
   } else {  // the modes first: the subspace of the eigen-solver is as large as the constraint modes
     basis.Q.modes = in_phase(phases, "fixed-interface modes", [&] {
-      return fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted);
+      return fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted, body.require_memory);
     });
     basis.Q.Psi = constraint_modes_of(body, phases);
   }

@@ -52,9 +52,10 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
 }  // namespace
 
 FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat M_ss,
-                                          const ReduceOptions& wanted)
+                                          const ReduceOptions& wanted,
+                                          const MemoryCheck& require_memory)
 {
-  ModeSearch search(K_ss, M_ss);
+  ModeSearch search(K_ss, M_ss, require_memory);
   if (wanted.modes) return modes_by_number(search, *wanted.modes);
   if (wanted.cutoff_Hz) {
     return modes_below(search, 2.0 * std::numbers::pi * *wanted.cutoff_Hz);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "linear/cholesky/cholesky_types.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
@@ -9,15 +10,6 @@
 namespace chladni::reduce {
 
 namespace {
-
-/// Fixed-interface modes to begin with: a cut-off and a tolerance find out how many they need, and
-/// look at the memory again when their basis grows.
-double modes_at_first(const ReduceOptions& wanted)
-{
-  if (wanted.method == Method::guyan) return 0.0;
-  constexpr double unknown = 40.0;
-  return wanted.modes ? *wanted.modes : unknown;
-}
 
 double own_MiB(Mat A)
 {
@@ -27,6 +19,19 @@ double own_MiB(Mat A)
   return for_each_entry * info.nz_used / linear::bytes_in_MiB;
 }
 
+/// Whether a search finds out how many modes there are to be.
+bool grows(const ReduceOptions& wanted)
+{
+  return wanted.method != Method::guyan && !wanted.modes;
+}
+
+double modes_at_first(const ReduceOptions& wanted)
+{
+  if (wanted.method == Method::guyan) return 0.0;
+  constexpr double of_a_search = 40.0;
+  return wanted.modes ? *wanted.modes : of_a_search;
+}
+
 }  // namespace
 
 bool needs_matrices(const ReductionOptions& options, bool counts)
@@ -34,27 +39,61 @@ bool needs_matrices(const ReductionOptions& options, bool counts)
   return options.keeps_matrices || counts || is_free_interface(options.basis.method);
 }
 
-linear::FactorOptions with_what_comes_beside(linear::FactorOptions factor, const Body& body,
-                                             Mat K_ss, const ReductionOptions& options)
+MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOptions& options)
+    : options_(options), n_masters_(static_cast<double>(body.masters.size()))
 {
-  PetscInt n_local = 0, n_s = 0;
+  PetscInt n_local = 0, n = 0;
   petsc::check(MatGetLocalSize(K_ss, &n_local, nullptr));
-  petsc::check(MatGetSize(K_ss, &n_s, nullptr));
+  petsc::check(MatGetSize(K_ss, &n, nullptr));
+  n_slaves_ = static_cast<double>(n);
+  column_MiB_ = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
+  const bool keeps = needs_matrices(options, options.count.value_or(false));
+  let_go_MiB_ = keeps ? 0.0 : own_MiB(body.K) + own_MiB(body.M);
+}
+
+double MemoryForecast::beside_MiB(double n_modes) const
+{
   constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
   constexpr double in_estimates = 230.0;
-  const double n_modes = std::min<double>(modes_at_first(options.basis), n_s);
-  const double basis = std::min<double>(basis_for_each_mode * n_modes + least_basis, n_s);
-  const double in_search = n_modes > 0.0 ? basis + n_modes + blocks_of_lanczos : 0.0;
-  const double kept = static_cast<double>(body.masters.size()) + n_modes;
-  const bool counts = options.count.value_or(false);
-  const double bounds = counts ? std::min(n_modes, 100.0) : 0.0;  // residuals
-  const double later = options.later_columns + options.later_columns_for_each_mode * n_modes;
-  const double in_MiB = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
-  const double let_go = needs_matrices(options, counts) ? 0.0 : own_MiB(body.K) + own_MiB(body.M);
-  factor.beside_MiB =
-      in_MiB * std::max(in_search, kept + std::max(in_estimates + bounds, later)) - let_go;
-  if (counts) factor.second = {.entries = entries_of_counting_factor, .beside_MiB = in_MiB * kept};
+  n_modes = std::min(n_modes, n_slaves_);
+  const double basis = std::min(basis_for_each_mode * n_modes + least_basis, n_slaves_);
+  const double there = options_.basis.tolerance ? n_masters_ : 0.0;  // Psi comes first
+  const double in_search = n_modes > 0.0 ? there + basis + n_modes + blocks_of_lanczos : 0.0;
+  const double residuals = options_.count.value_or(false) ? std::min(n_modes, 100.0) : 0.0;
+  const double later = options_.later_columns + options_.later_columns_for_each_mode * n_modes;
+  const double kept = n_masters_ + n_modes;
+  return column_MiB_ * std::max(in_search, kept + std::max(in_estimates + residuals, later)) -
+         let_go_MiB_;
+}
+
+linear::SecondFactor MemoryForecast::second(double n_modes) const
+{
+  if (!options_.count.value_or(false)) return {};
+  return {.entries = entries_of_counting_factor,
+          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_))};
+}
+
+linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const
+{
+  const double n_modes = modes_at_first(options_.basis);
+  factor.beside_MiB = beside_MiB(n_modes);
+  factor.second = second(n_modes);
+  factor.is_least = grows(options_.basis);
   return factor;
+}
+
+void MemoryForecast::require(Mat factor, PetscInt n_modes) const
+{
+  if (!grows(options_.basis)) return;  // all of them were asked about before
+  linear::set_beside(factor, beside_MiB(n_modes), second(n_modes));
+  const linear::MemoryNeed need = linear::memory_need(factor);
+  if (need.fits()) return;
+  throw Error(fmt::format(
+      "fixed_interface_modes: {} modes are to be tried, and with the factor of K_ss and what comes "
+      "beside them they need {:.0f} MiB on one machine, where {:.0f} MiB were free; use more "
+      "machines, a coarser mesh or fewer masters, lower the range, raise the tolerance, or raise "
+      "-cms_memory",
+      n_modes, need.needed_MiB, need.free_MiB));
 }
 
 }  // namespace chladni::reduce

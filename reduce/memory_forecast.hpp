@@ -11,7 +11,25 @@ bool needs_matrices(const ReductionOptions& options, bool counts);
 /// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
 /// error estimates or the caller work in; or all of these with the factor that counts eigenvalues
 /// where that is asked for. The numbers are measured.
-linear::FactorOptions with_what_comes_beside(linear::FactorOptions factor, const Body& body,
-                                             Mat K_ss, const ReductionOptions& options);
+class MemoryForecast {
+ public:
+  /// Before the factor and before K and M are given back.
+  MemoryForecast(const Body& body, Mat K_ss, const ReductionOptions& options);
+
+  /// With as many modes as are asked for; of a cut-off or a tolerance the modes to begin with.
+  linear::FactorOptions at_first(linear::FactorOptions factor) const;
+  /// Before a search that does not know its number of modes goes on.
+  /// @note   Collective.
+  /// @throws chladni::Error on all ranks when factor and so many modes do not fit into the memory
+  ///         that was free before the factorisation.
+  void require(Mat factor, PetscInt n_modes) const;
+
+ private:
+  double beside_MiB(double n_modes) const;
+  linear::SecondFactor second(double n_modes) const;
+
+  ReductionOptions options_;
+  double n_masters_, n_slaves_, column_MiB_, let_go_MiB_;
+};
 
 }  // namespace chladni::reduce

@@ -91,7 +91,8 @@ double angular_frequency(double lambda)
 
 }  // namespace
 
-ModeSearch::ModeSearch(const linear::Factorization& K_ss, Mat M_ss) : K_ss_(K_ss), M_ss_(M_ss)
+ModeSearch::ModeSearch(const linear::Factorization& K_ss, Mat M_ss, MemoryCheck require_memory)
+    : K_ss_(K_ss), M_ss_(M_ss), require_memory_(std::move(require_memory))
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
   const linear::LanczosOptions& options = K_ss.options().lanczos;
@@ -112,6 +113,7 @@ void ModeSearch::find_all(PetscInt n)
 {
   n = std::min(n, n_s_);
   if (n <= std::ssize(omega_) || has_all_) return;
+  if (require_memory_) require_memory_(n);
   if (lanczos_) {
     lanczos_->converge(n);
     omega_.clear();

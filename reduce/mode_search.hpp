@@ -14,13 +14,14 @@ namespace chladni::reduce {
 class ModeSearch {
  public:
   /// Both must outlive the search. The eigen-solver is that of the options of `K_ss`.
-  ModeSearch(const linear::Factorization& K_ss, Mat M_ss);
+  ModeSearch(const linear::Factorization& K_ss, Mat M_ss, MemoryCheck require_memory = {});
 
   /// Number of slaves, which bounds the number of modes.
   PetscInt n_slaves() const { return n_s_; }
   /// Finds the lowest n, or all where there are fewer, and more until the last partner is seen.
   /// @note   Collective.
-  /// @throws chladni::Error when the solver does not converge or K_ss is not definite.
+  /// @throws chladni::Error when the solver does not converge, K_ss is not definite, or the memory
+  ///         does not suffice.
   void find(PetscInt n);
   /// @throws chladni::Error when modes below that lambda may not be among those found, which are
   ///         all that converge.
@@ -52,6 +53,7 @@ class ModeSearch {
 
   const linear::Factorization& K_ss_;
   Mat M_ss_;
+  MemoryCheck require_memory_;
   PetscInt n_s_ = 0;
   std::optional<linear::BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
   petsc::Matrix X_;                              ///< then all vectors that it found

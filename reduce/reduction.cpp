@@ -62,9 +62,13 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
     return Parted{std::move(dofs), std::move(K), std::move(M)};
   });
   linear::SolverOptions solver = options.solver;
-  solver.factor = with_what_comes_beside(solver.factor, body, parted.K.ss, options);
+  const MemoryForecast memory(body, parted.K.ss, options);
+  solver.factor = memory.at_first(solver.factor);
   linear::Factorization K_ss = in_phase(
       phases, "factorization", [&] { return factorized(body, parted.K.ss, parted.dofs, solver); });
+  const auto require_memory = [memory, factor = K_ss.factor()](PetscInt n_modes) {
+    memory.require(factor, n_modes);
+  };
   return {.K = std::move(body.K),
           .M = std::move(body.M),
           .masters = std::move(body.masters),
@@ -72,7 +76,8 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
           .dofs = std::move(parted.dofs),
           .K_blocks = std::move(parted.K),
           .M_blocks = std::move(parted.M),
-          .K_ss = std::move(K_ss)};
+          .K_ss = std::move(K_ss),
+          .require_memory = require_memory};
 }
 
 Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,

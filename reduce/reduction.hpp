@@ -47,6 +47,8 @@ struct FactoredBody {
   DofPartition dofs;
   Blocks K_blocks, M_blocks;
   linear::Factorization K_ss;
+  /// Throws on all ranks where the memory does not suffice for so many fixed-interface modes.
+  MemoryCheck require_memory = {};
 
   MPI_Comm comm() const { return petsc::communicator(K_ss.matrix()); }
 };

@@ -24,11 +24,11 @@ bool begins_with(const std::vector<double>& now, const std::vector<double>& befo
 }  // namespace
 
 ToleranceSearch::ToleranceSearch(const GrowingModel::System& system, const ToleranceGoal& goal,
-                                 PairsOf pairs_in_range)
+                                 PairsOf pairs_in_range, MemoryCheck require_memory)
     : system_(system),
       goal_(goal),
       pairs_in_range_(std::move(pairs_in_range)),
-      search_(system.K_ss, system.M.ss),
+      search_(system.K_ss, system.M.ss, std::move(require_memory)),
       n_asked_(n_at_first)
 {}
 

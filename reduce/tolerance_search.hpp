@@ -29,11 +29,12 @@ class ToleranceSearch {
 
   /// What `system` refers to must outlive this.
   ToleranceSearch(const GrowingModel::System& system, const ToleranceGoal& goal,
-                  PairsOf pairs_in_range);
+                  PairsOf pairs_in_range, MemoryCheck require_memory = {});
 
   /// Finds as many modes as `is_enough` has predicted.
   /// @note   Collective.
-  /// @throws chladni::Error when there are no more, or the eigen-solver does not converge.
+  /// @throws chladni::Error when there are no more, the eigen-solver does not converge, or the
+  ///         memory does not suffice.
   void find_modes();
   /// Whether the modes keep the tolerance; if so, finds out with how many less they would.
   /// @note   Collective.

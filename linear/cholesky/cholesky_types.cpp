@@ -211,6 +211,14 @@ void set_budget(Mat F, const MemoryBudget& budget)
   if (CholeskyFactor* factor = ours(F)) factor->budget = budget;
 }
 
+void set_beside(Mat F, double beside_MiB, const SecondFactor& second)
+{
+  CholeskyFactor* factor = ours(F);
+  if (factor == nullptr) return;
+  factor->budget.beside_MiB = beside_MiB;
+  factor->budget.second = second;
+}
+
 void require_definite(Mat F)
 {
   if (CholeskyFactor* factor = ours(F)) factor->must_be_definite = true;

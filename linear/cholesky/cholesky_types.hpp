@@ -24,6 +24,9 @@ bool is_ours(Mat F);
 /// A symbolic factorisation that needs more on any machine ends with MAT_FACTOR_OUTMEMORY.
 void set_budget(Mat F, const MemoryBudget& budget);
 
+/// Other things come beside the factor than its budget said.
+void set_beside(Mat F, double beside_MiB, const SecondFactor& second);
+
 /// An indefinite matrix ends with MAT_FACTOR_NUMERIC_ZEROPIVOT and the count of its negative
 /// pivots.
 void require_definite(Mat F);

@@ -13,18 +13,17 @@ namespace chladni::linear {
 namespace {
 
 /// What the analysis found, before any arithmetic.
-void check_memory(Mat factor, MatFactorError error, const MemoryBudget& budget)
+void check_memory(Mat factor, MatFactorError error, const FactorOptions& options)
 {
   if (error != MAT_FACTOR_OUTMEMORY) return;
   const MemoryNeed need = memory_need(factor);
   const MemoryNeed beside =
-      tightest_machine(budget.beside_MiB, budget.machine_MiB, petsc::communicator(factor));
+      tightest_machine(options.beside_MiB, need.free_MiB, petsc::communicator(factor));
   throw Error(fmt::format(
-      "factorize: the factor of K_ss and what comes beside it need {:.0f} MiB on one machine, "
-      "where "
-      "{:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, or raise "
-      "-cms_memory",
-      need.needed_MiB, need.free_MiB,
+      "factorize: the factor of K_ss and what comes beside it need {}{:.0f} MiB on one machine, "
+      "where {:.0f} MiB are free{}; use more machines, a coarser mesh, fewer masters or modes, or "
+      "raise -cms_memory",
+      options.is_least ? "at least " : "", need.needed_MiB, need.free_MiB,
       beside.fits() ? "" : ": modes and constraint modes alone need more than there is"));
 }
 
@@ -74,11 +73,11 @@ PetscInt row_of_free_motion(Mat A)
 
 /// K_ss is singular or indefinite exactly when a part of the body can move with all masters held.
 /// Round-off may hide that from the pivots, but not from the energy of the motion.
-void check_definite(Mat factor, Mat A, const MemoryBudget& budget)
+void check_definite(Mat factor, Mat A, const FactorOptions& options)
 {
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
-  check_memory(factor, error, budget);
+  check_memory(factor, error, options);
   if (const PetscInt n = n_negative_pivots(factor); n > 0) {
     refuse(fmt::format("{} negative pivots", n), row_of_free_motion(A));
   }
@@ -113,7 +112,7 @@ Factorization::Factorization(Mat A, SolverOptions options) : options_(std::move(
   set_budget(factor(), budget);
   require_definite(factor());
   petsc::check(KSPSetUp(solver_));
-  check_definite(factor(), A, budget);
+  check_definite(factor(), A, allowed);
 }
 
 Mat Factorization::factor() const
