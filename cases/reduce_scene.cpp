@@ -13,6 +13,7 @@
 #include "cases/reduce_steps.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
+#include "files/file_digest.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/rigid_motions.hpp"
@@ -235,12 +236,14 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;
-  system.provenance = {.scene = scene.text,
-                       .mesh_checksum = mesh::checksum(fe.mesh),
-                       .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API",
-                                               report::version, reduce_export::library_versions()),
-                       .options = solvers.text,
-                       .ranks = n_ranks()};
+  system.provenance = {
+      .scene = scene.text,
+      .mesh_checksum = mesh::checksum(fe.mesh),
+      .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API", report::version,
+                              reduce_export::library_versions()),
+      .options = solvers.text,
+      .ranks = n_ranks(),
+      .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};
   return {
       .reduced = std::move(system),
       .phases = phases.times(),

@@ -13,6 +13,13 @@ void declare_scene_arguments(CLI::App& app, SceneArguments& arguments)
       ->capture_default_str();
   app.add_option("--json", arguments.json, "writes the summary for other programs")
       ->type_name("FILE");
+  app.add_flag("--overwrite", arguments.overwrite,
+               "replaces files that another scene of the same `name` wrote");
+}
+
+void declare_stale(CLI::App& app, bool& stale)
+{
+  app.add_flag("--stale", stale, "takes files that were made before the scene changed");
 }
 
 std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words)

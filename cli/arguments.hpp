@@ -20,10 +20,15 @@ struct SceneArguments {
   std::string scene;         ///< the scene file
   std::string output = ".";  ///< folder for the files
   std::string json;          ///< file for the summary; empty for none
+  bool stale = false;        ///< files made before a change of the scene are taken as they are
+  bool overwrite = false;    ///< files of another scene of the same name may be replaced
 };
 
 /// Declares SCENE, --output and --json; the values arrive in `arguments` when `app` is parsed.
 void declare_scene_arguments(CLI::App& app, SceneArguments& arguments);
+
+/// Declares --stale, for subcommands that read what others made of the scene.
+void declare_stale(CLI::App& app, bool& stale);
 
 /// Parses the words that follow the name of the program, and prints help, version or complaint.
 /// @return the exit code, when there is nothing left to do.

@@ -7,6 +7,7 @@
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe.hpp"
+#include "report/origin.hpp"
 #include "report/selection_json.hpp"
 
 namespace chladni::cli {
@@ -20,13 +21,19 @@ mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
     throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
                             file.string(), arguments.scene, arguments.output));
   }
-  return mbs_export::read_reduced(file);
+  mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
+  report::require_of_scene(
+      scene, {.file = file, .what = report::Made::reduction, .origin = reduced.provenance},
+      stale_of(arguments));
+  reduced.provenance.scene_file = scene_file_of(arguments);
+  return reduced;
 }
 
 void make_and_write_body(const SceneArguments& arguments)
 {
   report::PhaseClock clock;
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene);
+  tell_notes(scene);
   const std::filesystem::path file = body_file(scene, arguments);
   const mbs_export::ReducedSystem reduced = read_reduced_of(scene, arguments);
   const ReservedOutputs reserved = reserve_outputs(arguments, {file});

@@ -97,6 +97,8 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
+  for (const char* reader : {"body", "sound"})
+    chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag(
       "--radiation", arguments.sound.radiation_only,
       "only what the sound of each mode does to it: NAME.radiation.h5, for `radiation = true`");

@@ -62,6 +62,7 @@ void modes_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene =
       scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
+  cases::on_first_rank([&] { tell_notes(scene); });
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".modes.vtu");
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});

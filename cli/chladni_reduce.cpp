@@ -27,10 +27,12 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 void reduce_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
+  cases::on_first_rank([&] { tell_notes(scene); });
   const std::filesystem::path file = reduced_file(scene, arguments.scene);
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
   cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
   report::PhaseClock clock;
+  summary.reduced.provenance.scene_file = scene_file_of(arguments.scene);
   cases::on_first_rank([&] { mbs_export::write_reduced(file, summary.reduced); });
   clock.end_phase("write");
   summary.phases.push_back(clock.phases().front());

@@ -48,10 +48,12 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 void run_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
+  cases::on_first_rank([&] { tell_notes(scene); });
   const SceneArguments& said = arguments.scene;
   const ReservedOutputs reserved =
       reserve_on_first_rank(said, {reduced_file(scene, said), body_file(scene, said)});
   cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
+  summary.reduced.provenance.scene_file = scene_file_of(said);
   report::PhaseClock clock;
   cases::on_first_rank(
       [&] { mbs_export::write_reduced(reduced_file(scene, said), summary.reduced); });

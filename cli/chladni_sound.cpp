@@ -9,8 +9,10 @@
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "report/fe/sound_report.hpp"
 #include "report/fe/sound_vtu.hpp"
+#include "report/origin.hpp"
 #include "report/version.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/study.hpp"
@@ -88,6 +90,19 @@ scene::Scene read_sounding_scene(const std::string& file)
   return scene;
 }
 
+/// Body and results are of the scene as it is.
+void require_origins(const scene::Scene& scene, const Files& files,
+                     const mbs_export::ModalBody& body, const ChladniArguments& arguments)
+{
+  const report::Stale stale = stale_of(arguments.scene);
+  report::require_of_scene(
+      scene, {.file = files.body, .what = report::Made::body, .origin = body.provenance}, stale);
+  if (arguments.sound.radiation_only) return;
+  const auto origin = mbs_export::file_parts::read_provenance(files.squeal);
+  report::require_of_scene(
+      scene, {.file = files.squeal, .what = report::Made::results, .origin = origin}, stale);
+}
+
 void compute_sound(const ChladniArguments& arguments)
 {
   report::PhaseClock clock;
@@ -102,6 +117,7 @@ void compute_sound(const ChladniArguments& arguments)
                                    arguments.scene.scene, arguments.scene.output));
   }
   const mbs_export::ModalBody body = mbs_export::read_body(files.body);
+  require_origins(scene, files, body, arguments);
   const squeal::SquealResults squeal_results =
       whole ? squeal::read_results(files.squeal) : squeal::SquealResults{};
   const ReservedOutputs reserved = reserve(arguments.scene, files, arguments.sound);
@@ -118,6 +134,7 @@ void compute_sound(const ChladniArguments& arguments)
   if (whole) {
     mbs_export::Provenance origin = body.provenance;
     origin.body_scene = std::exchange(origin.scene, scene.text);
+    origin.scene_file = scene_file_of(arguments.scene);
     origin.versions = fmt::format("chladni {}; body: {}", report::version, origin.versions);
     sound::write_sound(files.sound, results, origin);
     files::write_text(files.picture, report::sound_vtu(results.tones));

@@ -132,6 +132,7 @@ void static_command(const ChladniArguments& arguments)
 {
   const scene::Scene scene =
       scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
+  cases::on_first_rank([&] { tell_notes(scene); });
   check_loads(scene);
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");

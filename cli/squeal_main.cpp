@@ -31,6 +31,7 @@ void declare_run(CLI::App& app, SquealArguments& arguments)
 {
   CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
   chladni::cli::declare_scene_arguments(*run, arguments.scene);
+  chladni::cli::declare_stale(*run, arguments.scene.stale);
   run->add_option("--body", arguments.body_file, "the body; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   run->footer(

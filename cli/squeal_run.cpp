@@ -13,6 +13,7 @@
 #include "report/cost.hpp"
 #include "report/describe.hpp"
 #include "report/json.hpp"
+#include "report/origin.hpp"
 #include "report/output.hpp"
 #include "report/squeal_json.hpp"
 #include "report/timing.hpp"
@@ -28,8 +29,9 @@
 namespace chladni::cli {
 namespace {
 
-mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
-                                   const SceneArguments& arguments)
+using std::filesystem::path;
+
+mbs_export::ModalBody read_body_of(const path& file, const SceneArguments& arguments)
 {
   if (!std::filesystem::exists(file)) {
     throw Error(
@@ -40,7 +42,17 @@ mbs_export::ModalBody read_body_of(const std::filesystem::path& file,
   return mbs_export::read_body(file);
 }
 
-squeal::Radiation read_radiation_of(const std::filesystem::path& file, const scene::Scene& scene)
+/// The body in the file of this name is taken to be that of the scene; one that --body names is
+/// what the user says.
+void require_of_scene(const scene::Scene& scene, const path& file,
+                      const mbs_export::ModalBody& body, const SceneArguments& arguments)
+{
+  report::require_of_scene(scene,
+                           {.file = file, .what = report::Made::body, .origin = body.provenance},
+                           stale_of(arguments));
+}
+
+squeal::Radiation read_radiation_of(const path& file, const scene::Scene& scene)
 {
   if (!std::filesystem::exists(file)) {
     throw Error(
@@ -59,7 +71,7 @@ struct Performed {
 
 /// The analyses of a disc that is this body, damped by the file `radiation` if the scene says so.
 Performed perform_on_body(const scene::Scene& scene, const mbs_export::ModalBody& body,
-                          const std::filesystem::path& radiation, report::PhaseClock& clock)
+                          const path& radiation, report::PhaseClock& clock)
 {
   squeal::Disc disc =
       squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
@@ -93,12 +105,11 @@ Performed perform_on_model(const scene::Scene& scene)
 }
 
 struct Files {
-  std::filesystem::path body, radiation;  ///< read
-  std::filesystem::path results, sound;   ///< written
+  path body, radiation;  ///< read
+  path results, sound;   ///< written
 };
 
-Files files_of(const scene::Scene& scene, const std::filesystem::path& folder,
-               const std::filesystem::path& body)
+Files files_of(const scene::Scene& scene, const path& folder, const path& body)
 {
   const auto with = [&](const char* extension) { return folder / (scene.name + extension); };
   return {.body = body.empty() ? with(".body.h5") : body,
@@ -108,8 +119,7 @@ Files files_of(const scene::Scene& scene, const std::filesystem::path& folder,
 }
 
 /// The sound, when the scene asks for it.
-void write_sound(const scene::Scene& scene, const std::filesystem::path& file,
-                 const squeal::SquealResults& results)
+void write_sound(const scene::Scene& scene, const path& file, const squeal::SquealResults& results)
 {
   if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
   const double scale =
@@ -139,12 +149,15 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
   if (scene.squeal_model && !body_file.empty()) {
     throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
   }
+  tell_notes(scene);
   const Files files = files_of(scene, arguments.output, body_file);
   std::optional<mbs_export::ModalBody> body;
   if (!scene.squeal_model) body = read_body_of(files.body, arguments);
+  if (body && body_file.empty()) require_of_scene(scene, files.body, *body, arguments);
   const ReservedOutputs reserved = reserve_outputs(arguments, {files.results, files.sound});
-  const auto [results, origin] =
+  auto [results, origin] =
       body ? perform_on_body(scene, *body, files.radiation, clock) : perform_on_model(scene);
+  origin.scene_file = scene_file_of(arguments);
   clock.end_phase("analyses");
 
   squeal::write_results(files.results, results, origin);

@@ -143,6 +143,15 @@ double difference(const MatrixXd& A, const MatrixXd& B)
   return scale > 0.0 ? (A - B).cwiseAbs().maxCoeff() / scale : 0.0;
 }
 
+/// Friction acts on a disc through its slopes, which are the rotations of the nodes of a ring.
+Check check_slopes(const ContactRing& ring)
+{
+  const double rotations = ring.W_r.norm() + ring.W_t.norm();
+  const bool missing = rotations == 0.0 && ring.W.norm() > 0.0;
+  return {"slopes of ring " + ring.name, missing ? Verdict::fail : Verdict::pass, rotations, 0.0,
+          "rotations of its nodes, without which no friction bends the disc"};
+}
+
 /// The rings that follow from sets, nodes and modes are those of the body.
 void add_rings(std::vector<Check>& checks, const ModalBody& body)
 {
@@ -157,6 +166,7 @@ void add_rings(std::vector<Check>& checks, const ModalBody& body)
                         difference(same->W_r, ring.W_r), difference(same->W_t, ring.W_t)});
     checks.push_back(bounded("ring " + ring.name, error, 1e-9,
                              "against positions and modes of its attachment nodes"));
+    checks.push_back(check_slopes(ring));
   }
 }
 

@@ -83,8 +83,11 @@ struct Provenance {
   std::string versions;       ///< of Chladni and its libraries
   std::string options;        ///< options of the solvers
   int ranks = 1;
-  std::string reduction_scene = {};  ///< of the reduced system that a body was made of
-  std::string body_scene = {};       ///< of the body that a study used
+  std::string reduction_scene = {};   ///< of the reduced system that a body was made of
+  std::string body_scene = {};        ///< of the body that a study used
+  std::string mesh_file_digest = {};  ///< XXH64 of the mesh file's bytes, hexadecimal, or none
+  /// The file of the scene, as seen from the folder of this file; empty where there is none.
+  std::string scene_file = {};
 };
 
 /// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates

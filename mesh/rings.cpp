@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "common/error.hpp"
 
@@ -47,27 +49,59 @@ void check_only_one(const Mesh& mesh, const RingOptions& ring, const Nearest& fo
   }
 }
 
-Group ring_group(Mesh& mesh, const RingOptions& ring)
+/// Where the nodes of a ring belong, and those that are nearest.
+struct Place {
+  double angle, x, y;
+  Nearest nearest;
+};
+
+std::vector<Place> places_of(const Mesh& mesh, const RingOptions& ring)
 {
-  // Round-off of Gmsh's arcs and of a file with 16 digits; far below any element size.
-  const double tolerance = 1e-9 * ring.radius;
-  Group group{.name = ring.name, .dimension = 0, .nodes = {}};
+  std::vector<Place> places;
   for (int i = 0; i < ring.nodes; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / ring.nodes;
-    const double x = ring.radius * std::cos(angle);
-    const double y = ring.radius * std::sin(angle);
-    const Nearest nearest = nearest_node(mesh, x, y, ring.z);
-    if (nearest.distance > tolerance) {
-      throw Error(fmt::format(
-          "ring \"{}\": no node of the mesh at radius {} m, angle {:.6g} degrees (the nearest is "
-          "{:.3g} m away); put {} points at equal angles from the x axis on that circle",
-          ring.name, ring.radius, angle * 180.0 / std::numbers::pi, nearest.distance, ring.nodes));
-    }
-    if (!ring.z) check_only_one(mesh, ring, nearest, tolerance);
-    mesh.positions[nearest.node][0] = x;
-    mesh.positions[nearest.node][1] = y;
-    if (ring.z) mesh.positions[nearest.node][2] = *ring.z;
-    group.nodes.push_back(nearest.node);
+    const double x = ring.radius * std::cos(angle), y = ring.radius * std::sin(angle);
+    places.push_back({.angle = angle, .x = x, .y = y, .nearest = nearest_node(mesh, x, y, ring.z)});
+  }
+  return places;
+}
+
+void check_all_are_there(const std::vector<Place>& places, const RingOptions& ring,
+                         double tolerance)
+{
+  const auto is_there = [&](const Place& place) { return place.nearest.distance <= tolerance; };
+  const auto missing = std::ranges::find_if_not(places, is_there);
+  if (missing == places.end()) return;
+  throw Error(fmt::format(
+      "ring \"{}\": {} of its {} nodes are there; no node of the mesh is within {:.2g} m of radius "
+      "{} m, angle {:.6g} degrees (the nearest is {:.3g} m away); put {} points at equal angles "
+      "from the x axis on that circle",
+      ring.name, std::ranges::count_if(places, is_there), ring.nodes, tolerance, ring.radius,
+      missing->angle * 180.0 / std::numbers::pi, missing->nearest.distance, ring.nodes));
+}
+
+Group ring_group(Mesh& mesh, const RingOptions& ring)
+{
+  constexpr double of_spacing = 1e-3;  // no element is bent by that; a file of 8 digits needs 1e-7
+  constexpr double round_off = 1e-9;   // of Gmsh's arcs and of a file with 16 digits
+  const double tolerance = of_spacing * 2.0 * std::numbers::pi * ring.radius / ring.nodes;
+  const std::vector<Place> places = places_of(mesh, ring);
+  check_all_are_there(places, ring, tolerance);
+  Group group{.name = ring.name, .dimension = 0, .nodes = {}};
+  double largest_move = 0.0;
+  for (const Place& place : places) {
+    const int node = place.nearest.node;
+    if (!ring.z) check_only_one(mesh, ring, place.nearest, tolerance);
+    mesh.positions[node][0] = place.x;
+    mesh.positions[node][1] = place.y;
+    if (ring.z) mesh.positions[node][2] = *ring.z;
+    largest_move = std::max(largest_move, place.nearest.distance);
+    group.nodes.push_back(node);
+  }
+  if (largest_move > round_off * ring.radius) {
+    mesh.notes.push_back(
+        fmt::format("ring \"{}\": its nodes were moved onto the circle, by {:.2g} m at most",
+                    ring.name, largest_move));
   }
   return group;
 }

@@ -19,6 +19,26 @@ constexpr double pi = std::numbers::pi;
 /// Growth that rounding can make of a neutral motion, relative to the largest frequency of a map.
 constexpr double rounding = 1e-12;
 
+double rpm(double rad_s)
+{
+  return rad_s * 30.0 / pi;
+}
+
+/// "18.8496 rad/s (180 rpm)"
+std::string spoken(double rad_s)
+{
+  return fmt::format("{:.6g} rad/s ({:.4g} rpm)", rad_s, rpm(rad_s));
+}
+
+/// In all units that there are.
+void add_speed(TextTable& table, const std::string& name, double rad_s,
+               const std::optional<double>& wheel_radius)
+{
+  add(table, name, rad_s, "rad/s");
+  add(table, name, rpm(rad_s), "rpm");
+  if (wheel_radius) add(table, name, 3.6 * rad_s * *wheel_radius, "km/h");
+}
+
 /// What the parameter of a search is called and measured in.
 struct Searched {
   std::string name;    ///< "speed"
@@ -76,8 +96,7 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
 {
   const Searched speed{"speed", "speeds", "rad/s"};
   if (results.critical_speed) {
-    add(table, "critical speed", results.critical_speed->speed, "rad/s");
-    add(table, "critical speed / pi", results.critical_speed->speed / pi, "rad/s");
+    add_speed(table, "critical speed", results.critical_speed->speed, results.wheel_radius);
     add(table, "critical frequency", results.critical_speed->frequency_Hz, "Hz");
   } else if (results.speed_stability) {
     const squeal::Stability stability = squeal::stability_of(*results.speed_stability);
@@ -97,8 +116,8 @@ void add_critical(TextTable& table, const squeal::CriticalValue& value)
                                                            : ""};
   const bool regained =
       value.profile && squeal::stability_of(*value.profile) == squeal::Stability::regained;
-  const std::string name = fmt::format("critical {} at {:.4f} pi rad/s{}", value.parameter,
-                                       value.speed / pi, regained ? ", stable above" : "");
+  const std::string name = fmt::format("critical {} at {}{}", value.parameter, spoken(value.speed),
+                                       regained ? ", stable above" : "");
   if (value.value) {
     add(table, name, *value.value, searched.unit);
     add(table, "its frequency", value.frequency_Hz, "Hz");
@@ -129,11 +148,12 @@ void add_map(TextTable& table, const squeal::StabilityMap& map)
   add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
 }
 
-void add_rotation_stability(TextTable& table, const squeal::RotationStability& stability)
+void add_rotation_stability(TextTable& table, const squeal::RotationStability& stability,
+                            const std::optional<double>& wheel_radius)
 {
   add(table, "largest growth rate over the speeds (rotation)", stability.growth.maxCoeff(), "1/s");
   if (stability.critical_speed) {
-    add(table, "critical speed / pi (rotation)", *stability.critical_speed / pi, "rad/s");
+    add_speed(table, "critical speed (rotation)", *stability.critical_speed, wheel_radius);
   } else {
     const std::string why = none_because(squeal::stability_of(stability), "speeds");
     table.rows.push_back({"critical speed (rotation)", why, ""});
@@ -147,8 +167,8 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
 {
   double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
   for (const squeal::ModeSubset& subset : sensitivity.subsets) {
-    const std::string name = fmt::format("critical speed / pi, {} modes to {:.0f} Hz",
-                                         subset.n_modes, subset.highest_Hz);
+    const std::string name =
+        fmt::format("critical speed, {} modes to {:.0f} Hz", subset.n_modes, subset.highest_Hz);
     if (!subset.critical_speed) {
       // A file of an earlier version does not tell stable from unstable.
       table.rows.push_back(
@@ -158,7 +178,7 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
     }
     lowest = std::min(lowest, *subset.critical_speed);
     highest = std::max(highest, *subset.critical_speed);
-    add(table, name, *subset.critical_speed / pi, "rad/s");
+    add(table, name, *subset.critical_speed, "rad/s");
   }
   if (highest > 0.0) add(table, "spread of them", 100.0 * (highest - lowest) / highest, "%");
   for (const squeal::ModeInfluence& mode : sensitivity.influences) {
@@ -167,7 +187,7 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
     if (!mode.growth_without) {
       add(table, "critical mode: " + name, 100.0 * mode.participation, "% of its energy");
     } else if (mode.critical_speed_without) {
-      add(table, "critical speed / pi without " + name, *mode.critical_speed_without / pi, "rad/s");
+      add(table, "critical speed without " + name, *mode.critical_speed_without, "rad/s");
     } else {
       add(table, "growth without " + name, *mode.growth_without, "1/s");
     }
@@ -191,7 +211,7 @@ void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
 /// one: what it measured stands beside it where the two disagree.
 void add_growth(TextTable& table, const squeal::Growth& growth)
 {
-  const std::string name = fmt::format("growth at {:.4f} pi rad/s", growth.speed / pi);
+  const std::string name = "growth at " + spoken(growth.speed);
   add(table, name, growth.eigenvalue_rate.value_or(growth.rate), "1/s");
   if (growth.eigenvalue_rate && squeal::disagree(growth.rate, *growth.eigenvalue_rate))
     add(table, name + ", measured in a run too short for it", growth.rate, "1/s");
@@ -215,11 +235,10 @@ void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
   add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
   if (branch.points.empty()) return;
   for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
-    add(table, fmt::format("pad velocity at {:.4f} pi rad/s", end.speed / pi), end.pad_velocity,
-        "m/s");
+    add(table, "pad velocity at " + spoken(end.speed), end.pad_velocity, "m/s");
   }
   for (const squeal::BranchPoint& fold : branch.folds) {
-    add(table, "fold of the limit cycle at speed / pi", fold.speed / pi, "rad/s");
+    add(table, "fold of the limit cycle at", fold.speed, "rad/s");
   }
   if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
   if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
@@ -244,7 +263,8 @@ TextTable describe(const squeal::SquealResults& results)
   add_critical_speed(table, results);
   for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
   if (results.map) add_map(table, *results.map);
-  if (results.rotation_stability) add_rotation_stability(table, *results.rotation_stability);
+  if (results.rotation_stability)
+    add_rotation_stability(table, *results.rotation_stability, results.wheel_radius);
   if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
   for (const squeal::Growth& growth : results.growth) {
     add_growth(table, growth);

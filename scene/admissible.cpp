@@ -20,7 +20,10 @@ Admissible both(const Admissible& a, const Admissible& b)
           .at_least = std::max(a.at_least, b.at_least),
           .below = std::min(a.below, b.below),
           .at_most = std::min(a.at_most, b.at_most),
-          .unit = b.unit.empty() ? a.unit : b.unit};
+          .unit = b.unit.empty() ? a.unit : b.unit,
+          .usual_from = std::max(a.usual_from, b.usual_from),
+          .usual_to = std::min(a.usual_to, b.usual_to),
+          .usually = b.usually.empty() ? a.usually : b.usually};
 }
 
 std::string requirement(const Admissible& admissible, std::string_view kind)

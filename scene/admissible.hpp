@@ -13,6 +13,9 @@ struct Admissible {
   double below = std::numeric_limits<double>::infinity();      ///< exclusive
   double at_most = std::numeric_limits<double>::infinity();    ///< inclusive
   std::string_view unit = {};                                  ///< for messages
+  double usual_from = -std::numeric_limits<double>::infinity();
+  double usual_to = std::numeric_limits<double>::infinity();
+  std::string_view usually = {};  ///< of a number outside the last two: "a steel has 2.1e11 Pa"
 };
 
 bool admits(const Admissible& admissible, double x);

@@ -16,7 +16,12 @@ namespace chladni::scene {
 struct Table::Node {
   using MessagesByLine = std::multimap<toml::source_index, std::string>;
 
-  std::shared_ptr<const toml::table> file_table;  ///< keeps all nodes of the file alive
+  /// What all tables of a file share.
+  struct File {
+    toml::table table;  ///< keeps all nodes alive
+    std::vector<std::string> notes;
+  };
+  std::shared_ptr<File> whole;
   std::string file;
   std::string path;  ///< of keys; empty for the root
   std::string row;   ///< the same without the places in lists, as in the rows of keys.hpp
@@ -74,7 +79,22 @@ struct Table::Node {
   std::vector<T> elements(std::string_view key, std::string_view kind, const Objection& objection);
   [[noreturn]] void refuse(const toml::node& value, std::string_view value_path,
                            std::string_view why) const;
+  /// "scene.toml:3: mesh.width = 3"
+  std::string said(const toml::node& value, std::string_view value_path) const
+  {
+    const std::string text = value.is_table() ? "" : " = " + value_text(value);
+    return at(value.source().begin.line) + std::string(value_path) + text;
+  }
+  void note_unusual(std::string_view key, double x, const Admissible& admissible);
 };
+
+void Table::Node::note_unusual(std::string_view key, double x, const Admissible& admissible)
+{
+  if (x >= admissible.usual_from && x <= admissible.usual_to) return;
+  std::string note =
+      fmt::format("{} is unusual: {}", said(*table->get(key), path_of(key)), admissible.usually);
+  if (!contains(whole->notes, note)) whole->notes.push_back(std::move(note));
+}
 
 void Table::Node::refuse_slip(std::string_view key) const
 {
@@ -114,7 +134,7 @@ std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::st
     if (node->table == &inner) return node;
   }
   return opened.emplace_back(std::make_shared<Node>(
-      Node{file_table, file, std::move(inner_path), row_of(key), &inner, {}, {}}));
+      Node{whole, file, std::move(inner_path), row_of(key), &inner, {}, {}}));
 }
 
 template <class T>
@@ -144,8 +164,7 @@ std::vector<T> Table::Node::elements(std::string_view key, std::string_view kind
 void Table::Node::refuse(const toml::node& value, std::string_view value_path,
                          std::string_view why) const
 {
-  const std::string text = value.is_table() ? "" : " = " + value_text(value);
-  throw Error(at(value.source().begin.line) + fmt::format("{}{}: {}", value_path, text, why));
+  throw Error(fmt::format("{}: {}", said(value, value_path), why));
 }
 
 bool Table::has(std::string_view key) const
@@ -176,8 +195,10 @@ bool Table::is_text(std::string_view key) const
 double Table::number(std::string_view key, const Admissible& further) const
 {
   const Admissible admissible = node_->admitted(key, further);
-  return node_->value<double>(key, requirement(admissible, "a number"),
-                              objection_to_number(admissible));
+  const double x = node_->value<double>(key, requirement(admissible, "a number"),
+                                        objection_to_number(admissible));
+  node_->note_unusual(key, x, admissible);
+  return x;
 }
 
 int Table::integer(std::string_view key, const Admissible& further) const
@@ -264,6 +285,11 @@ std::vector<std::string> Table::names() const
   return names;
 }
 
+std::vector<std::string> Table::notes() const
+{
+  return node_->whole->notes;
+}
+
 void Table::refuse(std::string_view key, std::string_view why) const
 {
   node_->refuse(*node_->find(key), node_->path_of(key), why);
@@ -286,9 +312,10 @@ void Table::refuse_unknown_keys() const
 Table parse_toml(const std::string& text, const std::string& file)
 {
   try {
-    const auto root = std::make_shared<const toml::table>(toml::parse(text, file));
+    const auto whole = std::make_shared<Table::Node::File>(
+        Table::Node::File{.table = toml::parse(text, file), .notes = {}});
     return Table(
-        std::make_shared<Table::Node>(Table::Node{root, file, {}, {}, root.get(), {}, {}}));
+        std::make_shared<Table::Node>(Table::Node{whole, file, {}, {}, &whole->table, {}, {}}));
   } catch (const toml::parse_error& error) {
     throw Error(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
   }

@@ -61,6 +61,10 @@ class Table {
   /// Throws `FILE:LINE: PATH.key[i+1] = VALUE: why`; `i` counts from 0.
   [[noreturn]] void refuse_element(std::string_view key, std::size_t i, std::string_view why) const;
 
+  /// A line for each number that was read, here or in any table of the file, and is admitted but
+  /// unusual: `FILE:LINE: PATH.key = VALUE is unusual: ...`.
+  std::vector<std::string> notes() const;
+
   /// @throws chladni::Error that lists every key, here and in the tables opened from here, that
   ///         nobody asked for, with the keys that are allowed in its place.
   void refuse_unknown_keys() const;

@@ -44,6 +44,7 @@ Scene parse_scene(const std::string& text, const std::string& path, Purpose purp
   scene.squeal_model = read_squeal_model(root);
   if (scene.squeal_model) {
     root.refuse_unknown_keys();
+    scene.notes = root.notes();
     return scene;
   }
   scene.mesh = read_mesh(root, path);
@@ -81,6 +82,7 @@ Scene parse_scene(const std::string& text, const std::string& path, Purpose purp
     scene.body.damping.type = mbs_export::Damping::Type::matrix;
   }
   root.refuse_unknown_keys();
+  scene.notes = root.notes();
   return scene;
 }
 

@@ -39,8 +39,9 @@ struct ModesOptions {
 struct Scene {
   std::string name;  ///< stem of the files that the programs write
   std::string title;
-  std::string text;  ///< of the file, for provenance
-  std::string path;  ///< of the file
+  std::string text;                ///< of the file, for provenance
+  std::string path;                ///< of the file
+  std::vector<std::string> notes;  ///< for the user: numbers that look like another unit's
   mesh::MeshOptions mesh;
   /// Of each node; the others are held at zero and not part of the model.
   std::vector<int> components = {0, 1, 2, 3, 4, 5};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 namespace chladni::scene {
 namespace {
 
@@ -54,15 +56,32 @@ std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, doubl
 
 }  // namespace
 
+/// The keys of one end of the range.
+struct SpeedKeys {
+  std::string_view rad_s, rpm, km_h;
+};
+
+/// In any unit, rad/s.
+double read_speed(const Table& speeds, const SpeedKeys& keys, double least)
+{
+  const std::string_view key = speeds.only_one_of({keys.rad_s, keys.rpm, keys.km_h});
+  double unit = 1.0;
+  if (key == keys.rpm) unit = std::numbers::pi / 30.0;
+  if (key == keys.km_h) unit = 1.0 / (3.6 * speeds.number("wheel_radius"));
+  return unit * speeds.number(key, {.at_least = least / unit});
+}
+
 squeal::SpeedRange read_speeds(const Table& squeal)
 {
   const Table speeds = squeal.table("speeds");
-  const double from = speeds.number("from_rad_s");
-  const double to = speeds.number("to_rad_s", {.at_least = from, .unit = "rad/s, from_rad_s"});
+  const double from = read_speed(speeds, {"from_rad_s", "from_rpm", "from_km_h"}, 0.0);
+  const double to = read_speed(speeds, {"to_rad_s", "to_rpm", "to_km_h"}, from);
   const int least = to > from ? 2 : 1;
   return {.from = from,
           .to = to,
-          .count = speeds.integer("count", {.at_least = static_cast<double>(least)})};
+          .count = speeds.integer("count", {.at_least = static_cast<double>(least)}),
+          .wheel_radius = speeds.has("wheel_radius") ? std::optional(speeds.number("wheel_radius"))
+                                                     : std::nullopt};
 }
 
 squeal::FrictionLaw read_friction(const Table& squeal)

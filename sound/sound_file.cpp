@@ -6,7 +6,7 @@
 #include <span>
 
 #include "files/hdf5.hpp"
-#include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "sound/field_picture.hpp"
 
 namespace chladni::sound {

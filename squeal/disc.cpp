@@ -38,6 +38,11 @@ void check_ring(const ModalBody& body, const ContactRing& ring)
     if (values->rows() != n || values->cols() != body.n_modes())
       throw Error(fmt::format("ring '{}': shapes are [{} x {}], expected [{} x {}]", ring.name,
                               values->rows(), values->cols(), n, body.n_modes()));
+  if (ring.W.norm() > 0.0 && ring.W_r.norm() + ring.W_t.norm() == 0.0)
+    throw Error(fmt::format(
+        "ring '{}': its nodes move along the axis and do not rotate, but friction acts on the disc "
+        "through its slopes; reduce it with the rotations of these nodes among the coordinates",
+        ring.name));
 }
 
 DiscRing ring_of(const ModalBody& body, const std::string& name)

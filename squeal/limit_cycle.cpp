@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "squeal/recorder.hpp"
+#include "squeal/transient.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -95,11 +96,7 @@ Eigen::VectorXcd fundamental(const Eigen::MatrixXd& a, const std::vector<double>
 
 LimitCycle limit_cycle(const Disc& disc, const Transient& run)
 {
-  if (!run.finished)
-    throw Error(
-        fmt::format("limit cycle: the motion diverged after {:.3g} s; damping or the contact "
-                    "law do not bound it",
-                    run.history.t.empty() ? 0.0 : run.history.t.back()));
+  if (!run.finished) throw Error(fmt::format("limit cycle: {}", divergence_of(run)));
   const std::vector<double> zeros = rising_zeros(run.tail);
   if (zeros.size() < 10 || run.envelope.t.size() < 20)
     throw Error(

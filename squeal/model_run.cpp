@@ -13,6 +13,7 @@
 #include "squeal/rigid_model.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
+#include "squeal/transient.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -132,6 +133,7 @@ SquealResults run(const ModelOptions& options, const RunProgress& progress)
 {
   const Model model = std::visit([](const auto& study) { return build(study); }, options.model);
   SquealResults results;
+  results.wheel_radius = options.speeds.wheel_radius;
   bool any_done = false;
   for (const Step& step : steps_of(model, options)) {
     if (std::find_first_of(options.analyses.begin(), options.analyses.end(), step.names.begin(),
@@ -150,6 +152,8 @@ SquealResults run(const ModelOptions& options, const RunProgress& progress)
     }
     any_done = true;
   }
+  if (results.transient && !results.transient->finished)
+    results.failure = "transient: " + divergence_of(*results.transient);
   return results;
 }
 

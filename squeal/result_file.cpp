@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "files/hdf5.hpp"
-#include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
 #include "squeal/sensitivity_file.hpp"
@@ -140,6 +140,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   file.attribute("/", "version", file_version);
   mbs_export::file_parts::write_provenance(file, provenance);
   write_optional(file, "largest_split", results.largest_split, "1");
+  write_optional(file, "wheel_radius", results.wheel_radius, "m");
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
   if (results.searched_critical_speed) write_critical_speed(file, results);
   write_critical_values(file, results.critical_values);
@@ -167,6 +168,7 @@ SquealResults read_results(const Reader& file)
   file.expect_format(results_format, file_version);
   SquealResults results;
   results.largest_split = read_optional(file, "largest_split");
+  results.wheel_radius = read_optional(file, "wheel_radius");
   if (file.contains("eigenvalues")) results.eigenvalues = read_eigenvalues(file);
   results.searched_critical_speed = file.contains("critical");
   results.speed_stability = read_profile(file, "critical");

@@ -89,6 +89,7 @@ struct Spectrum {
 
 /// Everything that a study may yield; what was not asked for is absent.
 struct SquealResults {
+  std::optional<double> wheel_radius;  ///< m, for speeds on the road; absent where none was given
   /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
   /// computed without; absent when the disc is not axisymmetric. 1e-4 of split changes the growth
   /// rate of the reference disc by 1e-4 of it, 1e-3 by 1e-2.

@@ -105,6 +105,7 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgr
 {
   validate(options);
   SquealResults results;
+  results.wheel_radius = options.speeds.wheel_radius;
   if (const auto inertial = find_inertial_disc(disc))
     results.largest_split = inertial->largest_split;
   bool any_done = false;
@@ -126,6 +127,8 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgr
     }
     any_done = true;
   }
+  if (results.transient && !results.transient->finished)
+    results.failure = "transient: " + divergence_of(*results.transient);
   return results;
 }
 

@@ -20,6 +20,7 @@ struct SpeedRange {
   double from;
   double to;
   int count;
+  std::optional<double> wheel_radius = {};  ///< m; then speeds are told on the road too
 };
 
 /// Which modes of the body take part: exactly one member is set; none means all.

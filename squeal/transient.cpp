@@ -214,4 +214,11 @@ Growth growth(const Disc& disc, const SquealOptions& options, double speed, doub
   return result;
 }
 
+std::string divergence_of(const Transient& run)
+{
+  const double t = run.history.t.empty() ? 0.0 : run.history.t.back();
+  return fmt::format(
+      "the motion diverged after {:.3g} s; damping or the contact law do not bound it", t);
+}
+
 }  // namespace chladni::squeal

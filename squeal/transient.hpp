@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "squeal/disc.hpp"
 #include "squeal/results.hpp"
@@ -20,6 +21,9 @@ using Progress = std::function<void(double)>;
 ///         positive, too few steps for the highest mode, and from `choose_integrator`.
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                     const Progress& progress = {});
+
+/// "the motion diverged after 0.3 s; ...", of a run that did not finish.
+std::string divergence_of(const Transient& run);
 
 /// Growth of a small disturbance at `speed` (rad/s) over `duration` (s), far below contact loss.
 Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration);

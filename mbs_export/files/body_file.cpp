@@ -9,6 +9,7 @@
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/files/certificate_file.hpp"
 #include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "mbs_export/files/selection_file.hpp"
 #include "mbs_export/files/vtkhdf.hpp"
 

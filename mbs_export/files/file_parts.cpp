@@ -79,32 +79,6 @@ Picture read_picture(const files::Reader& file, Index n_columns)
   return picture;
 }
 
-void write_provenance(files::Writer& file, const Provenance& provenance)
-{
-  file.write("provenance/scene", provenance.scene);
-  file.write("provenance/mesh_checksum", provenance.mesh_checksum);
-  file.write("provenance/versions", provenance.versions);
-  file.write("provenance/options", provenance.options);
-  file.write("provenance/ranks", std::int64_t{provenance.ranks}, "1");
-  if (!provenance.reduction_scene.empty())
-    file.write("provenance/reduction_scene", provenance.reduction_scene);
-  if (!provenance.body_scene.empty()) file.write("provenance/body_scene", provenance.body_scene);
-}
-
-Provenance read_provenance(const files::Reader& file)
-{
-  const auto optional_text = [&](const char* name) {
-    return file.contains(name) ? file.text(name) : std::string();
-  };
-  return {.scene = file.text("provenance/scene"),
-          .mesh_checksum = file.text("provenance/mesh_checksum"),
-          .versions = file.text("provenance/versions"),
-          .options = file.text("provenance/options"),
-          .ranks = read_count(file, "provenance/ranks"),
-          .reduction_scene = optional_text("provenance/reduction_scene"),
-          .body_scene = optional_text("provenance/body_scene")};
-}
-
 std::vector<int> read_indices(const files::Reader& file, const std::string& name, Index limit,
                               Index size)
 {

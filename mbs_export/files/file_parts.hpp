@@ -36,9 +36,6 @@ void write_mass_integrals(files::Writer& file, const std::optional<MassIntegrals
 /// @param n  number of coordinates
 std::optional<MassIntegrals> read_mass_integrals(const files::Reader& file, Eigen::Index n);
 
-void write_provenance(files::Writer& file, const Provenance& provenance);
-Provenance read_provenance(const files::Reader& file);
-
 /// Integers of which each must be an index 0 .. limit - 1.
 std::vector<int> read_indices(const files::Reader& file, const std::string& name,
                               Eigen::Index limit, Eigen::Index size = files::any);

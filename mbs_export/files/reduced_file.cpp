@@ -7,6 +7,7 @@
 
 #include "mbs_export/files/certificate_file.hpp"
 #include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "mbs_export/files/ring_masters_file.hpp"
 
 namespace chladni::mbs_export {

@@ -12,9 +12,11 @@
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe.hpp"
 #include "report/describe_certificate.hpp"
+#include "report/origin.hpp"
 #include "report/output.hpp"
 #include "report/page/modes.hpp"
 #include "report/page/numbers.hpp"
@@ -29,6 +31,7 @@
 namespace chladni::report {
 namespace {
 
+namespace file_parts = mbs_export::file_parts;
 using std::filesystem::path;
 
 /// What the folder holds of a scene.
@@ -46,10 +49,23 @@ Found find_files(const ReportArguments& arguments)
   const auto file = [&](const char* kind) {
     return path(arguments.output) / (found.scene.name + kind);
   };
-  if (exists(file(".body.h5"))) found.body = mbs_export::read_body(file(".body.h5"));
-  if (exists(file(".reduced.h5")))
-    found.certificate = mbs_export::read_reduced(file(".reduced.h5")).certificate;
-  if (exists(file(".squeal.h5"))) found.results = squeal::read_results(file(".squeal.h5"));
+  const Stale stale = arguments.stale ? Stale::use : Stale::refuse;
+  const auto check = [&](const char* kind, Made what, const mbs_export::Provenance& origin) {
+    require_of_scene(found.scene, {.file = file(kind), .what = what, .origin = origin}, stale);
+  };
+  if (exists(file(".body.h5"))) {
+    found.body = mbs_export::read_body(file(".body.h5"));
+    check(".body.h5", Made::body, found.body->provenance);
+  }
+  if (exists(file(".reduced.h5"))) {
+    const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file(".reduced.h5"));
+    check(".reduced.h5", Made::reduction, reduced.provenance);
+    found.certificate = reduced.certificate;
+  }
+  if (exists(file(".squeal.h5"))) {
+    found.results = squeal::read_results(file(".squeal.h5"));
+    check(".squeal.h5", Made::results, file_parts::read_provenance(file(".squeal.h5")));
+  }
   if (!found.body && !found.results) {
     throw Error(fmt::format(
         "{}: holds neither {} nor {}; make them with `chladni run {} --output {}` and `squeal run`",
@@ -158,6 +174,8 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
       ->add_option("--benchmark", arguments.benchmark,
                    "end_to_end.json of ./dev bench: speed against error, drawn too")
       ->type_name("FILE");
+  report->add_flag("--stale", arguments.stale,
+                   "shows files too that were made before the scene changed");
   report->footer(
       fmt::format("Example (after `chladni run` and `squeal run` with the same SCENE and DIR):\n"
                   "  {} report scene.toml --output out\n"

@@ -13,6 +13,7 @@ struct ReportArguments {
   std::string scene;
   std::string output = ".";  ///< folder of the scene's files, and of the report
   std::string benchmark;     ///< JSON of speed against error; empty for none
+  bool stale = false;        ///< files made before a change of the scene are shown too
 };
 
 /// Declares the subcommand `report` of `app`; the values arrive in `arguments`.

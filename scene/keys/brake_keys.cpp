@@ -12,13 +12,13 @@ constexpr Admissible spring{.above = 0.0, .unit = "N/m"};
 constexpr Admissible damper{.at_least = 0.0, .unit = "N s/m"};
 constexpr Admissible inertia{.above = 0.0, .unit = "kg m^2"};
 
+constexpr Admissible friction{
+    .at_least = 0.0, .usual_to = 2.0, .usually = "it is a pure number, of linings 0.2 to 0.7"};
+
 constexpr Key brake_rows[] = {
-    {"squeal.friction",
-     number,
-     "required",
-     "coefficient of Coulomb; or a [table](squeal_models.md)",
-     {.at_least = 0.0}},
-    {"squeal.friction.kinetic", number, "required", "of fast sliding", {.at_least = 0.0}},
+    {"squeal.friction", number, "required",
+     "coefficient of Coulomb; or a [table](squeal_models.md)", friction},
+    {"squeal.friction.kinetic", number, "required", "of fast sliding", friction},
     {"squeal.friction.static",
      number,
      "kinetic",

@@ -5,7 +5,15 @@ namespace {
 
 using enum KeyKind;
 
-constexpr Admissible speed{.above = 0.0, .unit = "rad/s"};
+constexpr Admissible speed{
+    .above = 0.0,
+    .unit = "rad/s",
+    .usual_to = 2e3,
+    .usually = "it is in rad/s, and a wheel turns at 2 to 200; is it in rpm?"};
+constexpr Admissible speed_rpm{
+    .above = 0.0, .unit = "rpm", .usual_to = 2e4, .usually = "a wheel turns at 20 to 2000 rpm"};
+constexpr Admissible speed_km_h{
+    .above = 0.0, .unit = "km/h", .usual_to = 600.0, .usually = "squeal is heard below 50 km/h"};
 constexpr Admissible duration{.above = 0.0, .unit = "s"};
 constexpr std::string_view parameters = "friction | preload | stiffness";
 
@@ -22,15 +30,25 @@ constexpr Key squeal_rows[] = {
      number,
      "required",
      "distance of the two contact planes",
-     {.above = 0.0, .unit = "m"}},
+     {.above = 0.0, .unit = "m", .usual_to = 1.0, .usually = "it is in m; is it in mm?"}},
     {"squeal.use_modes",
      text,
      "all",
      "\"all\", \"nodal-diameters N\", or a list of mode numbers",
      {.at_least = 1}},
     {"squeal.speeds", table, "required", "rotation speeds, equally spaced"},
-    {"squeal.speeds.from_rad_s", number, "required", "the lowest", speed},
-    {"squeal.speeds.to_rad_s", number, "required", "the highest", speed},
+    {"squeal.speeds.from_rad_s", number, "or from_rpm, from_km_h", "the lowest", speed},
+    {"squeal.speeds.to_rad_s", number, "or to_rpm, to_km_h", "the highest", speed},
+    {"squeal.speeds.from_rpm", number, "or from_rad_s", "the lowest", speed_rpm},
+    {"squeal.speeds.to_rpm", number, "or to_rad_s", "the highest", speed_rpm},
+    {"squeal.speeds.from_km_h", number, "or from_rad_s", "the lowest, with wheel_radius",
+     speed_km_h},
+    {"squeal.speeds.to_km_h", number, "or to_rad_s", "the highest, with wheel_radius", speed_km_h},
+    {"squeal.speeds.wheel_radius",
+     number,
+     "speeds on the road are not told",
+     "of the wheel that rolls with the disc",
+     {.above = 0.0, .unit = "m", .usual_to = 3.0, .usually = "it is in m; is it in mm?"}},
     {"squeal.speeds.count", integer, "required", "how many", {.at_least = 1, .at_most = 1e6}},
     {"squeal.analyses",
      texts,

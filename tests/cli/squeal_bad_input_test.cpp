@@ -130,6 +130,20 @@ TEST(SquealBadInput, ThatDivergesLeavesAReadableFile)
   ASSERT_TRUE(results.failure);
 }
 
+TEST(SquealBadInput, ThatDivergesInATransientAloneFailsToo)
+{
+  // A spring that stiffens so much beyond its linear range is too stiff for the steps.
+  std::string scene = scene_with("\"transient\"");
+  scene = replaced(scene, "stiffness = 6e6,", "stiffness = 6e6, cubic_stiffness = 1e16,");
+  scene = replaced(scene, "initial_pad_displacement = 6.8e-8", "initial_pad_displacement = 0.05");
+  const Folder folder;
+  write_text(folder.path() / "scene.toml", scene);
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  EXPECT_EQ(ending.exit_code, 1);
+  EXPECT_NE(ending.err.find("diverged"), std::string::npos) << ending.err;
+}
+
 TEST(SquealProgram, LeavesNothingBehindWhenTheSceneIsWrong)
 {
   const Folder folder;

@@ -76,5 +76,39 @@ TEST(Rings, AskForZWhereTheHatStandsAboveTheirCircle)
   EXPECT_EQ(ring(0.01), "no error");
 }
 
+/// Eight nodes on the unit circle, of which the third is off it.
+Mesh circle_with_a_node_off(double off)
+{
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi / 4.0 * i, r = i == 2 ? 1.0 + off : 1.0;
+    mesh.node_numbers.push_back(i + 1);
+    mesh.positions.push_back({r * std::cos(angle), r * std::sin(angle), 0.0});
+  }
+  return mesh;
+}
+
+TEST(Rings, MoveNodesOntoTheirCircleAndSayHowFar)
+{
+  const RingOptions ring{.name = "seat", .radius = 1.0, .nodes = 8};
+  Mesh rounded = circle_with_a_node_off(2e-7);
+  add_rings(rounded, std::span(&ring, 1));
+  EXPECT_DOUBLE_EQ(std::hypot(rounded.positions[2][0], rounded.positions[2][1]), 1.0);
+  ASSERT_EQ(rounded.notes.size(), 1U);
+  EXPECT_NE(rounded.notes[0].find("2e-07 m"), std::string::npos) << rounded.notes[0];
+  Mesh exact = circle_with_a_node_off(0.0);
+  add_rings(exact, std::span(&ring, 1));
+  EXPECT_TRUE(exact.notes.empty());
+}
+
+TEST(Rings, SayHowManyOfTheirNodesAreThere)
+{
+  const RingOptions ring{.name = "seat", .radius = 1.0, .nodes = 8};
+  Mesh mesh = circle_with_a_node_off(0.01);
+  const std::string error = error_of([&] { add_rings(mesh, std::span(&ring, 1)); });
+  EXPECT_NE(error.find("7 of its 8 nodes are there"), std::string::npos) << error;
+  EXPECT_NE(error.find("angle 90 degrees"), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace chladni::mesh

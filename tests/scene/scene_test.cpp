@@ -150,6 +150,44 @@ TEST(Scene, HoldsTheSquealStudyInRadians)
   EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::automatic);
 }
 
+TEST(Scene, TakesSpeedsInAnyUnit)
+{
+  const std::string rad_s = "from_rad_s = 3.0, to_rad_s = 63.0";
+  const auto speeds = [&](const std::string& words) {
+    return parse_scene(replaced(disc, rad_s, words), "scene.toml").squeal->speeds;
+  };
+  EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").from, std::numbers::pi);
+  EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").to, 20.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(speeds("from_km_h = 3.6, to_rad_s = 63, wheel_radius = 0.25").from, 4.0);
+  EXPECT_EQ(speeds("from_rad_s = 3, to_rad_s = 63, wheel_radius = 0.25").wheel_radius, 0.25);
+  EXPECT_EQ(speeds(rad_s).wheel_radius, std::nullopt);
+  expect_messages(
+      {{rad_s, "from_rad_s = 3, to_rpm = 10",
+        "scene.toml:36: squeal.speeds.to_rpm = 10: must be >= 28.64788975654116 (rpm)"},
+       {rad_s, "from_rad_s = 3, to_rpm = 100, to_rad_s = 63",
+        "scene.toml:36: squeal.speeds.to_rpm = 100: give exactly one of to_rad_s, to_rpm, to_km_h"},
+       {rad_s, "from_km_h = 3, to_rad_s = 63",
+        "scene.toml:36: squeal.speeds.wheel_radius is missing: must be a number > 0 (m)"}});
+}
+
+TEST(Scene, NotesNumbersThatLookLikeAnotherUnits)
+{
+  const auto note = [&](const std::string& old_part, const std::string& new_part) {
+    const Scene scene = parse_scene(replaced(disc, old_part, new_part), "scene.toml");
+    return scene.notes.size() == 1 ? scene.notes[0] : "no single note";
+  };
+  EXPECT_TRUE(parse_scene(disc, "scene.toml").notes.empty());
+  EXPECT_EQ(note("9e10", "110"),
+            "scene.toml:10: material.iron.young = 110 is unusual: it is in Pa, and a steel has "
+            "2.1e11");
+  EXPECT_NE(note("6300.0", "7.2e-9").find("kg/m^3"), std::string::npos);
+  EXPECT_NE(note("outer_radius = 0.162", "outer_radius = 12").find("in mm?"), std::string::npos);
+  EXPECT_NE(note("thickness = 0.02", "thickness = 18").find("in mm?"), std::string::npos);
+  EXPECT_NE(note("thickness = 0.03", "thickness = 18").find("in mm?"), std::string::npos);
+  EXPECT_NE(note("friction = 0.6", "friction = 50").find("pure number"), std::string::npos);
+  EXPECT_NE(note("to_rad_s = 63.0", "to_rad_s = 5e5").find("rpm"), std::string::npos);
+}
+
 TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
 {
   EXPECT_EQ(parse_scene(disc, "scene.toml").squeal->limit_cycle_direct->speed, 19.0);
@@ -526,8 +564,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, "
        "spring, squeal, static, support, title"},
       {"count = 60", "count = 60, colour = 3",
-       "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_rad_s, "
-       "to_rad_s"},
+       "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_km_h, "
+       "from_rad_s, from_rpm, to_km_h, to_rad_s, to_rpm, wheel_radius"},
       {"modes = 100", "mods = 100",
        "scene.toml:26: reduce.mods is not a key here; did you mean modes?"},
   });

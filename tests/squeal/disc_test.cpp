@@ -138,6 +138,14 @@ TEST(Disc, RefusesWhatTheBodyDoesNotHave)
   EXPECT_NE(complaint(three_pairs(), list({})), "");
 }
 
+TEST(Disc, RefusesARingWhoseNodesDoNotRotate)
+{
+  auto still = three_pairs();
+  still.rings[0].W_r.setZero();
+  still.rings[0].W_t.setZero();
+  EXPECT_NE(complaint(still, {}).find("do not rotate"), std::string::npos) << complaint(still, {});
+}
+
 TEST(Disc, RefusesAHeldRingAndAFreeBody)
 {
   auto held = three_pairs();

@@ -1,0 +1,119 @@
+#include "report/origin.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <vector>
+
+#include "common/error.hpp"
+#include "files/file_digest.hpp"
+#include "report/output.hpp"
+#include "scene/changes.hpp"
+
+namespace chladni::report {
+
+namespace {
+
+/// The scenes that a file was made from, step by step; empty where a step has none.
+struct Texts {
+  std::string reduction, body, results;
+};
+
+Texts texts_of(const Read& read)
+{
+  const mbs_export::Provenance& origin = read.origin;
+  const auto first = [](const std::string& one, const std::string& other) {
+    return one.empty() ? other : one;
+  };
+  switch (read.what) {
+    case Made::reduction:
+      return {.reduction = origin.scene, .body = {}, .results = {}};
+    case Made::body:
+      return {.reduction = first(origin.reduction_scene, origin.scene),
+              .body = origin.scene,
+              .results = {}};
+    case Made::results:
+      break;
+  }
+  return {.reduction = first(origin.reduction_scene, origin.body_scene),
+          .body = origin.body_scene,
+          .results = origin.scene};
+}
+
+/// "the mesh file disc.msh" when it is there and is not what it was.
+std::vector<std::string> changed_mesh(const scene::Scene& scene,
+                                      const mbs_export::Provenance& origin)
+{
+  if (origin.mesh_file_digest.empty() || !scene.mesh.file) return {};
+  const std::string digest = files::file_digest(*scene.mesh.file);
+  if (digest.empty() || digest == origin.mesh_file_digest) return {};
+  return {fmt::format("the mesh file {}", *scene.mesh.file)};
+}
+
+/// What has changed, and what to run again.
+struct Verdict {
+  std::vector<std::string> changes;
+  std::string remedy;
+};
+
+void add(std::vector<std::string>& all, const std::vector<std::string>& more)
+{
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+std::string remedy_of(Made changed, const Read& read, const std::string& scene)
+{
+  const std::string folder = read.file.parent_path().string();
+  const std::string words =
+      fmt::format("{} --output {}", scene, folder.empty() ? std::string(".") : folder);
+  if (changed == Made::results) return fmt::format("`squeal run {}`", words);
+  const char* program = read.what == Made::reduction ? "reduce"
+                        : changed == Made::reduction ? "run"
+                                                     : "body";
+  const std::string first = fmt::format("`chladni {} {}`", program, words);
+  return read.what == Made::results ? first + fmt::format(" and `squeal run {}`", words) : first;
+}
+
+Verdict verdict_on(const scene::Scene& scene, const Read& read)
+{
+  using scene::Step;
+  const Texts texts = texts_of(read);
+  Verdict verdict;
+  Made first = Made::results;
+  add(verdict.changes, scene::changed_keys(texts.results, scene.text, Step::squeal));
+  const auto look_at = [&](const std::vector<std::string>& changes, Made what) {
+    if (!changes.empty()) first = what;
+    add(verdict.changes, changes);
+  };
+  look_at(scene::changed_keys(texts.body, scene.text, Step::body), Made::body);
+  look_at(scene::changed_keys(texts.reduction, scene.text, Step::reduction), Made::reduction);
+  look_at(changed_mesh(scene, read.origin), Made::reduction);
+  verdict.remedy = remedy_of(first, read, scene.path);
+  return verdict;
+}
+
+std::string list_of(const std::vector<std::string>& changes)
+{
+  constexpr std::size_t shown = 4;
+  const std::size_t n = std::min(shown, changes.size());
+  const std::string list =
+      fmt::format("{}", fmt::join(changes.begin(), changes.begin() + std::ptrdiff_t(n), ", "));
+  const std::size_t others = changes.size() - n;
+  return others > 0 ? fmt::format("{} and {} more", list, others) : list;
+}
+
+}  // namespace
+
+void require_of_scene(const scene::Scene& scene, const Read& read, Stale stale)
+{
+  const Verdict verdict = verdict_on(scene, read);
+  if (verdict.changes.empty()) return;
+  const std::string what = fmt::format("{} was made before these changes of {}: {}",
+                                       read.file.string(), scene.path, list_of(verdict.changes));
+  if (stale == Stale::refuse)
+    throw Error(fmt::format("{}; make it anew by {}, or take it as it is with --stale", what,
+                            verdict.remedy));
+  fmt::print(stderr, "{}\n", printable(what));
+}
+
+}  // namespace chladni::report
