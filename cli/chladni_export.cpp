@@ -76,21 +76,26 @@ mbs_export::formats::FloatingBody floating_body_of(const ExportArguments& argume
   return mbs_export::formats::floating_body(reduced, source.scene->body);
 }
 
+formats::SidOptions sid_options(const ExportArguments& arguments)
+{
+  return {.dialect = arguments.sid_dialect == "welib" ? formats::SidDialect::welib
+                                                      : formats::SidDialect::simpack,
+          .gyroscopic = arguments.sid_gyroscopic == "by-axis" ? formats::SidGyroscopic::by_axis
+                                                              : formats::SidGyroscopic::by_mode};
+}
+
 /// A body in a frame that moves with it.
 std::string export_floating_body(const ExportArguments& arguments, const Source& source,
                                  const mbs_export::formats::FloatingBody& floating)
 {
   if (arguments.format == "exudyn") {
-    const path file = target_of(arguments, source, ".exudyn.h5");
+    const path file = target_of(arguments, source, ".exudyn.hdf5");
     mbs_export::formats::write_exudyn(file, floating);
     return file.string();
   }
   if (arguments.format == "sid") {
-    const auto dialect = arguments.sid_dialect == "welib"
-                             ? mbs_export::formats::SidDialect::welib
-                             : mbs_export::formats::SidDialect::simpack;
     return write(target_of(arguments, source, ".SID_FEM"),
-                 mbs_export::formats::sid_fem(floating, dialect));
+                 formats::sid_fem(floating, sid_options(arguments)));
   }
   const auto version = arguments.format == "mbdyn" ? mbs_export::formats::MbdynVersion::v1_7
                                                    : mbs_export::formats::MbdynVersion::develop;
@@ -133,6 +138,12 @@ const std::vector<std::string>& export_formats()
 const std::vector<std::string>& sid_dialects()
 {
   static const std::vector<std::string> names{"simpack", "welib"};
+  return names;
+}
+
+const std::vector<std::string>& sid_gyroscopic_orders()
+{
+  static const std::vector<std::string> names{"by-mode", "by-axis"};
   return names;
 }
 

@@ -78,13 +78,18 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
       ->check(CLI::IsMember(chladni::cli::sid_dialects()))
       ->capture_default_str();
+  exported
+      ->add_option("--sid-gyroscopic", arguments.sid_gyroscopic,
+                   "order of the columns of Gr and Ge in SID_FEM")
+      ->check(CLI::IsMember(chladni::cli::sid_gyroscopic_orders()))
+      ->capture_default_str();
   exported->add_option("--json", arguments.json, "writes the summary for other programs")
       ->type_name("FILE");
   exported->footer(
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
-      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.h5");
+      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5");
 }
 
 void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)

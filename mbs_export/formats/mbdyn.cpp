@@ -30,12 +30,16 @@ std::string rows(const MatrixXd& A)
 
 std::string header(const ModalBody& body, MbdynVersion version)
 {
+  const bool is_old = version == MbdynVersion::v1_7;
   return fmt::format(
       "** Modal body in SI units, made by Chladni for MBDyn {}. Use it as\n"
       "**   joint: LABEL, modal, NODE, {}, from file, damping from file, \"FILE.fem\",\n"
-      "**     origin position, null, N_INTERFACES, ...;\n"
-      "** (without \"origin position\" the moments of inertia are not read)\n",
-      version == MbdynVersion::v1_7 ? "1.7" : "develop (2023 or later)", body.n_modes());
+      "**     N_INTERFACES, ...;\n{}",
+      is_old ? "1.7" : "develop (2023 or later)", body.n_modes(),
+      is_old
+          ? ""
+          : "** To find the modes of a body that spins, say \"use automatic differentiation;\" in "
+            "the control data.\n");
 }
 
 std::string node_groups(const ModalBody& body)

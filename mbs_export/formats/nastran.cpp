@@ -202,10 +202,11 @@ std::string assembly_file(const ReducedSystem& reduced, const NastranNumbers& nu
     pairs.push_back(pairs.back());
   }
   text += card("SECONCT", pairs) + rule("ATTACHMENT NODES") + grid_cards(reduced, numbers);
-  if (reduced.fixed_interface_frequencies.size() == 0) return text;
+  const auto n_modes = static_cast<int>(reduced.fixed_interface_frequencies.size());
+  if (n_modes == 0) return text;
+  // Written out: readers of bulk data know no THRU on this card.
   Fields scalar{se, "0", "", "NO", "", "", "", ""};
-  const Fields range = spoint_range(reduced, numbers);
-  for (int side = 0; side < 2; ++side) scalar.insert(scalar.end(), range.begin(), range.end());
+  for (int i = 0; i < n_modes; ++i) scalar.insert(scalar.end(), 2, field(numbers.first_spoint + i));
   return text + spoint_card(reduced, numbers) + card("SECONCT", scalar);
 }
 

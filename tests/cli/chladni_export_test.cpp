@@ -103,8 +103,11 @@ TEST(ChladniExport, WritesTheBodyOfASceneForOthersAndSaysSoInJson)
   EXPECT_NE(read_text(folder.path() / "out.json").find("\"files\": [\"disc.SID_FEM\"]"),
             std::string::npos);
   EXPECT_EQ(run(folder, command + "sid --sid-dialect other").exit_code, 2);
+  const std::string by_mode = read_text(folder.path() / "disc.SID_FEM");
+  EXPECT_EQ(run(folder, command + "sid --sid-dialect welib --sid-gyroscopic by-axis").exit_code, 0);
+  EXPECT_NE(read_text(folder.path() / "disc.SID_FEM"), by_mode);
   EXPECT_EQ(run(folder, command + "exudyn").exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "disc.exudyn.h5"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "disc.exudyn.hdf5"));
 }
 
 TEST(ChladniExport, SaysWhatIsMissing)
