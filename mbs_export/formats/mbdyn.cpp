@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "common/error.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -132,9 +132,10 @@ std::string invariant_groups(const FloatingBody& floating)
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
 {
   const ModalBody& body = floating.body;
-  if (body.n_modes() == 0) throw Error("MBDyn: the body has no elastic mode");
+  if (body.n_modes() == 0) throw ExportError("body.keep", "MBDyn: the body has no elastic mode");
   if (version == MbdynVersion::v1_7 && coupling(floating) > 1e-6)
-    throw Error(
+    throw ExportError(
+        "body.fixed",
         "MBDyn 1.7 cannot read how the modes of a held body move its centre of mass; leave the "
         "body free (fixed = []), whose modes need no such coupling, or write for mbdyn-develop");
   std::string text =

@@ -12,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "mbs_export/check_parts.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/op4.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -127,7 +128,8 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
 void require_writable(const ReducedSystem& reduced)
 {
   if (reduced.ring_motion)
-    throw Error(
+    throw ExportError(
+        "interface.rings",
         "Nastran: its grids have displacements as coordinates, not harmonics of a ring; take the "
         "rings out of interface.rings and reduce again");
   if (reduced.C.size() > 0 && check_parts::asymmetry(reduced.C) > 1e-8)

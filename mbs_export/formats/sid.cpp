@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
 #include "mbs_export/formats/node_numbers.hpp"
 
@@ -219,9 +219,10 @@ std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
 {
   const ModalBody& body = floating.body;
   const Index n = body.n_modes();
-  if (n == 0) throw Error("SID_FEM: the body has no elastic mode");
+  if (n == 0) throw ExportError("body.keep", "SID_FEM: the body has no elastic mode");
   if (!body.mass_integrals)
-    throw Error(
+    throw ExportError(
+        "reduce.mass_integrals",
         "SID_FEM: the reduced system has no mass integrals; reduce the scene again, without "
         "mass_integrals = false in [reduce]");
   const MassIntegrals& integrals = *body.mass_integrals;
