@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "cli/seal.hpp"
 #include "linear/solver_options.hpp"
 #include "report/page/report.hpp"
 
@@ -41,7 +42,7 @@ struct ChladniArguments {
   std::string info_file;
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
-  std::string seal_file;
+  SealArguments seal;
   ExportArguments exported;
   report::ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`

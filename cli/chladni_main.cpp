@@ -116,7 +116,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
   chladni::report::declare_report(app, arguments.report);
-  chladni::cli::declare_seal(app, arguments.seal_file);
+  chladni::cli::declare_seal(app, arguments.seal);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  chladni scene-reference > scene_reference.md");
   app.require_subcommand(1);
@@ -131,7 +131,7 @@ void perform(const CLI::App& app, const chladni::cli::ChladniArguments& argument
   if (app.got_subcommand("report"))
     return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });
   if (app.got_subcommand("seal"))
-    return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal_file); });
+    return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal); });
   if (app.got_subcommand("scene-reference"))
     return chladni::cases::on_first_rank(
         [] { fmt::print("{}", chladni::scene::scene_reference()); });
