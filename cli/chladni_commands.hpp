@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "cli/seal.hpp"
 #include "linear/solver_options.hpp"
 #include "report/page/report.hpp"
 
@@ -19,8 +20,9 @@ struct ExportArguments {
   std::string from = ".";  ///< folder of the scene's reduced system
   std::string output;      ///< the file to write; empty for NAME and the extension of the format
   int superelement = 100;  ///< its number in Nastran
-  std::string sid_dialect = "simpack";  ///< one of sid_dialects()
-  std::string json;                     ///< file for the summary; empty for none
+  std::string sid_dialect = "simpack";     ///< one of sid_dialects()
+  std::string sid_gyroscopic = "by-mode";  ///< one of sid_gyroscopic_orders()
+  std::string json;                        ///< file for the summary; empty for none
 };
 
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.
@@ -40,7 +42,7 @@ struct ChladniArguments {
   std::string info_file;
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
-  std::string seal_file;
+  SealArguments seal;
   ExportArguments exported;
   report::ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
@@ -82,6 +84,9 @@ const std::vector<std::string>& export_formats();
 
 /// The values of --sid-dialect.
 const std::vector<std::string>& sid_dialects();
+
+/// The values of --sid-gyroscopic.
+const std::vector<std::string>& sid_gyroscopic_orders();
 
 /// Says what a file of Chladni holds.
 void info_command(const ChladniArguments& arguments);

@@ -2,13 +2,19 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "cli/export_limits.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/exudyn.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
@@ -61,63 +67,99 @@ std::vector<std::string> export_superelement(const ExportArguments& arguments, c
                                              const mbs_export::ReducedSystem& reduced)
 {
   path file = target_of(arguments, source, ".op4");
-  const auto files = mbs_export::formats::nastran_superelement(reduced, arguments.superelement);
+  const auto files = formats::nastran_superelement(reduced, arguments.superelement);
   return {write(file, files.op4), write(file.replace_extension(".asm"), files.assembly),
           write(file.replace_extension(".pch"), files.superelement)};
 }
 
-mbs_export::formats::FloatingBody floating_body_of(const ExportArguments& arguments,
-                                                   const Source& source,
-                                                   const mbs_export::ReducedSystem& reduced)
+formats::FloatingBody floating_body_of(const ExportArguments& arguments, const Source& source,
+                                       const mbs_export::ReducedSystem& reduced)
 {
   if (!source.scene)
     throw Error(fmt::format("{}: {} needs the supports and modes of [body]; give the scene",
                             arguments.source, arguments.format));
-  return mbs_export::formats::floating_body(reduced, source.scene->body);
+  return formats::floating_body(reduced, source.scene->body);
+}
+
+/// The files written, and what is not in them.
+struct Exported {
+  std::vector<std::string> files;
+  std::vector<std::string> notes;
+};
+
+formats::SidOptions sid_options(const ExportArguments& arguments)
+{
+  return {.dialect = arguments.sid_dialect == "welib" ? formats::SidDialect::welib
+                                                      : formats::SidDialect::simpack,
+          .gyroscopic = arguments.sid_gyroscopic == "by-axis" ? formats::SidGyroscopic::by_axis
+                                                              : formats::SidGyroscopic::by_mode};
 }
 
 /// A body in a frame that moves with it.
 std::string export_floating_body(const ExportArguments& arguments, const Source& source,
-                                 const mbs_export::formats::FloatingBody& floating)
+                                 const formats::FloatingBody& floating)
 {
   if (arguments.format == "exudyn") {
-    const path file = target_of(arguments, source, ".exudyn.h5");
-    mbs_export::formats::write_exudyn(file, floating);
+    const path file = target_of(arguments, source, ".exudyn.hdf5");
+    formats::write_exudyn(file, floating);
     return file.string();
   }
   if (arguments.format == "sid") {
-    const auto dialect = arguments.sid_dialect == "welib"
-                             ? mbs_export::formats::SidDialect::welib
-                             : mbs_export::formats::SidDialect::simpack;
     return write(target_of(arguments, source, ".SID_FEM"),
-                 mbs_export::formats::sid_fem(floating, dialect));
+                 formats::sid_fem(floating, sid_options(arguments)));
   }
-  const auto version = arguments.format == "mbdyn" ? mbs_export::formats::MbdynVersion::v1_7
-                                                   : mbs_export::formats::MbdynVersion::develop;
-  return write(target_of(arguments, source, ".fem"),
-               mbs_export::formats::mbdyn_fem(floating, version));
+  const auto version =
+      arguments.format == "mbdyn" ? formats::MbdynVersion::v1_7 : formats::MbdynVersion::develop;
+  return write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
 }
 
-/// @return the files written
-std::vector<std::string> export_as(const ExportArguments& arguments)
+/// A reduced system, of which [body] is no part.
+Exported export_reduced(const ExportArguments& arguments, const Source& source,
+                        const mbs_export::ReducedSystem& reduced)
+{
+  const mbs_export::Damping damping =
+      source.scene ? source.scene->body.damping : mbs_export::Damping{};
+  std::vector<std::string> notes = damping_left_out(arguments.format, damping, 0);
+  if (arguments.format == "nastran-op4")
+    return {export_superelement(arguments, source, reduced), std::move(notes)};
+  const path file = target_of(arguments, source, ".dmig");
+  return {{write(file, formats::nastran_dmig(reduced))}, std::move(notes)};
+}
+
+Exported export_as(const ExportArguments& arguments, const Source& source)
+{
+  const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
+  if (arguments.format.starts_with("nastran")) return export_reduced(arguments, source, reduced);
+  const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
+  return {
+      {export_floating_body(arguments, source, floating)},
+      damping_left_out(arguments.format, source.scene->body.damping, floating.body.n_free_rigid)};
+}
+
+/// What the scene asks for in vain is told with its place there.
+Exported export_of(const ExportArguments& arguments)
 {
   const Source source = source_of(arguments);
-  const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
-  if (arguments.format == "nastran-dmig")
-    return {
-        write(target_of(arguments, source, ".dmig"), mbs_export::formats::nastran_dmig(reduced))};
-  if (arguments.format == "nastran-op4") return export_superelement(arguments, source, reduced);
-  return {export_floating_body(arguments, source, floating_body_of(arguments, source, reduced))};
+  try {
+    return export_as(arguments, source);
+  } catch (const mbs_export::BodyOptionError& error) {
+    scene::refuse_key(*source.scene, "body." + error.key(), error.why());
+  } catch (const formats::ExportError& error) {
+    if (source.scene) refuse_export(*source.scene, error);
+    throw Error(fmt::format("{}: {}", arguments.source, error.why()));
+  }
 }
 
 void export_and_report(const ExportArguments& arguments)
 {
-  const std::vector<std::string> files = export_as(arguments);
+  const auto [files, notes] = export_of(arguments);
   for (const std::string& file : files) fmt::print("wrote {}\n", file);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
   write_summary({.scene = arguments.source, .output = {}, .json = arguments.json},
                 {{"source", arguments.source},
                  {"format", arguments.format},
-                 {"files", report::Json::array({files.begin(), files.end()})}},
+                 {"files", report::Json::array({files.begin(), files.end()})},
+                 {"notes", report::Json::array({notes.begin(), notes.end()})}},
                 report::cost_so_far({}));
 }
 
@@ -133,6 +175,12 @@ const std::vector<std::string>& export_formats()
 const std::vector<std::string>& sid_dialects()
 {
   static const std::vector<std::string> names{"simpack", "welib"};
+  return names;
+}
+
+const std::vector<std::string>& sid_gyroscopic_orders()
+{
+  static const std::vector<std::string> names{"by-mode", "by-axis"};
   return names;
 }
 

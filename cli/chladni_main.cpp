@@ -78,13 +78,18 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
       ->check(CLI::IsMember(chladni::cli::sid_dialects()))
       ->capture_default_str();
+  exported
+      ->add_option("--sid-gyroscopic", arguments.sid_gyroscopic,
+                   "order of the columns of Gr and Ge in SID_FEM")
+      ->check(CLI::IsMember(chladni::cli::sid_gyroscopic_orders()))
+      ->capture_default_str();
   exported->add_option("--json", arguments.json, "writes the summary for other programs")
       ->type_name("FILE");
   exported->footer(
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
-      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.h5");
+      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5");
 }
 
 void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)
@@ -113,7 +118,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
   chladni::report::declare_report(app, arguments.report);
-  chladni::cli::declare_seal(app, arguments.seal_file);
+  chladni::cli::declare_seal(app, arguments.seal);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  chladni scene-reference > scene_reference.md");
   app.require_subcommand(1);
@@ -128,7 +133,7 @@ void perform(const CLI::App& app, const chladni::cli::ChladniArguments& argument
   if (app.got_subcommand("report"))
     return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });
   if (app.got_subcommand("seal"))
-    return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal_file); });
+    return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal); });
   if (app.got_subcommand("scene-reference"))
     return chladni::cases::on_first_rank(
         [] { fmt::print("{}", chladni::scene::scene_reference()); });

@@ -8,21 +8,28 @@
 
 namespace chladni::cli {
 
-void declare_seal(CLI::App& app, std::string& file)
+void declare_seal(CLI::App& app, SealArguments& arguments)
 {
   CLI::App* seal = app.add_subcommand("seal", "accepts a file that was changed on purpose");
-  seal->add_option("FILE", file, "a *.h5 of Chladni that another program has changed or made")
+  seal->add_option("FILE", arguments.file,
+                   "a *.h5 of Chladni that another program has changed or made")
       ->required();
-  seal->footer(
-      fmt::format("A file that is not as it was written is refused. This accepts it as it is now.\n"
-                  "Example:\n  {} seal out/disc.body.h5",
-                  app.get_name()));
+  seal->add_flag("--detach", arguments.detach,
+                 "the seal goes into FILE.seal; FILE is then plain HDF5 from its first byte on");
+  seal->footer(fmt::format(
+      "A file that is not as it was written is refused. This accepts it as it is now.\n"
+      "Some readers of HDF5 (pyfive, jsfive) do not look beyond the first byte: --detach is for "
+      "them.\nExamples:\n  {0} seal out/disc.body.h5\n  {0} seal --detach out/disc.body.h5",
+      app.get_name()));
 }
 
-void seal(const std::string& file)
+void seal(const SealArguments& arguments)
 {
-  files::seal_file(file);
-  fmt::print("{}: sealed as it is now; what it holds was not checked\n", file);
+  const std::string& file = arguments.file;
+  files::seal_file(file, arguments.detach ? files::SealPlace::beside : files::SealPlace::inside);
+  const std::string where =
+      arguments.detach ? fmt::format(", by {}", files::detached_seal(file)) : "";
+  fmt::print("{}: sealed as it is now{}; what it holds was not checked\n", file, where);
 }
 
 }  // namespace chladni::cli

@@ -8,11 +8,17 @@ class App;
 
 namespace chladni::cli {
 
-/// Declares the subcommand `seal` of `app`; its file arrives in `file`.
-void declare_seal(CLI::App& app, std::string& file);
+/// What `seal` takes.
+struct SealArguments {
+  std::string file;
+  bool detach = false;  ///< the seal goes into FILE.seal, and FILE is HDF5 from its first byte on
+};
+
+/// Declares the subcommand `seal` of `app`.
+void declare_seal(CLI::App& app, SealArguments& arguments);
 
 /// Accepts a file that was changed on purpose (files/seal.hpp), and says so.
 /// @throws chladni::Error when libhdf5 cannot open it, or it cannot be written.
-void seal(const std::string& file);
+void seal(const SealArguments& arguments);
 
 }  // namespace chladni::cli

@@ -23,7 +23,7 @@ struct SquealArguments {
   chladni::cli::SceneArguments scene;
   std::string body_file;
   std::string info_file;
-  std::string seal_file;
+  chladni::cli::SealArguments seal;
   chladni::report::ReportArguments report;
 };
 
@@ -60,7 +60,7 @@ int main(int argc, char** argv)
   declare_run(app, arguments);
   declare_info(app, arguments);
   chladni::report::declare_report(app, arguments.report);
-  chladni::cli::declare_seal(app, arguments.seal_file);
+  chladni::cli::declare_seal(app, arguments.seal);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
@@ -75,7 +75,7 @@ int main(int argc, char** argv)
     } else if (app.got_subcommand("report")) {
       chladni::report::write_report(arguments.report);
     } else if (app.got_subcommand("seal")) {
-      chladni::cli::seal(arguments.seal_file);
+      chladni::cli::seal(arguments.seal);
     } else if (app.got_subcommand("scene-reference")) {
       fmt::print("{}", chladni::scene::scene_reference());
     } else {

@@ -50,6 +50,7 @@ set(light_headers
     mbs_export/mass_integrals.hpp
     mbs_export/files/body_file.hpp
     mbs_export/files/reduced_file.hpp
+    mbs_export/formats/export_error.hpp
     mbs_export/formats/exudyn.hpp
     mbs_export/formats/mbdyn.hpp
     mbs_export/formats/nastran.hpp

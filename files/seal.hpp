@@ -11,19 +11,31 @@ namespace chladni::files {
 
 constexpr std::size_t seal_size = 512;  ///< bytes; the least that HDF5 leaves free
 
+/// Where the seal of a file is: in its first bytes, or in a small file FILE.seal beside it, so that
+/// the file is HDF5 from its first byte on, for readers that do not look for HDF5 further on.
+enum class SealPlace { inside, beside };
+
 /// Seals a file whose first 512 bytes are free for it.
 /// @return whether it could be read and written
 bool write_seal(const std::string& path);
 
-/// Compares a file with its seal.
-/// @return whether it has one; without it a file must begin as HDF5 does, as those of the first
+/// Compares a file with its seal, inside or beside it.
+/// @return whether it has one; without a seal inside a file must begin as HDF5 does, as those of
+/// the first
 ///         release and of other programs do
 /// @throws chladni::Error when it was damaged, cut short or changed since, or begins in another
 /// way.
 bool check_seal(const std::string& path);
 
-/// Seals what a file holds now, with or without an older seal; replaces it as a whole.
+/// Seals what a file holds now, with or without an older seal of either kind; replaces it as a
+/// whole.
 /// @throws chladni::Error when libhdf5 cannot read it, or it cannot be written.
-void seal_file(const std::string& path);
+void seal_file(const std::string& path, SealPlace place = SealPlace::inside);
+
+/// The name of a seal beside its file, FILE.seal.
+std::string detached_seal(const std::string& path);
+
+/// Removes the seal beside a file that has one inside. Others' files of that name stay.
+void remove_detached_seal(const std::string& path);
 
 }  // namespace chladni::files

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "scene/read_tables.hpp"
@@ -29,6 +32,20 @@ bool is_reduced(const Table& root, const Scene& scene, Purpose purpose)
 {
   if (root.has("interface") || root.has("reduce")) return true;
   return purpose == Purpose::everything && !scene.static_solution && !scene.natural_modes;
+}
+
+/// The table "reduce", or of the list "spring" the second one, "spring[2]".
+std::optional<Table> table_at(const Table& table, std::string_view step)
+{
+  const std::size_t bracket = step.find('[');
+  const std::string_view name = step.substr(0, bracket);
+  if (!table.has(name)) return std::nullopt;
+  if (bracket == std::string_view::npos) return table.table(name);
+  std::size_t place = 0;
+  std::from_chars(step.data() + bracket + 1, step.data() + step.size(), place);
+  const std::vector<Table> tables = table.tables(name);
+  if (place < 1 || place > tables.size()) return std::nullopt;
+  return tables[place - 1];
 }
 
 }  // namespace
@@ -91,9 +108,9 @@ void refuse_key(const Scene& scene, const std::string& key, const std::string& w
   Table table = parse_toml(scene.text, scene.path);
   std::string_view rest = key;
   for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
-    const std::string_view name = rest.substr(0, dot);
-    if (!table.has(name)) break;
-    table = table.table(name);
+    const auto inner = table_at(table, rest.substr(0, dot));
+    if (!inner) break;
+    table = *inner;
     rest.remove_prefix(dot + 1);
   }
   if (table.has(rest)) table.refuse(rest, why);

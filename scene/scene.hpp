@@ -81,7 +81,8 @@ Scene parse_scene(const std::string& text, const std::string& path,
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
-/// Refuses the value of a key ("body.keep.modes") that turns out wrong after the reading.
+/// Refuses the value of a key ("body.keep.modes"; "spring[2].damping" in the second table of a
+/// list) that turns out wrong after the reading.
 /// @throws chladni::Error naming file, line, key and value.
 [[noreturn]] void refuse_key(const Scene& scene, const std::string& key, const std::string& why);
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/error.hpp"
 #include "files/hdf5.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -166,9 +166,10 @@ void write_exudyn(const std::string& path, const FloatingBody& floating)
 {
   const ModalBody& body = floating.body;
   const Index n = body.n_modes();
-  if (n == 0) throw Error("Exudyn: the body has no elastic mode");
+  if (n == 0) throw ExportError("body.keep", "Exudyn: the body has no elastic mode");
   if (!body.mass_integrals)
-    throw Error(
+    throw ExportError(
+        "reduce.mass_integrals",
         "Exudyn: the reduced system has no mass integrals; reduce the scene again, without "
         "mass_integrals = false in [reduce]");
   const Nodes nodes = all_nodes(body);

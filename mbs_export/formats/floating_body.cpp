@@ -6,7 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/error.hpp"
+#include "mbs_export/check_parts.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/rigid_body.hpp"
 
@@ -53,16 +54,53 @@ void add_from_reduced(ModalBody& elastic, const ReducedSystem& reduced, const Ma
                      reduced.picture.transformation * T};
 }
 
+/// Whether A R != 0 for the rigid motions R of the masters, where A = A^T >= 0: then and only then
+/// R_k^T A R_k > 0. Beyond round-off, which is a share of the largest such sum without signs; the
+/// size of the body makes rotations and translations comparable.
+bool resists_rigid_motion(const ReducedSystem& reduced, const MatrixXd& A, double round_off)
+{
+  MatrixXd R = rigid_body_vectors(reduced, centre_of_nodes(reduced));
+  R.rightCols(3) /= check_parts::characteristic_length(reduced.attachment_nodes);
+  const MatrixXd terms = R.cwiseAbs().transpose() * A.cwiseAbs() * R.cwiseAbs();
+  return (R.transpose() * A * R).diagonal().cwiseAbs().maxCoeff() >
+         round_off * terms.diagonal().maxCoeff();
+}
+
+void refuse_dampers_to_ground(const ReducedSystem& reduced, const Damping& damping)
+{
+  if (damping.type != Damping::Type::matrix || reduced.C.size() == 0) return;
+  // C_r = Q_CB^T C Q_CB has the round-off of a product, and Q_CB R that of a solution, squared.
+  if (!resists_rigid_motion(reduced, reduced.C, 1e-10)) return;
+  throw ExportError(
+      "spring.damping",
+      "a damper to the ground slows the rigid motion, but this format has no damping except "
+      "between elastic modes; put the damper into the model of the other program and take it out "
+      "of the scene, or leave all dampers out with damping = { type = \"none\" } in [body]");
+}
+
+void require_rigid_motions(const ReducedSystem& reduced, int n_rigid)
+{
+  if (n_rigid == 6) return;
+  // K_r is a difference of large numbers.
+  if (resists_rigid_motion(reduced, reduced.K, 1e-8))
+    throw ExportError(
+        "spring.stiffness",
+        "a spring to the ground holds the body, but a floating frame needs a free one; put the "
+        "spring into the model of the other program and take it out of the scene");
+  throw ExportError(
+      "interface.nodes",
+      fmt::format("the interface nodes show {} of the 6 rigid-body motions; a floating frame needs "
+                  "a free body with all of them",
+                  n_rigid));
+}
+
 }  // namespace
 
 FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& options)
 {
+  refuse_dampers_to_ground(reduced, options.damping);
   const ModalBody body = make_body(with_all_coordinates(reduced), options);
-  if (body.n_rigid != 6)
-    throw Error(
-        fmt::format("the interface nodes show {} of the 6 rigid-body motions; a floating frame "
-                    "needs a free body with all of them",
-                    body.n_rigid));
+  require_rigid_motions(reduced, body.n_rigid);
   const Index n_rigid = std::ranges::count(body.kinds, ModeKind::rigid);
   const MatrixXd T = body.picture.transformation.rightCols(body.n_modes() - n_rigid);
   const MatrixXd P =

@@ -18,7 +18,9 @@ struct FloatingBody {
 
 /// The elastic modes of `make_body`, in the frame of the mesh. Modes of a body that is not held are
 /// orthogonal to the rigid motions, so they carry no momentum; those of a held body do.
-/// @throws chladni::Error as make_body, and when the masters do not show all six rigid motions.
+/// @throws chladni::Error as make_body; ExportError when springs or dampers to the ground resist a
+///         rigid motion (K R != 0, or C R != 0 where the body has the dampers), which the frame
+///         does without them, and when the masters do not show all six rigid motions.
 FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& options);
 
 /// Largest momentum of a mode over that of the body at the same kinetic energy; below 1e-6 it is

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "common/error.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -30,12 +30,16 @@ std::string rows(const MatrixXd& A)
 
 std::string header(const ModalBody& body, MbdynVersion version)
 {
+  const bool is_old = version == MbdynVersion::v1_7;
   return fmt::format(
       "** Modal body in SI units, made by Chladni for MBDyn {}. Use it as\n"
       "**   joint: LABEL, modal, NODE, {}, from file, damping from file, \"FILE.fem\",\n"
-      "**     origin position, null, N_INTERFACES, ...;\n"
-      "** (without \"origin position\" the moments of inertia are not read)\n",
-      version == MbdynVersion::v1_7 ? "1.7" : "develop (2023 or later)", body.n_modes());
+      "**     N_INTERFACES, ...;\n{}",
+      is_old ? "1.7" : "develop (2023 or later)", body.n_modes(),
+      is_old
+          ? ""
+          : "** To find the modes of a body that spins, say \"use automatic differentiation;\" in "
+            "the control data.\n");
 }
 
 std::string node_groups(const ModalBody& body)
@@ -128,9 +132,10 @@ std::string invariant_groups(const FloatingBody& floating)
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
 {
   const ModalBody& body = floating.body;
-  if (body.n_modes() == 0) throw Error("MBDyn: the body has no elastic mode");
+  if (body.n_modes() == 0) throw ExportError("body.keep", "MBDyn: the body has no elastic mode");
   if (version == MbdynVersion::v1_7 && coupling(floating) > 1e-6)
-    throw Error(
+    throw ExportError(
+        "body.fixed",
         "MBDyn 1.7 cannot read how the modes of a held body move its centre of mass; leave the "
         "body free (fixed = []), whose modes need no such coupling, or write for mbdyn-develop");
   std::string text =

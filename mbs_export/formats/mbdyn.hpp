@@ -11,10 +11,10 @@ namespace chladni::mbs_export::formats {
 enum class MbdynVersion { v1_7, develop };
 
 /// A body for MBDyn's joint "modal" (*.fem), in the frame of the mesh. The inertia stands in group
-/// 12 and never in group 11, since the reader takes lumped masses in place of it; and the joint
-/// must say "origin position, null", without which the reader leaves the moments of inertia at
-/// zero. The invariants 8, 5 and 9 (inertia that changes with deformation) are written where the
-/// body has its mass integrals.
+/// 12 and never in group 11, since the reader takes lumped masses in place of it. The joint must
+/// not move the origin ("origin position", "origin node"): the reader then shifts the nodes and the
+/// inertia, but not the invariants. The invariants 8, 5 and 9 (inertia that changes with
+/// deformation) are written where the body has its mass integrals.
 /// @throws chladni::Error when 1.7 cannot express the coupling of a held body with its frame.
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version);
 

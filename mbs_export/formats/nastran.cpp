@@ -12,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "mbs_export/check_parts.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/op4.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -127,7 +128,8 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
 void require_writable(const ReducedSystem& reduced)
 {
   if (reduced.ring_motion)
-    throw Error(
+    throw ExportError(
+        "interface.rings",
         "Nastran: its grids have displacements as coordinates, not harmonics of a ring; take the "
         "rings out of interface.rings and reduce again");
   if (reduced.C.size() > 0 && check_parts::asymmetry(reduced.C) > 1e-8)
@@ -202,10 +204,11 @@ std::string assembly_file(const ReducedSystem& reduced, const NastranNumbers& nu
     pairs.push_back(pairs.back());
   }
   text += card("SECONCT", pairs) + rule("ATTACHMENT NODES") + grid_cards(reduced, numbers);
-  if (reduced.fixed_interface_frequencies.size() == 0) return text;
+  const auto n_modes = static_cast<int>(reduced.fixed_interface_frequencies.size());
+  if (n_modes == 0) return text;
+  // Written out: readers of bulk data know no THRU on this card.
   Fields scalar{se, "0", "", "NO", "", "", "", ""};
-  const Fields range = spoint_range(reduced, numbers);
-  for (int side = 0; side < 2; ++side) scalar.insert(scalar.end(), range.begin(), range.end());
+  for (int i = 0; i < n_modes; ++i) scalar.insert(scalar.end(), 2, field(numbers.first_spoint + i));
   return text + spoint_card(reduced, numbers) + card("SECONCT", scalar);
 }
 

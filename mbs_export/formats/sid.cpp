@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.hpp"
+#include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
 #include "mbs_export/formats/node_numbers.hpp"
 
@@ -182,6 +182,17 @@ Rotational rotational(const FloatingBody& floating, const MassIntegrals& integra
   return terms;
 }
 
+/// Columns by mode and axis, or by axis and mode.
+Taylor in_order(const Taylor& block, SidGyroscopic order)
+{
+  if (order == SidGyroscopic::by_mode) return block;
+  const Index n = block.M0.cols() / 3;
+  Taylor by_axis = block;
+  for (Index mode = 0; mode < n; ++mode)
+    for (Index c = 0; c < 3; ++c) by_axis.M0.col(c * n + mode) = block.M0.col(3 * mode + c);
+  return by_axis;
+}
+
 /// What readers would take for a value or an end of line is left out.
 std::string header(const ModalBody& body)
 {
@@ -204,17 +215,18 @@ void add_reference(SidText& sid, const ModalBody& body)
 
 }  // namespace
 
-std::string sid_fem(const FloatingBody& floating, SidDialect dialect)
+std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
 {
   const ModalBody& body = floating.body;
   const Index n = body.n_modes();
-  if (n == 0) throw Error("SID_FEM: the body has no elastic mode");
+  if (n == 0) throw ExportError("body.keep", "SID_FEM: the body has no elastic mode");
   if (!body.mass_integrals)
-    throw Error(
+    throw ExportError(
+        "reduce.mass_integrals",
         "SID_FEM: the reduced system has no mass integrals; reduce the scene again, without "
         "mass_integrals = false in [reduce]");
   const MassIntegrals& integrals = *body.mass_integrals;
-  SidText sid(n, dialect);
+  SidText sid(n, options.dialect);
   sid.line("new modal   =");
   add_reference(sid, body);
   sid.line("frame");
@@ -225,14 +237,14 @@ std::string sid_fem(const FloatingBody& floating, SidDialect dialect)
   sid.line("end frame");
   sid.taylor("mdCM", {integrals.first,
                       for_each_mode(n, [&](Index j) { return integrals.displacement.col(j); })});
-  sid.taylor("J", inertia(integrals, dialect));
+  sid.taylor("J", inertia(integrals, options.dialect));
   sid.taylor("Ct", {integrals.displacement.transpose()});
   const Rotational terms = rotational(floating, integrals);
   sid.taylor("Cr", terms.Cr);
   sid.taylor("Me", {MatrixXd::Identity(n, n)});
-  sid.taylor("Gr", terms.Gr);
-  sid.taylor("Ge", terms.G_e);
-  sid.taylor("Oe", centrifugal(integrals, dialect));
+  sid.taylor("Gr", in_order(terms.Gr, options.gyroscopic));
+  sid.taylor("Ge", in_order(terms.G_e, options.gyroscopic));
+  sid.taylor("Oe", centrifugal(integrals, options.dialect));
   sid.taylor("ksigma", {MatrixXd::Zero(n, 1)});
   sid.taylor("Ke", {MatrixXd(body.omega.cwiseAbs2().asDiagonal())});
   sid.taylor("De", {body.C.size() > 0 ? body.C : MatrixXd::Zero(n, n)});

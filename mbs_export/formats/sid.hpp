@@ -11,11 +11,20 @@ namespace chladni::mbs_export::formats {
 /// xy, yz, xz or xx, yy, zz, xy, xz, yz), and J as six rows or as a matrix.
 enum class SidDialect { simpack, welib };
 
+/// The order of the columns of Gr and Ge: the three axes of the first mode, then those of the next,
+/// or all modes about x, then about y, then about z. Public readers and files have either.
+enum class SidGyroscopic { by_mode, by_axis };
+
+struct SidOptions {
+  SidDialect dialect = SidDialect::simpack;
+  SidGyroscopic gyroscopic = SidGyroscopic::by_mode;
+};
+
 /// A body as Standard Input Data (*.SID_FEM) in the frame of the mesh: shapes at the attachment
 /// nodes, the inertia and its change with the deformation to first order, gyroscopic and
 /// centrifugal matrices. Without geometric stiffening, so ksigma is zero and Oe, Ct are those of
 /// the mass alone. Gr has no first order.
 /// @throws chladni::Error when the body has no mass integrals or no elastic mode.
-std::string sid_fem(const FloatingBody& floating, SidDialect dialect);
+std::string sid_fem(const FloatingBody& floating, const SidOptions& options);
 
 }  // namespace chladni::mbs_export::formats

@@ -103,8 +103,135 @@ TEST(ChladniExport, WritesTheBodyOfASceneForOthersAndSaysSoInJson)
   EXPECT_NE(read_text(folder.path() / "out.json").find("\"files\": [\"disc.SID_FEM\"]"),
             std::string::npos);
   EXPECT_EQ(run(folder, command + "sid --sid-dialect other").exit_code, 2);
+  const std::string by_mode = read_text(folder.path() / "disc.SID_FEM");
+  EXPECT_EQ(run(folder, command + "sid --sid-dialect welib --sid-gyroscopic by-axis").exit_code, 0);
+  EXPECT_NE(read_text(folder.path() / "disc.SID_FEM"), by_mode);
   EXPECT_EQ(run(folder, command + "exudyn").exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "disc.exudyn.h5"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "disc.exudyn.hdf5"));
+}
+
+/// Writes the reduced system of a wheel with damping between its nodes, and with a spring (N/m) and
+/// a damper (N s/m) from its hub to the ground along z.
+void write_grounded_wheel(const Folder& folder, double stiffness, double damping)
+{
+  mbs_export::ReducedSystem reduced = wheel();
+  const Eigen::Index hub_z = reduced.n_masters() - 4;
+  reduced.K(hub_z, hub_z) += stiffness;
+  reduced.C = 1e-5 * wheel().K;
+  reduced.C(hub_z, hub_z) += damping;
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", reduced);
+}
+
+/// The example's scene with twelve nodes on its ring, nothing said of damping, and more at its end.
+std::string scene_with(const std::string& more)
+{
+  const std::string scene = read_text(CHLADNI_SOURCE_DIR "/examples/thesis_disc/scene.toml");
+  return replaced(replaced(scene, "nodes = 60", "nodes = 12"), "damping = { type = \"none\" }\n",
+                  "") +
+         "\n" + more + "\n";
+}
+
+std::string line_of_last(const std::string& text)
+{
+  return std::to_string(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(ChladniExport, NamesTheDamperToTheGroundThatAFormatCannotHold)
+{
+  const Folder folder;
+  write_grounded_wheel(folder, 0.0, 7.5);
+  const std::string scene = scene_with(
+      "[[spring]]\nat = \"track\"\nto = \"hub\"\ndamping = { z = 1.0 }\n"
+      "[[spring]]\nat = \"hub\"\ndamping = { z = 7.5 }");
+  write_text(folder.path() / "scene.toml", scene);
+  for (const std::string format : {"mbdyn", "mbdyn-develop", "sid", "exudyn"}) {
+    const Ending ending = run(folder, chladni_program + " export scene.toml --format " + format);
+    EXPECT_EQ(ending.exit_code, 1);
+    EXPECT_EQ(ending.err.find("scene.toml:" + line_of_last(scene) +
+                              ": spring[2].damping: at \"hub\": "
+                              "a damper to the ground"),
+              0u)
+        << ending.err;
+  }
+  const Ending held = run(folder, chladni_program + " export scene.toml --format nastran-dmig");
+  EXPECT_EQ(held.exit_code, 0) << held.err;
+  EXPECT_NE(read_text(folder.path() / "disc.dmig").find("DMIG    BRED"), std::string::npos);
+  EXPECT_EQ(folder.n_files(), 3u);
+}
+
+TEST(ChladniExport, NamesTheSpringToTheGround)
+{
+  const Folder folder;
+  write_grounded_wheel(folder, 1e6, 0.0);
+  const std::string scene = scene_with("[[spring]]\nat = \"hub\"\nstiffness = { z = 1e6 }");
+  write_text(folder.path() / "scene.toml", scene);
+  Ending ending = run(folder, chladni_program + " export scene.toml --format sid");
+  EXPECT_EQ(ending.exit_code, 1);
+  EXPECT_EQ(ending.err.find("scene.toml:" + line_of_last(scene) +
+                            ": spring.stiffness: at \"hub\": "
+                            "a spring to the ground"),
+            0u)
+      << ending.err;
+  write_text(folder.path() / "scene.toml", scene_with(""));
+  ending = run(folder, chladni_program + " export scene.toml --format sid");
+  EXPECT_NE(ending.err.find("the scene has none now"), std::string::npos) << ending.err;
+}
+
+TEST(ChladniExport, NamesFileAndLineOfWhatAFormatCannotHold)
+{
+  const Folder folder;
+  mbs_export::ReducedSystem reduced = wheel();
+  reduced.mass_integrals.reset();
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", reduced);
+  const std::string scene =
+      replaced(scene_with(""), "modes = 100", "modes = 100\nmass_integrals = false");
+  const auto line = [](const std::string& text, const std::string& key) {
+    const auto end = text.begin() + std::ptrdiff_t(text.find(key));
+    return "scene.toml:" + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": ";
+  };
+  const auto refusal = [&](const std::string& text, const std::string& format) {
+    write_text(folder.path() / "scene.toml", text);
+    const Ending ending = run(folder, chladni_program + " export scene.toml --format " + format);
+    EXPECT_EQ(ending.exit_code, 1);
+    return ending.err;
+  };
+  EXPECT_EQ(refusal(scene, "sid")
+                .find(line(scene, "mass_integrals") + "reduce.mass_integrals = false: SID_FEM"),
+            0u);
+  EXPECT_EQ(refusal(scene, "mbdyn").find(line(scene, "fixed = ") + "body.fixed = "), 0u);
+  const std::string greedy = replaced(scene, "keep = { modes = 40 }", "keep = { modes = 4000 }");
+  EXPECT_EQ(refusal(greedy, "exudyn").find(line(greedy, "keep = ") + "body.keep"), 0u)
+      << refusal(greedy, "exudyn");
+}
+
+TEST(ChladniExport, SaysWhichDampingOfTheBodyIsLeftOut)
+{
+  const Folder folder;
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", wheel());
+  const std::string free = replaced(scene_with(""), "fixed = [\"hub\"]", "fixed = []");
+  const std::string no_squeal = free.substr(0, free.find("[squeal]"));
+  const auto said = [&](const std::string& damping, const std::string& format) {
+    write_text(folder.path() / "scene.toml",
+               replaced(no_squeal, "keep = { modes = 40 }",
+                        "keep = { modes = 40 }\ndamping = " + damping));
+    const Ending ending =
+        run(folder, chladni_program + " export scene.toml --json out.json --format " + format);
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    return ending.out;
+  };
+  const std::string modal = "{ type = \"modal\", ratio = 0.01 }",
+                    rayleigh = "{ type = \"rayleigh\", alpha = 3.0, beta = 1e-7 }";
+  EXPECT_NE(said(modal, "exudyn").find("note: [body] damping (type = \"modal\") is left out"),
+            std::string::npos);
+  EXPECT_NE(read_text(folder.path() / "out.json").find("\"notes\": [\"[body] damping"),
+            std::string::npos);
+  EXPECT_NE(said(rayleigh, "nastran-dmig").find("note: [body] damping (type = \"rayleigh\")"),
+            std::string::npos);
+  EXPECT_NE(said(rayleigh, "mbdyn").find("note: [body] damping.alpha is left out"),
+            std::string::npos);
+  for (const std::string format : {"mbdyn", "sid"})
+    EXPECT_EQ(said(modal, format).find("note:"), std::string::npos);
+  EXPECT_EQ(said("{ type = \"none\" }", "exudyn").find("note:"), std::string::npos);
 }
 
 TEST(ChladniExport, SaysWhatIsMissing)

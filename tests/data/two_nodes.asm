@@ -16,4 +16,4 @@ $ FIXED-INTERFACE MODES
 $
 SPOINT         9    THRU      10
 SECONCT      100       0              NO
-               9    THRU      10       9    THRU      10
+               9       9      10      10

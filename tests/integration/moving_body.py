@@ -70,8 +70,8 @@ def exports(programs, folder, name):
     scene = folder / "scene.toml"
     json_file = folder / "export.json"
     run(programs / "chladni", "export", scene, "--from", folder, "--format", "exudyn",
-        "--output", folder / "a.h5", "--json", json_file)
-    with h5py.File(folder / "a.h5") as file:
+        "--output", folder / "a.exudyn.hdf5", "--json", json_file)
+    with h5py.File(folder / "a.exudyn.hdf5") as file:
         cms = {key: value_of(item) for key, item in file.items()}
     n_modes, n_nodes = cms["infoList"][:2]
     expect("Exudyn: rows of the shapes", cms["modeBasis"].shape[0] - 3 * n_nodes, 0)

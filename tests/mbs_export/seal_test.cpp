@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "files/hdf5.hpp"
@@ -32,6 +35,21 @@ bool contains(const std::string& text, const std::string& part)
   return text.find(part) != std::string::npos;
 }
 
+/// The bytes of HDF5 but for where its superblock (of version 0) says that it begins and ends.
+std::string without_places(std::string hdf5)
+{
+  for (const std::size_t at : {24, 40}) hdf5.replace(at, 8, 8, '?');
+  return hdf5;
+}
+
+/// An address in the superblock of version 0: where HDF5 begins (24) or ends (40).
+std::uint64_t place_in(const std::string& hdf5, std::size_t at)
+{
+  std::uint64_t place = 0;
+  std::memcpy(&place, hdf5.data() + at, sizeof place);
+  return place;
+}
+
 /// Whether the seal speaks, and not libhdf5 or what reads with it.
 bool is_refused_by_the_seal(const std::string& path)
 {
@@ -47,12 +65,12 @@ TEST(Seal, IsTextBeforeAFileOfHdf5)
   const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5");
   put_bytes(path, golden);
   files::seal_file(path);
-  EXPECT_EQ(bytes_of(path).substr(files::seal_size), golden);
+  EXPECT_EQ(without_places(bytes_of(path).substr(files::seal_size)), without_places(golden));
   const std::string seal = bytes_of(path).substr(0, files::seal_size);
   EXPECT_EQ(seal.substr(0, seal.find_last_not_of(" \n") + 1),
             "Chladni seal 1\n"
             "bytes 28872\n"
-            "xxh64 744ed126c2961351 of all bytes behind these 512\n"
+            "xxh64 dcdc114ec3f7af04 of all bytes behind these 512\n"
             "What follows is an HDF5 file. When you have changed it on purpose: chladni seal FILE");
 }
 
@@ -150,6 +168,93 @@ TEST(SealFile, LeavesWhatLibhdf5CannotOpen)
   EXPECT_TRUE(
       contains(error_of([&] { files::seal_file(folder.file("none.h5")); }), "no such file"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(DetachedSeal, LeavesAPlainFileOfHdf5)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), whole = sealed_bytes(path, 100);
+  EXPECT_EQ(place_in(whole.substr(files::seal_size), 24), files::seal_size);
+  files::seal_file(path, files::SealPlace::beside);
+  const std::string plain = bytes_of(path);
+  EXPECT_TRUE(plain.starts_with("\x89HDF\r\n\x1a\n"));
+  EXPECT_EQ(without_places(plain), without_places(whole.substr(files::seal_size)));
+  EXPECT_EQ(place_in(plain, 24), 0u);
+  EXPECT_EQ(place_in(plain, 40), plain.size());
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 100);
+  files::seal_file(path);
+  EXPECT_EQ(bytes_of(path), whole);
+  EXPECT_FALSE(std::filesystem::exists(path + ".seal"));
+}
+
+TEST(DetachedSeal, IsTextOfItsOwn)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  put_bytes(path, bytes_of(CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5"));
+  files::seal_file(path, files::SealPlace::beside);
+  EXPECT_EQ(bytes_of(path), bytes_of(CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5"));
+  EXPECT_EQ(bytes_of(path + ".seal"),
+            "Chladni seal 1\n"
+            "bytes 28360\n"
+            "xxh64 744ed126c2961351 of all bytes\n"
+            "Of the HDF5 file of this name without .seal. When you have changed it on purpose: "
+            "chladni seal --detach FILE\n");
+}
+
+TEST(DetachedSeal, FindsEachDamagedByteBeforeTheFileIsOpened)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  sealed_bytes(path, 100);
+  files::seal_file(path, files::SealPlace::beside);
+  const std::string plain = bytes_of(path);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    std::string bytes = plain;
+    bytes[i] ^= static_cast<char>(1 << (i % 8));
+    put_bytes(path, bytes);
+    ASSERT_TRUE(is_refused_by_the_seal(path)) << i;
+  }
+  put_bytes(path, plain + '\0');
+  EXPECT_EQ(error_of([&] { files::Reader reader(path); }),
+            path + ": is not as it was written: it has " + std::to_string(plain.size() + 1) +
+                " bytes and had " + std::to_string(plain.size()) +
+                ". Make it anew or take a copy; if it was changed on purpose, `chladni seal "
+                "--detach " +
+                path + "` (or `squeal seal --detach`) accepts it");
+  files::seal_file(path, files::SealPlace::beside);
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 100);
+}
+
+TEST(DetachedSeal, IsCheckedItself)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  sealed_bytes(path, 100);
+  files::seal_file(path, files::SealPlace::beside);
+  const std::string seal = bytes_of(path + ".seal");
+  for (std::size_t i = 0; i < seal.size(); ++i) {
+    std::string bytes = seal;
+    bytes[i] ^= 1;
+    put_bytes(path + ".seal", bytes);
+    ASSERT_TRUE(contains(error_of([&] { files::Reader reader(path); }), path)) << i;
+  }
+  std::filesystem::remove(path + ".seal");
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 100);
+}
+
+TEST(DetachedSeal, GoesWhenTheFileIsWrittenAnew)
+{
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  sealed_bytes(path, 100);
+  files::seal_file(path, files::SealPlace::beside);
+  sealed_bytes(path, 50);
+  EXPECT_FALSE(std::filesystem::exists(path + ".seal"));
+  put_bytes(path + ".seal", "of somebody else");
+  sealed_bytes(path, 50);
+  EXPECT_EQ(bytes_of(path + ".seal"), "of somebody else");
+  EXPECT_EQ(files::Reader(path).vector("x").size(), 50);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST(Exudyn, IsTheSameDictionaryAsBefore)
   const files::test::ScratchFolder folder;
   write_exudyn(folder.file("a.h5"), test::version_1_floating());
   const auto found = entries_of(folder.file("a.h5"));
-  const auto golden = entries_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.exudyn.h5");
+  const auto golden = entries_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.exudyn.hdf5");
   EXPECT_EQ(found.size(), golden.size());
   for (const auto& [name, entry] : golden) {
     ASSERT_TRUE(found.contains(name)) << name;

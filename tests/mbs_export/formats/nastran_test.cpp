@@ -280,6 +280,16 @@ TEST(NastranSuperelement, NamesEveryRowOfItsMatricesOnce)
             (std::vector<std::string>{"12", "EXTOP4", "MANUAL", "12"}));
 }
 
+// Readers of bulk data (pyNastran) know no THRU on this card.
+TEST(NastranSuperelement, WritesThePairsOfScalarPointsOut)
+{
+  const std::string assembly = nastran_superelement(test::two_nodes(), 100).assembly;
+  const std::vector<std::string> pairs = fields_of(assembly, "SECONCT");
+  EXPECT_EQ(std::count(pairs.begin(), pairs.end(), "THRU"), 0);
+  EXPECT_EQ((std::vector<std::string>{pairs.end() - 4, pairs.end()}),
+            (std::vector<std::string>{"9", "9", "10", "10"}));
+}
+
 TEST(NastranSuperelement, RefusesNumbersThatAreNone)
 {
   EXPECT_FALSE(files::test::error_of([] { nastran_superelement(test::two_nodes(), 0); }).empty());

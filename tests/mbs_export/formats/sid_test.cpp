@@ -201,7 +201,7 @@ const VectorXd q = (VectorXd(6) << 0.3, -0.2, 0.5, 0.1, -0.4, 0.7).finished();
 TEST(SidFem, HasTheInertiaOfTheDeformedBodyToFirstOrder)
 {
   const FloatingBody floating = held_wheel();
-  const SidFile sid = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
+  const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   ASSERT_EQ(sid.n_modes, 6);
   const Lumps w(floating.body.attachment_modes * q);
   const auto first = [&](Index i) -> MatrixXd { return w.at(w.x, i) + w.at(w.u, i); };
@@ -223,7 +223,7 @@ TEST(SidFem, HasTheInertiaOfTheDeformedBodyToFirstOrder)
 TEST(SidFem, HasTheForcesOfAMovingFrame)
 {
   const FloatingBody floating = held_wheel();
-  const SidFile sid = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
+  const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   const Lumps w(floating.body.attachment_modes * q);
   const Vector3d omega(0.7, -1.1, 0.4);
   for (Index mode = 0; mode < 6; ++mode) {
@@ -272,7 +272,7 @@ TEST(SidFem, HasTheForcesOfAMovingFrame)
 TEST(SidFem, HasTheTorqueOfAVibratingBodyInASpinningFrame)
 {
   const FloatingBody floating = held_wheel();
-  const SidFile sid = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
+  const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   const Lumps w(floating.body.attachment_modes * q);
   const Vector3d omega(0.7, -1.1, 0.4);
   // int x x (2 omega x u') dm with u' = q; of the lumps themselves J (omega x theta')
@@ -289,7 +289,7 @@ TEST(SidFem, HasTheTorqueOfAVibratingBodyInASpinningFrame)
 TEST(SidFem, ReturnsEveryDigitAndItsNodes)
 {
   const FloatingBody floating = held_wheel();
-  const SidFile sid = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
+  const SidFile sid = read_sid(sid_fem(floating, {}), SidDialect::simpack);
   EXPECT_EQ(sid.mass, floating.body.mass);
   ASSERT_EQ(sid.nodes.size(), 13u);
   EXPECT_EQ(sid.node_ids.front(), 100);
@@ -310,8 +310,8 @@ TEST(SidFem, ReturnsEveryDigitAndItsNodes)
 TEST(SidFem, SaysTheSameInBothDialects)
 {
   const FloatingBody floating = held_wheel();
-  const SidFile a = read_sid(sid_fem(floating, SidDialect::simpack), SidDialect::simpack);
-  const SidFile b = read_sid(sid_fem(floating, SidDialect::welib), SidDialect::welib);
+  const SidFile a = read_sid(sid_fem(floating, {}), SidDialect::simpack);
+  const SidFile b = read_sid(sid_fem(floating, {.dialect = SidDialect::welib}), SidDialect::welib);
   const MatrixXd six = a.blocks.at("J").at(q), J = b.blocks.at("J").at(q);
   EXPECT_DOUBLE_EQ(six(3, 0), J(1, 0));
   EXPECT_DOUBLE_EQ(six(4, 0), J(2, 0));
@@ -324,9 +324,36 @@ TEST(SidFem, SaysTheSameInBothDialects)
   EXPECT_EQ(a.blocks.at("Cr").at(q), b.blocks.at("Cr").at(q));
 }
 
+/// Columns of Gr or Ge by mode and axis, from those by axis and mode.
+MatrixXd by_mode(const MatrixXd& by_axis)
+{
+  MatrixXd A(by_axis.rows(), by_axis.cols());
+  const Index n = by_axis.cols() / 3;
+  for (Index mode = 0; mode < n; ++mode)
+    for (Index c = 0; c < 3; ++c) A.col(3 * mode + c) = by_axis.col(c * n + mode);
+  return A;
+}
+
+TEST(SidFem, HasGyroscopicColumnsByModeOrByAxis)
+{
+  const FloatingBody floating = held_wheel();
+  const SidFile a =
+      read_sid(sid_fem(floating, {.gyroscopic = SidGyroscopic::by_mode}), SidDialect::simpack);
+  const SidFile b =
+      read_sid(sid_fem(floating, {.gyroscopic = SidGyroscopic::by_axis}), SidDialect::simpack);
+  for (const std::string name : {"Gr", "Ge"}) {
+    EXPECT_EQ(a.blocks.at(name).m0, by_mode(b.blocks.at(name).m0)) << name;
+    EXPECT_GT((a.blocks.at(name).m0 - b.blocks.at(name).m0).norm(), 1e-6) << name;
+  }
+  // No mode has a gyroscopic force on itself: what tells the orders apart in a file.
+  for (Index mode = 0; mode < 6; ++mode)
+    for (Index c = 0; c < 3; ++c) EXPECT_EQ(b.blocks.at("Ge").m0(mode, 6 * c + mode), 0.0);
+  EXPECT_EQ(a.blocks.at("Oe").m0, b.blocks.at("Oe").m0);
+}
+
 TEST(SidFem, IsTheSameTextAsBefore)
 {
-  EXPECT_EQ(sid_fem(test::version_1_floating(), SidDialect::simpack),
+  EXPECT_EQ(sid_fem(test::version_1_floating(), {}),
             files::test::bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_nodes.SID_FEM"));
 }
 
@@ -334,8 +361,7 @@ TEST(SidFem, NeedsMassIntegrals)
 {
   ReducedSystem wheel = test::wheel();
   wheel.mass_integrals.reset();
-  const std::string text =
-      files::test::error_of([&] { sid_fem(floating_body(wheel, {}), SidDialect::simpack); });
+  const std::string text = files::test::error_of([&] { sid_fem(floating_body(wheel, {}), {}); });
   EXPECT_NE(text.find("reduce the scene again"), std::string::npos) << text;
 }
 
