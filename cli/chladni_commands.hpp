@@ -23,6 +23,7 @@ struct ExportArguments {
   std::string sid_dialect = "simpack";     ///< one of sid_dialects()
   std::string sid_gyroscopic = "by-mode";  ///< one of sid_gyroscopic_orders()
   std::string json;                        ///< file for the summary; empty for none
+  bool stale = false;  ///< a reduced file made before a change of the scene is taken as it is
 };
 
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.

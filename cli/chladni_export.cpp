@@ -19,6 +19,7 @@
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
+#include "report/origin.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cli {
@@ -49,6 +50,20 @@ Source source_of(const ExportArguments& arguments)
                             file.string(), arguments.source, arguments.from));
   path stem = scene.name;
   return {.scene = std::move(scene), .reduced_file = file, .stem = stem};
+}
+
+/// Of the scene as it is, where that is given.
+mbs_export::ReducedSystem read_reduced_of(const ExportArguments& arguments, const Source& source)
+{
+  mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
+  if (source.scene) {
+    report::require_of_scene(*source.scene,
+                             {.file = source.reduced_file,
+                              .what = report::Made::reduction,
+                              .origin = reduced.provenance},
+                             arguments.stale ? report::Stale::use : report::Stale::refuse);
+  }
+  return reduced;
 }
 
 /// The file to write: as asked for, or NAME with the extension of the format.
@@ -128,7 +143,7 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
 
 Exported export_as(const ExportArguments& arguments, const Source& source)
 {
-  const mbs_export::ReducedSystem reduced = mbs_export::read_reduced(source.reduced_file);
+  const mbs_export::ReducedSystem reduced = read_reduced_of(arguments, source);
   if (arguments.format.starts_with("nastran")) return export_reduced(arguments, source, reduced);
   const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
   return {

@@ -68,6 +68,7 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   exported->add_option("--format", arguments.format, "format of the other program")
       ->required()
       ->check(CLI::IsMember(chladni::cli::export_formats()));
+  chladni::cli::declare_stale(*exported, arguments.stale);
   exported->add_option("--from", arguments.from, "folder of the scene's NAME.reduced.h5")
       ->type_name("DIR")
       ->capture_default_str();

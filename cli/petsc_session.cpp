@@ -10,8 +10,21 @@
 #include "common/petsc.hpp"
 
 namespace chladni::cli {
+
+namespace {
+
+/// Open MPI starts a daemon for a process that no mpirun started, and leaves it behind when that
+/// process is killed. One process needs none.
+void start_no_daemon()
+{
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+}
+
+}  // namespace
+
 PetscSession::PetscSession(const std::vector<std::string>& options)
 {
+  start_no_daemon();
   std::vector<std::string> words = options;
   // A folder must not choose solvers, or load libraries, because somebody works in it.
   words.insert(words.begin(), {"chladni", "-skip_petscrc"});

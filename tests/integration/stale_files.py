@@ -121,6 +121,12 @@ def check_body(folder):
         folder.refused("squeal", "report", "disc.body.h5", key, remedy)
     folder.scene.write_text(changed(DISC, OF_BODY[0][0]))
     folder.refused("chladni", "body", "disc.reduced.h5", OF_BODY[0][1], "chladni reduce")
+    folder.scene.write_text(changed(DISC, OF_BODY[2][0]))
+    export = (folder.programs / "chladni", "export", folder.scene, "--from", folder.folder, "--format", "nastran-dmig", "--output", folder.folder / "disc.dmig")
+    words = run(*export, code=1)
+    if OF_BODY[2][1] not in words:
+        sys.exit(f"FAILED: chladni export does not say {OF_BODY[2][1]!r}:\n{words}")
+    run(*export, "--stale")
 
 
 def check_results(folder):

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import h5py
@@ -51,9 +52,35 @@ def wrong(programs, source, folder):
         yield f"provenance {provenance(file)!r} instead of {expected!r}: {done.stderr.strip()}"
 
 
+def descendants(pid):
+    """The names of all processes that a process has started, and those have."""
+    names = []
+    for task in Path(f"/proc/{pid}/task").iterdir():
+        for child in (task / "children").read_text().split():
+            names += [(Path("/proc") / child / "comm").read_text().strip(), *descendants(child)]
+    return names
+
+
+def left_behind(programs, source, folder):
+    """A killed program leaves no process behind: none that it starts outlives it."""
+    surroundings = {name: value for name, value in os.environ.items() if not name.startswith("OMPI_MCA_ess")}
+    scene = source / "examples" / "thesis_disc" / "scene.toml"
+    command = [programs / "chladni", "reduce", scene, "--output", folder]
+    process = subprocess.Popen(command, env=surroundings, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    started = set()
+    for _ in range(100):  # a second, in which MPI has begun
+        time.sleep(0.01)
+        started |= set(descendants(process.pid)) if process.poll() is None else set()
+    process.kill()
+    process.wait()
+    if "orted" in started:
+        yield "a daemon of Open MPI is started for one process"
+
+
 def main(programs, source):
     with tempfile.TemporaryDirectory() as name:
-        failures = list(wrong(Path(programs), Path(source), Path(name)))
+        case = (Path(programs), Path(source), Path(name))
+        failures = [*wrong(*case), *left_behind(*case)]
     print("\n".join(f"FAILED: {line}" for line in failures))
     sys.exit(bool(failures))
 
