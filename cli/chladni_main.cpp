@@ -94,6 +94,10 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
+  for (const char* meshes : {"mesh", "static", "modes", "reduce", "run"})
+    app.get_subcommand(meshes)->add_flag(
+        "--trust-mesh", arguments.trusts_mesh,
+        "the mesh file is your own: a .geo may run programs and write files, and take its time");
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
