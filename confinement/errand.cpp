@@ -131,15 +131,23 @@ End listen(int descriptor, const Errand& errand, Clock::time_point deadline,
   }
 }
 
-/// Waits for the end of a program that said all; one that lingers is killed.
-int status_of(pid_t child, Clock::time_point deadline)
+struct Ended {
+  int status;
+  bool in_time;
+};
+
+/// Waits for the end of a program that has closed its answer, and kills one that lingers.
+Ended end_of(pid_t child, Clock::time_point deadline)
 {
-  int status = 0;
+  Ended ended{.status = 0, .in_time = true};
   while (true) {
-    const pid_t ended = ::waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
-    if (ended < 0 && errno != EINTR) return 0;  // others waited for all children
-    if (Clock::now() > deadline) ::kill(child, SIGKILL);
+    const pid_t waited = ::waitpid(child, &ended.status, WNOHANG);
+    if (waited == child) return ended;
+    if (waited < 0 && errno != EINTR) return ended;  // somebody else waited for all children
+    if (Clock::now() > deadline) {
+      ended.in_time = false;
+      ::kill(child, SIGKILL);
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
@@ -160,12 +168,13 @@ Outcome run(const Errand& errand)
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   Outcome outcome{.end = End::exited, .code = 0, .answer = {}};
   outcome.end = listen(answer.get(), errand, deadline, outcome.answer);
-  const bool is_late = outcome.end != End::exited;
-  const int status = status_of(child, is_late ? Clock::now() - std::chrono::hours(1)
-                                              : Clock::now() + std::chrono::seconds(5));
-  if (is_late) return outcome;
-  outcome.end = WIFSIGNALED(status) ? End::killed_by_signal : End::exited;
-  outcome.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  if (outcome.end != End::exited) ::kill(child, SIGKILL);
+  const Ended ended = end_of(child, deadline);
+  if (outcome.end != End::exited) return outcome;
+  outcome.end = !ended.in_time              ? End::took_too_long
+                : WIFSIGNALED(ended.status) ? End::killed_by_signal
+                                            : End::exited;
+  outcome.code = WIFSIGNALED(ended.status) ? WTERMSIG(ended.status) : WEXITSTATUS(ended.status);
   return outcome;
 }
 
