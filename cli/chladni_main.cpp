@@ -11,6 +11,7 @@
 #include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
 #include "cli/blas_kernels.hpp"
+#include "cli/blas_memory.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
@@ -169,6 +170,7 @@ int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments argum
 int main(int argc, char** argv)
 {
   chladni::cli::restart_with_fitting_blas_kernels(argv);
+  chladni::cli::check_address_limit();
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
   chladni::cli::ChladniArguments arguments;
