@@ -44,8 +44,9 @@ fs::path reader_program()
 /// A .msh takes what its size tells; what a .geo or .step makes, nobody knows.
 confinement::Limits limits_of(const MeshOptions& options)
 {
-  std::error_code ignored;
-  const std::uint64_t size = fs::file_size(*options.file, ignored);
+  std::error_code unknown;
+  const std::uintmax_t found = fs::file_size(*options.file, unknown);
+  const std::uint64_t size = unknown ? 0 : found;  // the reader says what is wrong with it
   const std::uint64_t machine =
       std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
   const bool is_msh = fs::path(*options.file).extension() == ".msh";
