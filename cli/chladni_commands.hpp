@@ -38,6 +38,7 @@ struct SoundChoice {
 
 struct ChladniArguments {
   SceneArguments scene;
+  bool trusts_mesh = false;  ///< the mesh file is the user's own and may run programs
   QualityChoice mesh;
   SoundChoice sound;
   std::string info_file;

@@ -11,6 +11,7 @@
 #include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
 #include "cli/blas_kernels.hpp"
+#include "cli/blas_memory.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
@@ -100,6 +101,10 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
+  for (const char* meshes : {"mesh", "static", "modes", "reduce", "run"})
+    app.get_subcommand(meshes)->add_flag(
+        "--trust-mesh", arguments.trusts_mesh,
+        "the mesh file is your own: a .geo may run programs and write files, and take its time");
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
@@ -173,6 +178,7 @@ int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments argum
 int main(int argc, char** argv)
 {
   chladni::cli::restart_with_fitting_blas_kernels(argv);
+  chladni::cli::check_address_limit();
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
   chladni::cli::ChladniArguments arguments;

@@ -57,20 +57,24 @@ struct Subject {
   mesh::MeshOptions mesh;
 };
 
-Subject read_subject(const std::string& path)
+Subject read_subject(const ChladniArguments& arguments)
 {
+  const std::string& path = arguments.scene.scene;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
-    return {.title = path, .mesh = {.file = path}};
+    const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;
+    return {.title = path, .mesh = {.file = path, .trust = trust}};
   }
-  const scene::Scene scene = scene::read_meshed_scene(path, scene::Purpose::fe_model);
+  const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   return {.title = scene.title, .mesh = scene.mesh};
 }
 
-void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice)
+void mesh_and_print(const ChladniArguments& all)
 {
+  const SceneArguments& arguments = all.scene;
+  const QualityChoice& choice = all.mesh;
   report::PhaseClock clock;
-  const Subject subject = read_subject(arguments.scene);
+  const Subject subject = read_subject(all);
   const ReservedOutputs reserved = reserve_outputs(arguments, {});
   clock.end_phase("read");
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
@@ -97,7 +101,7 @@ void mesh_and_print(const SceneArguments& arguments, const QualityChoice& choice
 
 void mesh_command(const ChladniArguments& arguments)
 {
-  cases::on_first_rank([&] { mesh_and_print(arguments.scene, arguments.mesh); });
+  cases::on_first_rank([&] { mesh_and_print(arguments); });
 }
 
 }  // namespace chladni::cli

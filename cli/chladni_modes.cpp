@@ -60,9 +60,7 @@ report::SceneGrid mode_grid(const scene::Scene& scene, const cases::SupportedMod
 
 void modes_command(const ChladniArguments& arguments)
 {
-  const scene::Scene scene =
-      scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
-  cases::on_first_rank([&] { tell_notes(scene); });
+  const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".modes.vtu");
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});

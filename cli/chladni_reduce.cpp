@@ -26,8 +26,7 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 
 void reduce_command(const ChladniArguments& arguments)
 {
-  const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
-  cases::on_first_rank([&] { tell_notes(scene); });
+  const scene::Scene scene = read_scene_to_mesh(arguments);
   const std::filesystem::path file = reduced_file(scene, arguments.scene);
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
   cases::ReduceSummary summary = reduce_with_progress(scene, arguments);

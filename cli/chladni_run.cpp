@@ -47,8 +47,7 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
 
 void run_command(const ChladniArguments& arguments)
 {
-  const scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene);
-  cases::on_first_rank([&] { tell_notes(scene); });
+  const scene::Scene scene = read_scene_to_mesh(arguments);
   const SceneArguments& said = arguments.scene;
   const ReservedOutputs reserved =
       reserve_on_first_rank(said, {reduced_file(scene, said), body_file(scene, said)});

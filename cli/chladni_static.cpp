@@ -130,9 +130,7 @@ report::VtuGrid picture(const scene::Scene& scene, const cases::SupportedModel& 
 
 void static_command(const ChladniArguments& arguments)
 {
-  const scene::Scene scene =
-      scene::read_meshed_scene(arguments.scene.scene, scene::Purpose::fe_model);
-  cases::on_first_rank([&] { tell_notes(scene); });
+  const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   check_loads(scene);
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");

@@ -15,6 +15,14 @@
 
 namespace chladni::cli {
 
+scene::Scene read_scene_to_mesh(const ChladniArguments& arguments, scene::Purpose purpose)
+{
+  scene::Scene scene = scene::read_meshed_scene(arguments.scene.scene, purpose);
+  if (arguments.trusts_mesh) scene.mesh.trust = mesh::Trust::owner;
+  cases::on_first_rank([&] { tell_notes(scene); });
+  return scene;
+}
+
 std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments)
 {
   return std::filesystem::path(arguments.output) / (scene.name + ".reduced.h5");

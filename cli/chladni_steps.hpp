@@ -8,9 +8,15 @@
 #include "cli/reserve_outputs.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "report/cost.hpp"
+#include "scene/scene.hpp"
 
 /// The steps that the subcommands of `chladni` share.
 namespace chladni::cli {
+
+/// The scene of the arguments, with their trust in its mesh file.
+/// @throws chladni::Error as scene::read_meshed_scene.
+scene::Scene read_scene_to_mesh(const ChladniArguments& arguments,
+                                scene::Purpose purpose = scene::Purpose::everything);
 
 std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments);
 std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments);

@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
 set(light_libraries common files dense mbs_export squeal)
-set(fe_libraries petsc linear mesh elements plate reduce reduce_export sound)
+set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
 function(chladni_export set)
@@ -27,6 +27,7 @@ install(TARGETS squeal RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT squ
 if(CHLADNI_FE)
   chladni_export(chladni-fe-targets ${fe_libraries})
   install(TARGETS chladni RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT fe)
+  install(TARGETS chladni_mesh_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   set_target_properties(chladni_petsc_plugin PROPERTIES EXPORT_NAME cms)
   install(TARGETS chladni_petsc_plugin EXPORT chladni-plugin-targets
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT fe

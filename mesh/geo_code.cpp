@@ -51,6 +51,14 @@ std::string_view value_of(std::string_view statement)
   return statement;
 }
 
+/// `Printf("...") > "file"`: what is between brackets may compare.
+bool prints_into_a_file(std::string_view statement)
+{
+  const std::size_t last = statement.rfind(')');
+  return stands_in(statement, "Printf") && last != std::string_view::npos &&
+         statement.find('>', last) != std::string_view::npos;
+}
+
 bool any_of(const std::vector<std::string>& statements, auto holds)
 {
   return std::ranges::any_of(statements, holds);
@@ -104,6 +112,15 @@ bool sets_algorithm_8_of_a_surface(const std::vector<std::string>& statements)
   return any_of(statements, [](const std::string& each) {
     return stands_in(each, "MeshAlgorithm Surface") && value_of(each) == "8";
   });
+}
+
+std::string acting_command(const std::vector<std::string>& statements)
+{
+  for (const char* command :
+       {"SystemCall", "NonBlockingSystemCall", "OnelabRun", "Save", "CreateDir"}) {
+    if (has_word(statements, command)) return command;
+  }
+  return any_of(statements, prints_into_a_file) ? "Printf(...) > FILE" : "";
 }
 
 }  // namespace chladni::mesh

@@ -23,4 +23,8 @@ bool sets_algorithm_8(const std::vector<std::string>& statements);
 /// Whether one sets that of a surface, `MeshAlgorithm Surface {1} = 8`.
 bool sets_algorithm_8_of_a_surface(const std::vector<std::string>& statements);
 
+/// The first command that starts a program or writes a file; empty if none does. Code that another
+/// file brings along is not seen here.
+std::string acting_command(const std::vector<std::string>& statements);
+
 }  // namespace chladni::mesh

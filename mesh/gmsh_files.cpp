@@ -2,62 +2,86 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
-#include <stdlib.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/error.hpp"
+#include "mesh/check_msh.hpp"
 #include "mesh/geo_code.hpp"
 
 namespace chladni::mesh {
 
 namespace {
 
-std::string read_all(const std::string& file)
-{
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 using Statements = std::vector<std::string>;
 
-/// A .geo that sets the parameters before it includes another one, and reads them afterwards;
-/// Gmsh's own -setnumber would hold for the whole process. Gone at the end of its scope.
+/// A .geo in memory that sets the parameters before it includes another one, and reads them
+/// afterwards; Gmsh's own -setnumber would hold for the whole process.
 class GeoWithParameters {
  public:
   explicit GeoWithParameters(const MeshOptions& options)
+      : descriptor_{::memfd_create("parameters", MFD_CLOEXEC)}
   {
-    path_ = (std::filesystem::temp_directory_path() / "chladni_XXXXXX.geo").string();
-    const int descriptor = ::mkstemps(path_.data(), 4);
-    if (descriptor < 0) throw Error(fmt::format("cannot write a temporary file {}", path_));
-    ::close(descriptor);
-    std::ofstream out(path_);
-    for (const auto& [name, value] : options.parameters) {
-      out << fmt::format("{} = {:.17g};\n", name, value);
-    }
-    out << fmt::format("Include \"{}\";\n", std::filesystem::absolute(*options.file).string());
-    for (const auto& [name, value] : options.parameters) {
-      out << fmt::format("SetNumber(\"Chladni/{}\", {});\n", name, name);
-    }
+    std::string code;
+    for (const auto& [name, value] : options.parameters)
+      code += fmt::format("{} = {:.17g};\n", name, value);
+    code += fmt::format("Include \"{}\";\n", std::filesystem::absolute(*options.file).string());
+    for (const auto& [name, value] : options.parameters)
+      code += fmt::format("SetNumber(\"Chladni/{}\", {});\n", name, name);
+    if (::write(descriptor_, code.data(), code.size()) != std::ssize(code))
+      throw Error("cannot set the parameters of a .geo: no file in memory");
   }
-  ~GeoWithParameters()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
+  ~GeoWithParameters() { ::close(descriptor_); }
   GeoWithParameters(const GeoWithParameters&) = delete;
   GeoWithParameters& operator=(const GeoWithParameters&) = delete;
 
-  const std::string& path() const { return path_; }
+  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
 
  private:
-  std::string path_;
+  int descriptor_;
 };
+
+bool is_name(const std::string& text)
+{
+  const auto is_of_a_name = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
+         std::ranges::all_of(text, is_of_a_name);
+}
+
+/// What stands in GEO code must not end its text or its statement.
+void check_parameters_can_be_set(const MeshOptions& options)
+{
+  for (const auto& [name, value] : options.parameters) {
+    if (is_name(name)) continue;
+    throw Error(
+        fmt::format("mesh file {}: \"{}\" is no name of a parameter; a name has letters, "
+                    "digits and underscores",
+                    *options.file, name));
+  }
+  const auto breaks = [](unsigned char c) { return c == '"' || std::iscntrl(c) != 0; };
+  if (options.parameters.empty() ||
+      std::ranges::none_of(std::filesystem::absolute(*options.file).string(), breaks))
+    return;
+  throw Error(
+      fmt::format("mesh file {}: a geometry with parameters cannot stand in a folder with a "
+                  "quote or a control character in its name; rename it",
+                  *options.file));
+}
+
+/// @throws chladni::Error for a command that the process which reads a stranger's file cannot obey.
+void check_commands(const std::string& file, const Statements& code)
+{
+  const std::string command = acting_command(code);
+  if (command.empty()) return;
+  throw Error(
+      fmt::format("mesh file {}: its command {} would start a program or write a file; take "
+                  "it out, or, if the file is your own, say --trust-mesh",
+                  file, command));
+}
 
 void check_parameters_are_used(const MeshOptions& options, const Statements& code)
 {
@@ -105,28 +129,12 @@ void check_does_not_mesh_itself(const std::string& file, const Statements& code)
 
 }  // namespace
 
-void check_msh_is_whole(const std::string& file)
-{
-  const std::string text = read_all(file);
-  if (text.rfind("$MeshFormat", 0) != 0 && text.find("\n$MeshFormat") == std::string::npos) {
-    throw Error(fmt::format("mesh file {} is not a .msh of Gmsh: $MeshFormat is missing", file));
-  }
-  for (const std::string section :
-       {"MeshFormat", "PhysicalNames", "Entities", "Nodes", "Elements"}) {
-    const bool begun = text.find("$" + section + "\n") != std::string::npos ||
-                       text.find("$" + section + "\r\n") != std::string::npos;
-    const bool must_be_there = section == "Nodes" || section == "Elements";
-    const bool ended = text.find("$End" + section) != std::string::npos;
-    if (begun ? ended : !must_be_there) continue;
-    throw Error(fmt::format("mesh file {} is cut off: ${}{} is missing", file, begun ? "End" : "",
-                            section));
-  }
-}
-
 std::vector<std::string> open_geo(const MeshOptions& options)
 {
   const std::string& file = *options.file;
   const Statements code = geo_statements(read_all(file));
+  if (options.trust != Trust::owner) check_commands(file, code);
+  check_parameters_can_be_set(options);
   check_does_not_mesh_itself(file, code);
   check_parameters_are_used(options, code);
   if (options.parameters.empty()) {

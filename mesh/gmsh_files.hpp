@@ -9,13 +9,10 @@
 /// session of Gmsh (mesh_with_gmsh) and return notes for the user.
 namespace chladni::mesh {
 
-/// @throws chladni::Error when a .msh does not begin as one or its sections do not end.
-void check_msh_is_whole(const std::string& file);
-
 /// Opens a .geo with its parameters, as `gmsh -setnumber` does. Algorithm 8 (frontal-Delaunay for
 /// quads), which crashes in Gmsh 4.8.4, is replaced by 6.
-/// @throws chladni::Error when the .geo does not have a parameter or overwrites it, or when it
-///         meshes itself by algorithm 8.
+/// @throws chladni::Error when the .geo does not have a parameter or overwrites it, when it meshes
+///         itself by algorithm 8, and when it is a stranger's and would act on other files.
 std::vector<std::string> open_geo(const MeshOptions& options);
 
 /// Imports the surfaces of a .step in millimetres, joins what touches, cuts the rings into them,

@@ -112,6 +112,12 @@ struct EntityGroup {
   std::vector<std::string> entities;  ///< "surface_3", "curve_1", "point_2", or labels of the file
 };
 
+/// What Gmsh may do while it reads a file.
+enum class Trust {
+  stranger,  ///< in a process of its own that starts no program and writes no file
+  owner      ///< whatever the file says: a .geo may run programs and write files
+};
+
 /// The scene's [mesh]: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
@@ -130,6 +136,9 @@ struct MeshOptions {
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
+  Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh
+  std::optional<double> most_seconds = {};     ///< for Gmsh to read a stranger's file
+  std::optional<int> most_MiB = {};            ///< of memory, for the same
 };
 
 }  // namespace chladni::mesh

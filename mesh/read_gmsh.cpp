@@ -1,14 +1,9 @@
 #include <fmt/format.h>
-#include <gmsh.h>
-
-#include <algorithm>
-#include <filesystem>
 
 #include "common/error.hpp"
 #include "mesh/coincident_nodes.hpp"
 #include "mesh/generators.hpp"
-#include "mesh/gmsh_files.hpp"
-#include "mesh/gmsh_model.hpp"
+#include "mesh/mesh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rings.hpp"
 
@@ -16,47 +11,9 @@ namespace chladni::mesh {
 
 namespace {
 
-enum class Format { msh, geo, step };
-
-Format format_of(const std::string& file)
-{
-  if (!std::filesystem::is_regular_file(file)) {
-    throw Error(
-        fmt::format("mesh file {} does not exist; give the path of a .msh, .geo or .step", file));
-  }
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".msh") return Format::msh;
-  if (extension == ".geo") return Format::geo;
-  if (extension == ".step" || extension == ".stp") return Format::step;
-  throw Error(fmt::format("mesh file {}: only .msh, .geo and .step files can be read", file));
-}
-
-/// Opens the file in Gmsh, with its groups.
-/// @return notes for the user
-std::vector<std::string> open(const MeshOptions& options, Format format)
-{
-  if (format == Format::step) return open_step(options);
-  std::vector<std::string> notes;
-  if (format == Format::geo) notes = open_geo(options);
-  if (format == Format::msh) gmsh::open(*options.file);
-  add_entity_groups(options);
-  return notes;
-}
-
-/// The mesh as Gmsh gives it, in metres.
 Mesh read(const MeshOptions& options)
 {
-  const Format format = format_of(*options.file);
-  if (format == Format::msh) check_msh_is_whole(*options.file);
-  const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
-  std::vector<std::string> notes;
-  Mesh mesh = mesh_with_gmsh([&] { notes = open(options, format); }, order, options.line_groups);
-  mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
-  const double metres = format == Format::step ? 1e-3 : options.length_unit;
-  for (auto& x : mesh.positions) {
-    for (double& coordinate : x) coordinate *= metres;
-  }
-  return mesh;
+  return options.trust == Trust::owner ? read_here(options, [] {}) : read_confined(options);
 }
 
 }  // namespace

@@ -10,11 +10,11 @@ namespace chladni::mesh {
 SilentOutput::SilentOutput() : saved_{dup(STDOUT_FILENO), dup(STDERR_FILENO)}
 {
   std::fflush(nullptr);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  // Once: a process that reads a stranger's file opens nothing for writing later.
+  static const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
-  ::close(nowhere);
 }
 
 SilentOutput::~SilentOutput()

@@ -10,10 +10,11 @@ namespace {
 
 const std::chrono::steady_clock::time_point start_of_process = std::chrono::steady_clock::now();
 
-rusage usage_of_this_process()
+/// Of this process, or of the processes that it started and that have ended.
+rusage usage_of(__rusage_who who)
 {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(who, &usage);
   return usage;
 }
 
@@ -58,14 +59,19 @@ double process_wall_s()
 
 double process_cpu_s()
 {
-  const rusage usage = usage_of_this_process();
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  double sum = 0.0;
+  for (const __rusage_who who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    const rusage usage = usage_of(who);
+    sum += seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+  return sum;
 }
 
 double peak_MiB()
 {
   constexpr double KiB_per_MiB = 1024.0;
-  return static_cast<double>(usage_of_this_process().ru_maxrss) / KiB_per_MiB;
+  const auto most = std::max(usage_of(RUSAGE_SELF).ru_maxrss, usage_of(RUSAGE_CHILDREN).ru_maxrss);
+  return static_cast<double>(most) / KiB_per_MiB;
 }
 
 }  // namespace chladni::report

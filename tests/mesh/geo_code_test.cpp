@@ -45,6 +45,15 @@ TEST(GeoCode, KnowsWhereAlgorithm8IsSet)
   EXPECT_TRUE(sets_algorithm_8_of_a_surface(of_a_surface));
 }
 
+TEST(GeoCode, KnowsTheCommandsThatAct)
+{
+  EXPECT_EQ(acting_command(geo_statements("a = 1; SystemCall \"true\";")), "SystemCall");
+  EXPECT_EQ(acting_command(geo_statements("If (a)\nSave \"a.msh\";\nEndIf")), "Save");
+  EXPECT_EQ(acting_command(geo_statements("Printf(\"x\", 1) >> \"a.txt\";")), "Printf(...) > FILE");
+  EXPECT_EQ(acting_command(geo_statements("Printf(\"a > b\", a > b);")), "");
+  EXPECT_EQ(acting_command(geo_statements("// Save \"a.msh\";\nMesh.SaveAll = 1; Saved = 2;")), "");
+}
+
 TEST(GeoCode, MayHaveAMillionBlanksOrCharactersInAComment)
 {
   const std::string million(1000000, ' ');

@@ -1,0 +1,69 @@
+#include "confinement/confine.hpp"
+
+#include <linux/landlock.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <new>
+
+#include "confinement/system_calls.hpp"
+
+namespace chladni::confinement {
+namespace {
+
+/// Of this process, bytes.
+std::uint64_t size_of_process()
+{
+  std::uint64_t n_pages = 0;
+  std::ifstream("/proc/self/statm") >> n_pages;
+  return n_pages * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+/// Never above what the user's `ulimit` says.
+void lower(__rlimit_resource resource, std::uint64_t limit)
+{
+  rlimit limits{};
+  getrlimit(resource, &limits);
+  limits.rlim_cur = limits.rlim_max = std::min<rlim_t>({limit, limits.rlim_cur, limits.rlim_max});
+  setrlimit(resource, &limits);
+}
+
+/// All that changes a file or a folder is handled, and no rule allows any of it. Kernels before
+/// 5.13 have no Landlock; there the filter of system calls stands alone.
+void forbid_changes_by_landlock()
+{
+  constexpr std::uint64_t changes =
+      LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+      LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR |
+      LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
+      LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+  const std::uint64_t handled = changes;  // the first field of landlock_ruleset_attr
+  const long ruleset = syscall(SYS_landlock_create_ruleset, &handled, sizeof(handled), 0);
+  if (ruleset < 0) return;
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  syscall(SYS_landlock_restrict_self, ruleset, 0);
+  close(static_cast<int>(ruleset));
+}
+
+}  // namespace
+
+void confine(const Limits& limits)
+{
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  std::set_new_handler([] { _exit(exit_out_of_memory); });
+  lower(RLIMIT_CORE, 0);
+  lower(RLIMIT_FSIZE, 1 << 20);  // of files in memory; of others there are none
+  lower(RLIMIT_NOFILE, 64);
+  lower(RLIMIT_CPU, std::uint64_t(std::ceil(limits.seconds)) + 1);
+  lower(RLIMIT_AS, size_of_process() + limits.memory);
+  forbid_changes_by_landlock();
+  filter_system_calls();
+}
+
+}  // namespace chladni::confinement

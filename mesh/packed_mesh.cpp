@@ -1,0 +1,147 @@
+#include "mesh/packed_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace chladni::mesh {
+namespace {
+
+/// The order of the parts, for both directions.
+void transfer_block(auto& archive, auto& block)
+{
+  archive(block.shape);
+  archive(block.order);
+  archive(block.nodes_per_element);
+  archive(block.numbers);
+  archive(block.nodes);
+  archive(block.group);
+}
+
+void transfer_group(auto& archive, auto& group)
+{
+  archive(group.name);
+  archive(group.dimension);
+  archive(group.nodes);
+}
+
+void transfer_mesh(auto& archive, auto& mesh)
+{
+  archive(mesh.node_numbers);
+  archive(mesh.positions);
+  archive.each(mesh.blocks, [](auto& a, auto& block) { transfer_block(a, block); });
+  archive.each(mesh.groups, [](auto& a, auto& group) { transfer_group(a, group); });
+  archive.each(mesh.notes, [](auto& a, auto& note) { a(note); });
+}
+
+void transfer_options(auto& archive, auto& options)
+{
+  archive(options.file);
+  archive(options.element_order);
+  archive(options.element_size);
+  archive.each(options.parameters, [](auto& a, auto& parameter) {
+    a(parameter.first);
+    a(parameter.second);
+  });
+  archive(options.length_unit);
+  archive.each(options.groups, [](auto& a, auto& group) {
+    a(group.name);
+    a.each(group.entities, [](auto& inner, auto& entity) { inner(entity); });
+  });
+  archive.each(options.rings, [](auto& a, auto& ring) {
+    a(ring.name);
+    a(ring.radius);
+    a(ring.nodes);
+    a(ring.z);
+  });
+  archive.each(options.line_groups, [](auto& a, auto& name) { a(name); });
+}
+
+void require(bool holds, const char* what)
+{
+  if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
+}
+
+int nodes_of(Shape shape, int order)
+{
+  switch (shape) {
+    case Shape::line:
+      return order + 1;
+    case Shape::triangle:
+      return (order + 1) * (order + 2) / 2;
+    case Shape::quadrilateral:
+      return (order + 1) * (order + 1);
+  }
+  return 0;
+}
+
+void check_nodes(const Mesh& mesh)
+{
+  require(mesh.node_numbers.size() == mesh.positions.size(), "nodes without a number");
+  require(mesh.positions.size() < std::size_t(1) << 31, "more nodes than can be counted");
+  require(std::ranges::all_of(mesh.node_numbers, [](std::int64_t number) { return number > 0; }),
+          "a node whose number is not positive");
+  for (const auto& x : mesh.positions)
+    require(std::ranges::all_of(x, [](double c) { return std::isfinite(c); }),
+            "a node whose coordinates are not finite");
+}
+
+/// Indices from `first` up to the number of things that they count.
+void check_indices(const std::vector<int>& indices, int first, std::size_t n, const char* what)
+{
+  for (const int i : indices) require(i >= first && i < static_cast<int>(n), what);
+}
+
+void check_block(const ElementBlock& block, const Mesh& mesh)
+{
+  constexpr int highest_order = 20;
+  require(block.order >= 1 && block.order <= highest_order, "elements of no order");
+  const int n = nodes_of(block.shape, block.order);
+  require(n > 0 && block.nodes_per_element == n, "elements with too few or too many nodes");
+  require(block.numbers.size() < std::size_t(1) << 31, "more elements than can be counted");
+  require(block.nodes.size() == block.numbers.size() * std::size_t(n), "elements without nodes");
+  require(block.group.size() == block.numbers.size(), "elements without a group");
+  check_indices(block.nodes, 0, mesh.positions.size(), "an element on a node that is not there");
+  check_indices(block.group, -1, mesh.groups.size(), "an element in a group that is not there");
+}
+
+void check(const Mesh& mesh)
+{
+  check_nodes(mesh);
+  for (const ElementBlock& block : mesh.blocks) check_block(block, mesh);
+  for (const Group& group : mesh.groups) {
+    require(group.dimension >= 0 && group.dimension <= 2, "a group of no dimension");
+    check_indices(group.nodes, 0, mesh.positions.size(), "a group of nodes that are not there");
+  }
+}
+
+}  // namespace
+
+void pack(Packer& packer, const Mesh& mesh)
+{
+  transfer_mesh(packer, mesh);
+}
+
+Mesh unpack_mesh(Unpacker& unpacker)
+{
+  Mesh mesh;
+  transfer_mesh(unpacker, mesh);
+  require(unpacker.at_end(), "more bytes than it says");
+  check(mesh);
+  return mesh;
+}
+
+void pack(Packer& packer, const MeshOptions& options)
+{
+  transfer_options(packer, options);
+}
+
+MeshOptions unpack_options(Unpacker& unpacker)
+{
+  MeshOptions options;
+  transfer_options(unpacker, options);
+  return options;
+}
+
+}  // namespace chladni::mesh

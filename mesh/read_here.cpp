@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "mesh/check_msh.hpp"
+#include "mesh/gmsh_files.hpp"
+#include "mesh/gmsh_model.hpp"
+#include "mesh/mesh_reader.hpp"
+#include "mesh/silent_output.hpp"
+
+namespace chladni::mesh {
+
+namespace {
+
+enum class Format { msh, geo, step };
+
+Format format_of(const std::string& file)
+{
+  if (!std::filesystem::is_regular_file(file)) {
+    throw Error(
+        fmt::format("mesh file {} does not exist; give the path of a .msh, .geo or .step", file));
+  }
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension == ".msh") return Format::msh;
+  if (extension == ".geo") return Format::geo;
+  if (extension == ".step" || extension == ".stp") return Format::step;
+  throw Error(fmt::format("mesh file {}: only .msh, .geo and .step files can be read", file));
+}
+
+/// Gmsh runs the code of NAME.opt before it is done with NAME.
+void check_no_options_beside(const std::string& file)
+{
+  const std::string options = file + ".opt";
+  if (!std::filesystem::exists(std::filesystem::symlink_status(options))) return;
+  throw Error(
+      fmt::format("mesh file {}: beside it is {}, which Gmsh would obey; move it away, or, if "
+                  "both are your own, say --trust-mesh",
+                  file, options));
+}
+
+/// Opens the file in Gmsh, with its groups.
+/// @return notes for the user
+std::vector<std::string> open(const MeshOptions& options, Format format)
+{
+  if (options.trust != Trust::owner) check_no_options_beside(*options.file);
+  if (format == Format::msh) check_msh_is_whole(*options.file);
+  if (format == Format::step) return open_step(options);
+  std::vector<std::string> notes;
+  if (format == Format::geo) notes = open_geo(options);
+  if (format == Format::msh) gmsh::open(*options.file);
+  add_entity_groups(options);
+  return notes;
+}
+
+}  // namespace
+
+Mesh read_here(const MeshOptions& options, const std::function<void()>& before_reading)
+{
+  const Format format = format_of(*options.file);
+  const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
+  std::vector<std::string> notes;
+  const auto build = [&] {
+    [[maybe_unused]] const SilentOutput opened;
+    before_reading();
+    notes = open(options, format);
+  };
+  Mesh mesh = mesh_with_gmsh(build, order, options.line_groups);
+  mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
+  const double metres = format == Format::step ? 1e-3 : options.length_unit;
+  for (auto& x : mesh.positions) {
+    for (double& coordinate : x) coordinate *= metres;
+  }
+  return mesh;
+}
+
+}  // namespace chladni::mesh

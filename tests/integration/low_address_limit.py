@@ -1,0 +1,55 @@
+"""Under a low `ulimit -v`, `chladni` works or ends in one sentence; OpenBLAS and MPI looped or crashed there.
+
+Usage: low_address_limit.py CHLADNI SOURCE_DIR
+"""
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from running import start
+
+MiB = 1 << 20
+
+
+def started(chladni, scene, folder, most):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+    environment = {name: value for name, value in os.environ.items() if "NUM_THREADS" not in name}
+    return start(chladni, "reduce", scene, "--output", folder, preexec_fn=limit, timeout=30,
+                 env={**environment, "OPENBLAS_NUM_THREADS": "4"})  # fmt: skip
+
+
+def wrong(chladni, scene, folder):
+    refused = 0
+    for most in range(300, 900, 60):
+        try:
+            done = started(chladni, scene, folder, most * MiB)
+        except subprocess.TimeoutExpired:
+            yield f"{most} MiB: it does not end"
+            continue
+        lines = done.stderr.splitlines()
+        if done.returncode == 127:  # the libraries themselves do not fit
+            continue
+        if "pthread_create failed" in done.stderr:  # OpenBLAS itself ends it, in its own words, later in the run
+            continue
+        refused += done.returncode == 1 and "ulimit -v" in done.stderr
+        if done.returncode not in (0, 1) or (done.returncode == 1 and len(lines) != 1):
+            yield f"{most} MiB: exit code {done.returncode}, {done.stderr}"
+    if not refused:
+        yield "no limit was called too low"
+
+
+def main(chladni, source):
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(source) / "examples/beam/cantilever.toml"
+        failures = list(wrong(chladni, scene, folder))
+    print("\n".join(f"FAILED: {line}" for line in failures))
+    sys.exit(bool(failures))
+
+
+main(*sys.argv[1:])
