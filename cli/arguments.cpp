@@ -1,7 +1,13 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+
+#include "report/output.hpp"
+#include "scene/names.hpp"
 
 namespace chladni::cli {
 
@@ -22,13 +28,43 @@ void declare_stale(CLI::App& app, bool& stale)
   app.add_flag("--stale", stale, "takes files that were made before the scene changed");
 }
 
+namespace {
+
+/// What this program, or the subcommand that was given, knows by name.
+std::vector<std::string> known_words(const CLI::App& app)
+{
+  std::vector<std::string> words;
+  for (const CLI::App* part : app.get_subcommands({})) words.push_back(part->get_name());
+  for (const CLI::App* part : app.get_subcommands()) {
+    for (const CLI::Option* option : part->get_options()) words.push_back(option->get_name());
+  }
+  return words;
+}
+
+/// `did you mean --output?` for the first of the words that nobody knows.
+std::string suggestion(const CLI::App& app, const std::vector<std::string>& words)
+{
+  const std::vector<std::string> known = known_words(app);
+  for (const std::string& word : words) {
+    if (std::ranges::find(known, word) != known.end()) continue;
+    const std::string near = scene::nearest_name(word, known);
+    if (!near.empty()) return fmt::format("{}: did you mean {}?\n", word, near);
+  }
+  return "";
+}
+
+}  // namespace
+
 std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words)
 {
-  std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
+  const std::vector<std::string> said = words;
+  std::ranges::reverse(words);  // CLI11 takes them from the end
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_ok : exit_usage;
+    if (app.exit(error) == 0) return exit_ok;
+    fmt::print(stderr, "{}", report::printable(suggestion(app, said)));
+    return exit_usage;
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "mesh/circles.hpp"
+#include "mesh/curved_rows.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
@@ -33,6 +34,12 @@ std::vector<Circle> add_circles(const AnnulusOptions& o)
   return circles;
 }
 
+std::array<CurvedRow, 2> edge_rows(const AnnulusOptions& o)
+{
+  return {CurvedRow{.centre = {}, .inner = o.inner_radius, .outer = o.inner_radius + *o.edge_row},
+          CurvedRow{.centre = {}, .inner = o.outer_radius - *o.edge_row, .outer = o.outer_radius}};
+}
+
 Mesh unstructured_annulus(const AnnulusOptions& options)
 {
   const auto build = [&] {
@@ -46,7 +53,9 @@ Mesh unstructured_annulus(const AnnulusOptions& options)
     add_physical_group(1, circles.back().arcs, "outer_edge");
     add_physical_group(2, surfaces, "disc");
   };
-  return mesh_with_gmsh(build, options.element_order);
+  Mesh mesh = mesh_with_gmsh(build, options.element_order);
+  if (options.edge_row) bend_triangles(mesh, edge_rows(options));
+  return mesh;
 }
 
 void check_radii(const AnnulusOptions& o)

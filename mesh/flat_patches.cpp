@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "mesh/circles.hpp"
+#include "mesh/curved_rows.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/sweep.hpp"
@@ -204,7 +205,14 @@ Mesh patch_by_gmsh(const FourEdges& patch, const PatchOptions& o)
     for (std::size_t i = 0; i < 4; ++i) add_physical_group(1, model.edges[i], patch.edges[i]);
     add_physical_group(2, model.surfaces, patch.surface);
   };
-  return mesh_with_gmsh(build, o.element_order);
+  Mesh mesh = mesh_with_gmsh(build, o.element_order);
+  if (o.edge_row && patch.round) {
+    const double row = *o.edge_row;
+    bend_triangles(
+        mesh, std::array{CurvedRow{.centre = {}, .inner = patch.start, .outer = patch.start + row},
+                         CurvedRow{.centre = {}, .inner = patch.end - row, .outer = patch.end}});
+  }
+  return mesh;
 }
 
 Mesh mesh_patch(const FourEdges& patch, const PatchOptions& o)

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "mesh/circles.hpp"
+#include "mesh/curved_rows.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
@@ -110,6 +111,22 @@ void name_edges(const HatDiscOptions& o, const HatModel& hat)
   if (!all.empty()) add_physical_group(1, all, "bolt_edges");
 }
 
+std::vector<CurvedRow> edge_rows(const HatDiscOptions& o)
+{
+  const double row = *o.edge_row;
+  std::vector<CurvedRow> rows{
+      {.centre = {}, .inner = o.outer_radius - row, .outer = o.outer_radius},
+      {.centre = {}, .inner = o.inner_radius, .outer = o.inner_radius + row},
+      {.centre = {}, .inner = o.hub_radius, .outer = o.hub_radius + row}};
+  for (int i = 0; o.bolts && i < o.bolts->count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / o.bolts->count;
+    const double c = o.bolts->circle_radius, hole = o.bolts->hole_radius;
+    rows.push_back(
+        {.centre = {c * std::cos(angle), c * std::sin(angle)}, .inner = hole, .outer = hole + row});
+  }
+  return rows;
+}
+
 Mesh unstructured_hat_disc(const HatDiscOptions& o)
 {
   const auto build = [&] {
@@ -125,7 +142,9 @@ Mesh unstructured_hat_disc(const HatDiscOptions& o)
     add_physical_group(2, wall, "wall");
     add_physical_group(2, flange, "flange");
   };
-  return mesh_with_gmsh(build, o.element_order);
+  Mesh mesh = mesh_with_gmsh(build, o.element_order);
+  if (o.edge_row) bend_triangles(mesh, edge_rows(o));
+  return mesh;
 }
 
 /// @throws chladni::Error unless the numbers ascend, with their names.

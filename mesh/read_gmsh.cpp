@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "common/error.hpp"
 #include "mesh/coincident_nodes.hpp"
 #include "mesh/generators.hpp"
@@ -16,6 +19,31 @@ Mesh read(const MeshOptions& options)
   return options.trust == Trust::owner ? read_here(options, [] {}) : read_confined(options);
 }
 
+/// Of a file whose numbers look like millimetres; empty where they do not.
+std::string hint_of_unit(const Mesh& mesh, const MeshOptions& options)
+{
+  constexpr double wide = 20.0;  // m
+  if (options.length_unit != 1.0 || mesh.positions.empty()) return "";
+  double width = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [least, most] = std::ranges::minmax(
+        mesh.positions, {}, [c](const std::array<double, 3>& x) { return x[c]; });
+    width = std::max(width, most[c] - least[c]);
+  }
+  if (width < wide) return "";
+  return fmt::format(
+      "the mesh is {:.4g} m wide; if it is in mm, say length_unit = \"mm\" in [mesh]", width);
+}
+
+void add_rings_or_hint(Mesh& mesh, const MeshOptions& options, const std::string& hint)
+{
+  try {
+    add_rings(mesh, options.rings);
+  } catch (const Error& error) {
+    throw Error(hint.empty() ? error.what() : fmt::format("{}; {}", error.what(), hint));
+  }
+}
+
 }  // namespace
 
 Mesh read_gmsh(const MeshOptions& options)
@@ -24,7 +52,9 @@ Mesh read_gmsh(const MeshOptions& options)
   try {
     Mesh mesh =
         treat_coincident_nodes(read(options), options.coincident_nodes, options.merge_tolerance);
-    add_rings(mesh, options.rings);
+    const std::string hint = hint_of_unit(mesh, options);
+    if (!hint.empty()) mesh.notes.push_back(hint);
+    add_rings_or_hint(mesh, options, hint);
     return mesh;
   } catch (const Error& e) {
     const std::string text = e.what();

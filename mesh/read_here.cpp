@@ -2,6 +2,7 @@
 #include <gmsh.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "mesh/check_msh.hpp"
@@ -40,6 +41,26 @@ void check_no_options_beside(const std::string& file)
                   file, options));
 }
 
+/// What Gmsh complains of while it lives, which it tells nobody else.
+class Complaints {
+ public:
+  Complaints() { gmsh::logger::start(); }
+  ~Complaints() { gmsh::logger::stop(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  /// @throws chladni::Error with the first error, which has file and line.
+  void refuse_errors() const
+  {
+    constexpr std::string_view error = "Error: ";
+    std::vector<std::string> lines;
+    gmsh::logger::get(lines);
+    for (const std::string& line : lines) {
+      if (line.starts_with(error)) throw Error("Gmsh: " + line.substr(error.size()));
+    }
+  }
+};
+
 /// Opens the file in Gmsh, with its groups.
 /// @return notes for the user
 std::vector<std::string> open(const MeshOptions& options, Format format)
@@ -48,7 +69,11 @@ std::vector<std::string> open(const MeshOptions& options, Format format)
   if (format == Format::msh) check_msh_is_whole(*options.file);
   if (format == Format::step) return open_step(options);
   std::vector<std::string> notes;
-  if (format == Format::geo) notes = open_geo(options);
+  if (format == Format::geo) {
+    const Complaints complaints;
+    notes = open_geo(options);
+    complaints.refuse_errors();
+  }
   if (format == Format::msh) gmsh::open(*options.file);
   add_entity_groups(options);
   return notes;

@@ -35,19 +35,6 @@ void add_picture(TextTable& table, const mbs_export::Picture& picture)
   add_count(table, "nodes for pictures", picture.positions.rows());
 }
 
-std::string name_of(mbs_export::ModeKind kind)
-{
-  switch (kind) {
-    case mbs_export::ModeKind::rigid:
-      return "rigid";
-    case mbs_export::ModeKind::constrained:
-      return "constrained";
-    case mbs_export::ModeKind::interface:
-      return "interface";
-  }
-  return "";
-}
-
 using Steps = std::vector<mbs_export::SelectionStep>;
 
 /// The last step that needs no more than `size` modes; null before the first and after the last.
@@ -108,6 +95,19 @@ void add_harmonics(TextTable& table, const mbs_export::ReducedSystem& reduced)
 }
 
 }  // namespace
+
+std::string name_of(mbs_export::ModeKind kind)
+{
+  switch (kind) {
+    case mbs_export::ModeKind::rigid:
+      return "rigid";
+    case mbs_export::ModeKind::constrained:
+      return "constrained";
+    case mbs_export::ModeKind::interface:
+      return "interface";
+  }
+  return "";
+}
 
 TextTable describe(const mbs_export::ReducedSystem& reduced)
 {

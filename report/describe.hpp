@@ -15,6 +15,9 @@ TextTable describe(const mbs_export::ReducedSystem& reduced);
 TextTable describe(const mbs_export::ModalBody& body);
 TextTable describe(const squeal::SquealResults& results);
 
+/// "rigid", "constrained" or "interface".
+std::string name_of(mbs_export::ModeKind kind);
+
 /// The frequencies of a body's modes with their kinds.
 TextTable list_modes(const mbs_export::ModalBody& body);
 

@@ -146,9 +146,12 @@ std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
   std::set<std::string> taken{"beam", "start", "end"};
   std::vector<mesh::BeamPoint> points;
   if (!mesh.has("points")) return points;
-  const Admissible distances{.at_least = 0.0, .at_most = length, .unit = "m, along the beam"};
+  constexpr double digits = 1e-9;  // that a length written by hand may lack
+  const Admissible distances{
+      .at_least = 0.0, .at_most = length * (1.0 + digits), .unit = "m, along the beam"};
   for (const Table& table : mesh.tables("points")) {
-    points.push_back({.name = table.text("name"), .distance = table.number("distance", distances)});
+    points.push_back({.name = table.text("name"),
+                      .distance = std::min(length, table.number("distance", distances))});
     if (!taken.insert(points.back().name).second) {
       table.refuse("name", "is the name of another point or group of the mesh");
     }

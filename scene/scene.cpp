@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -117,8 +118,34 @@ void refuse_key(const Scene& scene, const std::string& key, const std::string& w
   throw Error(fmt::format("{}: {}: {}", scene.path, key, why));
 }
 
+namespace {
+
+/// What is no scene for a reason that can be told.
+void refuse_other_files(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("{}: {}", path, why));
+  };
+  if (!fs::exists(path)) refuse("no such file; give a scene file (TOML)");
+  if (fs::is_directory(path)) refuse("is a folder; give a scene file (TOML)");
+  if (fs::is_regular_file(path) && fs::file_size(path) == 0) refuse("the scene file is empty");
+  const std::string extension = fs::path(path).extension().string();
+  if (extension == ".h5")
+    refuse("holds results, and a scene file (TOML) is asked for; `info` tells what is in it");
+  if (contains({".msh", ".geo", ".step", ".stp"}, extension))
+    refuse("is a mesh, and a scene file (TOML) is asked for, which names it as `file` of [mesh]");
+  if (contains({".bdf", ".nas", ".dat", ".inp", ".unv", ".vtk"}, extension))
+    refuse(
+        "is a mesh of another program; make a .msh of it (`gmsh FILE -save -o mesh.msh`), and "
+        "name that as `file` of [mesh] in a scene");
+}
+
+}  // namespace
+
 Scene read_scene(const std::string& path, Purpose purpose)
 {
+  refuse_other_files(path);
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();

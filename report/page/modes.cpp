@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "report/describe.hpp"
 #include "report/page/numbers.hpp"
 
 namespace chladni::report {
@@ -12,19 +13,6 @@ namespace {
 using Eigen::Index;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-std::string word_for(mbs_export::ModeKind kind)
-{
-  switch (kind) {
-    case mbs_export::ModeKind::rigid:
-      return "rigid";
-    case mbs_export::ModeKind::constrained:
-      return "constrained";
-    case mbs_export::ModeKind::interface:
-      return "interface";
-  }
-  return "";
-}
 
 /// The place in the certificate of each mode of the body: the next one of the same frequency.
 /// Interface modes turn the modes above them, which then are no modes of the certificate.
@@ -77,7 +65,7 @@ Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate
     const int number = static_cast<int>(i) + 1;
     std::vector<Json::Member> mode{{"number", number},
                                    {"frequency_Hz", rounded(body.omega[i] / two_pi)},
-                                   {"kind", word_for(body.kinds[k])}};
+                                   {"kind", name_of(body.kinds[k])}};
     if (const auto n = diameters.find(number); n != diameters.end())
       mode.emplace_back("diameters", n->second);
     if (const auto place = places[k]) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "generated.hpp"
+#include "mesh/quality.hpp"
 
 namespace chladni::mesh {
 namespace {
@@ -42,6 +43,27 @@ TEST_P(EdgeRows, AnnulusHasOneRowOfElementsAlongItsEdges)
     const int n_columns = pattern() == Pattern::triangles ? 2 : 1;
     EXPECT_EQ(n_in_row, n_columns * std::ssize(on_edge));
   }
+}
+
+/// The arcs of an element of 30 mm bow by 0.7 mm.
+TEST_P(EdgeRows, FoldNoElementWhereTheyAreThinnerThanTheirArcsBow)
+{
+  AnnulusOptions thin = annulus_options(pattern(), order());
+  thin.element_size = 0.03;
+  thin.edge_row = 0.0005;
+  EXPECT_TRUE(unusable(quality(annulus(thin))).empty());
+  HatDiscOptions hat = hat_options(pattern(), order());
+  hat.element_size = 0.03;
+  hat.edge_row = 0.0005;
+  EXPECT_TRUE(unusable(quality(hat_disc(hat))).empty());
+  EXPECT_TRUE(unusable(quality(pad({.inner_radius = 0.10,
+                                    .outer_radius = 0.15,
+                                    .angle = 1.0,
+                                    .element_size = 0.03,
+                                    .element_order = order(),
+                                    .pattern = pattern(),
+                                    .edge_row = 0.0005})))
+                  .empty());
 }
 
 TEST_P(EdgeRows, StandAlongAllFourEdgesOfARectangle)

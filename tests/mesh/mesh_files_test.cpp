@@ -45,6 +45,28 @@ TEST_F(MeshFile, OfAGeometryNamesAParameterThatItDoesNotTake)
                {"overwrites the parameter height", "DefineConstant[height"});
 }
 
+TEST_F(MeshFile, OfAGeometryNamesTheLineOfAMistake)
+{
+  const std::string file =
+      write("a.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0 0};\nLine(1) = {1, 2};\n");
+  expect_words(error_of({.file = file}), {"a.geo", "line 2", "syntax error"});
+}
+
+TEST_F(MeshFile, OfAGeometryInMillimetresGetsAHint)
+{
+  const std::string file = write("a.geo", parametric_geo);
+  const MeshOptions wide{.file = file, .parameters = {{"width", 300.0}}};
+  const Mesh mesh = generate(wide);
+  ASSERT_EQ(mesh.notes.size(), 1U);
+  expect_words(mesh.notes[0], {"300 m", "length_unit"});
+  MeshOptions ring = wide;
+  ring.rings = {{.name = "track", .radius = 0.13, .nodes = 12}};
+  expect_words(error_of(ring), {"track", "length_unit"});
+  MeshOptions millimetres = wide;
+  millimetres.length_unit = 1e-3;
+  EXPECT_TRUE(generate(millimetres).notes.empty());
+}
+
 TEST_F(MeshFile, OfAGeometryIsNotMeshedByTheAlgorithmThatCrashes)
 {
   std::string disc = "Mesh.Algorithm = 8;\nPoint(100) = {0, 0, 0};\n";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <regex>
@@ -682,6 +683,15 @@ TEST(Scene, HoldsABeam)
   EXPECT_TRUE(scene.sections.empty());
 }
 
+TEST(Scene, TakesAPointAtTheEndOfABeamInSpiteOfRounding)
+{
+  ASSERT_LT(0.3 - 0.1, 0.2);
+  std::string text = replaced(beam, "start = [0.0, 0.0, 0.0]", "start = [0.0, 0.0, 0.1]");
+  text = replaced(text, "end = [3.0, 0.0, 4.0]", "end = [0.0, 0.0, 0.3]");
+  text = replaced(text, "distance = 2.5", "distance = 0.2");
+  EXPECT_EQ(parse_scene(text, "scene.toml").mesh.beam->points[0].distance, 0.3 - 0.1);
+}
+
 TEST(Scene, TakesATimoshenkoBeamInSpaceUnlessTold)
 {
   std::string text = replaced(beam, "theory = \"bernoulli-euler\"\nrotary_inertia = \"none\"\n",
@@ -826,6 +836,28 @@ TEST(SceneError, KeepsFilesInTheirFolder)
 {
   EXPECT_EQ(error_of(replaced(disc, "title = \"Disc\"", "name = \"../disc\"")),
             "scene.toml:1: name = \"../disc\": names files: only letters, digits, _ and -");
+}
+
+TEST(SceneError, SaysWhatAFileIsThatIsNoScene)
+{
+  const auto folder = std::filesystem::temp_directory_path() / "chladni_no_scene";
+  std::filesystem::create_directories(folder);
+  const auto why = [&](const std::string& name) {
+    const std::string file = (folder / name).string();
+    std::ofstream(file) << (name == "empty.toml" ? "" : "1");
+    try {
+      read_scene(file);
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(file.size() + 2);
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(why("empty.toml"), "the scene file is empty");
+  EXPECT_NE(why("disc.body.h5").find("holds results"), std::string::npos);
+  EXPECT_NE(why("disc.msh").find("`file` of [mesh]"), std::string::npos);
+  EXPECT_NE(why("hat.bdf").find("gmsh FILE"), std::string::npos);
+  EXPECT_THROW(read_scene(folder.string()), Error);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(SceneError, NamesAFileThatCannotBeRead)
