@@ -44,6 +44,7 @@ sound::Onset onset_of(const squeal::SquealResults& results, sound::CycleChoice c
   sound::Onset onset;
   if (!results.transient || !results.limit_cycle || choice == sound::CycleChoice::direct)
     return onset;
+  if (!(results.limit_cycle->pad_velocity > 0.0)) return onset;
   onset.t = results.transient->envelope.t;
   for (const double v : results.transient->envelope.pad_velocity)
     onset.amplitude.push_back(v / results.limit_cycle->pad_velocity);

@@ -104,11 +104,13 @@ class Writer {
 };
 
 /// Reads a file that need not be trusted: every dataset must exist, hold the right kind of value,
-/// have the rank and the extents that are asked for, fit into the file, and be finite.
+/// have the rank and the extents that are asked for, fit into the file, and be finite. What a file
+/// unpacks to is bounded by its own size, and nothing is read that stands in other files or needs
+/// code from elsewhere (foreign_parts.hpp), with a seal or without.
 /// Every function throws chladni::Error that names the file, the dataset and what was expected.
 class Reader {
  public:
-  /// Checks the seal before libhdf5 opens the file.
+  /// Checks the seal before libhdf5 opens the file, which a process of its own tries first.
   explicit Reader(std::string path);
   ~Reader();
   Reader(const Reader&) = delete;
@@ -135,8 +137,9 @@ class Reader {
 
  private:
   std::string path_;
-  std::int64_t file_ = -1;  ///< hid_t
-  std::uint64_t size_ = 0;  ///< of the file, bytes
+  std::int64_t file_ = -1;                 ///< hid_t
+  std::uint64_t size_ = 0;                 ///< of the file, bytes
+  mutable std::uint64_t memory_left_ = 0;  ///< that values of the file may still take, bytes
 };
 
 }  // namespace chladni::files

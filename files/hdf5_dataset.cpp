@@ -3,34 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+
+#include "files/foreign_parts.hpp"
 
 namespace chladni::files {
 namespace {
-
-/// The extents; none when the values could not come from what the file stores of them. Compressed
-/// ones can be larger than that, by a factor of about 1000 at most.
-std::optional<std::vector<Eigen::Index>> plausible_shape(hid_t dataset, hid_t type,
-                                                         hsize_t file_size)
-{
-  const Handle space{H5Dget_space(dataset), H5Sclose};
-  const Handle creation{H5Dget_create_plist(dataset), H5Pclose};
-  const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank < 0 || H5Sget_simple_extent_type(space.get()) == H5S_NULL) return std::nullopt;
-  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
-  H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-  const hsize_t value_size = H5Tget_size(type);
-  if (value_size == 0) return std::nullopt;
-  const bool is_empty = std::ranges::find(shape, hsize_t{0}) != shape.end();
-  hsize_t rest = std::min<hsize_t>(H5Dget_storage_size(dataset), file_size) / value_size;
-  if (H5Pget_nfilters(creation.get()) > 0) rest *= 1024;
-  for (const hsize_t extent : shape) {
-    if (extent > (is_empty ? file_size : rest)) return std::nullopt;
-    if (extent > 0) rest /= extent;
-  }
-  if (rest == 0 && !is_empty) return std::nullopt;
-  return std::vector<Eigen::Index>(shape.begin(), shape.end());
-}
 
 bool matches(const std::vector<Eigen::Index>& shape, const std::vector<Eigen::Index>& expected)
 {
@@ -47,7 +24,86 @@ std::string describe(const std::vector<Eigen::Index>& shape)
   return extents.empty() ? "a single value" : fmt::format("[{}]", fmt::join(extents, " x "));
 }
 
+/// Takes what the values need from what the file may still take.
+void take_memory(const Source& source, const std::string& name, const Dataset& dataset)
+{
+  constexpr std::size_t of_each_text = sizeof(std::string);
+  const bool is_text = H5Tget_class(dataset.type.get()) == H5T_STRING;
+  const std::uint64_t needed =
+      dataset.n_bytes() + (is_text ? dataset.n_values() * of_each_text : 0);
+  if (needed > source.memory_left) {
+    source.reader.fail(
+        name, fmt::format("claims {} values, which with those read before take more than the {} "
+                          "MiB that a file of {} bytes may take",
+                          dataset.n_values(), most_memory(source.size) >> 20, source.size));
+  }
+  source.memory_left -= needed;
+}
+
+/// @throws chladni::Error, as Reader::fail, where its values are not here.
+void require_own_values(const Source& source, const std::string& name, hid_t creation)
+{
+  const std::string foreign = foreign_part(creation);
+  if (!foreign.empty()) source.reader.fail(name, foreign);
+  if (is_view(creation)) source.reader.fail(name, "is a view of other datasets; read those");
+}
+
 }  // namespace
+
+std::optional<Handle> memory_type(hid_t dataset)
+{
+  Handle type{H5Dget_type(dataset), H5Tclose};
+  switch (H5Tget_class(type.get())) {
+    case H5T_FLOAT:
+      return Handle{H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose};
+    case H5T_INTEGER:
+      return Handle{H5Tcopy(H5T_NATIVE_INT64), H5Tclose};
+    case H5T_STRING:
+      if (H5Tis_variable_str(type.get()) != 0) return std::nullopt;
+      return type;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<std::vector<Eigen::Index>> plausible_shape(hid_t dataset, hid_t creation,
+                                                         hsize_t file_size)
+{
+  const Handle type{H5Dget_type(dataset), H5Tclose};
+  const Handle space{H5Dget_space(dataset), H5Sclose};
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank < 0 || H5Sget_simple_extent_type(space.get()) == H5S_NULL) return std::nullopt;
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+  const hsize_t value_size = H5Tget_size(type.get());
+  if (value_size == 0) return std::nullopt;
+  const bool is_empty = std::ranges::find(shape, hsize_t{0}) != shape.end();
+  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(dataset), file_size);
+  hsize_t rest = (H5Pget_nfilters(creation) > 0 ? 1030 * stored : stored) / value_size;
+  for (const hsize_t extent : shape) {
+    if (extent > (is_empty ? file_size : rest)) return std::nullopt;
+    if (extent > 0) rest /= extent;
+  }
+  if (rest == 0 && !is_empty) return std::nullopt;
+  return std::vector<Eigen::Index>(shape.begin(), shape.end());
+}
+
+std::size_t Dataset::n_values() const
+{
+  std::size_t n = 1;
+  for (const Eigen::Index extent : shape) n *= static_cast<std::size_t>(extent);
+  return n;
+}
+
+std::size_t Dataset::n_bytes() const
+{
+  return n_values() * H5Tget_size(type.get());
+}
+
+bool read_values(const Dataset& dataset, void* values)
+{
+  return H5Dread(dataset.id.get(), dataset.type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+}
 
 const char* class_name(H5T_class_t type)
 {
@@ -74,12 +130,18 @@ Dataset open_dataset(const Source& source, const std::string& name, const Expect
   if (found != expected.type)
     reader.fail(name,
                 fmt::format("holds {}, expected {}", class_name(found), class_name(expected.type)));
-  const auto shape = plausible_shape(id.get(), type.get(), source.size);
+  std::optional<Handle> held = memory_type(id.get());
+  if (!held) reader.fail(name, "holds text of variable length, expected fixed length");
+  const Handle creation{H5Dget_create_plist(id.get()), H5Pclose};
+  require_own_values(source, name, creation.get());
+  const auto shape = plausible_shape(id.get(), creation.get(), source.size);
   if (!shape) reader.fail(name, "claims more values than the file can hold");
   if (!matches(*shape, expected.shape))
     reader.fail(
         name, fmt::format("has shape {}, expected {}", describe(*shape), describe(expected.shape)));
-  return {std::move(id), *shape};
+  Dataset dataset{std::move(id), *shape, std::move(*held)};
+  take_memory(source, name, dataset);
+  return dataset;
 }
 
 }  // namespace chladni::files

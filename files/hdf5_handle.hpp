@@ -45,4 +45,12 @@ inline void silence_errors()
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+/// Before a file is opened that nobody vouches for: no message of libhdf5's own, and no filter is
+/// loaded from HDF5_PLUGIN_PATH, in the whole process and from then on.
+inline void prepare_to_read()
+{
+  silence_errors();
+  H5PLset_loading_state(0);
+}
+
 }  // namespace chladni::files

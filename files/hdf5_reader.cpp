@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
 #include "files/hdf5_dataset.hpp"
+#include "files/regular_file.hpp"
 #include "files/seal.hpp"
 #include "files/trial_reading.hpp"
 
@@ -14,11 +14,10 @@ namespace chladni::files {
 namespace {
 
 template <class T>
-std::vector<T> read_values(const Source& source, const std::string& name, const Dataset& dataset,
-                           hid_t type)
+std::vector<T> values_of(const Source& source, const std::string& name, const Dataset& dataset)
 {
-  std::vector<T> values(dataset.n_values());
-  if (H5Dread(dataset.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  std::vector<T> values(dataset.n_bytes() / sizeof(T));
+  if (!read_values(dataset, values.data()))
     source.reader.fail(name, "cannot be read; the file is damaged");
   return values;
 }
@@ -26,7 +25,7 @@ std::vector<T> read_values(const Source& source, const std::string& name, const 
 std::vector<double> read_reals(const Source& source, const std::string& name,
                                const Dataset& dataset)
 {
-  const auto values = read_values<double>(source, name, dataset, H5T_NATIVE_DOUBLE);
+  const auto values = values_of<double>(source, name, dataset);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
       source.reader.fail(name, fmt::format("value {} of {} is {}, expected finite numbers", i + 1,
@@ -46,14 +45,7 @@ std::vector<std::string> split_texts(const std::vector<char>& padded, std::size_
 std::vector<std::string> read_texts(const Source& source, const std::string& name,
                                     const Dataset& dataset)
 {
-  const Handle type{H5Dget_type(dataset.id.get()), H5Tclose};
-  if (H5Tis_variable_str(type.get()) != 0)
-    source.reader.fail(name, "holds text of variable length, expected fixed length");
-  const std::size_t size = H5Tget_size(type.get());
-  std::vector<char> padded(dataset.n_values() * size);
-  if (H5Dread(dataset.id.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0)
-    source.reader.fail(name, "cannot be read; the file is damaged");
-  return split_texts(padded, size);
+  return split_texts(values_of<char>(source, name, dataset), H5Tget_size(dataset.type.get()));
 }
 
 Handle open_attribute(const Source& source, const std::string& object, const std::string& name)
@@ -84,13 +76,13 @@ Handle attribute_type(const Source& source, hid_t attribute, const std::string& 
 
 Reader::Reader(std::string path) : path_(std::move(path))
 {
-  silence_errors();
-  std::error_code absent;
-  size_ = std::filesystem::file_size(path_, absent);
-  if (absent) throw Error(fmt::format("{}: no such file, or not readable", path_));
-  if (!check_seal(path_) && !survives_reading(path_))
-    throw Error(fmt::format(
-        "{}: is so damaged that libhdf5 ends over it; make it anew or take a copy", path_));
+  prepare_to_read();
+  size_ = regular_file_size(path_);
+  memory_left_ = most_memory(size_);
+  check_seal(path_);
+  // A seal tells what was damaged, and not who made the file: with one or without, it is tried.
+  if (const auto refusal = refusal_of_trial(path_, limits_of_trial(size_)))
+    throw Error(fmt::format("{}: {}", path_, *refusal));
   file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) throw Error(fmt::format("{}: not an HDF5 file, or cut short", path_));
 }
@@ -125,7 +117,7 @@ void Reader::expect_format(const std::string& format, std::int64_t version) cons
 
 Eigen::MatrixXd Reader::matrix(const std::string& name, Shape shape) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Dataset dataset = open_dataset(source, name, {H5T_FLOAT, {shape.rows, shape.cols}});
   const auto values = read_reals(source, name, dataset);
   return Eigen::Map<const RowMajorMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
@@ -133,54 +125,54 @@ Eigen::MatrixXd Reader::matrix(const std::string& name, Shape shape) const
 
 Eigen::VectorXd Reader::vector(const std::string& name, Eigen::Index size) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const auto values = read_reals(source, name, open_dataset(source, name, {H5T_FLOAT, {size}}));
   return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
 }
 
 double Reader::real(const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   return read_reals(source, name, open_dataset(source, name, {H5T_FLOAT, {}})).front();
 }
 
 std::int64_t Reader::integer(const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {}});
-  return read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64).front();
+  return values_of<std::int64_t>(source, name, dataset).front();
 }
 
 std::vector<std::int64_t> Reader::integers(const std::string& name, Eigen::Index size) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {size}});
-  return read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64);
+  return values_of<std::int64_t>(source, name, dataset);
 }
 
 IntegerMatrix Reader::integer_matrix(const std::string& name, Shape shape) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Dataset dataset = open_dataset(source, name, {H5T_INTEGER, {shape.rows, shape.cols}});
-  const auto values = read_values<std::int64_t>(source, name, dataset, H5T_NATIVE_INT64);
+  const auto values = values_of<std::int64_t>(source, name, dataset);
   return Eigen::Map<const IntegerMatrix>(values.data(), dataset.shape[0], dataset.shape[1]);
 }
 
 std::string Reader::text(const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   return read_texts(source, name, open_dataset(source, name, {H5T_STRING, {}})).front();
 }
 
 std::vector<std::string> Reader::texts(const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   return read_texts(source, name, open_dataset(source, name, {H5T_STRING, {any}}));
 }
 
 std::string Reader::text_attribute(const std::string& object, const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Handle attribute = open_attribute(source, object, name);
   const Handle type = attribute_type(source, attribute.get(), name, H5T_STRING);
   std::vector<char> padded(H5Tget_size(type.get()));
@@ -191,7 +183,7 @@ std::string Reader::text_attribute(const std::string& object, const std::string&
 
 std::int64_t Reader::integer_attribute(const std::string& object, const std::string& name) const
 {
-  const Source source{*this, file_, size_};
+  const Source source{*this, file_, size_, memory_left_};
   const Handle attribute = open_attribute(source, object, name);
   const Handle type = attribute_type(source, attribute.get(), name, H5T_INTEGER);
   std::int64_t number = 0;

@@ -15,6 +15,7 @@
 
 #include "common/error.hpp"
 #include "files/hdf5_handle.hpp"
+#include "files/regular_file.hpp"
 #include "files/replacement.hpp"
 #include "files/superblock.hpp"
 #include "files/text_file.hpp"
@@ -92,7 +93,8 @@ std::uint64_t sealed_length(std::string_view seal)
 std::string read_detached(const std::string& path)
 {
   const std::string beside = detached_seal(path);
-  if (!std::filesystem::is_regular_file(beside)) return "";
+  if (!std::filesystem::exists(beside)) return "";
+  regular_file_size(beside);
   std::ifstream file(beside, std::ios::binary);
   const std::string text = beginning(file);
   if (!text.starts_with(seal_begins))
@@ -137,16 +139,19 @@ bool copy_hdf5(const std::string& from, std::size_t start, const std::string& to
   return copy.good() && place_superblock(to, target);
 }
 
-bool opens(const std::string& path)
+/// @throws chladni::Error about `path` when its copy is not to be read.
+void require_readable(const std::string& path, const std::string& copy)
 {
-  silence_errors();
-  return survives_reading(path) &&
-         Handle{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}.valid();
+  const auto refusal = refusal_of_trial(copy, limits_of_trial(std::filesystem::file_size(copy)));
+  if (refusal) throw Error(fmt::format("{}: cannot be sealed: {}", path, *refusal));
+  if (!Handle{H5Fopen(copy.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}.valid())
+    throw Error(fmt::format("{}: cannot be sealed: libhdf5 cannot read it either", path));
 }
 
 /// Where HDF5 begins: at once, or behind a seal, which may be damaged.
 std::size_t start_of_hdf5(const std::string& path)
 {
+  regular_file_size(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("{}: no such file, or not readable", path));
   const std::string bytes = beginning(file, seal_size + hdf5_begins.size());
@@ -172,6 +177,7 @@ bool write_seal(const std::string& path)
 
 bool check_seal(const std::string& path)
 {
+  regular_file_size(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("{}: no such file, or not readable", path));
   const std::string seal = beginning(file);
@@ -210,8 +216,7 @@ void seal_file(const std::string& path, SealPlace place)
   const std::string& copy = replacement.temporary();
   if (!copy_hdf5(path, start, copy, place == SealPlace::inside ? seal_size : 0)) replacement.fail();
   if (place == SealPlace::inside && !write_seal(copy)) replacement.fail();
-  if (!opens(copy))
-    throw Error(fmt::format("{}: cannot be sealed: libhdf5 cannot read it either", path));
+  require_readable(path, copy);
   // The seal beside comes first and goes last: it is not asked where there is one inside.
   if (place == SealPlace::beside) write_detached_seal(path, copy);
   replacement.commit();

@@ -6,7 +6,7 @@
 /// The seal of a file: its first 512 bytes, which HDF5 leaves to others (a "user block"), say in
 /// text how long the whole is and what digest the bytes behind them have. libhdf5 believes what
 /// damaged metadata claim and may read beyond its memory; the seal finds damage before libhdf5 sees
-/// it.
+/// it. It has no key: who makes a file to deceive can seal it, so that a seal gives no privileges.
 namespace chladni::files {
 
 constexpr std::size_t seal_size = 512;  ///< bytes; the least that HDF5 leaves free
@@ -29,7 +29,7 @@ bool check_seal(const std::string& path);
 
 /// Seals what a file holds now, with or without an older seal of either kind; replaces it as a
 /// whole.
-/// @throws chladni::Error when libhdf5 cannot read it, or it cannot be written.
+/// @throws chladni::Error when it is not to be read (trial_reading.hpp), or cannot be written.
 void seal_file(const std::string& path, SealPlace place = SealPlace::inside);
 
 /// The name of a seal beside its file, FILE.seal.

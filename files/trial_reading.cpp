@@ -1,70 +1,102 @@
 #include "files/trial_reading.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <new>
+#include <system_error>
 #include <vector>
 
+#include "common/error.hpp"
+#include "files/foreign_parts.hpp"
+#include "files/hdf5_dataset.hpp"
 #include "files/hdf5_handle.hpp"
 
 namespace chladni::files {
 namespace {
 
-constexpr std::uintmax_t MiB = 1024 * 1024;
+constexpr std::uint64_t MiB = std::uint64_t{1} << 20;
 
-/// Bytes of the values; 0 for those that Reader takes from no file: more than a compressed file can
-/// hold, or of variable length.
-std::size_t size_of_values(hid_t type, hid_t space, hsize_t stored)
-{
-  const hssize_t n = H5Sget_simple_extent_npoints(space);
-  const std::size_t size = H5Tget_size(type);
-  const bool is_variable = H5Tis_variable_str(type) != 0 || H5Tdetect_class(type, H5T_VLEN) != 0;
-  if (n <= 0 || size == 0 || is_variable || stored > hsize_t(-1) / 1024) return 0;
-  return hsize_t(n) <= 1024 * stored / size ? static_cast<std::size_t>(n) * size : 0;
-}
+/// What a walk through all objects carries with it.
+struct Walk {
+  hsize_t file_size;
+  std::unique_ptr<char[]> values = {};  ///< of one dataset after the other
+  std::size_t size = 0;                 ///< of `values`, bytes
+  std::string refusal = {};
+};
 
-herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void* file_size)
+herr_t read_attribute(hid_t object, const char* name, const H5A_info_t* /*info*/, void* walk)
 {
   const Handle attribute{H5Aopen(object, name, H5P_DEFAULT), H5Aclose};
   if (!attribute.valid()) return 0;
   const Handle type{H5Aget_type(attribute.get()), H5Tclose},
       space{H5Aget_space(attribute.get()), H5Sclose};
-  std::vector<char> values(
-      size_of_values(type.get(), space.get(), *static_cast<hsize_t*>(file_size)));
-  if (!values.empty()) H5Aread(attribute.get(), type.get(), values.data());
+  const std::size_t size = H5Tget_size(type.get());
+  if (H5Sget_simple_extent_npoints(space.get()) != 1 || size == 0 ||
+      size > static_cast<Walk*>(walk)->file_size)
+    return 0;
+  std::vector<char> value(std::max(size, sizeof(std::int64_t)));
+  if (H5Tget_class(type.get()) == H5T_INTEGER)
+    H5Aread(attribute.get(), H5T_NATIVE_INT64, value.data());
+  if (H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0)
+    H5Aread(attribute.get(), type.get(), value.data());
   return 0;
 }
 
-void read_dataset(hid_t dataset, hsize_t file_size)
+/// Reads a dataset unless Reader would refuse it by name.
+void read_dataset(Handle id, hid_t creation, Walk& walk)
 {
-  const Handle type{H5Dget_type(dataset), H5Tclose}, space{H5Dget_space(dataset), H5Sclose};
-  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(dataset), file_size);
-  std::vector<char> values(size_of_values(type.get(), space.get(), stored));
-  if (!values.empty()) H5Dread(dataset, type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  std::optional<Handle> type = memory_type(id.get());
+  const auto shape = plausible_shape(id.get(), creation, walk.file_size);
+  if (!type || !shape) return;
+  const Dataset dataset{std::move(id), *shape, std::move(*type)};
+  const std::size_t n = dataset.n_bytes();
+  if (n == 0 || n > most_memory(walk.file_size)) return;
+  if (n > walk.size) {
+    walk.values.reset();
+    walk.values = std::make_unique_for_overwrite<char[]>(n);
+    walk.size = n;
+  }
+  read_values(dataset, walk.values.get());
 }
 
-herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* file_size)
+herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* to_walk)
 {
-  const Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
+  Walk& walk = *static_cast<Walk*>(to_walk);
+  Handle object{H5Oopen(file, name, H5P_DEFAULT), H5Oclose};
   if (!object.valid()) return 0;
-  H5Aiterate2(object.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, file_size);
-  if (info->type == H5O_TYPE_DATASET) read_dataset(object.get(), *static_cast<hsize_t*>(file_size));
+  H5Aiterate2(object.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, read_attribute, &walk);
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  const Handle creation{H5Dget_create_plist(object.get()), H5Pclose};
+  if (const std::string why = foreign_part(creation.get()); !why.empty()) {
+    walk.refusal = fmt::format("{}: {}", shown(name), why);
+    return 1;
+  }
+  if (!is_view(creation.get())) read_dataset(std::move(object), creation.get(), walk);
   return 0;
 }
 
-void read_everything(const std::string& path, hsize_t file_size)
+/// @return why it is not to be read; empty where there is no reason
+std::string read_everything(const std::string& path)
 {
-  silence_errors();
   const Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
-  if (file.valid())
-    H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_NATIVE, read_object, &file_size, H5O_INFO_BASIC);
+  if (!file.valid()) return "";
+  if (std::string link = foreign_link(file.get()); !link.empty()) return link;
+  std::error_code unknown;
+  Walk walk{.file_size = std::filesystem::file_size(path, unknown)};
+  H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_NATIVE, read_object, &walk, H5O_INFO_BASIC);
+  return walk.refusal;
 }
 
 /// Of this process, bytes.
@@ -82,46 +114,109 @@ void lower(__rlimit_resource resource, rlim_t limit)
 }
 
 /// The most that this process has held in memory, bytes.
-std::uintmax_t peak_memory()
+std::uint64_t peak_memory()
 {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
-  return std::uintmax_t(used.ru_maxrss) * 1024;
+  return std::uint64_t(used.ru_maxrss) * 1024;
 }
 
-/// Never returns: others' handlers of signals and their exit are not for this process.
-[[noreturn]] void try_reading(const std::string& path, std::uintmax_t file_size)
+/// Others' handlers of signals are not for this process, nor what malloc or a sanitizer says.
+void leave_the_program()
 {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM})
     std::signal(number, SIG_DFL);
-  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);  // what malloc or a sanitizer says
-  const std::uintmax_t fitting = 128 * MiB + 16 * file_size, before = peak_memory();
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+}
+
+std::string too_much_memory(const TrialLimits& limits)
+{
+  return fmt::format("unpacks to more than {} MiB, 16 times its size and 128 MiB, and is not read",
+                     limits.memory / MiB);
+}
+
+/// Never returns. Its verdict is a '+', or a '-' and why not.
+[[noreturn]] void try_reading(const std::string& path, const TrialLimits& limits, int verdict)
+{
+  leave_the_program();
+  const std::uint64_t before = peak_memory();
   lower(RLIMIT_CORE, 0);
-  lower(RLIMIT_CPU, 10 + file_size / (10 * MiB));
-  lower(RLIMIT_AS, size_of_process() + 2 * fitting);
+  lower(RLIMIT_CPU, limits.cpu_s);
+  lower(RLIMIT_AS, size_of_process() + 2 * limits.memory);
+  alarm(limits.wall_s);
+  std::string refusal;
   try {
-    read_everything(path, file_size);
+    refusal = read_everything(path);
+  } catch (const std::bad_alloc&) {
+    refusal = too_much_memory(limits);
   } catch (...) {
     _exit(1);
   }
   // Memory that ran out is an error in order for libhdf5, and would not be with all of the
   // machine's.
-  _exit(peak_memory() > before + fitting ? 1 : 0);
+  if (peak_memory() > before + limits.memory) refusal = too_much_memory(limits);
+  const std::string said = refusal.empty() ? "+" : "-" + refusal;
+  _exit(write(verdict, said.data(), said.size()) == ssize_t(said.size()) ? 0 : 1);
+}
+
+/// All that comes out of a pipe; closes it.
+std::string all_of(int pipe)
+{
+  std::string text;
+  std::array<char, 4096> piece{};
+  for (;;) {
+    const ssize_t n = read(pipe, piece.data(), piece.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    text.append(piece.data(), std::size_t(n));
+  }
+  close(pipe);
+  return text;
+}
+
+/// How a process ended that gave no verdict.
+std::string describe_end(pid_t child, const TrialLimits& limits)
+{
+  int status = 0;
+  pid_t ended = -1;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  const bool in_time = ended < 0 || !WIFSIGNALED(status) ||
+                       (WTERMSIG(status) != SIGALRM && WTERMSIG(status) != SIGXCPU);
+  if (in_time) return "is so damaged that libhdf5 ends over it; make it anew or take a copy";
+  return fmt::format(
+      "is not read within {} s of the processor and {} s on the clock; make it anew or take a copy",
+      limits.cpu_s, limits.wall_s);
 }
 
 }  // namespace
 
-bool survives_reading(const std::string& path)
+TrialLimits limits_of_trial(std::uint64_t file_size)
 {
-  const std::uintmax_t file_size = std::filesystem::file_size(path);
-  const pid_t child = fork();
-  if (child == 0) try_reading(path, file_size);
-  int status = 0;
-  pid_t ended = -1;
-  do {
-    ended = child < 0 ? -1 : waitpid(child, &status, 0);
-  } while (ended < 0 && child > 0 && errno == EINTR);
-  return ended < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  return {.memory = most_memory(file_size),
+          .cpu_s = unsigned(10 + file_size / (10 * MiB)),
+          .wall_s = unsigned(60 + file_size / MiB)};
+}
+
+std::optional<std::string> refusal_of_trial(const std::string& path, const TrialLimits& limits)
+{
+  prepare_to_read();
+  std::array<int, 2> ends{-1, -1};
+  const pid_t child = pipe2(ends.data(), O_CLOEXEC) == 0 ? fork() : -1;
+  if (child == 0) try_reading(path, limits, ends[1]);
+  const int why = errno;
+  close(ends[1]);
+  const std::string verdict = all_of(ends[0]);
+  if (child < 0)
+    throw Error(fmt::format("{}: cannot be tried by a process of its own before it is read: {}",
+                            path, std::strerror(why)));
+  const std::string end = describe_end(child, limits);
+  if (verdict == "+") return std::nullopt;
+  return verdict.starts_with('-') ? verdict.substr(1) : end;
 }
 
 }  // namespace chladni::files

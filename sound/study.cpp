@@ -147,12 +147,22 @@ Vibration with_harmonics(Vibration v, const squeal::Disc& disc,
   return v;
 }
 
+/// A limit cycle is a motion of the modes: far above them it is of another body. What the air has
+/// to resolve grows with its frequency.
+constexpr double largest_ratio = 10.0;
+
 void check_modes(const Vibration& vibration, const squeal::Disc& disc)
 {
-  if (vibration.modes == modes_of(disc)) return;
-  throw Error(
-      "sound: the limit cycle consists of other modes than use_modes of [squeal] says now; run "
-      "`squeal run` again");
+  if (vibration.modes != modes_of(disc))
+    throw Error(
+        "sound: the limit cycle consists of other modes than use_modes of [squeal] says now; run "
+        "`squeal run` again");
+  const double highest = disc.omega.maxCoeff();
+  if (vibration.omega > 0.0 && vibration.omega <= largest_ratio * highest) return;
+  throw Error(fmt::format(
+      "sound: the limit cycle has {:.6g} Hz, and the modes of the body reach {:.6g} Hz: it is of "
+      "another body; run `squeal run` again",
+      vibration.omega / (2.0 * std::numbers::pi), highest / (2.0 * std::numbers::pi)));
 }
 
 void check_microphones(const Outline& outline, const std::vector<Microphone>& microphones)

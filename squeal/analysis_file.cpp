@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <complex>
+#include <span>
 
+#include "mbs_export/files/file_parts.hpp"
+#include "squeal/file_checks.hpp"
 #include "squeal/stability_file.hpp"
 
 namespace chladni::squeal {
@@ -34,6 +37,8 @@ void write_eigenvalues(Writer& file, const EigenvalueMap& map)
   file.write("eigenvalues/speeds", map.speeds, "rad/s");
   file.write("eigenvalues/lambda_re", map.lambda.real(), "1/s");
   file.write("eigenvalues/lambda_im", map.lambda.imag(), "rad/s");
+  if (!map.mode_numbers.empty())
+    file.write("eigenvalues/mode_numbers", std::span<const int>(map.mode_numbers), "1");
   for (std::size_t i = 0; i < map.shapes.size(); ++i) {
     file.write(shape_group(i) + "/re", map.shapes[i].real(), "1");
     file.write(shape_group(i) + "/im", map.shapes[i].imag(), "1");
@@ -47,8 +52,12 @@ EigenvalueMap read_eigenvalues(const Reader& file)
   const Eigen::MatrixXd im = file.matrix("eigenvalues/lambda_im", {speeds.size(), re.cols()});
   if (re.size() == 0) file.fail("eigenvalues/lambda_re", "it must have a value at each speed");
   EigenvalueMap map{speeds, complex_matrix(re, im)};
+  if (file.contains("eigenvalues/mode_numbers"))
+    map.mode_numbers = read_mode_numbers(file, "eigenvalues/mode_numbers");
   for (std::size_t i = 0; file.contains(shape_group(i)); ++i) {
-    const Eigen::MatrixXd shape = file.matrix(shape_group(i) + "/re", {-1, re.cols()});
+    const Eigen::MatrixXd shape = file.matrix(shape_group(i) + "/re", {files::any, re.cols()});
+    if (shape.rows() < std::ssize(map.mode_numbers))
+      file.fail(shape_group(i) + "/re", "expected a row for each of eigenvalues/mode_numbers");
     map.shapes.push_back(
         complex_matrix(shape, file.matrix(shape_group(i) + "/im", {shape.rows(), shape.cols()})));
   }
@@ -86,7 +95,7 @@ std::vector<CriticalValue> read_critical_values(const Reader& file)
     if (file.contains(group + "/value")) {
       value.value = file.real(group + "/value");
       value.frequency_Hz = file.real(group + "/frequency");
-      value.n_newton_steps = static_cast<int>(file.integer(group + "/newton_steps"));
+      value.n_newton_steps = mbs_export::file_parts::read_count(file, group + "/newton_steps");
     }
     values.push_back(value);
   }
@@ -108,7 +117,7 @@ void write_spectrum(Writer& file, const Spectrum& spectrum)
 
 Spectrum read_spectrum(const Reader& file)
 {
-  const Eigen::VectorXd frequency = file.vector("spectrum/frequency");
+  const Eigen::VectorXd frequency = read_some(file, "spectrum/frequency");
   Spectrum spectrum{frequency, file.vector("spectrum/amplitude", frequency.size()), {}};
   const Eigen::VectorXd at = file.vector("spectrum/peaks/frequency");
   const Eigen::VectorXd amplitude = file.vector("spectrum/peaks/amplitude", at.size());

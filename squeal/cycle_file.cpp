@@ -3,8 +3,11 @@
 #include <complex>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "mbs_export/files/file_parts.hpp"
 #include "squeal/analysis_file.hpp"
+#include "squeal/file_checks.hpp"
 #include "squeal/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -79,26 +82,30 @@ void write_direct(Writer& file, const DirectLimitCycle& cycle)
 
 DirectLimitCycle read_direct(const Reader& file)
 {
-  const auto numbers = file.integers("limit_cycle_direct/mode_numbers");
+  std::vector<int> numbers = read_mode_numbers(file, "limit_cycle_direct/mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());
-  const Eigen::Index size = file.vector("limit_cycle_direct/x").size();
-  return {.speed = file.real("limit_cycle_direct/speed"),
-          .frequency_Hz = file.real("limit_cycle_direct/frequency"),
-          .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
-          .pad_displacement = file.real("limit_cycle_direct/pad_displacement"),
-          .N_min = file.real("limit_cycle_direct/N_min"),
-          .N_max = file.real("limit_cycle_direct/N_max"),
-          .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
-          .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", size),
-                                        file.vector("limit_cycle_direct/multipliers_im", size)),
-          .stable = file.integer("limit_cycle_direct/stable") != 0,
-          .n_newton_steps = static_cast<int>(file.integer("limit_cycle_direct/newton_steps")),
-          .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
-          .x = file.vector("limit_cycle_direct/x"),
-          .mode_numbers = {numbers.begin(), numbers.end()},
-          .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
-                                      file.vector("limit_cycle_direct/amplitude_im", n)),
-          .energy = read_energy(file)};
+  Eigen::VectorXd x = file.vector("limit_cycle_direct/x");
+  const Eigen::Index size = x.size();
+  if (size < 2)
+    file.fail("limit_cycle_direct/x", "expected a displacement and a velocity at least");
+  return {
+      .speed = file.real("limit_cycle_direct/speed"),
+      .frequency_Hz = file.real("limit_cycle_direct/frequency"),
+      .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
+      .pad_displacement = file.real("limit_cycle_direct/pad_displacement"),
+      .N_min = file.real("limit_cycle_direct/N_min"),
+      .N_max = file.real("limit_cycle_direct/N_max"),
+      .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
+      .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", size),
+                                    file.vector("limit_cycle_direct/multipliers_im", size)),
+      .stable = file.integer("limit_cycle_direct/stable") != 0,
+      .n_newton_steps = mbs_export::file_parts::read_count(file, "limit_cycle_direct/newton_steps"),
+      .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
+      .x = std::move(x),
+      .mode_numbers = std::move(numbers),
+      .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
+                                  file.vector("limit_cycle_direct/amplitude_im", n)),
+      .energy = read_energy(file)};
 }
 
 void write_branch(Writer& file, const LimitCycleBranch& branch)

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
+#include "squeal/file_checks.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -59,9 +61,9 @@ Radiation read_radiation(const std::filesystem::path& file)
 {
   const files::Reader reader(file.string());
   reader.expect_format(format, version);
-  const auto numbers = reader.integers("mode_numbers");
+  std::vector<int> numbers = read_mode_numbers(reader, "mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());
-  return {.mode_numbers = {numbers.begin(), numbers.end()},
+  return {.mode_numbers = std::move(numbers),
           .omega = reader.vector("frequencies", n),
           .at = reader.vector("evaluated_at", n),
           .damping = reader.vector("damping", n),

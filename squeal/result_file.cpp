@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "files/hdf5.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
+#include "squeal/file_checks.hpp"
 #include "squeal/sensitivity_file.hpp"
 #include "squeal/stability_file.hpp"
 #include "squeal/transient_file.hpp"
@@ -38,7 +41,7 @@ CriticalSpeed read_critical_speed(const Reader& file)
 {
   CriticalSpeed critical{file.real("critical/speed"), file.real("critical/frequency")};
   if (file.contains("critical/newton_steps"))
-    critical.n_newton_steps = static_cast<int>(file.integer("critical/newton_steps"));
+    critical.n_newton_steps = mbs_export::file_parts::read_count(file, "critical/newton_steps");
   return critical;
 }
 
@@ -53,8 +56,8 @@ void write_map(Writer& file, const StabilityMap& map)
 
 StabilityMap read_map(const Reader& file)
 {
-  const Eigen::VectorXd values = file.vector("stability_map/values");
-  const Eigen::VectorXd speeds = file.vector("stability_map/speeds");
+  const Eigen::VectorXd values = read_some(file, "stability_map/values");
+  const Eigen::VectorXd speeds = read_some(file, "stability_map/speeds");
   return {.parameter = file.text("stability_map/parameter"),
           .values = values,
           .speeds = speeds,
@@ -72,7 +75,7 @@ void write_rotation_stability(Writer& file, const RotationStability& stability)
 
 RotationStability read_rotation_stability(const Reader& file)
 {
-  const Eigen::VectorXd speeds = file.vector("rotation_stability/speeds");
+  const Eigen::VectorXd speeds = read_some(file, "rotation_stability/speeds");
   return {speeds, file.vector("rotation_stability/growth", speeds.size()),
           file.vector("rotation_stability/frequency", speeds.size()),
           read_optional(file, "rotation_stability/critical_speed")};
@@ -111,7 +114,7 @@ void write_limit_cycle(Writer& file, const LimitCycle& cycle)
 
 LimitCycle read_limit_cycle(const Reader& file)
 {
-  const auto numbers = file.integers("limit_cycle/mode_numbers");
+  std::vector<int> numbers = read_mode_numbers(file, "limit_cycle/mode_numbers");
   const Eigen::VectorXd re = file.vector("limit_cycle/amplitude_re");
   const Eigen::VectorXd im = file.vector("limit_cycle/amplitude_im", re.size());
   if (re.size() != 0 && re.size() != static_cast<Eigen::Index>(numbers.size()))
@@ -126,7 +129,7 @@ LimitCycle read_limit_cycle(const Reader& file)
           .settled = file.integer("limit_cycle/settled") != 0,
           .t_zero_force = read_optional(file, "limit_cycle/t_zero_force"),
           .t_99 = file.real("limit_cycle/t_99"),
-          .mode_numbers = {numbers.begin(), numbers.end()},
+          .mode_numbers = std::move(numbers),
           .amplitude = complex_matrix(re, im)};
 }
 

@@ -39,6 +39,7 @@ EigenvalueMap eigenvalues_with_shapes(const Disc& disc, const SquealOptions& opt
   const InertialDisc inertial = inertial_disc(disc);
   EigenvalueMap map = eigenvalues(inertial, options);
   map.shapes = mode_shapes(inertial, options, map);
+  map.mode_numbers = disc.mode_numbers;
   return map;
 }
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "mbs_export/files/file_parts.hpp"
+
 namespace chladni::squeal {
 namespace {
 
 using files::Reader;
 using files::Writer;
+using mbs_export::file_parts::read_count;
 
 std::string subset_group(std::size_t i)
 {
@@ -66,7 +69,7 @@ ModeSensitivity read_sensitivity(const Reader& file)
   for (std::size_t i = 0; file.contains(subset_group(i) + "n_modes"); ++i) {
     const std::string group = subset_group(i);
     sensitivity.subsets.push_back(
-        {.n_modes = static_cast<int>(file.integer(group + "n_modes")),
+        {.n_modes = read_count(file, group + "n_modes"),
          .highest_Hz = file.real(group + "highest_frequency"),
          .critical_speed = read_if(file, group + "critical_speed"),
          .critical_frequency_Hz = read_if(file, group + "critical_frequency"),
@@ -77,7 +80,7 @@ ModeSensitivity read_sensitivity(const Reader& file)
   for (std::size_t i = 0; file.contains(mode_group(i) + "frequency"); ++i) {
     const std::string group = mode_group(i);
     sensitivity.influences.push_back(
-        {.nodal_diameters = static_cast<int>(file.integer(group + "nodal_diameters")),
+        {.nodal_diameters = read_count(file, group + "nodal_diameters"),
          .frequency_Hz = file.real(group + "frequency"),
          .participation = file.real(group + "participation"),
          .growth_without = read_if(file, group + "growth_without"),

@@ -16,6 +16,9 @@ struct EigenvalueMap {
   /// with a mass, of norm 1.
   /// Empty for models without a body.
   std::vector<Eigen::MatrixXcd> shapes = {};
+  /// 1-based in the body, of the first rows of the shapes; empty without shapes and in files of
+  /// earlier versions.
+  std::vector<int> mode_numbers = {};
 };
 
 /// The least stable motion of the sliding disc at one value of a parameter.

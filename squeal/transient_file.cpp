@@ -1,6 +1,11 @@
 #include "squeal/transient_file.hpp"
 
+#include <limits>
+#include <utility>
 #include <vector>
+
+#include "mbs_export/files/file_parts.hpp"
+#include "squeal/file_checks.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -26,7 +31,7 @@ void write_history(Writer& file, const std::string& group, const History& histor
 
 History read_history(const Reader& file, const std::string& group)
 {
-  const std::vector<double> t = read_series(file, group + "/t");
+  const std::vector<double> t = read_times(file, group + "/t");
   const auto n = static_cast<Eigen::Index>(t.size());
   return {t,
           read_series(file, group + "/pad_velocity", n),
@@ -44,10 +49,10 @@ void write_modes(Writer& file, const std::string& group, const ModalHistory& mod
   file.write(group + "/energy", modes.energy, "J");
 }
 
-ModalHistory read_modes(const Reader& file, const std::string& group)
+/// At n times.
+ModalHistory read_modes(const Reader& file, const std::string& group, Eigen::Index n)
 {
-  const std::vector<double> energy = read_series(file, group + "/energy");
-  const auto n = static_cast<Eigen::Index>(energy.size());
+  const std::vector<double> energy = read_series(file, group + "/energy", n);
   const Eigen::MatrixXd q = file.matrix(group + "/q", {n});
   return {q.transpose(), file.matrix(group + "/q_dot", {n, q.cols()}).transpose(), energy};
 }
@@ -68,13 +73,13 @@ void write_events(Writer& file, const std::vector<ContactEvent>& events)
 
 std::vector<ContactEvent> read_events(const Reader& file)
 {
-  const std::vector<double> t = read_series(file, "transient/events/t");
+  const std::vector<double> t = read_times(file, "transient/events/t");
   const auto n = static_cast<Eigen::Index>(t.size());
-  const auto pads = file.integers("transient/events/pad", n);
+  constexpr Eigen::Index limit = std::numeric_limits<int>::max();
+  const auto pads = mbs_export::file_parts::read_indices(file, "transient/events/pad", limit, n);
   const auto gains = file.integers("transient/events/gains", n);
   std::vector<ContactEvent> events;
-  for (std::size_t i = 0; i < t.size(); ++i)
-    events.push_back({t[i], static_cast<int>(pads[i]), gains[i] != 0});
+  for (std::size_t i = 0; i < t.size(); ++i) events.push_back({t[i], pads[i], gains[i] != 0});
   return events;
 }
 
@@ -100,7 +105,7 @@ void write_envelope(Writer& file, const std::string& group, const Envelope& enve
 
 Envelope read_envelope(const Reader& file, const std::string& group)
 {
-  const std::vector<double> t = read_series(file, group + "/t");
+  const std::vector<double> t = read_times(file, group + "/t");
   const auto n = static_cast<Eigen::Index>(t.size());
   return {t, read_series(file, group + "/pad_velocity", n),
           read_series(file, group + "/pad_displacement", n)};
@@ -130,6 +135,8 @@ void write_transient(Writer& file, const Transient& run)
 
 Transient read_transient(const Reader& file)
 {
+  History history = read_history(file, "transient/history");
+  const auto n = static_cast<Eigen::Index>(history.t.size());
   return {.speed = file.real("transient/speed"),
           .step = file.real("transient/step"),
           .finished = file.integer("transient/finished") != 0,
@@ -139,8 +146,8 @@ Transient read_transient(const Reader& file)
           .n_contact_evaluations = file.integer("transient/contact_evaluations"),
           .events = read_events(file),
           .envelope = read_envelope(file, "transient/envelope"),
-          .history = read_history(file, "transient/history"),
-          .modes = read_modes(file, "transient/history"),
+          .history = std::move(history),
+          .modes = read_modes(file, "transient/history", n),
           .tail = read_history(file, "transient/tail"),
           .sound = {},
           .tail_a = {},

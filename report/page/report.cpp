@@ -127,12 +127,19 @@ std::map<int, int> diameters_of(const Found& found, const std::optional<squeal::
   return diameters;
 }
 
+/// @throws chladni::Error naming the file when the results are of another body.
+std::vector<Motion> motions_of(const Found& found, const std::optional<squeal::Disc>& disc)
+try {
+  if (!disc) return {};
+  return squeal_motions(*found.results, disc->mode_numbers, found.body->n_modes());
+} catch (const Error& error) {
+  throw Error(fmt::format("{}.squeal.h5: {}", found.scene.name, error.what()));
+}
+
 std::vector<Json::Member> body_members(const Found& found)
 {
   const std::optional<squeal::Disc> disc = disc_of(found);
-  const std::vector<Motion> motions =
-      disc ? squeal_motions(*found.results, disc->mode_numbers, found.body->n_modes())
-           : std::vector<Motion>();
+  const std::vector<Motion> motions = motions_of(found, disc);
   return {{"surface", shapes_json(*found.body, motions)},
           {"modes", modes_json(*found.body, found.certificate, diameters_of(found, disc))},
           {"certified_support", texts(found.certificate.fixed)},

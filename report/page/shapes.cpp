@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -98,7 +99,7 @@ Json shapes_json(const mbs_export::ModalBody& body, const std::vector<Motion>& m
   const mbs_export::Picture picture = drawable(body);
   if (picture.positions.rows() == 0) return Json();
   const Eigen::Index fitting = most_displacements / (3 * picture.positions.rows());
-  const Eigen::Index n = std::clamp<Eigen::Index>(fitting, 1, body.n_modes());
+  const Eigen::Index n = std::min<Eigen::Index>(std::max<Eigen::Index>(fitting, 1), body.n_modes());
   const std::vector<std::string> kinds{"rigid", "constrained", "interface"};
   std::vector<Json> shapes;
   for (Eigen::Index i = 0; i < n; ++i) {

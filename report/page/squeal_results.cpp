@@ -210,10 +210,13 @@ std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
   const double growth = map.lambda.real().maxCoeff(&i, &j);
   const Eigen::VectorXcd shape = map.shapes[static_cast<std::size_t>(i)].col(j);
   const double f_Hz = map.lambda(i, j).imag() / two_pi;
+  const std::vector<int>& numbers = map.mode_numbers.empty() ? mode_numbers : map.mode_numbers;
+  // Behind the modes of the body are the displacements of pads with a mass.
+  const Index n = map.mode_numbers.empty() ? shape.size() : std::ssize(map.mode_numbers);
   motions.push_back(
       {.name = fmt::format("Least stable at {:.5g} rad/s, {:+.3g} 1/s", map.speeds[i], growth),
        .frequency_Hz = f_Hz,
-       .amplitude = spread(shape, mode_numbers, n_modes)});
+       .amplitude = spread(shape.head(n), numbers, n_modes)});
   return motions;
 }
 

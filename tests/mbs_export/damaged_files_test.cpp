@@ -3,20 +3,16 @@
 // error.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <random>
-#include <vector>
-
 #include "mbs_export/check_body.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
-#include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/replay.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
-using Feed = void (*)(std::span<const std::uint8_t>);
+using fuzz::feed_random_damage, fuzz::replay_corpus;
 
 void feed_body(std::span<const std::uint8_t> bytes)
 {
@@ -28,30 +24,6 @@ void feed_reduced(std::span<const std::uint8_t> bytes)
 {
   fuzz::feed(bytes, CHLADNI_SOURCE_DIR "/tests/data/version_1.reduced.h5",
              [](const std::string& path) { check_reduced(read_reduced(path)); });
-}
-
-/// The inputs that the fuzzers start from, those that once broke a reader among them.
-int replay_corpus(const std::string& kind, Feed feed)
-{
-  int n = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/" + kind)) {
-    SCOPED_TRACE(entry.path());
-    const std::string bytes = fuzz::bytes_of(entry.path());
-    EXPECT_NO_THROW(feed({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
-    ++n;
-  }
-  return n;
-}
-
-void feed_random_damage(Feed feed, int n_files)
-{
-  std::mt19937 random(1);
-  for (int i = 0; i < n_files; ++i) {
-    std::vector<std::uint8_t> bytes(3 * (1 + random() % 4));  // one to four damages
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
-    EXPECT_NO_THROW(feed(bytes)) << i;
-  }
 }
 
 TEST(DamagedFiles, ThatOnceBrokeAReaderEndInAClearError)

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "squeal/radiation.hpp"
+#include "squeal/results.hpp"
+
+namespace chladni::squeal::test {
+
+/// Results of every analysis for two modes, with the fewest values that each may have or a few:
+/// what tests/data/version_1.squeal.h5 holds.
+SquealResults version_1_results();
+
+/// What tests/data/version_1.radiation.h5 holds.
+Radiation version_1_radiation();
+
+}  // namespace chladni::squeal::test
