@@ -49,12 +49,15 @@ void write_modes(Writer& file, const std::string& group, const ModalHistory& mod
   file.write(group + "/energy", modes.energy, "J");
 }
 
-/// At n times.
+/// At n times, or none: models without a body have no modes.
 ModalHistory read_modes(const Reader& file, const std::string& group, Eigen::Index n)
 {
-  const std::vector<double> energy = read_series(file, group + "/energy", n);
-  const Eigen::MatrixXd q = file.matrix(group + "/q", {n});
-  return {q.transpose(), file.matrix(group + "/q_dot", {n, q.cols()}).transpose(), energy};
+  const std::vector<double> energy = read_series(file, group + "/energy");
+  const auto n_energies = static_cast<Eigen::Index>(energy.size());
+  if (n_energies != n && n_energies != 0)
+    file.fail(group + "/energy", "expected as many values as there are times, or none");
+  const Eigen::MatrixXd q = file.matrix(group + "/q", {n_energies});
+  return {q.transpose(), file.matrix(group + "/q_dot", {n_energies, q.cols()}).transpose(), energy};
 }
 
 void write_events(Writer& file, const std::vector<ContactEvent>& events)

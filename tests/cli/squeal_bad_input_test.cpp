@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "mbs_export/files/body_file.hpp"
@@ -154,6 +155,22 @@ TEST(SquealProgram, LeavesNothingBehindWhenTheSceneIsWrong)
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_EQ(ending.err, "scene.toml:54: squeal.friction = -0.6: must be >= 0\n");
   EXPECT_EQ(folder.n_files(), 2u);
+}
+
+TEST(SquealReport, RefusesResultsOfAnotherBodyByName)
+{
+  const Folder folder;
+  write_text(folder.path() / "scene.toml", example_scene());
+  mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
+  std::filesystem::copy_file(CHLADNI_SOURCE_DIR "/tests/data/version_1.squeal.h5",
+                             folder.path() / "disc.squeal.h5");
+  const Ending ending = run(folder, squeal_program + " report scene.toml");
+  EXPECT_EQ(ending.exit_code, 1);
+  EXPECT_NE(
+      ending.err.find("disc.squeal.h5: the results of squeal name mode 3, and the body has 2"),
+      std::string::npos)
+      << ending.err;
+  EXPECT_EQ(folder.n_files(), 3u);
 }
 
 TEST(SquealProgram, RefusesAFileThatIsNoBody)

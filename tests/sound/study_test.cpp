@@ -164,6 +164,25 @@ TEST(Study, NeedsALimitCycleAndMicrophonesInTheAir)
   EXPECT_THROW(sound_study({body, brake, options}, squeal_results), Error);
 }
 
+TEST(Study, RefusesTheLimitCycleOfAnotherBody)
+{
+  const mbs_export::ModalBody body = testing::thesis_body();
+  const squeal::SquealOptions brake = thesis_brake();
+  const SoundOptions options = thesis_sound();
+  squeal::SquealResults results;
+  results.limit_cycle_direct =
+      squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+  squeal::DirectLimitCycle& cycle = *results.limit_cycle_direct;
+  const double frequency_Hz = cycle.frequency_Hz;
+  for (const double wrong_Hz : {0.0, -1700.0, 1e9}) {  // a mesh for 1e9 Hz fills any memory
+    cycle.frequency_Hz = wrong_Hz;
+    EXPECT_THROW(sound_study({body, brake, options}, results), Error);
+  }
+  cycle.frequency_Hz = frequency_Hz;
+  cycle.mode_numbers.back() += 1;
+  EXPECT_THROW(sound_study({body, brake, options}, results), Error);
+}
+
 AirPlan plan(const AirOptions& options)
 {
   return plan_air(thick_body(thesis_sound().lines, Hub::closed).outline, options, 2.0 * pi * 1700.0,

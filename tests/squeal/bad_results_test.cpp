@@ -36,6 +36,11 @@ TEST(BadResults, AreOthersThanTheGoldenOnes)
   EXPECT_EQ(error_after([](SquealResults&) {}), "");
 }
 
+TEST(Results, OfModelsWithoutABodyHaveNoModes)
+{
+  EXPECT_EQ(error_after([](SquealResults& r) { r.transient->modes = ModalHistory{}; }), "");
+}
+
 TEST(BadResults, LackValuesOfWhichTheLargestIsAsked)
 {
   expect_refusal("stability_map/values", [](SquealResults& r) {
