@@ -147,11 +147,11 @@ std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
   std::vector<mesh::BeamPoint> points;
   if (!mesh.has("points")) return points;
   constexpr double digits = 1e-9;  // that a length written by hand may lack
-  const Admissible distances{
-      .at_least = 0.0, .at_most = length * (1.0 + digits), .unit = "m, along the beam"};
+  const Admissible distances{.at_least = 0.0, .at_most = length, .unit = "m, along the beam"};
   for (const Table& table : mesh.tables("points")) {
+    const bool is_end = std::abs(table.number("distance") - length) < digits * length;
     points.push_back({.name = table.text("name"),
-                      .distance = std::min(length, table.number("distance", distances))});
+                      .distance = is_end ? length : table.number("distance", distances)});
     if (!taken.insert(points.back().name).second) {
       table.refuse("name", "is the name of another point or group of the mesh");
     }
