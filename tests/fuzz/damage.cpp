@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -112,6 +113,48 @@ void change_values(hid_t file, const std::string& name, unsigned how)
   }
 }
 
+std::vector<hsize_t> extents_of(hid_t file, const std::string& name)
+{
+  const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+  if (!dataset.valid()) return {};
+  const Handle space{H5Dget_space(dataset.get()), H5Sclose};
+  std::vector<hsize_t> shape(std::size_t(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
+  H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+  return shape;
+}
+
+/// Of the same type, all zeros.
+void make_of_shape(hid_t file, const std::string& name, const std::vector<hsize_t>& shape)
+{
+  const Handle type = [&] {
+    const Handle old{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+    return Handle{H5Dget_type(old.get()), H5Tclose};
+  }();
+  H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+  const Handle space{H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose};
+  const Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+  H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
+  const Handle made{H5Dcreate2(file, name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                               creation.get(), H5P_DEFAULT),
+                    H5Dclose};
+}
+
+/// Everything of a group that is as long as one dataset of it becomes shorter with it, so that
+/// all still fits together.
+void cut_together(hid_t file, const std::string& name, unsigned how)
+{
+  const std::vector<hsize_t> chosen = extents_of(file, name);
+  if (chosen.empty() || chosen[0] > 4096) return;
+  const hsize_t n = chosen[how % chosen.size()];
+  const std::string group = name.substr(0, name.find('/') + 1);
+  for (const std::string& other : dataset_names(file)) {
+    std::vector<hsize_t> shape = extents_of(file, other);
+    if (!other.starts_with(group) || std::ranges::find(shape, n) == shape.end()) continue;
+    std::ranges::replace(shape, n, hsize_t{how / 4 % 3});
+    make_of_shape(file, other, shape);
+  }
+}
+
 void change_version(hid_t file, unsigned how)
 {
   H5Adelete(file, "version");
@@ -140,7 +183,8 @@ void damage(const std::string& path, std::span<const std::uint8_t> bytes)
     if (what >= 20 && what < 90) make_anew(file.get(), name, what, how);
     if (what >= 90 && what < 200) change_values(file.get(), name, how);
     if (what >= 200 && what < 210) change_version(file.get(), how);
-    if (what < 210) continue;
+    if (what >= 210 && what < 230) cut_together(file.get(), name, how);
+    if (what < 230) continue;
     H5Ldelete(file.get(), name.c_str(), H5P_DEFAULT);
     H5Lcreate_hard(file.get(), names[how % names.size()].c_str(), file.get(), name.c_str(),
                    H5P_DEFAULT, H5P_DEFAULT);
