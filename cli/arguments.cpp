@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 
 #include "report/output.hpp"
 #include "scene/names.hpp"
@@ -41,14 +40,14 @@ std::vector<std::string> known_words(const CLI::App& app)
   return words;
 }
 
-/// `did you mean --output?` for the first of the words that nobody knows.
+/// `; did you mean --output?` for the first of the words that nobody knows.
 std::string suggestion(const CLI::App& app, const std::vector<std::string>& words)
 {
   const std::vector<std::string> known = known_words(app);
   for (const std::string& word : words) {
     if (std::ranges::find(known, word) != known.end()) continue;
     const std::string near = scene::nearest_name(word, known);
-    if (!near.empty()) return fmt::format("{}: did you mean {}?\n", word, near);
+    if (!near.empty()) return fmt::format("; did you mean {}?", near);
   }
   return "";
 }
@@ -62,8 +61,10 @@ std::optional<int> parse_arguments(CLI::App& app, std::vector<std::string> words
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) == 0) return exit_ok;
-    fmt::print(stderr, "{}", report::printable(suggestion(app, said)));
+    const std::string near = suggestion(app, said);
+    if (error.get_exit_code() == 0 || near.empty())
+      return app.exit(error) == 0 ? exit_ok : exit_usage;
+    app.exit(CLI::ConversionError(error.what() + report::printable(near)));
     return exit_usage;
   }
   return std::nullopt;

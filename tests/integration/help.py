@@ -20,7 +20,7 @@ for program in sys.argv[1:]:
     print(f"ok      {program}: {', '.join(subcommands)}")
     if len(subcommands) < 4:
         sys.exit("FAILED: subcommands are missing")
-    for slip, meant in (("rnu", "run"), ("infos", "info")):
+    for slip, meant in (("runn", "run"), ("infos", "info")):
         done = start(program, slip)
         if done.returncode != 2 or f"did you mean {meant}?" not in done.stderr:
             sys.exit(f"FAILED: {program} {slip} does not lead to {meant}:\n{done.stderr}")
