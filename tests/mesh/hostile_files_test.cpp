@@ -126,6 +126,11 @@ TEST_F(HostileFile, ThatNeverEndsIsEnded)
 
 TEST_F(HostileFile, ThatGmshCrashesOnEndsInASentence)
 {
+#ifdef CHLADNI_SANITIZED
+  const char* crash = "Gmsh crashed on it";  // the sanitizer makes an exit of the signal
+#else
+  const char* crash = "Gmsh crashed on it (Segmentation fault)";
+#endif
   std::string disc = "Mesh.Algorithm = 8;\nPoint(100) = {0, 0, 0};\n";
   for (int i = 1; i <= 60; ++i) {
     const std::string n = std::to_string(i), angle = "(2 * Pi * " + n + " / 60)";
@@ -136,8 +141,7 @@ TEST_F(HostileFile, ThatGmshCrashesOnEndsInASentence)
     disc += "Line(" + n + ") = {" + n + ", " + std::to_string(i % 60 + 1) + "};\n";
   }
   write("disc.txt", disc + "Curve Loop(1) = {1:60}; Plane Surface(1) = {1};\nMesh 2;\n");
-  expect_words(error_of({.file = write("a.geo", "Include \"disc.txt\";\n")}),
-               {"a.geo", "Gmsh crashed on it (Segmentation fault)"});
+  expect_words(error_of({.file = write("a.geo", "Include \"disc.txt\";\n")}), {"a.geo", crash});
 }
 
 TEST_F(HostileFile, ThatSwellsIsEnded)
