@@ -50,7 +50,7 @@ confinement::Limits limits_of(const MeshOptions& options)
   const std::uint64_t machine =
       std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
   const bool is_msh = fs::path(*options.file).extension() == ".msh";
-  const double usual = is_msh ? 60.0 + 4.0 * double(size / MiB) : 900.0;
+  const double usual = is_msh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
   const std::uint64_t most = is_msh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
   return {.memory = options.most_MiB ? std::uint64_t(*options.most_MiB) * MiB : most,
           .seconds = options.most_seconds.value_or(usual)};
