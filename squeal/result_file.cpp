@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "files/hdf5.hpp"
+#include "mbs_export/files/file_parts.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "squeal/analysis_file.hpp"
 #include "squeal/cycle_file.hpp"
