@@ -8,7 +8,8 @@ namespace chladni::scene {
 
 void Table::Node::note_unusual(std::string_view key, double x, const Admissible& admissible)
 {
-  if (x >= admissible.usual_from && x <= admissible.usual_to) return;
+  const bool is_unit = x == 1.0;  // chosen on purpose: a section then has stiffness and mass
+  if (is_unit || (x >= admissible.usual_from && x <= admissible.usual_to)) return;
   std::string note =
       fmt::format("{} is unusual: {}", said(*table->get(key), path_of(key)), admissible.usually);
   if (!contains(whole->notes, note)) whole->notes.push_back(std::move(note));

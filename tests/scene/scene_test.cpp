@@ -178,6 +178,7 @@ TEST(Scene, NotesNumbersThatLookLikeAnotherUnits)
     return scene.notes.size() == 1 ? scene.notes[0] : "no single note";
   };
   EXPECT_TRUE(parse_scene(disc, "scene.toml").notes.empty());
+  EXPECT_TRUE(parse_scene(replaced(disc, "9e10", "1.0"), "scene.toml").notes.empty());
   EXPECT_EQ(note("9e10", "110"),
             "scene.toml:10: material.iron.young = 110 is unusual: it is in Pa, and a steel has "
             "2.1e11");
