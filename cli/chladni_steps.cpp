@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <utility>
@@ -86,10 +87,29 @@ mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::Red
 
 }  // namespace
 
+namespace {
+
+/// Modes beyond the range that the reduction is certified for are kept, but told.
+void tell_uncertified(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
+{
+  const Eigen::VectorXd& certified = reduced.certificate.frequencies;
+  if (!scene.body.keep.up_to_Hz || certified.size() == 0) return;
+  const double up_to_Hz = certified[certified.size() - 1] / (2.0 * std::numbers::pi);
+  if (*scene.body.keep.up_to_Hz <= up_to_Hz) return;
+  fmt::print(
+      stderr,
+      "note: body.keep asks for modes up to {:.6g} Hz, and the reduction has error estimates "
+      "up to {:.6g} Hz; what is above may be far off\n",
+      *scene.body.keep.up_to_Hz, up_to_Hz);
+}
+
+}  // namespace
+
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,
                                    const mbs_export::ReducedSystem& reduced)
 {
   mbs_export::ModalBody body = made_body(scene, reduced);
+  tell_uncertified(scene, reduced);
   if (scene.squeal && body.n_free_rigid > 0) {
     scene::refuse_key(
         scene, "body.fixed",

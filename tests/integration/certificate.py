@@ -67,6 +67,17 @@ def partner_is_said(programs):
     return "41 (40 asked; 1 more of the same frequency)" in printed
 
 
+def uncertified_is_said(programs):
+    """Modes that are kept beyond the range of the certificate, and within it."""
+    said = []
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder) / "scene.toml"
+        for kept in ("up_to_Hz = 2000.0", "up_to_Hz = 16000.0"):
+            scene.write_text(changed(SCENE, ("keep = { modes = 30 }", f"keep = {{ {kept} }}")))
+            said.append("error estimates up to" in run(programs / "chladni", "run", scene, "--output", folder))
+    return said == [False, True]
+
+
 SUPPORTS = (
     ('["hub"]', '[[support]]\ngroup = "hub"\ntype = "clamped"\n'),
     ('["hub.x", "hub.y", "hub.z"]', '[[support]]\ngroup = "hub"\ntype = "simply-supported"\n'),
@@ -93,6 +104,7 @@ def main(programs):
     checks[f"{n} bounds hold"] = n > 0 and bool(np.all(coarse["bounds"] >= errors))
     print("errors", errors, "\nbounds", coarse["bounds"])
     checks["a partner beyond the number asked for is said"] = partner_is_said(programs)
+    checks["modes kept beyond the certified range are said"] = uncertified_is_said(programs)
     for fixed, support in SUPPORTS:
         checks.update(held_directly(programs, fixed, support))
     for claim, holds in checks.items():
