@@ -89,18 +89,21 @@ mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::Red
 
 namespace {
 
-/// Modes beyond the range that the reduction is certified for are kept, but told.
-void tell_uncertified(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
+/// Modes beyond the last one that the reduction has an error estimate for are kept where a
+/// frequency asks for them, but told.
+void tell_uncertified(const scene::Scene& scene, const mbs_export::ModalBody& body,
+                      const mbs_export::Certificate& certificate)
 {
-  const Eigen::VectorXd& certified = reduced.certificate.frequencies;
+  const Eigen::VectorXd& certified = certificate.frequencies;
   if (!scene.body.keep.up_to_Hz || certified.size() == 0) return;
-  const double up_to_Hz = certified[certified.size() - 1] / (2.0 * std::numbers::pi);
-  if (*scene.body.keep.up_to_Hz <= up_to_Hz) return;
-  fmt::print(
-      stderr,
-      "note: body.keep asks for modes up to {:.6g} Hz, and the reduction has error estimates "
-      "up to {:.6g} Hz; what is above may be far off\n",
-      *scene.body.keep.up_to_Hz, up_to_Hz);
+  constexpr double same_mode = 1.0 + 1e-3;
+  const double last = certified[certified.size() - 1];
+  const auto n_beyond = (body.omega.array() > last * same_mode).count();
+  if (n_beyond == 0) return;
+  fmt::print(stderr,
+             "note: body.keep keeps {} modes above {:.6g} Hz, where the error estimates of the "
+             "reduction end; they may be far off\n",
+             n_beyond, last / (2.0 * std::numbers::pi));
 }
 
 }  // namespace
@@ -109,7 +112,7 @@ mbs_export::ModalBody make_body_of(const scene::Scene& scene,
                                    const mbs_export::ReducedSystem& reduced)
 {
   mbs_export::ModalBody body = made_body(scene, reduced);
-  tell_uncertified(scene, reduced);
+  tell_uncertified(scene, body, reduced.certificate);
   if (scene.squeal && body.n_free_rigid > 0) {
     scene::refuse_key(
         scene, "body.fixed",
