@@ -91,17 +91,27 @@ scene::Scene read_sounding_scene(const std::string& file)
   return scene;
 }
 
-/// Body and results are of the scene as it is.
-void require_origins(const scene::Scene& scene, const Files& files,
-                     const mbs_export::ModalBody& body, const ChladniArguments& arguments)
+/// The body, which is that of the scene as it is.
+mbs_export::ModalBody read_body_of(const scene::Scene& scene, const Files& files,
+                                   const SceneArguments& arguments)
 {
-  const report::Stale stale = stale_of(arguments.scene);
+  mbs_export::ModalBody body = mbs_export::read_body(files.body);
   report::require_of_scene(
-      scene, {.file = files.body, .what = report::Made::body, .origin = body.provenance}, stale);
-  if (arguments.sound.radiation_only) return;
-  const auto origin = mbs_export::file_parts::read_provenance(files.squeal);
-  report::require_of_scene(
-      scene, {.file = files.squeal, .what = report::Made::results, .origin = origin}, stale);
+      scene, {.file = files.body, .what = report::Made::body, .origin = body.provenance},
+      stale_of(arguments));
+  return body;
+}
+
+/// So with the results of squeal.
+squeal::SquealResults read_results_of(const scene::Scene& scene, const Files& files,
+                                      const SceneArguments& arguments)
+{
+  const files::Reader reader(files.squeal.string());
+  const auto origin = mbs_export::file_parts::read_provenance(reader);
+  report::require_of_scene(scene,
+                           {.file = files.squeal, .what = report::Made::results, .origin = origin},
+                           stale_of(arguments));
+  return squeal::read_results(reader);
 }
 
 void compute_sound(const ChladniArguments& arguments)
@@ -117,10 +127,9 @@ void compute_sound(const ChladniArguments& arguments)
                                    "radiation of the modes alone with --radiation",
                                    arguments.scene.scene, arguments.scene.output));
   }
-  const mbs_export::ModalBody body = mbs_export::read_body(files.body);
-  require_origins(scene, files, body, arguments);
+  const mbs_export::ModalBody body = read_body_of(scene, files, arguments.scene);
   const squeal::SquealResults squeal_results =
-      whole ? squeal::read_results(files.squeal) : squeal::SquealResults{};
+      whole ? read_results_of(scene, files, arguments.scene) : squeal::SquealResults{};
   const ReservedOutputs reserved = reserve(arguments.scene, files, arguments.sound);
   clock.end_phase("read");
   const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};

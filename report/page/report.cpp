@@ -63,8 +63,9 @@ Found find_files(const ReportArguments& arguments)
     found.certificate = reduced.certificate;
   }
   if (exists(file(".squeal.h5"))) {
-    found.results = squeal::read_results(file(".squeal.h5"));
-    check(".squeal.h5", Made::results, file_parts::read_provenance(file(".squeal.h5")));
+    const files::Reader reader(file(".squeal.h5").string());
+    found.results = squeal::read_results(reader);
+    check(".squeal.h5", Made::results, file_parts::read_provenance(reader));
   }
   if (!found.body && !found.results) {
     throw Error(fmt::format(
