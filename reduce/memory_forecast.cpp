@@ -25,10 +25,17 @@ bool grows(const ReduceOptions& wanted)
   return wanted.method != Method::guyan && !wanted.modes;
 }
 
+/// In which a tolerance tries a reduced model of n DOFs while the basis of block Lanczos waits.
+double trials_MiB(double n)
+{
+  constexpr double n_matrices = 12.0;
+  return n_matrices * sizeof(double) * n * n / linear::bytes_in_MiB;
+}
+
 double modes_at_first(const ReduceOptions& wanted)
 {
   if (wanted.method == Method::guyan) return 0.0;
-  constexpr double of_a_search = 40.0;
+  constexpr double of_a_search = 50.0;
   return wanted.modes ? *wanted.modes : of_a_search;
 }
 
@@ -53,7 +60,7 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOption
 
 double MemoryForecast::beside_MiB(double n_modes) const
 {
-  constexpr double basis_for_each_mode = 2.1, least_basis = 40.0, blocks_of_lanczos = 56.0;
+  constexpr double basis_for_each_mode = 2.2, least_basis = 85.0, blocks_of_lanczos = 16.0;
   constexpr double in_estimates = 230.0;
   n_modes = std::min(n_modes, n_slaves_);
   const double basis = std::min(basis_for_each_mode * n_modes + least_basis, n_slaves_);
@@ -62,7 +69,8 @@ double MemoryForecast::beside_MiB(double n_modes) const
   const double residuals = options_.count.value_or(false) ? std::min(n_modes, 100.0) : 0.0;
   const double later = options_.later_columns + options_.later_columns_for_each_mode * n_modes;
   const double kept = n_masters_ + n_modes;
-  return column_MiB_ * std::max(in_search, kept + std::max(in_estimates + residuals, later)) -
+  return std::max(column_MiB_ * in_search + (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
+                  column_MiB_ * (kept + std::max(in_estimates + residuals, later))) -
          let_go_MiB_;
 }
 

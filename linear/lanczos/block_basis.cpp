@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/tall_products.hpp"
@@ -40,15 +39,7 @@ void BlockBasis::reserve(PetscInt capacity)
       untouched * sizeof(double) / bytes_in_MiB,
       fmt::format("block Lanczos: a basis of {} vectors of {} DOFs", capacity, n_global_),
       "ask for fewer modes, use more machines or -cms_lanczos_subspace", petsc::communicator(M_));
-  // Not a vector, which would touch all of it and, when it grows, hold it twice.
-  const std::size_t n_bytes =
-      std::max<std::size_t>(std::size_t(n_local_) * capacity, 1) * sizeof(double);
-  void* larger = std::realloc(values_.get(), n_bytes);
-  int refused = larger == nullptr ? 1 : 0;
-  if (larger != nullptr) {
-    static_cast<void>(values_.release());
-    values_.reset(static_cast<double*>(larger));
-  }
+  int refused = values_.grow(std::size_t(n_local_) * capacity) ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPI_INT, MPI_MAX, petsc::communicator(M_));
   if (refused == 1) {
     throw Error(

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "common/petsc.hpp"
-#include "linear/kernels/aligned_numbers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/growing_memory.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
 namespace chladni::linear {
@@ -84,8 +83,8 @@ class BlockBasis {
   PetscInt n_columns_ = 0;
   petsc::Matrix newest_M_;  ///< M times the last block
   std::vector<petsc::Matrix> lost_;
-  petsc::Matrix second_last_M_;           ///< M times the block before; empty after compress
-  std::unique_ptr<double, Free> values_;  ///< [n_local x capacity] column-major, touched when used
+  petsc::Matrix second_last_M_;  ///< M times the block before; empty after compress
+  GrowingMemory values_;         ///< [n_local x capacity] column-major, touched when used
 };
 
 }  // namespace chladni::linear

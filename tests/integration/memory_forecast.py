@@ -93,6 +93,6 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         check(chladni, disc, "100 modes, counted", Path(folder))
         check(chladni, changed(uncounted, ("modes = 100\n", "modes = 20\n")), "20 modes", Path(folder))
-        tolerance = ("modes = 100\n", "tolerance = 1e-3\nup_to_Hz = 6000.0\n")
+        tolerance = ("modes = 100\n", "tolerance = 1e-4\nup_to_Hz = 4000.0\n")
         check_growth(chladni, changed(uncounted, tolerance), Path(folder))
         check(chladni, changed(uncounted, ("craig-bampton", "guyan"), ("modes = 100\n", "")), "Guyan", Path(folder))
