@@ -157,9 +157,9 @@ MatrixXcd complex_power(const Field& field)
 Eigen::VectorXd far_power(const Field& field)
 {
   const bool meridian = field.mesh->dimension() == 2;
-  // The pressure has multipoles up to about kR; a field of tetrahedra has 4 digits, not 10.
-  const double kR = field.wave.k() * field.mesh->inner_radius;
-  const int n = static_cast<int>(meridian ? 24.0 + 2.0 * kR : 12.0 + kR);
+  // The pressure has multipoles up to about k R; a field of tetrahedra has 4 digits, not 10.
+  const double k_R = field.wave.k() * field.mesh->inner_radius;
+  const int n = static_cast<int>(meridian ? 24.0 + 2.0 * k_R : 12.0 + k_R);
   const Quadrature heights = gauss_points(n);  // z of the unit sphere is 2 t - 1
   const int n_phi = meridian ? 1 : 2 * n;
   const double circumference =

@@ -48,7 +48,8 @@ Vibration vibration_in(const squeal::SquealResults& results, CycleChoice choice)
     if (cycle.amplitude.size() == 0)
       throw Error(
           "sound: the limit cycle has no amplitudes in the standing frame, because its disc is not "
-          "axisymmetric: such a disc sounds at more frequencies than one");
+          "axisymmetric: such a disc sounds at more frequencies than one; what each of its modes "
+          "radiates is found with --radiation");
     Vibration v{.speed = cycle.speed,
                 .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,
                 .modes = {},
