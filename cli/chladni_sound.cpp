@@ -76,6 +76,29 @@ Files files_of(const scene::Scene& scene, const SceneArguments& arguments)
           with(".radiation.h5"), with(".sound.vtu"), with(".sound.wav")};
 }
 
+/// Where the numbers come from.
+mbs_export::Provenance origin_of(const scene::Scene& scene, const SceneArguments& arguments,
+                                 const mbs_export::ModalBody& body)
+{
+  mbs_export::Provenance origin = body.provenance;
+  origin.body_scene = std::exchange(origin.scene, scene.text);
+  origin.scene_file = scene_file_of(arguments);
+  origin.versions = fmt::format("chladni {}; body: {}", report::version, origin.versions);
+  return origin;
+}
+
+/// Writes what there is of the results: the radiation before there are tones, then these.
+void write_found(const scene::Scene& scene, const Files& files, const sound::SoundResults& results,
+                 const mbs_export::Provenance& origin)
+{
+  if (results.tones.empty()) {
+    squeal::write_radiation(files.radiation, results.radiation, scene.title, origin);
+  } else {
+    sound::write_sound(files.sound, results, origin);
+    files::write_text(files.picture, report::sound_vtu(results.tones));
+  }
+}
+
 ReservedOutputs reserve(const SceneArguments& arguments, const Files& files,
                         const SoundChoice& choice)
 {
@@ -134,21 +157,16 @@ void compute_sound(const ChladniArguments& arguments)
   clock.end_phase("read");
   const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};
   report::ProgressLine line;
-  const auto report = [&](const std::string& step, double part) { line.show(step, part); };
+  const mbs_export::Provenance origin = origin_of(scene, arguments.scene, body);
+  const sound::StudyListener listener{
+      .progress = [&](const std::string& step, double part) { line.show(step, part); },
+      .found = [&](const sound::SoundResults& found) { write_found(scene, files, found, origin); }};
   const sound::SoundResults results =
-      whole ? sound_study(setting, squeal_results, report)
-            : radiation_study(setting, speed_of(*scene.squeal), report);
+      whole ? sound_study(setting, squeal_results, listener)
+            : radiation_study(setting, speed_of(*scene.squeal), listener);
   clock.end_phase("sound");
 
-  squeal::write_radiation(files.radiation, results.radiation, scene.title);
-  if (whole) {
-    mbs_export::Provenance origin = body.provenance;
-    origin.body_scene = std::exchange(origin.scene, scene.text);
-    origin.scene_file = scene_file_of(arguments.scene);
-    origin.versions = fmt::format("chladni {}; body: {}", report::version, origin.versions);
-    sound::write_sound(files.sound, results, origin);
-    files::write_text(files.picture, report::sound_vtu(results.tones));
-  }
+  if (whole) write_found(scene, files, results, origin);
   clock.end_phase("write");
   const report::Cost cost = report::cost_so_far(clock.phases());
   fmt::print("{}\n\n{}\n{}\nwrote {}\n", report::printable(scene.title),

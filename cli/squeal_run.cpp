@@ -8,8 +8,10 @@
 
 #include "cli/reserve_outputs.hpp"
 #include "common/error.hpp"
+#include "files/hdf5.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "report/cost.hpp"
 #include "report/describe.hpp"
 #include "report/json.hpp"
@@ -52,15 +54,29 @@ void require_of_scene(const scene::Scene& scene, const path& file,
                            stale_of(arguments));
 }
 
-squeal::Radiation read_radiation_of(const path& file, const scene::Scene& scene)
+/// A file of radiation, and what to do with one of another scene; nothing where --body names a body
+/// that is not the scene's.
+struct RadiationFile {
+  path file;
+  std::optional<report::Stale> stale;
+};
+
+squeal::Radiation read_radiation_of(const RadiationFile& source, const scene::Scene& scene)
 {
+  const path& file = source.file;
   if (!std::filesystem::exists(file)) {
     throw Error(
         fmt::format("{0}: no such file, but squeal.radiation = true needs it; make it with "
                     "`chladni sound {1} --radiation --output {2}`",
                     file.string(), scene.path, file.parent_path().string()));
   }
-  return squeal::read_radiation(file);
+  const files::Reader reader(file.string());
+  squeal::Radiation radiation = squeal::read_radiation(reader);
+  if (!source.stale || !reader.contains("provenance/scene")) return radiation;
+  const auto origin = mbs_export::file_parts::read_provenance(reader);
+  report::require_of_scene(scene, {.file = file, .what = report::Made::radiation, .origin = origin},
+                           *source.stale);
+  return radiation;
 }
 
 /// What the analyses found, and where the numbers come from.
@@ -69,9 +85,9 @@ struct Performed {
   mbs_export::Provenance origin;
 };
 
-/// The analyses of a disc that is this body, damped by the file `radiation` if the scene says so.
+/// The analyses of a disc that is this body, damped by `radiation` if the scene says so.
 Performed perform_on_body(const scene::Scene& scene, const mbs_export::ModalBody& body,
-                          const path& radiation, report::PhaseClock& clock)
+                          const RadiationFile& radiation, report::PhaseClock& clock)
 {
   squeal::Disc disc =
       squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
@@ -155,8 +171,10 @@ void run_squeal(const SceneArguments& arguments, const std::string& body_file)
   if (!scene.squeal_model) body = read_body_of(files.body, arguments);
   if (body && body_file.empty()) require_of_scene(scene, files.body, *body, arguments);
   const ReservedOutputs reserved = reserve_outputs(arguments, {files.results, files.sound});
+  RadiationFile radiation{.file = files.radiation, .stale = {}};
+  if (body_file.empty()) radiation.stale = stale_of(arguments);
   auto [results, origin] =
-      body ? perform_on_body(scene, *body, files.radiation, clock) : perform_on_model(scene);
+      body ? perform_on_body(scene, *body, radiation, clock) : perform_on_model(scene);
   origin.scene_file = scene_file_of(arguments);
   clock.end_phase("analyses");
 

@@ -16,7 +16,7 @@ namespace {
 
 /// The scenes that a file was made from, step by step; empty where a step has none.
 struct Texts {
-  std::string reduction, body, results;
+  std::string reduction, body, results, radiation;
 };
 
 Texts texts_of(const Read& read)
@@ -27,17 +27,21 @@ Texts texts_of(const Read& read)
   };
   switch (read.what) {
     case Made::reduction:
-      return {.reduction = origin.scene, .body = {}, .results = {}};
+      return {.reduction = origin.scene, .body = {}, .results = {}, .radiation = {}};
     case Made::body:
       return {.reduction = first(origin.reduction_scene, origin.scene),
               .body = origin.scene,
-              .results = {}};
+              .results = {},
+              .radiation = {}};
     case Made::results:
+    case Made::radiation:
       break;
   }
+  const bool radiates = read.what == Made::radiation;
   return {.reduction = first(origin.reduction_scene, origin.body_scene),
           .body = origin.body_scene,
-          .results = origin.scene};
+          .results = radiates ? std::string() : origin.scene,
+          .radiation = radiates ? origin.scene : std::string()};
 }
 
 /// "the mesh file disc.msh" when it is there and is not what it was.
@@ -66,6 +70,7 @@ std::string remedy_of(Made changed, const Read& read, const std::string& scene)
   const std::string folder = read.file.parent_path().string();
   const std::string words =
       fmt::format("{} --output {}", scene, folder.empty() ? std::string(".") : folder);
+  if (read.what == Made::radiation) return fmt::format("`chladni sound {} --radiation`", words);
   if (changed == Made::results) return fmt::format("`squeal run {}`", words);
   const char* program = read.what == Made::reduction ? "reduce"
                         : changed == Made::reduction ? "run"
@@ -81,6 +86,7 @@ Verdict verdict_on(const scene::Scene& scene, const Read& read)
   Verdict verdict;
   Made first = Made::results;
   add(verdict.changes, scene::changed_keys(texts.results, scene.text, Step::squeal));
+  add(verdict.changes, scene::changed_keys(texts.radiation, scene.text, Step::radiation));
   const auto look_at = [&](const std::vector<std::string>& changes, Made what) {
     if (!changes.empty()) first = what;
     add(verdict.changes, changes);

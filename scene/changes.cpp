@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -60,6 +62,14 @@ bool is_of_reduction(std::string_view key, const Values& values)
   return false;
 }
 
+/// Whether a key of [sound] says what is listened to, and not what radiates into which air.
+bool is_of_listening(std::string_view key)
+{
+  static constexpr std::array keys{"sound.microphones", "sound.cycle", "sound.harmonics",
+                                   "sound.speeds_rad_s", "sound.wav"};
+  return std::ranges::any_of(keys, [&](std::string_view one) { return key.starts_with(one); });
+}
+
 bool is_of(Step step, std::string_view key, const Values& values)
 {
   const std::string_view table = key.substr(0, key.find_first_of(".["));
@@ -68,6 +78,8 @@ bool is_of(Step step, std::string_view key, const Values& values)
       return table == "body";
     case Step::squeal:
       return table == "squeal";
+    case Step::radiation:
+      return table == "sound" && !is_of_listening(key);
     case Step::reduction:
       break;
   }
@@ -93,7 +105,9 @@ std::vector<std::string> changed_keys(const std::string& then, const std::string
   const std::optional<toml::table> before = parsed(then), after = parsed(now);
   if (!before || !after) return {};
   const Values old_values = values_of(step, *before), new_values = values_of(step, *after);
-  const char* of_step = step == Step::squeal ? "squeal" : "mesh";
+  const char* of_step = step == Step::squeal      ? "squeal"
+                        : step == Step::radiation ? "sound"
+                                                  : "mesh";
   if (!before->contains(of_step) || !after->contains(of_step)) return {};
   std::vector<std::string> changes;
   for (const auto& [key, value] : new_values) {

@@ -9,7 +9,8 @@ namespace chladni::scene {
 enum class Step {
   reduction,  ///< of everything that describes the structure, its interface and [reduce]
   body,       ///< of [body]
-  squeal      ///< of [squeal]
+  squeal,     ///< of [squeal]
+  radiation   ///< of what [sound] says of the body and of the air
 };
 
 /// The keys that a step itself depends on and whose values differ between two texts of a scene:

@@ -42,6 +42,10 @@ inline constexpr double least_nodes_per_wavelength = 8.0;
 ///         thin or begins inside the body, or when the outline is not axisymmetric but has to be.
 AirPlan plan_air(const Outline& outline, const AirOptions& options, double omega, bool half_space);
 
+/// A plan with larger elements, whose error is more than twice that of the plan: the difference of
+/// the two fields then tells the error of the finer one. It may be too coarse for plan_air.
+AirPlan coarsened(AirPlan plan);
+
 /// The mesh of a plan.
 AirMesh air_around(const Outline& outline, const AirPlan& plan);
 

@@ -157,7 +157,9 @@ MatrixXcd complex_power(const Field& field)
 Eigen::VectorXd far_power(const Field& field)
 {
   const bool meridian = field.mesh->dimension() == 2;
-  const int n = 24 + static_cast<int>(2.0 * field.wave.k() * field.mesh->inner_radius);
+  // The pressure has multipoles up to about k R; a field of tetrahedra has 4 digits, not 10.
+  const double k_R = field.wave.k() * field.mesh->inner_radius;
+  const int n = static_cast<int>(meridian ? 24.0 + 2.0 * k_R : 12.0 + k_R);
   const Quadrature heights = gauss_points(n);  // z of the unit sphere is 2 t - 1
   const int n_phi = meridian ? 1 : 2 * n;
   const double circumference =

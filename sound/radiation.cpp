@@ -1,6 +1,7 @@
 #include "sound/radiation.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "sound/field.hpp"
 
@@ -12,6 +13,20 @@ using Eigen::Index, Eigen::MatrixXcd;
 /// Modes of nearly one frequency share a mesh: a relative difference of 1e-4 changes the radiation
 /// by a few times that.
 constexpr double same_frequency = 1e-4;
+
+/// Where the radiation of a mode is evaluated, rad/s.
+double evaluated_at(double own, double squeal_omega)
+{
+  return std::abs(own - squeal_omega) < near_squeal * own ? squeal_omega : own;
+}
+
+/// Angles by whose multiple the outline may be turned into itself: 2 pi / this; 0 for all angles.
+int symmetry_of(const Outline& outline)
+{
+  int n = 0;
+  for (const Holes& holes : outline.holes) n = std::gcd(n, holes.count);
+  return n;
+}
 
 /// [n_modes] Z at one frequency.
 Eigen::VectorXcd impedances(const Source& source, double omega)
@@ -47,12 +62,15 @@ squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& sou
   const auto n = static_cast<Index>(modes.size());
   squeal::Radiation result{
       {}, Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (const int mode : modes)  // all are looked at before the first is solved
+    plan_air(source.body.outline, source.air, evaluated_at(body.omega[mode], squeal_omega),
+             source.motion.antisymmetric());
   double omega = 0.0;
   Eigen::VectorXcd Z;
   for (Index i = 0; i < n; ++i) {
     const int mode = modes[std::size_t(i)];
     const double own = body.omega[mode];
-    const double at = std::abs(own - squeal_omega) < near_squeal * own ? squeal_omega : own;
+    const double at = evaluated_at(own, squeal_omega);
     if (std::abs(at - omega) > same_frequency * at) {
       omega = at;
       Z = impedances(source, omega);
@@ -64,6 +82,24 @@ squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& sou
     result.added_mass[i] = Z[i].imag() / omega;
   }
   return result;
+}
+
+squeal::Radiation even_over_pairs(squeal::Radiation radiation, const squeal::Disc& disc,
+                                  const Outline& outline)
+{
+  const std::vector<int> n = squeal::nodal_diameters(disc);
+  const int symmetry = symmetry_of(outline);
+  std::vector<char> taken(n.size(), 0);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    if (taken[i] || n[i] == 0 || (symmetry != 0 && 2 * n[i] % symmetry == 0)) continue;
+    std::size_t j = i + 1;
+    while (j < n.size() && (taken[j] || n[j] != n[i])) ++j;
+    if (j == n.size()) continue;
+    taken[j] = 1;
+    for (Eigen::VectorXd* x : {&radiation.damping, &radiation.added_mass})
+      (*x)[Index(i)] = (*x)[Index(j)] = 0.5 * ((*x)[Index(i)] + (*x)[Index(j)]);
+  }
+  return radiation;
 }
 
 }  // namespace chladni::sound

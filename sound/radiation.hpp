@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sound/tone.hpp"
+#include "squeal/disc.hpp"
 #include "squeal/radiation.hpp"
 
 namespace chladni::sound {
@@ -18,5 +19,11 @@ inline constexpr double near_squeal = 0.05;
 /// @note MPI must be running.
 squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& source,
                             const std::vector<int>& modes, double squeal_omega);
+
+/// The mean over both modes of each pair whose radiation is the same by the symmetry of the
+/// outline: all with nodal diameters around an axisymmetric one; with N holes at equal angles those
+/// whose doubled number N does not divide. What they differ by is an error of the mesh.
+squeal::Radiation even_over_pairs(squeal::Radiation radiation, const squeal::Disc& disc,
+                                  const Outline& outline);
 
 }  // namespace chladni::sound

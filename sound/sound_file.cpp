@@ -38,12 +38,16 @@ void write_brake(Writer& file, const std::string& group, const Brake& brake)
   file.write(group + "/pad_displacement", brake.cycle->pad_displacement, "m");
 }
 
-void write_tone(Writer& file, const Tone& tone)
+void write_tone(Writer& file, const Tone& tone, const Accuracy& accuracy)
 {
   const std::string group = fmt::format("tones/{}", tone.h);
   file.write(group + "/frequency", tone.omega / (2.0 * std::numbers::pi), "Hz");
   file.write(group + "/power", near_power(tone), "W");
-  file.write(group + "/far_power", far_power(tone), "W");
+  file.write(group + "/far_power", near_power(tone) * (1.0 + accuracy.balance), "W");
+  if (accuracy.pressure) {
+    file.write(group + "/pressure_error", *accuracy.pressure, "1");
+    file.write(group + "/power_error", *accuracy.power(), "1");
+  }
   file.write(group + "/unknowns", std::int64_t{tone.n_unknowns}, "1");
   file.write(group + "/elements", std::int64_t{tone.n_elements}, "1");
   for (const Field& field : tone.fields) {
@@ -132,7 +136,9 @@ void write_sound(const std::filesystem::path& path, const SoundResults& results,
     file.write("speed", results.vibration->speed, "rad/s");
     file.write("frequency", results.vibration->omega / (2.0 * std::numbers::pi), "Hz");
   }
-  for (const Tone& tone : results.tones) write_tone(file, tone);
+  for (std::size_t i = 0; i < results.tones.size(); ++i)
+    write_tone(file, results.tones[i], results.accuracy[i]);
+  if (!results.notes.empty()) file.write("notes", results.notes);
   if (!results.heard.empty()) write_microphones(file, results);
   if (results.directivity) {
     file.write("directivity/polar", results.directivity->polar, "rad");

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "common/error.hpp"
 #include "sound/radiation.hpp"
+#include "sound/stage.hpp"
 #include "squeal/cycle_harmonics.hpp"
 #include "squeal/inertial_frame.hpp"
 #include "squeal/limit_cycle_direct.hpp"
@@ -15,47 +15,6 @@
 
 namespace chladni::sound {
 namespace {
-
-using Eigen::Index;
-
-/// Harmonics of a mode on its ring below this part of the largest are noise of the mesh; of the
-/// radiated power they are the square of it.
-constexpr double noise = 2e-3;
-
-/// Circumferential harmonics that the modes of the disc have.
-std::vector<int> harmonics_of(const squeal::Disc& disc)
-{
-  const squeal::Harmonics& W = disc.rings.front().W;
-  const Eigen::ArrayXXd amplitude = (W.cosine.cwiseAbs2() + W.sine.cwiseAbs2()).cwiseSqrt().array();
-  std::vector<int> harmonics;
-  for (Index n = 0; n < amplitude.rows(); ++n) {
-    const auto part = amplitude.row(n) / amplitude.colwise().maxCoeff();
-    if ((part > noise).any()) harmonics.push_back(static_cast<int>(n));
-  }
-  return harmonics;
-}
-
-std::vector<int> modes_of(const squeal::Disc& disc)
-{
-  std::vector<int> modes;
-  for (const int number : disc.mode_numbers) modes.push_back(number - 1);
-  return modes;
-}
-
-/// What all steps of a study need.
-struct Stage {
-  squeal::Disc disc;
-  ThickBody body;
-  SurfaceMotion motion;
-};
-
-Stage make_stage(const Setting& setting)
-{
-  squeal::Disc disc = squeal::make_disc(setting.body, setting.squeal.ring, setting.squeal.modes);
-  ThickBody body = thick_body(setting.sound.lines, setting.sound.hub, setting.sound.holes);
-  SurfaceMotion motion(setting.body, body, modes_of(disc), harmonics_of(disc));
-  return {std::move(disc), std::move(body), std::move(motion)};
-}
 
 Brake brake_at(const squeal::Disc& disc, const squeal::SquealOptions& options, double speed)
 {
@@ -69,70 +28,66 @@ Brake brake_at(const squeal::Disc& disc, const squeal::SquealOptions& options, d
   return brake;
 }
 
+/// Why nothing can be said of the squeal with the damping by sound, if so.
+std::optional<std::string> hindrance(const squeal::Disc& disc, const squeal::Radiation& radiation)
+{
+  if (const auto reason = squeal::asymmetry(disc))
+    return fmt::format("the disc is not axisymmetric: {}", *reason);
+  if (const auto reason = squeal::asymmetry(squeal::with_radiation(disc, radiation)))
+    return fmt::format("with this damping the disc is not axisymmetric: {}", *reason);
+  return std::nullopt;
+}
+
+/// Performs a step without which the other results hold; its error becomes a note.
+void attempt(std::vector<std::string>& notes, const std::string& what,
+             const std::function<void()>& step)
+{
+  try {
+    step();
+  } catch (const Error& error) {
+    notes.push_back(fmt::format("left out: {}, because {}", what, error.what()));
+  }
+}
+
+constexpr auto feedback_name = "what the sound does to the squeal";
+
 SoundResults with_radiation_of(const Setting& setting, const Stage& stage, double speed,
-                               const StudyProgress& report)
+                               const StudyListener& listener)
 {
   SoundResults results{.medium = setting.sound.air.medium,
                        .harmonics = stage.motion.harmonics(),
                        .residual = stage.motion.residual().maxCoeff(),
+                       .inner_nodes = stage.motion.inner_nodes(),
                        .radiation = {},
                        .feedback = {},
                        .vibration = {},
                        .tones = {},
+                       .accuracy = {},
                        .microphones = setting.sound.microphones,
                        .heard = {},
                        .directivity = {},
                        .loudness = {}};
-  report("radiation", 0.0);
+  if (results.inner_nodes > 0)
+    results.notes.push_back(
+        fmt::format("{} of the {} nodes of the body lie between its middle lines, as vanes do, and "
+                    "are taken to be silent",
+                    results.inner_nodes, setting.body.picture.positions.rows()));
+  listener.progress("radiation", 0.0);
   const auto inertial = squeal::find_inertial_disc(stage.disc);
   const double squeal_omega =
       inertial ? squeal::least_stable_eigenvalue(*inertial, setting.squeal, speed).imag() : 0.0;
-  results.radiation = radiation(setting.body, {stage.body, stage.motion, setting.sound.air},
-                                modes_of(stage.disc), squeal_omega);
-  if (inertial) {
-    report("feedback", 0.0);
+  results.radiation =
+      even_over_pairs(radiation(setting.body, stage.source(), modes_of(stage.disc), squeal_omega),
+                      stage.disc, stage.body.outline);
+  listener.found(results);
+  listener.progress("feedback", 0.0);
+  attempt(results.notes, feedback_name, [&] {
+    if (const auto reason = hindrance(stage.disc, results.radiation)) throw Error(*reason);
     const squeal::Disc damped = squeal::with_radiation(stage.disc, results.radiation);
     results.feedback = {speed, brake_at(stage.disc, setting.squeal, speed),
                         brake_at(damped, setting.squeal, speed)};
-  }
+  });
   return results;
-}
-
-/// "the limit cycle is missing", and how to get it.
-[[noreturn]] void refuse_without_cycle(CycleChoice choice)
-{
-  const char* wanted = choice == CycleChoice::automatic   ? "limit-cycle\" or \"limit-cycle-direct"
-                       : choice == CycleChoice::transient ? "limit-cycle"
-                                                          : "limit-cycle-direct";
-  throw Error(
-      fmt::format("sound: the results of squeal hold no limit cycle that could sound; ask for the "
-                  "analysis \"{}\" in [squeal] and run `squeal run` again",
-                  wanted));
-}
-
-/// The periodic motion that sounds: its fundamental.
-Vibration chosen_vibration(const squeal::SquealResults& results, CycleChoice choice)
-{
-  const auto fundamental = [](const auto& cycle) {
-    if (cycle.amplitude.size() == 0)
-      throw Error(
-          "sound: the limit cycle has no amplitudes in the standing frame, because its disc is not "
-          "axisymmetric: such a disc sounds at more frequencies than one");
-    Vibration v{.speed = cycle.speed,
-                .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,
-                .modes = {},
-                .harmonics = cycle.amplitude};
-    for (const int number : cycle.mode_numbers) v.modes.push_back(number - 1);
-    return v;
-  };
-  // What a transient has not settled at is no limit cycle where one was found as such.
-  const bool better = choice == CycleChoice::automatic && results.limit_cycle &&
-                      !results.limit_cycle->settled && results.limit_cycle_direct;
-  if (results.limit_cycle && choice != CycleChoice::direct && !better)
-    return fundamental(*results.limit_cycle);
-  if (results.limit_cycle_direct && choice != CycleChoice::transient)
-    return fundamental(*results.limit_cycle_direct);
-  refuse_without_cycle(choice);
 }
 
 /// With the higher harmonics of the same motion found as a periodic one, whose fundamental differs
@@ -145,35 +100,6 @@ Vibration with_harmonics(Vibration v, const squeal::Disc& disc,
   all.col(0) = v.harmonics.col(0);
   v.harmonics = std::move(all);
   return v;
-}
-
-/// A limit cycle is a motion of the modes: far above them it is of another body. What the air has
-/// to resolve grows with its frequency.
-constexpr double largest_ratio = 10.0;
-
-void check_modes(const Vibration& vibration, const squeal::Disc& disc)
-{
-  if (vibration.modes != modes_of(disc))
-    throw Error(
-        "sound: the limit cycle consists of other modes than use_modes of [squeal] says now; run "
-        "`squeal run` again");
-  const double highest = disc.omega.maxCoeff();
-  if (vibration.omega > 0.0 && vibration.omega <= largest_ratio * highest) return;
-  throw Error(fmt::format(
-      "sound: the limit cycle has {:.6g} Hz, and the modes of the body reach {:.6g} Hz: it is of "
-      "another body; run `squeal run` again",
-      vibration.omega / (2.0 * std::numbers::pi), highest / (2.0 * std::numbers::pi)));
-}
-
-void check_microphones(const Outline& outline, const std::vector<Microphone>& microphones)
-{
-  for (const Microphone& microphone : microphones) {
-    if (!contains(outline, microphone.x)) continue;
-    throw Error(fmt::format(
-        "sound: the microphone \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m is inside the body; move it "
-        "into the air",
-        microphone.name, microphone.x[0], microphone.x[1], microphone.x[2]));
-  }
 }
 
 Loudness loudness_at(const Setting& setting, const Stage& stage, const squeal::Disc& disc,
@@ -193,8 +119,7 @@ Loudness loudness_at(const Setting& setting, const Stage& stage, const squeal::D
                             .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,
                             .modes = modes_of(disc),
                             .harmonics = squeal::cycle_harmonics(disc, setting.squeal, cycle)};
-  const auto sounding =
-      tones({stage.body, stage.motion, setting.sound.air}, vibration, setting.sound.harmonics);
+  const auto sounding = tones(stage.source(), vibration, setting.sound.harmonics);
   loudness.frequency_Hz = cycle.frequency_Hz;
   loudness.pad_velocity = cycle.pad_velocity;
   for (const Tone& tone : sounding) loudness.power += near_power(tone);
@@ -203,56 +128,80 @@ Loudness loudness_at(const Setting& setting, const Stage& stage, const squeal::D
   return loudness;
 }
 
-std::vector<Loudness> loudness_over_speeds(const Setting& setting, const Stage& stage,
-                                           const squeal::Radiation& radiation,
-                                           const StudyProgress& report)
+/// Levels at the speeds of the scene, without and with the damping by sound.
+void add_loudness(SoundResults& results, const Setting& setting, const Stage& stage,
+                  const StudyListener& listener)
 {
-  std::vector<Loudness> all;
-  const squeal::Disc damped = squeal::with_radiation(stage.disc, radiation);
-  const auto n = 2.0 * double(setting.sound.speeds.size());
+  const double n = 2.0 * double(setting.sound.speeds.size());
+  const squeal::Disc damped = squeal::with_radiation(stage.disc, results.radiation);
+  const bool comparable = !hindrance(stage.disc, results.radiation);
+  double done = 0.0;
   for (const double speed : setting.sound.speeds) {
     for (const bool with : {false, true}) {
-      report("levels over the speed", double(all.size()) / n);
-      all.push_back(loudness_at(setting, stage, with ? damped : stage.disc, speed));
-      all.back().damped = with;
+      listener.progress("levels over the speed", done++ / n);
+      if (with && !comparable) continue;  // a note says why
+      attempt(results.notes, fmt::format("the levels at {:.6g} rad/s", speed), [&] {
+        results.loudness.push_back(loudness_at(setting, stage, with ? damped : stage.disc, speed));
+        results.loudness.back().damped = with;
+      });
     }
   }
-  return all;
 }
 
-StudyProgress silent_if_empty(const StudyProgress& progress)
+/// The listener with functions that do nothing where it has none.
+StudyListener complete(StudyListener listener)
 {
-  return progress ? progress : [](const std::string&, double) {};
+  if (!listener.progress) listener.progress = [](const std::string&, double) {};
+  if (!listener.found) listener.found = [](const SoundResults&) {};
+  return listener;
+}
+
+/// The harmonics that sound; those above the first are left out, with a note, where the motion is
+/// not found once more as a periodic one.
+Vibration sounding(Vibration vibration, const Setting& setting, const squeal::Disc& disc,
+                   std::vector<std::string>& notes)
+{
+  if (setting.sound.harmonics == 1) return vibration;
+  Vibration all = vibration;
+  attempt(notes, "the tones above the first",
+          [&] { all = with_harmonics(std::move(vibration), disc, setting.squeal); });
+  return all;
 }
 
 }  // namespace
 
-SoundResults radiation_study(const Setting& setting, double speed, const StudyProgress& progress)
+SoundResults radiation_study(const Setting& setting, double speed, const StudyListener& listener)
 {
-  return with_radiation_of(setting, make_stage(setting), speed, silent_if_empty(progress));
+  return with_radiation_of(setting, make_stage(setting.body, setting.squeal, setting.sound), speed,
+                           complete(listener));
 }
 
 SoundResults sound_study(const Setting& setting, const squeal::SquealResults& squeal_results,
-                         const StudyProgress& progress)
+                         const StudyListener& listener)
 {
-  const StudyProgress report = silent_if_empty(progress);
-  Vibration vibration = chosen_vibration(squeal_results, setting.sound.cycle);
-  const Stage stage = make_stage(setting);
-  check_modes(vibration, stage.disc);
+  const StudyListener told = complete(listener);
+  const Stage stage = make_stage(setting.body, setting.squeal, setting.sound);
+  Vibration vibration = chosen_vibration(squeal_results, setting.sound.cycle, stage.disc);
   check_microphones(stage.body.outline, setting.sound.microphones);
-  SoundResults results = with_radiation_of(setting, stage, vibration.speed, report);
-  report("sound", 0.0);
-  if (setting.sound.harmonics > 1) {
-    const squeal::Disc disc =
-        setting.damped ? squeal::with_radiation(stage.disc, results.radiation) : stage.disc;
-    vibration = with_harmonics(std::move(vibration), disc, setting.squeal);
+  const int n_harmonics = setting.sound.harmonics;
+  std::vector<std::string> notes;
+  if (!setting.damped) vibration = sounding(std::move(vibration), setting, stage.disc, notes);
+  check_air(stage.source(), vibration, n_harmonics);
+  SoundResults results = with_radiation_of(setting, stage, vibration.speed, told);
+  results.notes.insert(results.notes.end(), notes.begin(), notes.end());
+  if (setting.damped) {
+    const squeal::Disc damped = squeal::with_radiation(stage.disc, results.radiation);
+    vibration = sounding(std::move(vibration), setting, damped, results.notes);
   }
+  told.progress("sound", 0.0);
   results.vibration = vibration;
-  results.tones =
-      tones({stage.body, stage.motion, setting.sound.air}, vibration, setting.sound.harmonics);
+  results.tones = tones(stage.source(), vibration, n_harmonics);
+  for (const Tone& tone : results.tones)
+    results.accuracy.push_back(accuracy(stage.source(), vibration, tone));
   results.heard = listen(results.tones, setting.sound.microphones);
   results.directivity = directivity(results.tones);
-  results.loudness = loudness_over_speeds(setting, stage, results.radiation, report);
+  if (!setting.sound.speeds.empty()) told.found(results);
+  add_loudness(results, setting, stage, told);
   return results;
 }
 

@@ -40,14 +40,17 @@ struct SoundResults {
   Medium medium;
   std::vector<int> harmonics;  ///< circumferential ones
   double residual;             ///< of the surface's motion; the largest of SurfaceMotion::residual
+  int inner_nodes = 0;         ///< of the body's picture, between the middle lines; they are silent
   squeal::Radiation radiation;
-  std::optional<Feedback> feedback;  ///< absent when the disc is not axisymmetric
+  std::optional<Feedback> feedback;  ///< absent when the disc is not axisymmetric; see `notes`
   std::optional<Vibration> vibration;
   std::vector<Tone> tones;
+  std::vector<Accuracy> accuracy;  ///< [n_tones]
   std::vector<Microphone> microphones;
   std::vector<Heard> heard;
   std::optional<Directivity> directivity;
   std::vector<Loudness> loudness;
+  std::vector<std::string> notes = {};  ///< what was left out and why, one sentence each
 };
 
 /// A body with the brake around it.
@@ -61,14 +64,24 @@ struct Setting {
 /// Called with the name of the step under way and the part of it that is done, 0 to 1.
 using StudyProgress = std::function<void(const std::string& step, double part)>;
 
+/// What is told while a study runs.
+struct StudyListener {
+  StudyProgress progress = {};
+  /// Called with what there is so far when the radiation is known, and when the tones are known but
+  /// not yet the levels at further speeds: whoever writes it keeps it should the rest not end.
+  std::function<void(const SoundResults&)> found = {};
+};
+
 /// The damping of the modes that the brake uses, and what it does to the squeal at `speed`, rad/s.
+/// @throws chladni::Error from make_stage and plan_air, before anything is solved.
 SoundResults radiation_study(const Setting& setting, double speed,
-                             const StudyProgress& progress = {});
+                             const StudyListener& listener = {});
 
 /// The same, and the sound of the limit cycle in `squeal_results`.
 /// @throws chladni::Error when there is no limit cycle, or one of other modes; when a microphone is
-///         inside the body; and from plan_air.
+///         inside the body; from make_stage and plan_air: all before anything is solved, unless the
+///         brake is damped by its sound, where the harmonics follow from the radiation.
 SoundResults sound_study(const Setting& setting, const squeal::SquealResults& squeal_results,
-                         const StudyProgress& progress = {});
+                         const StudyListener& listener = {});
 
 }  // namespace chladni::sound

@@ -24,23 +24,33 @@ struct Sample {
 /// Lateral displacement over the axial one, below which a disc counts as moving along its axis.
 constexpr double lateral_limit = 1e-3;
 
-std::vector<std::vector<Sample>> samples_by_line(const mbs_export::Picture& picture,
-                                                 const std::vector<MidLine>& lines)
+/// The nodes of each line, and how many belong to none.
+struct Samples {
+  std::vector<std::vector<Sample>> of_line;
+  int inner = 0;
+};
+
+/// @throws chladni::Error for a node that is neither in a piece nor between two.
+Samples samples_of(const mbs_export::Picture& picture, const std::vector<MidLine>& lines)
 {
-  std::vector<std::vector<Sample>> samples(lines.size());
+  Samples samples{std::vector<std::vector<Sample>>(lines.size())};
   for (Index i = 0; i < picture.positions.rows(); ++i) {
     const Eigen::Vector3d x = picture.positions.row(i).transpose();
     const Vector2d rz(x.head<2>().norm(), x[2]);
     const Place place = nearest_place(lines, rz);
     const MidLine& line = lines[std::size_t(place.line)];
     const double distance = (line.from + place.s * line.tangent() - rz).norm();
-    if (distance > 0.51 * line.thickness) {
+    if (distance <= 0.51 * line.thickness) {
+      samples.of_line[std::size_t(place.line)].push_back({place, std::atan2(x[1], x[0]), i});
+    } else if (lies_between(lines, rz)) {
+      ++samples.inner;
+    } else {
       throw Error(fmt::format(
           "sound: the node of the body at (r, z) = ({:.6g}, {:.6g}) m is {:.3g} m away from the "
-          "nearest middle line, which is {:.3g} m thick; correct the outline",
+          "nearest middle line, which is {:.3g} m thick, and not between two of them as a vane is; "
+          "correct the outline of [sound]",
           rz[0], rz[1], distance, line.thickness));
     }
-    samples[std::size_t(place.line)].push_back({place, std::atan2(x[1], x[0]), i});
   }
   return samples;
 }
@@ -124,7 +134,8 @@ SurfaceMotion::SurfaceMotion(const mbs_export::ModalBody& body, const ThickBody&
     throw Error(
         "sound: the body has no displacements of its surface; set pictures = \"vertices\" or "
         "\"all\" in [reduce] and make it again");
-  const auto samples = samples_by_line(picture, mid_);
+  const auto [samples, inner] = samples_of(picture, mid_);
+  inner_nodes_ = inner;
   const auto n_modes = static_cast<Index>(modes.size());
   VectorXd rest = VectorXd::Zero(n_modes), whole = rest, lateral = rest;
   const bool has_mean = std::ranges::find(harmonics_, 0) != harmonics_.end();

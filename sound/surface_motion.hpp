@@ -15,7 +15,8 @@ enum class Parity { cosine, sine };
 
 /// What the modes of a body do at its surface. The displacements at the nodes of the body's picture
 /// become splines along each middle line and Fourier series around the axis; material normals stay
-/// normal to the middle surface.
+/// normal to the middle surface. Nodes that are in none of the pieces but between two of them, such
+/// as those of vanes, are inner ones: the air does not see them.
 class SurfaceMotion {
  public:
   /// @param modes      0-based
@@ -39,6 +40,9 @@ class SurfaceMotion {
   /// mean square, relative.
   const Eigen::VectorXd& residual() const { return residual_; }
 
+  /// Number of inner nodes.
+  int inner_nodes() const { return inner_nodes_; }
+
   /// All middle lines are in the plane z = 0 and move along the axis alone, so that the sound field
   /// is antisymmetric to it.
   bool antisymmetric() const { return antisymmetric_; }
@@ -60,6 +64,7 @@ class SurfaceMotion {
   double hub_radius_;  ///< where the innermost line begins, m
   std::vector<Line> lines_;
   Eigen::VectorXd residual_;
+  int inner_nodes_ = 0;
   bool antisymmetric_ = false;
 };
 

@@ -75,4 +75,20 @@ Place nearest_place(const std::vector<MidLine>& lines, const Vector2d& x)
   return nearest;
 }
 
+bool lies_between(const std::vector<MidLine>& lines, const Vector2d& x)
+{
+  constexpr double placement = 1e-6;  // of a line's length
+  bool above = false, below = false;
+  for (const MidLine& line : lines) {
+    const double width = line.to[0] - line.from[0];
+    if (std::abs(width) < placement * line.length()) continue;  // along the axis
+    const double part = (x[0] - line.from[0]) / width;
+    if (part < -placement || part > 1.0 + placement) continue;
+    const double height = line.from[1] + part * (line.to[1] - line.from[1]);
+    above |= height > x[1];
+    below |= height < x[1];
+  }
+  return above && below;
+}
+
 }  // namespace chladni::sound

@@ -42,4 +42,8 @@ struct Place {
 /// The nearest piece of the middle surface, in units of its thickness.
 Place nearest_place(const std::vector<MidLine>& lines, const Eigen::Vector2d& x);
 
+/// Whether a point of the meridian plane has a piece of the middle surface both above and below it,
+/// as a vane between the two rings of a ventilated disc has.
+bool lies_between(const std::vector<MidLine>& lines, const Eigen::Vector2d& x);
+
 }  // namespace chladni::sound

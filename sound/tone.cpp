@@ -1,6 +1,11 @@
 #include "sound/tone.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "sound/reference_cell.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -17,11 +22,22 @@ void add_field(Tone& tone, Exterior& exterior, const MatrixXcd& v_n)
   tone.memory_MiB = std::max(tone.memory_MiB, exterior.memory_MiB());
 }
 
-/// @param velocity  [n_modes] complex amplitudes of the velocities of the modes
-Tone tone_of(const Source& source, int h, double omega, const VectorXcd& velocity)
+AirPlan plan_of(const Source& source, double omega)
+{
+  return plan_air(source.body.outline, source.air, omega, source.motion.antisymmetric());
+}
+
+/// Complex amplitudes of the velocities of the modes in one harmonic, [n_modes].
+VectorXcd velocity_of(const Vibration& vibration, int h)
+{
+  return Complex(0.0, h * vibration.omega) * vibration.harmonics.col(h - 1);
+}
+
+Tone tone_of(const Source& source, const AirPlan& plan, const Vibration& vibration, int h)
 {
   const SurfaceMotion& motion = source.motion;
-  const AirPlan plan = plan_air(source.body.outline, source.air, omega, motion.antisymmetric());
+  const double omega = h * vibration.omega;
+  const VectorXcd velocity = velocity_of(vibration, h);
   const auto mesh = std::make_shared<const AirMesh>(air_around(source.body.outline, plan));
   Tone tone{h, omega, 0, mesh->n_elements(), 0.0, {}};
   if (!plan.meridian) {
@@ -39,6 +55,28 @@ Tone tone_of(const Source& source, int h, double omega, const VectorXcd& velocit
     add_field(tone, exterior, v_n);
   }
   return tone;
+}
+
+/// Directions all over the sphere, with the area that each stands for: enough to compare two
+/// fields, not to integrate one. Their number around the axis is prime, so that no circumferential
+/// harmonic below it is missed.
+struct Directions {
+  MatrixX3d e;
+  Eigen::VectorXd weights;
+};
+
+Directions all_around()
+{
+  constexpr int n_heights = 12, n_angles = 13;
+  const Quadrature heights = gauss_points(n_heights);  // z of the unit sphere is 2 t - 1
+  Directions all{MatrixX3d(n_heights * n_angles, 3), Eigen::VectorXd(n_heights * n_angles)};
+  for (int i = 0; i < n_heights * n_angles; ++i) {
+    const double z = 2.0 * heights.points(i / n_angles, 0) - 1.0, r = std::sqrt(1.0 - z * z);
+    const double phi = 2.0 * std::numbers::pi * (i % n_angles + 0.3) / n_angles;
+    all.e.row(i) << r * std::cos(phi), r * std::sin(phi), z;
+    all.weights[i] = heights.weights[i / n_angles];
+  }
+  return all;
 }
 
 using Evaluate = MatrixXcd (*)(const Field&, const MatrixX3d&);
@@ -68,19 +106,52 @@ VectorXcd joined(const Tone& tone, const MatrixX3d& x, Evaluate evaluate)
   return p;
 }
 
+/// Harmonics whose surface moves at all.
+std::vector<int> sounding(const Vibration& vibration, int n_harmonics)
+{
+  std::vector<int> all;
+  const double first = velocity_of(vibration, 1).norm();
+  for (int h = 1; h <= std::min<Index>(n_harmonics, vibration.harmonics.cols()); ++h)
+    if (velocity_of(vibration, h).norm() > silent * first) all.push_back(h);
+  return all;
+}
+
 }  // namespace
 
 std::vector<Tone> tones(const Source& source, const Vibration& vibration, int n_harmonics)
 {
   std::vector<Tone> all;
-  double first = 0.0;
-  for (int h = 1; h <= std::min<Index>(n_harmonics, vibration.harmonics.cols()); ++h) {
-    const double omega = h * vibration.omega;
-    const VectorXcd velocity = Complex(0.0, omega) * vibration.harmonics.col(h - 1);
-    if (h == 1) first = velocity.norm();
-    if (velocity.norm() > silent * first) all.push_back(tone_of(source, h, omega, velocity));
-  }
+  for (const int h : sounding(vibration, n_harmonics))
+    all.push_back(tone_of(source, plan_of(source, h * vibration.omega), vibration, h));
   return all;
+}
+
+void check_air(const Source& source, const Vibration& vibration, int n_harmonics)
+{
+  for (const int h : sounding(vibration, n_harmonics)) plan_of(source, h * vibration.omega);
+}
+
+std::optional<double> Accuracy::power() const
+{
+  if (!pressure) return std::nullopt;
+  return *pressure * (2.0 + *pressure) + std::abs(balance);
+}
+
+Accuracy accuracy(const Source& source, const Vibration& vibration, const Tone& tone)
+{
+  Accuracy found{.balance = far_power(tone) / near_power(tone) - 1.0, .pressure = {}};
+  const AirPlan plan = coarsened(plan_of(source, tone.omega));
+  try {
+    const Tone coarse = tone_of(source, plan, vibration, tone.h);
+    const Directions around = all_around();
+    const auto norm = [&](const VectorXcd& p) {
+      return std::sqrt(p.cwiseAbs2().dot(around.weights));
+    };
+    const VectorXcd p = far_field(tone, around.e);
+    found.pressure = norm(p - far_field(coarse, around.e)) / norm(p);
+  } catch (const Error&) {  // a tone is worth more than what is known of its error
+  }
+  return found;
 }
 
 VectorXcd pressure_at(const Tone& tone, const MatrixX3d& x)

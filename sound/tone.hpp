@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sound/air_plan.hpp"
 #include "sound/field.hpp"
 #include "sound/surface_motion.hpp"
@@ -38,6 +40,26 @@ struct Source {
 /// @throws chladni::Error from plan_air.
 /// @note MPI must be running.
 std::vector<Tone> tones(const Source& source, const Vibration& vibration, int n_harmonics);
+
+/// Looks at the air of all these tones without solving for any.
+/// @throws chladni::Error from plan_air.
+void check_air(const Source& source, const Vibration& vibration, int n_harmonics);
+
+/// What the elements of the air leave out of a tone, relative to it: an estimate from the same tone
+/// with larger elements. What the absorbing layer reflects is not in it.
+struct Accuracy {
+  double balance;  ///< power far away over that at the surface, less 1
+  /// In the mean square over all directions far away; absent when Gmsh has no mesh of larger ones.
+  std::optional<double> pressure;
+
+  /// Of the power at the surface, when e is that of the pressure: the power far away is the mean
+  /// square of the pressure, hence 2 e + e^2, to which the balance is added.
+  std::optional<double> power() const;
+};
+
+/// Solves for the tone of the vibration once more, with the elements of `coarsened`.
+/// @note MPI must be running.
+Accuracy accuracy(const Source& source, const Vibration& vibration, const Tone& tone);
 
 /// Complex pressures at points of space, Pa.
 /// @throws chladni::Error when a point is inside the body.

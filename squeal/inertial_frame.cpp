@@ -249,6 +249,13 @@ InertialDisc inertial_disc(const Disc& disc)
   return std::get<InertialDisc>(std::move(outcome));
 }
 
+std::optional<std::string> asymmetry(const Disc& disc)
+{
+  const auto outcome = try_inertial_disc(disc);
+  if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complaint->text;
+  return std::nullopt;
+}
+
 std::optional<InertialDisc> find_inertial_disc(const Disc& disc)
 {
   auto outcome = try_inertial_disc(disc);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "squeal/disc.hpp"
@@ -45,6 +46,10 @@ inline constexpr double split_limit = 0.01;
 /// @throws chladni::Error when the disc is not axisymmetric (impurity, split or damping beyond the
 ///         limits, by how much), or when only one mode of a pair was chosen.
 InertialDisc inertial_disc(const Disc& disc);
+
+/// Why the disc has no inertial frame, "its damping changes around the circumference by 0.21
+/// (allowed: 0.02)"; absent when it has one.
+std::optional<std::string> asymmetry(const Disc& disc);
 
 /// The disc in the inertial frame, absent when it is not axisymmetric.
 std::optional<InertialDisc> find_inertial_disc(const Disc& disc);

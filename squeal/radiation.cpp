@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "files/hdf5.hpp"
+#include "mbs_export/files/provenance.hpp"
 #include "squeal/file_checks.hpp"
 
 namespace chladni::squeal {
@@ -43,7 +43,7 @@ Disc with_radiation(Disc disc, const Radiation& radiation)
 }
 
 void write_radiation(const std::filesystem::path& file, const Radiation& radiation,
-                     const std::string& title)
+                     const std::string& title, const mbs_export::Provenance& provenance)
 {
   files::Writer writer(file.string());
   writer.attribute("/", "format", format);
@@ -54,12 +54,17 @@ void write_radiation(const std::filesystem::path& file, const Radiation& radiati
   writer.write("evaluated_at", radiation.at, "rad/s");
   writer.write("damping", radiation.damping, "1/s");
   writer.write("added_mass", radiation.added_mass, "1");
+  mbs_export::file_parts::write_provenance(writer, provenance);
   writer.commit();
 }
 
 Radiation read_radiation(const std::filesystem::path& file)
 {
-  const files::Reader reader(file.string());
+  return read_radiation(files::Reader(file.string()));
+}
+
+Radiation read_radiation(const files::Reader& reader)
+{
   reader.expect_format(format, version);
   std::vector<int> numbers = read_mode_numbers(reader, "mode_numbers");
   const auto n = static_cast<Eigen::Index>(numbers.size());

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "files/hdf5.hpp"
+#include "mbs_export/reduced_system.hpp"
 #include "squeal/disc.hpp"
 
 namespace chladni::squeal {
@@ -25,10 +27,11 @@ Disc with_radiation(Disc disc, const Radiation& radiation);
 
 /// `*.radiation.h5`: written to a temporary name, flushed and renamed.
 void write_radiation(const std::filesystem::path& file, const Radiation& radiation,
-                     const std::string& title);
+                     const std::string& title, const mbs_export::Provenance& provenance);
 
 /// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
 ///         finite.
 Radiation read_radiation(const std::filesystem::path& file);
+Radiation read_radiation(const files::Reader& file);
 
 }  // namespace chladni::squeal

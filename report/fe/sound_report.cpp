@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <optional>
 
 #include "report/output.hpp"
 
@@ -13,13 +14,18 @@ using std::numbers::pi;
 
 std::string tones_table(const sound::SoundResults& results)
 {
-  TextTable table{.header = {"tone, Hz", "unknowns", "power, W", "far power / power - 1"},
+  const auto estimate = [](const std::optional<double>& error) {
+    return error ? fmt::format("{:.1e}", *error) : std::string("unknown");
+  };
+  TextTable table{.header = {"tone, Hz", "unknowns", "power, W", "its error", "error of pressure"},
                   .rows = {}};
-  for (const sound::Tone& tone : results.tones) {
-    const double near = near_power(tone);
+  for (std::size_t i = 0; i < results.tones.size(); ++i) {
+    const sound::Tone& tone = results.tones[i];
+    const sound::Accuracy& accuracy = results.accuracy[i];
     table.rows.push_back({fmt::format("{:.2f}", tone.omega / (2.0 * pi)),
-                          fmt::format("{}", tone.n_unknowns), fmt::format("{:.4g}", near),
-                          fmt::format("{:.1e}", far_power(tone) / near - 1.0)});
+                          fmt::format("{}", tone.n_unknowns),
+                          fmt::format("{:.4g}", near_power(tone)), estimate(accuracy.power()),
+                          estimate(accuracy.pressure)});
   }
   return format_table(table);
 }
@@ -95,15 +101,23 @@ std::string loudness_table(const sound::SoundResults& results)
   return format_table(table);
 }
 
-Json tones_json(const std::vector<sound::Tone>& tones)
+Json tones_json(const sound::SoundResults& results)
 {
+  const auto estimate = [](const std::optional<double>& error) {
+    return error ? Json(*error) : Json();
+  };
   std::vector<Json> all;
-  for (const sound::Tone& tone : tones) {
+  for (std::size_t i = 0; i < results.tones.size(); ++i) {
+    const sound::Tone& tone = results.tones[i];
+    const sound::Accuracy& accuracy = results.accuracy[i];
+    const double power = near_power(tone);
     all.push_back(Json::object({{"harmonic", tone.h},
                                 {"frequency_Hz", tone.omega / (2.0 * pi)},
                                 {"unknowns", tone.n_unknowns},
-                                {"power_W", near_power(tone)},
-                                {"far_power_W", far_power(tone)}}));
+                                {"power_W", power},
+                                {"far_power_W", power * (1.0 + accuracy.balance)},
+                                {"power_error", estimate(accuracy.power())},
+                                {"pressure_error", estimate(accuracy.pressure)}}));
   }
   return Json::array(all);
 }
@@ -178,6 +192,7 @@ std::string describe_sound(const sound::SoundResults& results)
   if (!results.loudness.empty()) tables.push_back(loudness_table(results));
   tables.push_back(fmt::format(
       "motion of the surface that splines and harmonics leave out: {:.1e}\n", results.residual));
+  for (const std::string& note : results.notes) tables.back() += note + "\n";
   return fmt::format("{}", fmt::join(tables, "\n"));
 }
 
@@ -186,7 +201,7 @@ std::vector<Json::Member> sound_json(const sound::SoundResults& results)
   double power = 0.0;
   for (const sound::Tone& tone : results.tones) power += near_power(tone);
   std::vector<Json::Member> members = {{"power_W", power},
-                                       {"tones", tones_json(results.tones)},
+                                       {"tones", tones_json(results)},
                                        {"microphones", microphones_json(results)},
                                        {"radiation", radiation_json(results.radiation)},
                                        {"surface_residual", results.residual}};
@@ -197,6 +212,9 @@ std::vector<Json::Member> sound_json(const sound::SoundResults& results)
                                        {"with_radiation", brake_json(results.feedback->with)}}));
   }
   if (!results.loudness.empty()) members.emplace_back("loudness", loudness_json(results.loudness));
+  if (!results.notes.empty()) {
+    members.emplace_back("notes", Json::array({results.notes.begin(), results.notes.end()}));
+  }
   return members;
 }
 

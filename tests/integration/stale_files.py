@@ -138,6 +138,29 @@ def check_results(folder):
     folder.refused("squeal", "report", "disc.squeal.h5", OF_BODY[3][1], "squeal run")
 
 
+RADIATING = (("modes = 10\n", 'modes = 10\npictures = "all"\n'), ("friction = 0.6\n", "friction = 0.6\nradiation = true\n"))
+SOUND = """
+[sound]
+microphones = [{ name = "above", position = [0.5, 0.0, 0.5] }]
+"""
+
+
+def check_radiation(folder):
+    """`squeal run` with the damping by the sound of another air or another body; who listens changes nothing."""
+    scene = changed(DISC, *RADIATING) + SOUND
+    folder.scene.write_text(scene)
+    folder.run("chladni", "run")
+    folder.run("chladni", "sound", "--radiation")
+    folder.run("squeal", "run")
+    folder.scene.write_text(changed(scene, ("[0.5, 0.0, 0.5]", "[0.7, 0.0, 0.5]")))
+    folder.run("squeal", "run")
+    folder.scene.write_text(scene + "medium = { density = 1.0, speed_of_sound = 343.0 }\n")
+    folder.refused("squeal", "run", "disc.radiation.h5", "sound.medium.density = 1", "chladni sound", "--radiation")
+    folder.scene.write_text(changed(scene, OF_BODY[3][0]))
+    folder.run("chladni", "body")
+    folder.refused("squeal", "run", "disc.radiation.h5", OF_BODY[3][1], "chladni sound", "--radiation")
+
+
 def check_spelling(folder):
     """What changes no value is no change: spelling, title, comments, what later steps need."""
     changes = (('name = "disc"\n', 'name = "disc"\ntitle = "A disc"  # of iron\n'), ("thickness = 0.02\n\n[[coupling", "thickness = 2e-2\n\n[[coupling"), ("friction = 0.6", "friction = 0.60"))
@@ -188,6 +211,8 @@ if __name__ == "__main__":
         check_body(disc)
         disc = Folder(programs, Path(root) / "disc")
         check_results(disc)
+        disc = Folder(programs, Path(root) / "disc")
+        check_radiation(disc)
         check_mesh_file(programs, Path(root) / "geo")
         disc = Folder(programs, Path(root) / "disc")
         check_name(disc)

@@ -67,7 +67,7 @@ TEST(Space, HolesLetTheSoundThrough)
                                        .thickness = testing::disc_thickness}};
   Vibration v{.speed = 1.0, .omega = body.omega[0], .modes = {0, 1}, .harmonics = {}};
   v.harmonics = Eigen::MatrixXcd::Constant(2, 1, 1e-4);
-  const AirOptions air{.element_size = 0.05};
+  const AirOptions air{.element_size = 0.05, .edge_size = 0.01};
   double power[2];
   for (int i = 0; i < 2; ++i) {
     const ThickBody thick = i == 0 ? thick_body(lines, Hub::closed)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <string>
 
 #include "common/error.hpp"
 #include "references/sound/thesis_disc.hpp"
@@ -92,6 +93,57 @@ TEST(SurfaceMotion, NeedsNodesInTheOutlineAndEnoughOfThem)
   const ThickBody longer = thick_body(
       {disc_line[0], {.from = {0.162, 0.0}, .to = {0.2, 0.0}, .thickness = 0.02}}, Hub::closed);
   EXPECT_THROW(SurfaceMotion(testing::thesis_body(), longer, {0}, {3}), Error);
+}
+
+/// Two rings at z = -h and h, each with the motion of the disc, and nodes between them.
+mbs_export::ModalBody ventilated_body(double h, double vane_radius)
+{
+  const mbs_export::ModalBody disc = testing::thesis_body();
+  const Eigen::Index n = disc.picture.positions.rows(), n_vane = 12;
+  mbs_export::ModalBody body = disc;
+  mbs_export::Picture& picture = body.picture;
+  picture.positions = Eigen::MatrixX3d::Zero(2 * n + n_vane, 3);
+  picture.transformation = Eigen::MatrixXd::Zero(3 * picture.positions.rows(), 2);
+  for (const int side : {0, 1}) {
+    picture.positions.middleRows(side * n, n) = disc.picture.positions;
+    picture.positions.middleRows(side * n, n).col(2).setConstant(side == 0 ? -h : h);
+    picture.transformation.middleRows(3 * side * n, 3 * n) = disc.picture.transformation;
+  }
+  for (Eigen::Index i = 0; i < n_vane; ++i)  // in the middle, with a motion of their own
+    picture.positions.row(2 * n + i) << vane_radius * std::cos(0.5 * double(i)),
+        vane_radius * std::sin(0.5 * double(i)), 0.0;
+  picture.transformation.bottomRows(3 * n_vane).setConstant(100.0);
+  return body;
+}
+
+ThickBody two_rings(double h)
+{
+  const auto ring = [](double z) {
+    return MidLine{
+        .from = {testing::hub_radius, z}, .to = {testing::disc_radius, z}, .thickness = 0.008};
+  };
+  return thick_body({ring(-h), ring(h)}, Hub::open);
+}
+
+TEST(SurfaceMotion, DoesNotLookAtVanesBetweenTwoRings)
+{
+  const double h = 0.012;
+  const SurfaceMotion motion(ventilated_body(h, 0.1), two_rings(h), {0, 1}, {3});
+  EXPECT_EQ(motion.inner_nodes(), 12);
+  EXPECT_LT(motion.residual().maxCoeff(), 1e-3);
+  const SurfaceMotion disc(testing::thesis_body(), thick_body(disc_line, Hub::closed), {0, 1}, {3});
+  EXPECT_EQ(disc.inner_nodes(), 0);
+}
+
+TEST(SurfaceMotion, RefusesNodesBesideTheRings)
+{
+  try {
+    SurfaceMotion(ventilated_body(0.012, 0.18), two_rings(0.012), {0, 1}, {3});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("(0.18, 0) m"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not between two"), std::string::npos);
+  }
 }
 
 TEST(Outline, ContainsWhatIsInsideIt)

@@ -114,7 +114,7 @@ TEST(BadRadiation, NamesModesThatCannotBe)
   const std::string path = folder.file("bad.radiation.h5");
   Radiation radiation = test::version_1_radiation();
   radiation.mode_numbers = {1, 1};
-  write_radiation(path, radiation, "");
+  write_radiation(path, radiation, "", {});
   EXPECT_NE(error_of([&] { read_radiation(path); }).find("mode_numbers: names mode 1 twice"),
             std::string::npos);
   files::Writer writer(path);  // numbers that are 1 and 3 again where an int has 32 bits
