@@ -12,7 +12,8 @@
 namespace chladni::squeal {
 
 /// Takes the state of an object bit by bit, and gives it back to an object that was made in the
-/// same way: each class names its members once, in a function `exchange`, for both directions.
+/// same way: each class names its members once, in a function `exchange`, for both directions. A
+/// matrix that is not empty before it is given back keeps its size.
 class StateArchive {
  public:
   /// Takes.
@@ -54,7 +55,9 @@ class StateArchive {
     const std::size_t n_rows = size(static_cast<std::size_t>(x.rows()));
     const std::size_t n_cols = size(static_cast<std::size_t>(x.cols()));
     if (size(n_rows * n_cols) != n_rows * n_cols) misfit();
-    x.resize(static_cast<Eigen::Index>(n_rows), static_cast<Eigen::Index>(n_cols));
+    const auto n = static_cast<Eigen::Index>(n_rows), m = static_cast<Eigen::Index>(n_cols);
+    if (x.size() > 0 && (x.rows() != n || x.cols() != m)) misfit();
+    x.resize(n, m);
     for (Eigen::Index i = 0; i < x.size(); ++i) one(x.data()[i]);
   }
 

@@ -244,6 +244,7 @@ TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
   EXPECT_EQ(resumed.critical_speed->speed, 1.0);
   EXPECT_TRUE(resumed.missing.empty());
   ASSERT_TRUE(resumed.limit_cycle);
+  ASSERT_EQ(resumed.limit_cycle->amplitude.size(), whole.limit_cycle->amplitude.size());
   EXPECT_EQ(resumed.limit_cycle->amplitude, whole.limit_cycle->amplitude);
 }
 

@@ -129,9 +129,10 @@ TEST(Checkpoint, RefusesTheStateOfSomethingElse)
     checkpoint.read();
     return error_of([&] { transient(disc, options, some_run(kind), {{}, &checkpoint}); });
   };
-  EXPECT_NE(
-      error_with(disc_of({kirchhoff_3()}), IntegratorKind::generalised_alpha).find("does not fit"),
-      std::string::npos);
+  const Disc same = disc_of({kirchhoff_3()}), other = disc_of({kirchhoff_3(1760.0)});
+  EXPECT_NE(error_with(same, IntegratorKind::generalised_alpha).find("does not fit"),
+            std::string::npos);
+  EXPECT_NE(error_with(other, IntegratorKind::splitting).find("does not fit"), std::string::npos);
 }
 
 TEST(Checkpoint, WithoutTheSamplesOfItsSoundIsRefused)
