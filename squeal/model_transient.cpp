@@ -40,7 +40,7 @@ struct Recording {
 constexpr std::int64_t samples_together = 1024;
 
 /// From the first sample, or from where the checkpoint is, to the last.
-/// @return whether the motion stayed finite
+/// @return whether the motion stayed bounded
 bool record(const Model& model, const TransientCase& run, Recording& at, const Keeping& keeping)
 {
   const auto exchange = [&](StateArchive& archive) { archive(at.n, at.x, at.recorder); };
@@ -50,7 +50,7 @@ bool record(const Model& model, const TransientCase& run, Recording& at, const K
     const std::vector<ContactResult<double>> contacts{model.contact(at.x, run.speed)};
     at.recorder.add({at.n, double(at.n) * at.plan.step, run.speed, contacts});
     at.x = dop853_step(f, at.x, at.plan.step);
-    if (!at.x.allFinite()) return false;
+    if (!(at.x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < motion_max)) return false;
     if (keeping.progress && at.n % at.plan.window == 0)
       keeping.progress(double(at.n) / double(at.plan.n_steps));
     if (++at.n % samples_together == 0 && keeping.checkpoint && keeping.checkpoint->is_due())
@@ -74,12 +74,12 @@ Transient transient(const Model& model, const TransientCase& run, const Keeping&
   Recording recording{.plan = plan,
                       .x = model.start(run.initial_pad_displacement),
                       .recorder = {plan, model.rest_height}};
-  const bool finite = record(model, run, recording, keeping);
+  const bool bounded = record(model, run, recording, keeping);
   Recorder& recorder = recording.recorder;
   recorder.finish();
   Transient result = recorder.transient();
   result.speed = run.speed;
-  result.finished = finite;
+  result.finished = bounded;
   result.integrator = "dormand-prince";
   result.integrator_reason = "of order 8 with fixed steps, for models without a body";
   result.growth_rate = growth_rate(result.envelope, linear_part * model.rest_compression);

@@ -86,7 +86,7 @@ void Recorder::add(const Sample& sample)
 void Recorder::finish()
 {
   for (const Eigen::VectorXd& rest : history_.finish()) keep(rest);
-  if (n_in_window_ > 0) close_window();
+  if (n_in_window_ > 0) end_window();  // too short for a point of the envelope
 }
 
 void Recorder::exchange(StateArchive& archive)
@@ -138,10 +138,15 @@ void Recorder::add_to_window(const Sample& sample)
   if (up.N <= 0.0 || lo.N <= 0.0) ++n_open_;
 }
 
-void Recorder::close_window()
+void Recorder::end_window()
 {
   transient_.windows.open.push_back(double(n_open_) / double(n_in_window_));
   n_in_window_ = n_open_ = 0;
+}
+
+void Recorder::close_window()
+{
+  end_window();
   const auto velocity = velocity_.take(), displacement = displacement_.take();
   if (!velocity || !displacement) return;
   transient_.envelope.t.push_back(velocity->t);

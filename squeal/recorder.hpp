@@ -69,6 +69,7 @@ class Recorder {
  private:
   void add_extremes(double t, const PadState<double>& pad);
   void add_to_window(const Sample& sample);
+  void end_window();
   void close_window();
   void keep(const Eigen::VectorXd& sample);
 

@@ -90,11 +90,16 @@ std::string warning_of(const Transient& run, const Disc& disc, const SquealOptio
   return sliding.empty() || growth.empty() ? sliding + growth : sliding + "; " + growth;
 }
 
-bool is_finite(const std::vector<ContactResult<double>>& contacts)
+bool is_bounded(const PadState<double>& pad)
+{
+  const auto is_number = [](double x) { return std::abs(x) < motion_max; };
+  return is_number(pad.z) && is_number(pad.z_dot) && is_number(pad.N) && is_number(pad.slip_speed);
+}
+
+bool is_bounded(const std::vector<ContactResult<double>>& contacts)
 {
   return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
-    return std::isfinite(pair.upper.z) && std::isfinite(pair.upper.z_dot) &&
-           std::isfinite(pair.upper.N) && std::isfinite(pair.lower.N);
+    return is_bounded(pair.upper) && is_bounded(pair.lower);
   });
 }
 
@@ -112,7 +117,7 @@ struct Recording {
 constexpr std::int64_t samples_together = 1024;
 
 /// From the first sample, or from where the checkpoint is, to the last.
-/// @return whether the motion stayed finite
+/// @return whether the motion stayed bounded
 bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
 {
   const auto exchange = [&](StateArchive& archive) {
@@ -130,7 +135,7 @@ bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
   while (at.n < at.plan.n_steps) {
     const double t = (double(at.n) + 0.5) * at.plan.step;
     const auto& contacts = steps.next();
-    if (!is_finite(contacts)) return false;
+    if (!is_bounded(contacts)) return false;
     at.recorder.add({at.n, t, turn_at(at.run, t).speed, contacts});
     at.states.add(at.n, t, steps);
     if (at.sound) at.sound->add(contacts.front().upper.z_dot);
@@ -164,12 +169,12 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
                       .recorder = {plan, 0.5 * options.thickness},
                       .states = {disc, inertial, plan, run}};
   if (options.sound && keeping.sound) recording.sound.emplace(plan.step, options.sound->rate_Hz);
-  const bool finite = record(*steps, recording, keeping);
+  const bool bounded = record(*steps, recording, keeping);
   Recorder& recorder = recording.recorder;
   recorder.finish();
   Transient result = recorder.transient();
   result.speed = run.speed;
-  result.finished = finite;
+  result.finished = bounded;
   result.integrator = name_of(choice.kind);
   result.integrator_reason = choice.reason;
   result.n_steps = steps->n_steps();

@@ -16,6 +16,10 @@ struct FrequencyRange {
   double highest;
 };
 
+/// Beyond this a motion counts as diverged (m, m/s, N): its squares and cubes are numbers yet, so
+/// that all that is recorded of it is.
+inline constexpr double motion_max = 1e30;
+
 /// Fewest steps for one period of the highest mode that may be asked for.
 inline constexpr int steps_per_period_min = 8;
 
