@@ -20,8 +20,7 @@ namespace {
 namespace cli = chladni::cli;
 
 struct SquealArguments {
-  chladni::cli::SceneArguments scene;
-  std::string body_file;
+  chladni::cli::RunArguments run;
   std::string info_file;
   chladni::cli::SealArguments seal;
   chladni::report::ReportArguments report;
@@ -30,15 +29,22 @@ struct SquealArguments {
 void declare_run(CLI::App& app, SquealArguments& arguments)
 {
   CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
-  chladni::cli::declare_scene_arguments(*run, arguments.scene);
-  chladni::cli::declare_stale(*run, arguments.scene.stale);
-  run->add_option("--body", arguments.body_file, "the body; default: NAME.body.h5 in DIR")
+  chladni::cli::declare_scene_arguments(*run, arguments.run.scene);
+  chladni::cli::declare_stale(*run, arguments.run.scene.stale);
+  run->add_flag("--resume", arguments.run.resume, "goes on from where a run was interrupted");
+  run->add_option("--checkpoint", arguments.run.checkpoint_interval,
+                  "seconds between two states of a long transient, for --resume")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  run->add_option("--body", arguments.run.body_file, "the body; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   run->footer(
       "Examples:\n"
       "  squeal run scene.toml                             ./disc.body.h5 -> ./disc.squeal.h5\n"
       "  squeal run scene.toml --output out --json s.json  out/disc.body.h5 -> out/disc.squeal.h5\n"
-      "  squeal run scene.toml --body other.body.h5        another body, the same pads");
+      "  squeal run scene.toml --body other.body.h5        another body, the same pads\n"
+      "  squeal run scene.toml --resume                    after a run that was killed");
 }
 
 void declare_info(CLI::App& app, SquealArguments& arguments)
@@ -71,7 +77,7 @@ int main(int argc, char** argv)
   chladni::files::remove_unfinished_files_on_signals();
   try {
     if (app.got_subcommand("run")) {
-      chladni::cli::run_squeal(arguments.scene, arguments.body_file);
+      chladni::cli::run_squeal(arguments.run);
     } else if (app.got_subcommand("report")) {
       chladni::report::write_report(arguments.report);
     } else if (app.got_subcommand("seal")) {

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "cli/reserve_outputs.hpp"
+#include "cli/squeal_resume.hpp"
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
 #include "files/text_file.hpp"
@@ -21,12 +23,13 @@
 #include "report/timing.hpp"
 #include "report/version.hpp"
 #include "scene/scene.hpp"
+#include "squeal/checkpoint.hpp"
 #include "squeal/disc.hpp"
 #include "squeal/model_run.hpp"
 #include "squeal/radiation.hpp"
 #include "squeal/result_file.hpp"
 #include "squeal/run.hpp"
-#include "squeal/wav_file.hpp"
+#include "squeal/wav_spool.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -79,50 +82,10 @@ squeal::Radiation read_radiation_of(const RadiationFile& source, const scene::Sc
   return radiation;
 }
 
-/// What the analyses found, and where the numbers come from.
-struct Performed {
-  squeal::SquealResults results;
-  mbs_export::Provenance origin;
-};
-
-/// The analyses of a disc that is this body, damped by `radiation` if the scene says so.
-Performed perform_on_body(const scene::Scene& scene, const mbs_export::ModalBody& body,
-                          const RadiationFile& radiation, report::PhaseClock& clock)
-{
-  squeal::Disc disc =
-      squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
-  if (scene.radiation)
-    disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
-  clock.end_phase("read");
-  report::ProgressLine line;
-  Performed performed{squeal::run(disc, *scene.squeal,
-                                  [&](const std::string& analysis, double fraction) {
-                                    line.show(analysis, fraction);
-                                  }),
-                      body.provenance};
-  performed.origin.body_scene = std::exchange(performed.origin.scene, scene.text);
-  performed.origin.versions =
-      fmt::format("squeal {}; body: {}", report::version, performed.origin.versions);
-  return performed;
-}
-
-/// The analyses of a model that needs no body.
-Performed perform_on_model(const scene::Scene& scene)
-{
-  report::ProgressLine line;
-  Performed performed{
-      squeal::run(*scene.squeal_model, [&](const std::string& analysis,
-                                           double fraction) { line.show(analysis, fraction); }),
-      {}};
-  performed.origin.scene = scene.text;
-  performed.origin.versions = fmt::format("squeal {}", report::version);
-  performed.origin.ranks = 1;
-  return performed;
-}
-
 struct Files {
-  path body, radiation;  ///< read
-  path results, sound;   ///< written
+  path body, radiation;    ///< read
+  path results, sound;     ///< written
+  path checkpoint, spool;  ///< written while the run lasts
 };
 
 Files files_of(const scene::Scene& scene, const path& folder, const path& body)
@@ -131,16 +94,48 @@ Files files_of(const scene::Scene& scene, const path& folder, const path& body)
   return {.body = body.empty() ? with(".body.h5") : body,
           .radiation = with(".radiation.h5"),
           .results = with(".squeal.h5"),
-          .sound = with(".wav")};
+          .sound = with(".wav"),
+          .checkpoint = with(".checkpoint.h5"),
+          .spool = with(".checkpoint.sound")};
 }
 
-/// The sound, when the scene asks for it.
-void write_sound(const scene::Scene& scene, const path& file, const squeal::SquealResults& results)
+/// Where the results of this run come from.
+squeal::RunOrigin origin_of(const scene::Scene& scene, const SceneArguments& arguments,
+                            const std::optional<mbs_export::ModalBody>& body, const Files& files)
 {
-  if (!scene.squeal || !scene.squeal->sound || !results.transient) return;
-  const double scale =
-      squeal::write_wav(file, results.transient->sound, scene.squeal->sound->rate_Hz);
-  fmt::print("wrote {}, full scale {:.6g} m/s\n", file.string(), scale);
+  mbs_export::Provenance origin;
+  origin.ranks = 1;
+  if (body) {
+    origin = body->provenance;
+    origin.body_scene = origin.scene;
+  }
+  origin.scene = scene.text;
+  origin.versions = body ? fmt::format("squeal {}; body: {}", report::version, origin.versions)
+                         : fmt::format("squeal {}", report::version);
+  origin.scene_file = scene_file_of(arguments);
+  return {std::move(origin),
+          inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path())};
+}
+
+/// The disc that is this body, damped by `radiation` if the scene says so.
+squeal::Disc disc_of(const scene::Scene& scene, const mbs_export::ModalBody& body,
+                     const RadiationFile& radiation)
+{
+  squeal::Disc disc =
+      squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
+  if (!scene.radiation) return disc;
+  return squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
+}
+
+/// What a run that was interrupted has left behind is of no use to one that begins anew.
+void forget(const Files& files)
+{
+  if (exists(files.checkpoint))
+    fmt::print(stderr, "note: {}: the state of an interrupted run is given up; --resume goes on\n",
+               report::printable(files.checkpoint.string()));
+  std::error_code ignored;
+  std::filesystem::remove(files.checkpoint, ignored);
+  std::filesystem::remove(files.spool, ignored);
 }
 
 void write_json(const std::string& file, const squeal::SquealResults& results,
@@ -153,41 +148,95 @@ void write_json(const std::string& file, const squeal::SquealResults& results,
   files::write_text(file, report::Json::object(members).text() + "\n");
 }
 
+/// What perform needs beside the study.
+struct Unfinished {
+  path file;  ///< for the results
+  squeal::RunOrigin origin;
+  squeal::Checkpoint* checkpoint;
+  squeal::WavSpool* sound;  ///< null when there is none
+  squeal::SquealResults begin;
+};
+
+/// The analyses, with their unfinished results in the file meanwhile.
+squeal::SquealResults perform(const scene::Scene& scene, const std::optional<squeal::Disc>& disc,
+                              const Unfinished& unfinished)
+{
+  report::ProgressLine line;
+  const squeal::StudyKeeping keeping{
+      .progress = [&](const std::string& analysis, double part) { line.show(analysis, part); },
+      .checkpoint = unfinished.checkpoint,
+      .sound = unfinished.sound,
+      .unfinished =
+          [&](squeal::SquealResults results) {
+            results.inputs = unfinished.origin.inputs;
+            squeal::write_results(unfinished.file, results, unfinished.origin.provenance);
+          },
+      .begin = unfinished.begin};
+  return disc ? squeal::run(*disc, *scene.squeal, keeping)
+              : squeal::run(*scene.squeal_model, keeping);
+}
+
+/// @throws chladni::Error when the scene has nothing to do.
+scene::Scene read_study(const RunArguments& arguments)
+{
+  scene::Scene scene = scene::read_scene(arguments.scene.scene);
+  if (!scene.squeal && !scene.squeal_model)
+    throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
+  if (scene.squeal_model && !arguments.body_file.empty())
+    throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
+  tell_notes(scene);
+  return scene;
+}
+
 }  // namespace
 
-void run_squeal(const SceneArguments& arguments, const std::string& body_file)
+void run_squeal(const RunArguments& arguments)
 {
   report::PhaseClock clock;
-  const scene::Scene scene = scene::read_scene(arguments.scene);
-  if (!scene.squeal && !scene.squeal_model) {
-    throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
-  }
-  if (scene.squeal_model && !body_file.empty()) {
-    throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
-  }
-  tell_notes(scene);
-  const Files files = files_of(scene, arguments.output, body_file);
+  const scene::Scene scene = read_study(arguments);
+  const Files files = files_of(scene, arguments.scene.output, arguments.body_file);
   std::optional<mbs_export::ModalBody> body;
-  if (!scene.squeal_model) body = read_body_of(files.body, arguments);
-  if (body && body_file.empty()) require_of_scene(scene, files.body, *body, arguments);
-  const ReservedOutputs reserved = reserve_outputs(arguments, {files.results, files.sound});
+  if (!scene.squeal_model) body = read_body_of(files.body, arguments.scene);
+  if (body && arguments.body_file.empty())
+    require_of_scene(scene, files.body, *body, arguments.scene);
+  const ReservedOutputs reserved =
+      reserve_outputs(arguments.scene, {files.results, files.sound, files.checkpoint});
   RadiationFile radiation{.file = files.radiation, .stale = {}};
-  if (body_file.empty()) radiation.stale = stale_of(arguments);
-  auto [results, origin] =
-      body ? perform_on_body(scene, *body, radiation, clock) : perform_on_model(scene);
-  origin.scene_file = scene_file_of(arguments);
+  if (arguments.body_file.empty()) radiation.stale = stale_of(arguments.scene);
+  std::optional<squeal::Disc> disc;
+  if (body) disc = disc_of(scene, *body, radiation);
+  clock.end_phase("read");
+
+  const squeal::RunOrigin origin = origin_of(scene, arguments.scene, body, files);
+  squeal::Checkpoint checkpoint(files.checkpoint, origin, arguments.checkpoint_interval);
+  std::optional<squeal::WavSpool> sound;
+  if (scene.squeal && scene.squeal->sound)
+    sound.emplace(files.sound, files.spool, scene.squeal->sound->rate_Hz);
+  if (!arguments.resume) forget(files);
+  squeal::SquealResults results = perform(
+      scene, disc,
+      {.file = files.results,
+       .origin = origin,
+       .checkpoint = &checkpoint,
+       .sound = sound ? &*sound : nullptr,
+       .begin = arguments.resume ? resume({files.results, files.checkpoint}, origin, checkpoint)
+                                 : squeal::SquealResults{}});
   clock.end_phase("analyses");
 
-  squeal::write_results(files.results, results, origin);
+  results.inputs = results.missing.empty() ? std::string() : origin.inputs;
+  squeal::write_results(files.results, results, origin.provenance);
   clock.end_phase("write");
   const report::Cost cost = report::cost_so_far(clock.phases());
 
   fmt::print("{}\n\n{}\n{}\nwrote {}\n", report::printable(scene.title),
              report::format_table(report::describe(results)),
              report::format_table(report::cost_table(cost)), files.results.string());
-  write_sound(scene, files.sound, results);
-  if (!arguments.json.empty()) write_json(arguments.json, results, cost);
+  if (sound && sound->full_scale())
+    fmt::print("wrote {}, full scale {:.6g} m/s\n", files.sound.string(), *sound->full_scale());
+  if (!arguments.scene.json.empty()) write_json(arguments.scene.json, results, cost);
   if (results.failure) throw Error(*results.failure);
+  checkpoint.remove();
+  if (sound) sound->remove();
 }
 
 }  // namespace chladni::cli

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "squeal/growth_rate.hpp"
 #include "squeal/rotation_stability.hpp"
 #include "squeal/stability_search.hpp"
+#include "squeal/transient_file.hpp"
 
 namespace chladni::report {
 namespace {
@@ -244,9 +246,22 @@ void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
   if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
 }
 
+/// Why results that were asked for are not there.
+void add_missing(TextTable& table, const squeal::SquealResults& results)
+{
+  if (results.failure) table.rows.push_back({"failed", *results.failure, ""});
+  if (results.missing.empty()) return;
+  const std::string why = results.failure ? "an analysis failed" : "the run was interrupted";
+  table.rows.push_back({"incomplete",
+                        fmt::format("{}; missing: {}; `squeal run --resume` goes on", why,
+                                    fmt::join(results.missing, ", ")),
+                        ""});
+}
+
 void add_transient(TextTable& table, const squeal::Transient& run)
 {
   table.rows.push_back({"integrator of the transient", run.integrator, ""});
+  table.rows.push_back({"history of the transient", squeal::spoken(run.band), ""});
   if (run.growth_rate) add(table, "growth in the transient", *run.growth_rate, "1/s");
   if (!run.warning.empty()) table.rows.push_back({"transient, doubtful", run.warning, ""});
   if (!run.finished) table.rows.push_back({"transient", "diverged", ""});
@@ -257,6 +272,7 @@ void add_transient(TextTable& table, const squeal::Transient& run)
 TextTable describe(const squeal::SquealResults& results)
 {
   TextTable table = quantities();
+  add_missing(table, results);
   if (results.eigenvalues) {
     add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -78,6 +80,19 @@ std::optional<squeal::PadGrid> read_grid(const Table& pad)
   return grid;
 }
 
+/// Most pad pairs of a brake, and contact points of all pads: far more than a brake has.
+constexpr std::size_t pads_max = 1000, contacts_max = 10000;
+
+std::size_t contacts_of(const std::vector<squeal::PadPair>& pads)
+{
+  std::size_t n = 0;
+  for (const squeal::PadPair& pad : pads)
+    n += pad.grid ? static_cast<std::size_t>(pad.grid->points) *
+                        std::max<std::size_t>(1, pad.grid->rings.size())
+                  : 1;
+  return n;
+}
+
 squeal::PadPair read_pad(const Table& pad)
 {
   const squeal::PadSpring spring = read_pad_spring(pad);
@@ -96,9 +111,17 @@ squeal::PadPair read_pad(const Table& pad)
 
 std::vector<squeal::PadPair> read_pads(const Table& squeal)
 {
+  const std::vector<Table> tables = squeal.tables("pads");
+  if (tables.empty()) squeal.refuse("pads", "must hold at least one pad pair");
+  if (tables.size() > pads_max)
+    squeal.refuse("pads",
+                  fmt::format("are {} pad pairs; there may be {}", tables.size(), pads_max));
   std::vector<squeal::PadPair> pads;
-  for (const Table& pad : squeal.tables("pads")) pads.push_back(read_pad(pad));
-  if (pads.empty()) squeal.refuse("pads", "must hold at least one pad pair");
+  for (const Table& pad : tables) pads.push_back(read_pad(pad));
+  const std::size_t n_contacts = contacts_of(pads);
+  if (n_contacts > contacts_max)
+    squeal.refuse("pads", fmt::format("have {} contact points in all; there may be {}", n_contacts,
+                                      contacts_max));
   return pads;
 }
 

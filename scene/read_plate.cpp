@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 
+#include "common/decimal_comma.hpp"
 #include "scene/read_tables.hpp"
 
 namespace chladni::scene {
@@ -48,7 +50,10 @@ const plate::Material& read_material_of(const Table& section,
 plate::Profile read_profile(const Table& section, std::string_view key)
 {
   if (section.has(key) && section.is_text(key)) {
-    return plate::Profile::by_formula(section.text(key));
+    const std::string formula = section.text(key);
+    if (const std::string wrong = decimal_comma_in(formula); !wrong.empty())
+      section.refuse(key, wrong);
+    return plate::Profile::by_formula(formula);
   }
   if (!section.has(key) || !section.is_table(key)) return section.number(key);
   using plate::Coordinate;

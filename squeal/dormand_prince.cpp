@@ -151,8 +151,15 @@ void DormandPrince::cross(const Crossing& crossing, double step)
         stuck_max, t_));
   }
   motion_.set_side(crossing.i, side);
-  events_.push_back({t_, crossing.i, side});
+  if (events_.size() < events_max) events_.push_back({t_, crossing.i, side});
+  ++cost_.n_events;
   knows_slope_ = false;
+}
+
+void DormandPrince::exchange(StateArchive& archive)
+{
+  archive(t_, t_begin_, step_, step_next_, y_, begin_, end_, K_, s_, dense_);
+  archive(extended_, knows_slope_, n_stuck_, events_, cost_);
 }
 
 void DormandPrince::extend()

@@ -6,6 +6,9 @@
 
 namespace chladni::squeal {
 
+/// Events that are kept: a run that has more of them may be long, and its memory may not grow.
+inline constexpr std::size_t events_max = 100000;
+
 /// The explicit Runge-Kutta method of order 8 by Dormand and Prince with an error estimate of
 /// orders 5 and 3, dense output of order 7 and located zeros of the switching functions: at each of
 /// them a step ends, so that the method keeps its order. A function that passes zero and returns
@@ -28,8 +31,11 @@ class DormandPrince final : public Integrator {
   };
   Span next_step();
 
-  /// Zeros of the switching functions so far, by rising time.
+  /// The first `events_max` zeros of the switching functions, by rising time.
   const std::vector<SwitchEvent>& events() const { return events_; }
+
+  /// All that the motion to come depends on; the sides are the motion's.
+  void exchange(StateArchive& archive);
 
  private:
   /// A zero of the switching function i within the step under trial.

@@ -76,10 +76,18 @@ void GeneralisedAlpha::factorize(double t, const Eigen::VectorXd& y, double step
 {
   const Motion::Tangent d = motion_.tangent(t, y);
   const Eigen::Index n = d.by_q.rows();
-  newton_.compute((1.0 - alpha_m_) * Eigen::MatrixXd::Identity(n, n) -
-                  (1.0 - alpha_f_) * (beta_ * step * step * d.by_q + gamma_ * step * d.by_v));
+  tangent_ = (1.0 - alpha_m_) * Eigen::MatrixXd::Identity(n, n) -
+             (1.0 - alpha_f_) * (beta_ * step * step * d.by_q + gamma_ * step * d.by_v);
+  newton_.compute(tangent_);
   step_factorized_ = step;
   ++cost_.n_factorizations;
+}
+
+void GeneralisedAlpha::exchange(StateArchive& archive)
+{
+  archive(t_, step_, step_next_, error_held_, y_, begin_, a_, a_begin_, end_, a_end_);
+  archive(step_factorized_, tangent_, cost_);
+  if (archive.gives() && tangent_.size() > 0) newton_.compute(tangent_);
 }
 
 /// q_1 and v_1 from a_1.

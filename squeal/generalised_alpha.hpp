@@ -37,6 +37,9 @@ class GeneralisedAlpha final : public Integrator {
 
   const Eigen::VectorXd& at(double t) override;
 
+  /// All that the motion to come depends on; the sides are the motion's.
+  void exchange(StateArchive& archive);
+
  private:
   void advance();
   double try_step(double step);
@@ -57,6 +60,7 @@ class GeneralisedAlpha final : public Integrator {
   Eigen::VectorXd end_, a_end_;  ///< of the step under trial
   Eigen::VectorXd stage_;
   Eigen::VectorXd sample_;
+  Eigen::MatrixXd tangent_;  ///< of Newton's method
   Eigen::PartialPivLU<Eigen::MatrixXd> newton_;
   double step_factorized_ = 0.0;  ///< for which `newton_` was made
 };

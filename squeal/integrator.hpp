@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "squeal/motion.hpp"
+#include "squeal/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -20,6 +21,8 @@ struct SwitchEvent {
   double t;        ///< s
   Eigen::Index i;  ///< which one
   double side;     ///< where it goes: 1 or -1
+
+  void exchange(StateArchive& archive) { archive(t, i, side); }
 };
 
 /// What an integration took so far.
@@ -27,6 +30,9 @@ struct IntegrationCost {
   std::int64_t n_steps = 0;
   std::int64_t n_rejected = 0;
   std::int64_t n_factorizations = 0;
+  std::int64_t n_events = 0;  ///< changes of a side that were located
+
+  void exchange(StateArchive& archive) { archive(n_steps, n_rejected, n_factorizations, n_events); }
 };
 
 /// Integrates a motion with adaptive steps and dense output.

@@ -1,7 +1,6 @@
 #include "squeal/model_run.hpp"
 
-#include <algorithm>
-#include <functional>
+#include <utility>
 
 #include "common/error.hpp"
 #include "squeal/hopf.hpp"
@@ -13,6 +12,7 @@
 #include "squeal/rigid_model.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
+#include "squeal/study_steps.hpp"
 #include "squeal/transient.hpp"
 
 namespace chladni::squeal {
@@ -89,14 +89,8 @@ std::vector<Growth> growths(const Model& model, const GrowthCase& runs, const Pr
   return results;
 }
 
-/// An analysis and the names in the scene of all that need it.
-struct Step {
-  std::vector<std::string> names;
-  std::function<void(SquealResults&, const Progress&)> perform;
-};
-
 /// In the order in which they are done.
-std::vector<Step> steps_of(const Model& model, const ModelOptions& options)
+std::vector<StudyStep> steps_of(const Model& model, const ModelOptions& options)
 {
   return {
       {{"eigenvalues"},
@@ -110,10 +104,12 @@ std::vector<Step> steps_of(const Model& model, const ModelOptions& options)
       {{"critical-values"}, [&](auto& r, auto&) { r.critical_values = critical_values(options); }},
       {{"stability-map"}, [&](auto& r, auto&) { r.map = map_of(options); }},
       {{"growth"},
-       [&](auto& r, auto& progress) { r.growth = growths(model, *options.growth, progress); }},
+       [&](auto& r, auto& keeping) {
+         r.growth = growths(model, *options.growth, keeping.progress);
+       }},
       {{"transient", "limit-cycle"},
-       [&](auto& r, auto& progress) {
-         r.transient = transient(model, *options.transient, progress);
+       [&](auto& r, auto& keeping) {
+         r.transient = transient(model, *options.transient, keeping);
        }},
       {{"limit-cycle"}, [&](auto& r, auto&) { r.limit_cycle = limit_cycle(Disc{}, *r.transient); }},
       {{"limit-cycle-direct"},
@@ -121,40 +117,20 @@ std::vector<Step> steps_of(const Model& model, const ModelOptions& options)
          r.limit_cycle_direct =
              limit_cycle_direct(cycle_problem_of(model), options.limit_cycle_direct.value().speed);
        }},
-      {{"limit-cycle-branch"}, [&](auto& r, auto& progress) {
+      {{"limit-cycle-branch"}, [&](auto& r, auto& keeping) {
          r.limit_cycle_branch =
-             limit_cycle_branch(cycle_problem_of(model), options.speeds, progress);
+             limit_cycle_branch(cycle_problem_of(model), options.speeds, keeping.progress);
        }}};
 }
 
 }  // namespace
 
-SquealResults run(const ModelOptions& options, const RunProgress& progress)
+SquealResults run(const ModelOptions& options, const StudyKeeping& keeping)
 {
   const Model model = std::visit([](const auto& study) { return build(study); }, options.model);
   SquealResults results;
   results.wheel_radius = options.speeds.wheel_radius;
-  bool any_done = false;
-  for (const Step& step : steps_of(model, options)) {
-    if (std::find_first_of(options.analyses.begin(), options.analyses.end(), step.names.begin(),
-                           step.names.end()) == options.analyses.end())
-      continue;
-    const auto report = [&](double fraction) {
-      if (progress) progress(step.names.front(), fraction);
-    };
-    report(0.0);
-    try {
-      step.perform(results, report);
-    } catch (const Error& error) {
-      if (!any_done) throw;
-      results.failure = error.what();
-      return results;
-    }
-    any_done = true;
-  }
-  if (results.transient && !results.transient->finished)
-    results.failure = "transient: " + divergence_of(*results.transient);
-  return results;
+  return perform_steps(steps_of(model, options), options.analyses, std::move(results), keeping);
 }
 
 }  // namespace chladni::squeal

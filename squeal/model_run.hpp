@@ -8,6 +8,6 @@ namespace chladni::squeal {
 
 /// Performs `options.analyses`; "limit-cycle" runs the transient that it needs.
 /// @throws chladni::Error from the analyses.
-SquealResults run(const ModelOptions& options, const RunProgress& progress = {});
+SquealResults run(const ModelOptions& options, const StudyKeeping& keeping = {});
 
 }  // namespace chladni::squeal

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <vector>
 
 #include "common/error.hpp"
 #include "squeal/dop853.hpp"
@@ -27,9 +28,41 @@ FrequencyRange frequencies_of(const Model& model, double speed)
   return {.lowest = lowest, .highest = highest};
 }
 
+/// A run under way.
+struct Recording {
+  const RecordingPlan& plan;
+  Eigen::VectorXd x;
+  Recorder recorder;
+  std::int64_t n = 0;  ///< samples so far
+};
+
+/// Samples between two looks at the clock.
+constexpr std::int64_t samples_together = 1024;
+
+/// From the first sample, or from where the checkpoint is, to the last.
+/// @return whether the motion stayed bounded
+bool record(const Model& model, const TransientCase& run, Recording& at, const Keeping& keeping)
+{
+  const auto exchange = [&](StateArchive& archive) { archive(at.n, at.x, at.recorder); };
+  const auto f = [&](const Eigen::VectorXd& x) { return model.rate(x, run.speed); };
+  if (keeping.checkpoint) keeping.checkpoint->give_back(exchange);
+  while (at.n < at.plan.n_steps) {
+    const std::vector<ContactResult<double>> contacts{model.contact(at.x, run.speed)};
+    at.recorder.add({at.n, double(at.n) * at.plan.step, run.speed, contacts});
+    at.x = dop853_step(f, at.x, at.plan.step);
+    if (!(at.x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < motion_max)) return false;
+    if (keeping.progress && at.n % at.plan.window == 0)
+      keeping.progress(double(at.n) / double(at.plan.n_steps));
+    if (++at.n % samples_together == 0 && keeping.checkpoint && keeping.checkpoint->is_due())
+      keeping.checkpoint->keep(exchange);
+  }
+  if (keeping.checkpoint && keeping.checkpoint->was_written()) keeping.checkpoint->keep(exchange);
+  return true;
+}
+
 }  // namespace
 
-Transient transient(const Model& model, const TransientCase& run, const Progress& progress)
+Transient transient(const Model& model, const TransientCase& run, const Keeping& keeping)
 {
   if (run.integrator != IntegratorKind::automatic &&
       run.integrator != IntegratorKind::dormand_prince)
@@ -38,19 +71,15 @@ Transient transient(const Model& model, const TransientCase& run, const Progress
         "integrator out");
   const RecordingPlan plan = recording_plan(run, frequencies_of(model, run.speed),
                                             run.steps_per_period.value_or(steps_per_period));
-  Recorder recorder(plan, model.rest_height);
-  const auto f = [&](const Eigen::VectorXd& x) { return model.rate(x, run.speed); };
-  Eigen::VectorXd x = model.start(run.initial_pad_displacement);
-  bool finite = true;
-  for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
-    recorder.add(i, double(i) * plan.step, {model.contact(x, run.speed)});
-    x = dop853_step(f, x, plan.step);
-    finite = x.allFinite();
-    if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
-  }
+  Recording recording{.plan = plan,
+                      .x = model.start(run.initial_pad_displacement),
+                      .recorder = {plan, model.rest_height}};
+  const bool bounded = record(model, run, recording, keeping);
+  Recorder& recorder = recording.recorder;
+  recorder.finish();
   Transient result = recorder.transient();
   result.speed = run.speed;
-  result.finished = finite;
+  result.finished = bounded;
   result.integrator = "dormand-prince";
   result.integrator_reason = "of order 8 with fixed steps, for models without a body";
   result.growth_rate = growth_rate(result.envelope, linear_part * model.rest_compression);

@@ -11,7 +11,7 @@ namespace chladni::squeal {
 /// contact opens or closes within a step, that step is of first order.
 /// @throws chladni::Error for a speed of zero, a duration or an initial displacement that is not
 ///         positive, and too few steps for the highest frequency.
-Transient transient(const Model& model, const TransientCase& run, const Progress& progress = {});
+Transient transient(const Model& model, const TransientCase& run, const Keeping& keeping = {});
 
 /// Growth of a small disturbance at `speed` (rad/s) over `duration` (s), far below contact loss.
 Growth growth(const Model& model, double speed, double duration);

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "squeal/contact.hpp"
+#include "squeal/decimator.hpp"
 #include "squeal/results.hpp"
+#include "squeal/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -22,6 +24,8 @@ class PeakFinder {
   };
   std::optional<Peak> take();
 
+  void exchange(StateArchive& archive);
+
  private:
   double before_ = 0.0;
   double last_ = 0.0;
@@ -33,9 +37,18 @@ class PeakFinder {
 struct RecordingPlan {
   double step;  ///< s
   std::int64_t n_steps;
-  std::int64_t window;  ///< steps for one point of the envelope
-  std::int64_t every;   ///< steps for one point of the history
-  std::int64_t n_tail;  ///< steps of the tail
+  std::int64_t window;     ///< steps for one point of the envelope
+  Decimation history;      ///< of the steps
+  std::int64_t snapshots;  ///< steps for one snapshot
+  std::int64_t n_tail;     ///< steps of the tail
+};
+
+/// The motion at a sample.
+struct Sample {
+  std::int64_t i;                                      ///< from 0
+  double t;                                            ///< s
+  double speed;                                        ///< of rotation, rad/s
+  const std::vector<ContactResult<double>>& contacts;  ///< one for each pad pair
 };
 
 /// Collects the results of a transient while it runs.
@@ -44,7 +57,10 @@ class Recorder {
   /// @param rest  height of the first upper pad when the disc is flat, m
   Recorder(const RecordingPlan& plan, double rest);
 
-  void add(std::int64_t i, double t, const std::vector<ContactResult<double>>& contacts);
+  void add(const Sample& sample);
+  /// After the last sample: completes what waits for more.
+  void finish();
+  void exchange(StateArchive& archive);
   bool in_tail(std::int64_t i) const { return i >= plan_.n_steps - plan_.n_tail; }
 
   /// What was collected; `finished`, `speed` and `tail_a` are left to the caller.
@@ -52,11 +68,18 @@ class Recorder {
 
  private:
   void add_extremes(double t, const PadState<double>& pad);
+  void add_to_window(const Sample& sample);
+  void end_window();
   void close_window();
+  void keep(const Eigen::VectorXd& sample);
 
   RecordingPlan plan_;
   double rest_;
+  std::optional<double> begin_;  ///< time of the first sample, s
   Transient transient_{};
+  Decimator history_;
+  std::int64_t n_in_window_ = 0;
+  std::int64_t n_open_ = 0;  ///< in the window
   PeakFinder velocity_;
   PeakFinder displacement_;
 };

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
+
+#include "squeal/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -16,9 +19,13 @@ class Resampler {
 
   void add(double x);
 
-  /// All samples that are complete by now; after `finish`, all.
-  const std::vector<float>& samples() const { return out_; }
+  /// The samples that have become complete since the last call; after `finish`, the rest.
+  std::vector<float> take() { return std::exchange(out_, {}); }
+  std::size_t n_waiting() const { return out_.size(); }
   void finish();
+
+  /// What was not taken is no part of the state.
+  void exchange(StateArchive& archive) { archive(in_, n_in_, n_out_); }
 
  private:
   double kernel(double time) const;
@@ -30,6 +37,7 @@ class Resampler {
   std::vector<double> table_;  ///< the kernel over 0 ... half_width_
   std::vector<double> in_;     ///< ring of the latest samples
   std::int64_t n_in_ = 0;
+  std::int64_t n_out_ = 0;
   std::vector<float> out_;
 };
 

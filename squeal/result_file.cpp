@@ -159,6 +159,8 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.limit_cycle_branch) write_branch(file, *results.limit_cycle_branch);
   if (results.spectrum) write_spectrum(file, *results.spectrum);
   if (results.failure) file.write("failure", *results.failure);
+  if (!results.missing.empty()) file.write("missing", results.missing);
+  if (!results.inputs.empty()) file.write("inputs", results.inputs);
   file.commit();
 }
 
@@ -180,6 +182,8 @@ SquealResults read_results(const Reader& file)
   results.critical_values = read_critical_values(file);
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
   if (file.contains("failure")) results.failure = file.text("failure");
+  if (file.contains("missing")) results.missing = file.texts("missing");
+  if (file.contains("inputs")) results.inputs = file.text("inputs");
   if (file.contains("stability_map")) results.map = read_map(file);
   if (file.contains("rotation_stability"))
     results.rotation_stability = read_rotation_stability(file);

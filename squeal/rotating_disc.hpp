@@ -7,6 +7,7 @@
 #include "squeal/motion.hpp"
 #include "squeal/pad_system.hpp"
 #include "squeal/ring_shapes.hpp"
+#include "squeal/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -34,6 +35,8 @@ class RotatingDisc final : public Motion {
 
   /// Evaluations of the contact forces of all pads so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
+
+  void exchange(StateArchive& archive) { archive(branches_, n_evaluations_); }
 
  private:
   struct PointMotion {

@@ -1,7 +1,6 @@
 #include "squeal/run.hpp"
 
-#include <algorithm>
-#include <functional>
+#include <utility>
 #include <vector>
 
 #include "common/error.hpp"
@@ -17,6 +16,7 @@
 #include "squeal/spectrum.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/stability_map.hpp"
+#include "squeal/study_steps.hpp"
 #include "squeal/transient.hpp"
 #include "squeal/validate.hpp"
 
@@ -52,14 +52,8 @@ std::vector<CriticalValue> critical_values(const Disc& disc, const SquealOptions
   return values;
 }
 
-/// An analysis and the names in the scene of all that need it.
-struct Step {
-  std::vector<std::string> names;
-  std::function<void(SquealResults&, const Progress&)> perform;
-};
-
 /// In the order in which they are done.
-std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
+std::vector<StudyStep> steps_of(const Disc& disc, const SquealOptions& options)
 {
   return {
       {{"eigenvalues"},
@@ -82,8 +76,8 @@ std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
        [&](auto& r, auto&) { r.rotation_stability = rotation_stability(disc, options); }},
       {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
       {{"transient", "limit-cycle", "spectrum"},
-       [&](auto& r, auto& progress) {
-         r.transient = transient(disc, options, *options.transient, progress);
+       [&](auto& r, auto& keeping) {
+         r.transient = transient(disc, options, *options.transient, keeping);
        }},
       {{"spectrum"},
        [&](auto& r, auto&) {
@@ -95,42 +89,21 @@ std::vector<Step> steps_of(const Disc& disc, const SquealOptions& options)
          r.limit_cycle_direct =
              limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
        }},
-      {{"limit-cycle-branch"}, [&](auto& r, auto& progress) {
-         r.limit_cycle_branch = limit_cycle_branch(disc, options, progress);
+      {{"limit-cycle-branch"}, [&](auto& r, auto& keeping) {
+         r.limit_cycle_branch = limit_cycle_branch(disc, options, keeping.progress);
        }}};
 }
 
 }  // namespace
 
-SquealResults run(const Disc& disc, const SquealOptions& options, const RunProgress& progress)
+SquealResults run(const Disc& disc, const SquealOptions& options, const StudyKeeping& keeping)
 {
   validate(options);
   SquealResults results;
   results.wheel_radius = options.speeds.wheel_radius;
   if (const auto inertial = find_inertial_disc(disc))
     results.largest_split = inertial->largest_split;
-  bool any_done = false;
-  for (const Step& step : steps_of(disc, options)) {
-    const auto wanted = std::find_first_of(options.analyses.begin(), options.analyses.end(),
-                                           step.names.begin(), step.names.end());
-    if (wanted == options.analyses.end()) continue;
-    const std::string& name = step.names.front();
-    const auto report = [&](double fraction) {
-      if (progress) progress(name, fraction);
-    };
-    report(0.0);
-    try {
-      step.perform(results, report);
-    } catch (const Error& error) {
-      if (!any_done) throw;
-      results.failure = error.what();
-      return results;
-    }
-    any_done = true;
-  }
-  if (results.transient && !results.transient->finished)
-    results.failure = "transient: " + divergence_of(*results.transient);
-  return results;
+  return perform_steps(steps_of(disc, options), options.analyses, std::move(results), keeping);
 }
 
 }  // namespace chladni::squeal

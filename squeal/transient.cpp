@@ -13,6 +13,7 @@
 #include "squeal/integrator_choice.hpp"
 #include "squeal/recorder.hpp"
 #include "squeal/resampler.hpp"
+#include "squeal/snapshot_recorder.hpp"
 #include "squeal/speed_program.hpp"
 #include "squeal/stability.hpp"
 #include "squeal/transient_plan.hpp"
@@ -61,58 +62,6 @@ double rest_compression(const SquealOptions& options)
   return options.pads.front().preload / options.pads.front().stiffness;
 }
 
-/// q in the inertial frame but along the modes of the body.
-Eigen::VectorXd in_inertial_frame(const InertialDisc& inertial, const Eigen::VectorXd& q,
-                                  double angle)
-{
-  return inertial.R * turned(inertial, inertial.R.transpose() * q, angle);
-}
-
-/// The states that a run keeps, by sample.
-class StateRecorder {
- public:
-  StateRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
-                const RecordingPlan& plan, const TransientCase& run)
-      : omega_(disc.omega), inertial_(inertial), plan_(plan), run_(run)
-  {
-    const auto n_kept = static_cast<Eigen::Index>((plan.n_steps - 1) / plan.every + 1);
-    modes_.q.resize(disc.n_modes(), n_kept);
-    modes_.v.resize(disc.n_modes(), n_kept);
-    if (inertial) tail_a_.resize(disc.n_modes(), static_cast<Eigen::Index>(plan.n_tail));
-  }
-
-  void add(std::int64_t i, double t, const TransientSteps& steps)
-  {
-    const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
-    if (!in_tail && i % plan_.every != 0) return;
-    const ModalState x = steps.state();
-    if (in_tail)
-      tail_a_.col(n_tail_++) = in_inertial_frame(*inertial_, x.q, turn_at(run_, t).angle);
-    if (i % plan_.every != 0) return;
-    const auto column = static_cast<Eigen::Index>(modes_.energy.size());
-    modes_.q.col(column) = x.q;
-    modes_.v.col(column) = x.v;
-    modes_.energy.push_back(0.5 * (x.v.squaredNorm() + omega_.cwiseProduct(x.q).squaredNorm()));
-  }
-
-  /// What was collected.
-  ModalHistory modes() const
-  {
-    const auto n = static_cast<Eigen::Index>(modes_.energy.size());
-    return {modes_.q.leftCols(n), modes_.v.leftCols(n), modes_.energy};
-  }
-  Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
-
- private:
-  Eigen::VectorXd omega_;
-  const std::optional<InertialDisc>& inertial_;
-  RecordingPlan plan_;
-  const TransientCase& run_;
-  ModalHistory modes_;
-  Eigen::MatrixXd tail_a_;
-  Eigen::Index n_tail_ = 0;
-};
-
 /// Sliding so slow that its direction turns within a step of an explicit kick, m/s, without
 /// regularisation, and with it in multiples of that.
 constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
@@ -141,18 +90,69 @@ std::string warning_of(const Transient& run, const Disc& disc, const SquealOptio
   return sliding.empty() || growth.empty() ? sliding + growth : sliding + "; " + growth;
 }
 
-bool is_finite(const std::vector<ContactResult<double>>& contacts)
+bool is_bounded(const PadState<double>& pad)
+{
+  const auto is_number = [](double x) { return std::abs(x) < motion_max; };
+  return is_number(pad.z) && is_number(pad.z_dot) && is_number(pad.N) && is_number(pad.slip_speed);
+}
+
+bool is_bounded(const std::vector<ContactResult<double>>& contacts)
 {
   return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
-    return std::isfinite(pair.upper.z) && std::isfinite(pair.upper.z_dot) &&
-           std::isfinite(pair.upper.N) && std::isfinite(pair.lower.N);
+    return is_bounded(pair.upper) && is_bounded(pair.lower);
   });
+}
+
+/// A run under way.
+struct Recording {
+  const RecordingPlan& plan;
+  const TransientCase& run;
+  Recorder recorder;
+  SnapshotRecorder states;
+  std::optional<Resampler> sound = {};
+  std::int64_t n = 0;  ///< samples so far
+};
+
+/// Samples between two looks at the clock, and of the sound that go to its file together.
+constexpr std::int64_t samples_together = 1024;
+
+/// From the first sample, or from where the checkpoint is, to the last.
+/// @return whether the motion stayed bounded
+bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
+{
+  const auto exchange = [&](StateArchive& archive) {
+    archive(at.n, steps, at.recorder, at.states);
+    if (at.sound) archive(*at.sound, *keeping.sound);
+  };
+  const auto hand_over_sound = [&] {
+    if (at.sound) keeping.sound->add(at.sound->take());
+  };
+  const auto keep = [&] {
+    hand_over_sound();
+    keeping.checkpoint->keep(exchange);
+  };
+  if (keeping.checkpoint) keeping.checkpoint->give_back(exchange);
+  while (at.n < at.plan.n_steps) {
+    const double t = (double(at.n) + 0.5) * at.plan.step;
+    const auto& contacts = steps.next();
+    if (!is_bounded(contacts)) return false;
+    at.recorder.add({at.n, t, turn_at(at.run, t).speed, contacts});
+    at.states.add(at.n, t, steps);
+    if (at.sound) at.sound->add(contacts.front().upper.z_dot);
+    if (keeping.progress && at.n % at.plan.window == 0)
+      keeping.progress(double(at.n) / double(at.plan.n_steps));
+    if (++at.n % samples_together != 0) continue;
+    hand_over_sound();
+    if (keeping.checkpoint && keeping.checkpoint->is_due()) keep();
+  }
+  if (keeping.checkpoint && keeping.checkpoint->was_written()) keep();
+  return true;
 }
 
 }  // namespace
 
 Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
-                    const Progress& progress)
+                    const Keeping& keeping)
 {
   if (options.pads.empty()) throw Error("transient: no pads");
   check_transient(run, disc.omega.maxCoeff());
@@ -164,41 +164,34 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
   const auto steps =
       transient_steps(disc, options, run, choice, plan.step,
                       transient_start(disc, inertial, run, options.pads.front().angle));
-  Recorder recorder(plan, 0.5 * options.thickness);
-  StateRecorder states(disc, inertial, plan, run);
-  std::optional<Resampler> sound;
-  if (options.sound) sound.emplace(plan.step, options.sound->rate_Hz);
-  bool finite = true;
-  for (std::int64_t i = 0; i < plan.n_steps && finite; ++i) {
-    const double t = (double(i) + 0.5) * plan.step;
-    const auto& contacts = steps->next();
-    finite = is_finite(contacts);
-    if (finite) {
-      recorder.add(i, t, contacts);
-      states.add(i, t, *steps);
-      if (sound) sound->add(contacts.front().upper.z_dot);
-    }
-    if (progress && i % plan.window == 0) progress(double(i) / double(plan.n_steps));
-  }
-
+  Recording recording{.plan = plan,
+                      .run = run,
+                      .recorder = {plan, 0.5 * options.thickness},
+                      .states = {disc, inertial, plan, run}};
+  if (options.sound && keeping.sound) recording.sound.emplace(plan.step, options.sound->rate_Hz);
+  const bool bounded = record(*steps, recording, keeping);
+  Recorder& recorder = recording.recorder;
+  recorder.finish();
   Transient result = recorder.transient();
   result.speed = run.speed;
-  result.finished = finite;
+  result.finished = bounded;
   result.integrator = name_of(choice.kind);
   result.integrator_reason = choice.reason;
   result.n_steps = steps->n_steps();
   result.n_contact_evaluations = steps->n_contact_evaluations();
+  result.n_events = steps->n_events();
   result.events = steps->events();
   if (run.speed_program.empty())
     result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
   else
     result.speed = turn_at(run, run.duration).speed;
-  result.modes = states.modes();
-  result.tail_a = states.tail_a();
+  result.snapshots = recording.states.snapshots();
+  result.tail_a = recording.states.tail_a();
   result.warning = warning_of(result, disc, options);
-  if (sound) {
-    sound->finish();
-    result.sound = sound->samples();
+  if (recording.sound) {
+    recording.sound->finish();
+    keeping.sound->add(recording.sound->take());
+    keeping.sound->finish();
   }
   return result;
 }

@@ -1,5 +1,8 @@
 #include "squeal/transient_file.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -41,30 +44,96 @@ History read_history(const Reader& file, const std::string& group)
           read_series(file, group + "/slip_speed", n)};
 }
 
-/// One row for each time, as everything else of a history.
-void write_modes(Writer& file, const std::string& group, const ModalHistory& modes)
+constexpr auto whole = "every sample", band_limited = "band-limited";
+
+/// For whoever looks at the file alone, in words too.
+void write_band(Writer& file, const Band& band)
 {
-  file.write(group + "/q", modes.q.transpose(), "m kg^(1/2)");
-  file.write(group + "/q_dot", modes.v.transpose(), "m kg^(1/2) / s");
-  file.write(group + "/energy", modes.energy, "J");
+  const bool is_whole = band.sampling == Sampling::whole;
+  file.write("transient/history/sampling", is_whole ? whole : band_limited);
+  file.write("transient/history/rate", band.rate_Hz, "Hz");
+  file.write("transient/history/band", band.to_Hz, "Hz");
+  file.attribute("transient/history", "sampling", spoken(band));
 }
 
-/// At n times, or none: models without a body have no modes.
-ModalHistory read_modes(const Reader& file, const std::string& group, Eigen::Index n)
+Band read_band(const Reader& file)
 {
+  if (!file.contains("transient/history/sampling")) return {};
+  const std::string sampling = file.text("transient/history/sampling");
+  if (sampling != whole && sampling != band_limited)
+    file.fail("transient/history/sampling",
+              fmt::format("is \"{}\"; expected \"{}\" or \"{}\"", sampling, whole, band_limited));
+  return {sampling == whole ? Sampling::whole : Sampling::band_limited,
+          file.real("transient/history/rate"), file.real("transient/history/band")};
+}
+
+/// The series of the windows but for their times, with their units.
+struct WindowSeries {
+  const char* name;
+  const char* unit;
+  std::vector<double> Windows::*values;
+};
+constexpr std::array<WindowSeries, 7> window_series = {{
+    {"speed", "rad/s", &Windows::speed},
+    {"N_up_min", "N", &Windows::N_up_min},
+    {"N_up_max", "N", &Windows::N_up_max},
+    {"N_lo_min", "N", &Windows::N_lo_min},
+    {"N_lo_max", "N", &Windows::N_lo_max},
+    {"slip_speed_min", "m/s", &Windows::slip_speed_min},
+    {"open", "1", &Windows::open},
+}};
+
+void write_windows(Writer& file, const Windows& windows)
+{
+  file.write("transient/windows/t", windows.t, "s");
+  for (const WindowSeries& series : window_series)
+    file.write(fmt::format("transient/windows/{}", series.name), windows.*series.values,
+               series.unit);
+}
+
+Windows read_windows(const Reader& file)
+{
+  Windows windows;
+  if (!file.contains("transient/windows/t")) return windows;
+  windows.t = read_times(file, "transient/windows/t");
+  for (const WindowSeries& series : window_series)
+    windows.*series.values = read_series(file, fmt::format("transient/windows/{}", series.name),
+                                         static_cast<Eigen::Index>(windows.t.size()));
+  return windows;
+}
+
+/// One row for each time.
+void write_snapshots(Writer& file, const Snapshots& snapshots)
+{
+  file.write("transient/snapshots/t", snapshots.t, "s");
+  file.write("transient/snapshots/q", snapshots.q.transpose(), "m kg^(1/2)");
+  file.write("transient/snapshots/q_dot", snapshots.v.transpose(), "m kg^(1/2) / s");
+  file.write("transient/snapshots/energy", snapshots.energy, "J");
+  file.attribute("transient/snapshots", "sampling",
+                 "single states: no signal, they may be further apart than its periods");
+}
+
+/// At n times, or none: models without a body have no modes. Files of earlier versions have them at
+/// the times of the history.
+Snapshots read_snapshots(const Reader& file)
+{
+  const bool own = file.contains("transient/snapshots/t");
+  const std::string group = own ? "transient/snapshots" : "transient/history";
   const std::vector<double> energy = read_series(file, group + "/energy");
-  const auto n_energies = static_cast<Eigen::Index>(energy.size());
-  if (n_energies != n && n_energies != 0)
+  const auto n = static_cast<Eigen::Index>(energy.size());
+  std::vector<double> t;
+  if (own || n > 0) t = read_times(file, group + "/t");
+  if (std::ssize(t) != n)
     file.fail(group + "/energy", "expected as many values as there are times, or none");
-  const Eigen::MatrixXd q = file.matrix(group + "/q", {n_energies});
-  return {q.transpose(), file.matrix(group + "/q_dot", {n_energies, q.cols()}).transpose(), energy};
+  const Eigen::MatrixXd q = file.matrix(group + "/q", {n});
+  return {t, q.transpose(), file.matrix(group + "/q_dot", {n, q.cols()}).transpose(), energy};
 }
 
-void write_events(Writer& file, const std::vector<ContactEvent>& events)
+void write_events(Writer& file, const Transient& run)
 {
   std::vector<double> t;
   std::vector<int> pads, gains;
-  for (const ContactEvent& event : events) {
+  for (const ContactEvent& event : run.events) {
     t.push_back(event.t);
     pads.push_back(event.pad);
     gains.push_back(event.gains ? 1 : 0);
@@ -72,6 +141,7 @@ void write_events(Writer& file, const std::vector<ContactEvent>& events)
   file.write("transient/events/t", t, "s");
   file.write("transient/events/pad", std::span<const int>(pads), "1");
   file.write("transient/events/gains", std::span<const int>(gains), "1");
+  file.write("transient/events/count", run.n_events, "1");
 }
 
 std::vector<ContactEvent> read_events(const Reader& file)
@@ -87,6 +157,20 @@ std::vector<ContactEvent> read_events(const Reader& file)
 }
 
 }  // namespace
+
+std::string spoken(const Band& band)
+{
+  switch (band.sampling) {
+    case Sampling::whole:
+      return fmt::format("every sample, {:.6g} in a second", band.rate_Hz);
+    case Sampling::band_limited:
+      return fmt::format("band-limited to {:.4g} Hz, {:.6g} samples in a second", band.to_Hz,
+                         band.rate_Hz);
+    case Sampling::decimated:
+      break;
+  }
+  return "decimated: frequencies above half its rate look like lower ones";
+}
 
 void write_optional(Writer& file, const std::string& name, const std::optional<double>& x,
                     const std::string& unit)
@@ -129,17 +213,21 @@ void write_transient(Writer& file, const Transient& run)
   file.write("transient/slip_speed_min", run.slip_speed_min, "m/s");
   write_optional(file, "transient/t_zero_force", run.t_zero_force, "s");
   write_optional(file, "transient/growth_rate", run.growth_rate, "1/s");
-  write_events(file, run.events);
+  write_events(file, run);
   write_envelope(file, "transient/envelope", run.envelope);
+  write_windows(file, run.windows);
   write_history(file, "transient/history", run.history);
-  write_modes(file, "transient/history", run.modes);
+  write_band(file, run.band);
+  write_snapshots(file, run.snapshots);
   write_history(file, "transient/tail", run.tail);
 }
 
 Transient read_transient(const Reader& file)
 {
-  History history = read_history(file, "transient/history");
-  const auto n = static_cast<Eigen::Index>(history.t.size());
+  std::vector<ContactEvent> events = read_events(file);
+  const std::int64_t n_events = file.contains("transient/events/count")
+                                    ? file.integer("transient/events/count")
+                                    : std::ssize(events);
   return {.speed = file.real("transient/speed"),
           .step = file.real("transient/step"),
           .finished = file.integer("transient/finished") != 0,
@@ -147,12 +235,14 @@ Transient read_transient(const Reader& file)
           .integrator_reason = file.text("transient/integrator_reason"),
           .n_steps = file.integer("transient/steps"),
           .n_contact_evaluations = file.integer("transient/contact_evaluations"),
-          .events = read_events(file),
+          .n_events = n_events,
+          .events = std::move(events),
           .envelope = read_envelope(file, "transient/envelope"),
-          .history = std::move(history),
-          .modes = read_modes(file, "transient/history", n),
+          .windows = read_windows(file),
+          .band = read_band(file),
+          .history = read_history(file, "transient/history"),
+          .snapshots = read_snapshots(file),
           .tail = read_history(file, "transient/tail"),
-          .sound = {},
           .tail_a = {},
           .N_min = file.real("transient/N_min"),
           .N_max = file.real("transient/N_max"),

@@ -8,6 +8,9 @@
 
 namespace chladni::squeal {
 
+/// "band-limited to 11400 Hz, 30000 samples in a second": which frequencies a history holds.
+std::string spoken(const Band& band);
+
 /// A number that may be absent, with its dataset.
 void write_optional(files::Writer& file, const std::string& name, const std::optional<double>& x,
                     const std::string& unit);

@@ -17,9 +17,19 @@ constexpr double steps_max = 1e10;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
 constexpr int periods_per_window = 4;
 constexpr int periods_in_tail = 100;
-constexpr std::int64_t history_points = 20000;
+/// Most samples of the history: 10 MB. 6 s of them hold what is below 12 kHz.
+constexpr std::int64_t history_max = 200000;
+constexpr std::int64_t snapshots_max = 20000;
+/// Most points of the envelope.
+constexpr std::int64_t windows_max = 20000;
 /// Initial displacement for a growth rate, relative to the compression of the pads at rest.
 constexpr double growth_start = 1e-4;
+
+/// Steps of each of at most `n_parts` parts.
+std::int64_t parts_of(std::int64_t n_steps, std::int64_t n_parts)
+{
+  return (n_steps - 1) / n_parts + 1;
+}
 
 }  // namespace
 
@@ -55,8 +65,10 @@ RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& ome
   const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
   return {.step = step,
           .n_steps = n,
-          .window = static_cast<std::int64_t>(periods_per_window * steps_of_period),
-          .every = std::max<std::int64_t>(1, n / history_points),
+          .window = std::max(static_cast<std::int64_t>(periods_per_window * steps_of_period),
+                             parts_of(n, windows_max)),
+          .history = decimation_to(n, history_max),
+          .snapshots = parts_of(n, snapshots_max),
           .n_tail = std::min(n, tail)};
 }
 

@@ -16,13 +16,17 @@ struct FrequencyRange {
   double highest;
 };
 
+/// Beyond this a motion counts as diverged (m, m/s, N): its squares and cubes are numbers yet, so
+/// that all that is recorded of it is.
+inline constexpr double motion_max = 1e30;
+
 /// Fewest steps for one period of the highest mode that may be asked for.
 inline constexpr int steps_per_period_min = 8;
 
 /// @throws chladni::Error as `recording_plan`, but for the number of steps.
 void check_transient(const TransientCase& run, double omega_highest);
 
-/// What to record of a transient of these frequencies.
+/// What to record of a transient of these frequencies: amounts that a long run does not exceed.
 /// @param samples  for one period of the highest
 /// @throws chladni::Error for a speed of zero, a duration or an initial displacement that is not
 ///         positive, and too few or too many steps.

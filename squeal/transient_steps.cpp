@@ -51,6 +51,7 @@ class SplittingSteps final : public TransientSteps {
   }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
+  void exchange(StateArchive& archive) override { archive(x_.q, x_.v, v_before_, n_); }
 
  private:
   ContactKick kick_;
@@ -95,6 +96,7 @@ class ExponentialSteps final : public TransientSteps {
   }
   std::int64_t n_steps() const override { return n_; }
   std::int64_t n_contact_evaluations() const override { return 2 * n_; }
+  void exchange(StateArchive& archive) override { archive(x_, p_before_, n_); }
 
  private:
   InertialDisc inertial_;
@@ -149,6 +151,8 @@ class AdaptiveSteps final : public TransientSteps {
     }
     return events;
   }
+  std::int64_t n_events() const override { return method_.cost().n_events; }
+  void exchange(StateArchive& archive) override { archive(motion_, method_, y_, n_); }
 
  private:
   static StepControl control_of(const Motion& motion, const IntegratorChoice& choice)

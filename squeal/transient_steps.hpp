@@ -8,6 +8,7 @@
 #include "squeal/integrator_choice.hpp"
 #include "squeal/oscillator_flow.hpp"
 #include "squeal/results.hpp"
+#include "squeal/state_archive.hpp"
 
 namespace chladni::squeal {
 
@@ -30,6 +31,10 @@ class TransientSteps {
   virtual std::int64_t n_steps() const = 0;
   virtual std::int64_t n_contact_evaluations() const = 0;
   virtual std::vector<ContactEvent> events() const { return {}; }
+  virtual std::int64_t n_events() const { return 0; }
+
+  /// All that the samples to come depend on.
+  virtual void exchange(StateArchive& archive) = 0;
 };
 
 /// Samples for one period of the highest mode with adaptive steps.

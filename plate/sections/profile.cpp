@@ -4,44 +4,26 @@
 #include <muParser.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <string>
 #include <tuple>
-#include <vector>
 
+#include "common/decimal_comma.hpp"
 #include "common/error.hpp"
 
 namespace chladni::plate {
 
 namespace {
 
-/// Whether a comma stands elsewhere than between the arguments of a function: a decimal comma, of
-/// which the parser would take what follows it.
-bool has_stray_comma(const std::string& text)
-{
-  std::vector<bool> is_call;
-  char last = '\0';
-  for (const char c : text) {
-    if (c == '(') is_call.push_back(std::isalnum(static_cast<unsigned char>(last)) != 0);
-    if (c == ')' && !is_call.empty()) is_call.pop_back();
-    if (c == ',' && (is_call.empty() || !is_call.back())) return true;
-    if (c != ' ') last = c;
-  }
-  return false;
-}
-
 /// A formula of x, y, z, radius (from the z axis) and angle (about it, rad), read once.
 class Formula {
  public:
   explicit Formula(const std::string& text) : text_(text)
   {
-    if (has_stray_comma(text))
-      throw Error(fmt::format(
-          "formula \"{}\": the comma does not part a function's arguments; write a decimal point, "
-          "as in 0.02",
-          text));
+    if (const std::string wrong = decimal_comma_in(text); !wrong.empty())
+      throw Error(fmt::format("formula \"{}\": {}", text, wrong));
     try {
       parser_.DefineVar("x", &x_);
       parser_.DefineVar("y", &y_);

@@ -24,17 +24,21 @@ std::span<const double> part(const std::vector<double>& x, std::size_t from, std
   return std::span(x).subspan(from, to - from);
 }
 
-/// Smallest and largest values within windows of a long history.
-Json band_json(const std::vector<double>& t, const std::vector<double>& x)
+/// Smallest and largest values over time.
+struct Range {
+  const std::vector<double>&t, &least, &largest;
+};
+
+/// Those within fewer windows.
+Json range_json(const Range& range)
 {
   std::vector<double> times, least, largest;
-  const std::size_t n = std::min(t.size(), n_windows);
+  const std::size_t n = std::min(range.t.size(), n_windows);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t from = i * t.size() / n, to = (i + 1) * t.size() / n;
-    const auto [low, high] = std::ranges::minmax(part(x, from, to));
-    times.push_back(t[from]);
-    least.push_back(low);
-    largest.push_back(high);
+    const std::size_t from = i * range.t.size() / n, to = (i + 1) * range.t.size() / n;
+    times.push_back(range.t[from]);
+    least.push_back(std::ranges::min(part(range.least, from, to)));
+    largest.push_back(std::ranges::max(part(range.largest, from, to)));
   }
   return Json::object(
       {{"t", rounded(times)}, {"least", rounded(least)}, {"largest", rounded(largest)}});
@@ -53,12 +57,19 @@ Json orbit_json(const squeal::History& tail)
 
 Json transient_json(const squeal::Transient& transient)
 {
+  const squeal::Windows& windows = transient.windows;
+  const squeal::History& history = transient.history;
+  const bool has_windows = !windows.t.empty();  // not in files of earlier versions
+  const Range up = has_windows ? Range{windows.t, windows.N_up_min, windows.N_up_max}
+                               : Range{history.t, history.N_up, history.N_up};
+  const Range lo = has_windows ? Range{windows.t, windows.N_lo_min, windows.N_lo_max}
+                               : Range{history.t, history.N_lo, history.N_lo};
   return Json::object({{"speed", rounded(transient.speed)},
                        {"integrator", transient.integrator},
                        {"t", rounded(transient.envelope.t)},
                        {"envelope", rounded(transient.envelope.pad_velocity)},
-                       {"N_up", band_json(transient.history.t, transient.history.N_up)},
-                       {"N_lo", band_json(transient.history.t, transient.history.N_lo)},
+                       {"N_up", range_json(up)},
+                       {"N_lo", range_json(lo)},
                        {"tail", orbit_json(transient.tail)}});
 }
 

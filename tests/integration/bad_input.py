@@ -129,6 +129,8 @@ SCENES = [
     ("formula that is none", changed("thickness = 0.02", 'thickness = "0.02 * raduis"'), ["raduis", "radius"]),
     ("comma for a point", changed("thickness = 0.02", 'thickness = "0,02"'), ["0,02", "point"]),
     ("comma in brackets", changed("thickness = 0.02", 'thickness = "2 * (0,01)"'), ["0,01", "point"]),
+    ("comma among arguments", changed("thickness = 0.02", 'thickness = "max(0,02, 0.001 * x)"'),
+     ["scene.toml:", "section.thickness", "max(0,02", "point"]),
     ("elements without size", changed("element_size = 0.03", "element_size = 1e-300"),
      ["scene.toml:", "element_size = 1e-300", "10 million"]),
     ("formula that is zero", changed("thickness = 0.02", 'thickness = "0.02 - 0.2 * x"'), ["disc", "node", "0.02 - 0.2 * x"]),

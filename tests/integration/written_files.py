@@ -60,6 +60,16 @@ class Case:
         return running
 
 
+def failed(case):
+    """Old results do not stay when a later run fails at its first analysis."""
+    case.expect(case.run().returncode == 0, "the run that is to be followed fails")
+    scene = changed(SHORT, ('analyses = ["eigenvalues"]', 'analyses = ["limit-cycle-direct"]\nlimit_cycle_direct = { speed_rad_s = 20.0 }'), ("friction = 0.185", "friction = 0.01"))
+    (case.folder / "scene.toml").write_text(scene)
+    case.expect_error(case.run())
+    with h5py.File(case.out / RESULTS) as results:
+        case.expect("eigenvalues" not in results and "failure" in results, "old results stay without a mark")
+
+
 def full_disk(case):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -100,7 +110,15 @@ def ended_by(case, number):
     finally:
         running.kill()
     case.expect(code == -number, f"ends with {code} instead of {-number}")
-    case.expect(not files(case.out), f"left behind after signal {number}: {files(case.out)}")
+    case.expect(files(case.out) == [RESULTS], f"files after signal {number}: {files(case.out)}")
+    with h5py.File(case.out / RESULTS) as results:
+        case.expect("growth" in results, "what was finished is lost")
+        missing = [name.decode() for name in results["missing"][()]]
+        case.expect(missing == ["transient", "limit-cycle"], f"says that {missing} are missing")
+    done = start(case.squeal, "report", "scene.toml", "--output", "out", cwd=case.folder)
+    case.expect(done.returncode == 0, f"no report of unfinished results: {done.stderr}")
+    page = (case.out / "oscillator.report.html").read_text()
+    case.expect("the run was interrupted; missing: transient, limit-cycle" in page, "the page does not say what is missing")
 
 
 def interrupted(case):
@@ -154,6 +172,7 @@ def passes(programs, scene, check):
 def main(programs):
     cases = [
         (OSCILLATOR, full_disk),
+        (SHORT, failed),
         (SHORT, full_devices),
         (SHORT, summary_into_a_pipe),
         (SHORT, no_work_in_vain),

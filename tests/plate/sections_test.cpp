@@ -56,6 +56,16 @@ TEST(Profile, NamesAFormulaThatIsNone)
   expect_words(formula_error("1 / z", {1.0, 0.0, 0.0}), {"1 / z", "inf", "(1, 0, 0)"});
 }
 
+TEST(Profile, RefusesADecimalCommaAmongArguments)
+{
+  expect_words(formula_error("max(0,02, x)", {1.0, 0.0, 0.0}), {"max(0,02, x)", "0.02"});
+  expect_words(formula_error("max(0, 02, x)", {1.0, 0.0, 0.0}), {"begins with 0", "0.02"});
+  expect_words(formula_error("min(1,5, x)", {1.0, 0.0, 0.0}), {"blank"});
+  EXPECT_EQ(
+      formula_error("max(0.02, 0.5 * x, 0, 1e-02, 100, x0 * 0)", {1.0, 0.0, 0.0}).find("comma"),
+      std::string::npos);
+}
+
 TEST(Thickness, ByAFormulaIsThatOfTheTable)
 {
   const mesh::Mesh mesh = plate();

@@ -481,6 +481,30 @@ TEST(Scene, ReadsASpeedProgramThatBeginsWithTheSpeedOfTheTransient)
             "scene.toml:41: squeal.transient.speed_program = []: must hold at least one point");
 }
 
+TEST(SceneError, LimitsTheNumberOfPads)
+{
+  const std::string pad = "{ angle_deg = 90.0, stiffness = 6e6, damping = 1.0, preload = 2000.0";
+  std::string many = "pads = [";
+  for (int i = 0; i < 1001; ++i) many += pad + " },";
+  EXPECT_NE(error_of(replaced(disc, "pads = [" + pad + " }]", many + "]"))
+                .find("are 1001 pad pairs; there may be 1000"),
+            std::string::npos);
+  const std::string wide = pad + ", grid = { sector_deg = 60.0, points = 4000 } },";
+  EXPECT_NE(
+      error_of(replaced(disc, "pads = [" + pad + " }]", "pads = [" + wide + wide + wide + "]"))
+          .find("have 12000 contact points in all; there may be 10000"),
+      std::string::npos);
+}
+
+TEST(SceneError, TellsADecimalCommaInAFormula)
+{
+  const std::string error =
+      error_of(replaced(disc, "thickness = 0.02\n", "thickness = \"max(0,02, x)\"\n"));
+  EXPECT_NE(error.find("section.thickness = \"max(0,02, x)\": "), std::string::npos) << error;
+  EXPECT_NE(error.find("0.02"), std::string::npos) << error;
+  EXPECT_EQ(error.find("scene.toml:"), 0u) << error;
+}
+
 TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
 {
   const auto error_after = [](const std::string& scene, const std::string& from,

@@ -88,9 +88,9 @@ TransientCase slow_run()
 /// (diag(omega) q, q') of the last sample.
 Eigen::VectorXd last_state(const Disc& disc, const Transient& run)
 {
-  const Eigen::Index last = run.modes.q.cols() - 1;
+  const Eigen::Index last = run.snapshots.q.cols() - 1;
   Eigen::VectorXd y(2 * disc.n_modes());
-  y << disc.omega.cwiseProduct(run.modes.q.col(last)), run.modes.v.col(last);
+  y << disc.omega.cwiseProduct(run.snapshots.q.col(last)), run.snapshots.v.col(last);
   return y;
 }
 
@@ -106,7 +106,7 @@ TEST(HardCase, SlowSpeedsTakeTheStiffIntegrator)
   EXPECT_LT(run.n_contact_evaluations, 5000);
   const double sliding = 1e-4 * pi * ring_radius;
   EXPECT_LT(run.slip_speed_min, 1e-2 * sliding);
-  const Eigen::VectorXd omega_q = disc.omega.cwiseProduct(run.modes.q.col(0));
+  const Eigen::VectorXd omega_q = disc.omega.cwiseProduct(run.snapshots.q.col(0));
   EXPECT_LT(last_state(disc, run).norm(), omega_q.norm());
 }
 

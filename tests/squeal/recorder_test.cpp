@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "squeal/decimator.hpp"
 #include "squeal/growth_rate.hpp"
 
 namespace chladni::squeal {
@@ -67,6 +68,57 @@ TEST(GrowthRate, IsAbsentWithTooFewPoints)
 {
   EXPECT_FALSE(growth_rate(exponential(2.5, 10), 1.0));
   EXPECT_FALSE(growth_rate(exponential(2.5, 100), 1e-5));
+}
+
+/// Samples k of a sine over the decimated ones; the time of a sample is its number.
+std::vector<double> decimated_sine(const Decimation& decimation, int n, double frequency)
+{
+  Decimator decimator(decimation, 1);
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i)
+    if (const auto x =
+            decimator.add(Eigen::VectorXd::Constant(1, std::sin(2.0 * pi * frequency * i))))
+      out.push_back((*x)[0]);
+  for (const auto& x : decimator.finish()) out.push_back(x[0]);
+  return out;
+}
+
+TEST(Decimator, KeepsTheBandItNamesAndNothingElse)
+{
+  for (const Decimation& decimation : {Decimation{5, 1}, Decimation{3, 2}, Decimation{8, 2}}) {
+    const auto every = static_cast<int>(decimation.every());
+    const int n = 400 * every + 1;
+    // The upper end of the band; what would fold down to 0.1 of the new rate.
+    const double kept = decimated_band / every, folded = 1.1 / every;
+    const std::vector<double> low = decimated_sine(decimation, n, kept),
+                              high = decimated_sine(decimation, n, folded);
+    ASSERT_EQ(low.size(), 401u) << every;
+    for (std::size_t j = 60; j < 340; ++j) {  // ripples of the window, of one stage or two
+      EXPECT_NEAR(low[j], std::sin(2.0 * pi * kept * double(j) * every), 1e-3) << every << " " << j;
+      EXPECT_NEAR(high[j], 0.0, 5e-4) << every << " " << j;
+    }
+  }
+}
+
+TEST(Decimator, LeavesAConstantAloneUpToBothEnds)
+{
+  Decimator decimator({4, 2}, 2);
+  std::vector<Eigen::VectorXd> out;
+  for (int i = 0; i < 1000; ++i)
+    if (const auto x = decimator.add(Eigen::Vector2d(3.0, -1.0))) out.push_back(*x);
+  for (const auto& x : decimator.finish()) out.push_back(x);
+  ASSERT_EQ(out.size(), 63u);
+  for (const Eigen::VectorXd& x : out) EXPECT_LT((x - Eigen::Vector2d(3.0, -1.0)).norm(), 1e-14);
+}
+
+TEST(Decimation, KeepsNoMoreThanItMay)
+{
+  for (const std::int64_t n : {1, 7, 100, 101, 900, 6400, 1000000, 2000000000}) {
+    const Decimation decimation = decimation_to(n, 100);
+    EXPECT_LE((n - 1) / decimation.every() + 1, 100) << n;
+    EXPECT_LE(decimation.factor, 9) << n;
+    EXPECT_EQ(decimation.every() == 1, n <= 100) << n;
+  }
 }
 
 }  // namespace

@@ -121,6 +121,19 @@ TEST(ResultFile, KeepsTheSensitivityToModes)
   EXPECT_EQ(read->influences[1].nodal_diameters, 0);
 }
 
+TEST(ResultFile, SaysWhatIsMissing)
+{
+  const TemporaryFile file;
+  SquealResults results;
+  results.missing = {"transient", "limit-cycle"};
+  results.inputs = "body 0123";
+  write_results(file.path, results, {});
+  EXPECT_EQ(read_results(file.path).missing, results.missing);
+  EXPECT_EQ(read_results(file.path).inputs, results.inputs);
+  write_results(file.path, {}, {});
+  EXPECT_TRUE(read_results(file.path).missing.empty());
+}
+
 TEST(ResultFile, TellsNoCriticalSpeedFromNoSearch)
 {
   const TemporaryFile file;

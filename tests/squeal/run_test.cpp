@@ -31,8 +31,9 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 1e-4};
   options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
   std::set<std::string> names;
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options,
-                                    [&](const std::string& name, double) { names.insert(name); });
+  const SquealResults results =
+      run(disc_of({kirchhoff_3()}), options,
+          {.progress = [&](const std::string& name, double) { names.insert(name); }});
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
   EXPECT_FALSE(results.searched_critical_speed);

@@ -42,7 +42,7 @@ std::vector<float> resampled_sine(double f_Hz)
   Resampler resampler(1.0 / 70000.0, 44100);
   for (int i = 0; i < 7000; ++i) resampler.add(std::sin(2.0 * pi * f_Hz * (i + 0.5) / 70000.0));
   resampler.finish();
-  return resampler.samples();
+  return resampler.take();
 }
 
 TEST(Resampler, KeepsWhatTheNewRateCanHoldAndDropsTheRest)
@@ -84,6 +84,38 @@ TEST(WavFile, HoldsTheSamplesAndWhatFullScaleMeans)
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(static_cast<std::int16_t>(number(bytes, data + 8 + 2 * i, 2)), expected[i]);
   EXPECT_THROW(write_wav("/nowhere/at/all.wav", x, 48000), Error);
+}
+
+std::uint64_t number_64(const std::string& bytes, std::size_t at)
+{
+  return number(bytes, at, 4) + (std::uint64_t{number(bytes, at + 4, 4)} << 32U);
+}
+
+TEST(WavFile, BeyondFourGigabytesIsRF64)
+{
+  // The last file that 32 bits can hold, and one with a sample more.
+  const std::size_t head = wav_header({.n_samples = 0, .rate_Hz = 48000, .full_scale = 3.0}).size();
+  const std::int64_t most = ((1LL << 32) - 1 - static_cast<std::int64_t>(head) + 8) / 2;
+  const std::string small = wav_header({.n_samples = most, .rate_Hz = 48000, .full_scale = 3.0});
+  EXPECT_EQ(small.substr(0, 4), "RIFF");
+  EXPECT_EQ(number(small, 4, 4), head - 8 + 2 * static_cast<std::uint64_t>(most));
+  EXPECT_EQ(small.size(), head);
+
+  const std::int64_t n = most + 1;
+  const std::string large = wav_header({.n_samples = n, .rate_Hz = 48000, .full_scale = 3.0});
+  EXPECT_EQ(large.substr(0, 4), "RF64");
+  EXPECT_EQ(number(large, 4, 4), 0xFFFFFFFFU);
+  EXPECT_EQ(large.substr(8, 8), "WAVEds64");  // the first chunk
+  EXPECT_EQ(number(large, 16, 4), 28u);
+  const auto n_bytes = 2 * static_cast<std::uint64_t>(n);
+  EXPECT_EQ(number_64(large, 20), large.size() - 8 + n_bytes);
+  EXPECT_EQ(number_64(large, 28), n_bytes);
+  EXPECT_EQ(number_64(large, 36), static_cast<std::uint64_t>(n));
+  EXPECT_EQ(number(large, 44, 4), 0u);
+  EXPECT_EQ(large.substr(48, 4), "fmt ");
+  const std::size_t data = large.find("data");
+  EXPECT_EQ(number(large, data + 4, 4), 0xFFFFFFFFU);
+  EXPECT_EQ(data + 8, large.size());
 }
 
 TEST(WavFile, FollowsNoLinkThatWaitsUnderATemporaryName)

@@ -226,10 +226,11 @@ TEST(Transient, RefusesWhatItCannotIntegrate)
 TEST(Transient, ReportsItsProgress)
 {
   double last = -1.0;
-  transient(disc_of({kirchhoff_3()}), reference_options(), short_run(), [&](double fraction) {
+  const auto progress = [&](double fraction) {
     EXPECT_GT(fraction, last);
     last = fraction;
-  });
+  };
+  transient(disc_of({kirchhoff_3()}), reference_options(), short_run(), {.progress = progress});
   EXPECT_GT(last, 0.9);
   EXPECT_LE(last, 1.0);
 }

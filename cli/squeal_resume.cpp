@@ -1,0 +1,69 @@
+#include "cli/squeal_resume.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "common/error.hpp"
+#include "files/file_digest.hpp"
+#include "files/hdf5.hpp"
+#include "mbs_export/files/provenance.hpp"
+#include "report/version.hpp"
+#include "scene/changes.hpp"
+#include "squeal/result_file.hpp"
+
+namespace chladni::cli {
+namespace {
+
+using std::filesystem::path;
+
+/// Refuses what another run left in `file`.
+void require_same(const path& file, const squeal::RunOrigin& then, const squeal::RunOrigin& now)
+{
+  const std::vector<std::string> changed =
+      scene::changed_keys(then.provenance.scene, now.provenance.scene, scene::Step::squeal);
+  if (!changed.empty())
+    throw Error(fmt::format(
+        "{}: cannot be resumed, since the scene has changed: {}; begin anew without --resume",
+        file.string(), fmt::join(changed, ", ")));
+  if (then.inputs != now.inputs)
+    throw Error(
+        fmt::format("{}: cannot be resumed: it was made from {}, and this run has {}; "
+                    "begin anew without --resume",
+                    file.string(), then.inputs, now.inputs));
+}
+
+}  // namespace
+
+std::string inputs_of(const path& body, const path& radiation)
+{
+  std::string inputs = fmt::format("squeal {}", report::version);
+  if (!body.empty()) inputs += fmt::format(", body {}", files::file_digest(body.string()));
+  if (!radiation.empty())
+    inputs += fmt::format(", radiation {}", files::file_digest(radiation.string()));
+  return inputs;
+}
+
+squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
+                             squeal::Checkpoint& checkpoint)
+{
+  squeal::SquealResults begin;
+  if (exists(left.results)) {
+    const files::Reader reader(left.results.string());
+    begin = squeal::read_results(reader);
+    if (!begin.missing.empty())
+      require_same(left.results, {mbs_export::file_parts::read_provenance(reader), begin.inputs},
+                   origin);
+  }
+  const bool has_checkpoint = exists(left.checkpoint);
+  if (has_checkpoint) require_same(left.checkpoint, checkpoint.read(), origin);
+  if (!has_checkpoint && begin.missing.empty())
+    throw Error(fmt::format(
+        "--resume: no run was interrupted here: there is neither {} nor an unfinished {}; run "
+        "without --resume",
+        left.checkpoint.string(), left.results.string()));
+  return begin.missing.empty() ? squeal::SquealResults{} : begin;
+}
+
+}  // namespace chladni::cli

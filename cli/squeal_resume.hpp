@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.hpp"
+#include "squeal/checkpoint.hpp"
+#include "squeal/results.hpp"
+
+namespace chladni::cli {
+
+/// Digests of the files that a run reads, and the version of the program: RunOrigin::inputs.
+/// @param body, radiation  empty for none
+std::string inputs_of(const std::filesystem::path& body, const std::filesystem::path& radiation);
+
+/// Where a run that was interrupted left its results and its state.
+struct LeftBehind {
+  std::filesystem::path results, checkpoint;
+};
+
+/// What is there of an interrupted run of this origin; the checkpoint is read.
+/// @return its unfinished results; nothing is missing in them where there are none
+/// @throws chladni::Error when nothing was left behind, or when it is of another scene, body or
+///         version, which it names.
+squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
+                             squeal::Checkpoint& checkpoint);
+
+}  // namespace chladni::cli

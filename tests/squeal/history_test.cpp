@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "references/squeal/analytic_body.hpp"
+#include "squeal/speed_program.hpp"
+#include "squeal/transient.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+/// A squeal of 1.7 kHz that is at its limit cycle from the begin, 14 samples in a millisecond.
+TransientCase squealing(double duration)
+{
+  return {.speed = 6.0 * pi,
+          .duration = duration,
+          .initial_pad_displacement = 6e-4,
+          .steps_per_period = 8,
+          .integrator = IntegratorKind::exponential};
+}
+
+double largest(const std::vector<double>& x)
+{
+  return std::abs(*std::ranges::max_element(x, {}, [](double y) { return std::abs(y); }));
+}
+
+TEST(History, OfAShortRunIsEverySample)
+{
+  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(0.1));
+  EXPECT_EQ(run.band.sampling, Sampling::whole);
+  EXPECT_NEAR(run.band.rate_Hz, 1.0 / run.step, 1e-6);
+  ASSERT_GE(run.history.t.size(), run.tail.t.size());
+  EXPECT_EQ(run.history.pad_velocity.back(), run.tail.pad_velocity.back());
+}
+
+TEST(History, HoldsTheSquealWhereItsBandDoes)
+{
+  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(29.0));
+  ASSERT_EQ(run.band.sampling, Sampling::band_limited);
+  ASSERT_GT(run.band.to_Hz, 1750.0);
+  ASSERT_LE(run.history.t.size(), 200000u);
+  // Harmonics of the squeal, 1e-3 of it, are taken out; the ends lack samples beyond them.
+  std::size_t n_compared = 0, j = 0;
+  for (std::size_t i = 0; i + 60 < run.history.t.size(); ++i) {
+    while (j < run.tail.t.size() && run.tail.t[j] < run.history.t[i] - 0.1 * run.step) ++j;
+    if (j == run.tail.t.size() || std::abs(run.tail.t[j] - run.history.t[i]) > 0.1 * run.step)
+      continue;
+    ++n_compared;
+    ASSERT_NEAR(run.history.pad_velocity[i], run.tail.pad_velocity[j],
+                3e-3 * run.envelope.pad_velocity.back());
+  }
+  EXPECT_GT(n_compared, 100u);
+}
+
+TEST(History, OfALongRunHoldsNoSquealThatLooksLikeALowerTone)
+{
+  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(75.0));
+  ASSERT_EQ(run.band.sampling, Sampling::band_limited);
+  ASSERT_LT(0.5 * run.band.rate_Hz, 1600.0);  // the squeal would be folded down
+  const std::vector<double>& v = run.history.pad_velocity;
+  const std::vector<double> inside(v.begin() + 60, v.end() - 60);
+  EXPECT_LT(largest(inside), 1e-3 * run.envelope.pad_velocity.back());
+  EXPECT_GT(largest(run.tail.pad_velocity), 0.99 * run.envelope.pad_velocity.back());
+}
+
+TEST(Windows, SayWhatEverySampleDid)
+{
+  TransientCase run = squealing(0.3);
+  run.integrator = IntegratorKind::splitting;
+  run.speed_program = {{0.0, 6.0 * pi}, {0.3, 4.0 * pi}};
+  const SquealOptions options = reference_options(ContactLaw::unilateral);
+  const Transient result = transient(disc_of({kirchhoff_3()}), options, run);
+  const Windows& windows = result.windows;
+  ASSERT_GT(windows.t.size(), 50u);
+  EXPECT_EQ(std::ranges::max(windows.N_up_max), std::ranges::max(result.history.N_up));
+  EXPECT_EQ(std::ranges::min(windows.N_lo_min), std::ranges::min(result.history.N_lo));
+  EXPECT_EQ(std::ranges::min(windows.slip_speed_min), std::ranges::min(result.history.slip_speed));
+  double n_open = 0.0, n = 0.0;
+  for (std::size_t i = 0, j = 0; i < windows.t.size(); ++i) {
+    EXPECT_DOUBLE_EQ(windows.speed[i], turn_at(run, windows.t[i]).speed);
+    const double end = i + 1 < windows.t.size() ? windows.t[i + 1] - 0.5 * result.step : 1.0;
+    for (n_open = n = 0.0; j < result.history.t.size() && result.history.t[j] < end; ++j, ++n)
+      if (result.history.N_up[j] <= 0.0 || result.history.N_lo[j] <= 0.0) ++n_open;
+    EXPECT_DOUBLE_EQ(windows.open[i], n_open / n) << i;
+  }
+  EXPECT_GT(largest(windows.open), 0.0) << "contact is lost at times";
+}
+
+TEST(PadDisplacement, IsThatOfThePlateUnderThePad)
+{
+  // z - h / 2 = w + h / 2 (s - 1) with the deflection w and the slopes of the middle surface: the
+  // normals of a plate stay as long as they are.
+  SquealOptions options = reference_options();
+  options.thickness = 0.022;
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+  const Transient run = transient(disc, options, squealing(0.05));
+  ASSERT_EQ(run.snapshots.t.size(), run.history.t.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < run.history.t.size(); ++i) {
+    const Shapes ring = shapes_at(disc, options.pads[0].angle - 6.0 * pi * run.history.t[i]);
+    const Eigen::VectorXd q = run.snapshots.q.col(static_cast<Eigen::Index>(i));
+    const double w = ring.W.dot(q), g_r = ring.W_r.dot(q), g_t = ring.W_t.dot(q);
+    const double lift = 0.5 * options.thickness * (std::sqrt(1.0 + g_r * g_r + g_t * g_t) - 1.0);
+    most = std::max(most, lift);
+    ASSERT_NEAR(run.history.pad_displacement[i], w + lift, 1e-12);  // 1e-9 of the amplitude
+  }
+  EXPECT_GT(most, 1e-7) << "the normals lean";
+}
+
+}  // namespace
+}  // namespace chladni::squeal
