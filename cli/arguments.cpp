@@ -20,6 +20,7 @@ void declare_scene_arguments(CLI::App& app, SceneArguments& arguments)
       ->type_name("FILE");
   app.add_flag("--overwrite", arguments.overwrite,
                "replaces files that another scene of the same `name` wrote");
+  app.add_flag("--quiet", arguments.quiet, "prints no results, only notes and errors");
 }
 
 void declare_stale(CLI::App& app, bool& stale)

@@ -22,9 +22,11 @@ struct SceneArguments {
   std::string json;          ///< file for the summary; empty for none
   bool stale = false;        ///< files made before a change of the scene are taken as they are
   bool overwrite = false;    ///< files of another scene of the same name may be replaced
+  bool quiet = false;        ///< no results and no progress, only notes and errors
 };
 
-/// Declares SCENE, --output and --json; the values arrive in `arguments` when `app` is parsed.
+/// Declares SCENE, --output, --json, --overwrite and --quiet; the values arrive in `arguments` when
+/// `app` is parsed.
 void declare_scene_arguments(CLI::App& app, SceneArguments& arguments);
 
 /// Declares --stale, for subcommands that read what others made of the scene.

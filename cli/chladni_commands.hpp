@@ -5,6 +5,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/seal.hpp"
+#include "cli/self_description.hpp"
 #include "linear/solver_options.hpp"
 #include "report/page/report.hpp"
 
@@ -45,6 +46,7 @@ struct ChladniArguments {
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
   SealArguments seal;
+  SelfDescription self;
   ExportArguments exported;
   report::ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`

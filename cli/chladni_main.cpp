@@ -15,10 +15,12 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
+#include "cli/self_description.hpp"
 #include "files/hdf5.hpp"
 #include "files/unfinished_file.hpp"
 #include "linear/read_solver_options.hpp"
 #include "report/output.hpp"
+#include "report/progress.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
 
@@ -125,6 +127,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   declare_export(app, arguments.exported);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
+  chladni::cli::declare_self_description(app, arguments.self);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  chladni scene-reference > scene_reference.md");
   app.require_subcommand(1);
@@ -195,7 +198,12 @@ int main(int argc, char** argv)
       "  chladni info out/disc.body.h5\n"
       "  chladni report scene.toml --output out");
   if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, dashes})) return *code;
+  if (arguments.scene.quiet) chladni::report::be_quiet();
   try {
+    if (chladni::cli::describe_itself(app, arguments.self)) {
+      chladni::report::finish_printing();
+      return chladni::cli::exit_ok;
+    }
     return perform_with_petsc(app, arguments);
   } catch (const std::exception& error) {  // PETSc did not start
     fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));

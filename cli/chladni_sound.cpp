@@ -13,6 +13,7 @@
 #include "report/fe/sound_report.hpp"
 #include "report/fe/sound_vtu.hpp"
 #include "report/origin.hpp"
+#include "report/progress.hpp"
 #include "report/version.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/study.hpp"
@@ -157,9 +158,12 @@ void compute_sound(const ChladniArguments& arguments)
   clock.end_phase("read");
   const sound::Setting setting{body, *scene.squeal, *scene.sound, scene.radiation};
   report::ProgressLine line;
+  report::WholeProgress progress_of_all(
+      {{"radiation", 30.0}, {"feedback", 5.0}, {"sound", 45.0}, {"levels over the speed", 20.0}});
   const mbs_export::Provenance origin = origin_of(scene, arguments.scene, body);
   const sound::StudyListener listener{
-      .progress = [&](const std::string& step, double part) { line.show(step, part); },
+      .progress = [&](const std::string& step,
+                      double part) { line.show(step, progress_of_all.at(step, part)); },
       .found = [&](const sound::SoundResults& found) { write_found(scene, files, found, origin); }};
   const sound::SoundResults results =
       whole ? sound_study(setting, squeal_results, listener)

@@ -12,6 +12,7 @@
 #include "files/text_file.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/make_body.hpp"
+#include "report/progress.hpp"
 #include "report/version.hpp"
 
 namespace chladni::cli {
@@ -54,6 +55,35 @@ std::string said_of_solvers(const ChladniArguments& arguments)
   return fmt::format("{}", fmt::join(said, " "));
 }
 
+/// The phases of a reduction in their order, and their usual parts of the time, per cent.
+std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
+{
+  using report::Times;
+  std::vector<report::Stage> stages{
+      {"mesh", 1.0}, {"assembly", 3.0}, {"partition", 1.0}, {"factorization", 4.0}};
+  const report::Stage constraint{"constraint modes", 4.0};
+  const auto add = [&](const std::vector<report::Stage>& more) {
+    stages.insert(stages.end(), more.begin(), more.end());
+  };
+  if (wanted.method == reduce::Method::guyan) {
+    add({constraint});
+  } else if (wanted.method != reduce::Method::craig_bampton) {
+    add({constraint, {"free-interface modes", 25.0}, {"residual flexibility", 5.0}});
+  } else if (wanted.tolerance) {
+    add({constraint, {"fixed-interface modes", 40.0, Times::unknown}});
+  } else {
+    add({{"fixed-interface modes", 20.0}, constraint});
+  }
+  add({{"projection", 6.0},
+       {"error estimates", 8.0},
+       {"condition", 1.0},
+       {"count of eigenvalues", 15.0},
+       {"residuals", 2.0},
+       {"mass integrals", 25.0},
+       {"pictures", 1.0}});
+  return stages;
+}
+
 }  // namespace
 
 cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
@@ -68,8 +98,9 @@ cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
   if (cases::rank() != 0)
     return cases::reduce_scene(scene, solvers, [](const std::string&, double) {});
   report::ProgressLine line;
+  report::WholeProgress whole(stages_of(scene.reduce));
   return cases::reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {
-    line.show(phase, fraction);
+    line.show(phase, whole.at(phase, fraction));
   });
 }
 

@@ -6,12 +6,14 @@
 
 #include "cli/arguments.hpp"
 #include "cli/seal.hpp"
+#include "cli/self_description.hpp"
 #include "cli/squeal_run.hpp"
 #include "files/hdf5.hpp"
 #include "files/unfinished_file.hpp"
 #include "report/describe.hpp"
 #include "report/output.hpp"
 #include "report/page/report.hpp"
+#include "report/progress.hpp"
 #include "report/version.hpp"
 #include "scene/keys.hpp"
 
@@ -23,6 +25,7 @@ struct SquealArguments {
   chladni::cli::RunArguments run;
   std::string info_file;
   chladni::cli::SealArguments seal;
+  chladni::cli::SelfDescription self;
   chladni::report::ReportArguments report;
 };
 
@@ -67,12 +70,14 @@ int main(int argc, char** argv)
   declare_info(app, arguments);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
+  chladni::cli::declare_self_description(app, arguments.self);
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
       "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
   if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
+  if (arguments.run.scene.quiet) chladni::report::be_quiet();
   chladni::files::leave_nothing_to_exit();
   chladni::files::remove_unfinished_files_on_signals();
   try {
@@ -84,7 +89,7 @@ int main(int argc, char** argv)
       chladni::cli::seal(arguments.seal);
     } else if (app.got_subcommand("scene-reference")) {
       fmt::print("{}", chladni::scene::scene_reference());
-    } else {
+    } else if (!chladni::cli::describe_itself(app, arguments.self)) {
       fmt::print("{}", chladni::report::describe_file(arguments.info_file));
     }
     chladni::report::finish_printing();

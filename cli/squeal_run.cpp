@@ -19,6 +19,7 @@
 #include "report/json.hpp"
 #include "report/origin.hpp"
 #include "report/output.hpp"
+#include "report/progress.hpp"
 #include "report/squeal_json.hpp"
 #include "report/timing.hpp"
 #include "report/version.hpp"
@@ -163,7 +164,7 @@ squeal::SquealResults perform(const scene::Scene& scene, const std::optional<squ
 {
   report::ProgressLine line;
   const squeal::StudyKeeping keeping{
-      .progress = [&](const std::string& analysis, double part) { line.show(analysis, part); },
+      .progress = [&](const std::string& analysis, double whole) { line.show(analysis, whole); },
       .checkpoint = unfinished.checkpoint,
       .sound = unfinished.sound,
       .unfinished =

@@ -23,10 +23,22 @@ function(chladni_export set)
 endfunction()
 
 chladni_export(chladni-squeal-targets ${light_libraries})
-install(TARGETS squeal RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT squeal)
+# A program with its manual page and with what shells need to complete its commands.
+function(chladni_install_program program component)
+  install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
+  set(folder ${PROJECT_BINARY_DIR}/share/${program})
+  install(FILES ${folder}/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+  install(FILES ${folder}/${program}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME ${program} COMPONENT ${component})
+  install(FILES ${folder}/_${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${component})
+  install(FILES ${folder}/${program}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+          COMPONENT ${component})
+endfunction()
+
+chladni_install_program(squeal squeal)
 if(CHLADNI_FE)
   chladni_export(chladni-fe-targets ${fe_libraries})
-  install(TARGETS chladni RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT fe)
+  chladni_install_program(chladni fe)
   install(TARGETS chladni_mesh_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   set_target_properties(chladni_petsc_plugin PROPERTIES EXPORT_NAME cms)
   install(TARGETS chladni_petsc_plugin EXPORT chladni-plugin-targets

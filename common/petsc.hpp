@@ -4,6 +4,8 @@
 #include <petscmat.h>
 #include <slepceps.h>
 
+#include <cerrno>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -22,6 +24,14 @@ class Failure : public Error {
   PetscErrorCode code;
 };
 
+/// Whether a PETSc call failed for lack of memory. PETSc 3.18 returns the line of a malloc that
+/// failed as the code, and as the text the name of the function that it is in.
+inline bool is_out_of_memory(PetscErrorCode code, const char* text)
+{
+  const bool is_a_name = text != nullptr && std::strchr(text, ' ') == nullptr;
+  return code == PETSC_ERR_MEM || (errno == ENOMEM && is_a_name);
+}
+
 /// @throws Failure with PETSc's own text when a PETSc call failed.
 inline void check(PetscErrorCode code)
 {
@@ -29,6 +39,12 @@ inline void check(PetscErrorCode code)
   const char* text = nullptr;
   char* specific = nullptr;
   PetscErrorMessage(code, &text, &specific);
+  if (is_out_of_memory(code, specific)) {
+    throw Failure(PETSC_ERR_MEM,
+                  fmt::format("out of memory ({}); use more machines, a coarser mesh or fewer "
+                              "modes, or raise the limit of this shell (ulimit -v)",
+                              specific ? specific : "PETSc"));
+  }
   throw Failure(code, fmt::format("PETSc error {}: {} {}", static_cast<int>(code), text ? text : "",
                                   specific ? specific : ""));
 }

@@ -1,11 +1,9 @@
 #include "report/output.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -80,53 +78,6 @@ void make_folder(const std::filesystem::path& folder)
     throw Error(fmt::format("{}: this folder cannot be made{}{}", folder.string(),
                             failure ? ": " : "", failure ? failure.message() : ""));
   }
-}
-
-std::optional<std::string> progress_text(std::string_view phase, double fraction, double elapsed_s)
-{
-  constexpr double shortest_worth_telling_s = 2.0;
-  if (elapsed_s < shortest_worth_telling_s) return std::nullopt;
-  if (!(fraction > 0.0)) return fmt::format("{}: {:.0f} s", phase, elapsed_s);
-  const double done = std::min(fraction, 1.0);
-  const double left_s = std::ceil(elapsed_s * (1.0 - done) / done);
-  return fmt::format("{}: {:.0f} %, {:.0f} s left", phase, std::floor(100.0 * done), left_s);
-}
-
-ProgressLine::~ProgressLine()
-{
-  wipe();
-}
-
-void ProgressLine::wipe()
-{
-  if (visible_) fmt::print(stderr, "\r\033[K");
-  visible_ = false;
-}
-
-void ProgressLine::show(const std::string& phase, double fraction)
-{
-  if (::isatty(STDERR_FILENO) == 0) return;
-  const Clock::time_point now = Clock::now();
-  if (phase != phase_) {  // its name at once: a factorisation says nothing until it is done
-    phase_ = phase;
-    start_ = now;
-    put(phase + " ...");
-    return;
-  }
-  constexpr std::chrono::milliseconds pause{200};
-  if (now - shown_ < pause || fraction >= 1.0) return;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const std::optional<std::string> text = progress_text(phase, fraction, elapsed_s);
-  if (!text) return;
-  put(*text);
-  shown_ = now;
-}
-
-void ProgressLine::put(const std::string& text)
-{
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
-  visible_ = true;
 }
 
 }  // namespace chladni::report

@@ -10,8 +10,9 @@
 
 namespace chladni::squeal {
 
-/// Called with the name of the analysis under way and the fraction of it that is done, 0 to 1.
-using RunProgress = std::function<void(const std::string& analysis, double fraction)>;
+/// Called with the name of the analysis under way and the part of the whole study that is done, 0
+/// to 1, where each analysis counts the same.
+using RunProgress = std::function<void(const std::string& analysis, double whole)>;
 
 /// What goes along with a long study.
 struct StudyKeeping {

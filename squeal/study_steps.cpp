@@ -38,11 +38,12 @@ SquealResults perform_steps(const std::vector<StudyStep>& steps,
   results.missing.clear();
   for (const StudyStep& step : to_do) results.missing.push_back(step.names.front());
   bool any_done = goes_on;
+  double n_done = 0.0;
   for (const StudyStep& step : to_do) {
     if (keeping.unfinished) keeping.unfinished(results);
     const std::string& name = step.names.front();
     const auto report = [&](double fraction) {
-      if (keeping.progress) keeping.progress(name, fraction);
+      if (keeping.progress) keeping.progress(name, (n_done + fraction) / double(to_do.size()));
     };
     report(0.0);
     try {
@@ -55,6 +56,7 @@ SquealResults perform_steps(const std::vector<StudyStep>& steps,
     }
     std::erase(results.missing, name);
     any_done = true;
+    n_done += 1.0;
   }
   if (results.transient && !results.transient->finished)
     results.failure = "transient: " + divergence_of(*results.transient);

@@ -80,6 +80,11 @@ def use_debs(build, folder):
                "--output", folder)  # fmt: skip
     require("wrote" in said, "squeal runs from its package")
     require("chladni" in run(folder / "chladni/usr/bin/chladni", "--version"), "so does chladni")
+    for package, program in (("chladni-squeal", "squeal"), ("chladni", "chladni")):
+        share = folder / package / "usr/share"
+        require(f".TH {program} 1" in (share / f"man/man1/{program}.1").read_text(), f"{program} has a manual page")
+        require(f"complete -o filenames -F _{program} {program}" in
+                (share / f"bash-completion/completions/{program}").read_text(), "and bash completes it")
     plugin = list((folder / "chladni").rglob("libchladni_petsc.so"))
     require(len(plugin) == 1, "and the plugin is in it")
 

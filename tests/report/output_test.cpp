@@ -54,13 +54,6 @@ TEST(Json, NestsObjectsAndArrays)
   EXPECT_EQ(json.text(), R"({"n": 3, "x": [1.5, null, "t"], "e": []})");
 }
 
-TEST(ProgressText, IsSilentForTwoSecondsAndThenTellsTheTimeLeft)
-{
-  EXPECT_FALSE(progress_text("transient", 0.5, 1.9));
-  EXPECT_EQ(progress_text("transient", 0.25, 4.0), "transient: 25 %, 12 s left");
-  EXPECT_EQ(progress_text("transient", 0.0, 4.0), "transient: 4 s");
-}
-
 TEST(Stopwatch, CountsTheWorkOfThisProcess)
 {
   const Stopwatch watch;

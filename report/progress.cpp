@@ -1,0 +1,89 @@
+#include "report/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace chladni::report {
+namespace {
+
+bool is_quiet = false;
+
+}  // namespace
+
+WholeProgress::WholeProgress(std::vector<Stage> stages) : stages_(std::move(stages)) {}
+
+void WholeProgress::enter(const std::string& phase)
+{
+  phase_ = phase;
+  const auto found = std::ranges::find(stages_, phase, &Stage::name);
+  if (found == stages_.end()) return;
+  const auto i = static_cast<std::size_t>(found - stages_.begin());
+  left_ = stage_ == i ? 0.5 * left_ : 1.0;
+  stage_ = i;
+}
+
+double WholeProgress::at(const std::string& phase, double fraction)
+{
+  if (phase != phase_) enter(phase);
+  if (!stage_ || stages_[*stage_].name != phase) return done_;
+  double total = 0.0, over = 0.0;
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    total += stages_[i].share;
+    if (i < *stage_) over += stages_[i].share;
+  }
+  const double of_this_time = (stages_[*stage_].times == Times::once ? 1.0 : 0.5) * left_;
+  over += stages_[*stage_].share * (1.0 - left_ + of_this_time * std::min(fraction, 1.0));
+  done_ = std::max(done_, total > 0.0 ? over / total : 0.0);
+  return done_;
+}
+
+std::string progress_text(std::string_view phase, double whole, double elapsed_s)
+{
+  constexpr int width = 20;
+  constexpr double shortest_worth_telling_s = 2.0, least_to_go_by = 0.02;
+  const double done = std::clamp(whole, 0.0, 1.0);
+  const int n = static_cast<int>(width * done);
+  std::string text = fmt::format("[{}{}] {:3.0f} %  {}", std::string(n, '#'),
+                                 std::string(width - n, '-'), std::floor(100.0 * done), phase);
+  if (elapsed_s < shortest_worth_telling_s || done < least_to_go_by) return text;
+  return text + fmt::format(", {:.0f} s left", std::ceil(elapsed_s * (1.0 - done) / done));
+}
+
+void be_quiet()
+{
+  is_quiet = true;
+  if (std::freopen("/dev/null", "w", stdout) == nullptr) std::fclose(stdout);
+}
+
+ProgressLine::~ProgressLine()
+{
+  wipe();
+}
+
+void ProgressLine::wipe()
+{
+  if (visible_) fmt::print(stderr, "\r\033[K");
+  visible_ = false;
+}
+
+void ProgressLine::show(const std::string& phase, double whole)
+{
+  if (is_quiet || ::isatty(STDERR_FILENO) == 0) return;
+  constexpr std::chrono::milliseconds pause{200};
+  const Clock::time_point now = Clock::now();
+  // The name of a phase at once: a factorisation says nothing until it is done.
+  if (phase == phase_ && now - shown_ < pause) return;
+  phase_ = phase;
+  shown_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  fmt::print(stderr, "\r\033[K{}", progress_text(phase, whole, elapsed_s));
+  std::fflush(stderr);
+  visible_ = true;
+}
+
+}  // namespace chladni::report
