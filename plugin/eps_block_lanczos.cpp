@@ -9,6 +9,7 @@
 #include "linear/lanczos/block_iteration.hpp"
 #include "plugin/chladni_cms.h"
 #include "plugin/eps_operator.hpp"
+#include "plugin/eps_order.hpp"
 #include "plugin/eps_residuals.hpp"
 #include "plugin/eps_sequences.hpp"
 #include "plugin/guard.hpp"
@@ -28,38 +29,6 @@ struct Options {
 Options* options_of(EPS eps)
 {
   return static_cast<Options*>(eps->data);
-}
-
-/// Which eigenvalues come first; SLEPc's own is not visible to other libraries.
-PetscErrorCode set_up_sort(EPS eps)
-{
-  PetscFunctionBegin;
-  eps->sc->map = nullptr;
-  eps->sc->mapobj = nullptr;
-  eps->sc->comparisonctx = nullptr;
-  switch (eps->which) {
-    case EPS_LARGEST_MAGNITUDE:
-      eps->sc->comparison = SlepcCompareLargestMagnitude;
-      break;
-    case EPS_SMALLEST_MAGNITUDE:
-      eps->sc->comparison = SlepcCompareSmallestMagnitude;
-      break;
-    case EPS_LARGEST_REAL:
-      eps->sc->comparison = SlepcCompareLargestReal;
-      break;
-    case EPS_SMALLEST_REAL:
-      eps->sc->comparison = SlepcCompareSmallestReal;
-      break;
-    case EPS_TARGET_MAGNITUDE:
-    case EPS_TARGET_REAL:  // the same for real eigenvalues
-      eps->sc->comparison = SlepcCompareTargetMagnitude;
-      eps->sc->comparisonctx = &eps->target;
-      break;
-    default:
-      SETERRQ(PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-              "blocklanczos cannot seek all eigenvalues of an interval; use -eps_type krylovschur");
-  }
-  PetscFunctionReturn(0);
 }
 
 PetscErrorCode check_problem(EPS eps)
@@ -104,17 +73,6 @@ PetscErrorCode set_up(EPS eps)
   PetscCall(BVResize(eps->V, std::max(eps->nev, -eps->nini), PETSC_FALSE));
   PetscCall(set_up_sort(eps));
   PetscFunctionReturn(0);
-}
-
-/// Order of the back-transformed eigenvalues as the user wants them.
-bool comes_before(EPS eps, PetscScalar a, PetscScalar b)
-{
-  PetscScalar zero_a = 0.0, zero_b = 0.0;
-  PetscInt order = 0;
-  petsc::check(STBackTransform(eps->st, 1, &a, &zero_a));
-  petsc::check(STBackTransform(eps->st, 1, &b, &zero_b));
-  petsc::check(eps->sc->comparison(a, 0.0, b, 0.0, &order, eps->sc->comparisonctx));
-  return order < 0;
 }
 
 /// Ritz values and error estimates to SLEPc; number of leading ones that converged.

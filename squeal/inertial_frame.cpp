@@ -14,19 +14,15 @@
 namespace chladni::squeal {
 namespace {
 
-using Eigen::Matrix2d;
-using std::numbers::pi;
+using Eigen::Matrix2d, std::numbers::pi;
 
-/// Why a disc has no inertial frame, in words for the user.
 struct Complaint {
-  std::string text;
+  std::string text;  ///< why a disc has no inertial frame, in words for the user
 };
 
 /// One mode (n = 0, j = i) or a pair.
 struct Group {
-  int n;
-  int i;
-  int j;
+  int n, i, j;
 };
 
 std::variant<std::vector<Group>, Complaint> group_modes(const Disc& disc)
@@ -36,10 +32,8 @@ std::variant<std::vector<Group>, Complaint> group_modes(const Disc& disc)
   std::vector<char> taken(n.size(), 0);
   for (std::size_t i = 0; i < n.size(); ++i) {
     if (taken[i]) continue;
-    std::size_t j = i;
-    if (n[i] > 0) do
-        ++j;
-      while (j < n.size() && (taken[j] || n[j] != n[i]));
+    std::size_t j = n[i] > 0 ? i + 1 : i;
+    while (n[i] > 0 && j < n.size() && (taken[j] || n[j] != n[i])) ++j;
     if (j == n.size())
       return Complaint{fmt::format(
           "mode {} ({:.1f} Hz) has {} nodal diameters, but no partner among the modes used",
@@ -229,8 +223,7 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
   const double deviation = (C - inertial.C).norm();
   if (deviation > impurity_limit * C.norm())
     return Complaint{
-        fmt::format("its damping changes around the circumference by {:.2g} "
-                    "(allowed: {})",
+        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
                     deviation / C.norm(), impurity_limit)};
   return inertial;
 }
@@ -252,15 +245,15 @@ InertialDisc inertial_disc(const Disc& disc)
 std::optional<std::string> asymmetry(const Disc& disc)
 {
   const auto outcome = try_inertial_disc(disc);
-  if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complaint->text;
-  return std::nullopt;
+  const auto* complaint = std::get_if<Complaint>(&outcome);
+  return complaint ? std::optional(complaint->text) : std::nullopt;
 }
 
 std::optional<InertialDisc> find_inertial_disc(const Disc& disc)
 {
   auto outcome = try_inertial_disc(disc);
-  if (std::holds_alternative<Complaint>(outcome)) return std::nullopt;
-  return std::get<InertialDisc>(std::move(outcome));
+  auto* inertial = std::get_if<InertialDisc>(&outcome);
+  return inertial ? std::optional(std::move(*inertial)) : std::nullopt;
 }
 
 Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, double angle)
@@ -280,7 +273,7 @@ Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, doubl
 std::vector<RingPlace> ring_places(const InertialDisc& disc)
 {
   std::vector<RingPlace> places;
-  for (const InertialRing& ring : disc.rings) places.push_back({ring.name, ring.radius});
+  for (const auto& ring : disc.rings) places.push_back({ring.name, ring.radius});
   return places;
 }
 

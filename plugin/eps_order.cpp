@@ -1,0 +1,50 @@
+#include "plugin/eps_order.hpp"
+
+#include <slepc/private/epsimpl.h>
+
+#include "common/petsc.hpp"
+
+namespace chladni::plugin {
+
+PetscErrorCode set_up_sort(EPS eps)
+{
+  PetscFunctionBegin;
+  eps->sc->map = nullptr;
+  eps->sc->mapobj = nullptr;
+  eps->sc->comparisonctx = nullptr;
+  switch (eps->which) {
+    case EPS_LARGEST_MAGNITUDE:
+      eps->sc->comparison = SlepcCompareLargestMagnitude;
+      break;
+    case EPS_SMALLEST_MAGNITUDE:
+      eps->sc->comparison = SlepcCompareSmallestMagnitude;
+      break;
+    case EPS_LARGEST_REAL:
+      eps->sc->comparison = SlepcCompareLargestReal;
+      break;
+    case EPS_SMALLEST_REAL:
+      eps->sc->comparison = SlepcCompareSmallestReal;
+      break;
+    case EPS_TARGET_MAGNITUDE:
+    case EPS_TARGET_REAL:  // the same for real eigenvalues
+      eps->sc->comparison = SlepcCompareTargetMagnitude;
+      eps->sc->comparisonctx = &eps->target;
+      break;
+    default:
+      SETERRQ(PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
+              "blocklanczos cannot seek all eigenvalues of an interval; use -eps_type krylovschur");
+  }
+  PetscFunctionReturn(0);
+}
+
+bool comes_before(EPS eps, PetscScalar a, PetscScalar b)
+{
+  PetscScalar zero_a = 0.0, zero_b = 0.0;
+  PetscInt order = 0;
+  petsc::check(STBackTransform(eps->st, 1, &a, &zero_a));
+  petsc::check(STBackTransform(eps->st, 1, &b, &zero_b));
+  petsc::check(eps->sc->comparison(a, 0.0, b, 0.0, &order, eps->sc->comparisonctx));
+  return order < 0;
+}
+
+}  // namespace chladni::plugin
