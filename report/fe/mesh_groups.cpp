@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <utility>
 
 #include "mesh/element_parts.hpp"
@@ -36,9 +35,8 @@ std::array<std::array<double, 2>, 3> extents_of(const mesh::Mesh& mesh, const me
   std::array<std::array<double, 2>, 3> extents{};
   for (std::size_t c = 0; c < 3 && !group.nodes.empty(); ++c) {
     const auto coordinate = [&](int node) { return mesh.positions[node][c]; };
-    const auto [least, greatest] =
-        std::ranges::minmax(group.nodes | std::views::transform(coordinate));
-    extents[c] = {least, greatest};
+    const auto [least, greatest] = std::ranges::minmax_element(group.nodes, {}, coordinate);
+    extents[c] = {coordinate(*least), coordinate(*greatest)};
   }
   return extents;
 }
