@@ -99,7 +99,7 @@ std::vector<int> quadrilateral_order(int p)
   return order;
 }
 
-/// Up to order 3: a single inner node, which needs no order.
+/// The inner nodes, up to order 4, are a triangle of order p - 3.
 std::vector<int> triangle_order(int p)
 {
   const auto place = [&](int i, int j) { return j * (p + 1) - j * (j - 1) / 2 + i; };
@@ -107,7 +107,8 @@ std::vector<int> triangle_order(int p)
   for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
   for (int i = 1; i < p; ++i) order.push_back(place(p - i, i));
   for (int i = 1; i < p; ++i) order.push_back(place(0, p - i));
-  if (p == 3) order.push_back(place(1, 1));
+  if (p > 2) order.push_back(place(1, 1));
+  if (p > 3) order.insert(order.end(), {place(2, 1), place(1, 2)});
   return order;
 }
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "report/fe/mesh_groups.hpp"
 #include "report/fe/mesh_page.hpp"
 #include "report/fe/mesh_vtu.hpp"
+#include "report/fe/vtu.hpp"
 
 namespace chladni::report {
 namespace {
@@ -90,6 +93,22 @@ TEST(MeshDrawing, KeepsToItsLimitAndAllGroupsWhereElementsAreMany)
     if (parts[g].kind == GroupKind::surface) continue;
     EXPECT_FALSE(drawing.groups[g].lines.empty() && drawing.groups[g].points.empty())
         << mesh.groups[g].name;
+  }
+}
+
+TEST(MeshVtu, HasEachNodeOfAnElementOnce)
+{
+  for (const auto shape : {mesh::Shape::triangle, mesh::Shape::quadrilateral, mesh::Shape::line}) {
+    for (const int p : {1, 2, 3, 4}) {
+      const int n = shape == mesh::Shape::line       ? p + 1
+                    : shape == mesh::Shape::triangle ? (p + 1) * (p + 2) / 2
+                                                     : (p + 1) * (p + 1);
+      std::vector<int> order = vtu_node_order(shape, p);
+      std::ranges::sort(order);
+      std::vector<int> places(n);
+      std::iota(places.begin(), places.end(), 0);
+      EXPECT_EQ(order, places) << "order " << p;
+    }
   }
 }
 
