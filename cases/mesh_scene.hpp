@@ -9,9 +9,12 @@ namespace chladni::cases {
 /// @throws chladni::Error as mesh::generate.
 mesh::Mesh mesh_scene(const scene::Scene& scene);
 
+/// @throws chladni::Error naming file, line and key of a group in the scene that the mesh lacks.
+void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh);
+
 /// The mesh of the first rank on all ranks.
 /// @note   Collective on all ranks.
-/// @throws chladni::Error on all ranks alike.
+/// @throws chladni::Error on all ranks alike; also as check_groups.
 mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene);
 
 }  // namespace chladni::cases

@@ -1,45 +1,10 @@
 #include "cases/picture.hpp"
 
+#include "mesh/element_parts.hpp"
+
 #include <algorithm>
 
 namespace chladni::cases {
-namespace {
-
-using Cell = std::array<int, 4>;
-
-/// Cells of one element as places of its lattice; `step` lattice intervals wide.
-std::vector<Cell> lattice_cells(const mesh::ElementBlock& block, int step)
-{
-  const int p = block.order;
-  std::vector<Cell> cells;
-  if (block.shape == mesh::Shape::line) {
-    for (int i = 0; i < p; i += step) cells.push_back({i, i + step, i + step, i + step});
-    return cells;
-  }
-  const bool triangle = block.shape == mesh::Shape::triangle;
-  // Lattice place of column i and row j; rows of a triangle grow shorter.
-  const auto place = [&](int i, int j) {
-    return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
-  };
-  for (int j = 0; j < p; j += step) {
-    for (int i = 0; i + (triangle ? j : 0) < p; i += step) {
-      const int a = place(i, j), b = place(i + step, j), d = place(i, j + step);
-      if (!triangle) {
-        cells.push_back({a, b, place(i + step, j + step), d});
-        continue;
-      }
-      cells.push_back({a, b, d, d});
-      if (i + j + 2 * step <= p) {
-        const int c = place(i + step, j + step);
-        cells.push_back({b, c, d, d});
-      }
-    }
-  }
-  return cells;
-}
-
-}  // namespace
-
 PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)
 {
   PictureNodes chosen;
@@ -47,9 +12,9 @@ PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice)
   std::vector<int> index(mesh.n_nodes(), -1);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const int step = choice == scene::PictureChoice::vertices ? block.order : 1;
-    const std::vector<Cell> cells = lattice_cells(block, step);
+    const std::vector<mesh::LatticeCell> cells = mesh::lattice_cells(block, step);
     for (int e = 0; e < block.n_elements(); ++e) {
-      for (Cell cell : cells) {
+      for (mesh::LatticeCell cell : cells) {
         for (int& corner : cell) {
           const int node = block.element_nodes(e)[corner];
           if (index[node] < 0) {

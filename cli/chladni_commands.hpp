@@ -53,8 +53,11 @@ struct ChladniArguments {
   linear::SolverOptions solver = {};       ///< what it says of the solvers
 };
 
-/// Meshes the scene, or reads a mesh file, and says what the mesh is like.
-/// @throws chladni::Error after the report on quality is printed, when an element cannot work.
+/// Meshes the scene, or reads a mesh file, says what the mesh is like, and writes it with its
+/// groups as NAME.mesh.vtu and as a page to turn, NAME.mesh.html.
+/// @throws chladni::Error after this, when an element cannot work, as told by the report on
+/// quality,
+///         or when the scene names a group that the mesh does not have.
 void mesh_command(const ChladniArguments& arguments);
 
 /// Meshes, assembles and reduces; writes NAME.reduced.h5.

@@ -1,13 +1,21 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "cases/mesh_scene.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "files/text_file.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
+#include "report/fe/mesh_groups.hpp"
+#include "report/fe/mesh_page.hpp"
 #include "report/fe/mesh_quality.hpp"
+#include "report/fe/mesh_vtu.hpp"
 #include "scene/names.hpp"
 
 namespace chladni::cli {
@@ -51,10 +59,12 @@ std::vector<report::Json::Member> mesh_json(const mesh::Mesh& mesh)
           {"notes", report::Json::array({mesh.notes.begin(), mesh.notes.end()})}};
 }
 
-/// A scene's [mesh], or a mesh file by itself.
+/// A scene, or a mesh file by itself, whose title is then its path.
 struct Subject {
+  std::string name;  ///< stem of the files that are written
   std::string title;
   mesh::MeshOptions mesh;
+  std::optional<scene::Scene> scene = {};
 };
 
 Subject read_subject(const ChladniArguments& arguments)
@@ -63,10 +73,31 @@ Subject read_subject(const ChladniArguments& arguments)
   const std::string extension = std::filesystem::path(path).extension().string();
   if (scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;
-    return {.title = path, .mesh = {.file = path, .trust = trust}};
+    return {.name = std::filesystem::path(path).stem().string(),
+            .title = path,
+            .mesh = {.file = path, .trust = trust}};
   }
   const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
-  return {.title = scene.title, .mesh = scene.mesh};
+  return {.name = scene.name, .title = scene.title, .mesh = scene.mesh, .scene = scene};
+}
+
+/// The files with the picture.
+struct PictureFiles {
+  std::filesystem::path vtu, page;
+};
+
+PictureFiles picture_files(const Subject& subject, const SceneArguments& arguments)
+{
+  const std::filesystem::path folder(arguments.output);
+  return {.vtu = folder / (subject.name + ".mesh.vtu"),
+          .page = folder / (subject.name + ".mesh.html")};
+}
+
+void write_picture(const PictureFiles& files, const std::string& title, const mesh::Mesh& mesh)
+{
+  const std::vector<report::GroupParts> parts = report::group_parts(mesh);
+  files::write_text(files.vtu, report::mesh_vtu(mesh, parts));
+  files::write_text(files.page, report::mesh_page(title, mesh, parts, mesh_table(mesh)));
 }
 
 void mesh_and_print(const ChladniArguments& all)
@@ -75,7 +106,8 @@ void mesh_and_print(const ChladniArguments& all)
   const QualityChoice& choice = all.mesh;
   report::PhaseClock clock;
   const Subject subject = read_subject(all);
-  const ReservedOutputs reserved = reserve_outputs(arguments, {});
+  const PictureFiles files = picture_files(subject, arguments);
+  const ReservedOutputs reserved = reserve_outputs(arguments, {files.vtu, files.page});
   clock.end_phase("read");
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
@@ -88,13 +120,17 @@ void mesh_and_print(const ChladniArguments& all)
       summary.push_back(member);
     clock.end_phase("quality");
   }
+  write_picture(files, subject.title, mesh);
+  clock.end_phase("picture");
   const report::Cost cost = report::cost_so_far(clock.phases());
   fmt::print("{}\n\n{}\n{}{}", report::printable(subject.title),
              report::format_table(mesh_table(mesh)), text,
              report::format_table(report::cost_table(cost)));
   for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
   write_summary(arguments, summary, cost);
+  fmt::print("\nwrote {}\nwrote {}\n", files.vtu.string(), files.page.string());
   if (choice.quality) mesh::check_usable(mesh, arguments.scene);
+  if (subject.scene) cases::check_groups(*subject.scene, mesh);  // now they can be looked up
 }
 
 }  // namespace

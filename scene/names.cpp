@@ -60,7 +60,12 @@ std::string no_such_name(std::string_view kind, std::string_view name,
 {
   const std::string near = nearest_name(name, names);
   const std::string hint = near.empty() ? "" : fmt::format(" did you mean \"{}\"?", near);
-  return fmt::format("no such {} in the scene;{} there are: {}", kind, hint, quoted_list(names));
+  constexpr std::size_t most = 30;  // the curves of a .step may be hundreds
+  const auto n_listed = static_cast<std::ptrdiff_t>(std::min(names.size(), most));
+  const std::string more =
+      names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
+  return fmt::format("no such {} in the scene;{} there are: {}{}", kind, hint,
+                     quoted_list({names.begin(), names.begin() + n_listed}), more);
 }
 
 }  // namespace chladni::scene

@@ -6,10 +6,11 @@
 namespace chladni::scene {
 namespace {
 
-/// What may be held or loaded: groups, rings and couplings; empty where only the mesh file knows.
+/// What may be held or loaded: groups, rings and couplings; empty where the mesh file was not read
+/// yet.
 std::vector<std::string> named_sets(const Scene& scene)
 {
-  std::vector<std::string> names = group_names(scene.mesh);
+  std::vector<std::string> names = group_names(scene);
   if (names.empty()) return names;
   for (const plate::Coupling& coupling : scene.couplings) {
     if (!coupling.name.empty()) names.push_back(coupling.name);

@@ -157,11 +157,12 @@ std::vector<std::string> ring_names(const mesh::MeshOptions& mesh)
   return names;
 }
 
-std::vector<std::string> group_names(const mesh::MeshOptions& mesh)
+std::vector<std::string> group_names(const Scene& scene)
 {
-  std::vector<std::string> names = generated_groups(mesh);
+  if (scene.mesh.file) return scene.file_groups;
+  std::vector<std::string> names = generated_groups(scene.mesh);
   if (names.empty()) return {};
-  const std::vector<std::string> rings = ring_names(mesh);
+  const std::vector<std::string> rings = ring_names(scene.mesh);
   names.insert(names.end(), rings.begin(), rings.end());
   return names;
 }

@@ -26,7 +26,7 @@ std::map<std::string, plate::Material> read_materials(const Table& root)
   return materials;
 }
 
-/// The group of a section or a coupling, checked where the scene alone knows the groups.
+/// The group of a section or a coupling, checked where the groups are known.
 std::string read_group(const Table& table, const std::vector<std::string>& groups)
 {
   const std::string group = table.text("group");
@@ -171,10 +171,11 @@ std::vector<int> read_model_components(const Table& root)
   return components;
 }
 
-Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
+Sections read_sections(const Table& root, const Scene& scene)
 {
   const std::map<std::string, plate::Material> materials = read_materials(root);
-  const std::vector<std::string> groups = surface_groups(mesh);
+  const std::vector<std::string> groups =
+      scene.mesh.file ? group_names(scene) : surface_groups(scene.mesh);
   std::set<std::string> taken;
   Sections sections;
   for (const Table& table : root.tables("section")) {
@@ -182,7 +183,7 @@ Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
         "type", {{"shell", SectionKind::shell}, {"beam", SectionKind::beam}});
     const std::string group = read_group(table, groups);
     if (!taken.insert(group).second) table.refuse("group", "has another section already");
-    check_kind(table, kind, mesh);
+    check_kind(table, kind, scene.mesh);
     const plate::Material& material = read_material_of(table, materials);
     if (kind == SectionKind::beam) {
       sections.beams.push_back(read_beam_section(table, group, material));
@@ -200,7 +201,7 @@ Sections read_sections(const Table& root, const mesh::MeshOptions& mesh)
 
 std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene)
 {
-  const std::vector<std::string> groups = group_names(scene.mesh);
+  const std::vector<std::string> groups = group_names(scene);
   const std::vector<std::string> rings = ring_names(scene.mesh);
   std::set<std::string> taken(groups.begin(), groups.end());
   taken.insert(rings.begin(), rings.end());

@@ -3,11 +3,11 @@
 namespace chladni::scene {
 namespace {
 
-/// Groups, rings and couplings; groups of a mesh file show when it is read.
+/// Groups, rings and couplings; groups of a mesh file are known once it is read.
 std::string read_place(const Table& table, std::string_view key, const Scene& scene)
 {
   const std::string name = table.text(key);
-  std::vector<std::string> names = group_names(scene.mesh);
+  std::vector<std::string> names = group_names(scene);
   if (names.empty()) return name;
   for (const plate::Coupling& coupling : scene.couplings) {
     if (!coupling.name.empty()) names.push_back(coupling.name);

@@ -14,7 +14,7 @@ std::vector<std::string> attachable_names(const Scene& scene)
   for (const plate::Coupling& coupling : scene.couplings) {
     if (!coupling.name.empty()) names.push_back(coupling.name);
   }
-  for (const std::string& group : group_names(scene.mesh)) {
+  for (const std::string& group : group_names(scene)) {
     if (!contains(names, group) && !contains(surface_groups(scene.mesh), group)) {
       names.push_back(group);
     }
@@ -43,7 +43,7 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
   }
   // The groups of a mesh file are known only once it is read.
   const std::vector<std::string> names = attachable_names(scene);
-  if (!group_names(scene.mesh).empty() && !contains(names, name)) {
+  if (!group_names(scene).empty() && !contains(names, name)) {
     const char* kind = scene.mesh.beam ? "point or coupling" : "ring, edge or coupling";
     interface.refuse_element("nodes", i, no_such_name(kind, name, names));
   }

@@ -23,8 +23,8 @@ struct Sections {
   std::vector<plate::BeamSection> beams;
 };
 
-/// [[section]] with the [material.NAME] that they name.
-Sections read_sections(const Table& root, const mesh::MeshOptions& mesh);
+/// [[section]] with the [material.NAME] that they name; needs the mesh of `scene`.
+Sections read_sections(const Table& root, const Scene& scene);
 
 /// [[coupling]]
 std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene);
@@ -88,8 +88,8 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh);
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 
-/// The groups of a mesh, its rings among them; empty for a mesh file, which alone knows them.
-std::vector<std::string> group_names(const mesh::MeshOptions& mesh);
+/// The groups of a scene's mesh, its rings among them; empty for a mesh file that was not read yet.
+std::vector<std::string> group_names(const Scene& scene);
 
 /// Those groups that are surfaces, or lines of a generated beam.
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "common/error.hpp"
 #include "scene/read_tables.hpp"
@@ -49,25 +50,21 @@ std::optional<Table> table_at(const Table& table, std::string_view step)
   return tables[place - 1];
 }
 
-}  // namespace
-
-Scene parse_scene(const std::string& text, const std::string& path, Purpose purpose)
+/// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the
+/// mesh file.
+Scene read_tables(const Table& root, Scene scene, Purpose purpose)
 {
-  const Table root = parse_toml(text, path);
-  Scene scene;
   scene.name = read_name(root);
   scene.title = root.has("title") ? root.text("title") : scene.name;
-  scene.text = text;
-  scene.path = path;
   scene.squeal_model = read_squeal_model(root);
   if (scene.squeal_model) {
     root.refuse_unknown_keys();
     scene.notes = root.notes();
     return scene;
   }
-  scene.mesh = read_mesh(root, path);
+  scene.mesh = read_mesh(root, scene.path);
   scene.components = read_model_components(root);
-  const Sections sections = read_sections(root, scene.mesh);
+  const Sections sections = read_sections(root, scene);
   scene.sections = sections.shells;
   scene.beams = sections.beams;
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
@@ -102,6 +99,25 @@ Scene parse_scene(const std::string& text, const std::string& path, Purpose purp
   root.refuse_unknown_keys();
   scene.notes = root.notes();
   return scene;
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& path, Purpose purpose)
+{
+  Scene scene;
+  scene.text = text;
+  scene.path = path;
+  return read_tables(parse_toml(text, path), std::move(scene), purpose);
+}
+
+void check_groups(const Scene& scene, const std::vector<std::string>& groups)
+{
+  Scene again;
+  again.text = scene.text;
+  again.path = scene.path;
+  again.file_groups = groups;
+  read_tables(parse_toml(scene.text, scene.path), std::move(again), Purpose::fe_model);
 }
 
 void refuse_key(const Scene& scene, const std::string& key, const std::string& why)

@@ -43,6 +43,7 @@ struct Scene {
   std::string path;                ///< of the file
   std::vector<std::string> notes;  ///< for the user: numbers that look like another unit's
   mesh::MeshOptions mesh;
+  std::vector<std::string> file_groups;  ///< of the mesh file; empty before it is read
   /// Of each node; the others are held at zero and not part of the model.
   std::vector<int> components = {0, 1, 2, 3, 4, 5};
   std::vector<plate::ShellSection> sections;
@@ -80,6 +81,11 @@ Scene parse_scene(const std::string& text, const std::string& path,
 /// The scene of a file.
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
+
+/// Refuses the first key that names a group which the mesh file does not have.
+/// @param groups  names of the groups and rings of the mesh that was read
+/// @throws chladni::Error naming file, line, key and value, and the groups that there are.
+void check_groups(const Scene& scene, const std::vector<std::string>& groups);
 
 /// Refuses the value of a key ("body.keep.modes"; "spring[2].damping" in the second table of a
 /// list) that turns out wrong after the reading.

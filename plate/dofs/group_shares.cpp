@@ -2,54 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
 #include <vector>
 
+#include "mesh/element_parts.hpp"
 #include "plate/elements/interpolation.hpp"
 #include "plate/sections/directors.hpp"
 
 namespace chladni::plate {
 
 namespace {
-
-/// The nodes of the element's edges from end to end, in lattice order.
-std::vector<std::vector<int>> edges_of(const mesh::ElementBlock& block, int element)
-{
-  const int p = block.order;
-  const std::span<const int> nodes = block.element_nodes(element);
-  if (block.shape == mesh::Shape::line) return {{nodes.begin(), nodes.end()}};
-  const bool triangle = block.shape == mesh::Shape::triangle;
-  const auto place = [&](int i, int j) {
-    return triangle ? j * (p + 1) - j * (j - 1) / 2 + i : j * (p + 1) + i;
-  };
-  std::vector<std::vector<int>> edges(triangle ? 3 : 4);
-  for (int i = 0; i <= p; ++i) {
-    edges[0].push_back(nodes[place(i, 0)]);
-    edges[1].push_back(nodes[place(0, i)]);
-    edges[2].push_back(nodes[triangle ? place(p - i, i) : place(p, i)]);
-    if (!triangle) edges[3].push_back(nodes[place(i, p)]);
-  }
-  return edges;
-}
-
-/// Element edges with all their nodes in the group; an edge between two elements counts once.
-std::vector<std::vector<int>> edges_in(const mesh::Mesh& mesh, const mesh::Group& group)
-{
-  const std::set<int> members(group.nodes.begin(), group.nodes.end());
-  std::set<std::vector<int>> seen;
-  std::vector<std::vector<int>> edges;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
-      for (std::vector<int>& edge : edges_of(block, e)) {
-        if (!std::ranges::all_of(edge, [&](int n) { return members.contains(n); })) continue;
-        std::vector<int> key = edge;
-        std::ranges::sort(key);
-        if (seen.insert(key).second) edges.push_back(std::move(edge));
-      }
-    }
-  }
-  return edges;
-}
 
 /// int N_i ds along one edge.
 Eigen::VectorXd shares_of_edge(const mesh::Mesh& mesh, const std::vector<int>& edge)
@@ -105,7 +66,7 @@ std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& 
 std::map<int, double> edge_shares(const mesh::Mesh& mesh, const std::string& group)
 {
   std::map<int, double> shares;
-  for (const std::vector<int>& edge : edges_in(mesh, mesh::find_group(mesh, group))) {
+  for (const std::vector<int>& edge : mesh::edges_in(mesh, mesh::find_group(mesh, group))) {
     const Eigen::VectorXd of_edge = shares_of_edge(mesh, edge);
     for (std::size_t i = 0; i < edge.size(); ++i) {
       shares[edge[i]] += of_edge[static_cast<Eigen::Index>(i)];

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace chladni::report {
 namespace {
@@ -39,6 +40,20 @@ std::string encoded(const T* values, std::size_t n)
   return base64(bytes);
 }
 
+/// As the value of an attribute: names come from mesh files, too.
+std::string as_attribute(std::string_view text)
+{
+  std::string escaped;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '&' || c == '<' || c == '>' || c == '"' || code < 0x20)
+      escaped += fmt::format("&#{};", code < 0x20 ? ' ' : code);
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
 std::string array_of(const VtuField& field)
 {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -46,7 +61,14 @@ std::string array_of(const VtuField& field)
   return fmt::format(
       "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n"
       "</DataArray>\n",
-      field.name, values.cols(), encoded(values.data(), static_cast<std::size_t>(values.size())));
+      as_attribute(field.name), values.cols(),
+      encoded(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+std::string array_of(const VtuMarks& marks)
+{
+  return fmt::format("<DataArray type=\"UInt8\" Name=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
+                     as_attribute(marks.name), encoded(marks.values.data(), marks.values.size()));
 }
 
 std::string array_of(const char* name, const std::vector<int>& values)
@@ -56,11 +78,11 @@ std::string array_of(const char* name, const std::vector<int>& values)
                      name, encoded(wide.data(), wide.size()));
 }
 
-std::string arrays_of(const char* element, const std::vector<VtuField>& fields)
+std::string arrays_of(const std::vector<VtuField>& fields)
 {
-  std::string text = fmt::format("<{}>\n", element);
+  std::string text;
   for (const VtuField& field : fields) text += array_of(field);
-  return text + fmt::format("</{}>\n", element);
+  return text;
 }
 
 std::vector<int> quadrilateral_order(int p)
@@ -77,7 +99,7 @@ std::vector<int> quadrilateral_order(int p)
   return order;
 }
 
-/// Up to order 3: a single inner node, which needs no order.
+/// The inner nodes, up to order 4, are a triangle of order p - 3.
 std::vector<int> triangle_order(int p)
 {
   const auto place = [&](int i, int j) { return j * (p + 1) - j * (j - 1) / 2 + i; };
@@ -85,7 +107,8 @@ std::vector<int> triangle_order(int p)
   for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
   for (int i = 1; i < p; ++i) order.push_back(place(p - i, i));
   for (int i = 1; i < p; ++i) order.push_back(place(0, p - i));
-  if (p == 3) order.push_back(place(1, 1));
+  if (p > 2) order.push_back(place(1, 1));
+  if (p > 3) order.insert(order.end(), {place(2, 1), place(1, 2)});
   return order;
 }
 
@@ -128,8 +151,10 @@ std::string vtu_text(const VtuGrid& grid)
   text += "<Points>\n" + array_of({.name = "points", .values = grid.points}) + "</Points>\n";
   text += "<Cells>\n" + array_of("connectivity", grid.connectivity) +
           array_of("offsets", grid.offsets) + array_of("types", grid.types) + "</Cells>\n";
-  text += arrays_of("PointData", grid.of_points) + arrays_of("CellData", grid.of_cells);
-  return text + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  text += "<PointData>\n" + arrays_of(grid.of_points) + "</PointData>\n<CellData>\n" +
+          arrays_of(grid.of_cells);
+  for (const VtuMarks& marks : grid.marks_of_cells) text += array_of(marks);
+  return text + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace chladni::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct VtuField {
   Eigen::MatrixXd values;
 };
 
+/// Which cells of a grid belong to something: 1 for those that do, else 0.
+struct VtuMarks {
+  std::string name;
+  std::vector<std::uint8_t> values;
+};
+
 /// An unstructured grid of VTK.
 struct VtuGrid {
   Eigen::MatrixX3d points;        ///< m
@@ -22,10 +29,14 @@ struct VtuGrid {
   std::vector<int> offsets;       ///< of the end of each cell in `connectivity`
   std::vector<int> types;         ///< VTK's cell types
   std::vector<VtuField> of_points, of_cells;
+  std::vector<VtuMarks> marks_of_cells;
 };
 
 /// VTK's number for a cell with the nodes of an element: linear cells at order 1, else Lagrange's.
 int vtu_cell_type(mesh::Shape shape, int order);
+
+/// VTK's number for a cell that is one node.
+inline constexpr int vtu_vertex = 1;
 
 /// For each node of VTK's cell its place in the lattice of mesh::ElementBlock: corners, then edges,
 /// then the inner nodes.

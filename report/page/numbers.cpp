@@ -31,6 +31,14 @@ Json rounded_rows(const Eigen::MatrixXd& rows)
   return Json::array(lists);
 }
 
+Json table_json(const std::string& title, const TextTable& table)
+{
+  std::vector<Json> rows;
+  for (const auto& row : table.rows) rows.push_back(texts(row));
+  return Json::object(
+      {{"title", title}, {"header", texts(table.header)}, {"rows", Json::array(rows)}});
+}
+
 Json texts(const std::vector<std::string>& words)
 {
   return Json::array({words.begin(), words.end()});

@@ -2,8 +2,12 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "report/json.hpp"
+#include "report/output.hpp"
+#include "report/page/base64.hpp"
 
 namespace chladni::report {
 
@@ -16,6 +20,16 @@ Json rounded(const Eigen::VectorXd& x);
 
 /// The rows of a matrix as a list of lists.
 Json rounded_rows(const Eigen::MatrixXd& rows);
+
+/// Numbers as they are in memory, in base64.
+template <class Number>
+Json packed(const std::vector<Number>& numbers)
+{
+  return Json(base64(std::as_bytes(std::span(numbers))));
+}
+
+/// Members `title`, `header` and `rows`.
+Json table_json(const std::string& title, const TextTable& table);
 
 /// A list of texts.
 Json texts(const std::vector<std::string>& words);

@@ -93,14 +93,6 @@ std::string read_benchmark(const std::string& file)
   return json["studies"].dump();
 }
 
-Json table_json(const std::string& title, const TextTable& table)
-{
-  std::vector<Json> rows;
-  for (const auto& row : table.rows) rows.push_back(texts(row));
-  return Json::object(
-      {{"title", title}, {"header", texts(table.header)}, {"rows", Json::array(rows)}});
-}
-
 Json provenance_json(const mbs_export::Provenance& origin)
 {
   return Json::object({{"mesh_checksum", origin.mesh_checksum},

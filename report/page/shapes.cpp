@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "report/page/base64.hpp"
 #include "report/page/numbers.hpp"
 
 namespace chladni::report {
@@ -15,14 +14,8 @@ namespace {
 
 constexpr Eigen::Index most_displacements = 1'500'000;  ///< 4 MB as 16-bit numbers in base64
 
-template <class Number>
-Json packed(const std::vector<Number>& numbers)
-{
-  return Json(base64(std::as_bytes(std::span(numbers))));
-}
-
 /// 16-bit displacements; 32767 is `full_scale`.
-Json packed(const Eigen::VectorXd& displacements, double full_scale)
+Json packed_displacements(const Eigen::VectorXd& displacements, double full_scale)
 {
   std::vector<std::int16_t> steps;
   const double step = full_scale > 0.0 ? full_scale / 32767.0 : 1.0;
@@ -40,8 +33,8 @@ Json motion_json(const Motion& motion, const std::string& kind, const Eigen::Mat
                                     {"kind", kind},
                                     {"frequency_Hz", rounded(motion.frequency_Hz)},
                                     {"full_scale", rounded(largest)},
-                                    {"re", packed(re, largest)}};
-  if (im.cwiseAbs().maxCoeff() > 0.0) members.emplace_back("im", packed(im, largest));
+                                    {"re", packed_displacements(re, largest)}};
+  if (im.cwiseAbs().maxCoeff() > 0.0) members.emplace_back("im", packed_displacements(im, largest));
   return Json::object(members);
 }
 

@@ -36,7 +36,7 @@ def use_programs(prefix, folder):
     """The installed programs make the body that the consumers read."""
     scene = ROOT / "tests/data/coarse_disc.toml"
     run(prefix / "bin/chladni", "run", scene, "--output", folder)
-    run(prefix / "bin/chladni", "mesh", ROOT / "examples/hat_disc/hat_disc.geo")  # in the program of libexec
+    run(prefix / "bin/chladni", "mesh", ROOT / "examples/hat_disc/hat_disc.geo", "--output", folder)  # in the program of libexec
     return next(folder.glob("*.body.h5"))
 
 

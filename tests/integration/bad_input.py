@@ -117,7 +117,7 @@ SCENES = [
     ("parameter that the geometry lacks",
      with_mesh_file("plate.geo").replace("element_order", "parameters = { r = 1.0 }\nelement_order"),
      ["plate.geo", "no parameter r"]),
-    ("missing group in a mesh file", with_mesh_file("plate.geo"), ["inner_edge", "plate"]),
+    ("missing group in a mesh file", with_mesh_file("plate.geo"), ['section.group = "disc"', "plate"]),
     ("missing group", changed('group = "disc"', 'group = "disk"'), ["disk", "disc"]),
     ("brake disc that is free", changed('fixed = ["hub"]', "fixed = []") + SQUEAL, ["hub"]),
     ("brake disc held by one DOF", changed('["hub"]\nkeep', '["hub.z"]\nkeep') + SQUEAL, ["hub.z"]),

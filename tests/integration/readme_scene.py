@@ -16,7 +16,8 @@ def main(programs):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.toml"
             path.write_text(scene)
-            run = subprocess.run([programs / "chladni", "mesh", path], capture_output=True, text=True)
+            command = [programs / "chladni", "mesh", path, "--output", folder]
+            run = subprocess.run(command, capture_output=True, text=True)
             print(run.stdout + run.stderr)
             if run.returncode:
                 sys.exit("FAILED: chladni refuses the scene of the README")

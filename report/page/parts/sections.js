@@ -60,6 +60,24 @@ function countTable(counts) {
   return table(["counted", "up to, Hz", "in the FE model", "found", "missing"], rows);
 }
 
+// A box that turns one thing in the picture on and off.
+function checkbox(viewer, text, key) {
+  const input = element("input", {type: "checkbox"});
+  input.checked = viewer[key];
+  input.addEventListener("change", () => { viewer[key] = input.checked; viewer.paint(); });
+  return element("label", {}, input, ` ${text}`);
+}
+
+// Buttons to look from somewhere.
+function directions(viewer) {
+  const from = (text, turn, tilt) => {
+    const button = element("button", {type: "button"}, text);
+    button.addEventListener("click", () => { Object.assign(viewer, {turn, tilt, zoom: 1}); viewer.paint(); });
+    return button;
+  };
+  return [from("from above", 0, 0), from("from the side", 0, Math.PI / 2), from("oblique", -0.5, 1.05)];
+}
+
 function viewerControls(viewer, motions, choose) {
   const select = element("select", {"aria-label": "Motion"}, ...motions.map((motion, i) =>
     element("option", {value: i}, `${motion.name}, ${formatted(motion.frequency_Hz, 6)} Hz`)));
@@ -71,20 +89,9 @@ function viewerControls(viewer, motions, choose) {
   });
   const amplitude = element("input", {type: "range", min: 0, max: 0.5, step: 0.01, value: viewer.amplitude});
   amplitude.addEventListener("input", () => { viewer.amplitude = Number(amplitude.value); viewer.paint(); });
-  const box = (text, key) => {
-    const input = element("input", {type: "checkbox"});
-    input.checked = viewer[key];
-    input.addEventListener("change", () => { viewer[key] = input.checked; viewer.paint(); });
-    return element("label", {}, input, ` ${text}`);
-  };
-  const from = (text, turn, tilt) => {
-    const button = element("button", {type: "button"}, text);
-    button.addEventListener("click", () => { Object.assign(viewer, {turn, tilt, zoom: 1}); viewer.paint(); });
-    return button;
-  };
   return {select, play, bar: element("div", {class: "controls"}, play, select,
-    element("label", {}, "amplitude ", amplitude), box("mesh", "showMesh"), box("nodal lines", "showNodes"),
-    from("from above", 0, 0), from("from the side", 0, Math.PI / 2), from("oblique", -0.5, 1.05))};
+    element("label", {}, "amplitude ", amplitude), checkbox(viewer, "mesh", "showMesh"), checkbox(viewer, "nodal lines", "showNodes"),
+    ...directions(viewer))};
 }
 
 function drawModes(content) {
@@ -254,12 +261,14 @@ function drawPage() {
   document.getElementById("title").textContent = page.title;
   const cycle = chosenCycle(page);
   const key = [page.modes && `${page.modes.length} modes`,
+               page.groups && `${page.groups.length} groups`,
                page.critical && `squeals from ${formatted(page.critical.speed)} rad/s on at ${formatted(page.critical.frequency_Hz)} Hz`,
                !page.critical && page.stability && `stability over the speed: ${page.stability}`,
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s` +
                  (cycle.settled ? "" : " (end of the transient, not settled)")];
   document.getElementById("key-figures").textContent = key.filter(Boolean).join(" · ");
   if (page.modes) drawModes(page);
+  if (page.groups) drawGroups(page);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);
@@ -271,8 +280,9 @@ function drawPage() {
     element("div", {}, element("h3", {}, title), scrolled(table(header, rows))))));
   const origin = page.provenance;
   section("origin", "Origin", note(`Written by Chladni ${page.version}.` + (origin ? ` Body: ${origin.versions}; ` +
-    `${origin.ranks} rank(s); mesh checksum ${origin.mesh_checksum}.` : "")),
-    element("h3", {}, "Scene"), element("pre", {}, page.scene));
+    `${origin.ranks} rank(s); mesh checksum ${origin.mesh_checksum}.` : "") +
+    (page.mesh_checksum ? ` Mesh checksum ${page.mesh_checksum}.` : "")),
+    ...(page.scene ? [element("h3", {}, "Scene"), element("pre", {}, page.scene)] : []));
 }
 
 try {

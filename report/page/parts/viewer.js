@@ -55,7 +55,7 @@ function readMotion(motion) {
 class Viewer {
   constructor(canvas, surface) {
     Object.assign(this, {canvas, surface: readSurface(surface), turn: -0.5, tilt: 1.05, zoom: 1, amplitude: 0.12,
-                         phase: 0, showMesh: false, showNodes: true, painted: 0});
+                         phase: 0, showMesh: false, showNodes: true, painted: 0, lift: 0, owner: null});
     if (this.surface.triangles.length === 0) Object.assign(this, {turn: 0, tilt: Math.PI / 2});  // beams: from the side
     this.x = new Float32Array(this.surface.n);
     this.y = new Float32Array(this.surface.n);
@@ -80,6 +80,7 @@ class Viewer {
     this.image = this.painter.createImageData(width, height);
     this.pixels = new Uint32Array(this.image.data.buffer);
     this.depth = new Float32Array(width * height);
+    if (this.owner) this.owner = new Int32Array(width * height);
   }
 
   // Displaced and turned nodes in pixels; orthographic.
@@ -105,12 +106,17 @@ class Viewer {
     }
   }
 
-  paint() {
+  clear() {
     this.resize();
     this.project();
     this.pixels.fill(0);
     this.depth.fill(-Infinity);
+    this.owner?.fill(-1);
     this.painted = 0;
+  }
+
+  paint() {
+    this.clear();
     const {triangles, rim, mesh, lines} = this.surface;
     for (let k = 0; k < triangles.length; k += 3) this.paintTriangle(triangles[k], triangles[k + 1], triangles[k + 2]);
     const edges = this.showMesh ? mesh : rim;
@@ -120,8 +126,9 @@ class Viewer {
     this.painter.putImageData(this.image, 0, 0);
   }
 
-  paintTriangle(a, b, c) {
-    const {x, y, z, value, depth, pixels, palette} = this, width = this.canvas.width, height = this.canvas.height;
+  // Where `owner` is kept, each pixel tells the number `painting` of what was painted there last.
+  paintTriangle(a, b, c, palette = this.palette) {
+    const {x, y, z, value, depth, pixels, owner, painting} = this, width = this.canvas.width, height = this.canvas.height;
     const x0 = x[a], y0 = y[a], dx1 = x[b] - x0, dy1 = y[b] - y0, dx2 = x[c] - x0, dy2 = y[c] - y0;
     const area = dx1 * dy2 - dx2 * dy1;
     if (Math.abs(area) < 1e-6) return;
@@ -140,6 +147,7 @@ class Viewer {
         const at = py * width + px, near = z[a] + u * dz1 + v * dz2;
         if (near <= depth[at]) continue;
         depth[at] = near;
+        if (owner) owner[at] = painting;
         const here = value[a] + u * dv1 + v * dv2;
         const colour = palette[Math.max(0, Math.min(255, Math.round(127.5 + 127.5 * here)))];
         const shade = Math.abs(here) < nodal ? this.nodalShade * light : light;
@@ -150,11 +158,11 @@ class Viewer {
   }
 
   paintLine(a, b, thickness, palette) {
-    const {x, y, z, depth, pixels, value} = this, width = this.canvas.width, height = this.canvas.height;
+    const {x, y, z, depth, pixels, value, owner, painting} = this, width = this.canvas.width, height = this.canvas.height;
     const steps = Math.max(1, Math.ceil(Math.max(Math.abs(x[b] - x[a]), Math.abs(y[b] - y[a]))));
     const reach = (thickness - 1) / 2;
     for (let s = 0; s <= steps; ++s) {
-      const part = s / steps, near = z[a] + part * (z[b] - z[a]) + (palette ? 3 : 1.5);
+      const part = s / steps, near = z[a] + part * (z[b] - z[a]) + (palette ? 3 : 1.5) + this.lift;
       const cx = Math.round(x[a] + part * (x[b] - x[a])), cy = Math.round(y[a] + part * (y[b] - y[a]));
       const here = value[a] + part * (value[b] - value[a]);
       const colour = palette ? palette[Math.max(0, Math.min(255, Math.round(127.5 + 127.5 * here)))] : [60, 66, 74];
@@ -164,18 +172,35 @@ class Viewer {
         const at = py * width + px;
         if (near <= depth[at]) continue;
         depth[at] = near;
+        if (owner) owner[at] = painting;
         pixels[at] = 0xff000000 | colour[2] << 16 | colour[1] << 8 | colour[0];
         ++this.painted;
       }
     }
   }
 
-  // Turning with one pointer or the arrow keys, zooming with wheel or + and -.
+  // Turning with one pointer or the arrow keys, zooming with two pointers, wheel or + and -.
   listen() {
-    const canvas = this.canvas;
-    canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
+    const canvas = this.canvas, fingers = new Map();
+    const spread = () => {
+      const [one, other] = [...fingers.values()];
+      return Math.hypot(one.x - other.x, one.y - other.y);
+    };
+    canvas.addEventListener("pointerdown", event => {
+      canvas.setPointerCapture(event.pointerId);
+      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    });
+    for (const end of ["pointerup", "pointercancel"])
+      canvas.addEventListener(end, event => fingers.delete(event.pointerId));
     canvas.addEventListener("pointermove", event => {
-      if (!canvas.hasPointerCapture(event.pointerId)) return;
+      if (!fingers.has(event.pointerId)) return;
+      const before = fingers.size === 2 ? spread() : 0;
+      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+      if (fingers.size > 1) {
+        if (before) this.zoom = Math.max(0.3, Math.min(12, this.zoom * spread() / before));
+        this.paint();
+        return;
+      }
       this.turn += event.movementX * 0.008;
       this.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.tilt - event.movementY * 0.008));
       this.paint();
