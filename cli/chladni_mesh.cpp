@@ -16,6 +16,7 @@
 #include "report/fe/mesh_page.hpp"
 #include "report/fe/mesh_quality.hpp"
 #include "report/fe/mesh_vtu.hpp"
+#include "report/output.hpp"
 #include "scene/names.hpp"
 
 namespace chladni::cli {
@@ -126,7 +127,7 @@ void mesh_and_print(const ChladniArguments& all)
   fmt::print("{}\n\n{}\n{}{}", report::printable(subject.title),
              report::format_table(mesh_table(mesh)), text,
              report::format_table(report::cost_table(cost)));
-  for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : mesh.notes) fmt::print("note: {}\n", report::printable(note));
   write_summary(arguments, summary, cost);
   fmt::print("\nwrote {}\nwrote {}\n", files.vtu.string(), files.page.string());
   if (choice.quality) mesh::check_usable(mesh, arguments.scene);
