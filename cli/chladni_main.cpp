@@ -36,7 +36,8 @@ struct Subcommand {
 };
 
 constexpr Subcommand on_scenes[] = {
-    {"mesh", "meshes the scene, says what the mesh is like and draws it: NAME.mesh.vtu, NAME.mesh.html",
+    {"mesh",
+     "meshes the scene, says what the mesh is like and draws it: NAME.mesh.vtu, NAME.mesh.html",
      "Examples:\n  chladni mesh scene.toml\n  chladni mesh disc.msh --quality --json mesh.json",
      chladni::cli::mesh_command},
     {"static", "displacements and section forces under supports and loads: NAME.static.vtu",

@@ -25,12 +25,12 @@ void require_same(const path& file, const squeal::RunOrigin& then, const squeal:
       scene::changed_keys(then.provenance.scene, now.provenance.scene, scene::Step::squeal);
   if (!changed.empty())
     throw Error(fmt::format(
-        "{}: cannot be resumed, since the scene has changed: {}; begin anew without --resume",
+        "{}: cannot be resumed, since the scene has changed: {}; --overwrite begins anew",
         file.string(), fmt::join(changed, ", ")));
   if (then.inputs != now.inputs)
     throw Error(
         fmt::format("{}: cannot be resumed: it was made from {}, and this run has {}; "
-                    "begin anew without --resume",
+                    "--overwrite begins anew",
                     file.string(), then.inputs, now.inputs));
 }
 

@@ -129,11 +129,14 @@ squeal::Disc disc_of(const scene::Scene& scene, const mbs_export::ModalBody& bod
 }
 
 /// What a run that was interrupted has left behind is of no use to one that begins anew.
-void forget(const Files& files)
+/// @throws chladni::Error when there is a state, and nobody has said that it may go.
+void forget(const Files& files, const SceneArguments& arguments)
 {
-  if (exists(files.checkpoint))
-    fmt::print(stderr, "note: {}: the state of an interrupted run is given up; --resume goes on\n",
-               report::printable(files.checkpoint.string()));
+  if (exists(files.checkpoint) && !arguments.overwrite)
+    throw Error(
+        fmt::format("{}: the state of a run that was interrupted; --resume goes on from it, "
+                    "--overwrite begins anew",
+                    files.checkpoint.string()));
   std::error_code ignored;
   std::filesystem::remove(files.checkpoint, ignored);
   std::filesystem::remove(files.spool, ignored);
@@ -177,12 +180,26 @@ squeal::SquealResults perform(const scene::Scene& scene, const std::optional<squ
               : squeal::run(*scene.squeal_model, keeping);
 }
 
+/// The results at the end of a run. A failure of an analysis is told with that of the file.
+void write_last(const path& file, const squeal::SquealResults& results,
+                const squeal::RunOrigin& origin)
+{
+  try {
+    squeal::write_results(file, results, origin.provenance);
+  } catch (const Error& error) {
+    if (!results.failure) throw;
+    throw Error(fmt::format("{}; besides: {}", *results.failure, error.what()));
+  }
+}
+
 /// @throws chladni::Error when the scene has nothing to do.
 scene::Scene read_study(const RunArguments& arguments)
 {
   scene::Scene scene = scene::read_scene(arguments.scene.scene);
   if (!scene.squeal && !scene.squeal_model)
     throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
+  if (!(arguments.checkpoint_interval >= 0.0))
+    throw Error("--checkpoint: give the seconds between two states of a transient, 0 or more");
   if (scene.squeal_model && !arguments.body_file.empty())
     throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
   tell_notes(scene);
@@ -213,7 +230,9 @@ void run_squeal(const RunArguments& arguments)
   std::optional<squeal::WavSpool> sound;
   if (scene.squeal && scene.squeal->sound)
     sound.emplace(files.sound, files.spool, scene.squeal->sound->rate_Hz);
-  if (!arguments.resume) forget(files);
+  if (!arguments.resume) forget(files, arguments.scene);
+  std::error_code ignored;
+  if (sound && !arguments.resume) std::filesystem::remove(files.sound, ignored);
   squeal::SquealResults results = perform(
       scene, disc,
       {.file = files.results,
@@ -225,7 +244,7 @@ void run_squeal(const RunArguments& arguments)
   clock.end_phase("analyses");
 
   results.inputs = results.missing.empty() ? std::string() : origin.inputs;
-  squeal::write_results(files.results, results, origin.provenance);
+  write_last(files.results, results, origin);
   clock.end_phase("write");
   const report::Cost cost = report::cost_so_far(clock.phases());
 
@@ -235,6 +254,9 @@ void run_squeal(const RunArguments& arguments)
   if (sound && sound->full_scale())
     fmt::print("wrote {}, full scale {:.6g} m/s\n", files.sound.string(), *sound->full_scale());
   if (!arguments.scene.json.empty()) write_json(arguments.scene.json, results, cost);
+  if (!checkpoint.failure().empty())
+    fmt::print(stderr, "note: a state could not be written: {}\n",
+               report::printable(checkpoint.failure()));
   if (results.failure) throw Error(*results.failure);
   checkpoint.remove();
   if (sound) sound->remove();

@@ -6,9 +6,27 @@
 
 namespace chladni {
 
+/// Whether what ends before a comma is a number without point or exponent, and no part of a name.
+inline bool is_whole_before(const std::string& formula, std::size_t comma)
+{
+  std::size_t begin = comma;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(formula[begin - 1])) != 0) --begin;
+  if (begin == comma) return false;
+  const char c = begin > 0 ? formula[begin - 1] : ' ';
+  return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_';
+}
+
+/// Whether what begins behind a comma are digits that no point follows.
+inline bool is_whole_after(const std::string& formula, std::size_t comma)
+{
+  std::size_t end = comma + 1;
+  while (end < formula.size() && std::isdigit(static_cast<unsigned char>(formula[end])) != 0) ++end;
+  return end > comma + 1 && (end == formula.size() || formula[end] != '.');
+}
+
 /// What in a formula looks like a decimal comma, of which a parser would take what follows it: a
-/// comma that does not stand between the arguments of a function, a comma between two digits
-/// without a blank, and a whole number that begins with 0.
+/// comma that does not stand between the arguments of a function, a comma without a blank between
+/// two whole numbers, and a whole number that begins with 0.
 /// @return what is wrong and how to write it; empty when nothing is
 inline std::string decimal_comma_in(const std::string& formula)
 {
@@ -25,7 +43,7 @@ inline std::string decimal_comma_in(const std::string& formula)
     if (c == ')' && !is_call.empty()) is_call.pop_back();
     if (c == ',' && (is_call.empty() || !is_call.back()))
       return "the comma does not part a function's arguments; write a decimal point, as in 0.02";
-    if (c == ',' && is_digit(before) && is_digit(after))
+    if (c == ',' && is_whole_before(formula, i) && is_whole_after(formula, i))
       return "the comma between two digits may be a decimal one; write a decimal point, as in "
              "0.02, or a blank after the comma, as in max(1, 2)";
     const bool is_exponent = i > 2 && (before == '-' || before == '+') &&

@@ -251,11 +251,11 @@ void add_missing(TextTable& table, const squeal::SquealResults& results)
 {
   if (results.failure) table.rows.push_back({"failed", *results.failure, ""});
   if (results.missing.empty()) return;
-  const std::string why = results.failure ? "an analysis failed" : "the run was interrupted";
-  table.rows.push_back({"incomplete",
-                        fmt::format("{}; missing: {}; `squeal run --resume` goes on", why,
-                                    fmt::join(results.missing, ", ")),
-                        ""});
+  const std::string why = results.failure ? "an analysis failed"
+                                          : "the run was interrupted, or still lasts; `squeal run "
+                                            "--resume` goes on";
+  table.rows.push_back(
+      {"incomplete", fmt::format("missing: {}; {}", fmt::join(results.missing, ", "), why), ""});
 }
 
 void add_transient(TextTable& table, const squeal::Transient& run)

@@ -57,7 +57,8 @@ std::string progress_text(std::string_view phase, double whole, double elapsed_s
 void be_quiet()
 {
   is_quiet = true;
-  if (std::freopen("/dev/null", "w", stdout) == nullptr) std::fclose(stdout);
+  // Not the file behind it, which --json may name.
+  if (std::FILE* nowhere = std::fopen("/dev/null", "w")) stdout = nowhere;
 }
 
 ProgressLine::~ProgressLine()

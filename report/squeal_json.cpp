@@ -181,7 +181,9 @@ Json sensitivity_json(const squeal::ModeSensitivity& sensitivity)
 
 std::vector<Json::Member> results_json(const squeal::SquealResults& results)
 {
-  std::vector<Json::Member> members;
+  std::vector<Json::Member> members{
+      {"missing", Json::array({results.missing.begin(), results.missing.end()})},
+      {"failure", results.failure ? Json(*results.failure) : Json()}};
   if (results.eigenvalues) {
     members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
   }

@@ -40,6 +40,18 @@ bool Checkpoint::is_due() const
 
 void Checkpoint::write(const std::vector<std::int64_t>& state)
 {
+  last_ = steady_clock::now();
+  try {
+    write_file(state);
+    was_written_ = true;
+    failure_.clear();
+  } catch (const Error& error) {
+    failure_ = error.what();
+  }
+}
+
+void Checkpoint::write_file(const std::vector<std::int64_t>& state) const
+{
   files::Writer writer(file_.string());
   writer.attribute("/", "format", format);
   writer.attribute("/", "version", version);
@@ -47,8 +59,6 @@ void Checkpoint::write(const std::vector<std::int64_t>& state)
   writer.write("inputs", origin_.inputs);
   writer.write("state", std::span<const std::int64_t>(state), "1");
   writer.commit();
-  was_written_ = true;
-  last_ = steady_clock::now();
 }
 
 void Checkpoint::remove() const

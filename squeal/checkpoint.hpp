@@ -47,7 +47,10 @@ class Checkpoint {
   /// Whether the interval has passed since the last state.
   bool is_due() const;
   bool was_written() const { return was_written_; }
-  /// @throws chladni::Error when the file cannot be written.
+  /// Why the last state could not be written; empty when it was.
+  const std::string& failure() const { return failure_; }
+  /// Writes the state. Where that fails the last one stays, and after the interval there is another
+  /// try.
   template <class Exchange>
   void keep(const Exchange& exchange)
   {
@@ -60,6 +63,7 @@ class Checkpoint {
 
  private:
   void write(const std::vector<std::int64_t>& state);
+  void write_file(const std::vector<std::int64_t>& state) const;
 
   std::filesystem::path file_;
   RunOrigin origin_;
@@ -67,6 +71,7 @@ class Checkpoint {
   std::chrono::steady_clock::time_point last_;
   std::vector<std::int64_t> state_;
   bool was_written_ = false;
+  std::string failure_;
 };
 
 }  // namespace chladni::squeal

@@ -74,7 +74,9 @@ void Recorder::add(const Sample& sample)
   velocity_.add(sample.t, up.z_dot, plan_.step);
   displacement_.add(sample.t, up.z - rest_, plan_.step);
   add_to_window(sample);
-  if ((sample.i + 1) % plan_.window == 0) close_window();
+  const auto n_windows = static_cast<std::int64_t>(transient_.windows.t.size());
+  if (n_in_window_ == (n_windows <= plan_.n_fine_windows ? plan_.window : plan_.late_window))
+    close_window();
 
   Eigen::VectorXd x(n_signals);
   x << up.z_dot, up.z - rest_, up.N, lo.N, up.slip_speed;

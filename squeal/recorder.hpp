@@ -37,10 +37,12 @@ class PeakFinder {
 struct RecordingPlan {
   double step;  ///< s
   std::int64_t n_steps;
-  std::int64_t window;     ///< steps for one point of the envelope
-  Decimation history;      ///< of the steps
-  std::int64_t snapshots;  ///< steps for one snapshot
-  std::int64_t n_tail;     ///< steps of the tail
+  std::int64_t window;          ///< steps for one point of the envelope
+  std::int64_t n_fine_windows;  ///< points after which there are more steps for each
+  std::int64_t late_window;     ///< steps for one of those
+  Decimation history;           ///< of the steps
+  std::int64_t snapshots;       ///< steps for one snapshot
+  std::int64_t n_tail;          ///< steps of the tail
 };
 
 /// The motion at a sample.

@@ -20,6 +20,17 @@ bool is_to_do(const StudyStep& step, const std::vector<std::string>& missing)
          (step.names.front() == "transient" && contains(missing, "limit-cycle"));
 }
 
+/// What there is so far. A disk that is full meanwhile ends no study; what is written at its end
+/// tells of it.
+void keep_unfinished(const StudyKeeping& keeping, const SquealResults& results)
+{
+  if (!keeping.unfinished) return;
+  try {
+    keeping.unfinished(results);
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
+  }
+}
+
 }  // namespace
 
 SquealResults perform_steps(const std::vector<StudyStep>& steps,
@@ -38,9 +49,10 @@ SquealResults perform_steps(const std::vector<StudyStep>& steps,
   results.missing.clear();
   for (const StudyStep& step : to_do) results.missing.push_back(step.names.front());
   bool any_done = goes_on;
+  if (keeping.unfinished && !to_do.empty()) keeping.unfinished(results);
   double n_done = 0.0;
   for (const StudyStep& step : to_do) {
-    if (keeping.unfinished) keeping.unfinished(results);
+    if (any_done) keep_unfinished(keeping, results);
     const std::string& name = step.names.front();
     const auto report = [&](double fraction) {
       if (keeping.progress) keeping.progress(name, (n_done + fraction) / double(to_do.size()));
@@ -50,7 +62,7 @@ SquealResults perform_steps(const std::vector<StudyStep>& steps,
       step.perform(results, {report, keeping.checkpoint, keeping.sound});
     } catch (const Error& error) {
       results.failure = error.what();
-      if (keeping.unfinished) keeping.unfinished(results);
+      keep_unfinished(keeping, results);
       if (!any_done) throw;
       return results;
     }

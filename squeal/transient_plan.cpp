@@ -20,8 +20,11 @@ constexpr int periods_in_tail = 100;
 /// Most samples of the history: 10 MB. 6 s of them hold what is below 12 kHz.
 constexpr std::int64_t history_max = 200000;
 constexpr std::int64_t snapshots_max = 20000;
-/// Most points of the envelope.
+/// Most points of the envelope, the first half of them of a few periods: a growth rate is read
+/// there.
 constexpr std::int64_t windows_max = 20000;
+/// Most samples of the tail: 12 MB, and 2.4 MB for each mode.
+constexpr std::int64_t tail_max = 300000;
 /// Initial displacement for a growth rate, relative to the compression of the pads at rest.
 constexpr double growth_start = 1e-4;
 
@@ -63,13 +66,17 @@ RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& ome
   const double steps_of_period = 2.0 * pi / (omega.lowest * step);
   const auto n = static_cast<std::int64_t>(n_steps);
   const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
+  const auto window = static_cast<std::int64_t>(periods_per_window * steps_of_period);
+  const std::int64_t n_fine = windows_max / 2;
+  const std::int64_t n_behind = std::max<std::int64_t>(1, n - n_fine * window);
   return {.step = step,
           .n_steps = n,
-          .window = std::max(static_cast<std::int64_t>(periods_per_window * steps_of_period),
-                             parts_of(n, windows_max)),
+          .window = window,
+          .n_fine_windows = n_fine,
+          .late_window = std::max(window, parts_of(n_behind, windows_max - n_fine)),
           .history = decimation_to(n, history_max),
           .snapshots = parts_of(n, snapshots_max),
-          .n_tail = std::min(n, tail)};
+          .n_tail = std::min({n, tail, tail_max})};
 }
 
 TransientCase growth_case(double speed, double duration, double compression)
@@ -81,10 +88,17 @@ TransientCase growth_case(double speed, double duration, double compression)
 double required_growth_rate(const Transient& run, double duration, double omega_lowest)
 {
   if (run.growth_rate) return *run.growth_rate;
+  const double least = 200.0 * pi / omega_lowest;
+  if (duration >= least)
+    throw Error(
+        fmt::format("growth: at {} rad/s the motion is small for too short a time to measure a "
+                    "growth rate; the "
+                    "analysis \"eigenvalues\" tells it",
+                    run.speed));
   throw Error(
       fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "
                   "least {:.2g} s",
-                  duration, run.speed, 200.0 * pi / omega_lowest));
+                  duration, run.speed, least));
 }
 
 }  // namespace chladni::squeal

@@ -1,6 +1,8 @@
 // Long runs of the program `squeal`: killed, resumed, and in constant memory.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "mbs_export/files/body_file.hpp"
 #include "squeal/result_file.hpp"
 #include "tests/cli/programs.hpp"
@@ -55,7 +57,7 @@ TEST(LongRun, ThatWasKilledGoesOnToTheSameResults)
   EXPECT_TRUE(left.eigenvalues) << "what was finished is kept";
   EXPECT_EQ(left.missing, (std::vector<std::string>{"transient", "limit-cycle"}));
   EXPECT_NE(run(killed, "'" SQUEAL_PROGRAM "' info disc.squeal.h5")
-                .out.find("the run was interrupted; missing: transient, limit-cycle"),
+                .out.find("missing: transient, limit-cycle; the run was interrupted"),
             std::string::npos);
 
   write_text(killed.path() / "scene.toml", replaced(scene, "friction = 0.6", "friction = 0.5"));
@@ -66,6 +68,10 @@ TEST(LongRun, ThatWasKilledGoesOnToTheSameResults)
       << refused.err;
 
   write_text(killed.path() / "scene.toml", scene);
+  const Ending anew = run(killed, squeal_run);
+  EXPECT_EQ(anew.exit_code, 1) << "the state is not given up without a word";
+  EXPECT_NE(anew.err.find("--resume goes on from it, --overwrite begins anew"), std::string::npos)
+      << anew.err;
   const Ending resumed = run(killed, squeal_run + "--resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   const squeal::SquealResults a = squeal::read_results(whole.path() / "disc.squeal.h5"),
@@ -90,6 +96,17 @@ TEST(LongRun, OfAnotherBodyIsNotResumed)
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_NE(refused.err.find("cannot be resumed: it was made from squeal"), std::string::npos)
       << refused.err;
+}
+
+TEST(LongRun, BeginsAnewWhereToldTo)
+{
+  const Folder folder;
+  prepare(folder, long_scene("60.0", "\"transient\""));
+  EXPECT_EQ(run_and_kill(folder).exit_code, 137);
+  write_text(folder.path() / "scene.toml", long_scene("0.1", "\"transient\""));
+  const Ending anew = run(folder, squeal_run + "--overwrite");
+  EXPECT_EQ(anew.exit_code, 0) << anew.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "disc.checkpoint.h5"));
 }
 
 TEST(LongRun, WithNothingToResumeSaysSo)

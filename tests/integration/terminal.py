@@ -7,6 +7,7 @@ same phase again and again, and wipes it out. With --quiet nothing is printed an
 bash finds an option, and every subcommand is in the manual page.
 """
 
+import json
 import os
 import pty
 import re
@@ -66,6 +67,9 @@ def check_quiet(chladni, scene, folder):
         fail("--quiet prints", silent)
     if on_terminal(chladni, "run", scene, "--output", folder, "--quiet"):
         fail("--quiet shows progress", "")
+    summary = json.loads(run(chladni, "body", scene, "--output", folder, "--quiet", "--json", "/dev/stdout"))
+    if summary["program"] != "chladni":
+        fail("--quiet hides the summary", summary)
     done = subprocess.run([chladni, "run", scene, "--output", "/proc/nowhere", "--quiet"], capture_output=True, text=True)
     if done.returncode != 1 or done.stdout or "/proc/nowhere" not in done.stderr:
         fail("--quiet hides an error", done.stdout + done.stderr)

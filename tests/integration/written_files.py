@@ -118,7 +118,7 @@ def ended_by(case, number):
     done = start(case.squeal, "report", "scene.toml", "--output", "out", cwd=case.folder)
     case.expect(done.returncode == 0, f"no report of unfinished results: {done.stderr}")
     page = (case.out / "oscillator.report.html").read_text()
-    case.expect("the run was interrupted; missing: transient, limit-cycle" in page, "the page does not say what is missing")
+    case.expect("missing: transient, limit-cycle; the run was interrupted" in page, "the page does not say what is missing")
 
 
 def interrupted(case):

@@ -116,6 +116,15 @@ TEST(Checkpoint, OfAModelGoesOnAsIfNothingHadHappened)
   expect_equal(transient(model, run, {{}, &reading}), transient(model, run));
 }
 
+TEST(Checkpoint, ThatCannotBeWrittenEndsNoRun)
+{
+  Checkpoint checkpoint("/proc/no_such_folder/checkpoint.h5", {}, 0.0);
+  std::int64_t n = 1;
+  checkpoint.keep([&](StateArchive& archive) { archive(n); });
+  EXPECT_NE(checkpoint.failure().find("/proc/no_such_folder"), std::string::npos);
+  EXPECT_FALSE(checkpoint.was_written());
+}
+
 TEST(Checkpoint, RefusesTheStateOfSomethingElse)
 {
   const ScratchFolder folder;

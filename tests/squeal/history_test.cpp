@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/recorder.hpp"
 #include "squeal/speed_program.hpp"
 #include "squeal/transient.hpp"
+#include "squeal/transient_plan.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -64,6 +66,42 @@ TEST(History, OfALongRunHoldsNoSquealThatLooksLikeALowerTone)
   const std::vector<double> inside(v.begin() + 60, v.end() - 60);
   EXPECT_LT(largest(inside), 1e-3 * run.envelope.pad_velocity.back());
   EXPECT_GT(largest(run.tail.pad_velocity), 0.99 * run.envelope.pad_velocity.back());
+}
+
+TEST(RecordingPlan, OfALongRunKeepsTheFineWindowsOfItsGrowthAndHasLimits)
+{
+  const FrequencyRange omega{.lowest = 2.0 * pi * 10.0, .highest = 2.0 * pi * 1000.0};
+  const RecordingPlan one = recording_plan(squealing(1.0), omega, 20);
+  const RecordingPlan many = recording_plan(squealing(1e5), omega, 20);
+  EXPECT_EQ(many.window, one.window);
+  EXPECT_NEAR(double(one.window) * one.step, 0.4, one.step) << "four periods of the lowest";
+  const std::int64_t n_behind = many.n_steps - many.n_fine_windows * many.window;
+  ASSERT_GT(n_behind, 0);
+  EXPECT_LE(many.n_fine_windows + n_behind / many.late_window, 20000);
+  const RecordingPlan low =
+      recording_plan(squealing(1e4), {.lowest = 1e-3, .highest = omega.highest}, 20);
+  EXPECT_LE(low.n_tail, 300000);
+}
+
+TEST(Windows, OfALongRunBecomeLonger)
+{
+  RecordingPlan plan{.step = 1e-3,
+                     .n_steps = 1000,
+                     .window = 10,
+                     .n_fine_windows = 20,
+                     .late_window = 100,
+                     .history = decimation_to(1000, 1000),
+                     .snapshots = 1,
+                     .n_tail = 10};
+  Recorder recorder(plan, 0.0);
+  for (std::int64_t i = 0; i < plan.n_steps; ++i) {
+    const std::vector<ContactResult<double>> contacts(1);
+    recorder.add({.i = i, .t = double(i) * plan.step, .speed = 1.0, .contacts = contacts});
+  }
+  const std::vector<double>& t = recorder.transient().windows.t;
+  ASSERT_EQ(t.size(), 20u + 8u);
+  EXPECT_NEAR(t[19] - t[18], 0.010, 1e-12);
+  EXPECT_NEAR(t[21] - t[20], 0.100, 1e-12);
 }
 
 TEST(Windows, SayWhatEverySampleDid)

@@ -40,6 +40,20 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
   EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "limit-cycle", "transient"}));
 }
 
+TEST(Run, GoesOnWhereUnfinishedResultsCannotBeKept)
+{
+  SquealOptions options = reference_options();
+  options.analyses = {"eigenvalues", "critical-speed"};
+  int n_kept = 0;
+  const StudyKeeping keeping{.unfinished = [&](const SquealResults&) {
+    if (++n_kept > 1) throw Error("disk full");
+  }};
+  const SquealResults results = run(disc_of({kirchhoff_3()}), options, keeping);
+  EXPECT_EQ(n_kept, 2);
+  EXPECT_TRUE(results.eigenvalues && results.critical_speed);
+  EXPECT_FALSE(results.failure);
+}
+
 TEST(Run, FindsALimitCycleWithoutATransient)
 {
   SquealOptions options = reference_options();
