@@ -34,6 +34,17 @@ void require_same(const path& file, const squeal::RunOrigin& then, const squeal:
                     file.string(), then.inputs, now.inputs));
 }
 
+/// The origin of the state that was left behind.
+squeal::RunOrigin read_state(squeal::Checkpoint& checkpoint)
+{
+  try {
+    return checkpoint.read();
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}\nRemove it: --resume then keeps the analyses that are finished",
+                            error.what()));
+  }
+}
+
 }  // namespace
 
 std::string inputs_of(const path& body, const path& radiation)
@@ -57,7 +68,7 @@ squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& or
                    origin);
   }
   const bool has_checkpoint = exists(left.checkpoint);
-  if (has_checkpoint) require_same(left.checkpoint, checkpoint.read(), origin);
+  if (has_checkpoint) require_same(left.checkpoint, read_state(checkpoint), origin);
   if (!has_checkpoint && begin.missing.empty())
     throw Error(fmt::format(
         "--resume: no run was interrupted here: there is neither {} nor an unfinished {}; run "

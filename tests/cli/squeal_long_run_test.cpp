@@ -98,6 +98,17 @@ TEST(LongRun, OfAnotherBodyIsNotResumed)
       << refused.err;
 }
 
+TEST(LongRun, WithADamagedStateSaysHowToKeepTheRest)
+{
+  const Folder folder;
+  prepare(folder, long_scene("60.0", "\"eigenvalues\", \"transient\""));
+  EXPECT_EQ(run_and_kill(folder).exit_code, 137);
+  write_text(folder.path() / "disc.checkpoint.h5", "no state");
+  const Ending refused = run(folder, squeal_run + "--resume");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("Remove it: --resume then keeps"), std::string::npos) << refused.err;
+}
+
 TEST(LongRun, BeginsAnewWhereToldTo)
 {
   const Folder folder;

@@ -60,7 +60,7 @@ TEST(Profile, RefusesADecimalCommaAmongArguments)
 {
   expect_words(formula_error("max(0,02, x)", {1.0, 0.0, 0.0}), {"max(0,02, x)", "0.02"});
   expect_words(formula_error("max(1,2)", {1.0, 0.0, 0.0}), {"blank after the comma"});
-  EXPECT_EQ(formula_error("max(0.02,0.01) + if(x>0,0.02,0.03)", {1.0, 0.0, 0.0}), "");
+  EXPECT_EQ(formula_error("max(0.02,0.01) + min(x,0.02,0.03)", {1.0, 0.0, 0.0}), "");
   expect_words(formula_error("max(0, 02, x)", {1.0, 0.0, 0.0}), {"begins with 0", "0.02"});
   expect_words(formula_error("min(1,5, x)", {1.0, 0.0, 0.0}), {"blank"});
   EXPECT_EQ(
