@@ -34,7 +34,8 @@ void declare_run(CLI::App& app, SquealArguments& arguments)
   CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
   chladni::cli::declare_scene_arguments(*run, arguments.run.scene);
   chladni::cli::declare_stale(*run, arguments.run.scene.stale);
-  run->add_flag("--resume", arguments.run.resume, "goes on from where a run was interrupted; --overwrite begins anew");
+  run->add_flag("--resume", arguments.run.resume,
+                "goes on from where a run was interrupted; --overwrite begins anew");
   run->add_option("--checkpoint", arguments.run.checkpoint_interval,
                   "seconds between two states of a long transient, for --resume")
       ->type_name("SECONDS")
