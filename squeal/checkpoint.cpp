@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/error.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/files/provenance.hpp"
 
