@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t numbers_of_a_MiB = (1 << 20) / sizeof(double);
 
-double resident_MiB(const std::string& name)
+[[maybe_unused]] double resident_MiB(const std::string& name)
 {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
