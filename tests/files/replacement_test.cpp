@@ -141,6 +141,7 @@ TEST(OutputLock, DoesNotFollowALinkInItsPlace)
 
 void write_half_and_raise(const std::string& path, int number)
 {
+  std::signal(number, SIG_DFL);  // also where the tests run under nohup
   remove_unfinished_files_on_signals();
   files::Replacement half(path);
   half.write("half");
