@@ -17,8 +17,8 @@
 #include "report/version.hpp"
 #include "sound/sound_file.hpp"
 #include "sound/study.hpp"
-#include "squeal/result_file.hpp"
-#include "squeal/wav_file.hpp"
+#include "squeal/results/result_file.hpp"
+#include "squeal/transient/wav_file.hpp"
 
 namespace chladni::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "mbs_export/files/provenance.hpp"
 #include "report/version.hpp"
 #include "scene/changes.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 
 namespace chladni::cli {
 namespace {

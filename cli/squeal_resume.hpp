@@ -4,8 +4,8 @@
 #include <string>
 
 #include "scene/scene.hpp"
-#include "squeal/checkpoint.hpp"
-#include "squeal/results.hpp"
+#include "squeal/results/results.hpp"
+#include "squeal/transient/checkpoint.hpp"
 
 namespace chladni::cli {
 

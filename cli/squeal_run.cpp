@@ -24,13 +24,13 @@
 #include "report/timing.hpp"
 #include "report/version.hpp"
 #include "scene/scene.hpp"
-#include "squeal/checkpoint.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/model_run.hpp"
-#include "squeal/radiation.hpp"
-#include "squeal/result_file.hpp"
-#include "squeal/run.hpp"
-#include "squeal/wav_spool.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/results/result_file.hpp"
+#include "squeal/study/model_run.hpp"
+#include "squeal/study/run.hpp"
+#include "squeal/transient/checkpoint.hpp"
+#include "squeal/transient/wav_spool.hpp"
 
 namespace chladni::cli {
 namespace {

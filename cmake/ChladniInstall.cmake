@@ -68,18 +68,18 @@ set(light_headers
     mbs_export/formats/mbdyn.hpp
     mbs_export/formats/nastran.hpp
     mbs_export/formats/sid.hpp
-    squeal/disc.hpp
-    squeal/run.hpp
-    squeal/result_file.hpp
-    squeal/stability_search.hpp
-    squeal/stability_map.hpp
-    squeal/rotation_stability.hpp
-    squeal/limit_cycle_direct.hpp
-    squeal/limit_cycle_branch.hpp
-    squeal/transient.hpp
-    squeal/rigid_disc.hpp
-    squeal/pad_system.hpp
-    squeal/radiation.hpp)
+    squeal/brake/disc.hpp
+    squeal/study/run.hpp
+    squeal/results/result_file.hpp
+    squeal/stability/stability_search.hpp
+    squeal/stability/stability_map.hpp
+    squeal/stability/rotation_stability.hpp
+    squeal/cycle/limit_cycle_direct.hpp
+    squeal/cycle/limit_cycle_branch.hpp
+    squeal/transient/transient.hpp
+    squeal/models/rigid_disc.hpp
+    squeal/brake/pad_system.hpp
+    squeal/brake/radiation.hpp)
 set(fe_headers
     common/petsc.hpp
     linear/kernels/dense_matrices.hpp

@@ -15,7 +15,7 @@
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe_certificate.hpp"
 #include "report/quantities.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 
 namespace chladni::report {
 namespace {

@@ -6,7 +6,7 @@
 #include "mbs_export/modal_body.hpp"
 #include "mbs_export/reduced_system.hpp"
 #include "report/output.hpp"
-#include "squeal/results.hpp"
+#include "squeal/results/results.hpp"
 
 /// What the files hold, as tables for people.
 namespace chladni::report {

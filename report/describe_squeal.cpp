@@ -9,10 +9,10 @@
 
 #include "report/describe.hpp"
 #include "report/quantities.hpp"
-#include "squeal/growth_rate.hpp"
-#include "squeal/rotation_stability.hpp"
-#include "squeal/stability_search.hpp"
-#include "squeal/transient_file.hpp"
+#include "squeal/results/transient_file.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability_search.hpp"
+#include "squeal/transient/growth_rate.hpp"
 
 namespace chladni::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "squeal/rotation_stability.hpp"
-#include "squeal/stability_search.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability_search.hpp"
 
 namespace chladni::report {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "report/json.hpp"
-#include "squeal/results.hpp"
+#include "squeal/results/results.hpp"
 
 namespace chladni::report {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scene/read_tables.hpp"
-#include "squeal/cycle_harmonics.hpp"
+#include "squeal/cycle/cycle_harmonics.hpp"
 
 namespace chladni::scene {
 namespace {

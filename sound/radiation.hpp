@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sound/tone.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/radiation.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/radiation.hpp"
 
 namespace chladni::sound {
 

@@ -5,8 +5,8 @@
 #include "sound/sound_options.hpp"
 #include "sound/surface_motion.hpp"
 #include "sound/tone.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/results.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/results/results.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::sound {

@@ -7,11 +7,11 @@
 #include "common/error.hpp"
 #include "sound/radiation.hpp"
 #include "sound/stage.hpp"
-#include "squeal/cycle_harmonics.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/stability_search.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/cycle_harmonics.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_search.hpp"
 
 namespace chladni::sound {
 namespace {

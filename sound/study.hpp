@@ -5,8 +5,8 @@
 #include <string>
 
 #include "sound/levels.hpp"
-#include "squeal/radiation.hpp"
-#include "squeal/results.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/results/results.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::sound {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "benchmarks/squeal/targets.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/rotation_stability.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal::bench {
 namespace {

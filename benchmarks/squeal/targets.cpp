@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/integrator_choice.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/stability_map.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_map.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal::bench {
 namespace {

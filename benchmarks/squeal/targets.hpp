@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/disc.hpp"
+#include "squeal/brake/disc.hpp"
 
 namespace chladni::squeal::bench {
 

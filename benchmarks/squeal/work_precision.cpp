@@ -17,13 +17,13 @@
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/cvode.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/dormand_prince.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/integrator_choice.hpp"
-#include "squeal/rotating_disc.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
-#include "squeal/transient_steps.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/motion/dormand_prince.hpp"
+#include "squeal/motion/rotating_disc.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/transient.hpp"
+#include "squeal/transient/transient_steps.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mbs_export/modal_body.hpp"
-#include "squeal/disc.hpp"
+#include "squeal/brake/disc.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal::test {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "squeal/motion.hpp"
+#include "squeal/motion/motion.hpp"
 
 namespace chladni::squeal {
 

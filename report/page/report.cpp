@@ -25,8 +25,8 @@
 #include "report/page/squeal_results.hpp"
 #include "report/version.hpp"
 #include "scene/scene.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/results/result_file.hpp"
 
 namespace chladni::report {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "common/error.hpp"
 #include "report/page/numbers.hpp"
-#include "squeal/analysis_file.hpp"
-#include "squeal/stability_search.hpp"
+#include "squeal/results/analysis_file.hpp"
+#include "squeal/stability/stability_search.hpp"
 
 namespace chladni::report {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "report/json.hpp"
 #include "report/page/shapes.hpp"
-#include "squeal/results.hpp"
+#include "squeal/results/results.hpp"
 
 namespace chladni::report {
 

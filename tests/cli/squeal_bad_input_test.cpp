@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "mbs_export/files/body_file.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 #include "tests/cli/two_mode_body.hpp"
 
 namespace chladni::cli::testing {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "mbs_export/files/body_file.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/cli/two_mode_body.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "files/hdf5.hpp"
 #include "mbs_export/files/body_file.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 #include "tests/cli/programs.hpp"
 #include "tests/cli/two_mode_body.hpp"
 

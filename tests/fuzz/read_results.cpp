@@ -3,8 +3,8 @@
 #include "report/describe.hpp"
 #include "report/output.hpp"
 #include "report/page/squeal_results.hpp"
-#include "squeal/radiation.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/results/result_file.hpp"
 
 namespace chladni::fuzz {
 

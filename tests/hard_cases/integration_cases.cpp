@@ -4,12 +4,12 @@
 #include "hard_case.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/dormand_prince.hpp"
-#include "squeal/generalised_alpha.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/limit_cycle.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
+#include "squeal/motion/dormand_prince.hpp"
+#include "squeal/motion/generalised_alpha.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::hard_cases {
 namespace {

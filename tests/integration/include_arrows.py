@@ -12,7 +12,7 @@ from pathlib import Path
 LIGHT = ("common", "files", "linear/dense")
 LINEAR = ("common", "linear/")
 BODIES = (*LIGHT, "mbs_export/")
-MODELS = ("common", "mesh", "plate/", "reduce", "reduce_export", "linear/", "files", "mbs_export/", "squeal", "sound")
+MODELS = ("common", "mesh", "plate/", "reduce", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
 ALLOWED = {
     "common": (),
     "files": ("common",),
@@ -34,15 +34,25 @@ ALLOWED = {
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "mbs_export/", "reduce_export"),
     "squeal": BODIES,
-    "sound": (*BODIES, "squeal"),
+    "squeal/results": (*BODIES, "squeal"),
+    "squeal/brake": (*BODIES, "squeal", "squeal/results"),
+    "squeal/motion": (*BODIES, "squeal", "squeal/results", "squeal/brake"),
+    "squeal/models": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion"),
+    "squeal/stability": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models"),
+    "squeal/transient": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
+                         "squeal/stability"),
+    "squeal/cycle": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
+                     "squeal/stability", "squeal/transient"),
+    "squeal/study": (*BODIES, "squeal/"),
+    "sound": (*BODIES, "squeal/"),
     "scene": ("common",),  # and OPTIONS
-    "report": (*BODIES, "squeal", "scene/"),
-    "report/fe": (*BODIES, "squeal", "sound", "mesh", "plate/", "scene/", "report/"),
+    "report": (*BODIES, "squeal/", "scene/"),
+    "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
     "cli": (*MODELS, "scene/", "report/", "cases"),
 }
 # The scene knows the options of all libraries: plain structs, which include nothing of theirs.
-OPTIONS = re.compile(r"\w+/(\w+_options|friction|cycle_harmonics)\.hpp$")
+OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
 # Right of the modal body nobody has heard of the finite elements or of their libraries; METIS orders the matrices of linear/.
 HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {

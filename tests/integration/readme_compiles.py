@@ -16,7 +16,7 @@ PROLOGUE = """
 #include "reduce/held_masters.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce_export/reduced_system.hpp"
-#include "squeal/run.hpp"
+#include "squeal/study/run.hpp"
 using namespace chladni;
 """
 # What each piece of the README takes as given.

@@ -2,8 +2,8 @@
 // results, programs end in a value or a clear error.
 #include <gtest/gtest.h>
 
-#include "squeal/radiation.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/results/result_file.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
 #include "tests/fuzz/read_results.hpp"
 #include "tests/fuzz/replay.hpp"

@@ -9,7 +9,7 @@
 #include "references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "sound/study.hpp"
-#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 
 namespace chladni::sound {
 namespace {

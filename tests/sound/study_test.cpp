@@ -9,7 +9,7 @@
 #include "common/error.hpp"
 #include "references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
-#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 
 namespace chladni::sound {
 namespace {

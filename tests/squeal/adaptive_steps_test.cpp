@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "squeal/dormand_prince.hpp"
-#include "squeal/generalised_alpha.hpp"
+#include "squeal/motion/dormand_prince.hpp"
+#include "squeal/motion/generalised_alpha.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "files/hdf5.hpp"
-#include "squeal/result_file.hpp"
+#include "squeal/results/result_file.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "version_1_results.hpp"
 

@@ -1,4 +1,4 @@
-#include "squeal/checkpoint.hpp"
+#include "squeal/transient/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/model_transient.hpp"
-#include "squeal/oscillator.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/models/oscillator.hpp"
+#include "squeal/transient/model_transient.hpp"
+#include "squeal/transient/transient.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::squeal {

@@ -1,10 +1,10 @@
-#include "squeal/contact.hpp"
+#include "squeal/brake/contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/pads.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/pads.hpp"
 
 namespace chladni::squeal {
 namespace {

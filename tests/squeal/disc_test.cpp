@@ -1,10 +1,10 @@
-#include "squeal/disc.hpp"
+#include "squeal/brake/disc.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/ring_shapes.hpp"
+#include "squeal/brake/ring_shapes.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,4 +1,4 @@
-#include "squeal/dop853.hpp"
+#include "squeal/motion/dop853.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/pads.hpp"
-#include "squeal/rigid_model.hpp"
-#include "squeal/sliding_disc.hpp"
-#include "squeal/stability.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake/pads.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/rigid_model.hpp"
+#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
 namespace {

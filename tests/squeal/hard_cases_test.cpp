@@ -5,14 +5,14 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/cvode.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/integrator_choice.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/rotating_disc.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/sticking.hpp"
-#include "squeal/transient.hpp"
-#include "squeal/transient_start.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/motion/rotating_disc.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/sticking.hpp"
+#include "squeal/transient/transient.hpp"
+#include "squeal/transient/transient_start.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/recorder.hpp"
-#include "squeal/speed_program.hpp"
-#include "squeal/transient.hpp"
-#include "squeal/transient_plan.hpp"
+#include "squeal/motion/speed_program.hpp"
+#include "squeal/transient/recorder.hpp"
+#include "squeal/transient/transient.hpp"
+#include "squeal/transient/transient_plan.hpp"
 
 namespace chladni::squeal {
 namespace {

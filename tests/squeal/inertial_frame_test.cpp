@@ -1,4 +1,4 @@
-#include "squeal/inertial_frame.hpp"
+#include "squeal/brake/inertial_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/integrator_choice.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,12 +1,12 @@
-#include "squeal/limit_cycle_branch.hpp"
+#include "squeal/cycle/limit_cycle_branch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/limit_cycle.hpp"
-#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 
 namespace chladni::squeal {
 namespace {

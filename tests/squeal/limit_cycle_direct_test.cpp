@@ -1,4 +1,4 @@
-#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/limit_cycle.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

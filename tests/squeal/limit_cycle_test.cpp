@@ -1,4 +1,4 @@
-#include "squeal/limit_cycle.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,12 +1,12 @@
-#include "squeal/mode_sensitivity.hpp"
+#include "squeal/stability/mode_sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "common/error.hpp"
 #include "source_disc.hpp"
-#include "squeal/limit_cycle_branch.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/model_run.hpp"
-#include "squeal/oscillator.hpp"
-#include "squeal/rigid_model.hpp"
-#include "squeal/stability.hpp"
+#include "squeal/cycle/limit_cycle_branch.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/oscillator.hpp"
+#include "squeal/models/rigid_model.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/study/model_run.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "common/error.hpp"
 #include "source_disc.hpp"
-#include "squeal/model_run.hpp"
-#include "squeal/model_transient.hpp"
-#include "squeal/oscillator.hpp"
-#include "squeal/rigid_model.hpp"
-#include "squeal/stability.hpp"
+#include "squeal/models/oscillator.hpp"
+#include "squeal/models/rigid_model.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/study/model_run.hpp"
+#include "squeal/transient/model_transient.hpp"
 
 namespace chladni::squeal {
 namespace {

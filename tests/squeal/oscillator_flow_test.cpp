@@ -1,4 +1,4 @@
-#include "squeal/oscillator_flow.hpp"
+#include "squeal/motion/oscillator_flow.hpp"
 
 #include <gtest/gtest.h>
 

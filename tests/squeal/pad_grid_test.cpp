@@ -6,12 +6,12 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/contact_kick.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/pad_system.hpp"
-#include "squeal/rotation_stability.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/pad_system.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/motion/contact_kick.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,4 +1,4 @@
-#include "squeal/pad_system.hpp"
+#include "squeal/brake/pad_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/limit_cycle_direct.hpp"
-#include "squeal/mode_shapes.hpp"
-#include "squeal/sliding_disc.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/stability/mode_shapes.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

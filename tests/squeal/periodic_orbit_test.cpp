@@ -1,4 +1,4 @@
-#include "squeal/periodic_orbit.hpp"
+#include "squeal/cycle/periodic_orbit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 
 #include "planar_motions.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/cycle_problem.hpp"
-#include "squeal/harmonic_balance.hpp"
-#include "squeal/limit_cycle_branch.hpp"
-#include "squeal/limit_cycle_direct.hpp"
+#include "squeal/cycle/cycle_problem.hpp"
+#include "squeal/cycle/harmonic_balance.hpp"
+#include "squeal/cycle/limit_cycle_branch.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "squeal/autonomous_motion.hpp"
+#include "squeal/motion/autonomous_motion.hpp"
 
 namespace chladni::squeal::test {
 

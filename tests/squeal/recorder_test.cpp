@@ -1,12 +1,12 @@
-#include "squeal/recorder.hpp"
+#include "squeal/transient/recorder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "squeal/decimator.hpp"
-#include "squeal/growth_rate.hpp"
+#include "squeal/transient/decimator.hpp"
+#include "squeal/transient/growth_rate.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,11 +1,11 @@
-#include "squeal/rotation_stability.hpp"
+#include "squeal/stability/rotation_stability.hpp"
 
 #include <gtest/gtest.h>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

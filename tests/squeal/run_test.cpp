@@ -1,4 +1,4 @@
-#include "squeal/run.hpp"
+#include "squeal/study/run.hpp"
 
 #include <gtest/gtest.h>
 

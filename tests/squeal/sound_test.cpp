@@ -8,9 +8,9 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/resampler.hpp"
-#include "squeal/spectrum.hpp"
-#include "squeal/wav_file.hpp"
+#include "squeal/transient/resampler.hpp"
+#include "squeal/transient/spectrum.hpp"
+#include "squeal/transient/wav_file.hpp"
 
 namespace chladni::squeal {
 namespace {

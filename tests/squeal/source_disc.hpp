@@ -1,6 +1,6 @@
 #pragma once
 
-#include "squeal/rigid_disc.hpp"
+#include "squeal/models/rigid_disc.hpp"
 
 namespace chladni::squeal::test {
 

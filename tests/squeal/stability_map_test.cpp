@@ -1,4 +1,4 @@
-#include "squeal/stability_map.hpp"
+#include "squeal/stability/stability_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/stability.hpp"
+#include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
 namespace {

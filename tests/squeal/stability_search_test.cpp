@@ -1,4 +1,4 @@
-#include "squeal/stability_search.hpp"
+#include "squeal/stability/stability_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/oscillator.hpp"
-#include "squeal/stability.hpp"
-#include "squeal/stability_map.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/models/oscillator.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_map.hpp"
 
 namespace chladni::squeal {
 namespace {

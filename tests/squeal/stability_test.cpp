@@ -1,4 +1,4 @@
-#include "squeal/stability.hpp"
+#include "squeal/stability/stability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
-#include "squeal/stability_search.hpp"
+#include "squeal/stability/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {

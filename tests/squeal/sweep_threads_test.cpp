@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/inertial_frame.hpp"
+#include "squeal/brake/inertial_frame.hpp"
 #include "squeal/parallel.hpp"
-#include "squeal/rotation_stability.hpp"
-#include "squeal/stability_map.hpp"
-#include "squeal/transient.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability_map.hpp"
+#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {

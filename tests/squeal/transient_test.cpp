@@ -1,4 +1,4 @@
-#include "squeal/transient.hpp"
+#include "squeal/transient/transient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/contact_kick.hpp"
-#include "squeal/inertial_frame.hpp"
-#include "squeal/oscillator_flow.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/motion/contact_kick.hpp"
+#include "squeal/motion/oscillator_flow.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,4 +1,4 @@
-#include "squeal/validate.hpp"
+#include "squeal/study/validate.hpp"
 
 #include <gtest/gtest.h>
 

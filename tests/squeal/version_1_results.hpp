@@ -1,7 +1,7 @@
 #pragma once
 
-#include "squeal/radiation.hpp"
-#include "squeal/results.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/results/results.hpp"
 
 namespace chladni::squeal::test {
 

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "mbs_export/files/body_file.hpp"
-#include "squeal/disc.hpp"
-#include "squeal/run.hpp"
-#include "squeal/stability_search.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/stability/stability_search.hpp"
+#include "squeal/study/run.hpp"
 
 int main(int argc, char** argv)
 try {

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "squeal/brake/contact_motion.hpp"
+#include "squeal/friction.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// One pad pair on the ring of a disc: everything that the contact forces depend on but the motion.
+struct PadContact {
+  double radius;     ///< of the contact ring, m
+  double thickness;  ///< distance h of the two contact planes, m
+  FrictionLaw friction;
+  ContactLaw law;
+  PadSpring spring;  ///< of each pad
+  double damping;    ///< d, N s/m
+  double preload;    ///< N_0, N
+};
+
+inline double real_part(double x)
+{
+  return x;
+}
+inline double real_part(const std::complex<double>& x)
+{
+  return x.real();
+}
+
+/// g and S of the contact law: the sign of N in the friction force, and the pad force along the
+/// axis after the law has acted on `S`.
+template <class Scalar>
+struct AxialForce {
+  Scalar S;
+  double g;
+};
+
+template <class Scalar>
+AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
+{
+  const bool pulls = real_part(S) < 0.0;
+  if (law == ContactLaw::unilateral && pulls) return {Scalar(0.0), 1.0};
+  return {S, law == ContactLaw::bilateral && pulls ? -1.0 : 1.0};
+}
+
+/// The pad above (sigma = +1) or below (sigma = -1) a tangent plane that is rigidly extended from
+/// the middle surface; massless and laterally guided, so its vertical equilibrium gives the normal
+/// force.
+///   z = w + sigma h s / 2,   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
+///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   x = z - sigma h / 2
+///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
+///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
+/// with mu(v) and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
+/// and v_r are relative to it; that the point then moves on the disc, a term of second order, is
+/// neglected.
+template <class Scalar>
+PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
+                           double sigma)
+{
+  using std::sqrt;
+  const Scalar s = sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  const Scalar lever = sigma * 0.5 * pad.thickness / s;
+  const PlateMotion<Scalar>& plate = sigma > 0.0 ? m.upper : m.lower;
+  const Scalar v_x = -lever * m.g_r_dot - plate.r_dot;
+  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot - plate.t_dot;
+  const Scalar v_z = m.g_r * v_x + m.g_t * v_y;
+  const Scalar slip_squared = v_x * v_x + v_y * v_y + v_z * v_z;
+  const Scalar v = regularised_speed(pad.friction, slip_squared);
+
+  const Scalar lift = m.w + sigma * 0.5 * pad.thickness * (s - 1.0);
+  const Scalar z_dot = m.w_dot - v_z;
+  const auto [S, g] = axial_force<Scalar>(
+      pad.law, pad.preload + sigma * (force(pad.spring, Scalar(lift - plate.z)) +
+                                      pad.damping * (z_dot - plate.z_dot)));
+  const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v) / v;
+  const Scalar N = S / (1.0 / s + sigma * g_mu_by_v * v_z);
+  return {lift + sigma * 0.5 * pad.thickness,
+          z_dot,
+          N,
+          sqrt(slip_squared),
+          S,
+          sigma * N * m.g_r / s - g_mu_by_v * N * v_x,
+          sigma * N * m.g_t / s - g_mu_by_v * N * v_y};
+}
+
+/// Generalised force of the two pads of a pair.
+///   Q_i = (S_- - S_+) W_i + h / (2 s) ((f_r- - f_r+) W_r,i + (f_t- - f_t+) W_t,i)
+template <class Scalar>
+RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
+                             const PadState<Scalar>& up, const PadState<Scalar>& lo)
+{
+  using std::sqrt;
+  const Scalar lever = 0.5 * pad.thickness / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  return {lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)};
+}
+
+/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest,
+/// unless friction is regularised.
+/// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
+template <class Scalar>
+ContactResult<Scalar> contact(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
+{
+  const PadState<Scalar> up = pad_state(pad, m, speed, 1.0);
+  const PadState<Scalar> lo = pad_state(pad, m, speed, -1.0);
+  return {pair_force(pad, m, up, lo), up, lo};
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "squeal/brake/contact.hpp"
+#include "squeal/brake/pad_system.hpp"
+
+namespace chladni::squeal {
+
+/// The smooth branches of a contact law. For one pad the branch is the factor g of the friction: 1
+/// in contact, -1 where a bilateral pad pulls, 0 where a unilateral pad is off.
+/// @return g where the axial force of a pad is negative; 1 for the law that has one branch only
+inline double pulled_branch(ContactLaw law)
+{
+  return law == ContactLaw::unilateral ? 0.0 : law == ContactLaw::bilateral ? -1.0 : 1.0;
+}
+
+/// One pad on a branch: the signed law with the friction g mu, or nothing.
+template <class Scalar>
+PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, double speed,
+                               const std::array<double, 2>& sigma_and_g)
+{
+  const auto [sigma, g] = sigma_and_g;
+  pad.law = ContactLaw::signed_force;
+  pad.friction = scaled(pad.friction, g);
+  PadState<Scalar> state = pad_state(pad, m, speed, sigma);
+  if (g == 0.0) state.S = state.f_r = state.f_t = Scalar(0.0);
+  return state;
+}
+
+/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
+inline double pressure(const PadContact& pad, const PadState<double>& state,
+                       const PlateMotion<double>& plate, double sigma)
+{
+  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
+  return 1.0 +
+         sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
+}
+
+/// The force at a point pair, each pad on its branch: upper, lower.
+template <class Scalar>
+PairVector<Scalar> force_on_branch(const BrakePoint& point, const RingMotion<Scalar>& m,
+                                   double speed, std::span<const double> branches)
+{
+  const auto up = pad_on_branch(point.contact, m, speed, {1.0, branches[0]});
+  const auto lo = pad_on_branch(point.contact, m, speed, {-1.0, branches[1]});
+  return pair_forces(pair_force(point.contact, m, up, lo), up, lo, point.at_rest,
+                     static_cast<int>(point.S.cols()));
+}
+
+/// Derivatives of `force_on_branch` by the motion of the point and by its rates, exact to rounding.
+/// @param at  speed and branches
+/// @return [rows x 2 rows]
+Eigen::MatrixXd force_derivative(const BrakePoint& point, const PairVector<double>& g,
+                                 const PairVector<double>& g_dot,
+                                 const std::pair<double, std::span<const double>>& at);
+
+}  // namespace chladni::squeal

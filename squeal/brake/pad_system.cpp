@@ -1,0 +1,289 @@
+#include "squeal/brake/pad_system.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/pads.hpp"
+#include "squeal/derivative.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+/// One degree of freedom of a plate.
+struct PlateFreedom {
+  int direction;  ///< 0, 1, 2: translation (radial, tangential, axial); 3, 4, 5: rotation about it
+  double inertia;
+  Suspension suspension;
+};
+
+std::vector<PlateFreedom> freedoms(const PadBody& body)
+{
+  std::vector<PlateFreedom> all;
+  const std::array translations{body.radial, body.tangential, body.axial};
+  for (int i = 0; i < 3; ++i)
+    if (const auto& suspension = translations[static_cast<std::size_t>(i)])
+      all.push_back({i, body.mass, *suspension});
+  const std::array rotations{body.about_radial, body.about_tangential, body.about_axial};
+  for (int i = 0; i < 3; ++i)
+    if (const auto& rotation = rotations[static_cast<std::size_t>(i)])
+      all.push_back({3 + i, rotation->inertia, rotation->suspension});
+  return all;
+}
+
+/// M u'' + C u' + K u = f of plates and calipers.
+struct PadMatrices {
+  Eigen::MatrixXd M, C, K;
+};
+
+void add_spring(PadMatrices& system, const Suspension& spring, Eigen::Index i, Eigen::Index j)
+{
+  for (const auto& [matrix, value] :
+       {std::pair{&system.K, spring.stiffness}, std::pair{&system.C, spring.damping}}) {
+    (*matrix)(i, i) += value;
+    if (j < 0) continue;
+    (*matrix)(j, j) += value;
+    (*matrix)(i, j) -= value;
+    (*matrix)(j, i) -= value;
+  }
+}
+
+/// Coordinates of one pad pair: those of the upper plate, of the lower plate, and the caliper.
+Eigen::Index n_coordinates(const PadPair& pad)
+{
+  if (!pad.body) return 0;
+  return 2 * static_cast<Eigen::Index>(freedoms(*pad.body).size()) + (pad.caliper ? 1 : 0);
+}
+
+void add_pad(PadMatrices& system, const PadPair& pad, Eigen::Index first)
+{
+  const std::vector<PlateFreedom> all = freedoms(*pad.body);
+  const auto n = static_cast<Eigen::Index>(all.size());
+  const Eigen::Index caliper = first + 2 * n;
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const PlateFreedom& freedom = all[static_cast<std::size_t>(i % n)];
+    system.M(first + i, first + i) = freedom.inertia;
+    const bool on_caliper = pad.caliper && freedom.direction == 2;
+    add_spring(system, freedom.suspension, first + i, on_caliper ? caliper : -1);
+  }
+  if (!pad.caliper) return;
+  system.M(caliper, caliper) = pad.caliper->mass;
+  add_spring(system, pad.caliper->axial, caliper, -1);
+}
+
+/// A point of the face of a pad, in the axes of the pad: (radial, tangential, axial).
+struct FacePoint {
+  double turn;                ///< of its own radial axis against that of the pad, rad
+  Eigen::Vector3d of_centre;  ///< position from the centre of mass, m
+};
+
+/// Columns (r, t, z) of the motion of a plate at a point, in the axes of the point, one row for
+/// each freedom: u + theta x position.
+Eigen::MatrixX3d plate_motion(const std::vector<PlateFreedom>& all, const FacePoint& point)
+{
+  Eigen::MatrixX3d J(static_cast<Eigen::Index>(all.size()), 3);
+  const Eigen::Matrix3d to_point =
+      Eigen::AngleAxisd(-point.turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (Eigen::Index i = 0; i < J.rows(); ++i) {
+    const int direction = all[static_cast<std::size_t>(i)].direction;
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(direction % 3);
+    const Eigen::Vector3d motion = direction < 3 ? axis : axis.cross(point.of_centre);
+    J.row(i) = (to_point * motion).transpose();
+  }
+  return J;
+}
+
+/// The contact of one of `n` equal parts of a pad.
+PadContact part_of(PadContact contact, int n)
+{
+  contact.spring.linear /= n;
+  contact.spring.cubic /= n;
+  contact.damping /= n;
+  contact.preload /= n;
+  return contact;
+}
+
+void check(const PadPair& pad, std::size_t i)
+{
+  if (pad.body && freedoms(*pad.body).empty())
+    throw Error(fmt::format("[squeal] pads[{}].body: it has no suspension and so cannot move", i));
+  if (pad.caliper && !(pad.body && pad.body->axial))
+    throw Error(fmt::format(
+        "[squeal] pads[{}].caliper: it carries pads by their axial suspension; give body.axial",
+        i));
+}
+
+/// Indices in `rings` of those that a grid lies on.
+std::vector<std::size_t> rings_of(const PadGrid& grid, const std::vector<RingPlace>& rings,
+                                  std::size_t pad)
+{
+  if (grid.rings.empty()) return {0};
+  std::vector<std::size_t> indices;
+  for (const std::string& name : grid.rings) {
+    const auto at = std::find_if(rings.begin(), rings.end(),
+                                 [&](const RingPlace& ring) { return ring.name == name; });
+    if (at == rings.end())
+      throw Error(
+          fmt::format("[squeal] pads[{}].grid.rings: the disc has no ring \"{}\"", pad, name));
+    indices.push_back(static_cast<std::size_t>(at - rings.begin()));
+  }
+  return indices;
+}
+
+/// The points of pad `i` of the scene, on one ring after the other.
+void add_points(PadSystem& system, const SquealOptions& options, std::size_t i,
+                const std::vector<RingPlace>& rings)
+{
+  const PadPair& pad = options.pads[i];
+  const PadGrid grid = pad.grid.value_or(PadGrid{.sector = 0.0, .points = 1});
+  const std::vector<std::size_t> on = rings_of(grid, rings, i);
+  const int n = grid.points * static_cast<int>(on.size());
+  for (const std::size_t ring : on)
+    for (int k = 0; k < grid.points; ++k) {
+      const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
+      system.points.push_back({.pad = i,
+                               .angle = pad.angle + turn,
+                               .ring = ring,
+                               .contact = part_of(pad_contact(options, pad, rings[ring].radius), n),
+                               .upper = {},
+                               .lower = {}});
+    }
+}
+
+/// Motion of the plates at each point, in all coordinates of the pads; the centre of a plate is
+/// above the first ring.
+void add_plate_motion(PadSystem& system, const SquealOptions& options, double centre,
+                      Eigen::Index n)
+{
+  for (PointPair& point : system.points) {
+    const PadPair& pad = options.pads[point.pad];
+    point.upper = point.lower = Eigen::MatrixX3d::Zero(n, 3);
+    if (!pad.body) continue;
+    Eigen::Index first = 0;
+    for (std::size_t i = 0; i < point.pad; ++i) first += n_coordinates(options.pads[i]);
+    const std::vector<PlateFreedom> all = freedoms(*pad.body);
+    const auto n_plate = static_cast<Eigen::Index>(all.size());
+    const double turn = point.angle - pad.angle;
+    const double radius = point.contact.radius;
+    FacePoint at{turn, {radius * std::cos(turn) - centre, radius * std::sin(turn), 0.0}};
+    at.of_centre[2] = -pad.body->height;
+    point.upper.middleRows(first, n_plate) = plate_motion(all, at);
+    at.of_centre[2] = pad.body->height;
+    point.lower.middleRows(first + n_plate, n_plate) = plate_motion(all, at);
+  }
+}
+
+PadMatrices pad_matrices(const SquealOptions& options)
+{
+  Eigen::Index n = 0;
+  for (const PadPair& pad : options.pads) n += n_coordinates(pad);
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
+  PadMatrices system{zero, zero, zero};
+  Eigen::Index first = 0;
+  for (const PadPair& pad : options.pads) {
+    if (pad.body) add_pad(system, pad, first);
+    first += n_coordinates(pad);
+  }
+  return system;
+}
+
+}  // namespace
+
+PadSystem pad_system(const SquealOptions& options, double radius)
+{
+  return pad_system(options, std::vector<RingPlace>{{options.ring, radius}});
+}
+
+PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>& rings)
+{
+  PadSystem system;
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
+    check(options.pads[i], i);
+    add_points(system, options, i, rings);
+  }
+  const PadMatrices matrices = pad_matrices(options);
+  if (matrices.M.size() == 0) return system;
+  add_plate_motion(system, options, rings.front().radius, matrices.M.rows());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
+  const Eigen::MatrixXd& Phi = modes.eigenvectors();  // Phi^T M Phi = I
+  system.omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  system.C = Phi.transpose() * matrices.C * Phi;
+  for (PointPair& point : system.points) {
+    point.upper = Phi.transpose() * point.upper;
+    point.lower = Phi.transpose() * point.lower;
+  }
+  return system;
+}
+
+InertialDisc with_pads(InertialDisc disc, const PadSystem& pads)
+{
+  const Eigen::Index n = disc.n_modes(), m = pads.n_modes();
+  if (m == 0) return disc;
+  const auto extended = [&](const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n + m, n + m);
+    sum.topLeftCorner(n, n) = A;
+    sum.bottomRightCorner(m, m) = B;
+    return sum;
+  };
+  disc.C = extended(disc.C, pads.C);
+  disc.G = extended(disc.G, Eigen::MatrixXd::Zero(m, m));
+  disc.D = extended(disc.D, Eigen::MatrixXd::Zero(m, m));
+  disc.R = extended(disc.R, Eigen::MatrixXd::Identity(m, m));
+  for (InertialRing& ring : disc.rings)
+    for (Eigen::VectorXd* amplitude : {&ring.U, &ring.U_r, &ring.U_t})
+      amplitude->conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
+  disc.omega.conservativeResize(n + m);
+  disc.omega.tail(m) = pads.omega;
+  disc.nodal_diameters.resize(static_cast<std::size_t>(n + m), 0);
+  return disc;
+}
+
+PairShapes pair_shapes(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point)
+{
+  const Eigen::Index m = pads.n_modes();
+  PairShapes shapes = PairShapes::Zero(S.rows() + m, m == 0 ? 3 : pair_rows_max);
+  shapes.topLeftCorner(S.rows(), 3) = S;
+  if (m > 0) shapes.bottomRightCorner(m, 6) << point.upper, point.lower;
+  return shapes;
+}
+
+BrakePoint brake_point(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point,
+                       double speed)
+{
+  return {.contact = point.contact,
+          .S = pair_shapes(S, pads, point),
+          .at_rest = pad_state(point.contact, RingMotion<double>{}, speed, 1.0)};
+}
+
+FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
+{
+  const Eigen::Index n = disc.n_modes(), m = pads.n_modes();
+  FreeBrake brake{Eigen::VectorXd(n + m), Eigen::MatrixXd::Zero(n + m, n + m)};
+  brake.omega.head(n) = disc.omega;
+  brake.C.topLeftCorner(n, n) = disc.C + 2.0 * speed * disc.G;
+  if (m == 0) return brake;
+  brake.omega.tail(m) = pads.omega;
+  brake.C.bottomRightCorner(m, m) = pads.C;
+  return brake;
+}
+
+PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)
+{
+  using Complex = std::complex<double>;
+  const PadState<double> at_rest = pad_state(pad, RingMotion<double>{}, speed, 1.0);
+  const Eigen::MatrixXd D = derivative_at_rest(
+      [&](const Eigen::VectorXcd& y) -> Eigen::VectorXcd {
+        const auto m = pair_motion<Complex>(y.head(rows), y.tail(rows));
+        const ContactResult<Complex> result = contact(pad, m, speed);
+        return pair_forces(result.force, result.upper, result.lower, at_rest, rows);
+      },
+      Eigen::Index{2} * rows);
+  return {D.leftCols(rows), D.rightCols(rows)};
+}
+
+}  // namespace chladni::squeal

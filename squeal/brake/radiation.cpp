@@ -1,0 +1,78 @@
+#include "squeal/brake/radiation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "common/error.hpp"
+#include "mbs_export/files/provenance.hpp"
+#include "squeal/results/file_checks.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+constexpr const char* format = "chladni-radiation";
+constexpr std::int64_t version = 1;
+
+/// Frequencies of the same body are equal but for rounding.
+constexpr double same_frequency = 1e-9;
+
+}  // namespace
+
+Disc with_radiation(Disc disc, const Radiation& radiation)
+{
+  const auto& numbers = radiation.mode_numbers;
+  for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
+    const int number = disc.mode_numbers[static_cast<std::size_t>(i)];
+    const auto found = std::find(numbers.begin(), numbers.end(), number);
+    const auto at = static_cast<Eigen::Index>(found - numbers.begin());
+    if (found == numbers.end() ||
+        std::abs(radiation.omega[at] - disc.omega[i]) > same_frequency * disc.omega[i]) {
+      throw Error(fmt::format(
+          "radiation: mode {} of the body ({:.6g} Hz) is not among those whose radiation is known; "
+          "compute it again with `chladni sound`",
+          number, disc.omega[i] / (2.0 * std::numbers::pi)));
+    }
+    disc.C(i, i) += radiation.damping[at];
+  }
+  return disc;
+}
+
+void write_radiation(const std::filesystem::path& file, const Radiation& radiation,
+                     const std::string& title, const mbs_export::Provenance& provenance)
+{
+  files::Writer writer(file.string());
+  writer.attribute("/", "format", format);
+  writer.attribute("/", "version", version);
+  writer.attribute("/", "title", title);
+  writer.write("mode_numbers", std::span<const int>(radiation.mode_numbers), "1");
+  writer.write("frequencies", radiation.omega, "rad/s");
+  writer.write("evaluated_at", radiation.at, "rad/s");
+  writer.write("damping", radiation.damping, "1/s");
+  writer.write("added_mass", radiation.added_mass, "1");
+  mbs_export::file_parts::write_provenance(writer, provenance);
+  writer.commit();
+}
+
+Radiation read_radiation(const std::filesystem::path& file)
+{
+  return read_radiation(files::Reader(file.string()));
+}
+
+Radiation read_radiation(const files::Reader& reader)
+{
+  reader.expect_format(format, version);
+  std::vector<int> numbers = read_mode_numbers(reader, "mode_numbers");
+  const auto n = static_cast<Eigen::Index>(numbers.size());
+  return {.mode_numbers = std::move(numbers),
+          .omega = reader.vector("frequencies", n),
+          .at = reader.vector("evaluated_at", n),
+          .damping = reader.vector("damping", n),
+          .added_mass = reader.vector("added_mass", n)};
+}
+
+}  // namespace chladni::squeal

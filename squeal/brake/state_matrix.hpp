@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// A of x' = A x about the sliding equilibrium a = 0, with x = (diag(omega) a, p): all entries have
+/// the unit 1/s, which keeps the eigenvalue problem well scaled. Pads with a mass add their modes
+/// at the end of a.
+/// @param speed  rad/s, > 0
+/// @return [2 n x 2 n], n = n_modes + modes of the pads, 1/s
+Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed);
+
+}  // namespace chladni::squeal

@@ -1,0 +1,138 @@
+#include "squeal/cycle/harmonic_balance.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "linear/dense/dense_solvers.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int newton_steps_max = 20;
+/// A derivative serves until a change is more than this part of the one before.
+constexpr double worn_out = 0.4;
+/// Largest change of X in one step, relative.
+constexpr double largest_change = 0.5;
+
+/// [2 n_harmonics + 1 x n_samples] 1, cos(k tau_j), sin(k tau_j).
+Eigen::MatrixXd waves(const HarmonicResolution& resolution)
+{
+  const Eigen::ArrayXd tau = Eigen::ArrayXd::LinSpaced(
+      resolution.n_samples, 0.0, 2.0 * pi * (1.0 - 1.0 / resolution.n_samples));
+  Eigen::MatrixXd gamma(2 * resolution.n_harmonics + 1, resolution.n_samples);
+  gamma.row(0).setOnes();
+  for (int k = 1; k <= resolution.n_harmonics; ++k) {
+    gamma.row(2 * k - 1) = (k * tau).cos().transpose();
+    gamma.row(2 * k) = (k * tau).sin().transpose();
+  }
+  return gamma;
+}
+
+/// [n_samples x 2 n_harmonics + 1]: samples times this are the coefficients.
+Eigen::MatrixXd projection(const Eigen::MatrixXd& gamma)
+{
+  Eigen::MatrixXd P = gamma.transpose() * (2.0 / double(gamma.cols()));
+  P.col(0) *= 0.5;
+  return P;
+}
+
+/// X D: the coefficients of dx / d(omega t).
+Eigen::MatrixXd derivative(const Eigen::MatrixXd& X)
+{
+  Eigen::MatrixXd X_tau = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+  for (Eigen::Index k = 1; 2 * k < X.cols(); ++k) {
+    X_tau.col(2 * k - 1) = double(k) * X.col(2 * k);
+    X_tau.col(2 * k) = -double(k) * X.col(2 * k - 1);
+  }
+  return X_tau;
+}
+
+/// The residual omega X D - F P.
+/// @return [size x columns]
+Eigen::MatrixXd residual_of(AutonomousMotion& motion, const HarmonicCycle& cycle,
+                            const Eigen::MatrixXd& gamma)
+{
+  const Eigen::MatrixXd P = projection(gamma), x = cycle.X * gamma;
+  Eigen::MatrixXd residual = cycle.omega * derivative(cycle.X);
+  for (Eigen::Index j = 0; j < gamma.cols(); ++j)
+    residual.noalias() -= motion.rate_at(x.col(j)) * P.row(j);
+  return residual;
+}
+
+/// Its derivative by the entries of X, column after column.
+/// @return [size columns x size columns]
+Eigen::MatrixXd residual_derivative(AutonomousMotion& motion, const HarmonicCycle& cycle,
+                                    const Eigen::MatrixXd& gamma)
+{
+  const Eigen::Index n = cycle.X.rows(), m = cycle.X.cols();
+  const Eigen::MatrixXd P = projection(gamma), x = cycle.X * gamma;
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n * m, n * m);
+  for (Eigen::Index j = 0; j < gamma.cols(); ++j) {
+    motion.take_sides(0.0, x.col(j));
+    const Eigen::MatrixXd J_j = motion.jacobian(x.col(j));
+    for (Eigen::Index b = 0; b < m; ++b)
+      for (Eigen::Index a = 0; a < m; ++a)
+        J.block(a * n, b * n, n, n) -= (P(j, a) * gamma(b, j)) * J_j;
+  }
+  for (Eigen::Index k = 1; 2 * k < m; ++k) {
+    J.block((2 * k - 1) * n, 2 * k * n, n, n).diagonal().array() += double(k) * cycle.omega;
+    J.block(2 * k * n, (2 * k - 1) * n, n, n).diagonal().array() -= double(k) * cycle.omega;
+  }
+  return J;
+}
+
+/// The start with zeros in the higher harmonics.
+HarmonicCycle padded(const HarmonicCycle& start, int n_harmonics)
+{
+  HarmonicCycle cycle{Eigen::MatrixXd::Zero(start.X.rows(), 2 * n_harmonics + 1), start.omega};
+  cycle.X.leftCols(start.X.cols()) = start.X;
+  return cycle;
+}
+
+}  // namespace
+
+std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const HarmonicCycle& start,
+                                              const HarmonicResolution& resolution)
+{
+  assert(start.X.cols() <= 2 * resolution.n_harmonics + 1);
+  assert(resolution.n_samples > 2 * resolution.n_harmonics);
+  const Eigen::MatrixXd gamma = waves(resolution);
+  HarmonicCycle cycle = padded(start, resolution.n_harmonics);
+  const Eigen::Index N = cycle.X.size();
+  Eigen::MatrixXd by_X;
+  double before = 0.0;  // the last change, none while the derivative is to be made
+  for (int i = 0; i < newton_steps_max; ++i) {
+    if (before == 0.0) by_X = residual_derivative(motion, cycle, gamma);
+    const Eigen::MatrixXd X_tau = derivative(cycle.X);
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(N + 1, N + 1);
+    J.topLeftCorner(N, N) = by_X;
+    // omega scaled by itself, as all else has the size of omega X.
+    J.col(N).head(N) = cycle.omega * X_tau.reshaped();
+    J.row(N).head(N) = cycle.omega * X_tau.reshaped().transpose();
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
+    rhs.head(N) = -residual_of(motion, cycle, gamma).reshaped();
+    const Eigen::VectorXd change = J.partialPivLu().solve(rhs);
+    const double size = change.head(N).norm() / cycle.X.norm() + std::abs(change[N]);
+    if (!std::isfinite(size)) return std::nullopt;
+    const double damping = std::min(1.0, largest_change / size);
+    cycle.X += damping * change.head(N).reshaped(cycle.X.rows(), cycle.X.cols());
+    cycle.omega *= 1.0 + damping * change[N];
+    if (size < resolution.tolerance) return cycle;
+    const bool worn = damping < 1.0 || (before > 0.0 && size > worn_out * before);
+    before = worn ? 0.0 : size;
+  }
+  return std::nullopt;
+}
+
+Eigen::VectorXd start_of(const HarmonicCycle& cycle)
+{
+  Eigen::VectorXd x = cycle.X.col(0);
+  for (Eigen::Index k = 1; 2 * k < cycle.X.cols(); ++k) x += cycle.X.col(2 * k - 1);
+  return x;
+}
+
+}  // namespace chladni::squeal

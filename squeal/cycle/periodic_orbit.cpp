@@ -1,0 +1,234 @@
+#include "squeal/cycle/periodic_orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
+#include <vector>
+
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/motion/dormand_prince.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using std::numbers::pi;
+
+/// Parts of the period of the fastest mode for a step of the integration at most, and for one
+/// exponential.
+constexpr double steps_per_period_min = 6.0;
+constexpr double exponentials_per_period = 36.0;
+/// Of the derivatives that only lead Newton's method, whose errors of 1e-3 it outruns.
+constexpr double rough_exponentials_per_period = 12.0;
+constexpr double first_tolerance = 1e-9;
+constexpr double last_tolerance = 1e-13;
+constexpr double multiplier_error = 1e-6;
+constexpr int newton_steps_max = 25;
+/// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
+/// leaves the square of what the one before left.
+constexpr double nearly_converged = 1e-5;
+/// Largest change of x_0 in one step, relative.
+constexpr double largest_change = 0.5;
+/// A derivative that does not reduce the change by this factor is computed anew.
+constexpr double worn_out = 0.1;
+
+StepControl control_of(const AutonomousMotion& motion, double tolerance)
+{
+  const double largest = 2.0 * pi / (motion.omega_highest() * steps_per_period_min);
+  return {tolerance, largest, 0.25 * largest};
+}
+
+std::vector<double> sides_of(const AutonomousMotion& motion)
+{
+  std::vector<double> sides;
+  for (Eigen::Index i = 0; i < motion.switches().size(); ++i) sides.push_back(motion.side(i));
+  return sides;
+}
+
+void set_sides(AutonomousMotion& motion, const std::vector<double>& sides)
+{
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    motion.set_side(static_cast<Eigen::Index>(i), sides[i]);
+}
+
+/// exp(h / 2 (A_1 + A_2) + sqrt(3) h^2 / 12 [A_2, A_1]) with A at the two Gauss points of a step.
+Eigen::MatrixXd magnus(const Eigen::MatrixXd& A_1, const Eigen::MatrixXd& A_2, double h)
+{
+  const Eigen::MatrixXd exponent =
+      0.5 * h * (A_1 + A_2) + std::sqrt(3.0) / 12.0 * h * h * (A_2 * A_1 - A_1 * A_2);
+  return exponent.exp();
+}
+
+/// How many exponentials a derivative takes.
+struct Exponentials {
+  double per_radian;  ///< for a time of 1 / omega_highest
+  int per_step;       ///< of the integration at least: it is short where f bends
+};
+
+/// Of order 4 beside an integration of order 8.
+Exponentials fine(double tolerance)
+{
+  return {exponentials_per_period / (2.0 * pi) * std::pow(first_tolerance / tolerance, 0.125), 2};
+}
+
+constexpr Exponentials rough{rough_exponentials_per_period / (2.0 * pi), 1};
+
+/// The derivative over a span within one step of the integrator, of which it interpolates.
+Eigen::MatrixXd derivative_over(AutonomousMotion& motion, DormandPrince& orbit,
+                                const DormandPrince::Span& span, const Exponentials& exponentials)
+{
+  const double length = span.end - span.begin;
+  const int n = std::max(
+      exponentials.per_step,
+      static_cast<int>(std::ceil(exponentials.per_radian * motion.omega_highest() * length)));
+  const double h = length / n, gauss = std::sqrt(3.0) / 6.0;
+  Eigen::MatrixXd X = Eigen::MatrixXd::Identity(motion.size(), motion.size());
+  for (int i = 0; i < n; ++i) {
+    const double middle = span.begin + (i + 0.5) * h;
+    const Eigen::MatrixXd A_1 = motion.jacobian(orbit.at(middle - gauss * h));
+    const Eigen::MatrixXd A_2 = motion.jacobian(orbit.at(middle + gauss * h));
+    X = magnus(A_1, A_2, h) * X;
+  }
+  return X;
+}
+
+Flow flow_with(AutonomousMotion& motion, const CycleStart& start, double tolerance,
+               const Exponentials& exponentials)
+{
+  DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
+  Flow result{start.x, Eigen::MatrixXd::Identity(start.x.size(), start.x.size())};
+  std::vector<double> sides = sides_of(motion);
+  for (double t = 0.0; t < start.period;) {
+    const DormandPrince::Span step = orbit.next_step();
+    if (!orbit.at(step.end).allFinite()) return {orbit.at(step.end), result.derivative};
+    const std::vector<double> next = sides_of(motion);
+    set_sides(motion, sides);
+    const double end = std::min(step.end, start.period);
+    if (end > step.begin)
+      result.derivative =
+          derivative_over(motion, orbit, {step.begin, end}, exponentials) * result.derivative;
+    result.end = orbit.at(end);
+    set_sides(motion, next);
+    sides = next;
+    t = step.end;
+  }
+  return result;
+}
+
+/// A Newton step (dx, dT / T) from the end of a flow:
+/// [X - I, T f(x_T); T f(x_0)^T, 0] (dx, dT / T) = (x_0 - x_T, 0).
+Eigen::VectorXd newton_step(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
+{
+  const Eigen::Index n = at.x.size();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  J.topLeftCorner(n, n) = flow.derivative - Eigen::MatrixXd::Identity(n, n);
+  J.col(n).head(n) = at.period * motion.rate_at(flow.end);
+  J.row(n).head(n) = at.period * motion.rate_at(at.x).transpose();
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(n + 1);
+  residual.head(n) = at.x - flow.end;
+  return J.partialPivLu().solve(residual);
+}
+
+/// Size of a change (dx, dT / T) of an orbit, relative.
+double size_of(const Eigen::VectorXd& change, const CycleStart& at)
+{
+  const Eigen::Index n = at.x.size();
+  return change.head(n).norm() / at.x.norm() + std::abs(change[n]);
+}
+
+/// An orbit without its multipliers.
+struct ClosedOrbit {
+  CycleStart at;
+  int n_newton_steps;
+};
+
+/// Newton's method at the first tolerance of the integration.
+std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
+{
+  const Eigen::Index n = at.x.size();
+  constexpr double tolerance = first_tolerance;
+  Flow now{};
+  bool renew = true;
+  double before = 1.0;
+  for (int i = 1; i <= newton_steps_max; ++i) {
+    if (renew)
+      now = flow_with(motion, at, tolerance, rough);
+    else
+      now.end = end_of(motion, at, tolerance);
+    if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
+    const Eigen::VectorXd change = newton_step(motion, at, now);
+    const double size = size_of(change, at);
+    if (!std::isfinite(size)) return std::nullopt;
+    const double damping = std::min(1.0, largest_change / size);
+    at.x += damping * change.head(n);
+    at.period *= 1.0 + damping * change[n];
+    if (!(at.period > 0.0)) return std::nullopt;
+    if (size < nearly_converged) return ClosedOrbit{at, i};
+    renew = damping < 1.0 || size > (renew ? 1e-2 : worn_out * before);
+    before = size;
+  }
+  return std::nullopt;
+}
+
+double error_along(const Eigen::MatrixXd& monodromy)
+{
+  return std::abs(floquet_multipliers(monodromy)[0] - 1.0);
+}
+
+}  // namespace
+
+Flow flow(AutonomousMotion& motion, const CycleStart& start, double tolerance)
+{
+  return flow_with(motion, start, tolerance, fine(tolerance));
+}
+
+Eigen::VectorXd end_of(AutonomousMotion& motion, const CycleStart& start, double tolerance)
+{
+  DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
+  return orbit.at(start.period);
+}
+
+Eigen::MatrixXd states_over_period(AutonomousMotion& motion, const CycleStart& start, int n,
+                                   double tolerance)
+{
+  DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
+  Eigen::MatrixXd states(start.x.size(), n);
+  for (int i = 0; i < n; ++i) states.col(i) = orbit.at(start.period * i / n);
+  return states;
+}
+
+std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const CycleStart& start)
+{
+  const auto closed = shoot(motion, start);
+  if (!closed) return std::nullopt;
+  CycleStart at = closed->at;
+  int n_newton_steps = closed->n_newton_steps;
+  for (double tolerance = first_tolerance;; tolerance *= 1e-2) {
+    const Flow now = flow(motion, at, tolerance);
+    if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
+    // The end moves with the tolerance; with the fine derivative one step takes it back.
+    const Eigen::VectorXd change = newton_step(motion, at, now);
+    if (!(size_of(change, at) < nearly_converged)) return std::nullopt;
+    const double error = error_along(now.derivative);
+    at.x += change.head(at.x.size());
+    at.period *= 1.0 + change[at.x.size()];
+    ++n_newton_steps;
+    if (error < multiplier_error || tolerance <= last_tolerance)
+      return PeriodicOrbit{at, now.derivative, n_newton_steps, tolerance};
+  }
+}
+
+Eigen::VectorXcd floquet_multipliers(const Eigen::MatrixXd& monodromy)
+{
+  Eigen::VectorXcd values = monodromy.eigenvalues();
+  Eigen::Index along = 0;
+  (values.array() - 1.0).abs().minCoeff(&along);
+  std::swap(values[0], values[along]);
+  std::sort(values.begin() + 1, values.end(), [](const auto& a, const auto& b) {
+    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+  });
+  return values;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,149 @@
+#include "squeal/models/oscillator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "squeal/derivative.hpp"
+#include "squeal/models/model_motion.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+template <class Scalar>
+struct OscillatorContact {
+  Scalar N;         ///< N
+  Scalar friction;  ///< on the mass, along the motion of the surface, N
+  Scalar slip;      ///< v_r, m/s
+};
+
+/// @param law  yields S and g from the force that the contact would have if it could pull
+template <class Scalar, class Law>
+OscillatorContact<Scalar> contact_under(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                                        double speed, const Law& law)
+{
+  const Scalar v_r = o.radius * speed - motion[2];
+  const Scalar v = regularised_speed(o.friction, Scalar(v_r * v_r));
+  const auto [N, g] = law(Scalar(o.preload + o.contact_stiffness * motion[1]));
+  return {N, g * friction_coefficient(o.friction, v) * N * v_r / v, v_r};
+}
+
+template <class Scalar>
+OscillatorContact<Scalar> contact_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                                     double speed)
+{
+  return contact_under(o, motion, speed,
+                       [&](const Scalar& S) { return axial_force<Scalar>(o.law, S); });
+}
+
+/// (x', y', x'', y'') of (x, y, x', y') under this contact.
+template <class Scalar>
+Eigen::Vector4<Scalar> rate_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                               double speed, const OscillatorContact<Scalar>& contact)
+{
+  const Scalar &x = motion[0], &y = motion[1], &u = motion[2], &w = motion[3];
+  const double at_rest = contact_of<double>(o, Eigen::Vector4d::Zero(), speed).friction;
+  return {u, w, (contact.friction - at_rest - o.d_x * u - o.k_x * x - o.k_xy * y) / o.mass,
+          (o.preload - contact.N - o.d_y * w - o.k_xy * x - o.k_y * y) / o.mass};
+}
+
+template <class Scalar>
+Eigen::Vector4<Scalar> rate_of(const Oscillator& o, const Eigen::Vector4<Scalar>& motion,
+                               double speed)
+{
+  return rate_of(o, motion, speed, contact_of(o, motion, speed));
+}
+
+PadState<double> pad_of(const Oscillator& o, const Eigen::Vector4d& motion, double speed)
+{
+  const OscillatorContact<double> contact = contact_of(o, motion, speed);
+  return {.z = motion[1],
+          .z_dot = motion[3],
+          .N = contact.N,
+          .slip_speed = std::abs(contact.slip),
+          .S = contact.N,
+          .f_r = 0.0,
+          .f_t = contact.friction};
+}
+
+ContactResult<double> pads_of(const Oscillator& o, const Eigen::Vector4d& motion, double speed)
+{
+  const PadState<double> pad = pad_of(o, motion, speed);
+  return {.force = {pad.N, 0.0, pad.f_t}, .upper = pad, .lower = pad};
+}
+
+/// For ModelMotion: the equations at a speed, x = scale (x, y, x', y').
+struct OscillatorEquationsAt {
+  Oscillator o;
+  Eigen::Vector4d scale;
+  double speed;
+
+  template <class Scalar>
+  SwitchedRate<Scalar> evaluate(const Eigen::VectorX<Scalar>& x,
+                                const Eigen::VectorXd& branches) const
+  {
+    const Eigen::Vector4<Scalar> motion = x.cwiseQuotient(scale.cast<Scalar>());
+    const double g = branches[0];
+    const auto contact = contact_under(o, motion, speed, [g](const Scalar& S) {
+      return AxialForce<Scalar>{g == 0.0 ? Scalar(0.0) : S, g};
+    });
+    const Eigen::VectorX<Scalar> pressure =
+        Eigen::VectorX<Scalar>::Constant(1, 1.0 + o.contact_stiffness * motion[1] / o.preload);
+    return {rate_of(o, motion, speed, contact).cwiseProduct(scale.cast<Scalar>()), pressure};
+  }
+  ContactResult<double> contact(const Eigen::VectorXd& x) const
+  {
+    return pads_of(o, x.cwiseQuotient(scale), speed);
+  }
+};
+
+AutonomousMotionAt motion_at(const Oscillator& o, const Eigen::Vector4d& scale)
+{
+  const double omega = std::sqrt((std::max(o.k_x, o.k_y + o.contact_stiffness) + o.k_xy) / o.mass);
+  return [o, scale, omega](double speed) {
+    return std::make_unique<ModelMotion<OscillatorEquationsAt>>(
+        OscillatorEquationsAt{o, scale, speed},
+        ModelMotion<OscillatorEquationsAt>::Properties{
+            .size = 4, .n_switches = 1, .omega_highest = omega, .law = o.law});
+  };
+}
+
+}  // namespace
+
+Model model_of(const Oscillator& o)
+{
+  const double omega = std::sqrt(o.k_x / o.mass);
+  const Eigen::Vector4d scale{omega, omega, 1.0, 1.0};
+  const auto scaled_rate = [o, scale]<class Scalar>(const Eigen::VectorX<Scalar>& x, double speed) {
+    const Eigen::Vector4<Scalar> motion = x.cwiseQuotient(scale.cast<Scalar>());
+    return Eigen::VectorX<Scalar>(
+        rate_of<Scalar>(o, motion, speed).cwiseProduct(scale.cast<Scalar>()));
+  };
+  const auto pads = [o, scale](const Eigen::VectorXd& x, double speed) {
+    return pads_of(o, x.cwiseQuotient(scale), speed);
+  };
+  return {.size = 4,
+          .state_matrix =
+              [scaled_rate](double speed) {
+                return derivative_at_rest(
+                    [&](const Eigen::VectorXcd& x) { return scaled_rate(x, speed); }, 4);
+              },
+          .rate = [scaled_rate](const Eigen::VectorXd& x,
+                                double speed) { return scaled_rate(x, speed); },
+          .motion = motion_at(o, scale),
+          .contact = pads,
+          .start =
+              [omega](double displacement) {
+                return Eigen::VectorXd(Eigen::Vector4d{0.0, omega * displacement, 0.0, 0.0});
+              },
+          .rest_height = 0.0,
+          .rest_compression = o.preload / o.contact_stiffness};
+}
+
+double flutter_friction(const Oscillator& o)
+{
+  const double half = 0.5 * (o.k_x - o.k_y - o.contact_stiffness);
+  return (half * half + o.k_xy * o.k_xy) / (o.k_xy * o.contact_stiffness);
+}
+
+}  // namespace chladni::squeal

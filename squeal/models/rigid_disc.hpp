@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <functional>
+#include <optional>
+
+#include "squeal/model_options.hpp"
+
+namespace chladni::squeal {
+
+/// Cardan angles q_1 (about the inertial x axis) and q_2 (about the tilted y axis), their rates,
+/// and the rate of the spin about the axis of the disc.
+template <class Scalar>
+struct RigidMotion {
+  Eigen::Vector2<Scalar> q;      ///< rad
+  Eigen::Vector2<Scalar> q_dot;  ///< rad/s
+  Scalar spin;                   ///< rad/s
+};
+
+template <class Scalar>
+struct RigidPad {
+  Scalar z;                  ///< height of the contact point on the pad axis, m
+  Scalar z_dot;              ///< velocity of the pad, m/s
+  Scalar S;                  ///< force of the pad along its axis, N
+  Scalar S_free;             ///< the same if the pad could pull, N
+  Scalar N;                  ///< normal force, N
+  Scalar slip_speed;         ///< |v_r|, m/s
+  Eigen::Vector3<Scalar> F;  ///< force on the disc, inertial axes, N; F_z = -sigma S
+};
+
+/// The accelerations of a motion and what causes them.
+template <class Scalar>
+struct RigidAcceleration {
+  Eigen::Vector2<Scalar> q_ddot;  ///< rad/s^2
+  Scalar spin_rate;               ///< rad/s^2, zero for Drive::speed
+  Scalar moment;                  ///< M_A of the drive, N m
+  RigidPad<Scalar> upper;
+  RigidPad<Scalar> lower;
+};
+
+/// The nonlinear equations of motion. `Scalar` is double, or complex for derivatives.
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
+                                     Drive drive);
+
+/// The same with the upper and the lower pad each on a branch of the contact law; see
+/// contact_branch.hpp.
+template <class Scalar>
+RigidAcceleration<Scalar> accelerate_on_branches(const RigidDisc& disc,
+                                                 const RigidMotion<Scalar>& motion, Drive drive,
+                                                 const std::array<double, 2>& branches);
+
+/// M q'' + C q' + K q = 0.
+struct RigidMatrices {
+  Eigen::Matrix2d M;  ///< kg m^2
+  Eigen::Matrix2d C;  ///< N m s
+  Eigen::Matrix2d K;  ///< N m
+};
+
+/// The linearised equations at `speed` (rad/s, > 0) in closed form; the same for both drives.
+/// For a constant friction coefficient.
+RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed);
+
+/// The derivatives of `accelerate` at rest by complex steps, exact to rounding.
+RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed);
+
+/// A of x' = A x.
+Eigen::MatrixXd first_order(const RigidMatrices& matrices);
+
+/// The two eigenvalues with Im > 0, of rising frequency: growth rate 1/s + i rad/s.
+Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices);
+
+}  // namespace chladni::squeal

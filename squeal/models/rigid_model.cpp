@@ -1,0 +1,180 @@
+#include "squeal/models/rigid_model.hpp"
+
+#include <cmath>
+#include <complex>
+
+#include <memory>
+#include "squeal/derivative.hpp"
+#include "squeal/models/model_motion.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// sqrt(k_t / Theta): brings the angles of x to the size of their rates.
+double scale_of(const RigidDisc& disc)
+{
+  return std::sqrt(disc.k_t / disc.Theta);
+}
+
+template <class Scalar>
+RigidMotion<Scalar> motion_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
+                              double speed)
+{
+  Scalar spin(speed);
+  if (drive == Drive::moment) spin += x[4];
+  return {x.template head<2>() / scale_of(disc), x.template segment<2>(2), spin};
+}
+
+template <class Scalar>
+RigidAcceleration<Scalar> acceleration(const RigidDisc& disc, Drive drive,
+                                       const Eigen::VectorX<Scalar>& x, double speed)
+{
+  return accelerate(disc, motion_of(disc, drive, x, speed), drive);
+}
+
+/// x' of these accelerations.
+template <class Scalar>
+Eigen::VectorX<Scalar> rate_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
+                               const RigidAcceleration<Scalar>& a)
+{
+  Eigen::VectorX<Scalar> rate(x.size());
+  rate.template head<2>() = scale_of(disc) * x.template segment<2>(2);
+  rate.template segment<2>(2) = a.q_ddot;
+  if (drive == Drive::moment) rate[4] = a.spin_rate;
+  return rate;
+}
+
+template <class Scalar>
+Eigen::VectorX<Scalar> rate_of(const RigidDisc& disc, Drive drive, const Eigen::VectorX<Scalar>& x,
+                               double speed)
+{
+  return rate_of(disc, drive, x, acceleration(disc, drive, x, speed));
+}
+
+template <class Scalar>
+PadState<double> pad_state(const RigidPad<Scalar>& pad, double (*part)(const Scalar&))
+{
+  return {.z = part(pad.z),
+          .z_dot = part(pad.z_dot),
+          .N = part(pad.N),
+          .slip_speed = part(pad.slip_speed),
+          .S = part(pad.S),
+          .f_r = part(-pad.F[1]),  // the pads stand at (0, -r_0)
+          .f_t = part(pad.F[0])};
+}
+
+ContactResult<double> pads_of(const PadState<double>& up, const PadState<double>& lo)
+{
+  return {.force = {lo.S - up.S, 0.0, 0.0}, .upper = up, .lower = lo};
+}
+
+PadState<double> sum(const PadState<double>& a, const PadState<double>& b)
+{
+  return {a.z + b.z, a.z_dot + b.z_dot, a.N + b.N,    a.slip_speed + b.slip_speed,
+          a.S + b.S, a.f_r + b.f_r,     a.f_t + b.f_t};
+}
+
+/// The pads to first order in x: values at rest and their derivative along x.
+ContactResult<double> linear_pads(const RigidDisc& disc, Drive drive, const Eigen::VectorXd& x,
+                                  double speed)
+{
+  const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
+  const RigidAcceleration<Complex> a = acceleration(disc, drive, along, speed);
+  const auto value = [](const Complex& y) { return y.real(); };
+  const auto slope = [](const Complex& y) { return y.imag() / complex_step; };
+  return pads_of(sum(pad_state<Complex>(a.upper, value), pad_state<Complex>(a.upper, slope)),
+                 sum(pad_state<Complex>(a.lower, value), pad_state<Complex>(a.lower, slope)));
+}
+
+ContactResult<double> nonlinear_pads(const RigidDisc& disc, Drive drive, const Eigen::VectorXd& x,
+                                     double speed)
+{
+  const RigidAcceleration<double> a = acceleration(disc, drive, x, speed);
+  const auto value = [](const double& y) { return y; };
+  return pads_of(pad_state<double>(a.upper, value), pad_state<double>(a.lower, value));
+}
+
+Eigen::MatrixXd state_matrix(const RigidDisc& disc, Drive drive, double speed)
+{
+  const Eigen::Index size = drive == Drive::moment ? 5 : 4;
+  return derivative_at_rest(
+             [&](const Eigen::VectorXcd& x) { return rate_of(disc, drive, x, speed); }, size)
+      .topLeftCorner<4, 4>();
+}
+
+/// For ModelMotion: the nonlinear equations at a speed.
+struct RigidEquationsAt {
+  RigidDisc disc;
+  Drive drive;
+  double speed;
+
+  template <class Scalar>
+  SwitchedRate<Scalar> evaluate(const Eigen::VectorX<Scalar>& x,
+                                const Eigen::VectorXd& branches) const
+  {
+    const RigidAcceleration<Scalar> a = accelerate_on_branches<Scalar>(
+        disc, motion_of(disc, drive, x, speed), drive, {branches[0], branches[1]});
+    return {rate_of(disc, drive, x, a),
+            Eigen::Vector2<Scalar>(a.upper.S_free, a.lower.S_free) / disc.preload};
+  }
+  ContactResult<double> contact(const Eigen::VectorXd& x) const
+  {
+    return nonlinear_pads(disc, drive, x, speed);
+  }
+};
+
+/// The springs of the pads raise the frequency of the disc on its own springs.
+double highest_frequency(const RigidDisc& disc)
+{
+  const double k = disc.k_t + 2.0 * disc.spring.linear * disc.radius * disc.radius;
+  return std::sqrt(k / disc.Theta);
+}
+
+AutonomousMotionAt motion_at(const RigidDisc& disc, Drive drive)
+{
+  const Eigen::Index size = drive == Drive::moment ? 5 : 4;
+  return [disc, drive, size](double speed) {
+    return std::make_unique<ModelMotion<RigidEquationsAt>>(
+        RigidEquationsAt{disc, drive, speed},
+        ModelMotion<RigidEquationsAt>::Properties{.size = size,
+                                                  .n_switches = 2,
+                                                  .omega_highest = highest_frequency(disc),
+                                                  .law = disc.law});
+  };
+}
+
+/// The upper pad is displaced by r_0 tan(q_1) + ... = r_0 q_1 to first order.
+Eigen::VectorXd start_of(const RigidDisc& disc, Drive drive, double displacement)
+{
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(drive == Drive::moment ? 5 : 4);
+  x[0] = -scale_of(disc) * displacement / disc.radius;
+  return x;
+}
+
+}  // namespace
+
+Model model_of(const RigidDisc& disc, Drive drive, RigidEquations equations)
+{
+  const bool linear = equations == RigidEquations::linear;
+  return {
+      .size = drive == Drive::moment ? 5 : 4,
+      .state_matrix = [disc, drive](double speed) { return state_matrix(disc, drive, speed); },
+      .rate = [disc, drive, linear](const Eigen::VectorXd& x, double speed) -> Eigen::VectorXd {
+        if (!linear) return rate_of(disc, drive, x, speed);
+        const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
+        return rate_of(disc, drive, along, speed).imag() / complex_step;
+      },
+      .motion = linear ? AutonomousMotionAt() : motion_at(disc, drive),
+      .contact =
+          [disc, drive, linear](const Eigen::VectorXd& x, double speed) {
+            return linear ? linear_pads(disc, drive, x, speed)
+                          : nonlinear_pads(disc, drive, x, speed);
+          },
+      .start = [disc, drive](double displacement) { return start_of(disc, drive, displacement); },
+      .rest_height = 0.5 * disc.thickness,
+      .rest_compression = disc.preload / disc.spring.linear};
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "squeal/brake/contact.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/motion/oscillator_flow.hpp"
+#include "squeal/motion/speed_program.hpp"
+
+namespace chladni::squeal {
+
+/// The contact forces of all pads on a rotating disc and on plates with a mass, and their kick in
+/// the Strang splitting. Coordinates are the modes of the disc, then those of the pads.
+class ContactKick {
+ public:
+  ContactKick(const Disc& disc, const SquealOptions& options, double speed);
+
+  /// v' = Q(q, v, t) with q and t frozen, over `step` (s) by the explicit midpoint rule; Q includes
+  /// the Coriolis terms of the disc.
+  /// @return the contacts at the midpoint, one for each pad pair; valid until the next call
+  const std::vector<ContactResult<double>>& apply(ModalState& x, const Turn& turn, double step);
+
+  /// At time t (s) of a disc at constant speed.
+  const std::vector<ContactResult<double>>& apply(ModalState& x, double t, double step)
+  {
+    return apply(x, Turn{speed_ * t, speed_}, step);
+  }
+
+  const PadSystem& pads() const { return pads_; }
+
+  /// [n x n] 1/s^2, of the contacts in small motions, where the disc stands in the last kick.
+  Eigen::MatrixXd contact_stiffness() const;
+
+ private:
+  /// Q at the rates `v` with the shapes of this instant.
+  const Eigen::VectorXd& force(const Eigen::VectorXd& v);
+
+  double speed_;       ///< at the last kick, rad/s
+  Eigen::MatrixXd G_;  ///< of the disc; see Disc
+  std::vector<RingShapes> rings_;
+  PadSystem pads_;
+  std::vector<PairShapes> shapes_;               ///< of each point at this instant
+  std::vector<PairVector<double>> position_;     ///< of each point at this instant
+  std::vector<PadState<double>> at_rest_;        ///< of each point, at the first speed
+  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last force
+  std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
+  Eigen::VectorXd Q_;
+  Eigen::VectorXd v_mid_;
+};
+
+}  // namespace chladni::squeal

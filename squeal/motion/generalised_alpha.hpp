@@ -1,0 +1,68 @@
+#pragma once
+
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/motion/integrator.hpp"
+
+namespace chladni::squeal {
+
+/// rho of the generalised-alpha method where nothing else is said.
+inline constexpr double spectral_radius_default = 0.98;
+
+/// Numerical damping of an oscillation by steps of the default spectral radius rho, to leading
+/// order: ((1 - rho) / (1 + rho))^3 omega^4 h^3 / 2.
+/// @return 1/s
+inline double damping_of_step(double omega, double step)
+{
+  constexpr double ratio = (1.0 - spectral_radius_default) / (1.0 + spectral_radius_default);
+  const double x = ratio * omega * step;
+  return 0.5 * omega * x * x * x;
+}
+
+/// The implicit generalised-alpha method, of second order, with adaptive steps:
+///   (1 - alpha_m) a_1 + alpha_m a_0 = g(t_0 + (1 - alpha_f) h, (1 - alpha_f) (q_1, v_1)
+///                                                              + alpha_f (q_0, v_0))
+///   q_1 = q_0 + h v_0 + h^2 ((1/2 - beta) a_0 + beta a_1),  v_1 = v_0 + h ((1 - gamma) a_0 + gamma
+///   a_1)
+/// The spectral radius rho is that of one step at infinite frequency. With 1 nothing is damped, not
+/// even what a step cannot resolve, such as the stop of a pad that sticks: it rings, and holds the
+/// steps short. What it costs an oscillation that is resolved is of third order in 1 - rho,
+/// `damping_of_step`. Stable at any step; sides are those of the point where g is evaluated, and
+/// are not located. Source: Chung, Hulbert, Journal of Applied Mechanics 60 (1993) 371-375.
+class GeneralisedAlpha final : public Integrator {
+ public:
+  /// @param motion           outlives the integrator, which sets its sides
+  /// @param spectral_radius  of the amplification at infinite frequency, 0 to 1
+  GeneralisedAlpha(Motion& motion, double t, const Eigen::VectorXd& y, const StepControl& control,
+                   double spectral_radius = spectral_radius_default);
+
+  const Eigen::VectorXd& at(double t) override;
+
+  /// All that the motion to come depends on; the sides are the motion's.
+  void exchange(StateArchive& archive);
+
+ private:
+  void advance();
+  double try_step(double step);
+  bool solve(double step);
+  void place_end(double step);
+  void factorize(double t, const Eigen::VectorXd& y, double step);
+  Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& y);
+
+  Motion& motion_;
+  StepControl control_;
+  double alpha_m_, alpha_f_, beta_, gamma_;
+  double t_;                   ///< end of the last step, s
+  double step_;                ///< the last step, s
+  double step_next_;           ///< s
+  double error_held_ = 0.0;    ///< largest error of late, over the tolerance
+  Eigen::VectorXd y_, begin_;  ///< (diag(omega) q, v) at the end and the begin of the last step
+  Eigen::VectorXd a_, a_begin_;
+  Eigen::VectorXd end_, a_end_;  ///< of the step under trial
+  Eigen::VectorXd stage_;
+  Eigen::VectorXd sample_;
+  Eigen::MatrixXd tangent_;  ///< of Newton's method
+  Eigen::PartialPivLU<Eigen::MatrixXd> newton_;
+  double step_factorized_ = 0.0;  ///< for which `newton_` was made
+};
+
+}  // namespace chladni::squeal

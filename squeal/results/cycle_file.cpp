@@ -1,0 +1,130 @@
+#include "squeal/results/cycle_file.hpp"
+
+#include <complex>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "mbs_export/files/file_parts.hpp"
+#include "squeal/results/analysis_file.hpp"
+#include "squeal/results/file_checks.hpp"
+#include "squeal/results/transient_file.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using files::Reader;
+using files::Writer;
+
+Eigen::VectorXcd complex_vector(const Eigen::VectorXd& re, const Eigen::VectorXd& im)
+{
+  return re + std::complex<double>(0.0, 1.0) * im;
+}
+
+/// A dataset of a branch and the member that it holds.
+struct Column {
+  const char* name;
+  const char* unit;
+  double BranchPoint::*member;
+};
+
+constexpr Column columns[] = {{"speeds", "rad/s", &BranchPoint::speed},
+                              {"frequency", "Hz", &BranchPoint::frequency_Hz},
+                              {"pad_velocity", "m/s", &BranchPoint::pad_velocity},
+                              {"pad_displacement", "m", &BranchPoint::pad_displacement},
+                              {"N_min", "N", &BranchPoint::N_min},
+                              {"N_max", "N", &BranchPoint::N_max},
+                              {"largest_multiplier", "1", &BranchPoint::largest_multiplier}};
+
+void write_points(Writer& file, const std::string& group, const std::vector<BranchPoint>& points)
+{
+  for (const Column& column : columns) {
+    std::vector<double> values;
+    for (const BranchPoint& point : points) values.push_back(point.*column.member);
+    file.write(group + column.name, values, column.unit);
+  }
+}
+
+std::vector<BranchPoint> read_points(const Reader& file, const std::string& group)
+{
+  const Eigen::Index n = file.vector(group + columns[0].name).size();
+  std::vector<BranchPoint> points(static_cast<std::size_t>(n));
+  for (const Column& column : columns) {
+    const Eigen::VectorXd values = file.vector(group + column.name, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      points[static_cast<std::size_t>(i)].*column.member = values[i];
+  }
+  return points;
+}
+
+}  // namespace
+
+void write_direct(Writer& file, const DirectLimitCycle& cycle)
+{
+  file.write("limit_cycle_direct/speed", cycle.speed, "rad/s");
+  file.write("limit_cycle_direct/frequency", cycle.frequency_Hz, "Hz");
+  file.write("limit_cycle_direct/pad_velocity", cycle.pad_velocity, "m/s");
+  file.write("limit_cycle_direct/pad_displacement", cycle.pad_displacement, "m");
+  file.write("limit_cycle_direct/N_min", cycle.N_min, "N");
+  file.write("limit_cycle_direct/N_max", cycle.N_max, "N");
+  file.write("limit_cycle_direct/slip_speed_min", cycle.slip_speed_min, "m/s");
+  file.write("limit_cycle_direct/multipliers_re", cycle.multipliers.real(), "1");
+  file.write("limit_cycle_direct/multipliers_im", cycle.multipliers.imag(), "1");
+  file.write("limit_cycle_direct/stable", std::int64_t{cycle.stable}, "1");
+  file.write("limit_cycle_direct/newton_steps", std::int64_t{cycle.n_newton_steps}, "1");
+  file.write("limit_cycle_direct/contact_evaluations", cycle.n_contact_evaluations, "1");
+  file.write("limit_cycle_direct/x", cycle.x, "m kg^(1/2) / s");
+  file.write("limit_cycle_direct/mode_numbers", std::span<const int>(cycle.mode_numbers), "1");
+  file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
+  file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
+  write_energy(file, cycle.energy);
+}
+
+DirectLimitCycle read_direct(const Reader& file)
+{
+  std::vector<int> numbers = read_mode_numbers(file, "limit_cycle_direct/mode_numbers");
+  const auto n = static_cast<Eigen::Index>(numbers.size());
+  Eigen::VectorXd x = file.vector("limit_cycle_direct/x");
+  const Eigen::Index size = x.size();
+  if (size < 2)
+    file.fail("limit_cycle_direct/x", "expected a displacement and a velocity at least");
+  return {
+      .speed = file.real("limit_cycle_direct/speed"),
+      .frequency_Hz = file.real("limit_cycle_direct/frequency"),
+      .pad_velocity = file.real("limit_cycle_direct/pad_velocity"),
+      .pad_displacement = file.real("limit_cycle_direct/pad_displacement"),
+      .N_min = file.real("limit_cycle_direct/N_min"),
+      .N_max = file.real("limit_cycle_direct/N_max"),
+      .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
+      .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", size),
+                                    file.vector("limit_cycle_direct/multipliers_im", size)),
+      .stable = file.integer("limit_cycle_direct/stable") != 0,
+      .n_newton_steps = mbs_export::file_parts::read_count(file, "limit_cycle_direct/newton_steps"),
+      .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
+      .x = std::move(x),
+      .mode_numbers = std::move(numbers),
+      .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
+                                  file.vector("limit_cycle_direct/amplitude_im", n)),
+      .energy = read_energy(file)};
+}
+
+void write_branch(Writer& file, const LimitCycleBranch& branch)
+{
+  write_points(file, "limit_cycle_branch/", branch.points);
+  if (!branch.folds.empty()) write_points(file, "limit_cycle_branch/folds/", branch.folds);
+  write_optional(file, "limit_cycle_branch/lost_below", branch.lost_below, "rad/s");
+  write_optional(file, "limit_cycle_branch/lost_above", branch.lost_above, "rad/s");
+}
+
+LimitCycleBranch read_branch(const Reader& file)
+{
+  LimitCycleBranch branch;
+  branch.points = read_points(file, "limit_cycle_branch/");
+  if (file.contains("limit_cycle_branch/folds"))
+    branch.folds = read_points(file, "limit_cycle_branch/folds/");
+  branch.lost_below = read_optional(file, "limit_cycle_branch/lost_below");
+  branch.lost_above = read_optional(file, "limit_cycle_branch/lost_above");
+  return branch;
+}
+
+}  // namespace chladni::squeal

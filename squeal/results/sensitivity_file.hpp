@@ -1,0 +1,12 @@
+#pragma once
+
+#include "files/hdf5.hpp"
+#include "squeal/results/results.hpp"
+
+namespace chladni::squeal {
+
+/// The group `mode_sensitivity` of a result file.
+void write_sensitivity(files::Writer& file, const ModeSensitivity& sensitivity);
+ModeSensitivity read_sensitivity(const files::Reader& file);
+
+}  // namespace chladni::squeal

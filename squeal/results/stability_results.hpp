@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// Eigenvalues with Im >= 0 of the sliding disc, each column followed over the speed.
+struct EigenvalueMap {
+  Eigen::VectorXd speeds;   ///< [m] rad/s
+  Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
+  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
+  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
+  /// with a mass, of norm 1.
+  /// Empty for models without a body.
+  std::vector<Eigen::MatrixXcd> shapes = {};
+  /// 1-based in the body, of the first rows of the shapes; empty without shapes and in files of
+  /// earlier versions.
+  std::vector<int> mode_numbers = {};
+};
+
+/// The least stable motion of the sliding disc at one value of a parameter.
+struct StabilityPoint {
+  double value;            ///< of the parameter: rad/s, 1, N or N/m
+  double growth;           ///< 1/s; 0 where stability is lost or regained
+  double frequency_Hz;     ///< of the motion
+  int n_newton_steps = 0;  ///< that led to a limit of stability; 0: bisection alone
+};
+
+/// An interval of a parameter in which the sliding disc is unstable.
+struct UnstableInterval {
+  StabilityPoint from, to;  ///< limits of stability, or ends of the range that was searched
+  StabilityPoint worst;     ///< where the growth was largest among the values that were looked at
+};
+
+/// Stability of the sliding disc over a range of one parameter; see stability_search.hpp.
+struct StabilityProfile {
+  StabilityPoint from, to;                 ///< the ends of the range
+  std::vector<UnstableInterval> unstable;  ///< by rising values
+};
+
+/// What a range of a parameter does to the stability.
+enum class Stability {
+  stable,    ///< in the whole range
+  unstable,  ///< in the whole range
+  lost,      ///< the range holds a value from which on sliding is unstable
+  regained   ///< unstable at the lower end, and stable from a value of the range on
+};
+
+/// "stable in the whole range", "unstable in the whole range", "lost within the range" or
+/// "regained within the range".
+const char* name_of(Stability stability);
+
+/// The lowest speed at which the sliding disc loses its stability.
+struct CriticalSpeed {
+  double speed;            ///< rad/s
+  double frequency_Hz;     ///< of the undamped oscillation there
+  int n_newton_steps = 0;  ///< 0: it was bisected, because Newton's method led elsewhere
+};
+
+/// Where the sliding disc loses or regains its stability over one parameter.
+struct CriticalValue {
+  std::string parameter;  ///< "friction", "preload" or "stiffness"
+  double speed;           ///< rad/s
+  /// The lowest value at which stability is lost, else the lowest at which it is regained: 1, N or
+  /// N/m; absent when there is neither in the range.
+  std::optional<double> value;
+  double frequency_Hz;  ///< of the undamped oscillation there
+  int n_newton_steps;
+  std::optional<StabilityProfile> profile = {};  ///< absent in files of earlier versions
+};
+
+/// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
+struct StabilityMap {
+  std::string parameter;         ///< "friction", "preload" or "stiffness"
+  Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
+  Eigen::VectorXd speeds;        ///< [n] rad/s
+  Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
+  Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
+};
+
+/// Floquet stability of the sliding disc in its own frame, over the speed; see
+/// rotation_stability.hpp.
+struct RotationStability {
+  Eigen::VectorXd speeds;                ///< [m] rad/s
+  Eigen::VectorXd growth;                ///< [m] largest growth rate, 1/s
+  Eigen::VectorXd frequency_Hz;          ///< [m] of the motion with it, in the frame of the disc
+  std::optional<double> critical_speed;  ///< the first from which it grows, rad/s
+};
+
+/// What the lowest modes alone would say.
+struct ModeSubset {
+  int n_modes;
+  double highest_Hz;
+  std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
+  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
+  double growth;               ///< largest growth rate at the critical speed of all modes, 1/s
+  std::string stability = {};  ///< over the speed, in the words of name_of(Stability)
+};
+
+/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
+struct ModeInfluence {
+  int nodal_diameters;
+  double frequency_Hz;   ///< of the mode
+  double participation;  ///< part of the kinetic energy of the critical oscillation
+  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
+  /// absent for the mode that it consists of.
+  std::optional<double> growth_without;
+  std::optional<double> critical_speed_without;  ///< rad/s
+};
+
+/// Which modes move the critical speed.
+struct ModeSensitivity {
+  double critical_speed;  ///< with all modes, rad/s
+  double critical_frequency_Hz;
+  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
+  std::vector<ModeInfluence> influences;  ///< by rising frequency
+};
+
+}  // namespace chladni::squeal

@@ -1,0 +1,47 @@
+#include "squeal/stability/eigenvalue_branches.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+
+}  // namespace
+
+Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
+{
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, /*computeEigenvectors=*/false);
+  if (solver.info() != Eigen::Success)
+    throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
+  const Eigen::VectorXcd& lambda = solver.eigenvalues();
+  std::vector<Complex> sorted(lambda.begin(), lambda.end());
+  std::sort(sorted.begin(), sorted.end(), [](const Complex& x, const Complex& y) {
+    return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();
+  });
+  return Eigen::Map<const Eigen::VectorXcd>(sorted.data(), lambda.size() / 2);
+}
+
+Eigen::VectorXcd matched(const Eigen::VectorXcd& values, const Eigen::VectorXcd& expected)
+{
+  Eigen::MatrixXd distance(values.size(), values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    distance.row(i) = (expected.array() - values[i]).abs().transpose();
+  Eigen::VectorXcd ordered(values.size());
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    Eigen::Index i = 0, j = 0;
+    distance.minCoeff(&i, &j);
+    ordered[j] = values[i];
+    distance.row(i).setConstant(std::numeric_limits<double>::infinity());
+    distance.col(j).setConstant(std::numeric_limits<double>::infinity());
+  }
+  return ordered;
+}
+
+}  // namespace chladni::squeal

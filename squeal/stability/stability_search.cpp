@@ -1,0 +1,276 @@
+#include "squeal/stability/stability_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_samples.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Width of the bracket, relative to the distance of the samples, from which Newton's method
+/// starts.
+constexpr double bracket = 1e-4;
+/// Distance of values, relative to that of the samples, at which the search for an extremum ends.
+constexpr double resolution = 1e-6;
+/// Of values at which two branches have one frequency: linear interpolation, and the secant method.
+constexpr int secant_steps = 2;
+
+/// Three samples at equal distances.
+struct Triple {
+  StabilitySample low, middle, high;
+};
+
+/// Something that a sample may have too little of to be of the other stability.
+using Height = std::function<double(const StabilitySample&)>;
+
+/// Whether the height is largest in the middle and may rise above zero beside it. A parabola
+/// through the three rises above the middle by an eighth of its second difference, two straight
+/// lines by half of it: all of it leaves a margin.
+bool may_rise_above_zero(const Triple& t, const Height& height)
+{
+  const double middle = height(t.middle), low = height(t.low), high = height(t.high);
+  const double rise = 2.0 * middle - low - high;
+  return middle >= low && middle >= high && middle + rise > rounding_of(t.middle.lambda);
+}
+
+/// A sample of the other stability about the maximum of the height, which is followed by halving
+/// the distances.
+std::optional<StabilitySample> beyond_maximum(const StateMatrixOf& A, Triple t,
+                                              const Height& height)
+{
+  const double smallest = resolution * (t.high.value - t.low.value);
+  const bool unstable = t.middle.unstable;
+  while (t.high.value - t.low.value > smallest && may_rise_above_zero(t, height)) {
+    StabilitySample left = sample_between(A, t.low, t.middle, 0.5);
+    if (left.unstable != unstable) return left;
+    StabilitySample right = sample_between(A, t.middle, t.high, 0.5);
+    if (right.unstable != unstable) return right;
+    if (height(left) > height(t.middle) && height(left) >= height(right)) {
+      t = {std::move(t.low), std::move(left), std::move(t.middle)};
+    } else if (height(right) > height(t.middle)) {
+      t = {std::move(t.middle), std::move(right), std::move(t.high)};
+    } else {
+      t = {std::move(left), std::move(t.middle), std::move(right)};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What may hide beside the middle of three samples of one stability.
+std::vector<StabilitySample> beyond_maxima(const StateMatrixOf& A, const Triple& t)
+{
+  std::vector<StabilitySample> found;
+  if (t.middle.unstable) {
+    const auto depth = [](const StabilitySample& sample) { return -sample.growth(); };
+    if (auto sample = beyond_maximum(A, t, depth)) found.push_back(std::move(*sample));
+    return found;
+  }
+  for (Eigen::Index j = 0; j < t.middle.lambda.size(); ++j) {
+    const auto growth = [j](const StabilitySample& sample) { return sample.lambda[j].real(); };
+    if (auto sample = beyond_maximum(A, t, growth)) found.push_back(std::move(*sample));
+  }
+  return found;
+}
+
+/// Every three neighbours, and at each end of the range the last interval with its middle.
+std::vector<Triple> triples(const StateMatrixOf& A, const std::vector<StabilitySample>& samples)
+{
+  const auto halved = [&](const StabilitySample& low, const StabilitySample& high) {
+    return Triple{low, sample_between(A, low, high, 0.5), high};
+  };
+  std::vector<Triple> all = {halved(samples[0], samples[1])};
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i)
+    all.push_back({samples[i - 1], samples[i], samples[i + 1]});
+  all.push_back(halved(samples.end()[-2], samples.end()[-1]));
+  return all;
+}
+
+/// Two branches whose frequencies cross between two samples.
+struct Crossing {
+  Eigen::Index j, k;
+
+  double distance(const StabilitySample& s) const { return (s.lambda[j] - s.lambda[k]).imag(); }
+};
+
+std::vector<Crossing> crossings(const StabilitySample& a, const StabilitySample& b)
+{
+  const double degenerate = 1e3 * rounding_of(a.lambda);
+  std::vector<Crossing> found;
+  for (Eigen::Index j = 0; j < a.lambda.size(); ++j) {
+    for (Eigen::Index k = j + 1; k < a.lambda.size(); ++k) {
+      const Crossing at{j, k};
+      const double at_a = at.distance(a), at_b = at.distance(b);
+      if (at_a * at_b < 0.0 && std::abs(at_a - at_b) > degenerate) found.push_back(at);
+    }
+  }
+  return found;
+}
+
+/// Samples where two branches have one frequency, between two samples in which nothing grows.
+std::vector<StabilitySample> at_crossings(const StateMatrixOf& A, const StabilitySample& a,
+                                          const StabilitySample& b)
+{
+  std::vector<StabilitySample> found;
+  for (const Crossing& crossing : crossings(a, b)) {
+    StabilitySample low = a, high = b;
+    for (int step = 0; step < secant_steps; ++step) {
+      const double at_low = crossing.distance(low), at_high = crossing.distance(high);
+      StabilitySample at = sample_between(A, low, high, at_low / (at_low - at_high));
+      found.push_back(at);
+      if (at.unstable || crossing.distance(at) == 0.0) break;
+      (crossing.distance(at) * at_low > 0.0 ? low : high) = std::move(at);
+    }
+  }
+  return found;
+}
+
+/// The samples of a scan, and those between them at which stability may change and change back.
+std::vector<StabilitySample> all_samples(const StateMatrixOf& A, const SearchRange& range)
+{
+  std::vector<StabilitySample> samples = scan(A, range);
+  std::vector<StabilitySample> more;
+  const auto add = [&](std::vector<StabilitySample> found) {
+    std::move(found.begin(), found.end(), std::back_inserter(more));
+  };
+  for (const Triple& t : triples(A, samples)) {
+    more.push_back(t.middle);
+    if (t.low.unstable == t.middle.unstable && t.high.unstable == t.middle.unstable)
+      add(beyond_maxima(A, t));
+  }
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+    if (!samples[i].unstable && !samples[i + 1].unstable)
+      add(at_crossings(A, samples[i], samples[i + 1]));
+  std::move(more.begin(), more.end(), std::back_inserter(samples));
+  std::stable_sort(
+      samples.begin(), samples.end(),
+      [](const StabilitySample& x, const StabilitySample& y) { return x.value < y.value; });
+  return samples;
+}
+
+double frequency_of(const Complex& lambda)
+{
+  return std::abs(lambda.imag()) / (2.0 * std::numbers::pi);
+}
+
+StabilityPoint point_of(const StabilitySample& sample)
+{
+  Eigen::Index i = 0;
+  const double growth = sample.lambda.real().maxCoeff(&i);
+  return {sample.value, growth, frequency_of(sample.lambda[i])};
+}
+
+/// A value without and one with growth.
+struct Bracket {
+  double stable, unstable;
+
+  double width() const { return std::abs(unstable - stable); }
+};
+
+/// Bisected until it is so wide, or holds no number between its ends.
+template <class IsUnstable>
+Bracket narrowed(Bracket b, double width, const IsUnstable& is_unstable_at)
+{
+  while (b.width() > width) {
+    const double middle = 0.5 * (b.stable + b.unstable);
+    if (middle == b.stable || middle == b.unstable) break;
+    (is_unstable_at(middle) ? b.unstable : b.stable) = middle;
+  }
+  return b;
+}
+
+/// Newton's method from the unstable end, if it ends within the bracket where nothing grows.
+std::optional<StabilityPoint> polished(const StateMatrixOf& A, const Bracket& b)
+{
+  const EigenPair growing = least_stable_pair(A(b.unstable));
+  const auto point = hopf_point(A, b.unstable, growing.lambda.imag(), growing.u);
+  if (!point || !(std::abs(point->value - b.stable) <= b.width()) ||
+      !(std::abs(point->value - b.unstable) <= b.width()) || is_unstable(A(point->value)))
+    return std::nullopt;
+  return StabilityPoint{point->value, 0.0, frequency_of({0.0, point->omega}),
+                        point->n_newton_steps};
+}
+
+/// Where stability changes between two samples.
+StabilityPoint limit_between(const StateMatrixOf& A, const StabilitySample& a,
+                             const StabilitySample& b, double distance)
+{
+  const Bracket wide = a.unstable ? Bracket{b.value, a.value} : Bracket{a.value, b.value};
+  const StabilitySample& stable = a.unstable ? b : a;
+  // Where all motions decay, growth is found by its sign; beside a neutral one, by its doubt.
+  const bool decays = stable.growth() < -rounding_of(stable.lambda);
+  const auto unstable_at = [&](double value) {
+    const Eigen::MatrixXd A_here = A(value);
+    return decays ? least_stable_eigenvalue(A_here).real() > 0.0 : is_unstable(A_here);
+  };
+  const Bracket near = narrowed(wide, bracket * distance, unstable_at);
+  // The doubt may hide the first growth of a slow motion: then Newton's value is below the bracket.
+  if (const auto point = polished(A, decays ? near : Bracket{wide.stable, near.unstable}))
+    return *point;
+  const double value = narrowed(near, 0.0, unstable_at).unstable;
+  return {value, 0.0, frequency_of(least_stable_eigenvalue(A(value)))};
+}
+
+/// The unstable samples between limits of stability.
+std::vector<UnstableInterval> intervals(const StateMatrixOf& A,
+                                        const std::vector<StabilitySample>& samples,
+                                        double distance)
+{
+  std::vector<UnstableInterval> found;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const StabilityPoint here = point_of(samples[i]);
+    const bool was_unstable = i > 0 && samples[i - 1].unstable;
+    if (samples[i].unstable != was_unstable) {
+      const StabilityPoint limit =
+          i > 0 ? limit_between(A, samples[i - 1], samples[i], distance) : here;
+      if (was_unstable)
+        found.back().to = limit;
+      else
+        found.push_back({limit, here, here});
+    }
+    if (!samples[i].unstable) continue;
+    found.back().to = here;
+    if (here.growth > found.back().worst.growth) found.back().worst = here;
+  }
+  return found;
+}
+
+}  // namespace
+
+StabilityProfile stability_over(const StateMatrixOf& A, const SearchRange& range)
+{
+  const std::vector<StabilitySample> samples = all_samples(A, range);
+  const double distance = (range.to - range.from) / (range.count - 1);
+  return {point_of(samples.front()), point_of(samples.back()), intervals(A, samples, distance)};
+}
+
+std::optional<StabilityPoint> first_loss(const StabilityProfile& profile)
+{
+  for (const UnstableInterval& interval : profile.unstable)
+    if (interval.from.value > profile.from.value) return interval.from;
+  return std::nullopt;
+}
+
+std::optional<StabilityPoint> first_regain(const StabilityProfile& profile)
+{
+  for (const UnstableInterval& interval : profile.unstable)
+    if (interval.to.value < profile.to.value) return interval.to;
+  return std::nullopt;
+}
+
+Stability stability_of(const StabilityProfile& profile)
+{
+  if (profile.unstable.empty()) return Stability::stable;
+  if (first_loss(profile)) return Stability::lost;
+  return first_regain(profile) ? Stability::regained : Stability::unstable;
+}
+
+}  // namespace chladni::squeal

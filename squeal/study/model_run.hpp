@@ -1,0 +1,13 @@
+#pragma once
+
+#include "squeal/model_options.hpp"
+#include "squeal/results/results.hpp"
+#include "squeal/study/run.hpp"
+
+namespace chladni::squeal {
+
+/// Performs `options.analyses`; "limit-cycle" runs the transient that it needs.
+/// @throws chladni::Error from the analyses.
+SquealResults run(const ModelOptions& options, const StudyKeeping& keeping = {});
+
+}  // namespace chladni::squeal

@@ -1,0 +1,36 @@
+#include "squeal/transient/sticking.hpp"
+
+#include <cmath>
+
+namespace chladni::squeal {
+namespace {
+
+/// eps over the speed of sliding. The creep of a pad that sticks is an error of first order in it.
+constexpr double creep = 1e-3;
+
+/// sum over the harmonics of the amplitude of each mode, a bound of its largest value.
+Eigen::ArrayXd amplitudes(const Harmonics& f)
+{
+  return (f.cosine.cwiseAbs2() + f.sine.cwiseAbs2()).cwiseSqrt().colwise().sum().transpose();
+}
+
+}  // namespace
+
+SquealOptions with_friction_at_rest(SquealOptions options, const Disc& disc, double speed)
+{
+  if (options.slip_regularisation == 0.0)
+    options.slip_regularisation = creep * std::abs(speed) * disc.rings.front().radius;
+  return options;
+}
+
+double surface_speed(const Disc& disc, double thickness, const ModalState& start)
+{
+  const DiscRing& ring = disc.rings.front();
+  const Eigen::ArrayXd slopes =
+      (amplitudes(ring.W_r).square() + amplitudes(ring.W_t).square()).sqrt();
+  const Eigen::ArrayXd rates =
+      (disc.omega.cwiseProduct(start.q).cwiseAbs2() + start.v.cwiseAbs2()).cwiseSqrt().array();
+  return 0.5 * thickness * (slopes * rates).sum();
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "squeal/brake/contact.hpp"
+#include "squeal/motion/oscillator_flow.hpp"
+#include "squeal/motion/state_archive.hpp"
+#include "squeal/results/results.hpp"
+#include "squeal/transient/integrator_choice.hpp"
+
+namespace chladni::squeal {
+
+/// A transient as equally spaced samples, at t_i = (i + 1/2) step; one class for each integrator.
+class TransientSteps {
+ public:
+  TransientSteps() = default;
+  TransientSteps(const TransientSteps&) = delete;
+  TransientSteps& operator=(const TransientSteps&) = delete;
+  virtual ~TransientSteps() = default;
+
+  /// Goes on to the next sample.
+  /// @return the contacts there, one for each pad pair; not finite when the motion diverges; valid
+  ///         until the next call
+  virtual const std::vector<ContactResult<double>>& next() = 0;
+
+  /// The modes of the disc at the sample, in the frame that rotates with the disc.
+  virtual ModalState state() const = 0;
+
+  virtual std::int64_t n_steps() const = 0;
+  virtual std::int64_t n_contact_evaluations() const = 0;
+  virtual std::vector<ContactEvent> events() const { return {}; }
+  virtual std::int64_t n_events() const { return 0; }
+
+  /// All that the samples to come depend on.
+  virtual void exchange(StateArchive& archive) = 0;
+};
+
+/// Samples for one period of the highest mode with adaptive steps.
+inline constexpr int samples_per_period = 20;
+
+/// The steps of `choice.kind` from the state `start` at t = 0.
+/// @param step  of the samples, s; with "splitting" and "exponential" also of the integration
+std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOptions& options,
+                                                const TransientCase& run,
+                                                const IntegratorChoice& choice, double step,
+                                                const ModalState& start);
+
+}  // namespace chladni::squeal
