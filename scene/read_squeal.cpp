@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <numbers>
 
 #include "scene/read_tables.hpp"
 #include "scene/squeal_tables.hpp"
@@ -55,7 +56,11 @@ std::optional<int> nodal_diameters(const std::string& text)
 squeal::ModeChoice read_modes(const Table& squeal)
 {
   squeal::ModeChoice modes;
+  if (squeal.has("quasi_static_above_Hz"))
+    modes.quasi_static_above = 2.0 * std::numbers::pi * squeal.number("quasi_static_above_Hz");
   if (!squeal.has("use_modes")) return modes;
+  if (modes.quasi_static_above && !(!squeal.is_list("use_modes") && squeal.text("use_modes") == "all"))
+    squeal.refuse("quasi_static_above_Hz", "needs use_modes = \"all\": modes that are named have their inertia");
   if (squeal.is_list("use_modes")) {
     modes.list = read_mode_list(squeal, "use_modes");
     return modes;

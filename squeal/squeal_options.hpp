@@ -23,10 +23,13 @@ struct SpeedRange {
   std::optional<double> wheel_radius = {};  ///< m; then speeds are told on the road too
 };
 
-/// Which modes of the body take part: exactly one member is set; none means all.
+/// Which modes of the body take part: at most one of the first two is set; none means all.
 struct ModeChoice {
-  std::optional<int> nodal_diameters;    ///< the lowest pair with so many nodal diameters
-  std::optional<std::vector<int>> list;  ///< 1-based mode numbers of the body
+  std::optional<int> nodal_diameters = {};    ///< the lowest pair with so many nodal diameters
+  std::optional<std::vector<int>> list = {};  ///< 1-based mode numbers of the body
+  /// Modes of higher frequency follow the pads without inertia, rad/s; absent: with interface modes
+  /// 1.5 times the end of the range for which the body was made, else none.
+  std::optional<double> quasi_static_above = {};
 };
 
 /// How a transient is integrated; see integrator_choice.hpp.

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "common/error.hpp"
 #include "mbs_export/mass_integrals.hpp"
+#include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -22,8 +25,12 @@ using std::numbers::pi;
 /// Below this angular frequency (0.1 Hz) a mode counts as a rigid-body motion, rad/s.
 constexpr double rigid_limit = 0.2 * pi;
 
-/// Ring motion below this part of the largest one is rounding of the FE model: an in-plane mode.
-constexpr double still_limit = 1e-5;
+/// Ring motion below this part of the largest one, a 4e-6th of its kinetic energy, is that of a
+/// mode in the plane of the disc: rounding of the FE model, or what a hat or vanes make of torsion.
+constexpr double still_limit = 2e-3;
+
+/// Modes of bodies with interface modes have no inertia so far beyond the range.
+constexpr double quasi_static_multiple = 1.5;
 
 /// Angles of a mesh are known to about 1e-9; beyond this the nodes are not equally spaced, rad.
 constexpr double angle_limit = 1e-5;
@@ -53,7 +60,8 @@ DiscRing ring_of(const ModalBody& body, const std::string& name)
           .radius = ring.radius,
           .W = harmonics_of(ring.angles, ring.W),
           .W_r = harmonics_of(ring.angles, ring.W_r),
-          .W_t = harmonics_of(ring.angles, ring.W_t)};
+          .W_t = harmonics_of(ring.angles, ring.W_t),
+          .n_nodes = static_cast<int>(ring.angles.size())};
 }
 
 /// int rho phi_i . (e_z x phi_j) dV when the body has the integrals, else zero.
@@ -75,22 +83,10 @@ Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& na
       .rings = rings, .mode_numbers = numbers, .omega = body.omega, .C = C, .G = coriolis_of(body)};
 }
 
-Eigen::MatrixXd squared_amplitudes(const Harmonics& f)
-{
-  return f.cosine.cwiseAbs2() + f.sine.cwiseAbs2();
-}
-
 /// Squared amplitude of each harmonic of each mode on all rings, slopes multiplied by the radius.
 Eigen::MatrixXd ring_motion(const Disc& disc)
 {
-  Eigen::Index n_orders = 0;
-  for (const DiscRing& ring : disc.rings) n_orders = std::max(n_orders, ring.W.cosine.rows());
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(n_orders, disc.n_modes());
-  for (const DiscRing& ring : disc.rings)
-    motion.topRows(ring.W.cosine.rows()) +=
-        squared_amplitudes(ring.W) +
-        ring.radius * ring.radius * (squared_amplitudes(ring.W_r) + squared_amplitudes(ring.W_t));
-  return motion;
+  return ring_harmonics(disc.rings).squares_by_harmonic();
 }
 
 /// 0-based modes that move the ring along the axis.
@@ -101,6 +97,16 @@ std::vector<int> moving_modes(const Disc& disc)
   for (int i = 0; i < motion.size(); ++i)
     if (motion[i] > still_limit * motion.maxCoeff()) modes.push_back(i);
   return modes;
+}
+
+/// 1-based, of the others.
+std::vector<int> still_modes(const Disc& disc)
+{
+  const std::vector<int> moving = moving_modes(disc);
+  std::vector<int> still;
+  for (int i = 0; i < disc.n_modes(); ++i)
+    if (!std::ranges::binary_search(moving, i)) still.push_back(i + 1);
+  return still;
 }
 
 std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
@@ -136,13 +142,47 @@ std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
   return modes;
 }
 
-std::vector<int> chosen_modes(const Disc& disc, const ModeChoice& choice)
+/// Which 0-based modes of a body are what.
+struct Parts {
+  std::vector<int> dynamic, quasi_static;
+};
+
+/// From where on modes follow without inertia, rad/s. Bodies with interface modes: beyond the range
+/// of a tolerance, or of the modes that were kept. Others: nowhere.
+double quasi_static_from(const ModalBody& body, const ModeChoice& choice)
+{
+  if (choice.quasi_static_above) return *choice.quasi_static_above;
+  double range = 0.0, interface = 0.0;
+  for (std::size_t i = 0; i < body.kinds.size(); ++i) {
+    double& highest = body.kinds[i] == ModeKind::interface ? interface : range;
+    highest = std::max(highest, body.omega[static_cast<Eigen::Index>(i)]);
+  }
+  if (interface == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
+  return quasi_static_multiple * (body.selection ? body.selection->Omega_max : range);
+}
+
+Parts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
+{
+  Parts parts;
+  const double limit = quasi_static_from(body, choice);
+  for (const int i : moving_modes(disc))
+    (disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
+  if (parts.dynamic.empty())
+    throw Error(
+        fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
+                    "that moves the ring has {:.6g} Hz",
+                    limit / (2.0 * pi), disc.omega[parts.quasi_static.front()] / (2.0 * pi)));
+  return parts;
+}
+
+Parts chosen_parts(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
 {
   if (choice.nodal_diameters && choice.list)
     throw Error("use_modes: either nodal diameters or a list, not both");
-  if (choice.nodal_diameters) return modes_with_nodal_diameters(disc, *choice.nodal_diameters);
-  if (choice.list) return listed_modes(disc, *choice.list);
-  return moving_modes(disc);
+  if (choice.nodal_diameters)
+    return {modes_with_nodal_diameters(disc, *choice.nodal_diameters), {}};
+  if (choice.list) return {listed_modes(disc, *choice.list), {}};
+  return parts_of_all(disc, body, choice);
 }
 
 void check_elastic(const ModalBody& body, const std::vector<int>& modes)
@@ -171,7 +211,7 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
   std::vector<DiscRing> rings;
   for (const DiscRing& ring : all.rings)
     rings.push_back({ring.name, ring.radius, columns(ring.W, modes), columns(ring.W_r, modes),
-                     columns(ring.W_t, modes)});
+                     columns(ring.W_t, modes), ring.n_nodes});
   return {.rings = rings,
           .mode_numbers = numbers,
           .omega = all.omega(modes),
@@ -249,9 +289,13 @@ Disc make_disc(const ModalBody& body, const std::vector<std::string>& names,
         fmt::format("ring '{}': no mode of the body moves it along the axis; it is held, or "
                     "the body has no bending modes",
                     fmt::join(names, "', '")));
-  const std::vector<int> modes = chosen_modes(all, choice);
-  check_elastic(body, modes);
-  return with_modes(all, modes);
+  const Parts parts = chosen_parts(all, body, choice);
+  check_elastic(body, parts.dynamic);
+  Disc disc = with_modes(all, parts.dynamic);
+  if (!parts.quasi_static.empty())
+    disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
+  if (!choice.nodal_diameters && !choice.list) disc.still = still_modes(all);
+  return disc;
 }
 
 Shapes shapes_at(const DiscRing& ring, double theta)

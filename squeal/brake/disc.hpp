@@ -31,13 +31,34 @@ struct Harmonics {
   Eigen::MatrixXd sine;    ///< [n/2 + 1 x n_modes]
 };
 
+/// What forces on the contact rings do to them through modes so far above the range of interest
+/// that they follow without inertia: the displacement at the angle theta by a force at alpha is
+/// Re sum_d C[d] exp(i d (theta - alpha)), the mean over all positions of the disc.
+struct RingCompliance {
+  /// [n_harmonics][3 n_rings x 3 n_rings] of (w, g_r, g_t) of each ring by (F_w, F_r, F_t): m/N,
+  /// 1/N, 1/(N m).
+  std::vector<Eigen::MatrixXcd> C;
+  std::vector<int> mode_numbers;  ///< 1-based in the body
+  double lowest_omega = 0.0;      ///< of these modes, rad/s
+
+  bool empty() const { return C.empty(); }
+};
+
 /// A contact ring and the mode shapes along it.
 struct DiscRing {
   std::string name;
-  double radius;  ///< m
-  Harmonics W;    ///< m per unit of q
-  Harmonics W_r;  ///< rad per unit of q
-  Harmonics W_t;  ///< rad per unit of q
+  double radius;    ///< m
+  Harmonics W;      ///< m per unit of q
+  Harmonics W_r;    ///< rad per unit of q
+  Harmonics W_t;    ///< rad per unit of q
+  int n_nodes = 0;  ///< that the harmonics interpolate; 0 when they are no interpolation
+
+  /// Harmonics of which both cosine and sine are known: through n / 2 of n nodes goes one function
+  /// only, cos(n theta / 2), which no disc that turns can have alone.
+  Eigen::Index n_whole_harmonics() const
+  {
+    return n_nodes > 0 && n_nodes % 2 == 0 ? W.cosine.rows() - 1 : W.cosine.rows();
+  }
 };
 
 /// Name and radius (m) of a contact ring.
@@ -57,13 +78,17 @@ struct Disc {
   /// [n_modes x n_modes] 1, skew: G_ij = int rho phi_i . (e_z x phi_j) dV, by which Coriolis forces
   /// add 2 Omega G q'. Zero when the body does not hold it.
   Eigen::MatrixXd G;
+  RingCompliance compliance = {};  ///< of modes that follow the pads without inertia
+  std::vector<int> still = {};     ///< 1-based, of modes left out: no pad sees them
 
   Eigen::Index n_modes() const { return omega.size(); }
 };
 
 /// The disc of `body` that touches the pads at the rings of these names. With no choice or a choice
 /// by nodal diameters, modes that do not move the ring along the axis are left out: no pad sees
-/// them.
+/// them. With no choice, modes beyond `ModeChoice::quasi_static_above` give it their compliance
+/// alone: interface modes stand for what all modes beyond the range do slowly, at frequencies that
+/// the disc does not have.
 /// @throws chladni::Error for an unknown ring, two rings of one name, a mode number out of range or
 /// given twice, a number
 ///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),

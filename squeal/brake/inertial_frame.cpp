@@ -2,138 +2,85 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string>
 #include <variant>
 
 #include "common/error.hpp"
+#include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-using Eigen::Matrix2d, std::numbers::pi;
+using std::numbers::pi;
 
 struct Complaint {
   std::string text;  ///< why a disc has no inertial frame, in words for the user
 };
 
-/// One mode (n = 0, j = i) or a pair.
-struct Group {
-  int n, i, j;
+/// The part of the motion of the rings, mode by mode and squared, that no harmonic space has.
+Eigen::VectorXd unmatched(const RingHarmonics& harmonics, const std::vector<HarmonicSpace>& spaces)
+{
+  Eigen::VectorXd rest = Eigen::VectorXd::Zero(harmonics.c.front().rows());
+  for (std::size_t d = 0; d < harmonics.c.size(); ++d) {
+    Eigen::MatrixXcd c = harmonics.c[d];
+    for (const HarmonicSpace& space : spaces)
+      if (space.d == static_cast<int>(d)) c -= space.E * (space.E.adjoint() * harmonics.c[d]);
+    rest += c.cwiseAbs2().rowwise().sum();
+  }
+  return rest;
+}
+
+/// A mode that has no partner loses nearly all of its motion, one among asymmetric ones some of it.
+std::optional<Complaint> mode_without_partner(const Disc& disc, const Eigen::VectorXd& rest,
+                                              const Eigen::VectorXd& whole)
+{
+  Eigen::Index i = 0;
+  if (rest.cwiseQuotient(whole).maxCoeff(&i) < 0.5) return std::nullopt;
+  const int n = nodal_diameters(disc)[static_cast<std::size_t>(i)];
+  return Complaint{
+      fmt::format("mode {} ({:.1f} Hz) has {} nodal diameters, but no partner among the modes used",
+                  disc.mode_numbers[static_cast<std::size_t>(i)], disc.omega[i] / (2.0 * pi), n)};
+}
+
+/// A pair, or a mode without nodal diameters, in its own coordinates (cos, sin).
+struct PureModes {
+  int n;
+  double omega;        ///< rad/s
+  Eigen::VectorXcd e;  ///< of norm 1; S e = i n e
 };
 
-std::variant<std::vector<Group>, Complaint> group_modes(const Disc& disc)
+/// The modes of each space, whose stiffness is the mean over all positions of the disc.
+std::vector<PureModes> pure_modes(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
 {
-  const std::vector<int> n = nodal_diameters(disc);
-  std::vector<Group> groups;
-  std::vector<char> taken(n.size(), 0);
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    if (taken[i]) continue;
-    std::size_t j = n[i] > 0 ? i + 1 : i;
-    while (n[i] > 0 && j < n.size() && (taken[j] || n[j] != n[i])) ++j;
-    if (j == n.size())
-      return Complaint{fmt::format(
-          "mode {} ({:.1f} Hz) has {} nodal diameters, but no partner among the modes used",
-          disc.mode_numbers[i], disc.omega[static_cast<int>(i)] / (2.0 * pi), n[i])};
-    taken[i] = taken[j] = 1;
-    groups.push_back({n[i], static_cast<int>(i), static_cast<int>(j)});
+  std::vector<PureModes> all;
+  for (const HarmonicSpace& space : spaces) {
+    const Eigen::MatrixXcd omega = space.E.adjoint() * disc.omega.asDiagonal() * space.E;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(omega);
+    for (Eigen::Index j = 0; j < omega.rows(); ++j)
+      all.push_back({space.d, solver.eigenvalues()[j], space.E * solver.eigenvectors().col(j)});
   }
-  return groups;
+  std::ranges::stable_sort(all, {}, &PureModes::omega);
+  return all;
 }
 
-/// [cos(n theta), sin(n theta)] B = (f_i, f_j) for the harmonic n of two modes.
-Matrix2d harmonic_of_pair(const Harmonics& f, const Group& group)
+/// Turned so that the motion of the rings that tells most of it is a cosine: displacement, or slope
+/// in case a nodal circle lies on each ring.
+Eigen::VectorXcd oriented(const PureModes& mode, const RingHarmonics& harmonics)
 {
-  Matrix2d B;
-  B << f.cosine(group.n, group.i), f.cosine(group.n, group.j), f.sine(group.n, group.i),
-      f.sine(group.n, group.j);
-  return B;
-}
-
-/// What remains of a pair when the harmonic n is taken out, squared.
-double other_harmonics(const Harmonics& f, const Group& group)
-{
-  double sum = 0.0;
-  for (const int mode : {group.i, group.j})
-    sum += f.cosine.col(mode).squaredNorm() + f.sine.col(mode).squaredNorm();
-  return std::max(0.0, sum - harmonic_of_pair(f, group).squaredNorm());
-}
-
-/// Amplitudes of a pair on a ring; squares of its motion there and of what is not its harmonic.
-struct RingAmplitudes {
-  double U, U_r, U_t;
-  double whole, rest;
-};
-
-/// A pair in its own coordinates (cos, sin): q = R a, its amplitudes on each ring, and how pure it
-/// is.
-struct PurePair {
-  Matrix2d R;
-  std::vector<RingAmplitudes> rings;
-
-  double impurity() const
-  {
-    double rest = 0.0, whole = 0.0;
-    for (const RingAmplitudes& ring : rings) {
-      rest += ring.rest;
-      whole += ring.whole;
-    }
-    return std::sqrt(std::max(0.0, rest) / whole);
+  const auto at = static_cast<std::size_t>(mode.n);
+  if (at >= harmonics.c.size()) return mode.e;
+  std::complex<double> largest = 0.0;
+  for (Eigen::Index k = 0; k < harmonics.c[at].cols(); ++k) {
+    const double weight = k % 3 == 0 ? 1.0 : k % 3 == 1 ? 0.1 : 0.0;
+    const std::complex<double> alpha = weight * mode.e.dot(harmonics.c[at].col(k));
+    if (std::abs(alpha) > std::abs(largest)) largest = alpha;
   }
-};
-
-/// Of the pair with these coordinates.
-RingAmplitudes amplitudes_on(const DiscRing& ring, const Group& group, const Matrix2d& R)
-{
-  const double r = ring.radius;
-  const Matrix2d B = harmonic_of_pair(ring.W, group), B_r = harmonic_of_pair(ring.W_r, group),
-                 B_t = harmonic_of_pair(ring.W_t, group);
-  const Matrix2d turn{{0.0, 1.0}, {-1.0, 0.0}};  // (cos, sin) turn = (-sin, cos)
-  const double U = 0.5 * (B * R).trace(), U_r = 0.5 * (B_r * R).trace(),
-               U_t = 0.5 * (turn.transpose() * B_t * R).trace();
-
-  const Matrix2d I = Matrix2d::Identity();
-  const double rest =
-      (B * R - U * I).squaredNorm() + other_harmonics(ring.W, group) +
-      r * r * ((B_r * R - U_r * I).squaredNorm() + other_harmonics(ring.W_r, group)) +
-      r * r * ((B_t * R - U_t * turn).squaredNorm() + other_harmonics(ring.W_t, group));
-  return {U, U_r, U_t, 2.0 * (U * U + r * r * (U_r * U_r + U_t * U_t)), rest};
-}
-
-/// B R = U I for a pure pair; R is the orthogonal polar factor of B, transposed. The shape with the
-/// largest motion on any ring gives it, in case a nodal circle lies on one.
-PurePair purify(const Disc& disc, const Group& group)
-{
-  Matrix2d largest = Matrix2d::Zero();
-  for (const DiscRing& ring : disc.rings) {
-    const Matrix2d B = harmonic_of_pair(ring.W, group),
-                   B_r = 0.1 * ring.radius * harmonic_of_pair(ring.W_r, group);
-    if (B.norm() > largest.norm()) largest = B;
-    if (B_r.norm() > largest.norm()) largest = B_r;
-  }
-  const Eigen::JacobiSVD<Matrix2d> svd(largest, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  PurePair pair{svd.matrixV() * svd.matrixU().transpose(), {}};
-  for (const DiscRing& ring : disc.rings) pair.rings.push_back(amplitudes_on(ring, group, pair.R));
-  return pair;
-}
-
-/// A mode without nodal diameters, as the first of a pair whose second does not exist.
-PurePair purify_single(const Disc& disc, const Group& group)
-{
-  const auto square = [&](const Harmonics& f) {
-    return f.cosine.col(group.i).squaredNorm() + f.sine.col(group.i).squaredNorm();
-  };
-  PurePair pair{Matrix2d::Identity(), {}};
-  for (const DiscRing& ring : disc.rings) {
-    const double U = ring.W.cosine(0, group.i), U_r = ring.W_r.cosine(0, group.i);
-    const double r = ring.radius, whole = U * U + r * r * U_r * U_r;
-    const double rest = square(ring.W) + r * r * (square(ring.W_r) + square(ring.W_t)) - whole;
-    pair.rings.push_back({U, U_r, 0.0, whole, rest});
-  }
-  return pair;
+  return std::abs(largest) > 0.0 ? mode.e * (largest / std::abs(largest)) : mode.e;
 }
 
 InertialDisc empty_inertial_disc(const Disc& disc)
@@ -152,32 +99,54 @@ InertialDisc empty_inertial_disc(const Disc& disc)
           .D = zeros,
           .R = zeros,
           .largest_split = 0.0,
-          .largest_impurity = 0.0};
+          .largest_impurity = 0.0,
+          .compliance = disc.compliance};
 }
 
-/// Puts a group at the coordinates `at` (and `at` + 1) of the inertial disc.
-InertialDisc with_group(InertialDisc inertial, const Disc& disc, const Group& group, int at)
+/// Puts modes at the coordinates `at` (and `at` + 1) of the inertial disc.
+void put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes& mode,
+         Eigen::Index at)
 {
-  const int size = group.n == 0 ? 1 : 2;
-  const PurePair pair = group.n == 0 ? purify_single(disc, group) : purify(disc, group);
-  const double omega = 0.5 * (disc.omega[group.i] + disc.omega[group.j]);
-  const int modes[] = {group.i, group.j};
-  const auto first = static_cast<std::size_t>(at);
-  for (int column = 0; column < size; ++column) {
-    for (int row = 0; row < size; ++row) inertial.R(modes[row], at + column) = pair.R(row, column);
-    inertial.nodal_diameters[first + column] = group.n;
+  const Eigen::Index size = mode.n == 0 ? 1 : 2;
+  const Eigen::VectorXcd e = oriented(mode, harmonics);
+  const double scale = size == 1 ? 1.0 : std::sqrt(2.0);
+  inertial.R.col(at) = scale * e.real();
+  if (size == 2) inertial.R.col(at + 1) = -scale * e.imag();
+  for (Eigen::Index i = 0; i < size; ++i)
+    inertial.nodal_diameters[static_cast<std::size_t>(at + i)] = mode.n;
+  inertial.omega.segment(at, size).setConstant(mode.omega);
+  if (size == 2) inertial.D.block<2, 2>(at, at) << 0.0, mode.n, -mode.n, 0.0;
+
+  double whole = 0.0, pure = 0.0;
+  for (const Eigen::MatrixXcd& c : harmonics.c)
+    whole += (inertial.R.middleCols(at, size).transpose() * c).squaredNorm();
+  if (static_cast<std::size_t>(mode.n) >= harmonics.c.size()) return;
+  const Eigen::RowVectorXcd alpha =
+      e.adjoint() * harmonics.c[static_cast<std::size_t>(mode.n)] / scale;
+  for (std::size_t k = 0; k < inertial.rings.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(3 * k);
+    InertialRing& ring = inertial.rings[k];
+    const double U = alpha[column].real(), U_r = alpha[column + 1].real(),
+                 U_t = size == 1 ? 0.0 : alpha[column + 2].imag();
+    ring.U.segment(at, size).setConstant(U);
+    ring.U_r.segment(at, size).setConstant(U_r / ring.radius);
+    ring.U_t.segment(at, size).setConstant(U_t / ring.radius);
+    pure += double(size) * (U * U + U_r * U_r + U_t * U_t);
   }
-  inertial.omega.segment(at, size).setConstant(omega);
-  for (std::size_t i = 0; i < pair.rings.size(); ++i) {
-    inertial.rings[i].U.segment(at, size).setConstant(pair.rings[i].U);
-    inertial.rings[i].U_r.segment(at, size).setConstant(pair.rings[i].U_r);
-    inertial.rings[i].U_t.segment(at, size).setConstant(pair.rings[i].U_t);
+  const double impurity = std::sqrt(std::max(0.0, whole - pure) / whole);
+  inertial.largest_impurity = std::max(inertial.largest_impurity, impurity);
+}
+
+/// Twice the part of each frequency that is not the same in every position of the disc, relative:
+/// for a pair alone the distance of its two frequencies.
+double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
+{
+  Eigen::MatrixXd rest = disc.omega.asDiagonal();
+  for (const HarmonicSpace& space : spaces) {
+    const Eigen::MatrixXcd omega = space.E.adjoint() * disc.omega.asDiagonal() * space.E;
+    rest -= (space.d == 0 ? 1.0 : 2.0) * (space.E * omega * space.E.adjoint()).real();
   }
-  if (size == 2) inertial.D.block<2, 2>(at, at) << 0.0, group.n, -group.n, 0.0;
-  inertial.largest_split =
-      std::max(inertial.largest_split, std::abs(disc.omega[group.i] - disc.omega[group.j]) / omega);
-  inertial.largest_impurity = std::max(inertial.largest_impurity, pair.impurity());
-  return inertial;
+  return 2.0 * rest.rowwise().norm().cwiseQuotient(disc.omega).maxCoeff();
 }
 
 /// Mean over the circumference of exp(-phi D) C exp(phi D), of damping or Coriolis terms, exact
@@ -201,14 +170,18 @@ Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::
 
 std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
 {
-  const auto groups = group_modes(disc);
-  if (const auto* complaint = std::get_if<Complaint>(&groups)) return *complaint;
+  const RingHarmonics harmonics = ring_harmonics(disc.rings);
+  const auto spaces = harmonic_spaces(rotation_generator(harmonics, disc.omega));
+  if (auto complaint =
+          mode_without_partner(disc, unmatched(harmonics, spaces), harmonics.squares()))
+    return *complaint;
   InertialDisc inertial = empty_inertial_disc(disc);
-  int at = 0;
-  for (const Group& group : std::get<0>(groups)) {
-    inertial = with_group(std::move(inertial), disc, group, at);
-    at += group.n == 0 ? 1 : 2;
+  Eigen::Index at = 0;
+  for (const PureModes& mode : pure_modes(disc, spaces)) {
+    put(inertial, harmonics, mode, at);
+    at += mode.n == 0 ? 1 : 2;
   }
+  inertial.largest_split = largest_split(disc, spaces);
   if (!(inertial.largest_impurity < impurity_limit))
     return Complaint{
         fmt::format("its mode shapes on the ring differ from pure harmonics by {:.2g} "

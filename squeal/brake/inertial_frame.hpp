@@ -31,6 +31,7 @@ struct InertialDisc {
   Eigen::MatrixXd R;                 ///< orthogonal: q = R a when the two frames coincide
   double largest_split;              ///< of the frequencies of a pair, relative
   double largest_impurity;           ///< of the mode shapes on the ring, relative; see below
+  RingCompliance compliance = {};    ///< as in Disc
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

@@ -1,22 +1,36 @@
 #include "squeal/brake/state_matrix.hpp"
 
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/pad_system.hpp"
 
 namespace chladni::squeal {
+StackedContact linear_contact(const InertialDisc& disc, const PadSystem& pads, double speed)
+{
+  StackedContact all = stacked_contact(pads, disc.n_modes() + pads.n_modes());
+  Eigen::Index at = 0;
+  for (const PointPair& point : pads.points) {
+    const PairShapes S =
+        pair_shapes(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)), pads, point);
+    const Eigen::Index rows = S.cols();
+    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows));
+    all.S.middleCols(at, rows) = S;
+    all.D_a.block(at, at, rows, rows) = d.D_a;
+    all.D_p.block(at, at, rows, rows) = d.D_p;
+    at += rows;
+  }
+  ContactSeries(disc.compliance, pads, speed).condense(all);
+  return all;
+}
 
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed)
 {
   const PadSystem pads = pad_system(options, ring_places(disc));
   const InertialDisc brake = with_pads(disc, pads);
   const Eigen::Index n = brake.n_modes();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = brake.C + 2.0 * speed * brake.G;
-  for (const PointPair& point : pads.points) {
-    const PairShapes S =
-        pair_shapes(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)), pads, point);
-    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
-    K -= S * d.D_a * S.transpose();
-    C -= S * d.D_p * S.transpose();
-  }
+  const StackedContact contact = linear_contact(disc, pads, speed);
+  const Eigen::MatrixXd K = -contact.S * contact.D_a * contact.S.transpose();
+  const Eigen::MatrixXd C =
+      brake.C + 2.0 * speed * brake.G - contact.S * contact.D_p * contact.S.transpose();
   const Eigen::MatrixXd omega = brake.omega.asDiagonal();
   const Eigen::MatrixXd by_omega = brake.omega.cwiseInverse().asDiagonal();
   Eigen::MatrixXd A(2 * n, 2 * n);

@@ -8,6 +8,8 @@ ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double 
       rings_(disc.rings.begin(), disc.rings.end()),
       pads_(pad_system(options, ring_places(disc))),
       position_(pads_.points.size()),
+      series_(disc.compliance, pads_, speed),
+      motions_(pads_.points.size()),
       contacts_(pads_.points.size()),
       Q_(disc.n_modes() + pads_.n_modes()),
       v_mid_(Q_.size())
@@ -49,10 +51,17 @@ const Eigen::VectorXd& ContactKick::force(const Eigen::VectorXd& v)
 {
   Q_.setZero();
   if (G_.size() > 0) Q_.head(G_.rows()).noalias() -= 2.0 * speed_ * (G_ * v.head(G_.rows()));
+  const auto at_point = [&](std::size_t i, const PointMotion& at) {
+    return contact(pads_.points[i].contact, pair_motion(at.g, at.g_dot), speed_);
+  };
+  for (std::size_t i = 0; i < shapes_.size(); ++i)
+    motions_[i] = {position_[i], shapes_[i].transpose() * v};
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    const auto force = at_point(i, at).force;
+    return {force.F_w, force.F_r, force.F_t};
+  });
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    const PointPair& point = pads_.points[i];
-    const PairVector<double> rate = shapes_[i].transpose() * v;
-    contacts_[i] = contact(point.contact, pair_motion(position_[i], rate), speed_);
+    contacts_[i] = at_point(i, motions_[i]);
     Q_.noalias() +=
         shapes_[i] * pair_forces(contacts_[i].force, contacts_[i].upper, contacts_[i].lower,
                                  at_rest_[i], static_cast<int>(shapes_[i].cols()));

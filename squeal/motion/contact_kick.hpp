@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/ring_shapes.hpp"
@@ -42,8 +43,10 @@ class ContactKick {
   Eigen::MatrixXd G_;  ///< of the disc; see Disc
   std::vector<RingShapes> rings_;
   PadSystem pads_;
-  std::vector<PairShapes> shapes_;               ///< of each point at this instant
-  std::vector<PairVector<double>> position_;     ///< of each point at this instant
+  std::vector<PairShapes> shapes_;            ///< of each point at this instant
+  std::vector<PairVector<double>> position_;  ///< of each point at this instant
+  ContactSeries series_;
+  std::vector<PointMotion> motions_;
   std::vector<PadState<double>> at_rest_;        ///< of each point, at the first speed
   std::vector<ContactResult<double>> contacts_;  ///< of each point at the last force
   std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick

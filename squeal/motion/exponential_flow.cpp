@@ -9,7 +9,11 @@ namespace chladni::squeal {
 
 ExponentialFlow::ExponentialFlow(const InertialDisc& disc, const SquealOptions& options,
                                  double speed, double step)
-    : speed_(speed), step_(step), pads_(pad_system(options, ring_places(disc)))
+    : speed_(speed),
+      step_(step),
+      pads_(pad_system(options, ring_places(disc))),
+      series_(disc.compliance, pads_, speed),
+      linear_(linear_contact(disc, pads_, speed))
 {
   const Eigen::MatrixXd A = state_matrix(disc, options, speed);
   half_ = (0.5 * step * A).exp();
@@ -21,10 +25,10 @@ ExponentialFlow::ExponentialFlow(const InertialDisc& disc, const SquealOptions& 
     BrakePoint at = brake_point(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)),
                                 pads_, point, speed);
     const PairShapes S_by_omega = omega.cwiseInverse().asDiagonal() * at.S;
-    const PairDerivatives D = pair_derivatives(point.contact, speed, static_cast<int>(at.S.cols()));
-    points_.push_back({std::move(at), S_by_omega, D});
+    points_.push_back({std::move(at), S_by_omega});
   }
   position_.resize(points_.size());
+  motions_.resize(points_.size());
   contacts_.resize(points_.size());
 }
 
@@ -34,18 +38,32 @@ void ExponentialFlow::advance(Eigen::VectorXd& x)
   x.swap(next_);
 }
 
-/// Force at the point pair i without its linear part.
-PairVector<double> ExponentialFlow::remainder(std::size_t i, const Eigen::VectorXd& p)
+void ExponentialFlow::add_remainders(const Eigen::VectorXd& p, double factor,
+                                     Eigen::Ref<Eigen::VectorXd> to)
 {
-  const Point& point = points_[i];
-  const PairVector<double>& g = position_[i];
-  const PairVector<double> rate = point.at.S.transpose() * p;
-  contacts_[i] = contact(point.at.contact, pair_motion(g, rate), speed_);
-  PairVector<double> F = pair_forces(contacts_[i].force, contacts_[i].upper, contacts_[i].lower,
-                                     point.at.at_rest, static_cast<int>(g.size()));
-  F.noalias() -= point.D.D_a * g;
-  F.noalias() -= point.D.D_p * rate;
-  return F;
+  const auto at_point = [&](std::size_t i, const PointMotion& at) {
+    return contact(points_[i].at.contact, pair_motion(at.g, at.g_dot), speed_);
+  };
+  linear_force_.setZero(linear_.D_a.rows());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    motions_[i] = {position_[i], points_[i].at.S.transpose() * p};
+    const Eigen::Index rows = motions_[i].g.size(), first = rows * static_cast<Eigen::Index>(i);
+    linear_force_.noalias() += linear_.D_a.middleCols(first, rows) * motions_[i].g;
+    linear_force_.noalias() += linear_.D_p.middleCols(first, rows) * motions_[i].g_dot;
+  }
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    const auto force = at_point(i, at).force;
+    return {force.F_w, force.F_r, force.F_t};
+  });
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    contacts_[i] = at_point(i, motions_[i]);
+    const Eigen::Index rows = motions_[i].g.size(), first = rows * static_cast<Eigen::Index>(i);
+    const PairVector<double> F =
+        pair_forces(contacts_[i].force, contacts_[i].upper, contacts_[i].lower,
+                    points_[i].at.at_rest, static_cast<int>(rows)) -
+        linear_force_.segment(first, rows);
+    to.noalias() += points_[i].at.S * (factor * F);
+  }
 }
 
 const std::vector<ContactResult<double>>& ExponentialFlow::kick(Eigen::VectorXd& x)
@@ -54,10 +72,8 @@ const std::vector<ContactResult<double>>& ExponentialFlow::kick(Eigen::VectorXd&
   for (std::size_t i = 0; i < points_.size(); ++i)
     position_[i].noalias() = points_[i].S_by_omega.transpose() * x.head(n);
   p_mid_ = x.tail(n);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    p_mid_.noalias() += points_[i].at.S * (0.5 * step_ * remainder(i, x.tail(n)));
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    x.tail(n).noalias() += points_[i].at.S * (step_ * remainder(i, p_mid_));
+  add_remainders(x.tail(n), 0.5 * step_, p_mid_);
+  add_remainders(p_mid_, step_, x.tail(n));
   of_pads_ = by_pad(pads_, contacts_);
   return of_pads_;
 }

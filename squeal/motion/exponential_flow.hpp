@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/squeal_options.hpp"
@@ -33,10 +34,10 @@ class ExponentialFlow {
   struct Point {
     BrakePoint at;
     PairShapes S_by_omega;
-    PairDerivatives D;  ///< the linear part of the force
   };
 
-  PairVector<double> remainder(std::size_t i, const Eigen::VectorXd& p);
+  /// Adds `factor` times the forces at the rates `p`, without their linear part, to `to`.
+  void add_remainders(const Eigen::VectorXd& p, double factor, Eigen::Ref<Eigen::VectorXd> to);
 
   double speed_;
   double step_;
@@ -44,6 +45,10 @@ class ExponentialFlow {
   PadSystem pads_;
   std::vector<Point> points_;
   std::vector<PairVector<double>> position_;
+  ContactSeries series_;
+  StackedContact linear_;  ///< the linear part of the forces
+  std::vector<PointMotion> motions_;
+  Eigen::VectorXd linear_force_;
   std::vector<ContactResult<double>> contacts_;  ///< of each point at the last remainder
   std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
   Eigen::VectorXd next_, p_mid_;

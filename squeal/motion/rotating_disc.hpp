@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/ring_shapes.hpp"
@@ -39,13 +40,11 @@ class RotatingDisc final : public Motion {
   void exchange(StateArchive& archive) { archive(branches_, n_evaluations_); }
 
  private:
-  struct PointMotion {
-    PairVector<double> g, g_dot;  ///< see PairShapes
-  };
-
   /// Shapes of the point pair i at time t.
   const PairShapes& shapes(std::size_t i, double t);
   PointMotion point_motion(const PairShapes& S, const Eigen::VectorXd& y);
+  /// Of all points at (t, y), on the present branches, with what modes without inertia do.
+  const std::vector<PointMotion>& motions(double t, const Eigen::VectorXd& y);
 
   double speed_;
   double pulled_;  ///< branch of a pad whose axial force is negative
@@ -55,7 +54,9 @@ class RotatingDisc final : public Motion {
   std::vector<RingShapes> rings_;
   PadSystem pads_;
   std::vector<BrakePoint> points_;  ///< with the shapes where the disc stood last
-  std::vector<double> branches_;    ///< of each point; see contact_branch.hpp
+  ContactSeries series_;
+  std::vector<PointMotion> motions_;
+  std::vector<double> branches_;  ///< of each point; see contact_branch.hpp
   Eigen::VectorXd S_;
   Eigen::VectorXd f_;
   Eigen::VectorXd q_;

@@ -64,6 +64,8 @@ SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options,
       pads_(pad_system(options, ring_places(disc))),
       omega_(with_pads(disc, pads_).omega),
       A_(state_matrix(with_pads(disc, pads_), without_pads(options), speed)),
+      series_(disc.compliance, pads_, speed),
+      motions_(pads_.points.size()),
       branches_(2 * pads_.points.size(), 1.0),
       S_(options.contact == ContactLaw::signed_force
              ? Eigen::VectorXd()
@@ -74,21 +76,32 @@ SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options,
                                   pads_, point, speed));
 }
 
-SlidingDisc::PointMotion SlidingDisc::motion_at(const BrakePoint& point,
-                                                const Eigen::VectorXd& x) const
+PointMotion SlidingDisc::motion_at(const BrakePoint& point, const Eigen::VectorXd& x) const
 {
   const Eigen::Index n = omega_.size();
   return {.g = point.S.transpose() * x.head(n).cwiseQuotient(omega_),
           .g_dot = point.S.transpose() * x.tail(n)};
 }
 
+const std::vector<PointMotion>& SlidingDisc::motions(const Eigen::VectorXd& x)
+{
+  for (std::size_t i = 0; i < points_.size(); ++i) motions_[i] = motion_at(points_[i], x);
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    return force_on_branch<double>(points_[i], pair_motion(at.g, at.g_dot), speed_,
+                                   std::span(branches_).subspan(2 * i, 2))
+        .head<3>();
+  });
+  return motions_;
+}
+
 const Eigen::VectorXd& SlidingDisc::rate(double /*t*/, const Eigen::VectorXd& x)
 {
   ++n_evaluations_;
   f_.noalias() = A_ * x;
+  motions(x);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const BrakePoint& point = points_[i];
-    const PointMotion at = motion_at(point, x);
+    const PointMotion& at = motions_[i];
     const RingMotion<double> motion = pair_motion(at.g, at.g_dot);
     const auto up = pad_on_branch(point.contact, motion, speed_, {1.0, branches_[2 * i]});
     const auto lo = pad_on_branch(point.contact, motion, speed_, {-1.0, branches_[2 * i + 1]});
@@ -119,15 +132,21 @@ Eigen::MatrixXd SlidingDisc::jacobian(const Eigen::VectorXd& x)
   n_evaluations_ += 6;
   const Eigen::Index n = omega_.size();
   Eigen::MatrixXd J = A_;
+  motions(x);
+  StackedContact contact = stacked_contact(pads_, n);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PairShapes& S = points_[i].S;
-    const PointMotion at = motion_at(points_[i], x);
-    const Eigen::MatrixXd D = force_derivative(points_[i], at.g, at.g_dot,
+    const Eigen::MatrixXd D = force_derivative(points_[i], motions_[i].g, motions_[i].g_dot,
                                                {speed_, std::span(branches_).subspan(2 * i, 2)});
-    J.bottomLeftCorner(n, n).noalias() +=
-        S * D.leftCols(S.cols()) * S.transpose() * omega_.cwiseInverse().asDiagonal();
-    J.bottomRightCorner(n, n).noalias() += S * D.rightCols(S.cols()) * S.transpose();
+    const Eigen::Index at = S.cols() * static_cast<Eigen::Index>(i);
+    contact.S.middleCols(at, S.cols()) = S;
+    contact.D_a.block(at, at, S.cols(), S.cols()) = D.leftCols(S.cols());
+    contact.D_p.block(at, at, S.cols(), S.cols()) = D.rightCols(S.cols());
   }
+  series_.condense(contact);
+  J.bottomLeftCorner(n, n).noalias() +=
+      contact.S * contact.D_a * contact.S.transpose() * omega_.cwiseInverse().asDiagonal();
+  J.bottomRightCorner(n, n).noalias() += contact.S * contact.D_p * contact.S.transpose();
   return J;
 }
 
@@ -145,8 +164,13 @@ SlidingDisc::Sample SlidingDisc::sample(const Eigen::VectorXd& x)
   const auto p = x.tail(n);
   Power power{zero, zero, zero, p.dot(A_.bottomRightCorner(n, n) * p)};
   std::vector<ContactResult<double>> contacts;
+  for (std::size_t i = 0; i < points_.size(); ++i) motions_[i] = motion_at(points_[i], x);
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    const auto force = contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_).force;
+    return {force.F_w, force.F_r, force.F_t};
+  });
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointMotion at = motion_at(points_[i], x);
+    const PointMotion& at = motions_[i];
     contacts.push_back(contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_));
     const PointPower of_point = point_power(points_[i], at.g, at.g_dot, contacts.back());
     const auto pad = static_cast<Eigen::Index>(pads_.points[i].pad);

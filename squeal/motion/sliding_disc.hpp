@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/motion/autonomous_motion.hpp"
@@ -48,11 +49,9 @@ class SlidingDisc final : public AutonomousMotion {
   Sample sample(const Eigen::VectorXd& x);
 
  private:
-  struct PointMotion {
-    PairVector<double> g, g_dot;  ///< see PairShapes
-  };
-
   PointMotion motion_at(const BrakePoint& point, const Eigen::VectorXd& x) const;
+  /// Of all points on the present branches, with what modes without inertia do.
+  const std::vector<PointMotion>& motions(const Eigen::VectorXd& x);
 
   double speed_;
   double pulled_;  ///< branch of a pad whose axial force is negative
@@ -60,6 +59,8 @@ class SlidingDisc final : public AutonomousMotion {
   Eigen::VectorXd omega_;
   Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
   std::vector<BrakePoint> points_;
+  ContactSeries series_;
+  std::vector<PointMotion> motions_;
   std::vector<double> branches_;  ///< of each point; see contact_branch.hpp
   Eigen::VectorXd S_;
   Eigen::VectorXd f_;

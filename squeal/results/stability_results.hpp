@@ -49,6 +49,14 @@ enum class Stability {
   regained   ///< unstable at the lower end, and stable from a value of the range on
 };
 
+/// The lowest value of the range at which stability is lost: unstable just above, not just below.
+std::optional<StabilityPoint> first_loss(const StabilityProfile& profile);
+
+/// The lowest value of the range at which stability is regained: unstable just below.
+std::optional<StabilityPoint> first_regain(const StabilityProfile& profile);
+
+Stability stability_of(const StabilityProfile& profile);
+
 /// "stable in the whole range", "unstable in the whole range", "lost within the range" or
 /// "regained within the range".
 const char* name_of(Stability stability);

@@ -31,12 +31,4 @@ struct SearchRange {
 /// What is narrower than the distance of the samples and none of these remains unseen.
 StabilityProfile stability_over(const StateMatrixOf& A, const SearchRange& range);
 
-/// The lowest value of the range at which stability is lost: unstable just above, not just below.
-std::optional<StabilityPoint> first_loss(const StabilityProfile& profile);
-
-/// The lowest value of the range at which stability is regained: unstable just below.
-std::optional<StabilityPoint> first_regain(const StabilityProfile& profile);
-
-Stability stability_of(const StabilityProfile& profile);
-
 }  // namespace chladni::squeal

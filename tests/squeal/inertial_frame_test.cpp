@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
@@ -122,6 +127,80 @@ TEST(InertialDisc, KeepsRotationallySymmetricDamping)
   EXPECT_LT((disc.C - body.C).norm(), 1e-13);
   body.C(2, 2) = 9.0;
   EXPECT_NE(complaint(make_disc(body, "track", {})).find("damping changes"), std::string::npos);
+}
+
+/// Columns of the shapes and of the modes replaced by combinations of them, as an eigen-solver may
+/// return modes of one frequency.
+mbs_export::ModalBody mixed(mbs_export::ModalBody body, const Eigen::MatrixXd& by)
+{
+  mbs_export::ContactRing& ring = body.rings[0];
+  for (Eigen::MatrixXd* shapes : {&ring.W, &ring.W_r, &ring.W_t}) *shapes = (*shapes * by).eval();
+  return body;
+}
+
+Eigen::MatrixXd orthogonal(Eigen::Index n)
+{
+  srand(7);
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Random(n, n)).householderQ();
+}
+
+TEST(InertialDisc, FindsPairsInASpaceThatMixesThem)
+{
+  // 2 and 3 nodal diameters and an umbrella at one frequency.
+  PlatePair two = kirchhoff_2(), three = kirchhoff_3();
+  PlatePair umbrella{.n = 0, .f_Hz = two.f_Hz, .mass = 4.2, .U = 0.7, .U_r = 8.5, .U_t = 0.0};
+  three.f_Hz = two.f_Hz;
+  const auto body = mixed(analytic_body({two, umbrella, three}), orthogonal(5));
+  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
+  EXPECT_LT(disc.largest_impurity, 1e-6);
+  std::vector<double> U;
+  for (Eigen::Index i = 0; i < 5; ++i) U.push_back(std::abs(disc.rings[0].U[i]));
+  std::ranges::sort(U);
+  const double umbrella_U = 0.7 / std::sqrt(4.2), three_U = three.U / std::sqrt(three.mass),
+               two_U = two.U / std::sqrt(two.mass);
+  const std::vector<double> expected{umbrella_U, three_U, three_U, two_U, two_U};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(U[i], expected[i], 1e-12);
+}
+
+TEST(InertialDisc, FindsThePairsOfAMeshThatSplitsAndMixesThem)
+{
+  // Stiffness by which pairs of 3 and 4 diameters, 0.4 % apart, mix and split by 0.2 %.
+  PlatePair three = kirchhoff_3(), four = kirchhoff_4();
+  four.f_Hz = 1.004 * three.f_Hz;
+  mbs_export::ModalBody body = analytic_body({three, four});
+  srand(3);
+  Eigen::MatrixXd K = body.omega.cwiseAbs2().asDiagonal();
+  const Eigen::MatrixXd random = Eigen::MatrixXd::Random(4, 4);
+  K += 1e-3 * K(0, 0) * (random + random.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
+  body = mixed(body, solver.eigenvectors());
+  body.omega = solver.eigenvalues().cwiseSqrt();
+  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
+  EXPECT_LT(disc.largest_impurity, 1e-3);
+  EXPECT_GT(disc.largest_split, 1e-4);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    EXPECT_NEAR(disc.omega[i],
+                2.0 * pi * (disc.nodal_diameters[std::size_t(i)] == 3 ? three : four).f_Hz,
+                2e-3 * disc.omega[i]);
+}
+
+TEST(InertialDisc, LeavesModesInThePlaneAndTheUnpairedHarmonicOut)
+{
+  // Torsion whose axial motion, 6e-4 of that of the others, is noise, between the two modes of a
+  // pair; and cos 30 theta on 60 nodes, which has no sine.
+  PlatePair torsion{.n = 3, .f_Hz = 1749.9, .mass = 1.0, .U = 3e-4, .U_r = 6e-3, .U_t = 6e-3};
+  mbs_export::ModalBody body =
+      analytic_body({kirchhoff_2(),
+                     kirchhoff_3(),
+                     torsion,
+                     {.n = 0, .f_Hz = 9e3, .mass = 1.0, .U = 0.0, .U_r = 0.0, .U_t = 0.0}});
+  for (Eigen::Index j = 0; j < 60; ++j) body.rings[0].W(j, 6) = j % 2 == 0 ? 0.5 : -0.5;
+  for (Eigen::MatrixXd* shapes : {&body.rings[0].W, &body.rings[0].W_r, &body.rings[0].W_t})
+    shapes->col(4).swap(shapes->col(3));
+  std::swap(body.omega[3], body.omega[4]);
+  const Disc disc = make_disc(body, "track", {});
+  EXPECT_EQ(disc.still, (std::vector<int>{4, 6, 7}));
+  EXPECT_EQ(inertial_disc(disc).nodal_diameters, (std::vector<int>{2, 2, 3, 3}));
 }
 
 }  // namespace

@@ -1,0 +1,182 @@
+#include "squeal/brake/contact_compliance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "references/squeal/analytic_body.hpp"
+#include "squeal/brake/state_matrix.hpp"
+#include "squeal/motion/rotating_disc.hpp"
+#include "squeal/motion/sliding_disc.hpp"
+#include "squeal/transient/transient.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+/// The pair of the reference, then interface modes of other harmonics at `scale` times 20 to 50 kHz
+/// with the same compliance at each scale.
+mbs_export::ModalBody augmented_body(double scale)
+{
+  std::vector<PlatePair> pairs{kirchhoff_3()};
+  for (int n = 0; n < 8; ++n)
+    pairs.push_back({.n = n,
+                     .f_Hz = scale * (20e3 + 4e3 * n),
+                     .mass = 0.1 / (scale * scale),
+                     .U = 0.5 + 0.1 * n,
+                     .U_r = 9.0 - 3.0 * n,
+                     .U_t = n * 4.1});
+  mbs_export::ModalBody body = analytic_body(pairs);
+  for (std::size_t i = 2; i < body.kinds.size(); ++i)
+    body.kinds[i] = mbs_export::ModeKind::interface;
+  return body;
+}
+
+SquealOptions two_pads()
+{
+  SquealOptions options = reference_options();
+  options.pads.push_back({.angle = 1.1, .stiffness = 4e6, .damping = 20.0, .preload = 1500.0});
+  return options;
+}
+
+ModeChoice static_above(double f_Hz)
+{
+  return {.quasi_static_above = 2.0 * pi * f_Hz};
+}
+
+/// The eigenvalue with the largest real part below 3 kHz.
+std::complex<double> least_stable_of_the_pair(const Disc& disc, const SquealOptions& options)
+{
+  const Eigen::VectorXcd lambda =
+      state_matrix(inertial_disc(disc), options, 6.0 * pi).eigenvalues();
+  std::complex<double> worst = -1e9;
+  for (const std::complex<double>& x : lambda)
+    if (x.imag() > 0.0 && x.imag() < 2.0 * pi * 3000.0 && x.real() > worst.real()) worst = x;
+  return worst;
+}
+
+TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
+{
+  for (const SquealOptions& options : {reference_options(), two_pads()}) {
+    for (const double scale : {1.0, 2.0}) {
+      const mbs_export::ModalBody body = augmented_body(scale);
+      const Disc whole = make_disc(body, "track", static_above(1e9));
+      const Disc condensed = make_disc(body, "track", {});
+      ASSERT_EQ(whole.n_modes(), 17);
+      ASSERT_EQ(condensed.n_modes(), 2);
+      EXPECT_EQ(condensed.compliance.mode_numbers.size(), 15U);
+      const auto exact = least_stable_of_the_pair(whole, options);
+      const auto error = least_stable_of_the_pair(condensed, options) - exact;
+      const auto without =
+          least_stable_of_the_pair(make_disc(body, "track", {.list = {{1, 2}}}), options) - exact;
+      // Without them 2.6e-2 and 5.8e-2 1/s, 1.7 and 2.2 rad/s.
+      EXPECT_GT(std::abs(without.real()), 0.02);
+      EXPECT_GT(std::abs(without.imag()), 1.5);
+      // (omega / omega_q)^2 = 7.7e-3 of that, and n Omega / omega = 5e-3.
+      EXPECT_LT(std::abs(error.real()), 6e-3 * std::abs(without.real()) / (scale * scale) + 1e-4);
+      EXPECT_LT(std::abs(error.imag()), 5e-3 / (scale * scale) + 1e-3);
+    }
+  }
+}
+
+/// State of the pair in the inertial frame, large enough for the pads to let go.
+Eigen::VectorXd large_state(Eigen::Index n)
+{
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2 * n);
+  x.head<2>() << 5.0, -2.0;
+  x.segment<2>(n) << 3.0, 8.0;
+  return x;
+}
+
+TEST(ContactCompliance, StandsInSeriesWithPadsThatLetGo)
+{
+  // y = G f and f = F(u + y) hold at once, on every branch of the unilateral law.
+  SquealOptions options = two_pads();
+  options.contact = ContactLaw::unilateral;
+  const InertialDisc disc = inertial_disc(make_disc(augmented_body(1.0), "track", {}));
+  const PadSystem pads = pad_system(options, ring_places(disc));
+  const ContactSeries series(disc.compliance, pads, 6.0 * pi);
+  for (const double size : {1e-3, 1.0, -1.0, 20.0}) {
+    std::vector<PointMotion> at;
+    for (const PointPair& point : pads.points) {
+      const Eigen::MatrixX3d S = matrix_of(shapes_at(disc, point.angle));
+      const Eigen::VectorXd x = size * large_state(disc.n_modes());
+      at.push_back(
+          {S.transpose() * x.head(2).cwiseQuotient(disc.omega), S.transpose() * x.tail(2)});
+    }
+    const std::vector<PointMotion> before = at;
+    const auto force = [&](std::size_t i, const PointMotion& motion) -> Eigen::Vector3d {
+      const auto F =
+          contact(pads.points[i].contact, pair_motion(motion.g, motion.g_dot), 6.0 * pi).force;
+      return {F.F_w, F.F_r, F.F_t};
+    };
+    series.add_to(at, force);
+    // A second solution from the first one's forces, point by point through the modes themselves.
+    const Disc high = make_disc(augmented_body(1.0), "track",
+                                {.list = {{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}}});
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(high.n_modes());
+    for (std::size_t i = 0; i < at.size(); ++i)
+      q += high.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
+           (matrix_of(shapes_at(high, pads.points[i].angle)) * force(i, at[i]));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const Eigen::Vector3d y = matrix_of(shapes_at(high, pads.points[i].angle)).transpose() * q;
+      EXPECT_LT((at[i].g - before[i].g - y).norm(), 1e-9 * y.norm()) << size;
+    }
+  }
+}
+
+TEST(ContactCompliance, IsTheSameInBothFrames)
+{
+  // The rate of the same state in the inertial and in the rotating frame, at t = 0.
+  const SquealOptions options = two_pads();
+  const Disc disc = make_disc(augmented_body(1.0), "track", {});
+  const InertialDisc inertial = inertial_disc(disc);
+  SlidingDisc sliding(inertial, options, 6.0 * pi);
+  RotatingDisc rotating(disc, options, 6.0 * pi);
+  const Eigen::VectorXd x = large_state(2);
+  const Eigen::VectorXd a_rate = sliding.rate(0.0, x);
+  Eigen::VectorXd y(4);
+  y << inertial.R * x.head<2>(), inertial.R * x.tail<2>();
+  const Eigen::VectorXd q_rate = rotating.rate(0.0, y);
+  // p' = -Omega D p + ..., q'' without it.
+  const Eigen::Vector2d force = a_rate.tail<2>() + 6.0 * pi * inertial.D * x.tail<2>();
+  EXPECT_LT((inertial.R * force - q_rate.tail<2>()).norm(), 1e-9 * force.norm());
+  // Without the compliance the forces are others.
+  Disc without = disc;
+  without.compliance = {};
+  const Eigen::Vector2d other = RotatingDisc(without, options, 6.0 * pi).rate(0.0, y).tail<2>();
+  EXPECT_GT((q_rate.tail<2>() - other).norm(), 1e-4 * other.norm());
+}
+
+TEST(ContactCompliance, IsInTheDerivativesOfTheMotion)
+{
+  SlidingDisc sliding(inertial_disc(make_disc(augmented_body(1.0), "track", {})), two_pads(),
+                      6.0 * pi);
+  const Eigen::VectorXd x = 0.01 * large_state(2);
+  sliding.take_sides(0.0, x);
+  const Eigen::MatrixXd J = sliding.jacobian(x);
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    const double step = 1e-5;
+    Eigen::VectorXd up = x, down = x;
+    up[j] += step;
+    down[j] -= step;
+    const Eigen::VectorXd above = sliding.rate(0.0, up), below = sliding.rate(0.0, down);
+    EXPECT_LT(((above - below) / (2.0 * step) - J.col(j)).norm(), 1e-6 * J.col(j).norm());
+  }
+}
+
+TEST(ContactCompliance, GrowsInTransientsAsItsEigenvaluesSay)
+{
+  const Disc disc = make_disc(augmented_body(1.0), "track", {});
+  const double exact = least_stable_of_the_pair(disc, reference_options()).real();
+  for (const IntegratorKind kind :
+       {IntegratorKind::splitting, IntegratorKind::exponential, IntegratorKind::dormand_prince}) {
+    const Transient run = transient(
+        disc, reference_options(),
+        {.speed = 6.0 * pi, .duration = 1.5, .initial_pad_displacement = 1e-8, .integrator = kind});
+    ASSERT_TRUE(run.growth_rate);
+    EXPECT_NEAR(*run.growth_rate, exact, 2e-3) << run.integrator;  // of the mesh of times
+  }
+}
+
+}  // namespace
+}  // namespace chladni::squeal
