@@ -228,8 +228,8 @@ void run_squeal(const RunArguments& arguments)
   const squeal::RunOrigin origin = origin_of(scene, arguments.scene, body, files);
   squeal::Checkpoint checkpoint(files.checkpoint, origin, arguments.checkpoint_interval);
   std::optional<squeal::WavSpool> sound;
-  if (scene.squeal && scene.squeal->sound)
-    sound.emplace(files.sound, files.spool, scene.squeal->sound->rate_Hz);
+  if (scene.squeal && scene.squeal->study.sound)
+    sound.emplace(files.sound, files.spool, scene.squeal->study.sound->rate_Hz);
   if (!arguments.resume) forget(files, arguments.scene);
   std::error_code ignored;
   if (sound && !arguments.resume) std::filesystem::remove(files.sound, ignored);

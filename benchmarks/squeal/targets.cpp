@@ -44,8 +44,9 @@ std::vector<Target> map_targets(bool smallest)
   const Disc pair = disc_of({kirchhoff_3(1672.13)}), all = disc_of(kirchhoff_modes());
   SquealOptions options = reference_options();
   const int n = smallest ? 10 : 100;
-  options.speeds.count = n;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .count = n};
+  options.study.speeds.count = n;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .count = n};
   const double map = seconds_of([&] { stability_map(inertial_disc(pair), options); });
   std::vector<Target> targets{
       {fmt::format("stability map of {0} x {0} points, two modes", n), "s", map, 10.0}};

@@ -106,8 +106,8 @@ inline SquealOptions reference_options(ContactLaw law = ContactLaw::bilateral)
   SquealOptions options{};
   options.ring = "track";
   options.thickness = 0.02;
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 60};
-  options.friction = 0.6;
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 60};
+  options.friction.kinetic = 0.6;
   options.contact = law;
   options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
   return options;

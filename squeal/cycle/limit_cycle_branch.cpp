@@ -167,7 +167,7 @@ LimitCycleBranch limit_cycle_branch(const CycleProblem& problem, const SpeedRang
 LimitCycleBranch limit_cycle_branch(const Disc& disc, const SquealOptions& options,
                                     const Progress& progress)
 {
-  return limit_cycle_branch(cycle_problem(disc, options), options.speeds, progress);
+  return limit_cycle_branch(cycle_problem(disc, options), options.study.speeds, progress);
 }
 
 }  // namespace chladni::squeal

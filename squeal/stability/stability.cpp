@@ -74,7 +74,7 @@ EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range)
 
 EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options)
 {
-  return eigenvalues(state_matrix_at(disc, options), options.speeds);
+  return eigenvalues(state_matrix_at(disc, options), options.study.speeds);
 }
 
 StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range)
@@ -85,7 +85,7 @@ StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& 
 
 StabilityProfile stability_over_speed(const InertialDisc& disc, const SquealOptions& options)
 {
-  return stability_over_speed(state_matrix_at(disc, options), options.speeds);
+  return stability_over_speed(state_matrix_at(disc, options), options.study.speeds);
 }
 
 std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile)
@@ -102,7 +102,7 @@ std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedR
 
 std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)
 {
-  return critical_speed(state_matrix_at(disc, options), options.speeds);
+  return critical_speed(state_matrix_at(disc, options), options.study.speeds);
 }
 
 }  // namespace chladni::squeal

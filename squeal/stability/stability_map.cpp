@@ -37,7 +37,7 @@ const char* name_of(MapParameter parameter)
 
 SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value)
 {
-  if (parameter == MapParameter::friction) options.friction = value;
+  if (parameter == MapParameter::friction) options.friction.kinetic = value;
   for (PadPair& pad : options.pads) {
     if (parameter == MapParameter::preload) pad.preload = value;
     if (parameter == MapParameter::stiffness) pad.stiffness = value;
@@ -61,13 +61,12 @@ StabilityMap stability_map(const std::function<StateMatrixAt(double)>& A_of, con
 StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options,
                            unsigned n_threads)
 {
-  if (!options.map) throw Error("stability map: no second parameter is given");
+  if (!options.study.map) throw Error("stability map: no second parameter is given");
   const auto A_of = [&](double value) -> StateMatrixAt {
-    return [&disc, changed = with_parameter(options, options.map->parameter, value)](double speed) {
-      return state_matrix(disc, changed, speed);
-    };
+    return [&disc, changed = with_parameter(options, options.study.map->parameter, value)](
+               double speed) { return state_matrix(disc, changed, speed); };
   };
-  return stability_map(A_of, *options.map, options.speeds, n_threads);
+  return stability_map(A_of, *options.study.map, options.study.speeds, n_threads);
 }
 
 }  // namespace chladni::squeal

@@ -15,9 +15,9 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
 /// "friction", "preload" or "stiffness", as in the scene.
 const char* name_of(MapParameter parameter);
 
-/// The least stable eigenvalues over `options.speeds` and `options.map`, on `n_threads`
+/// The least stable eigenvalues over `options.study.speeds` and `options.study.map`, on `n_threads`
 /// threads (0: as many as processors). The result does not depend on their number.
-/// @throws chladni::Error when `options.map` is absent.
+/// @throws chladni::Error when `options.study.map` is absent.
 StabilityMap stability_map(const InertialDisc& disc, const SquealOptions& options,
                            unsigned n_threads = 0);
 

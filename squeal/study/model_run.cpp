@@ -62,7 +62,7 @@ CycleProblem cycle_problem_of(const Model& model)
 std::vector<CriticalValue> critical_values(const ModelOptions& options)
 {
   std::vector<CriticalValue> values;
-  for (const CriticalCase& search : options.critical)
+  for (const CriticalCase& search : options.study.critical)
     values.push_back(critical_value(
         [&](double value) {
           return model_with(options, search.parameter, value).state_matrix(search.speed);
@@ -73,10 +73,10 @@ std::vector<CriticalValue> critical_values(const ModelOptions& options)
 
 StabilityMap map_of(const ModelOptions& options)
 {
-  const MapCase& range = options.map.value();
+  const MapCase& range = options.study.map.value();
   return stability_map(
       [&](double value) { return model_with(options, range.parameter, value).state_matrix; }, range,
-      options.speeds);
+      options.study.speeds);
 }
 
 std::vector<Growth> growths(const Model& model, const GrowthCase& runs, const Progress& progress)
@@ -94,10 +94,12 @@ std::vector<StudyStep> steps_of(const Model& model, const ModelOptions& options)
 {
   return {
       {{"eigenvalues"},
-       [&](auto& r, auto&) { r.eigenvalues = eigenvalues(model.state_matrix, options.speeds); }},
+       [&](auto& r, auto&) {
+         r.eigenvalues = eigenvalues(model.state_matrix, options.study.speeds);
+       }},
       {{"critical-speed"},
        [&](auto& r, auto&) {
-         r.speed_stability = stability_over_speed(model.state_matrix, options.speeds);
+         r.speed_stability = stability_over_speed(model.state_matrix, options.study.speeds);
          r.critical_speed = critical_speed(*r.speed_stability);
          r.searched_critical_speed = true;
        }},
@@ -105,21 +107,21 @@ std::vector<StudyStep> steps_of(const Model& model, const ModelOptions& options)
       {{"stability-map"}, [&](auto& r, auto&) { r.map = map_of(options); }},
       {{"growth"},
        [&](auto& r, auto& keeping) {
-         r.growth = growths(model, *options.growth, keeping.progress);
+         r.growth = growths(model, *options.study.growth, keeping.progress);
        }},
       {{"transient", "limit-cycle"},
        [&](auto& r, auto& keeping) {
-         r.transient = transient(model, *options.transient, keeping);
+         r.transient = transient(model, *options.study.transient, keeping);
        }},
       {{"limit-cycle"}, [&](auto& r, auto&) { r.limit_cycle = limit_cycle(Disc{}, *r.transient); }},
       {{"limit-cycle-direct"},
        [&](auto& r, auto&) {
-         r.limit_cycle_direct =
-             limit_cycle_direct(cycle_problem_of(model), options.limit_cycle_direct.value().speed);
+         r.limit_cycle_direct = limit_cycle_direct(cycle_problem_of(model),
+                                                   options.study.limit_cycle_direct.value().speed);
        }},
       {{"limit-cycle-branch"}, [&](auto& r, auto& keeping) {
          r.limit_cycle_branch =
-             limit_cycle_branch(cycle_problem_of(model), options.speeds, keeping.progress);
+             limit_cycle_branch(cycle_problem_of(model), options.study.speeds, keeping.progress);
        }}};
 }
 
@@ -129,8 +131,9 @@ SquealResults run(const ModelOptions& options, const StudyKeeping& keeping)
 {
   const Model model = std::visit([](const auto& study) { return build(study); }, options.model);
   SquealResults results;
-  results.wheel_radius = options.speeds.wheel_radius;
-  return perform_steps(steps_of(model, options), options.analyses, std::move(results), keeping);
+  results.wheel_radius = options.study.speeds.wheel_radius;
+  return perform_steps(steps_of(model, options), options.study.analyses, std::move(results),
+                       keeping);
 }
 
 }  // namespace chladni::squeal

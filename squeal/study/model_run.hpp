@@ -6,7 +6,7 @@
 
 namespace chladni::squeal {
 
-/// Performs `options.analyses`; "limit-cycle" runs the transient that it needs.
+/// Performs `options.study.analyses`; "limit-cycle" runs the transient that it needs.
 /// @throws chladni::Error from the analyses.
 SquealResults run(const ModelOptions& options, const StudyKeeping& keeping = {});
 

@@ -25,7 +25,7 @@ namespace {
 
 std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& options)
 {
-  const GrowthCase& runs = *options.growth;
+  const GrowthCase& runs = *options.study.growth;
   std::vector<Growth> results(runs.speeds.size());
   for_each_index(static_cast<int>(runs.speeds.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
@@ -47,7 +47,7 @@ std::vector<CriticalValue> critical_values(const Disc& disc, const SquealOptions
 {
   const InertialDisc inertial = inertial_disc(disc);
   std::vector<CriticalValue> values;
-  for (const CriticalCase& search : options.critical)
+  for (const CriticalCase& search : options.study.critical)
     values.push_back(critical_value(inertial, options, search));
   return values;
 }
@@ -77,7 +77,7 @@ std::vector<StudyStep> steps_of(const Disc& disc, const SquealOptions& options)
       {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
       {{"transient", "limit-cycle", "spectrum"},
        [&](auto& r, auto& keeping) {
-         r.transient = transient(disc, options, *options.transient, keeping);
+         r.transient = transient(disc, options, *options.study.transient, keeping);
        }},
       {{"spectrum"},
        [&](auto& r, auto&) {
@@ -87,7 +87,7 @@ std::vector<StudyStep> steps_of(const Disc& disc, const SquealOptions& options)
       {{"limit-cycle-direct"},
        [&](auto& r, auto&) {
          r.limit_cycle_direct =
-             limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
+             limit_cycle_direct(disc, options, options.study.limit_cycle_direct->speed);
        }},
       {{"limit-cycle-branch"}, [&](auto& r, auto& keeping) {
          r.limit_cycle_branch = limit_cycle_branch(disc, options, keeping.progress);
@@ -100,10 +100,11 @@ SquealResults run(const Disc& disc, const SquealOptions& options, const StudyKee
 {
   validate(options);
   SquealResults results;
-  results.wheel_radius = options.speeds.wheel_radius;
+  results.wheel_radius = options.study.speeds.wheel_radius;
   if (const auto inertial = find_inertial_disc(disc))
     results.largest_split = inertial->largest_split;
-  return perform_steps(steps_of(disc, options), options.analyses, std::move(results), keeping);
+  return perform_steps(steps_of(disc, options), options.study.analyses, std::move(results),
+                       keeping);
 }
 
 }  // namespace chladni::squeal

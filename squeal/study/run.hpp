@@ -24,7 +24,7 @@ struct StudyKeeping {
   SquealResults begin = {};  ///< of an unfinished run of the same study: what it has is not redone
 };
 
-/// Performs `options.analyses` on the disc. "limit-cycle" runs the transient that it needs.
+/// Performs `options.study.analyses` on the disc. "limit-cycle" runs the transient that it needs.
 /// What was found stays when a later analysis fails; SquealResults::failure then says why, and
 /// SquealResults::missing what is not there.
 /// @throws chladni::Error from `validate` and from the first analysis.

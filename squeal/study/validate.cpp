@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 12> analyses{
 
 bool asks_for(const SquealOptions& options, std::string_view analysis)
 {
-  return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
-         options.analyses.end();
+  return std::find(options.study.analyses.begin(), options.study.analyses.end(), analysis) !=
+         options.study.analyses.end();
 }
 
 void require_positive(double x, const std::string& key)
@@ -77,16 +77,16 @@ void validate_speeds(const SpeedRange& speeds)
 
 void validate_transient(const SquealOptions& options)
 {
-  if (!options.transient)
+  if (!options.study.transient)
     throw Error(
         "[squeal] analyses: \"transient\", \"limit-cycle\" and \"spectrum\" need `transient = { "
         "... }`");
-  require_positive(options.transient->speed, "transient.speed_rad_s");
-  require_positive(options.transient->duration, "transient.duration_s");
-  require_positive(options.transient->initial_pad_displacement,
+  require_positive(options.study.transient->speed, "transient.speed_rad_s");
+  require_positive(options.study.transient->duration, "transient.duration_s");
+  require_positive(options.study.transient->initial_pad_displacement,
                    "transient.initial_pad_displacement");
-  require_positive(options.transient->growth_error, "transient.growth_error");
-  const std::optional<int>& steps = options.transient->steps_per_period;
+  require_positive(options.study.transient->growth_error, "transient.growth_error");
+  const std::optional<int>& steps = options.study.transient->steps_per_period;
   if (steps && *steps < steps_per_period_min)
     throw Error(fmt::format(
         "[squeal] transient.steps_per_period = {}; it must be {} or more to resolve the highest "
@@ -96,47 +96,49 @@ void validate_transient(const SquealOptions& options)
 
 void validate_growth(const SquealOptions& options)
 {
-  if (!options.growth || options.growth->speeds.empty())
+  if (!options.study.growth || options.study.growth->speeds.empty())
     throw Error("[squeal] analyses: \"growth\" needs `growth = { speeds_rad_s = [...], ... }`");
-  for (const double speed : options.growth->speeds) require_positive(speed, "growth.speeds_rad_s");
-  require_positive(options.growth->duration, "growth.duration_s");
+  for (const double speed : options.study.growth->speeds)
+    require_positive(speed, "growth.speeds_rad_s");
+  require_positive(options.study.growth->duration, "growth.duration_s");
 }
 
 void validate_direct(const SquealOptions& options)
 {
-  if (!options.limit_cycle_direct)
+  if (!options.study.limit_cycle_direct)
     throw Error(
         "[squeal] analyses: \"limit-cycle-direct\" needs `limit_cycle_direct = { speed_rad_s = ... "
         "}`");
-  require_positive(options.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
+  require_positive(options.study.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
 }
 
 void validate_map(const SquealOptions& options)
 {
-  if (!options.map)
+  if (!options.study.map)
     throw Error(
         "[squeal] analyses: \"stability-map\" needs `map = { parameter = ..., from = ..., to = "
         "..., "
         "count = ... }`");
-  if (options.map->parameter == MapParameter::friction)
-    require_not_negative(options.map->from, "map.from");
+  if (options.study.map->parameter == MapParameter::friction)
+    require_not_negative(options.study.map->from, "map.from");
   else
-    require_positive(options.map->from, "map.from");
-  if (!(options.map->to >= options.map->from) || !std::isfinite(options.map->to))
-    throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", options.map->to,
-                            options.map->from));
-  if (options.map->count < 1)
-    throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", options.map->count));
+    require_positive(options.study.map->from, "map.from");
+  if (!(options.study.map->to >= options.study.map->from) || !std::isfinite(options.study.map->to))
+    throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}",
+                            options.study.map->to, options.study.map->from));
+  if (options.study.map->count < 1)
+    throw Error(
+        fmt::format("[squeal] map.count = {}; it must be 1 or more", options.study.map->count));
 }
 
 void validate_critical(const SquealOptions& options)
 {
-  if (options.critical.empty())
+  if (options.study.critical.empty())
     throw Error(
         "[squeal] analyses: \"critical-values\" needs `critical = [{ parameter = ..., from = ..., "
         "to "
         "= ..., speed_rad_s = ... }]`");
-  for (const CriticalCase& search : options.critical) {
+  for (const CriticalCase& search : options.study.critical) {
     require_positive(search.from, "critical.from");
     require_positive(search.speed, "critical.speed_rad_s");
     if (!(search.to > search.from) || !std::isfinite(search.to))
@@ -147,8 +149,8 @@ void validate_critical(const SquealOptions& options)
 
 void validate_sound(const SquealOptions& options)
 {
-  if (!options.sound) return;
-  const int rate = options.sound->rate_Hz;
+  if (!options.study.sound) return;
+  const int rate = options.study.sound->rate_Hz;
   if (rate < 8000 || rate > 192000)
     throw Error(
         fmt::format("[squeal] wav.rate_Hz = {}; it must be 8000 to 192000, e.g. 48000", rate));
@@ -159,20 +161,20 @@ void validate_sound(const SquealOptions& options)
 void validate(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
-  require_not_negative(options.friction, "friction");
-  require_not_negative(options.friction_rise, "friction.static minus friction.kinetic");
-  require_positive(options.friction_decay_speed, "friction.decay_speed");
-  require_not_negative(options.slip_regularisation, "friction.regularisation");
+  require_not_negative(options.friction.kinetic, "friction");
+  require_not_negative(options.friction.rise, "friction.static minus friction.kinetic");
+  require_positive(options.friction.decay_speed, "friction.decay_speed");
+  require_not_negative(options.friction.regularisation, "friction.regularisation");
   validate_modes(options.modes);
   validate_pads(options);
-  for (const std::string& analysis : options.analyses)
+  for (const std::string& analysis : options.study.analyses)
     if (std::find(analyses.begin(), analyses.end(), analysis) == analyses.end())
       throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
                               fmt::join(analyses, ", ")));
   if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
       asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
       asks_for(options, "limit-cycle-branch") || asks_for(options, "rotation-stability"))
-    validate_speeds(options.speeds);
+    validate_speeds(options.study.speeds);
   if (asks_for(options, "transient") || asks_for(options, "limit-cycle") ||
       asks_for(options, "spectrum"))
     validate_transient(options);

@@ -146,7 +146,7 @@ bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
 {
   const double sliding = run.speed * disc.rings.front().radius;
   const ModalState start = transient_start(disc, inertial, run, options.pads.front().angle);
-  if (options.friction == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
+  if (options.friction.kinetic == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
     return false;
   return is_stiff(disc, with_friction_at_rest(options, disc, run.speed), 0.0);
 }

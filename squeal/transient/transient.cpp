@@ -27,7 +27,7 @@ void check_speed_program(const SquealOptions& options, const TransientCase& run)
 {
   const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
                                  [](const SpeedPoint& point) { return !(point.speed > 0.0); });
-  if (stops && !(options.slip_regularisation > 0.0))
+  if (stops && !(options.friction.regularisation > 0.0))
     throw Error(
         "transient: the speed program comes to rest, where friction has no direction; give "
         "friction a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
@@ -68,9 +68,9 @@ constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
 
 std::string warning_of_sliding(const Transient& run, const SquealOptions& options)
 {
-  const double eps = options.slip_regularisation;
+  const double eps = options.friction.regularisation;
   const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
-  if (run.slip_speed_min >= limit || options.friction == 0.0 ||
+  if (run.slip_speed_min >= limit || options.friction.kinetic == 0.0 ||
       run.integrator == name_of(IntegratorKind::generalised_alpha))
     return {};
   return fmt::format(
@@ -168,7 +168,8 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
                       .run = run,
                       .recorder = {plan, 0.5 * options.thickness},
                       .states = {disc, inertial, plan, run}};
-  if (options.sound && keeping.sound) recording.sound.emplace(plan.step, options.sound->rate_Hz);
+  if (options.study.sound && keeping.sound)
+    recording.sound.emplace(plan.step, options.study.sound->rate_Hz);
   const bool bounded = record(*steps, recording, keeping);
   Recorder& recorder = recording.recorder;
   recorder.finish();

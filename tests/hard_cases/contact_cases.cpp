@@ -44,8 +44,8 @@ double cycle_frequency_error(ContactLaw law, double reference_Hz)
 double power_of_friction_through_zero()
 {
   SquealOptions options = reference_options();
-  options.friction_rise = 0.3;
-  options.slip_regularisation = 1e-3;
+  options.friction.rise = 0.3;
+  options.friction.regularisation = 1e-3;
   const PadContact pad = pad_contact(options, options.pads[0], ring_radius);
   double largest = -1e300;
   for (int i = -200; i <= 200; ++i) {
@@ -61,7 +61,7 @@ double power_of_friction_through_zero()
 double motion_left_at_standstill()
 {
   SquealOptions options = reference_options(ContactLaw::unilateral);
-  options.slip_regularisation = 1e-3;
+  options.friction.regularisation = 1e-3;
   const Transient run = transient(disc_of({kirchhoff_3()}), options,
                                   {.speed = 20.0,
                                    .duration = 0.6,

@@ -31,8 +31,8 @@ struct Case {
   {
     brake.ring = "track";
     brake.thickness = testing::disc_thickness;
-    brake.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
-    brake.friction = 0.6;
+    brake.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
+    brake.friction.kinetic = 0.6;
     brake.contact = contact;
     brake.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
     squeal_results.limit_cycle_direct =

@@ -30,11 +30,11 @@ squeal::SquealOptions thesis_brake()
   squeal::SquealOptions options{};
   options.ring = "track";
   options.thickness = testing::disc_thickness;
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
-  options.friction = 0.6;
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
+  options.friction.kinetic = 0.6;
   options.contact = squeal::ContactLaw::bilateral;
   options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
-  options.analyses = {"limit-cycle-direct"};
+  options.study.analyses = {"limit-cycle-direct"};
   return options;
 }
 

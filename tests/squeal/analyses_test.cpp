@@ -86,7 +86,7 @@ TEST(ModeShapes, AreEigenvectorsOfTheSlidingDisc)
   const Disc body = disc_of({kirchhoff_2(), kirchhoff_3()});
   const InertialDisc disc = inertial_disc(body);
   SquealOptions options = reference_options();
-  options.speeds.count = 3;
+  options.study.speeds.count = 3;
   const EigenvalueMap map = eigenvalues(disc, options);
   const auto shapes = mode_shapes(disc, options, map);
   ASSERT_EQ(shapes.size(), 3u);
@@ -174,8 +174,9 @@ TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
 TEST(StabilityMap, DoesNotDependOnTheNumberOfThreads)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 7;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  options.study.speeds.count = 7;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_2(), kirchhoff_3()}));
   const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
   EXPECT_EQ(one.growth, three.growth);
@@ -203,9 +204,9 @@ TEST(Run, KeepsWhatItHasWhenALaterAnalysisFails)
 {
   // The transient is too short for a limit cycle.
   SquealOptions options = reference_options();
-  options.speeds.count = 2;
-  options.analyses = {"eigenvalues", "limit-cycle"};
-  options.transient =
+  options.study.speeds.count = 2;
+  options.study.analyses = {"eigenvalues", "limit-cycle"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.001, .initial_pad_displacement = 1e-6};
   const SquealResults results = run(disc_of({kirchhoff_3()}), options);
   EXPECT_TRUE(results.eigenvalues);
@@ -219,9 +220,9 @@ TEST(Run, KeepsWhatItHasWhenALaterAnalysisFails)
 TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 2;
-  options.analyses = {"eigenvalues", "critical-speed", "limit-cycle"};
-  options.transient =
+  options.study.speeds.count = 2;
+  options.study.analyses = {"eigenvalues", "critical-speed", "limit-cycle"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.3, .initial_pad_displacement = 6e-4};
   const Disc disc = disc_of({kirchhoff_3()});
   std::vector<SquealResults> seen;
@@ -251,11 +252,11 @@ TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
 TEST(Run, YieldsSpectrumSoundAndCriticalValues)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"spectrum", "critical-values"};
-  options.transient =
+  options.study.analyses = {"spectrum", "critical-values"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 1.2, .initial_pad_displacement = 6e-4};
-  options.sound = SoundCase{.rate_Hz = 44100};
-  options.critical = {
+  options.study.sound = SoundCase{.rate_Hz = 44100};
+  options.study.critical = {
       {.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .speed = 5.0 * pi}};
   auto body = analytic_body({kirchhoff_3(1672.13)});
   body.C = 0.5 * Eigen::Matrix2d::Identity();

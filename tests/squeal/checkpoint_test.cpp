@@ -64,7 +64,7 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
 {
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::unilateral);
-  options.sound = SoundCase{.rate_Hz = 8000};
+  options.study.sound = SoundCase{.rate_Hz = 8000};
   for (const IntegratorKind kind :
        {IntegratorKind::splitting, IntegratorKind::exponential, IntegratorKind::dormand_prince,
         IntegratorKind::generalised_alpha}) {
@@ -148,7 +148,7 @@ TEST(Checkpoint, WithoutTheSamplesOfItsSoundIsRefused)
 {
   const ScratchFolder folder;
   SquealOptions options = reference_options();
-  options.sound = SoundCase{.rate_Hz = 8000};
+  options.study.sound = SoundCase{.rate_Hz = 8000};
   const Disc disc = disc_of({kirchhoff_3()});
   const TransientCase run = some_run(IntegratorKind::splitting);
   Checkpoint checkpoint(folder.file("a.checkpoint.h5"), {}, 0.0);

@@ -25,7 +25,7 @@ TEST(HardCase, SlipNearZeroIsBoundedByTheRegularisation)
   // speed reverses the direction of sliding. Friction stays bounded and the run finite.
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::signed_force);
-  options.slip_regularisation = 1e-3;
+  options.friction.regularisation = 1e-3;
   const Transient run = transient(disc, options,
                                   {.speed = 0.5,
                                    .duration = 0.2,
@@ -133,7 +133,7 @@ TEST(HardCase, PadsThatMayStickTakeTheStiffIntegratorAtAnySpeed)
   const Disc disc = disc_of({kirchhoff_3()});
   const auto chosen = [&](double displacement, double eps) {
     SquealOptions options = reference_options();
-    options.slip_regularisation = eps;
+    options.friction.regularisation = eps;
     const TransientCase run{
         .speed = 0.5, .duration = 0.1, .initial_pad_displacement = displacement};
     return choose_integrator(disc, inertial_disc(disc), options, run).kind;

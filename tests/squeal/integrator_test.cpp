@@ -180,7 +180,7 @@ TEST(Integrator, KeepsTheEnergyOfAFrictionlessDisc)
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   const InertialDisc inertial = inertial_disc(disc);
   SquealOptions options = reference_options();
-  options.friction = 0.0;
+  options.friction.kinetic = 0.0;
   const double speed = 200.0, h = options.thickness;
   const PadPair& pad = options.pads[0];
   const auto energy = [&](double t, const Eigen::VectorXd& y) {

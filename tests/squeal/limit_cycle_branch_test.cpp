@@ -16,7 +16,7 @@ using namespace test;
 LimitCycleBranch branch_over(ContactLaw law, const SpeedRange& speeds)
 {
   SquealOptions options = reference_options(law);
-  options.speeds = speeds;
+  options.study.speeds = speeds;
   return limit_cycle_branch(disc_of({kirchhoff_3()}), options);
 }
 

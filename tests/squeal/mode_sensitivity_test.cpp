@@ -44,7 +44,7 @@ TEST(ModeSensitivity, ComparesTheLowestTwoEightSixteenAndAllModes)
 {
   // With the (1,0) pair at 584 Hz alone and with all 35 modes (SQUEAL reference value).
   SquealOptions options = reference_options();
-  options.speeds.from = 0.2 * pi;
+  options.study.speeds.from = 0.2 * pi;
   const InertialDisc disc = inertial_disc(disc_of(kirchhoff_modes()));
   const ModeSensitivity result = mode_sensitivity(disc, options);
   ASSERT_EQ(result.subsets.size(), 4u);
@@ -62,7 +62,7 @@ TEST(ModeSensitivity, ComparesTheLowestTwoEightSixteenAndAllModes)
 TEST(ModeSensitivity, NeedsACriticalSpeedInTheRange)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = pi, .to = 2.0 * pi, .count = 10};
+  options.study.speeds = {.from = pi, .to = 2.0 * pi, .count = 10};
   EXPECT_THROW(mode_sensitivity(inertial_disc(disc_of({kirchhoff_3()})), options), Error);
 }
 

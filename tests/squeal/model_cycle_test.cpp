@@ -21,10 +21,8 @@ using test::source_disc;
 ModelOptions rigid_study(const RigidDiscStudy& study)
 {
   return {.model = study,
-          .speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
-          .analyses = {"eigenvalues", "critical-speed"},
-          .transient = {},
-          .growth = {}};
+          .study = {.speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
+                    .analyses = {"eigenvalues", "critical-speed"}}};
 }
 
 /// SQUEAL reference values at 20 pi by shooting over the kinks of the contact law with finite
@@ -42,8 +40,8 @@ TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
   for (const Reference& reference : references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
     ModelOptions options = rigid_study({.disc = source_disc(reference.law)});
-    options.analyses = {"limit-cycle-direct"};
-    options.limit_cycle_direct = DirectCase{20.0 * pi};
+    options.study.analyses = {"limit-cycle-direct"};
+    options.study.limit_cycle_direct = DirectCase{20.0 * pi};
     const DirectLimitCycle cycle = run(options).limit_cycle_direct.value();
     EXPECT_NEAR(cycle.frequency_Hz, reference.frequency_Hz, 1e-3);
     EXPECT_NEAR(cycle.pad_velocity, reference.velocity, reference.tolerance * reference.velocity);
@@ -55,10 +53,11 @@ TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
 TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
 {
   ModelOptions options = rigid_study({.disc = source_disc()});
-  options.analyses = {"stability-map", "critical-speed", "critical-values"};
-  options.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
-  options.critical = {
+  options.study.analyses = {"stability-map", "critical-speed", "critical-values"};
+  options.study.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
+  options.study.critical = {
       {.parameter = MapParameter::friction, .from = 0.3, .to = 0.9, .speed = 12.0 * pi}};
   const SquealResults results = run(options);
   const StabilityMap& map = results.map.value();
@@ -76,8 +75,8 @@ TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
 TEST(RigidModel, HasNoLimitCycleInItsLinearEquations)
 {
   ModelOptions options = rigid_study({.disc = source_disc(), .equations = RigidEquations::linear});
-  options.analyses = {"limit-cycle-direct"};
-  options.limit_cycle_direct = DirectCase{20.0 * pi};
+  options.study.analyses = {"limit-cycle-direct"};
+  options.study.limit_cycle_direct = DirectCase{20.0 * pi};
   EXPECT_THROW(run(options), Error);
 }
 

@@ -21,10 +21,8 @@ using test::source_disc;
 ModelOptions rigid_study(const RigidDiscStudy& study)
 {
   return {.model = study,
-          .speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
-          .analyses = {"eigenvalues", "critical-speed"},
-          .transient = {},
-          .growth = {}};
+          .study = {.speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
+                    .analyses = {"eigenvalues", "critical-speed"}}};
 }
 
 TEST(RigidModel, HasTheEigenvaluesAndTheCriticalSpeedOfTheReference)
@@ -63,17 +61,17 @@ TEST(RigidModel, SettlesOnTheLimitCycleOfTheReferenceOnlyWithNonlinearEquations)
   // SQUEAL reference values by shooting; by its multipliers, disturbances decay by 0.6 per second,
   // to exp(-6) of the 15 % from which the motion starts.
   ModelOptions options = rigid_study({.disc = source_disc()});
-  options.analyses = {"limit-cycle"};
-  options.transient = TransientCase{.speed = 20.0 * pi,
-                                    .duration = 10.0,
-                                    .initial_pad_displacement = 1.2e-3,
-                                    .steps_per_period = 32};
+  options.study.analyses = {"limit-cycle"};
+  options.study.transient = TransientCase{.speed = 20.0 * pi,
+                                          .duration = 10.0,
+                                          .initial_pad_displacement = 1.2e-3,
+                                          .steps_per_period = 32};
   const LimitCycle cycle = run(options).limit_cycle.value();
   EXPECT_NEAR(cycle.frequency_Hz, 1740.888105, 2e-3);
   EXPECT_NEAR(cycle.pad_velocity, 11.52144, 0.01);
   EXPECT_NEAR(cycle.pad_displacement, 1.053665e-3, 1e-6);
   options.model = RigidDiscStudy{.disc = source_disc(), .equations = RigidEquations::linear};
-  options.transient->duration = 2.0;
+  options.study.transient->duration = 2.0;
   const Transient linear = run(options).transient.value();
   // exp(0.49 t) over the last second.
   EXPECT_GT(linear.envelope.pad_velocity.back(), 1.3 * cycle.pad_velocity);

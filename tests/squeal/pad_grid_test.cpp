@@ -65,7 +65,7 @@ TEST(PadGrid, ConvergesToTheIntegralOverTheSector)
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const auto stiffness = [&](int points) {
     SquealOptions options = options_with(grid_pad(sector, points));
-    options.friction = 0.0;
+    options.friction.kinetic = 0.0;
     options.pads[0].preload = 1e-9;
     const Eigen::MatrixXd A = state_matrix(disc, options, 18.0);
     return -(A(2, 0) + disc.omega[0]) * disc.omega[0] /

@@ -129,7 +129,7 @@ TEST(PadBody, HasOneLinearisationInMatrixFlowAndForce)
   pad.caliper = Caliper{.mass = 2.0, .axial = {4e6, 10.0}};
   pad.damping = 12.0;
   SquealOptions options = options_with(pad);
-  options.friction_rise = 0.2;
+  options.friction.rise = 0.2;
   const double speed = 6.0 * pi;
   SlidingDisc motion(inertial, options, speed);
   const Eigen::MatrixXd A = state_matrix(inertial, options, speed);
@@ -232,7 +232,7 @@ TEST(PadBody, HasItsPartInTheModeShapes)
   PadPair pad = grid_pad(0.6, 4);
   pad.body = full_body();
   SquealOptions options = options_with(pad);
-  options.speeds = {.from = 18.0, .to = 18.0, .count = 1};
+  options.study.speeds = {.from = 18.0, .to = 18.0, .count = 1};
   const EigenvalueMap map = eigenvalues(inertial, options);
   const Eigen::MatrixXcd shapes = mode_shapes(inertial, options, map).at(0);
   ASSERT_EQ(shapes.rows(), 2 + 12);
@@ -279,7 +279,7 @@ TEST(PadBody, LosesEnergyOnlyToItsDampersWithoutFriction)
        {&*pad.body->about_radial, &*pad.body->about_tangential, &*pad.body->about_axial})
     spring->suspension.damping = 0.0;
   SquealOptions options = options_with(pad);
-  options.friction = 0.0;
+  options.friction.kinetic = 0.0;
   EXPECT_LT(state_matrix(inertial, options, 18.0).eigenvalues().real().cwiseAbs().maxCoeff(), 1e-8);
   options.pads[0].body = full_body();
   EXPECT_LT(state_matrix(inertial, options, 18.0).eigenvalues().real().maxCoeff(), 1e-8);
@@ -302,7 +302,7 @@ TEST(Pads, AtDifferentAnglesAddTheirForces)
   // friction the frequencies of the pair stay together.
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   SquealOptions options = reference_options();
-  options.friction = 0.0;
+  options.friction.kinetic = 0.0;
   options.pads.push_back(options.pads[0]);
   options.pads[1].angle = pi / 6.0;
   const Eigen::MatrixXd A = state_matrix(disc, options, 1e-6);

@@ -60,7 +60,7 @@ TEST(RotationStability, IsWhatATransientDoes)
 TEST(RotationStability, FindsTheCriticalSpeedWithAnyNumberOfThreads)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = 4.0 * pi, .to = 5.0 * pi, .count = 5};
+  options.study.speeds = {.from = 4.0 * pi, .to = 5.0 * pi, .count = 5};
   const Disc disc = split_disc(0.0);
   const RotationStability one = rotation_stability(disc, options, 1);
   // The growth rate rises by 2 1/s for each pi; its error is 1e-5 1/s.

@@ -54,7 +54,7 @@ TEST(SpeedProgram, BrakesToStandstillWithRegularisedFriction)
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::unilateral);
   EXPECT_THROW(transient(disc, options, braking()), Error);
-  options.slip_regularisation = 1e-3;
+  options.friction.regularisation = 1e-3;
   const Transient run = transient(disc, options, braking());
   ASSERT_TRUE(run.finished);
   EXPECT_EQ(run.speed, 0.0);
@@ -69,7 +69,7 @@ TEST(SpeedProgram, NeedsTheSplitting)
 {
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options();
-  options.slip_regularisation = 1e-3;
+  options.friction.regularisation = 1e-3;
   TransientCase run = braking();
   run.integrator = IntegratorKind::exponential;
   EXPECT_THROW(transient(disc, options, run), Error);

@@ -21,7 +21,7 @@ InertialDisc reference_disc()
 SquealOptions map_options(const MapCase& map)
 {
   SquealOptions options = reference_options();
-  options.map = map;
+  options.study.map = map;
   return options;
 }
 
@@ -31,7 +31,7 @@ TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
     MapCase map;
     void (*set)(SquealOptions&, double);
   } cases[] = {
-      {{MapParameter::friction, 0.1, 0.9, 3}, [](auto& o, double x) { o.friction = x; }},
+      {{MapParameter::friction, 0.1, 0.9, 3}, [](auto& o, double x) { o.friction.kinetic = x; }},
       {{MapParameter::preload, 500.0, 4e3, 3}, [](auto& o, double x) { o.pads[0].preload = x; }},
       {{MapParameter::stiffness, 1e6, 9e6, 3}, [](auto& o, double x) { o.pads[0].stiffness = x; }}};
   for (const auto& c : cases) {
@@ -66,7 +66,7 @@ TEST(StabilityMap, TurnsUnstableAtTheCriticalSpeedOfEachFriction)
 TEST(StabilityMap, IsTheSameInEveryRunAndFast)
 {
   SquealOptions options = map_options({MapParameter::stiffness, 1e6, 9e6, 100});
-  options.speeds.count = 100;
+  options.study.speeds.count = 100;
   const auto begin = std::chrono::steady_clock::now();
   const StabilityMap map = stability_map(reference_disc(), options);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;

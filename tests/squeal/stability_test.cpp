@@ -147,7 +147,7 @@ TEST(CriticalSpeed, OfAllModesIsThatOfTheLowestPairAndRisesWithDamping)
                     {5e-4, 9.172464690136207},
                     {1e-3, 13.424694341511053}};
   SquealOptions options = reference_options();
-  options.speeds.from = 0.1 * pi;
+  options.study.speeds.from = 0.1 * pi;
   for (const auto& reference : references) {
     const auto critical = critical_speed(damped_plate(reference.zeta), options);
     ASSERT_TRUE(critical);
@@ -159,12 +159,12 @@ TEST(CriticalSpeed, IsAbsentWhenTheRangeHoldsNone)
 {
   const InertialDisc disc = inertial_of({kirchhoff_3()});
   SquealOptions options = reference_options();
-  options.speeds = {.from = pi, .to = 4.2 * pi, .count = 10};
+  options.study.speeds = {.from = pi, .to = 4.2 * pi, .count = 10};
   EXPECT_FALSE(critical_speed(disc, options));
-  options.speeds = {.from = 4.3 * pi, .to = 8.0 * pi, .count = 10};  // unstable throughout
+  options.study.speeds = {.from = 4.3 * pi, .to = 8.0 * pi, .count = 10};  // unstable throughout
   EXPECT_FALSE(critical_speed(disc, options));
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 10};
-  options.friction = 0.0;  // a conservative system: only rounding could cross
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 10};
+  options.friction.kinetic = 0.0;  // a conservative system: only rounding could cross
   EXPECT_FALSE(critical_speed(disc, options));
 }
 
@@ -172,7 +172,7 @@ TEST(CriticalSpeed, ComesWithTheUnstableIntervalBelowIt)
 {
   // The weak growth below 0.157 pi.
   SquealOptions options = reference_options();
-  options.speeds.from = 0.1 * pi;
+  options.study.speeds.from = 0.1 * pi;
   const InertialDisc disc = damped_plate(0.0);
   const StabilityProfile profile = stability_over_speed(disc, options);
   ASSERT_EQ(profile.unstable.size(), 2u);
@@ -191,8 +191,8 @@ TEST(CriticalSpeed, TellsWhyThereIsNone)
 {
   const auto stability = [](double from, double to, double friction) {
     SquealOptions options = reference_options();
-    options.speeds = {.from = from * pi, .to = to * pi, .count = 10};
-    options.friction = friction;
+    options.study.speeds = {.from = from * pi, .to = to * pi, .count = 10};
+    options.friction.kinetic = friction;
     return stability_of(stability_over_speed(inertial_of({kirchhoff_3()}), options));
   };
   EXPECT_EQ(stability(1.0, 4.2, 0.6), Stability::stable);
@@ -221,7 +221,7 @@ TEST(Eigenvalues, AreFollowedThroughACrossing)
   SquealOptions options = reference_options();
   options.pads[0].stiffness = 6e3;
   options.pads[0].preload = 2.0;
-  options.speeds = {.from = 8.0 * pi, .to = 60.0 * pi, .count = 113};
+  options.study.speeds = {.from = 8.0 * pi, .to = 60.0 * pi, .count = 113};
   const InertialDisc disc = damped_plate(1e-4);
   const EigenvalueMap map = eigenvalues(disc, options);
   ASSERT_EQ(map.lambda.rows(), 113);
@@ -241,7 +241,7 @@ TEST(Eigenvalues, KeepTheOscillatingOneNextToAnOverdampedPair)
   // SQUEAL reference values: at 0.001 pi one mode is overdamped, with real eigenvalues -3038 and
   // -40717. They are ill-conditioned, hence 1e-8 relative.
   SquealOptions options = reference_options();
-  options.speeds = {.from = 0.001 * pi, .to = 0.001 * pi, .count = 1};
+  options.study.speeds = {.from = 0.001 * pi, .to = 0.001 * pi, .count = 1};
   const EigenvalueMap map = eigenvalues(inertial_of({kirchhoff_3()}), options);
   EXPECT_NEAR(map.lambda(0, 0).real(), -3038.4412250221476, 1e-8 * 3038.0);
   EXPECT_EQ(map.lambda(0, 0).imag(), 0.0);

@@ -16,8 +16,9 @@ using namespace test;
 TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 7;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  options.study.speeds.count = 7;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
   const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
   const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
   EXPECT_EQ(one.growth, three.growth);
@@ -28,7 +29,7 @@ TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 TEST(SweepOnThreads, OfTheRotationIsThatOnOne)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
+  options.study.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
   const RotationStability one = rotation_stability(disc_of({kirchhoff_3()}), options, 1);
   const RotationStability three = rotation_stability(disc_of({kirchhoff_3()}), options, 3);
   EXPECT_EQ(one.growth, three.growth);

@@ -72,7 +72,7 @@ double energy_error(int steps_per_period)
 {
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   SquealOptions options = reference_options();
-  options.friction = 0.0;
+  options.friction.kinetic = 0.0;
   options.pads.push_back({.angle = 1.0, .stiffness = 4e6, .damping = 0.0, .preload = 1000.0});
   const double speed = 200.0, dt = 2.0 * pi / (disc.omega.maxCoeff() * steps_per_period);
   Stepper run(disc, options, speed, dt);

@@ -20,10 +20,10 @@ try {
   const chladni::squeal::SquealOptions options{
       .ring = "track",
       .thickness = 0.02,
-      .speeds = {.from = 3.0, .to = 60.0, .count = 20},
-      .friction = 0.6,
+      .friction = {.kinetic = 0.6},
       .pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}},
-      .analyses = {"eigenvalues", "critical-speed"}};
+      .study = {.speeds = {.from = 3.0, .to = 60.0, .count = 20},
+                .analyses = {"eigenvalues", "critical-speed"}}};
   // 3. Where the sliding disc loses its stability.
   const chladni::squeal::SquealResults results = chladni::squeal::run(disc, options);
   if (!results.critical_speed) {
