@@ -7,6 +7,8 @@
 
 #include "mbs_export/modal_body.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/brake/state_matrix.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal::test {
@@ -98,6 +100,12 @@ inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
 inline Disc disc_of(const std::vector<PlatePair>& pairs)
 {
   return make_disc(analytic_body(pairs), "track", {});
+}
+
+/// The state matrix over the speed.
+inline StateMatrixAt at_speeds(const InertialDisc& disc, const SquealOptions& options)
+{
+  return [disc, options](double speed) { return state_matrix(disc, options, speed); };
 }
 
 /// One pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad damping.

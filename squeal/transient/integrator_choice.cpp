@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/state_matrix.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
 #include "squeal/stability/stability.hpp"

@@ -165,7 +165,9 @@ Contents squeal_results()
     squeal::SquealOptions options = squeal::test::reference_options();
     options.study.speeds.count = n_speeds;
     options.study.analyses = {"eigenvalues"};
-    both.push_back(run(squeal::test::disc_of({squeal::test::kirchhoff_3()}), options));
+    both.push_back(
+        run(squeal::FlexibleDisc(squeal::test::disc_of({squeal::test::kirchhoff_3()}), options),
+            options.study));
   }
   return {[both](const std::string& path, int which) {
             squeal::write_results(path, both[std::size_t(which)], {});

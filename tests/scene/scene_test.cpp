@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "squeal/analysis_options.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {
@@ -408,6 +409,20 @@ TEST(Scene, ReadsARigidDiscWithoutMeshAndBody)
   EXPECT_EQ(study.equations, squeal::RigidEquations::nonlinear);
   EXPECT_EQ(study.disc.law, squeal::ContactLaw::unilateral);
   EXPECT_EQ(scene.squeal_model->study.growth->duration, 3.0);
+}
+
+TEST(Scene, HasTheAnalysesOfABodyForAFlexibleDiscAlone)
+{
+  for (const squeal::Analysis& analysis : squeal::analyses) {
+    const std::string asked = "analyses = [\"" + std::string(analysis.name) + "\"]";
+    const std::string text = replaced(oscillator, "analyses = [\"critical-speed\"]", asked);
+    if (analysis.needs_body) {
+      EXPECT_NE(error_of(text).find("must be one of \"eigenvalues\", "), std::string::npos);
+      EXPECT_EQ(error_of(text).find("\"spectrum\", "), std::string::npos);
+    } else {
+      EXPECT_EQ(error_of(text).find("must be one of"), std::string::npos) << analysis.name;
+    }
+  }
 }
 
 TEST(Scene, ReadsAnOscillator)

@@ -10,6 +10,7 @@
 #include "sound/radiation.hpp"
 #include "sound/study.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/flexible_disc.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -35,8 +36,8 @@ struct Case {
     brake.friction.kinetic = 0.6;
     brake.contact = contact;
     brake.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
-    squeal_results.limit_cycle_direct =
-        squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+    squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
+        squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
   }
   Setting setting() const { return {body, brake, options}; }
 };

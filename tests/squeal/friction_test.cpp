@@ -9,7 +9,7 @@
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/models/rigid_model.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
 #include "squeal/motion/sliding_disc.hpp"
 #include "squeal/stability/stability.hpp"
 
@@ -134,9 +134,9 @@ TEST(PadSpring, ThatStiffensRaisesTheFrequencyOfTheLimitCycleAlsoWithContactLoss
   SquealOptions options = stribeck_options(ContactLaw::unilateral);
   options.friction.kinetic = 0.6;
   options.friction.rise = 0.05;
-  const DirectLimitCycle linear = limit_cycle_direct(disc, options, 6.0 * pi);
+  const DirectLimitCycle linear = limit_cycle_direct(FlexibleDisc(disc, options), 6.0 * pi);
   options.pads[0].cubic_stiffness = 6e12;
-  const DirectLimitCycle cubic = limit_cycle_direct(disc, options, 6.0 * pi);
+  const DirectLimitCycle cubic = limit_cycle_direct(FlexibleDisc(disc, options), 6.0 * pi);
   for (const DirectLimitCycle& cycle : {linear, cubic}) {
     EXPECT_EQ(cycle.N_min, 0.0);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -159,7 +159,8 @@ TEST(RigidDiscFriction, HasOneLinearisationWithItsFallingCoefficient)
                        .preload = 3000.0,
                        .friction = {0.4, 0.3, 1.5, 1e-3},
                        .law = ContactLaw::unilateral};
-  const Model model = model_of(disc, Drive::speed, RigidEquations::nonlinear);
+  const RigidDiscBrake model(
+      {.disc = disc, .drive = Drive::speed, .equations = RigidEquations::nonlinear});
   const Eigen::Vector4d x{1.0, -2.0, 0.5, 3.0};
   const Eigen::Vector4d expected = model.state_matrix(20.0) * x;
   const Eigen::Vector4d rate = (model.rate(1e-5 * x, 20.0) - model.rate(-1e-5 * x, 20.0)) / 2e-5;

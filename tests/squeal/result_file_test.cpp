@@ -36,7 +36,7 @@ SquealResults complete_results()
   options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
   options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
-  return run(disc_of({kirchhoff_3()}), options);
+  return run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
 }
 
 TEST(ResultFile, ReturnsEveryValueItWasGiven)

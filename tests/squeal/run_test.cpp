@@ -16,7 +16,7 @@ TEST(Run, YieldsWhatWasAskedForAndNothingElse)
 {
   SquealOptions options = reference_options();
   options.study.analyses = {"critical-speed"};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
   EXPECT_TRUE(results.searched_critical_speed);
   EXPECT_TRUE(results.critical_speed);
   EXPECT_FALSE(results.eigenvalues || results.transient || results.limit_cycle);
@@ -32,7 +32,7 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
   options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
   std::set<std::string> names;
   const SquealResults results =
-      run(disc_of({kirchhoff_3()}), options,
+      run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study,
           {.progress = [&](const std::string& name, double) { names.insert(name); }});
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
@@ -48,7 +48,8 @@ TEST(Run, GoesOnWhereUnfinishedResultsCannotBeKept)
   const StudyKeeping keeping{.unfinished = [&](const SquealResults&) {
     if (++n_kept > 1) throw Error("disk full");
   }};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options, keeping);
+  const SquealResults results =
+      run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study, keeping);
   EXPECT_EQ(n_kept, 2);
   EXPECT_TRUE(results.eigenvalues && results.critical_speed);
   EXPECT_FALSE(results.failure);
@@ -59,7 +60,7 @@ TEST(Run, FindsALimitCycleWithoutATransient)
   SquealOptions options = reference_options();
   options.study.analyses = {"limit-cycle-direct"};
   options.study.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
   EXPECT_TRUE(results.limit_cycle_direct);
   EXPECT_FALSE(results.transient || results.limit_cycle || results.limit_cycle_branch);
 }
@@ -71,18 +72,18 @@ TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
   const Disc disc = make_disc(body, "track", {});
   SquealOptions options = reference_options();
   options.study.analyses = {"eigenvalues"};
-  EXPECT_THROW(run(disc, options), Error);
+  EXPECT_THROW(run(FlexibleDisc(disc, options), options.study), Error);
   options.study.analyses = {"transient"};
   options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.1, .initial_pad_displacement = 1e-6};
-  EXPECT_TRUE(run(disc, options).transient);
+  EXPECT_TRUE(run(FlexibleDisc(disc, options), options.study).transient);
 }
 
 TEST(Run, ValidatesTheOptionsFirst)
 {
   SquealOptions options = reference_options();
   options.friction.kinetic = -1.0;
-  EXPECT_THROW(run(disc_of({kirchhoff_3()}), options), Error);
+  EXPECT_THROW(run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study), Error);
 }
 
 }  // namespace

@@ -19,8 +19,11 @@ TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
   options.study.speeds.count = 7;
   options.study.map =
       MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
-  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
-  const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), options);
+  const auto on_threads = [&](unsigned n) {
+    return stability_map(brake, *options.study.map, options.study.speeds, n);
+  };
+  const StabilityMap one = on_threads(1), three = on_threads(3);
   EXPECT_EQ(one.growth, three.growth);
   EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
 }
@@ -45,7 +48,7 @@ TEST(SweepOnThreads, OfTransientsIsThatOnOne)
     std::vector<double> found(speeds.size());
     const auto put = [&](int i) {
       const auto at = static_cast<std::size_t>(i);
-      found[at] = growth(disc, options, speeds[at], 0.05).rate;
+      found[at] = growth(FlexibleDisc(disc, options), speeds[at], 0.05).rate;
     };
     for_each_index(3, put, n_threads);
     return found;

@@ -34,7 +34,7 @@ void expect_named(const std::string& key, const std::function<void(SquealOptions
   SquealOptions options = complete_options();
   change(options);
   try {
-    validate(options);
+    validate(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
     ADD_FAILURE() << "no error for " << key;
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
@@ -43,10 +43,12 @@ void expect_named(const std::string& key, const std::function<void(SquealOptions
 
 TEST(Validate, AcceptsTheReferenceOptions)
 {
-  EXPECT_NO_THROW(validate(complete_options()));
+  EXPECT_NO_THROW(validate(FlexibleDisc(disc_of({kirchhoff_3()}), complete_options()),
+                           complete_options().study));
   SquealOptions frictionless = complete_options();
   frictionless.friction.kinetic = 0.0;
-  EXPECT_NO_THROW(validate(frictionless));
+  EXPECT_NO_THROW(
+      validate(FlexibleDisc(disc_of({kirchhoff_3()}), frictionless), frictionless.study));
 }
 
 TEST(Validate, NamesTheKeyThatMakesNoSense)
