@@ -34,9 +34,9 @@ void need(const path& file, const std::string& remedy)
 /// The speed at which the feedback is looked at when no limit cycle tells one.
 double speed_of(const squeal::SquealOptions& options)
 {
-  if (options.transient) return options.transient->speed;
-  if (options.limit_cycle_direct) return options.limit_cycle_direct->speed;
-  return options.speeds.to;
+  if (options.study.transient) return options.study.transient->speed;
+  if (options.study.limit_cycle_direct) return options.study.limit_cycle_direct->speed;
+  return options.study.speeds.to;
 }
 
 /// The envelope of the transient, when that is what led to the limit cycle.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -26,8 +27,9 @@
 #include "scene/scene.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/radiation.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/models/model_brake.hpp"
 #include "squeal/results/result_file.hpp"
-#include "squeal/study/model_run.hpp"
 #include "squeal/study/run.hpp"
 #include "squeal/transient/checkpoint.hpp"
 #include "squeal/transient/wav_spool.hpp"
@@ -118,14 +120,23 @@ squeal::RunOrigin origin_of(const scene::Scene& scene, const SceneArguments& arg
           inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path())};
 }
 
-/// The disc that is this body, damped by `radiation` if the scene says so.
-squeal::Disc disc_of(const scene::Scene& scene, const mbs_export::ModalBody& body,
-                     const RadiationFile& radiation)
+/// The brake of the scene: a flexible disc, damped by `radiation` if the scene says so, or a model
+/// without a body.
+std::unique_ptr<squeal::Brake> brake_of(const scene::Scene& scene,
+                                        const std::optional<mbs_export::ModalBody>& body,
+                                        const RadiationFile& radiation)
 {
-  squeal::Disc disc =
-      squeal::make_disc(body, squeal::ring_names(*scene.squeal), scene.squeal->modes);
-  if (!scene.radiation) return disc;
-  return squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
+  if (!body) return squeal::model_brake(scene.squeal_model.value());
+  const squeal::SquealOptions& options = scene.squeal.value();
+  squeal::Disc disc = squeal::make_disc(*body, squeal::ring_names(options), options.modes);
+  if (scene.radiation)
+    disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
+  return std::make_unique<squeal::FlexibleDisc>(std::move(disc), options);
+}
+
+const squeal::StudyOptions& study_of(const scene::Scene& scene)
+{
+  return scene.squeal ? scene.squeal->study : scene.squeal_model.value().study;
 }
 
 /// What a run that was interrupted has left behind is of no use to one that begins anew.
@@ -162,7 +173,7 @@ struct Unfinished {
 };
 
 /// The analyses, with their unfinished results in the file meanwhile.
-squeal::SquealResults perform(const scene::Scene& scene, const std::optional<squeal::Disc>& disc,
+squeal::SquealResults perform(const squeal::Brake& brake, const squeal::StudyOptions& study,
                               const Unfinished& unfinished)
 {
   report::ProgressLine line;
@@ -176,8 +187,7 @@ squeal::SquealResults perform(const scene::Scene& scene, const std::optional<squ
             squeal::write_results(unfinished.file, results, unfinished.origin.provenance);
           },
       .begin = unfinished.begin};
-  return disc ? squeal::run(*disc, *scene.squeal, keeping)
-              : squeal::run(*scene.squeal_model, keeping);
+  return squeal::run(brake, study, keeping);
 }
 
 /// The results at the end of a run. A failure of an analysis is told with that of the file.
@@ -221,20 +231,19 @@ void run_squeal(const RunArguments& arguments)
       reserve_outputs(arguments.scene, {files.results, files.sound, files.checkpoint});
   RadiationFile radiation{.file = files.radiation, .stale = {}};
   if (arguments.body_file.empty()) radiation.stale = stale_of(arguments.scene);
-  std::optional<squeal::Disc> disc;
-  if (body) disc = disc_of(scene, *body, radiation);
+  const std::unique_ptr<squeal::Brake> brake = brake_of(scene, body, radiation);
+  const squeal::StudyOptions& study = study_of(scene);
   clock.end_phase("read");
 
   const squeal::RunOrigin origin = origin_of(scene, arguments.scene, body, files);
   squeal::Checkpoint checkpoint(files.checkpoint, origin, arguments.checkpoint_interval);
   std::optional<squeal::WavSpool> sound;
-  if (scene.squeal && scene.squeal->sound)
-    sound.emplace(files.sound, files.spool, scene.squeal->sound->rate_Hz);
+  if (study.sound) sound.emplace(files.sound, files.spool, study.sound->rate_Hz);
   if (!arguments.resume) forget(files, arguments.scene);
   std::error_code ignored;
   if (sound && !arguments.resume) std::filesystem::remove(files.sound, ignored);
   squeal::SquealResults results = perform(
-      scene, disc,
+      *brake, study,
       {.file = files.results,
        .origin = origin,
        .checkpoint = &checkpoint,

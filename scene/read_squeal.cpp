@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <charconv>
 #include <numbers>
 
@@ -8,11 +6,6 @@
 
 namespace chladni::scene {
 namespace {
-
-const std::vector<std::string> analysis_names = {
-    "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
-    "mode-sensitivity",   "rotation-stability"};
 
 void check_ring(const Table& table, std::string_view key, const std::string& ring,
                 const Scene& scene)
@@ -74,13 +67,6 @@ squeal::ModeChoice read_modes(const Table& squeal)
   return modes;
 }
 
-std::optional<squeal::SoundCase> read_wav(const Table& squeal)
-{
-  if (!squeal.has("wav")) return std::nullopt;
-  const Table table = squeal.table("wav");
-  return squeal::SoundCase{table.integer("rate_Hz")};
-}
-
 }  // namespace
 
 bool read_radiation(const Table& root)
@@ -98,22 +84,11 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.ring = read_ring(squeal, scene);
   options.thickness = squeal.number("thickness");
   options.modes = read_modes(squeal);
-  options.speeds = read_speeds(squeal);
-  const squeal::FrictionLaw friction = read_friction(squeal);
-  options.friction = friction.kinetic;
-  options.friction_rise = friction.rise;
-  options.friction_decay_speed = friction.decay_speed;
-  options.slip_regularisation = friction.regularisation;
+  options.friction = read_friction(squeal);
   options.contact = read_contact(squeal);
   options.pads = read_pads(squeal);
   check_grids(squeal, scene);
-  options.analyses = read_analyses(squeal, analysis_names);
-  options.transient = read_transient(squeal);
-  options.growth = read_growth(squeal);
-  options.limit_cycle_direct = read_direct(squeal, options.transient);
-  options.map = read_map(squeal);
-  options.critical = read_critical(squeal);
-  options.sound = read_wav(squeal);
+  options.study = read_study(squeal, StudyOf::body);
   return options;
 }
 

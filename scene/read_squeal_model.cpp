@@ -9,10 +9,6 @@ using squeal::RigidEquations;
 
 enum class ModelChoice { flexible_disc, rigid_disc, oscillator };
 
-const std::vector<std::string> analysis_names = {
-    "eigenvalues", "critical-speed", "critical-values",    "stability-map",     "growth",
-    "transient",   "limit-cycle",    "limit-cycle-direct", "limit-cycle-branch"};
-
 /// The only pad pair of a rigid disc; its angle does not matter.
 Table read_only_pad(const Table& squeal)
 {
@@ -106,19 +102,14 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
   } else {
     options.model = read_oscillator(squeal);
   }
-  options.speeds = read_speeds(squeal);
-  options.analyses = read_analyses(squeal, analysis_names);
-  options.transient = read_transient(squeal);
-  if (options.transient && (options.transient->integrator != squeal::IntegratorKind::automatic ||
-                            !options.transient->speed_program.empty())) {
+  options.study = read_study(squeal, StudyOf::model);
+  const std::optional<squeal::TransientCase>& transient = options.study.transient;
+  if (transient && (transient->integrator != squeal::IntegratorKind::automatic ||
+                    !transient->speed_program.empty())) {
     squeal.refuse("transient",
                   "integrator and speed_program are for a flexible disc; this model takes steps of "
                   "order 8 at a constant speed");
   }
-  options.growth = read_growth(squeal);
-  options.limit_cycle_direct = read_direct(squeal, options.transient);
-  options.map = read_map(squeal);
-  options.critical = read_critical(squeal);
   return options;
 }
 

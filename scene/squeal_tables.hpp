@@ -1,17 +1,15 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "scene/document.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/squeal_options.hpp"
+#include "squeal/study_options.hpp"
 
 /// What the readers of [squeal] share, whichever model it asks for.
 namespace chladni::scene {
-
-/// squeal.speeds
-squeal::SpeedRange read_speeds(const Table& squeal);
 
 /// squeal.friction: one coefficient, or a table with `kinetic`, `static`, `decay_speed` and
 /// `regularisation`.
@@ -26,14 +24,11 @@ squeal::PadSpring read_pad_spring(const Table& pad);
 /// squeal.pads of a flexible disc
 std::vector<squeal::PadPair> read_pads(const Table& squeal);
 
-/// squeal.analyses, each of which must be one of `known` and have the key that it needs.
-std::vector<std::string> read_analyses(const Table& squeal, const std::vector<std::string>& known);
+/// Whether the disc between the pads is a modal body: the analyses that need one are there then.
+enum class StudyOf { body, model };
 
-/// squeal.transient
-std::optional<squeal::TransientCase> read_transient(const Table& squeal);
-
-/// squeal.growth
-std::optional<squeal::GrowthCase> read_growth(const Table& squeal);
+/// The keys of [squeal] that say what is to be found out.
+squeal::StudyOptions read_study(const Table& squeal, StudyOf of);
 
 /// squeal.limit_cycle_direct; at the speed of the transient unless the scene gives another one.
 std::optional<squeal::DirectCase> read_direct(

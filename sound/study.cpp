@@ -10,6 +10,7 @@
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/cycle_harmonics.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_search.hpp"
 
@@ -18,13 +19,14 @@ namespace {
 
 Brake brake_at(const squeal::Disc& disc, const squeal::SquealOptions& options, double speed)
 {
-  const squeal::InertialDisc inertial = squeal::inertial_disc(disc);
-  const squeal::StabilityProfile profile = squeal::stability_over_speed(inertial, options);
+  const squeal::FlexibleDisc flexible(disc, options);
+  const squeal::StabilityProfile profile =
+      squeal::stability_over_speed(squeal::state_matrix_at(flexible), options.study.speeds);
   Brake brake{.critical = squeal::critical_speed(profile),
               .stability = squeal::name_of(squeal::stability_of(profile)),
-              .growth = squeal::least_stable_eigenvalue(inertial, options, speed).real(),
+              .growth = squeal::least_stable_eigenvalue(flexible.state_matrix(speed)).real(),
               .cycle = {}};
-  if (brake.growth > 0.0) brake.cycle = squeal::limit_cycle_direct(disc, options, speed);
+  if (brake.growth > 0.0) brake.cycle = squeal::limit_cycle_direct(flexible, speed);
   return brake;
 }
 
@@ -73,9 +75,11 @@ SoundResults with_radiation_of(const Setting& setting, const Stage& stage, doubl
                     "are taken to be silent",
                     results.inner_nodes, setting.body.picture.positions.rows()));
   listener.progress("radiation", 0.0);
-  const auto inertial = squeal::find_inertial_disc(stage.disc);
+  const squeal::FlexibleDisc flexible(stage.disc, setting.squeal);
   const double squeal_omega =
-      inertial ? squeal::least_stable_eigenvalue(*inertial, setting.squeal, speed).imag() : 0.0;
+      flexible.is_autonomous()
+          ? squeal::least_stable_eigenvalue(flexible.state_matrix(speed)).imag()
+          : 0.0;
   results.radiation =
       even_over_pairs(radiation(setting.body, stage.source(), modes_of(stage.disc), squeal_omega),
                       stage.disc, stage.body.outline);
@@ -95,7 +99,7 @@ SoundResults with_radiation_of(const Setting& setting, const Stage& stage, doubl
 Vibration with_harmonics(Vibration v, const squeal::Disc& disc,
                          const squeal::SquealOptions& options)
 {
-  const auto cycle = squeal::limit_cycle_direct(disc, options, v.speed);
+  const auto cycle = squeal::limit_cycle_direct(squeal::FlexibleDisc(disc, options), v.speed);
   Eigen::MatrixXcd all = squeal::cycle_harmonics(disc, options, cycle);
   all.col(0) = v.harmonics.col(0);
   v.harmonics = std::move(all);
@@ -111,10 +115,10 @@ Loudness loudness_at(const Setting& setting, const Stage& stage, const squeal::D
                     .pad_velocity = 0.0,
                     .power = 0.0,
                     .rms_dB = {}};
-  const squeal::InertialDisc inertial = squeal::inertial_disc(disc);
-  if (!(squeal::least_stable_eigenvalue(inertial, setting.squeal, speed).real() > 0.0))
+  const squeal::FlexibleDisc flexible(disc, setting.squeal);
+  if (!(squeal::least_stable_eigenvalue(flexible.state_matrix(speed)).real() > 0.0))
     return loudness;
-  const auto cycle = squeal::limit_cycle_direct(disc, setting.squeal, speed);
+  const auto cycle = squeal::limit_cycle_direct(flexible, speed);
   const Vibration vibration{.speed = speed,
                             .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,
                             .modes = modes_of(disc),

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "squeal/friction.hpp"
 #include "squeal/squeal_options.hpp"
+#include "squeal/study_options.hpp"
 
 namespace chladni::squeal {
 
@@ -69,15 +67,7 @@ struct Oscillator {
 /// A study of a model that needs no modal body.
 struct ModelOptions {
   std::variant<RigidDiscStudy, Oscillator> model;
-  SpeedRange speeds;
-  std::vector<std::string> analyses;  ///< "eigenvalues", "critical-speed", "critical-values",
-                                      ///< "stability-map", "growth", "transient", "limit-cycle",
-                                      ///< "limit-cycle-direct", "limit-cycle-branch"
-  std::optional<TransientCase> transient;
-  std::optional<GrowthCase> growth;
-  std::optional<DirectCase> limit_cycle_direct = {};
-  std::optional<MapCase> map = {};
-  std::vector<CriticalCase> critical = {};
+  StudyOptions study;
 };
 
 }  // namespace chladni::squeal

@@ -23,14 +23,14 @@ std::vector<Target> transient_targets(bool smallest)
   const double seconds = smallest ? 0.5 : 6.0, speed = 6.0 * pi;
   Transient run{};
   const double time = seconds_of([&] {
-    run = transient(pair, reference_options(),
+    run = transient(FlexibleDisc(pair, reference_options()),
                     {.speed = speed, .duration = seconds, .initial_pad_displacement = 6.8e-8});
   });
   const double rate =
-      least_stable_eigenvalue(inertial_disc(pair), reference_options(), speed).real();
+      least_stable_eigenvalue(state_matrix(inertial_disc(pair), reference_options(), speed)).real();
   const double large = smallest ? 0.02 : 1.0;
   const double time_all = seconds_of([&] {
-    transient(all, reference_options(ContactLaw::unilateral),
+    transient(FlexibleDisc(all, reference_options(ContactLaw::unilateral)),
               {.speed = speed, .duration = large, .initial_pad_displacement = 1e-4});
   });
   return {
@@ -44,14 +44,20 @@ std::vector<Target> map_targets(bool smallest)
   const Disc pair = disc_of({kirchhoff_3(1672.13)}), all = disc_of(kirchhoff_modes());
   SquealOptions options = reference_options();
   const int n = smallest ? 10 : 100;
-  options.speeds.count = n;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .count = n};
-  const double map = seconds_of([&] { stability_map(inertial_disc(pair), options); });
+  options.study.speeds.count = n;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .count = n};
+  const double map = seconds_of([&] {
+    stability_map(FlexibleDisc(pair, options), *options.study.map, options.study.speeds);
+  });
   std::vector<Target> targets{
       {fmt::format("stability map of {0} x {0} points, two modes", n), "s", map, 10.0}};
   if (!smallest)
-    targets.push_back({"stability map of 100 x 100 points, 35 modes", "s",
-                       seconds_of([&] { stability_map(inertial_disc(all), options); }), 10.0});
+    targets.push_back({"stability map of 100 x 100 points, 35 modes", "s", seconds_of([&] {
+                         stability_map(FlexibleDisc(all, options), *options.study.map,
+                                       options.study.speeds);
+                       }),
+                       10.0});
   return targets;
 }
 
@@ -64,18 +70,19 @@ std::vector<Target> direct_targets(ContactLaw law, bool smallest)
                            : law == ContactLaw::unilateral ? "unilateral"
                                                            : "signed";
   const double seconds = smallest ? 0.2 : 6.0;
-  const DirectLimitCycle cycle = limit_cycle_direct(pair, reference_options(law), 6.0 * pi);
+  const DirectLimitCycle cycle =
+      limit_cycle_direct(FlexibleDisc(pair, reference_options(law)), 6.0 * pi);
   const auto direct = double(cycle.n_contact_evaluations);
   std::vector<Target> targets{
       {fmt::format("contact evaluations of the direct limit cycle, {}", name), "1", direct, 0.0}};
   for (const IntegratorKind kind :
        {IntegratorKind::exponential, IntegratorKind::splitting, IntegratorKind::dormand_prince,
         IntegratorKind::generalised_alpha}) {
-    const Transient run = transient(pair, reference_options(law),
-                                    {.speed = 6.0 * pi,
-                                     .duration = seconds,
-                                     .initial_pad_displacement = 6.8e-8,
-                                     .integrator = kind});
+    const Transient run =
+        transient(FlexibleDisc(pair, reference_options(law)), {.speed = 6.0 * pi,
+                                                               .duration = seconds,
+                                                               .initial_pad_displacement = 6.8e-8,
+                                                               .integrator = kind});
     targets.push_back(
         {fmt::format("those of the transient of 6 s by {} over them, {}", name_of(kind), name), "1",
          double(run.n_contact_evaluations) * 6.0 / seconds / direct, 50.0});

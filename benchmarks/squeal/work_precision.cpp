@@ -130,9 +130,11 @@ Point growth_point(const Case& study, IntegratorKind kind, double setting)
   else
     run.steps_per_period = static_cast<int>(setting);
   Transient result{};
-  const double time = seconds_of([&] { result = transient(study.disc, study.options, run); });
+  const double time =
+      seconds_of([&] { result = transient(FlexibleDisc(study.disc, study.options), run); });
   const double exact =
-      least_stable_eigenvalue(inertial_disc(study.disc), study.options, study.speed).real();
+      least_stable_eigenvalue(state_matrix(inertial_disc(study.disc), study.options, study.speed))
+          .real();
   return {name_of(kind), setting, std::abs(result.growth_rate.value_or(NAN) - exact),
           time / study.duration, double(result.n_contact_evaluations) / study.duration};
 }

@@ -7,6 +7,8 @@
 
 #include "mbs_export/modal_body.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/brake/state_matrix.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal::test {
@@ -100,14 +102,20 @@ inline Disc disc_of(const std::vector<PlatePair>& pairs)
   return make_disc(analytic_body(pairs), "track", {});
 }
 
+/// The state matrix over the speed.
+inline StateMatrixAt at_speeds(const InertialDisc& disc, const SquealOptions& options)
+{
+  return [disc, options](double speed) { return state_matrix(disc, options, speed); };
+}
+
 /// One pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad damping.
 inline SquealOptions reference_options(ContactLaw law = ContactLaw::bilateral)
 {
   SquealOptions options{};
   options.ring = "track";
   options.thickness = 0.02;
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 60};
-  options.friction = 0.6;
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 60};
+  options.friction.kinetic = 0.6;
   options.contact = law;
   options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
   return options;

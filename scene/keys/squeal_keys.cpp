@@ -1,4 +1,8 @@
+#include <array>
+#include <string_view>
+
 #include "scene/keys.hpp"
+#include "squeal/analysis_options.hpp"
 
 namespace chladni::scene {
 namespace {
@@ -16,6 +20,28 @@ constexpr Admissible speed_km_h{
     .above = 0.0, .unit = "km/h", .usual_to = 600.0, .usually = "squeal is heard below 50 km/h"};
 constexpr Admissible duration{.above = 0.0, .unit = "s"};
 constexpr std::string_view parameters = "friction | preload | stiffness";
+
+constexpr std::string_view separator = " | ";
+
+constexpr std::size_t length_of_words()
+{
+  std::size_t n = (squeal::analyses.size() - 1) * separator.size();
+  for (const squeal::Analysis& analysis : squeal::analyses) n += analysis.name.size();
+  return n;
+}
+
+/// The names of all analyses: a row has a view of its words alone.
+constexpr std::array<char, length_of_words()> joined_names = [] {
+  std::array<char, length_of_words()> text{};
+  std::size_t at = 0;
+  for (const squeal::Analysis& analysis : squeal::analyses) {
+    if (at > 0)
+      for (const char letter : separator) text[at++] = letter;
+    for (const char letter : analysis.name) text[at++] = letter;
+  }
+  return text;
+}();
+constexpr std::string_view analysis_words(joined_names.data(), joined_names.size());
 
 constexpr Key squeal_rows[] = {
     {"squeal", table, "not asked for", "what `squeal run` does, [squeal](squeal.md)"},
@@ -55,14 +81,7 @@ constexpr Key squeal_rows[] = {
      "of the wheel that rolls with the disc",
      {.above = 0.0, .unit = "m", .usual_to = 3.0, .usually = "it is in m; is it in mm?"}},
     {"squeal.speeds.count", integer, "required", "how many", {.at_least = 1, .at_most = 1e6}},
-    {"squeal.analyses",
-     texts,
-     "required",
-     "one behind the other",
-     {},
-     "eigenvalues | critical-speed | growth | transient | limit-cycle | limit-cycle-direct | "
-     "limit-cycle-branch | stability-map | critical-values | spectrum | mode-sensitivity | "
-     "rotation-stability"},
+    {"squeal.analyses", texts, "required", "one behind the other", {}, analysis_words},
     {"squeal.transient", table, "for transient, limit-cycle", "a run from a small disturbance"},
     {"squeal.transient.speed_rad_s", number, "required", "rotation speed", speed},
     {"squeal.transient.duration_s", number, "required", "time simulated", duration},

@@ -5,19 +5,11 @@
 
 namespace chladni::squeal {
 
-FrictionLaw friction_law(const SquealOptions& options)
-{
-  return {.kinetic = options.friction,
-          .rise = options.friction_rise,
-          .decay_speed = options.friction_decay_speed,
-          .regularisation = options.slip_regularisation};
-}
-
 PadContact pad_contact(const SquealOptions& options, const PadPair& pad, double radius)
 {
   return {.radius = radius,
           .thickness = options.thickness,
-          .friction = friction_law(options),
+          .friction = options.friction,
           .law = options.contact,
           .spring = {.linear = pad.stiffness, .cubic = pad.cubic_stiffness},
           .damping = pad.damping,

@@ -7,9 +7,6 @@
 
 namespace chladni::squeal {
 
-/// How friction depends on the speed of sliding.
-FrictionLaw friction_law(const SquealOptions& options);
-
 /// The contact of one pad pair of the scene with a ring of this radius (m).
 PadContact pad_contact(const SquealOptions& options, const PadPair& pad, double radius);
 

@@ -94,7 +94,7 @@ Eigen::VectorXcd fundamental(const Eigen::MatrixXd& a, const std::vector<double>
 
 }  // namespace
 
-LimitCycle limit_cycle(const Disc& disc, const Transient& run)
+LimitCycle limit_cycle(const Transient& run)
 {
   if (!run.finished) throw Error(fmt::format("limit cycle: {}", divergence_of(run)));
   const std::vector<double> zeros = rising_zeros(run.tail);
@@ -116,7 +116,7 @@ LimitCycle limit_cycle(const Disc& disc, const Transient& run)
                    .settled = std::abs(drift) < settled_drift,
                    .t_zero_force = run.t_zero_force,
                    .t_99 = time_of_99_percent(run.envelope, velocity),
-                   .mode_numbers = disc.mode_numbers,
+                   .mode_numbers = run.mode_numbers,
                    .amplitude = {}};
   if (run.tail_a.size() > 0)
     cycle.amplitude = fundamental(run.tail_a, run.tail.t, 2.0 * pi * frequency);

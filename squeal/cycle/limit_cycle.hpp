@@ -1,6 +1,5 @@
 #pragma once
 
-#include "squeal/brake/disc.hpp"
 #include "squeal/results/results.hpp"
 
 namespace chladni::squeal {
@@ -8,9 +7,9 @@ namespace chladni::squeal {
 /// Largest relative change of the envelope over the last tenth of a run that counts as settled.
 inline constexpr double settled_drift = 1e-3;
 
-/// The limit cycle at the end of a transient of `disc`; frequency from interpolated zero crossings
+/// The limit cycle at the end of a transient; frequency from interpolated zero crossings
 /// of the pad velocity over the whole tail. Look at `settled` before you trust it.
 /// @throws chladni::Error when the transient diverged or is shorter than its tail.
-LimitCycle limit_cycle(const Disc& disc, const Transient& transient);
+LimitCycle limit_cycle(const Transient& transient);
 
 }  // namespace chladni::squeal

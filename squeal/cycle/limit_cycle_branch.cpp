@@ -7,6 +7,7 @@
 
 #include "squeal/cycle/branch_arc.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/cycle/measured_cycle.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability/stability.hpp"
 
@@ -37,8 +38,9 @@ BranchPoint point_of(const DirectLimitCycle& cycle)
 /// One part of a branch as it is followed.
 class Follower {
  public:
-  Follower(const CycleProblem& problem, const SpeedRange& range)
-      : problem_(problem),
+  Follower(const Brake& brake, const SpeedRange& range)
+      : brake_(brake),
+        motion_([&brake](double speed) { return brake.motion(speed); }),
         range_(range),
         speeds_(Eigen::VectorXd::LinSpaced(range.count, range.from, range.to))
   {}
@@ -47,12 +49,11 @@ class Follower {
   LimitCycleBranch follow(const DirectLimitCycle& start, double direction, const Progress& progress)
   {
     LimitCycleBranch part;
-    auto point =
-        arc_point(problem_.motion, {start.x, 1.0 / start.frequency_Hz}, start.speed, direction);
+    auto point = arc_point(motion_, {start.x, 1.0 / start.frequency_Hz}, start.speed, direction);
     double length = length_first, largest = start.x.norm();
     for (int i = 0; point && i < steps_max; ++i) {
       if (progress) progress(progress_at(point->speed, direction));
-      const auto next = next_on_arc(problem_.motion, *point, length);
+      const auto next = next_on_arc(motion_, *point, length);
       if (!next) {
         length *= 0.5;
         if (length > length_min) continue;
@@ -88,7 +89,7 @@ class Follower {
     const auto turned = [&](double s) {
       if (s <= 0.0) return sign * slope(a);
       if (s >= length) return sign * slope(b);
-      if (const auto at = next_on_arc(problem_.motion, a, s)) fold = *at;
+      if (const auto at = next_on_arc(motion_, a, s)) fold = *at;
       return sign * slope(fold);
     };
     root(turned, 0.0, length, fold_error);
@@ -115,42 +116,44 @@ class Follower {
 
   void add(const CycleStart& near, double speed, std::vector<BranchPoint>& points) const
   {
-    if (const auto cycle = limit_cycle_near(problem_, speed, near))
+    if (const auto cycle = limit_cycle_near(brake_, speed, near))
       points.push_back(point_of(*cycle));
   }
 
   /// Newton's method at one speed does not converge at a fold.
   BranchPoint as_it_is(const ArcPoint& point) const
   {
-    const std::unique_ptr<AutonomousMotion> motion = problem_.motion(point.speed);
+    const std::unique_ptr<AutonomousMotion> motion = brake_.motion(point.speed);
     const Flow end = flow(*motion, point.at, orbit_tolerance);
-    return point_of(
-        problem_.measured(*motion, {point.at, end.derivative, 0, orbit_tolerance}, point.speed));
+    return point_of(measured_cycle(brake_, *motion, {point.at, end.derivative, 0, orbit_tolerance},
+                                   point.speed));
   }
 
-  const CycleProblem& problem_;
+  const Brake& brake_;
+  AutonomousMotionAt motion_;
   SpeedRange range_;
   Eigen::VectorXd speeds_;
 };
 
-/// The highest speed of the range at which the sliding disc is unstable.
-std::optional<double> highest_unstable(const CycleProblem& problem, const SpeedRange& range)
+/// The highest speed of the range at which the sliding brake is unstable.
+std::optional<double> highest_unstable(const Brake& brake, const SpeedRange& range)
 {
   const Eigen::VectorXd speeds = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to);
   for (Eigen::Index i = speeds.size() - 1; i >= 0; --i)
-    if (least_stable_eigenvalue(problem.state_matrix(speeds[i])).real() > 0.0) return speeds[i];
+    if (least_stable_eigenvalue(brake.state_matrix(speeds[i])).real() > 0.0) return speeds[i];
   return std::nullopt;
 }
 
 }  // namespace
 
-LimitCycleBranch limit_cycle_branch(const CycleProblem& problem, const SpeedRange& range,
+LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
                                     const Progress& progress)
 {
-  const auto speed = highest_unstable(problem, range);
+  brake.motion(range.to);  // says why, where there is none
+  const auto speed = highest_unstable(brake, range);
   if (!speed) return {};
-  const DirectLimitCycle start = limit_cycle_direct(problem, *speed);
-  Follower follower(problem, range);
+  const DirectLimitCycle start = limit_cycle_direct(brake, *speed);
+  Follower follower(brake, range);
   LimitCycleBranch branch = follower.follow(start, -1.0, progress);
   std::reverse(branch.points.begin(), branch.points.end());
   std::reverse(branch.folds.begin(), branch.folds.end());
@@ -162,12 +165,6 @@ LimitCycleBranch limit_cycle_branch(const CycleProblem& problem, const SpeedRang
     branch.lost_above = above.lost_below;
   }
   return branch;
-}
-
-LimitCycleBranch limit_cycle_branch(const Disc& disc, const SquealOptions& options,
-                                    const Progress& progress)
-{
-  return limit_cycle_branch(cycle_problem(disc, options), options.speeds, progress);
 }
 
 }  // namespace chladni::squeal

@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "squeal/cycle/cycle_guess.hpp"
 #include "squeal/cycle/harmonic_balance.hpp"
+#include "squeal/cycle/measured_cycle.hpp"
 #include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
@@ -30,51 +31,40 @@ std::optional<PeriodicOrbit> orbit_from(AutonomousMotion& motion, const Harmonic
 }
 
 /// The cycle of an orbit, unless that is rest.
-std::optional<DirectLimitCycle> cycle_of(const CycleProblem& problem, AutonomousMotion& motion,
+std::optional<DirectLimitCycle> cycle_of(const Brake& brake, AutonomousMotion& motion,
                                          const std::optional<PeriodicOrbit>& orbit, double speed)
 {
   if (!orbit) return std::nullopt;
-  DirectLimitCycle cycle = problem.measured(motion, *orbit, speed);
-  if (cycle.pad_displacement < cycle_at_rest * problem.compression) return std::nullopt;
+  DirectLimitCycle cycle = measured_cycle(brake, motion, *orbit, speed);
+  if (cycle.pad_displacement < cycle_at_rest * brake.rest_compression()) return std::nullopt;
   return cycle;
 }
 
 }  // namespace
 
-DirectLimitCycle limit_cycle_direct(const CycleProblem& problem, double speed)
+DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
 {
-  const Eigen::MatrixXd A = problem.state_matrix(speed);
+  const std::unique_ptr<AutonomousMotion> motion = brake.motion(speed);
+  const Eigen::MatrixXd A = brake.state_matrix(speed);
   const double growth = least_stable_eigenvalue(A).real();
   if (!(growth > 0.0))
     throw Error(
         fmt::format("limit cycle: the sliding disc is stable at {:.6g} rad/s (largest growth rate "
                     "{:.3g} 1/s); a limit cycle grows from an unstable one",
                     speed, growth));
-  const std::unique_ptr<AutonomousMotion> motion = problem.motion(speed);
-  for (const HarmonicCycle& start : cycle_guesses(*motion, A, problem.compression))
-    if (auto cycle = cycle_of(problem, *motion, orbit_from(*motion, start), speed)) return *cycle;
+  for (const HarmonicCycle& start : cycle_guesses(*motion, A, brake.rest_compression()))
+    if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start), speed)) return *cycle;
   throw Error(
       fmt::format("limit cycle: Newton's method finds no periodic motion at {:.6g} rad/s; simulate "
                   "a transient instead",
                   speed));
 }
 
-std::optional<DirectLimitCycle> limit_cycle_near(const CycleProblem& problem, double speed,
+std::optional<DirectLimitCycle> limit_cycle_near(const Brake& brake, double speed,
                                                  const CycleStart& start)
 {
-  const std::unique_ptr<AutonomousMotion> motion = problem.motion(speed);
-  return cycle_of(problem, *motion, periodic_orbit(*motion, start), speed);
-}
-
-DirectLimitCycle limit_cycle_direct(const Disc& disc, const SquealOptions& options, double speed)
-{
-  return limit_cycle_direct(cycle_problem(disc, options), speed);
-}
-
-std::optional<DirectLimitCycle> limit_cycle_near(const Disc& disc, const SquealOptions& options,
-                                                 double speed, const CycleStart& start)
-{
-  return limit_cycle_near(cycle_problem(disc, options), speed, start);
+  const std::unique_ptr<AutonomousMotion> motion = brake.motion(speed);
+  return cycle_of(brake, *motion, periodic_orbit(*motion, start), speed);
 }
 
 }  // namespace chladni::squeal

@@ -97,47 +97,66 @@ struct OscillatorEquationsAt {
   }
 };
 
-AutonomousMotionAt motion_at(const Oscillator& o, const Eigen::Vector4d& scale)
+/// Brings the displacements of x to the size of their rates.
+double scale_of(const Oscillator& o)
 {
-  const double omega = std::sqrt((std::max(o.k_x, o.k_y + o.contact_stiffness) + o.k_xy) / o.mass);
-  return [o, scale, omega](double speed) {
-    return std::make_unique<ModelMotion<OscillatorEquationsAt>>(
-        OscillatorEquationsAt{o, scale, speed},
-        ModelMotion<OscillatorEquationsAt>::Properties{
-            .size = 4, .n_switches = 1, .omega_highest = omega, .law = o.law});
-  };
+  return std::sqrt(o.k_x / o.mass);
+}
+
+Eigen::Vector4d scales_of(const Oscillator& o)
+{
+  return {scale_of(o), scale_of(o), 1.0, 1.0};
+}
+
+template <class Scalar>
+Eigen::VectorX<Scalar> scaled_rate(const Oscillator& o, const Eigen::VectorX<Scalar>& x,
+                                   double speed)
+{
+  const Eigen::Vector4d scale = scales_of(o);
+  const Eigen::Vector4<Scalar> motion = x.cwiseQuotient(scale.cast<Scalar>());
+  return rate_of<Scalar>(o, motion, speed).cwiseProduct(scale.cast<Scalar>());
 }
 
 }  // namespace
 
-Model model_of(const Oscillator& o)
+Eigen::MatrixXd OscillatorBrake::state_matrix(double speed) const
 {
-  const double omega = std::sqrt(o.k_x / o.mass);
-  const Eigen::Vector4d scale{omega, omega, 1.0, 1.0};
-  const auto scaled_rate = [o, scale]<class Scalar>(const Eigen::VectorX<Scalar>& x, double speed) {
-    const Eigen::Vector4<Scalar> motion = x.cwiseQuotient(scale.cast<Scalar>());
-    return Eigen::VectorX<Scalar>(
-        rate_of<Scalar>(o, motion, speed).cwiseProduct(scale.cast<Scalar>()));
-  };
-  const auto pads = [o, scale](const Eigen::VectorXd& x, double speed) {
-    return pads_of(o, x.cwiseQuotient(scale), speed);
-  };
-  return {.size = 4,
-          .state_matrix =
-              [scaled_rate](double speed) {
-                return derivative_at_rest(
-                    [&](const Eigen::VectorXcd& x) { return scaled_rate(x, speed); }, 4);
-              },
-          .rate = [scaled_rate](const Eigen::VectorXd& x,
-                                double speed) { return scaled_rate(x, speed); },
-          .motion = motion_at(o, scale),
-          .contact = pads,
-          .start =
-              [omega](double displacement) {
-                return Eigen::VectorXd(Eigen::Vector4d{0.0, omega * displacement, 0.0, 0.0});
-              },
-          .rest_height = 0.0,
-          .rest_compression = o.preload / o.contact_stiffness};
+  return derivative_at_rest([&](const Eigen::VectorXcd& x) { return scaled_rate(o_, x, speed); },
+                            size());
+}
+
+std::unique_ptr<Brake> OscillatorBrake::with(MapParameter parameter, double value) const
+{
+  Oscillator changed = o_;
+  if (parameter == MapParameter::friction) changed.friction.kinetic = value;
+  if (parameter == MapParameter::preload) changed.preload = value;
+  if (parameter == MapParameter::stiffness) changed.contact_stiffness = value;
+  return std::make_unique<OscillatorBrake>(changed);
+}
+
+std::unique_ptr<AutonomousMotion> OscillatorBrake::motion(double speed) const
+{
+  const double highest =
+      std::sqrt((std::max(o_.k_x, o_.k_y + o_.contact_stiffness) + o_.k_xy) / o_.mass);
+  return std::make_unique<ModelMotion<OscillatorEquationsAt>>(
+      OscillatorEquationsAt{o_, scales_of(o_), speed},
+      ModelMotion<OscillatorEquationsAt>::Properties{
+          .size = size(), .n_switches = 1, .omega_highest = highest, .law = o_.law});
+}
+
+Eigen::VectorXd OscillatorBrake::rate(const Eigen::VectorXd& x, double speed) const
+{
+  return scaled_rate(o_, x, speed);
+}
+
+ContactResult<double> OscillatorBrake::contact(const Eigen::VectorXd& x, double speed) const
+{
+  return pads_of(o_, x.cwiseQuotient(scales_of(o_)), speed);
+}
+
+Eigen::VectorXd OscillatorBrake::start(double displacement) const
+{
+  return Eigen::Vector4d{0.0, scale_of(o_) * displacement, 0.0, 0.0};
 }
 
 double flutter_friction(const Oscillator& o)

@@ -82,11 +82,13 @@ struct Transient {
   std::int64_t n_events = 0;           ///< located by "dormand-prince" alone; 0 with the others
   std::vector<ContactEvent> events;    ///< the first of them
   Envelope envelope;
-  Windows windows;         ///< the whole run; none in files of earlier versions
-  Band band;               ///< of `history`
-  History history;         ///< the whole run
-  Snapshots snapshots;     ///< over the whole run; none of models without a body
-  History tail;            ///< the end of the run, every sample
+  Windows windows;      ///< the whole run; none in files of earlier versions
+  Band band;            ///< of `history`
+  History history;      ///< the whole run
+  Snapshots snapshots;  ///< over the whole run; none of models without a body
+  History tail;         ///< the end of the run, every sample
+  /// Of the rows of `tail_a`, 1-based in the body; empty without a body and in results of a file.
+  std::vector<int> mode_numbers = {};
   Eigen::MatrixXd tail_a;  ///< [n_modes x n_tail] q in the inertial frame; see LimitCycle
   double N_min;            ///< over all pads, N
   double N_max;            ///< over all pads, N

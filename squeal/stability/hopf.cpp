@@ -78,8 +78,11 @@ std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double
   return std::nullopt;
 }
 
-CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search)
+CriticalValue critical_value(const Brake& brake, const CriticalCase& search)
 {
+  const StateMatrixOf A = [&](double value) {
+    return brake.with(search.parameter, value)->state_matrix(search.speed);
+  };
   CriticalValue result{
       .parameter = name_of(search.parameter),
       .speed = search.speed,
@@ -94,15 +97,6 @@ CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search)
   result.frequency_Hz = limit->frequency_Hz;
   result.n_newton_steps = limit->n_newton_steps;
   return result;
-}
-
-CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
-                             const CriticalCase& search)
-{
-  const auto A = [&](double value) {
-    return state_matrix(disc, with_parameter(options, search.parameter, value), search.speed);
-  };
-  return critical_value(A, search);
 }
 
 }  // namespace chladni::squeal

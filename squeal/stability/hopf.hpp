@@ -3,11 +3,10 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
-#include <vector>
 
-#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/models/brake.hpp"
 #include "squeal/results/results.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/study_options.hpp"
 
 namespace chladni::squeal {
 
@@ -32,14 +31,11 @@ struct HopfPoint {
 std::optional<HopfPoint> hopf_point(const StateMatrixOf& A, double value, double omega,
                                     const Eigen::VectorXcd& u);
 
-/// Where the sliding disc loses its stability over a range of the parameter, at the speed of the
+/// Where the sliding brake loses its stability over a range of the parameter, at the speed of the
 /// search; see stability_search.hpp. 128 values are looked at first. Searching the speed itself is
 /// `critical_speed`.
-/// @param A  the state matrix over the parameter, at the speed of the search
 /// @return `value` is where it is lost first; where it is regained, if it is never lost; absent if
 ///         neither happens in the range.
-CriticalValue critical_value(const StateMatrixOf& A, const CriticalCase& search);
-CriticalValue critical_value(const InertialDisc& disc, const SquealOptions& options,
-                             const CriticalCase& search);
+CriticalValue critical_value(const Brake& brake, const CriticalCase& search);
 
 }  // namespace chladni::squeal

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/state_matrix.hpp"
 #include "squeal/root.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_search.hpp"
@@ -59,6 +60,12 @@ InertialDisc with_families(const InertialDisc& disc, const std::vector<Family>& 
   return part;
 }
 
+/// The state matrix of a part of the modes over the speed; keeps references to its arguments.
+StateMatrixAt matrices_of(const InertialDisc& part, const SquealOptions& options)
+{
+  return [&](double speed) { return state_matrix(part, options, speed); };
+}
+
 /// The eigenvalue of A nearest to `expected`.
 Complex nearest_eigenvalue(const Eigen::MatrixXd& A, const Complex& expected)
 {
@@ -96,13 +103,14 @@ Eigen::VectorXcd eigenvector_near(const Eigen::MatrixXd& A, const Complex& expec
 
 ModeSubset subset_of(const InertialDisc& part, const SquealOptions& options, double speed)
 {
-  const StabilityProfile profile = stability_over_speed(part, options);
+  const StabilityProfile profile =
+      stability_over_speed(matrices_of(part, options), options.study.speeds);
   const auto critical = critical_speed(profile);
   ModeSubset subset{.n_modes = static_cast<int>(part.n_modes()),
                     .highest_Hz = part.omega.maxCoeff() / (2.0 * pi),
                     .critical_speed = {},
                     .critical_frequency_Hz = {},
-                    .growth = least_stable_eigenvalue(part, options, speed).real(),
+                    .growth = least_stable_eigenvalue(state_matrix(part, options, speed)).real(),
                     .stability = name_of(stability_of(profile))};
   if (critical) {
     subset.critical_speed = critical->speed;
@@ -142,7 +150,7 @@ ModeInfluence influence_of(const InertialDisc& disc, const SquealOptions& option
   ModeInfluence influence{};
   if (others.empty()) return influence;
   const InertialDisc part = with_families(disc, others);
-  const StateMatrixAt A = state_matrix_at(part, options);
+  const StateMatrixAt A = matrices_of(part, options);
   influence.growth_without = nearest_eigenvalue(A(critical.speed), critical.lambda).real();
   influence.critical_speed_without = crossing_near(A, critical.speed, critical.lambda);
   return influence;
@@ -173,7 +181,8 @@ std::vector<ModeInfluence> influences(const InertialDisc& disc, const SquealOpti
 
 ModeSensitivity mode_sensitivity(const InertialDisc& disc, const SquealOptions& options)
 {
-  const StabilityProfile profile = stability_over_speed(disc, options);
+  const StabilityProfile profile =
+      stability_over_speed(matrices_of(disc, options), options.study.speeds);
   const auto critical = critical_speed(profile);
   if (!critical)
     throw Error(

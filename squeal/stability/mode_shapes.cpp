@@ -4,8 +4,8 @@
 
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/state_matrix.hpp"
 #include "squeal/parallel.hpp"
-#include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -119,7 +119,7 @@ RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, d
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads)
 {
-  const SpeedRange& range = options.speeds;
+  const SpeedRange& range = options.study.speeds;
   RotationStability result{Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
                            Eigen::VectorXd(range.count), Eigen::VectorXd(range.count),
                            std::nullopt};

@@ -8,7 +8,6 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/pad_system.hpp"
 #include "squeal/stability/eigenvalue_branches.hpp"
 #include "squeal/stability/stability_search.hpp"
 
@@ -23,11 +22,6 @@ Eigen::VectorXd speeds_of(const SpeedRange& range, int count)
 }
 
 }  // namespace
-
-StateMatrixAt state_matrix_at(const InertialDisc& disc, const SquealOptions& options)
-{
-  return [&](double speed) { return state_matrix(disc, options, speed); };
-}
 
 Complex least_stable_eigenvalue(const Eigen::MatrixXd& A)
 {
@@ -48,12 +42,6 @@ EigenPair least_stable_pair(const Eigen::MatrixXd& A)
   return {solver.eigenvalues()[i], solver.eigenvectors().col(i).normalized()};
 }
 
-Complex least_stable_eigenvalue(const InertialDisc& disc, const SquealOptions& options,
-                                double speed)
-{
-  return least_stable_eigenvalue(state_matrix(disc, options, speed));
-}
-
 EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range)
 {
   const Eigen::VectorXd speeds = speeds_of(range, range.count);
@@ -72,20 +60,10 @@ EigenvalueMap eigenvalues(const StateMatrixAt& A, const SpeedRange& range)
   return {speeds, lambda};
 }
 
-EigenvalueMap eigenvalues(const InertialDisc& disc, const SquealOptions& options)
-{
-  return eigenvalues(state_matrix_at(disc, options), options.speeds);
-}
-
 StabilityProfile stability_over_speed(const StateMatrixAt& A, const SpeedRange& range)
 {
   return stability_over(A,
                         {.from = range.from, .to = range.to, .count = std::max(128, range.count)});
-}
-
-StabilityProfile stability_over_speed(const InertialDisc& disc, const SquealOptions& options)
-{
-  return stability_over_speed(state_matrix_at(disc, options), options.speeds);
 }
 
 std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile)
@@ -93,16 +71,6 @@ std::optional<CriticalSpeed> critical_speed(const StabilityProfile& profile)
   const std::optional<StabilityPoint> lost = first_loss(profile);
   if (!lost) return std::nullopt;
   return CriticalSpeed{lost->value, lost->frequency_Hz, lost->n_newton_steps};
-}
-
-std::optional<CriticalSpeed> critical_speed(const StateMatrixAt& A, const SpeedRange& range)
-{
-  return critical_speed(stability_over_speed(A, range));
-}
-
-std::optional<CriticalSpeed> critical_speed(const InertialDisc& disc, const SquealOptions& options)
-{
-  return critical_speed(state_matrix_at(disc, options), options.speeds);
 }
 
 }  // namespace chladni::squeal

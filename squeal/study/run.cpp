@@ -1,109 +1,110 @@
 #include "squeal/study/run.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/error.hpp"
-#include "squeal/brake/inertial_frame.hpp"
-#include "squeal/cycle/limit_cycle.hpp"
-#include "squeal/cycle/limit_cycle_branch.hpp"
-#include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/parallel.hpp"
-#include "squeal/stability/hopf.hpp"
-#include "squeal/stability/mode_sensitivity.hpp"
-#include "squeal/stability/mode_shapes.hpp"
-#include "squeal/stability/rotation_stability.hpp"
-#include "squeal/stability/stability.hpp"
-#include "squeal/stability/stability_map.hpp"
-#include "squeal/study/study_steps.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/study/analysis_steps.hpp"
 #include "squeal/study/validate.hpp"
-#include "squeal/transient/spectrum.hpp"
-#include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-std::vector<Growth> growth_over_speeds(const Disc& disc, const SquealOptions& options)
+bool contains(const std::vector<std::string>& names, std::string_view name)
 {
-  const GrowthCase& runs = *options.growth;
-  std::vector<Growth> results(runs.speeds.size());
-  for_each_index(static_cast<int>(runs.speeds.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    results[at] = growth(disc, options, runs.speeds[at], runs.duration);
-  });
-  return results;
+  return std::ranges::find(names, name) != names.end();
 }
 
-EigenvalueMap eigenvalues_with_shapes(const Disc& disc, const SquealOptions& options)
+/// Whether the analyses ask for a step, or for one that begins with its result.
+bool is_asked_for(const AnalysisStep& step, const std::vector<std::string>& analyses)
 {
-  const InertialDisc inertial = inertial_disc(disc);
-  EigenvalueMap map = eigenvalues(inertial, options);
-  map.shapes = mode_shapes(inertial, options, map);
-  map.mode_numbers = disc.mode_numbers;
-  return map;
+  return contains(analyses, step.name) ||
+         std::ranges::any_of(step.serves, [&](auto name) { return contains(analyses, name); });
 }
 
-std::vector<CriticalValue> critical_values(const Disc& disc, const SquealOptions& options)
+/// Whether a run that goes on has to do a step. The limit cycle is measured on what a file does not
+/// hold of its transient.
+bool is_to_do(const AnalysisStep& step, const std::vector<std::string>& missing)
 {
-  const InertialDisc inertial = inertial_disc(disc);
-  std::vector<CriticalValue> values;
-  for (const CriticalCase& search : options.critical)
-    values.push_back(critical_value(inertial, options, search));
-  return values;
+  return contains(missing, step.name) ||
+         (step.name == "transient" && contains(missing, "limit-cycle"));
 }
 
-/// In the order in which they are done.
-std::vector<StudyStep> steps_of(const Disc& disc, const SquealOptions& options)
+/// What there is so far. A disk that is full meanwhile ends no study; what is written at its end
+/// tells of it.
+void keep_unfinished(const StudyKeeping& keeping, const SquealResults& results)
 {
-  return {
-      {{"eigenvalues"},
-       [&](auto& r, auto&) { r.eigenvalues = eigenvalues_with_shapes(disc, options); }},
-      {{"critical-speed"},
-       [&](auto& r, auto&) {
-         r.speed_stability = stability_over_speed(inertial_disc(disc), options);
-         r.critical_speed = critical_speed(*r.speed_stability);
-         r.searched_critical_speed = true;
-       }},
-      {{"critical-values"},
-       [&](auto& r, auto&) { r.critical_values = critical_values(disc, options); }},
-      {{"stability-map"},
-       [&](auto& r, auto&) { r.map = stability_map(inertial_disc(disc), options); }},
-      {{"mode-sensitivity"},
-       [&](auto& r, auto&) {
-         r.mode_sensitivity = mode_sensitivity(inertial_disc(disc), options);
-       }},
-      {{"rotation-stability"},
-       [&](auto& r, auto&) { r.rotation_stability = rotation_stability(disc, options); }},
-      {{"growth"}, [&](auto& r, auto&) { r.growth = growth_over_speeds(disc, options); }},
-      {{"transient", "limit-cycle", "spectrum"},
-       [&](auto& r, auto& keeping) {
-         r.transient = transient(disc, options, *options.transient, keeping);
-       }},
-      {{"spectrum"},
-       [&](auto& r, auto&) {
-         r.spectrum = spectrum(r.transient->tail.pad_velocity, r.transient->step);
-       }},
-      {{"limit-cycle"}, [&](auto& r, auto&) { r.limit_cycle = limit_cycle(disc, *r.transient); }},
-      {{"limit-cycle-direct"},
-       [&](auto& r, auto&) {
-         r.limit_cycle_direct =
-             limit_cycle_direct(disc, options, options.limit_cycle_direct->speed);
-       }},
-      {{"limit-cycle-branch"}, [&](auto& r, auto& keeping) {
-         r.limit_cycle_branch = limit_cycle_branch(disc, options, keeping.progress);
-       }}};
+  if (!keeping.unfinished) return;
+  try {
+    keeping.unfinished(results);
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
+  }
+}
+
+/// The steps, and the results with which they begin.
+struct Beginning {
+  std::vector<AnalysisStep> to_do;
+  SquealResults results;
+  bool goes_on;  ///< where another run has ended
+};
+
+Beginning beginning_of(const Study& study, const StudyKeeping& keeping)
+{
+  Beginning begin{.to_do = {}, .results = {}, .goes_on = !keeping.begin.missing.empty()};
+  SquealResults& results = begin.results;
+  results.wheel_radius = study.options.speeds.wheel_radius;
+  if (const FlexibleDisc* body = study.brake.body(); body && body->find_inertial())
+    results.largest_split = body->inertial().largest_split;
+  if (begin.goes_on) results = keeping.begin;
+  results.failure.reset();
+  results.missing.clear();
+  for (const AnalysisStep& step : analysis_steps()) {
+    if (!is_asked_for(step, study.options.analyses)) continue;
+    if (begin.goes_on && !is_to_do(step, keeping.begin.missing)) continue;
+    begin.to_do.push_back(step);
+    results.missing.emplace_back(step.name);
+  }
+  return begin;
 }
 
 }  // namespace
 
-SquealResults run(const Disc& disc, const SquealOptions& options, const StudyKeeping& keeping)
+SquealResults run(const Brake& brake, const StudyOptions& options, const StudyKeeping& keeping)
 {
-  validate(options);
-  SquealResults results;
-  results.wheel_radius = options.speeds.wheel_radius;
-  if (const auto inertial = find_inertial_disc(disc))
-    results.largest_split = inertial->largest_split;
-  return perform_steps(steps_of(disc, options), options.analyses, std::move(results), keeping);
+  validate(brake, options);
+  const Study study{brake, options};
+  Beginning begin = beginning_of(study, keeping);
+  const std::vector<AnalysisStep>& to_do = begin.to_do;
+  SquealResults& results = begin.results;
+  bool any_done = begin.goes_on;
+  if (keeping.unfinished && !to_do.empty()) keeping.unfinished(results);
+  double n_done = 0.0;
+  for (const AnalysisStep& step : to_do) {
+    if (any_done) keep_unfinished(keeping, results);
+    const std::string name(step.name);
+    const double n_all = double(to_do.size());
+    const auto report = [&](double fraction) {
+      if (keeping.progress) keeping.progress(name, (n_done + fraction) / n_all);
+    };
+    report(0.0);
+    try {
+      step.perform(study, results, {report, keeping.checkpoint, keeping.sound});
+    } catch (const Error& error) {
+      results.failure = error.what();
+      keep_unfinished(keeping, results);
+      if (!any_done) throw;
+      return std::move(begin.results);
+    }
+    std::erase(results.missing, name);
+    any_done = true;
+    n_done += 1.0;
+  }
+  if (results.transient && !results.transient->finished)
+    results.failure = "transient: " + divergence_of(*results.transient);
+  return std::move(begin.results);
 }
 
 }  // namespace chladni::squeal

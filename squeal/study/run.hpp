@@ -3,9 +3,9 @@
 #include <functional>
 #include <string>
 
-#include "squeal/brake/disc.hpp"
+#include "squeal/models/brake.hpp"
 #include "squeal/results/results.hpp"
-#include "squeal/squeal_options.hpp"
+#include "squeal/study_options.hpp"
 #include "squeal/transient/transient.hpp"
 
 namespace chladni::squeal {
@@ -24,10 +24,11 @@ struct StudyKeeping {
   SquealResults begin = {};  ///< of an unfinished run of the same study: what it has is not redone
 };
 
-/// Performs `options.analyses` on the disc. "limit-cycle" runs the transient that it needs.
-/// What was found stays when a later analysis fails; SquealResults::failure then says why, and
-/// SquealResults::missing what is not there.
+/// Performs `options.analyses` on the brake. "limit-cycle" and "spectrum" run the transient that
+/// they need. What was found stays when a later analysis fails; SquealResults::failure then says
+/// why, and SquealResults::missing what is not there.
 /// @throws chladni::Error from `validate` and from the first analysis.
-SquealResults run(const Disc& disc, const SquealOptions& options, const StudyKeeping& keeping = {});
+SquealResults run(const Brake& brake, const StudyOptions& options,
+                  const StudyKeeping& keeping = {});
 
 }  // namespace chladni::squeal

@@ -4,26 +4,30 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/error.hpp"
+#include "squeal/analysis_options.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/transient/transient_plan.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-constexpr std::array<std::string_view, 12> analyses{
-    "eigenvalues",        "critical-speed",     "growth",        "transient",       "limit-cycle",
-    "limit-cycle-direct", "limit-cycle-branch", "stability-map", "critical-values", "spectrum",
-    "mode-sensitivity",   "rotation-stability"};
-
-bool asks_for(const SquealOptions& options, std::string_view analysis)
+bool asks_for(const StudyOptions& study, std::string_view analysis)
 {
-  return std::find(options.analyses.begin(), options.analyses.end(), analysis) !=
-         options.analyses.end();
+  return std::find(study.analyses.begin(), study.analyses.end(), analysis) != study.analyses.end();
+}
+
+/// Whether an analysis that is asked for needs this key of [squeal].
+bool needs(const StudyOptions& study, std::string_view key)
+{
+  return std::ranges::any_of(analyses, [&](const Analysis& analysis) {
+    return analysis.key == key && asks_for(study, analysis.name);
+  });
 }
 
 void require_positive(double x, const std::string& key)
@@ -75,18 +79,17 @@ void validate_speeds(const SpeedRange& speeds)
     throw Error(fmt::format("[squeal] speeds.count = {}; it must be 1 or more", speeds.count));
 }
 
-void validate_transient(const SquealOptions& options)
+void validate_transient(const StudyOptions& study)
 {
-  if (!options.transient)
+  if (!study.transient)
     throw Error(
         "[squeal] analyses: \"transient\", \"limit-cycle\" and \"spectrum\" need `transient = { "
         "... }`");
-  require_positive(options.transient->speed, "transient.speed_rad_s");
-  require_positive(options.transient->duration, "transient.duration_s");
-  require_positive(options.transient->initial_pad_displacement,
-                   "transient.initial_pad_displacement");
-  require_positive(options.transient->growth_error, "transient.growth_error");
-  const std::optional<int>& steps = options.transient->steps_per_period;
+  require_positive(study.transient->speed, "transient.speed_rad_s");
+  require_positive(study.transient->duration, "transient.duration_s");
+  require_positive(study.transient->initial_pad_displacement, "transient.initial_pad_displacement");
+  require_positive(study.transient->growth_error, "transient.growth_error");
+  const std::optional<int>& steps = study.transient->steps_per_period;
   if (steps && *steps < steps_per_period_min)
     throw Error(fmt::format(
         "[squeal] transient.steps_per_period = {}; it must be {} or more to resolve the highest "
@@ -94,49 +97,49 @@ void validate_transient(const SquealOptions& options)
         *steps, steps_per_period_min));
 }
 
-void validate_growth(const SquealOptions& options)
+void validate_growth(const StudyOptions& study)
 {
-  if (!options.growth || options.growth->speeds.empty())
+  if (!study.growth || study.growth->speeds.empty())
     throw Error("[squeal] analyses: \"growth\" needs `growth = { speeds_rad_s = [...], ... }`");
-  for (const double speed : options.growth->speeds) require_positive(speed, "growth.speeds_rad_s");
-  require_positive(options.growth->duration, "growth.duration_s");
+  for (const double speed : study.growth->speeds) require_positive(speed, "growth.speeds_rad_s");
+  require_positive(study.growth->duration, "growth.duration_s");
 }
 
-void validate_direct(const SquealOptions& options)
+void validate_direct(const StudyOptions& study)
 {
-  if (!options.limit_cycle_direct)
+  if (!study.limit_cycle_direct)
     throw Error(
         "[squeal] analyses: \"limit-cycle-direct\" needs `limit_cycle_direct = { speed_rad_s = ... "
         "}`");
-  require_positive(options.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
+  require_positive(study.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
 }
 
-void validate_map(const SquealOptions& options)
+void validate_map(const StudyOptions& study)
 {
-  if (!options.map)
+  if (!study.map)
     throw Error(
         "[squeal] analyses: \"stability-map\" needs `map = { parameter = ..., from = ..., to = "
         "..., "
         "count = ... }`");
-  if (options.map->parameter == MapParameter::friction)
-    require_not_negative(options.map->from, "map.from");
+  if (study.map->parameter == MapParameter::friction)
+    require_not_negative(study.map->from, "map.from");
   else
-    require_positive(options.map->from, "map.from");
-  if (!(options.map->to >= options.map->from) || !std::isfinite(options.map->to))
-    throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", options.map->to,
-                            options.map->from));
-  if (options.map->count < 1)
-    throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", options.map->count));
+    require_positive(study.map->from, "map.from");
+  if (!(study.map->to >= study.map->from) || !std::isfinite(study.map->to))
+    throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", study.map->to,
+                            study.map->from));
+  if (study.map->count < 1)
+    throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", study.map->count));
 }
 
-void validate_critical(const SquealOptions& options)
+void validate_critical(const StudyOptions& study)
 {
-  if (options.critical.empty())
+  if (study.critical.empty())
     throw Error(
         "[squeal] analyses: \"critical-values\" needs `critical = [{ parameter = ..., from = ..., "
         "to "
         "= ..., speed_rad_s = ... }]`");
-  for (const CriticalCase& search : options.critical) {
+  for (const CriticalCase& search : study.critical) {
     require_positive(search.from, "critical.from");
     require_positive(search.speed, "critical.speed_rad_s");
     if (!(search.to > search.from) || !std::isfinite(search.to))
@@ -145,42 +148,58 @@ void validate_critical(const SquealOptions& options)
   }
 }
 
-void validate_sound(const SquealOptions& options)
+void validate_sound(const StudyOptions& study)
 {
-  if (!options.sound) return;
-  const int rate = options.sound->rate_Hz;
+  if (!study.sound) return;
+  const int rate = study.sound->rate_Hz;
   if (rate < 8000 || rate > 192000)
     throw Error(
         fmt::format("[squeal] wav.rate_Hz = {}; it must be 8000 to 192000, e.g. 48000", rate));
 }
 
-}  // namespace
+void validate_analyses(const StudyOptions& study)
+{
+  for (const std::string& name : study.analyses) {
+    if (find_analysis(name)) continue;
+    std::vector<std::string_view> names;
+    for (const Analysis& analysis : analyses) names.push_back(analysis.name);
+    throw Error(
+        fmt::format("[squeal] analyses: \"{}\" is not one of {}", name, fmt::join(names, ", ")));
+  }
+}
 
-void validate(const SquealOptions& options)
+void validate_brake(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
-  require_not_negative(options.friction, "friction");
-  require_not_negative(options.friction_rise, "friction.static minus friction.kinetic");
-  require_positive(options.friction_decay_speed, "friction.decay_speed");
-  require_not_negative(options.slip_regularisation, "friction.regularisation");
+  require_not_negative(options.friction.kinetic, "friction");
+  require_not_negative(options.friction.rise, "friction.static minus friction.kinetic");
+  require_positive(options.friction.decay_speed, "friction.decay_speed");
+  require_not_negative(options.friction.regularisation, "friction.regularisation");
   validate_modes(options.modes);
   validate_pads(options);
-  for (const std::string& analysis : options.analyses)
-    if (std::find(analyses.begin(), analyses.end(), analysis) == analyses.end())
-      throw Error(fmt::format("[squeal] analyses: \"{}\" is not one of {}", analysis,
-                              fmt::join(analyses, ", ")));
-  if (asks_for(options, "eigenvalues") || asks_for(options, "critical-speed") ||
-      asks_for(options, "stability-map") || asks_for(options, "mode-sensitivity") ||
-      asks_for(options, "limit-cycle-branch") || asks_for(options, "rotation-stability"))
-    validate_speeds(options.speeds);
-  if (asks_for(options, "transient") || asks_for(options, "limit-cycle") ||
-      asks_for(options, "spectrum"))
-    validate_transient(options);
-  if (asks_for(options, "critical-values")) validate_critical(options);
-  validate_sound(options);
-  if (asks_for(options, "growth")) validate_growth(options);
-  if (asks_for(options, "limit-cycle-direct")) validate_direct(options);
-  if (asks_for(options, "stability-map")) validate_map(options);
+}
+
+}  // namespace
+
+void validate(const Brake& brake, const StudyOptions& study)
+{
+  const FlexibleDisc* const body = brake.body();
+  if (body) validate_brake(body->options());
+  validate_analyses(study);
+  for (const Analysis& analysis : analyses)
+    if (!body && analysis.needs_body && asks_for(study, analysis.name))
+      throw Error(
+          fmt::format("[squeal] analyses: \"{}\" needs a disc with a modal body; leave it out, or "
+                      "take model = \"flexible disc\"",
+                      analysis.name));
+  // The map is one over the speeds too.
+  if (needs(study, "speeds") || needs(study, "map")) validate_speeds(study.speeds);
+  if (needs(study, "transient")) validate_transient(study);
+  if (needs(study, "critical")) validate_critical(study);
+  validate_sound(study);
+  if (needs(study, "growth")) validate_growth(study);
+  if (needs(study, "limit_cycle_direct")) validate_direct(study);
+  if (needs(study, "map")) validate_map(study);
 }
 
 }  // namespace chladni::squeal

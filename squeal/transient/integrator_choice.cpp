@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/state_matrix.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
 #include "squeal/stability/stability.hpp"
@@ -146,7 +147,7 @@ bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
 {
   const double sliding = run.speed * disc.rings.front().radius;
   const ModalState start = transient_start(disc, inertial, run, options.pads.front().angle);
-  if (options.friction == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
+  if (options.friction.kinetic == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
     return false;
   return is_stiff(disc, with_friction_at_rest(options, disc, run.speed), 0.0);
 }

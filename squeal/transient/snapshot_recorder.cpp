@@ -24,7 +24,7 @@ SnapshotRecorder::SnapshotRecorder(const Disc& disc, const std::optional<Inertia
   if (inertial) tail_a_.setZero(disc.n_modes(), static_cast<Eigen::Index>(plan.n_tail));
 }
 
-void SnapshotRecorder::add(std::int64_t i, double t, const TransientSteps& steps)
+void SnapshotRecorder::add(std::int64_t i, double t, const ModalSteps& steps)
 {
   const bool in_tail = inertial_ && i >= plan_.n_steps - plan_.n_tail;
   if (!in_tail && i % plan_.snapshots != 0) return;

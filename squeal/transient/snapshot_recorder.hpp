@@ -21,7 +21,7 @@ class SnapshotRecorder {
                    const RecordingPlan& plan, const TransientCase& run);
 
   /// The sample i at time t (s), at which the steps are now.
-  void add(std::int64_t i, double t, const TransientSteps& steps);
+  void add(std::int64_t i, double t, const ModalSteps& steps);
 
   Snapshots snapshots() const;
   /// Transient::tail_a

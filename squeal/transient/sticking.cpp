@@ -18,8 +18,8 @@ Eigen::ArrayXd amplitudes(const Harmonics& f)
 
 SquealOptions with_friction_at_rest(SquealOptions options, const Disc& disc, double speed)
 {
-  if (options.slip_regularisation == 0.0)
-    options.slip_regularisation = creep * std::abs(speed) * disc.rings.front().radius;
+  if (options.friction.regularisation == 0.0)
+    options.friction.regularisation = creep * std::abs(speed) * disc.rings.front().radius;
   return options;
 }
 

@@ -6,60 +6,23 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/inertial_frame.hpp"
-#include "squeal/motion/contact_kick.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/speed_program.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/transient/growth_rate.hpp"
 #include "squeal/transient/integrator_choice.hpp"
+#include "squeal/transient/prepared_transient.hpp"
 #include "squeal/transient/recorder.hpp"
 #include "squeal/transient/resampler.hpp"
-#include "squeal/transient/snapshot_recorder.hpp"
-#include "squeal/transient/transient_plan.hpp"
-#include "squeal/transient/transient_start.hpp"
-#include "squeal/transient/transient_steps.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-void check_speed_program(const SquealOptions& options, const TransientCase& run)
+/// Growth of the least stable motion, 1/s; absent where the brake has no state matrix.
+std::optional<double> eigenvalue_growth(const Brake& brake, double speed)
 {
-  const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
-                                 [](const SpeedPoint& point) { return !(point.speed > 0.0); });
-  if (stops && !(options.slip_regularisation > 0.0))
-    throw Error(
-        "transient: the speed program comes to rest, where friction has no direction; give "
-        "friction a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
-}
-
-/// Samples of one period of the highest mode.
-int sampling_of(const IntegratorChoice& choice)
-{
-  const bool fixed =
-      choice.kind == IntegratorKind::splitting || choice.kind == IntegratorKind::exponential;
-  return fixed ? choice.steps_per_period : samples_per_period;
-}
-
-/// Of the modes; the highest also of light plates beside the springs of their linings, from the
-/// symmetric part of the stiffness in one position of the disc.
-FrequencyRange frequencies_of(const Disc& disc, const SquealOptions& options, double speed)
-{
-  const ContactKick kick(disc, options, speed);
-  const FreeBrake brake = free_brake(disc, kick.pads(), speed);
-  FrequencyRange range{.lowest = disc.omega.minCoeff(), .highest = brake.omega.maxCoeff()};
-  if (kick.pads().n_modes() == 0) return range;
-  const Eigen::MatrixXd K =
-      brake.omega.cwiseAbs2().asDiagonal().toDenseMatrix() + kick.contact_stiffness();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      Eigen::MatrixXd(0.5 * (K + K.transpose())), Eigen::EigenvaluesOnly);
-  range.highest = std::max(range.highest, std::sqrt(modes.eigenvalues().maxCoeff()));
-  return range;
-}
-
-double rest_compression(const SquealOptions& options)
-{
-  return options.pads.front().preload / options.pads.front().stiffness;
+  if (!brake.is_autonomous()) return std::nullopt;
+  return least_stable_eigenvalue(brake.state_matrix(speed)).real();
 }
 
 /// Sliding so slow that its direction turns within a step of an explicit kick, m/s, without
@@ -68,9 +31,9 @@ constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
 
 std::string warning_of_sliding(const Transient& run, const SquealOptions& options)
 {
-  const double eps = options.slip_regularisation;
+  const double eps = options.friction.regularisation;
   const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
-  if (run.slip_speed_min >= limit || options.friction == 0.0 ||
+  if (run.slip_speed_min >= limit || options.friction.kinetic == 0.0 ||
       run.integrator == name_of(IntegratorKind::generalised_alpha))
     return {};
   return fmt::format(
@@ -80,13 +43,13 @@ std::string warning_of_sliding(const Transient& run, const SquealOptions& option
                 : "where the direction of friction turns at once: give friction a regularisation");
 }
 
-std::string warning_of(const Transient& run, const Disc& disc, const SquealOptions& options)
+std::string warning_of(const Transient& run, const Brake& brake)
 {
-  const std::string sliding = warning_of_sliding(run, options);
-  const auto inertial = find_inertial_disc(disc);
-  if (!run.growth_rate || !inertial) return sliding;
-  const std::string growth = warning_of_growth(
-      *run.growth_rate, least_stable_eigenvalue(*inertial, options, run.speed).real());
+  const FlexibleDisc* const body = brake.body();
+  const std::string sliding = body ? warning_of_sliding(run, body->options()) : std::string();
+  if (!run.growth_rate || !brake.is_autonomous()) return sliding;
+  const std::string growth =
+      warning_of_growth(*run.growth_rate, eigenvalue_growth(brake, run.speed).value());
   return sliding.empty() || growth.empty() ? sliding + growth : sliding + "; " + growth;
 }
 
@@ -105,10 +68,9 @@ bool is_bounded(const std::vector<ContactResult<double>>& contacts)
 
 /// A run under way.
 struct Recording {
-  const RecordingPlan& plan;
+  PreparedTransient& ready;
   const TransientCase& run;
   Recorder recorder;
-  SnapshotRecorder states;
   std::optional<Resampler> sound = {};
   std::int64_t n = 0;  ///< samples so far
 };
@@ -118,10 +80,13 @@ constexpr std::int64_t samples_together = 1024;
 
 /// From the first sample, or from where the checkpoint is, to the last.
 /// @return whether the motion stayed bounded
-bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
+bool record(Recording& at, const Keeping& keeping)
 {
+  TransientSteps& steps = *at.ready.steps;
+  const RecordingPlan& plan = at.ready.plan;
   const auto exchange = [&](StateArchive& archive) {
-    archive(at.n, steps, at.recorder, at.states);
+    archive(at.n, steps, at.recorder);
+    if (at.ready.states) archive(*at.ready.states);
     if (at.sound) archive(*at.sound, *keeping.sound);
   };
   const auto hand_over_sound = [&] {
@@ -132,15 +97,15 @@ bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
     keeping.checkpoint->keep(exchange);
   };
   if (keeping.checkpoint) keeping.checkpoint->give_back(exchange);
-  while (at.n < at.plan.n_steps) {
-    const double t = (double(at.n) + 0.5) * at.plan.step;
+  while (at.n < plan.n_steps) {
+    const double t = (double(at.n) + at.ready.first_sample) * plan.step;
     const auto& contacts = steps.next();
     if (!is_bounded(contacts)) return false;
     at.recorder.add({at.n, t, turn_at(at.run, t).speed, contacts});
-    at.states.add(at.n, t, steps);
+    if (at.ready.states) at.ready.states->add(at.n, t, *at.ready.modal);
     if (at.sound) at.sound->add(contacts.front().upper.z_dot);
-    if (keeping.progress && at.n % at.plan.window == 0)
-      keeping.progress(double(at.n) / double(at.plan.n_steps));
+    if (keeping.progress && at.n % plan.window == 0)
+      keeping.progress(double(at.n) / double(plan.n_steps));
     if (++at.n % samples_together != 0) continue;
     hand_over_sound();
     if (keeping.checkpoint && keeping.checkpoint->is_due()) keep();
@@ -149,45 +114,42 @@ bool record(TransientSteps& steps, Recording& at, const Keeping& keeping)
   return true;
 }
 
+/// What was recorded of the run, and what the steps know of it.
+Transient result_of(const Recording& recording)
+{
+  const PreparedTransient& ready = recording.ready;
+  Transient result = recording.recorder.transient();
+  result.speed = recording.run.speed;
+  result.integrator = ready.integrator;
+  result.integrator_reason = ready.reason;
+  result.n_steps = ready.steps->n_steps();
+  result.n_contact_evaluations = ready.steps->n_contact_evaluations();
+  result.n_events = ready.steps->n_events();
+  result.events = ready.steps->events();
+  if (ready.states) {
+    result.snapshots = ready.states->snapshots();
+    result.tail_a = ready.states->tail_a();
+  }
+  return result;
+}
+
 }  // namespace
 
-Transient transient(const Disc& disc, const SquealOptions& options, const TransientCase& run,
-                    const Keeping& keeping)
+Transient transient(const Brake& brake, const TransientCase& run, const Keeping& keeping)
 {
-  if (options.pads.empty()) throw Error("transient: no pads");
-  check_transient(run, disc.omega.maxCoeff());
-  check_speed_program(options, run);
-  const std::optional<InertialDisc> inertial = find_inertial_disc(disc);
-  const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
-  const RecordingPlan plan =
-      recording_plan(run, frequencies_of(disc, options, run.speed), sampling_of(choice));
-  const auto steps =
-      transient_steps(disc, options, run, choice, plan.step,
-                      transient_start(disc, inertial, run, options.pads.front().angle));
-  Recording recording{.plan = plan,
-                      .run = run,
-                      .recorder = {plan, 0.5 * options.thickness},
-                      .states = {disc, inertial, plan, run}};
-  if (options.sound && keeping.sound) recording.sound.emplace(plan.step, options.sound->rate_Hz);
-  const bool bounded = record(*steps, recording, keeping);
-  Recorder& recorder = recording.recorder;
-  recorder.finish();
-  Transient result = recorder.transient();
-  result.speed = run.speed;
+  PreparedTransient ready = prepared_transient(brake, run);
+  Recording recording{.ready = ready, .run = run, .recorder = {ready.plan, ready.rest_height}};
+  if (keeping.sound) recording.sound.emplace(ready.plan.step, keeping.sound->rate_Hz());
+  const bool bounded = record(recording, keeping);
+  recording.recorder.finish();
+  Transient result = result_of(recording);
   result.finished = bounded;
-  result.integrator = name_of(choice.kind);
-  result.integrator_reason = choice.reason;
-  result.n_steps = steps->n_steps();
-  result.n_contact_evaluations = steps->n_contact_evaluations();
-  result.n_events = steps->n_events();
-  result.events = steps->events();
+  if (const FlexibleDisc* body = brake.body()) result.mode_numbers = body->disc().mode_numbers;
   if (run.speed_program.empty())
-    result.growth_rate = growth_rate(result.envelope, linear_part * rest_compression(options));
+    result.growth_rate = growth_rate(result.envelope, linear_part * brake.rest_compression());
   else
     result.speed = turn_at(run, run.duration).speed;
-  result.snapshots = recording.states.snapshots();
-  result.tail_a = recording.states.tail_a();
-  result.warning = warning_of(result, disc, options);
+  result.warning = warning_of(result, brake);
   if (recording.sound) {
     recording.sound->finish();
     keeping.sound->add(recording.sound->take());
@@ -196,15 +158,13 @@ Transient transient(const Disc& disc, const SquealOptions& options, const Transi
   return result;
 }
 
-Growth growth(const Disc& disc, const SquealOptions& options, double speed, double duration)
+Growth growth(const Brake& brake, double speed, double duration)
 {
-  const Transient run =
-      transient(disc, options, growth_case(speed, duration, rest_compression(options)));
-  Growth result{speed, run.envelope, required_growth_rate(run, duration, disc.omega.minCoeff()),
-                std::nullopt};
-  if (const auto inertial = find_inertial_disc(disc))
-    result.eigenvalue_rate = least_stable_eigenvalue(*inertial, options, speed).real();
-  return result;
+  const Transient run = transient(brake, growth_case(speed, duration, brake.rest_compression()));
+  return {.speed = speed,
+          .envelope = run.envelope,
+          .rate = required_growth_rate(run, duration, lowest_frequency(brake, speed)),
+          .eigenvalue_rate = eigenvalue_growth(brake, speed)};
 }
 
 std::string divergence_of(const Transient& run)

@@ -25,7 +25,7 @@ ModalState with_plates_at_rest(ModalState x, Eigen::Index n)
 /// Exact flow of the damped modes over half a step, kick of the pads, exact flow over half a step.
 /// The two half flows between two kicks are one; a sample is in the middle of a kick, to which the
 /// splitting is symmetric in time.
-class SplittingSteps final : public TransientSteps {
+class SplittingSteps final : public ModalSteps {
  public:
   SplittingSteps(const Disc& disc, const SquealOptions& options, const TransientCase& run,
                  double step, const ModalState& start)
@@ -64,7 +64,7 @@ class SplittingSteps final : public TransientSteps {
   std::int64_t n_ = 0;
 };
 
-class ExponentialSteps final : public TransientSteps {
+class ExponentialSteps final : public ModalSteps {
  public:
   ExponentialSteps(const Disc& disc, const SquealOptions& options, double speed, double step,
                    const ModalState& start)
@@ -116,7 +116,7 @@ Eigen::VectorXd scaled(const Eigen::VectorXd& omega, const ModalState& x)
 
 /// Samples of the dense output of an integrator with adaptive steps.
 template <class Method>
-class AdaptiveSteps final : public TransientSteps {
+class AdaptiveSteps final : public ModalSteps {
  public:
   AdaptiveSteps(const Disc& disc, const SquealOptions& options, double speed,
                 const IntegratorChoice& choice, double step, const ModalState& start)
@@ -173,10 +173,10 @@ class AdaptiveSteps final : public TransientSteps {
 
 }  // namespace
 
-std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOptions& options,
-                                                const TransientCase& run,
-                                                const IntegratorChoice& choice, double step,
-                                                const ModalState& start)
+std::unique_ptr<ModalSteps> transient_steps(const Disc& disc, const SquealOptions& options,
+                                            const TransientCase& run,
+                                            const IntegratorChoice& choice, double step,
+                                            const ModalState& start)
 {
   const double speed = run.speed;
   switch (choice.kind) {

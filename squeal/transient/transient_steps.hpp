@@ -12,7 +12,7 @@
 
 namespace chladni::squeal {
 
-/// A transient as equally spaced samples, at t_i = (i + 1/2) step; one class for each integrator.
+/// A transient as equally spaced samples; one class for each integrator.
 class TransientSteps {
  public:
   TransientSteps() = default;
@@ -25,9 +25,6 @@ class TransientSteps {
   ///         until the next call
   virtual const std::vector<ContactResult<double>>& next() = 0;
 
-  /// The modes of the disc at the sample, in the frame that rotates with the disc.
-  virtual ModalState state() const = 0;
-
   virtual std::int64_t n_steps() const = 0;
   virtual std::int64_t n_contact_evaluations() const = 0;
   virtual std::vector<ContactEvent> events() const { return {}; }
@@ -37,14 +34,21 @@ class TransientSteps {
   virtual void exchange(StateArchive& archive) = 0;
 };
 
+/// A transient of a disc with a body, sampled at t_i = (i + 1/2) step.
+class ModalSteps : public TransientSteps {
+ public:
+  /// The modes of the disc at the sample, in the frame that rotates with the disc.
+  virtual ModalState state() const = 0;
+};
+
 /// Samples for one period of the highest mode with adaptive steps.
 inline constexpr int samples_per_period = 20;
 
 /// The steps of `choice.kind` from the state `start` at t = 0.
 /// @param step  of the samples, s; with "splitting" and "exponential" also of the integration
-std::unique_ptr<TransientSteps> transient_steps(const Disc& disc, const SquealOptions& options,
-                                                const TransientCase& run,
-                                                const IntegratorChoice& choice, double step,
-                                                const ModalState& start);
+std::unique_ptr<ModalSteps> transient_steps(const Disc& disc, const SquealOptions& options,
+                                            const TransientCase& run,
+                                            const IntegratorChoice& choice, double step,
+                                            const ModalState& start);
 
 }  // namespace chladni::squeal

@@ -22,6 +22,8 @@ class WavSpool {
   WavSpool(const WavSpool&) = delete;
   WavSpool& operator=(const WavSpool&) = delete;
 
+  int rate_Hz() const { return rate_Hz_; }  ///< of the samples
+
   /// @throws chladni::Error when the file cannot be written.
   void add(const std::vector<float>& x);
 

@@ -163,9 +163,11 @@ Contents squeal_results()
   std::vector<squeal::SquealResults> both;
   for (const int n_speeds : {5, 50}) {
     squeal::SquealOptions options = squeal::test::reference_options();
-    options.speeds.count = n_speeds;
-    options.analyses = {"eigenvalues"};
-    both.push_back(run(squeal::test::disc_of({squeal::test::kirchhoff_3()}), options));
+    options.study.speeds.count = n_speeds;
+    options.study.analyses = {"eigenvalues"};
+    both.push_back(
+        run(squeal::FlexibleDisc(squeal::test::disc_of({squeal::test::kirchhoff_3()}), options),
+            options.study));
   }
   return {[both](const std::string& path, int which) {
             squeal::write_results(path, both[std::size_t(which)], {});

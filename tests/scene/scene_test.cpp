@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "squeal/analysis_options.hpp"
 #include "tests/scene/scene_texts.hpp"
 
 namespace chladni::scene {
@@ -144,18 +145,18 @@ TEST(Scene, HoldsTheSquealStudyInRadians)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
   ASSERT_EQ(scene.squeal->pads.size(), 1u);
   EXPECT_DOUBLE_EQ(scene.squeal->pads[0].angle, std::numbers::pi / 2.0);
-  ASSERT_TRUE(scene.squeal->growth);
-  EXPECT_EQ(scene.squeal->growth->speeds, (std::vector<double>{12.0, 13.0}));
-  ASSERT_TRUE(scene.squeal->transient);
-  EXPECT_EQ(scene.squeal->transient->steps_per_period, std::nullopt);
-  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::automatic);
+  ASSERT_TRUE(scene.squeal->study.growth);
+  EXPECT_EQ(scene.squeal->study.growth->speeds, (std::vector<double>{12.0, 13.0}));
+  ASSERT_TRUE(scene.squeal->study.transient);
+  EXPECT_EQ(scene.squeal->study.transient->steps_per_period, std::nullopt);
+  EXPECT_EQ(scene.squeal->study.transient->integrator, squeal::IntegratorKind::automatic);
 }
 
 TEST(Scene, TakesSpeedsInAnyUnit)
 {
   const std::string rad_s = "from_rad_s = 3.0, to_rad_s = 63.0";
   const auto speeds = [&](const std::string& words) {
-    return parse_scene(replaced(disc, rad_s, words), "scene.toml").squeal->speeds;
+    return parse_scene(replaced(disc, rad_s, words), "scene.toml").squeal->study.speeds;
   };
   EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").from, std::numbers::pi);
   EXPECT_DOUBLE_EQ(speeds("from_rpm = 30, to_rpm = 600").to, 20.0 * std::numbers::pi);
@@ -192,25 +193,25 @@ TEST(Scene, NotesNumbersThatLookLikeAnotherUnits)
 
 TEST(Scene, TakesTheSpeedOfALimitCycleFromTheTransientUnlessGiven)
 {
-  EXPECT_EQ(parse_scene(disc, "scene.toml").squeal->limit_cycle_direct->speed, 19.0);
+  EXPECT_EQ(parse_scene(disc, "scene.toml").squeal->study.limit_cycle_direct->speed, 19.0);
   const Scene scene =
       parse_scene(disc + "limit_cycle_direct = { speed_rad_s = 20.0 }\n", "scene.toml");
-  EXPECT_EQ(scene.squeal->limit_cycle_direct->speed, 20.0);
+  EXPECT_EQ(scene.squeal->study.limit_cycle_direct->speed, 20.0);
 }
 
 TEST(Scene, HoldsTheSecondParameterOfAStabilityMap)
 {
-  EXPECT_FALSE(parse_scene(disc, "scene.toml").squeal->map);
+  EXPECT_FALSE(parse_scene(disc, "scene.toml").squeal->study.map);
   const std::string map =
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
   const Scene scene = parse_scene(disc + map, "scene.toml");
-  ASSERT_TRUE(scene.squeal->map);
-  EXPECT_TRUE(scene.squeal->critical.empty());
-  EXPECT_FALSE(scene.squeal->sound);
-  EXPECT_EQ(scene.squeal->map->parameter, squeal::MapParameter::stiffness);
-  EXPECT_EQ(scene.squeal->map->from, 1e6);
-  EXPECT_EQ(scene.squeal->map->to, 9e6);
-  EXPECT_EQ(scene.squeal->map->count, 100);
+  ASSERT_TRUE(scene.squeal->study.map);
+  EXPECT_TRUE(scene.squeal->study.critical.empty());
+  EXPECT_FALSE(scene.squeal->study.sound);
+  EXPECT_EQ(scene.squeal->study.map->parameter, squeal::MapParameter::stiffness);
+  EXPECT_EQ(scene.squeal->study.map->from, 1e6);
+  EXPECT_EQ(scene.squeal->study.map->to, 9e6);
+  EXPECT_EQ(scene.squeal->study.map->count, 100);
 }
 
 TEST(SceneError, NamesWhatAStabilityMapCannotBe)
@@ -248,9 +249,9 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.body.keep.list, (std::vector<int>{7, 8}));
   EXPECT_EQ(scene.body.damping.ratios, std::vector<double>{0.001});
   EXPECT_EQ(scene.squeal->modes.list, (std::vector<int>{1, 2}));
-  EXPECT_EQ(scene.squeal->transient->steps_per_period, 80);
-  EXPECT_EQ(scene.squeal->transient->integrator, squeal::IntegratorKind::dormand_prince);
-  EXPECT_EQ(scene.squeal->transient->growth_error, 1e-4);
+  EXPECT_EQ(scene.squeal->study.transient->steps_per_period, 80);
+  EXPECT_EQ(scene.squeal->study.transient->integrator, squeal::IntegratorKind::dormand_prince);
+  EXPECT_EQ(scene.squeal->study.transient->growth_error, 1e-4);
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
 }
 
@@ -311,10 +312,10 @@ TEST(Scene, FindsAMeshFileInItsOwnFolder)
 TEST(Scene, OfTheExampleIsReadable)
 {
   const Scene scene = read_scene(CHLADNI_SOURCE_DIR "/examples/thesis_disc/scene.toml");
-  ASSERT_TRUE(scene.squeal && scene.squeal->transient && scene.squeal->growth);
+  ASSERT_TRUE(scene.squeal && scene.squeal->study.transient && scene.squeal->study.growth);
   // Written with nine digits in the file.
-  EXPECT_NEAR(scene.squeal->transient->speed, 6.0 * std::numbers::pi, 1e-7);
-  EXPECT_NEAR(scene.squeal->growth->speeds.front(), 3.8 * std::numbers::pi, 1e-7);
+  EXPECT_NEAR(scene.squeal->study.transient->speed, 6.0 * std::numbers::pi, 1e-7);
+  EXPECT_NEAR(scene.squeal->study.growth->speeds.front(), 3.8 * std::numbers::pi, 1e-7);
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
 }
 
@@ -407,7 +408,21 @@ TEST(Scene, ReadsARigidDiscWithoutMeshAndBody)
   EXPECT_EQ(study.drive, squeal::Drive::speed);
   EXPECT_EQ(study.equations, squeal::RigidEquations::nonlinear);
   EXPECT_EQ(study.disc.law, squeal::ContactLaw::unilateral);
-  EXPECT_EQ(scene.squeal_model->growth->duration, 3.0);
+  EXPECT_EQ(scene.squeal_model->study.growth->duration, 3.0);
+}
+
+TEST(Scene, HasTheAnalysesOfABodyForAFlexibleDiscAlone)
+{
+  for (const squeal::Analysis& analysis : squeal::analyses) {
+    const std::string asked = "analyses = [\"" + std::string(analysis.name) + "\"]";
+    const std::string text = replaced(oscillator, "analyses = [\"critical-speed\"]", asked);
+    if (analysis.needs_body) {
+      EXPECT_NE(error_of(text).find("must be one of \"eigenvalues\", "), std::string::npos);
+      EXPECT_EQ(error_of(text).find("\"spectrum\", "), std::string::npos);
+    } else {
+      EXPECT_EQ(error_of(text).find("must be one of"), std::string::npos) << analysis.name;
+    }
+  }
 }
 
 TEST(Scene, ReadsAnOscillator)
@@ -468,7 +483,7 @@ TEST(Scene, ReadsASpeedProgramThatBeginsWithTheSpeedOfTheTransient)
   };
   const Scene scene = parse_scene(
       with("[{ t_s = 1.0, speed_rad_s = 19.0 }, { t_s = 3.0, speed_rad_s = 0.0 }]"), "scene.toml");
-  const auto& program = scene.squeal->transient->speed_program;
+  const auto& program = scene.squeal->study.transient->speed_program;
   ASSERT_EQ(program.size(), 3u);
   EXPECT_EQ(program[0].time, 0.0);
   EXPECT_EQ(program[0].speed, 19.0);

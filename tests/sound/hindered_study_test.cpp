@@ -10,6 +10,7 @@
 #include "sound/radiation.hpp"
 #include "sound/study.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/flexible_disc.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -31,12 +32,12 @@ struct Case {
   {
     brake.ring = "track";
     brake.thickness = testing::disc_thickness;
-    brake.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
-    brake.friction = 0.6;
+    brake.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
+    brake.friction.kinetic = 0.6;
     brake.contact = contact;
     brake.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
-    squeal_results.limit_cycle_direct =
-        squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+    squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
+        squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
   }
   Setting setting() const { return {body, brake, options}; }
 };

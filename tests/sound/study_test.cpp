@@ -10,6 +10,7 @@
 #include "references/sound/thesis_disc.hpp"
 #include "sound/radiation.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/flexible_disc.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -30,11 +31,11 @@ squeal::SquealOptions thesis_brake()
   squeal::SquealOptions options{};
   options.ring = "track";
   options.thickness = testing::disc_thickness;
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
-  options.friction = 0.6;
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 30};
+  options.friction.kinetic = 0.6;
   options.contact = squeal::ContactLaw::bilateral;
   options.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
-  options.analyses = {"limit-cycle-direct"};
+  options.study.analyses = {"limit-cycle-direct"};
   return options;
 }
 
@@ -132,8 +133,8 @@ TEST(Study, TellsWhatTheSoundDoesToTheSqueal)
   SoundOptions options = thesis_sound();
   options.speeds = {4.0 * pi, 6.0 * pi};
   squeal::SquealResults squeal_results;
-  squeal_results.limit_cycle_direct =
-      squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+  squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
+      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
   const SoundResults results = sound_study({body, brake, options}, squeal_results);
   ASSERT_TRUE(results.feedback);
   const Brake &without = results.feedback->without, &with = results.feedback->with;
@@ -158,8 +159,8 @@ TEST(Study, NeedsALimitCycleAndMicrophonesInTheAir)
   SoundOptions options = thesis_sound();
   squeal::SquealResults squeal_results;
   EXPECT_THROW(sound_study({body, brake, options}, squeal_results), Error);
-  squeal_results.limit_cycle_direct =
-      squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+  squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
+      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
   options.microphones[0].x = {0.1, 0.0, 0.0};
   EXPECT_THROW(sound_study({body, brake, options}, squeal_results), Error);
 }
@@ -170,8 +171,8 @@ TEST(Study, RefusesTheLimitCycleOfAnotherBody)
   const squeal::SquealOptions brake = thesis_brake();
   const SoundOptions options = thesis_sound();
   squeal::SquealResults results;
-  results.limit_cycle_direct =
-      squeal::limit_cycle_direct(squeal::make_disc(body, "track", {}), brake, 6.0 * pi);
+  results.limit_cycle_direct = squeal::limit_cycle_direct(
+      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
   squeal::DirectLimitCycle& cycle = *results.limit_cycle_direct;
   const double frequency_Hz = cycle.frequency_Hz;
   for (const double wrong_Hz : {0.0, -1700.0, 1e9}) {  // a mesh for 1e9 Hz fills any memory

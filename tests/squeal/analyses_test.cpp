@@ -53,16 +53,15 @@ TEST(CriticalValue, DividesStableFromUnstable)
   // Without damping both what drives the pair and what brakes it are proportional to friction; with
   // damping of the modes friction and stiffness decide. Newton's value is a border of the sign of
   // the growth, to rounding.
-  const InertialDisc disc = inertial_disc(damped_disc());
-  const SquealOptions options = reference_options();
+  const FlexibleDisc brake(damped_disc(), reference_options());
   const double speed = 6.0 * pi;
   for (const auto& [parameter, from, to] :
        {std::tuple{MapParameter::friction, 0.05, 1.0}, {MapParameter::stiffness, 1e5, 6e6}}) {
-    const CriticalValue found = critical_value(
-        disc, options, {.parameter = parameter, .from = from, .to = to, .speed = speed});
+    const CriticalValue found =
+        critical_value(brake, {.parameter = parameter, .from = from, .to = to, .speed = speed});
     ASSERT_TRUE(found.value) << found.parameter;
     const auto growth = [&, varied = parameter](double value) {
-      return least_stable_eigenvalue(disc, with_parameter(options, varied, value), speed).real();
+      return least_stable_eigenvalue(brake.with(varied, value)->state_matrix(speed)).real();
     };
     EXPECT_LT(growth(*found.value * (1.0 - 1e-7)) * growth(*found.value * (1.0 + 1e-7)), 0.0);
     EXPECT_NEAR(growth(*found.value), 0.0, 1e-8);  // 1e-12 of omega
@@ -72,10 +71,9 @@ TEST(CriticalValue, DividesStableFromUnstable)
 
 TEST(CriticalValue, IsAbsentWhereStabilityDoesNotChange)
 {
-  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), reference_options());
   const CriticalValue found = critical_value(
-      disc, reference_options(),
-      {.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .speed = 8.0 * pi});
+      brake, {.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .speed = 8.0 * pi});
   EXPECT_FALSE(found.value);
 }
 
@@ -86,8 +84,8 @@ TEST(ModeShapes, AreEigenvectorsOfTheSlidingDisc)
   const Disc body = disc_of({kirchhoff_2(), kirchhoff_3()});
   const InertialDisc disc = inertial_disc(body);
   SquealOptions options = reference_options();
-  options.speeds.count = 3;
-  const EigenvalueMap map = eigenvalues(disc, options);
+  options.study.speeds.count = 3;
+  const EigenvalueMap map = eigenvalues(at_speeds(disc, options), options.study.speeds);
   const auto shapes = mode_shapes(disc, options, map);
   ASSERT_EQ(shapes.size(), 3u);
   const Eigen::MatrixXd A = state_matrix(disc, options, map.speeds[2]);
@@ -112,7 +110,7 @@ TEST(LimitCycleDirect, BalancesItsEnergy)
     SquealOptions options = reference_options(law);
     options.pads.push_back({.angle = 2.0, .stiffness = 3e6, .damping = 0.2, .preload = 1000.0});
     const CycleEnergy energy =
-        limit_cycle_direct(make_disc(body, "track", {}), options, 10.0 * pi).energy;
+        limit_cycle_direct(FlexibleDisc(make_disc(body, "track", {}), options), 10.0 * pi).energy;
     ASSERT_EQ(energy.friction.size(), 2);
     const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
     const double largest =
@@ -160,7 +158,8 @@ TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
                             .initial_pad_displacement = 1e-8,
                             .steps_per_period = 40,
                             .integrator = IntegratorKind::splitting};
-    return transient(make_disc(body, "track", {}), reference_options(), run).growth_rate.value();
+    return transient(FlexibleDisc(make_disc(body, "track", {}), reference_options()), run)
+        .growth_rate.value();
   };
   const mbs_export::ModalBody body = analytic_body({kirchhoff_3(1672.13)});
   const double exact = rate(body);
@@ -174,10 +173,14 @@ TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
 TEST(StabilityMap, DoesNotDependOnTheNumberOfThreads)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 7;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
-  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_2(), kirchhoff_3()}));
-  const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
+  options.study.speeds.count = 7;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3()}), options);
+  const auto on_threads = [&](unsigned n) {
+    return stability_map(brake, *options.study.map, options.study.speeds, n);
+  };
+  const StabilityMap one = on_threads(1), three = on_threads(3);
   EXPECT_EQ(one.growth, three.growth);
   EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
 }
@@ -203,11 +206,11 @@ TEST(Run, KeepsWhatItHasWhenALaterAnalysisFails)
 {
   // The transient is too short for a limit cycle.
   SquealOptions options = reference_options();
-  options.speeds.count = 2;
-  options.analyses = {"eigenvalues", "limit-cycle"};
-  options.transient =
+  options.study.speeds.count = 2;
+  options.study.analyses = {"eigenvalues", "limit-cycle"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.001, .initial_pad_displacement = 1e-6};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
   EXPECT_TRUE(results.eigenvalues);
   EXPECT_TRUE(results.transient);
   EXPECT_FALSE(results.limit_cycle);
@@ -219,14 +222,14 @@ TEST(Run, KeepsWhatItHasWhenALaterAnalysisFails)
 TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 2;
-  options.analyses = {"eigenvalues", "critical-speed", "limit-cycle"};
-  options.transient =
+  options.study.speeds.count = 2;
+  options.study.analyses = {"eigenvalues", "critical-speed", "limit-cycle"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.3, .initial_pad_displacement = 6e-4};
   const Disc disc = disc_of({kirchhoff_3()});
   std::vector<SquealResults> seen;
   const SquealResults whole =
-      run(disc, options,
+      run(FlexibleDisc(disc, options), options.study,
           {.unfinished = [&](const SquealResults& results) { seen.push_back(results); }});
   EXPECT_TRUE(whole.missing.empty());
   ASSERT_EQ(seen.size(), 4u);
@@ -240,7 +243,7 @@ TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
   // the transient than a file holds.
   seen[3].critical_speed->speed = 1.0;
   seen[3].transient->tail_a = {};
-  const SquealResults resumed = run(disc, options, {.begin = seen[3]});
+  const SquealResults resumed = run(FlexibleDisc(disc, options), options.study, {.begin = seen[3]});
   EXPECT_EQ(resumed.critical_speed->speed, 1.0);
   EXPECT_TRUE(resumed.missing.empty());
   ASSERT_TRUE(resumed.limit_cycle);
@@ -251,17 +254,18 @@ TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
 TEST(Run, YieldsSpectrumSoundAndCriticalValues)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"spectrum", "critical-values"};
-  options.transient =
+  options.study.analyses = {"spectrum", "critical-values"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 1.2, .initial_pad_displacement = 6e-4};
-  options.sound = SoundCase{.rate_Hz = 44100};
-  options.critical = {
+  options.study.sound = SoundCase{.rate_Hz = 44100};
+  options.study.critical = {
       {.parameter = MapParameter::friction, .from = 0.1, .to = 1.0, .speed = 5.0 * pi}};
   auto body = analytic_body({kirchhoff_3(1672.13)});
   body.C = 0.5 * Eigen::Matrix2d::Identity();
   const ScratchFolder folder;
   WavSpool sound(folder.file("disc.wav"), folder.file("disc.samples"), 44100);
-  const SquealResults results = run(make_disc(body, "track", {}), options, {.sound = &sound});
+  const SquealResults results =
+      run(FlexibleDisc(make_disc(body, "track", {}), options), options.study, {.sound = &sound});
   ASSERT_TRUE(results.spectrum && !results.spectrum->peaks.empty());
   EXPECT_NEAR(results.spectrum->peaks[0].frequency_Hz, 1696.85, 0.3);
   // 1.2 s of 16 bits, and the headers.

@@ -7,7 +7,6 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/models/oscillator.hpp"
-#include "squeal/transient/model_transient.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/files/scratch_folder.hpp"
 
@@ -64,7 +63,7 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
 {
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::unilateral);
-  options.sound = SoundCase{.rate_Hz = 8000};
+  options.study.sound = SoundCase{.rate_Hz = 8000};
   for (const IntegratorKind kind :
        {IntegratorKind::splitting, IntegratorKind::exponential, IntegratorKind::dormand_prince,
         IntegratorKind::generalised_alpha}) {
@@ -73,11 +72,12 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
     const ScratchFolder folder;
     const std::string file = folder.file("a.checkpoint.h5"), samples = folder.file("a.samples");
     WavSpool sound(folder.file("whole.wav"), folder.file("whole.samples"), 8000);
-    const Transient whole = transient(disc, options, run, {.sound = &sound});
+    const Transient whole = transient(FlexibleDisc(disc, options), run, {.sound = &sound});
     {
       Checkpoint checkpoint(file, {{}, "of a test"}, 0.0);
       WavSpool half(folder.file("a.wav"), samples, 8000);
-      EXPECT_THROW(transient(disc, options, run, {interrupt, &checkpoint, &half}), Interruption);
+      EXPECT_THROW(transient(FlexibleDisc(disc, options), run, {interrupt, &checkpoint, &half}),
+                   Interruption);
     }
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.wav")));
     Checkpoint checkpoint(file, {{}, "of another test"}, 1e9);
@@ -85,7 +85,8 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
     WavSpool rest(folder.file("a.wav"), samples, 8000);
     double first = 1.0;
     const Progress progress = [&](double fraction) { first = std::min(first, fraction); };
-    expect_equal(transient(disc, options, run, {progress, &checkpoint, &rest}), whole);
+    expect_equal(transient(FlexibleDisc(disc, options), run, {progress, &checkpoint, &rest}),
+                 whole);
     EXPECT_GT(first, 0.3) << "began anew";
     EXPECT_EQ(bytes_of(folder.file("a.wav")), bytes_of(folder.file("whole.wav")));
     checkpoint.remove();
@@ -96,16 +97,16 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
 
 TEST(Checkpoint, OfAModelGoesOnAsIfNothingHadHappened)
 {
-  const Model model = model_of(Oscillator{.mass = 1.0,
-                                          .k_x = 1.2e7,
-                                          .k_y = 4e6,
-                                          .k_xy = 1e6,
-                                          .d_x = 5.0,
-                                          .d_y = 5.0,
-                                          .contact_stiffness = 7e6,
-                                          .preload = 500.0,
-                                          .radius = 0.13,
-                                          .friction = {.kinetic = 0.185}});
+  const OscillatorBrake model(Oscillator{.mass = 1.0,
+                                         .k_x = 1.2e7,
+                                         .k_y = 4e6,
+                                         .k_xy = 1e6,
+                                         .d_x = 5.0,
+                                         .d_y = 5.0,
+                                         .contact_stiffness = 7e6,
+                                         .preload = 500.0,
+                                         .radius = 0.13,
+                                         .friction = {.kinetic = 0.185}});
   const TransientCase run{.speed = 20.0, .duration = 1.0, .initial_pad_displacement = 1e-4};
   const ScratchFolder folder;
   const std::string file = folder.file("a.checkpoint.h5");
@@ -132,11 +133,14 @@ TEST(Checkpoint, RefusesTheStateOfSomethingElse)
   Checkpoint checkpoint(file, {}, 0.0);
   const SquealOptions options = reference_options();
   const TransientCase run = some_run(IntegratorKind::splitting);
-  EXPECT_THROW(transient(disc_of({kirchhoff_3()}), options, run, {interrupt, &checkpoint}),
-               Interruption);
+  EXPECT_THROW(
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), options), run, {interrupt, &checkpoint}),
+      Interruption);
   const auto error_with = [&](const Disc& disc, IntegratorKind kind) {
     checkpoint.read();
-    return error_of([&] { transient(disc, options, some_run(kind), {{}, &checkpoint}); });
+    return error_of([&] {
+      transient(FlexibleDisc(disc, options), some_run(kind), {{}, &checkpoint});
+    });
   };
   const Disc same = disc_of({kirchhoff_3()}), other = disc_of({kirchhoff_3(1760.0)});
   EXPECT_NE(error_with(same, IntegratorKind::generalised_alpha).find("does not fit"),
@@ -148,19 +152,20 @@ TEST(Checkpoint, WithoutTheSamplesOfItsSoundIsRefused)
 {
   const ScratchFolder folder;
   SquealOptions options = reference_options();
-  options.sound = SoundCase{.rate_Hz = 8000};
+  options.study.sound = SoundCase{.rate_Hz = 8000};
   const Disc disc = disc_of({kirchhoff_3()});
   const TransientCase run = some_run(IntegratorKind::splitting);
   Checkpoint checkpoint(folder.file("a.checkpoint.h5"), {}, 0.0);
   {
     WavSpool sound(folder.file("a.wav"), folder.file("a.samples"), 8000);
-    EXPECT_THROW(transient(disc, options, run, {interrupt, &checkpoint, &sound}), Interruption);
+    EXPECT_THROW(transient(FlexibleDisc(disc, options), run, {interrupt, &checkpoint, &sound}),
+                 Interruption);
   }
   checkpoint.read();
   std::filesystem::resize_file(folder.file("a.samples"), 8);
   WavSpool sound(folder.file("a.wav"), folder.file("a.samples"), 8000);
   EXPECT_NE(error_of([&] {
-              transient(disc, options, run, {{}, &checkpoint, &sound});
+              transient(FlexibleDisc(disc, options), run, {{}, &checkpoint, &sound});
             }).find("a.samples: lacks samples"),
             std::string::npos);
 }

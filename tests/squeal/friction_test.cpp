@@ -9,7 +9,7 @@
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/models/rigid_model.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
 #include "squeal/motion/sliding_disc.hpp"
 #include "squeal/stability/stability.hpp"
 
@@ -21,10 +21,10 @@ using namespace test;
 SquealOptions stribeck_options(ContactLaw law = ContactLaw::bilateral)
 {
   SquealOptions options = reference_options(law);
-  options.friction = 0.4;
-  options.friction_rise = 0.3;
-  options.friction_decay_speed = 1.5;
-  options.slip_regularisation = 1e-3;
+  options.friction.kinetic = 0.4;
+  options.friction.rise = 0.3;
+  options.friction.decay_speed = 1.5;
+  options.friction.regularisation = 1e-3;
   return options;
 }
 
@@ -92,7 +92,7 @@ TEST(Friction, FallingOverTheSpeedAddsNegativeDampingToTheCircumferentialSlope)
   // F_t = -h mu(v) N per pair with v = Omega r_0 - h g_t' / 2: D_p gains (h^2 / 2) N_0 mu'(v) at
   // (t, t), while the radial slip keeps its (h^2 / 2) N_0 mu / (Omega r_0).
   SquealOptions options = stribeck_options();
-  options.slip_regularisation = 0.0;
+  options.friction.regularisation = 0.0;
   const double speed = 12.0, v = speed * ring_radius;
   const auto D = contact_derivatives(pad_contact(options, options.pads[0], ring_radius), speed);
   const double h = options.thickness, mu = 0.4 + 0.3 * std::exp(-v / 1.5);
@@ -105,7 +105,7 @@ TEST(Friction, WithoutARiseIsCoulombs)
 {
   SquealOptions constant = reference_options();
   const PadContact coulomb = pad_contact(constant, constant.pads[0], ring_radius);
-  constant.slip_regularisation = 1e-9;
+  constant.friction.regularisation = 1e-9;
   const PadContact regularised = pad_contact(constant, constant.pads[0], ring_radius);
   const auto a = pad_state(coulomb, large_motion, 20.0, 1.0);
   const auto b = pad_state(regularised, large_motion, 20.0, 1.0);
@@ -132,11 +132,11 @@ TEST(PadSpring, ThatStiffensRaisesTheFrequencyOfTheLimitCycleAlsoWithContactLoss
   // contact, the cubic spring and the falling friction coefficient to be right.
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = stribeck_options(ContactLaw::unilateral);
-  options.friction = 0.6;
-  options.friction_rise = 0.05;
-  const DirectLimitCycle linear = limit_cycle_direct(disc, options, 6.0 * pi);
+  options.friction.kinetic = 0.6;
+  options.friction.rise = 0.05;
+  const DirectLimitCycle linear = limit_cycle_direct(FlexibleDisc(disc, options), 6.0 * pi);
   options.pads[0].cubic_stiffness = 6e12;
-  const DirectLimitCycle cubic = limit_cycle_direct(disc, options, 6.0 * pi);
+  const DirectLimitCycle cubic = limit_cycle_direct(FlexibleDisc(disc, options), 6.0 * pi);
   for (const DirectLimitCycle& cycle : {linear, cubic}) {
     EXPECT_EQ(cycle.N_min, 0.0);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -159,7 +159,8 @@ TEST(RigidDiscFriction, HasOneLinearisationWithItsFallingCoefficient)
                        .preload = 3000.0,
                        .friction = {0.4, 0.3, 1.5, 1e-3},
                        .law = ContactLaw::unilateral};
-  const Model model = model_of(disc, Drive::speed, RigidEquations::nonlinear);
+  const RigidDiscBrake model(
+      {.disc = disc, .drive = Drive::speed, .equations = RigidEquations::nonlinear});
   const Eigen::Vector4d x{1.0, -2.0, 0.5, 3.0};
   const Eigen::Vector4d expected = model.state_matrix(20.0) * x;
   const Eigen::Vector4d rate = (model.rate(1e-5 * x, 20.0) - model.rate(-1e-5 * x, 20.0)) / 2e-5;

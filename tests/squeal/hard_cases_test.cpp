@@ -25,13 +25,13 @@ TEST(HardCase, SlipNearZeroIsBoundedByTheRegularisation)
   // speed reverses the direction of sliding. Friction stays bounded and the run finite.
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::signed_force);
-  options.slip_regularisation = 1e-3;
-  const Transient run = transient(disc, options,
-                                  {.speed = 0.5,
-                                   .duration = 0.2,
-                                   .initial_pad_displacement = 5e-4,
-                                   .steps_per_period = 80,
-                                   .integrator = IntegratorKind::splitting});
+  options.friction.regularisation = 1e-3;
+  const Transient run =
+      transient(FlexibleDisc(disc, options), {.speed = 0.5,
+                                              .duration = 0.2,
+                                              .initial_pad_displacement = 5e-4,
+                                              .steps_per_period = 80,
+                                              .integrator = IntegratorKind::splitting});
   EXPECT_TRUE(run.finished);
   EXPECT_LT(run.slip_speed_min, 5e-3);
   EXPECT_LT(run.envelope.pad_velocity.back(), run.envelope.pad_velocity.front());
@@ -41,8 +41,9 @@ TEST(HardCase, SlidingThatNearlyStopsInEachPeriodHasItsLimitCycle)
 {
   // SQUEAL reference value: the slip of the signed law at 7 pi falls to 0.017 m/s, where friction
   // turns about within microseconds; the samples about the minimum are 0.1 us apart.
-  const auto cycle = limit_cycle_direct(disc_of({kirchhoff_3()}),
-                                        reference_options(ContactLaw::signed_force), 7.0 * pi);
+  const auto cycle = limit_cycle_direct(
+      FlexibleDisc(disc_of({kirchhoff_3()}), reference_options(ContactLaw::signed_force)),
+      7.0 * pi);
   EXPECT_LT(cycle.slip_speed_min, 0.025);
   EXPECT_GT(cycle.slip_speed_min, 0.016);
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -53,7 +54,8 @@ TEST(HardCase, SlowGrowthNearTheCriticalSpeedIsInTheTransientToo)
 {
   // 1.5e-6 of the frequency. The integration is exact for small motions; the fit leaves 1e-4.
   const TransientCase run{.speed = 4.28 * pi, .duration = 3.0, .initial_pad_displacement = 1e-8};
-  const Transient result = transient(disc_of({kirchhoff_3()}), reference_options(), run);
+  const Transient result =
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), run);
   EXPECT_EQ(result.integrator, "exponential");
   EXPECT_NEAR(result.growth_rate.value(), 0.01653109890077859, 1e-4);
 }
@@ -100,7 +102,7 @@ TEST(HardCase, SlowSpeedsTakeTheStiffIntegrator)
   // moves as fast along it as it slides. Sticking costs no more steps than it has events: a scheme
   // that rings in it takes 1e5 evaluations and more.
   const Disc disc = disc_of({kirchhoff_3()});
-  const Transient run = transient(disc, reference_options(), slow_run());
+  const Transient run = transient(FlexibleDisc(disc, reference_options()), slow_run());
   EXPECT_EQ(run.integrator, "generalised-alpha");
   EXPECT_TRUE(run.finished);
   EXPECT_LT(run.n_contact_evaluations, 5000);
@@ -117,7 +119,7 @@ TEST(HardCase, SticksAtSlowSpeedsAsCvodeSays)
   // motions that would add the errors up are damped.
   const Disc disc = disc_of({kirchhoff_3()});
   const TransientCase run = slow_run();
-  const Transient result = transient(disc, reference_options(), run);
+  const Transient result = transient(FlexibleDisc(disc, reference_options()), run);
   RotatingDisc motion(disc, with_friction_at_rest(reference_options(), disc, run.speed), run.speed);
   const ModalState start = transient_start(disc, inertial_disc(disc), run, 0.0);
   Eigen::VectorXd y(4);
@@ -133,7 +135,7 @@ TEST(HardCase, PadsThatMayStickTakeTheStiffIntegratorAtAnySpeed)
   const Disc disc = disc_of({kirchhoff_3()});
   const auto chosen = [&](double displacement, double eps) {
     SquealOptions options = reference_options();
-    options.slip_regularisation = eps;
+    options.friction.regularisation = eps;
     const TransientCase run{
         .speed = 0.5, .duration = 0.1, .initial_pad_displacement = displacement};
     return choose_integrator(disc, inertial_disc(disc), options, run).kind;
@@ -154,7 +156,7 @@ TEST(HardCase, StiffPadsHoldTheDisc)
   const double pinned = std::sqrt(2.0 * 6e12) * disc.rings[0].U[0];
   EXPECT_NEAR(lambda.imag().maxCoeff() / pinned, 1.0, 1e-4);
   const Transient run =
-      transient(disc_of({kirchhoff_3()}), options,
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), options),
                 {.speed = 6.0 * pi, .duration = 0.01, .initial_pad_displacement = 1e-12});
   EXPECT_TRUE(run.finished);
 }

@@ -31,7 +31,8 @@ double largest(const std::vector<double>& x)
 
 TEST(History, OfAShortRunIsEverySample)
 {
-  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(0.1));
+  const Transient run =
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), squealing(0.1));
   EXPECT_EQ(run.band.sampling, Sampling::whole);
   EXPECT_NEAR(run.band.rate_Hz, 1.0 / run.step, 1e-6);
   ASSERT_GE(run.history.t.size(), run.tail.t.size());
@@ -40,7 +41,8 @@ TEST(History, OfAShortRunIsEverySample)
 
 TEST(History, HoldsTheSquealWhereItsBandDoes)
 {
-  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(29.0));
+  const Transient run =
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), squealing(29.0));
   ASSERT_EQ(run.band.sampling, Sampling::band_limited);
   ASSERT_GT(run.band.to_Hz, 1750.0);
   ASSERT_LE(run.history.t.size(), 200000u);
@@ -59,7 +61,8 @@ TEST(History, HoldsTheSquealWhereItsBandDoes)
 
 TEST(History, OfALongRunHoldsNoSquealThatLooksLikeALowerTone)
 {
-  const Transient run = transient(disc_of({kirchhoff_3()}), reference_options(), squealing(75.0));
+  const Transient run =
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options()), squealing(75.0));
   ASSERT_EQ(run.band.sampling, Sampling::band_limited);
   ASSERT_LT(0.5 * run.band.rate_Hz, 1600.0);  // the squeal would be folded down
   const std::vector<double>& v = run.history.pad_velocity;
@@ -110,7 +113,7 @@ TEST(Windows, SayWhatEverySampleDid)
   run.integrator = IntegratorKind::splitting;
   run.speed_program = {{0.0, 6.0 * pi}, {0.3, 4.0 * pi}};
   const SquealOptions options = reference_options(ContactLaw::unilateral);
-  const Transient result = transient(disc_of({kirchhoff_3()}), options, run);
+  const Transient result = transient(FlexibleDisc(disc_of({kirchhoff_3()}), options), run);
   const Windows& windows = result.windows;
   ASSERT_GT(windows.t.size(), 50u);
   EXPECT_EQ(std::ranges::max(windows.N_up_max), std::ranges::max(result.history.N_up));
@@ -134,7 +137,7 @@ TEST(PadDisplacement, IsThatOfThePlateUnderThePad)
   SquealOptions options = reference_options();
   options.thickness = 0.022;
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
-  const Transient run = transient(disc, options, squealing(0.05));
+  const Transient run = transient(FlexibleDisc(disc, options), squealing(0.05));
   ASSERT_EQ(run.snapshots.t.size(), run.history.t.size());
   double most = 0.0;
   for (std::size_t i = 0; i < run.history.t.size(); ++i) {

@@ -16,8 +16,8 @@ using namespace test;
 LimitCycleBranch branch_over(ContactLaw law, const SpeedRange& speeds)
 {
   SquealOptions options = reference_options(law);
-  options.speeds = speeds;
-  return limit_cycle_branch(disc_of({kirchhoff_3()}), options);
+  options.study.speeds = speeds;
+  return limit_cycle_branch(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study.speeds);
 }
 
 const SpeedRange onset{.from = 4.25 * pi, .to = 5.0 * pi, .count = 31};
@@ -88,13 +88,12 @@ TEST(LimitCycleBranch, IsThatOfTheReferenceWithUnilateralContact)
 TEST(LimitCycleBranch, HoldsTheEndOfATransient)
 {
   // 80 steps per period leave 1e-5 of the velocity to the splitting.
-  const LimitCycle end =
-      limit_cycle(disc_of({kirchhoff_3()}),
-                  transient(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral),
-                            {.speed = 8.0 * pi,
-                             .duration = 4.0,
-                             .initial_pad_displacement = 1e-3,
-                             .steps_per_period = 80}));
+  const LimitCycle end = limit_cycle(
+      transient(FlexibleDisc(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral)),
+                {.speed = 8.0 * pi,
+                 .duration = 4.0,
+                 .initial_pad_displacement = 1e-3,
+                 .steps_per_period = 80}));
   const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
   ASSERT_EQ(branch.points.size(), 8u);
   EXPECT_NEAR(branch.points[1].pad_velocity, end.pad_velocity, 2e-5 * end.pad_velocity);
@@ -118,7 +117,7 @@ TEST(LimitCycleBranch, IsTheSameFromAboveAndFromTheEigenvector)
   // near 1 magnify what is left, about 1e-8 per period, by 500.
   const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
   const DirectLimitCycle cycle = limit_cycle_direct(
-      disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral), 6.0 * pi);
+      FlexibleDisc(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral)), 6.0 * pi);
   EXPECT_NEAR(branch.points.front().pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity);
 }
 

@@ -38,8 +38,8 @@ TEST(DirectLimitCycle, IsThatOfTheReferenceForEachContactLaw)
 {
   for (const Reference& reference : references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
-    const DirectLimitCycle cycle =
-        limit_cycle_direct(reference_disc(), reference_options(reference.law), 6.0 * pi);
+    const DirectLimitCycle cycle = limit_cycle_direct(
+        FlexibleDisc(reference_disc(), reference_options(reference.law)), 6.0 * pi);
     EXPECT_NEAR(cycle.frequency_Hz, reference.frequency_Hz, 1e-5);
     EXPECT_NEAR(cycle.pad_velocity, reference.velocity, 5e-6 * reference.velocity);
     EXPECT_NEAR(cycle.pad_displacement, reference.displacement, 5e-6 * reference.displacement);
@@ -63,8 +63,9 @@ TEST(DirectLimitCycle, IsThatOfTheReferenceWithSignedForcesAtOtherSpeeds)
   };
   for (const Point& point : {Point{5.0, 19.263}, Point{10.0, 37.215}, Point{20.0, 69.454}}) {
     const DirectLimitCycle cycle =
-        limit_cycle_direct(reference_disc(kirchhoff_3().f_Hz),
-                           reference_options(ContactLaw::signed_force), point.speed * pi);
+        limit_cycle_direct(FlexibleDisc(reference_disc(kirchhoff_3().f_Hz),
+                                        reference_options(ContactLaw::signed_force)),
+                           point.speed * pi);
     EXPECT_NEAR(cycle.pad_velocity, point.velocity, 5e-4 + 1e-5 * point.velocity)
         << point.speed << " pi";
   }
@@ -75,8 +76,8 @@ TEST(DirectLimitCycle, KeepsADisturbanceAlongItself)
   // x' at x_0 is an eigenvector of the monodromy matrix for 1; the tolerance is the one at which
   // the step is taken for small enough. It would be 1e-3 without the search for the kinks.
   for (const Reference& reference : references) {
-    const auto cycle =
-        limit_cycle_direct(reference_disc(), reference_options(reference.law), 6.0 * pi);
+    const auto cycle = limit_cycle_direct(
+        FlexibleDisc(reference_disc(), reference_options(reference.law)), 6.0 * pi);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6) << static_cast<int>(reference.law);
   }
 }
@@ -88,7 +89,7 @@ TEST(DirectLimitCycle, HasMultipliersWhoseProductIsTheLossOfPhaseVolume)
   // motion is a third of N_0 / k, and the slip speed, by which the radial friction is divided,
   // changes by a tenth: 1e-2 of the mean.
   const Disc disc = reference_disc(kirchhoff_3().f_Hz);
-  const auto cycle = limit_cycle_direct(disc, reference_options(), 4.275 * pi);
+  const auto cycle = limit_cycle_direct(FlexibleDisc(disc, reference_options()), 4.275 * pi);
   const double loss = -std::log(std::abs(cycle.multipliers.prod())) * cycle.frequency_Hz;
   const double slope = kirchhoff_3().U_r;
   const double trace =
@@ -103,7 +104,8 @@ TEST(DirectLimitCycle, TakesAFiftiethOfTheContactEvaluationsOfATransient)
   const double of_transient = 6.0 * 1672.13 * 16.0 * 2.0;
   for (const ContactLaw law :
        {ContactLaw::bilateral, ContactLaw::unilateral, ContactLaw::signed_force}) {
-    const auto cycle = limit_cycle_direct(reference_disc(), reference_options(law), 6.0 * pi);
+    const auto cycle =
+        limit_cycle_direct(FlexibleDisc(reference_disc(), reference_options(law)), 6.0 * pi);
     EXPECT_LT(double(cycle.n_contact_evaluations), of_transient / 50.0) << static_cast<int>(law);
   }
 }
@@ -117,12 +119,12 @@ TEST(DirectLimitCycle, IsWhereATransientEnds)
   auto body = analytic_body({kirchhoff_3(1672.13)});
   body.C = Eigen::Matrix2d::Identity();
   const Disc disc = make_disc(body, "track", {});
-  const auto cycle = limit_cycle_direct(disc, options, 20.0 * pi);
-  const LimitCycle end = limit_cycle(disc, transient(disc, options,
-                                                     {.speed = 20.0 * pi,
-                                                      .duration = 3.0,
-                                                      .initial_pad_displacement = 1e-3,
-                                                      .steps_per_period = 120}));
+  const auto cycle = limit_cycle_direct(FlexibleDisc(disc, options), 20.0 * pi);
+  const LimitCycle end =
+      limit_cycle(transient(FlexibleDisc(disc, options), {.speed = 20.0 * pi,
+                                                          .duration = 3.0,
+                                                          .initial_pad_displacement = 1e-3,
+                                                          .steps_per_period = 120}));
   ASSERT_TRUE(end.settled);
   EXPECT_NEAR(cycle.frequency_Hz, end.frequency_Hz, 1e-6 * end.frequency_Hz);
   EXPECT_NEAR(cycle.pad_velocity, end.pad_velocity, 1e-4 * end.pad_velocity);
@@ -138,21 +140,23 @@ TEST(DirectLimitCycle, TakesModesThatTakeNoPart)
   // The (2,0) and (4,0) pairs move with the contact only; the cycle shifts by their compliance.
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3(1672.13), kirchhoff_4()});
   SquealOptions options = reference_options();
-  const auto cycle = limit_cycle_direct(disc, options, 6.0 * pi);
+  const auto cycle = limit_cycle_direct(FlexibleDisc(disc, options), 6.0 * pi);
   EXPECT_EQ(cycle.multipliers.size(), 12);
   EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
 }
 
 TEST(DirectLimitCycle, RefusesAStableDisc)
 {
-  EXPECT_THROW(limit_cycle_direct(reference_disc(), reference_options(), 4.2 * pi), Error);
+  EXPECT_THROW(limit_cycle_direct(FlexibleDisc(reference_disc(), reference_options()), 4.2 * pi),
+               Error);
 }
 
 TEST(DirectLimitCycle, IsNotTheStateOfRest)
 {
   // At 4.2 pi Newton's method finds rest only, which is no cycle.
-  const auto start = limit_cycle_direct(reference_disc(), reference_options(), 4.3 * pi);
-  EXPECT_FALSE(limit_cycle_near(reference_disc(), reference_options(), 4.2 * pi,
+  const auto start =
+      limit_cycle_direct(FlexibleDisc(reference_disc(), reference_options()), 4.3 * pi);
+  EXPECT_FALSE(limit_cycle_near(FlexibleDisc(reference_disc(), reference_options()), 4.2 * pi,
                                 {start.x, 1.0 / start.frequency_Hz}));
 }
 

@@ -25,7 +25,7 @@ TransientCase reference_run(double duration = 7.7, int steps_per_period = 40)
 LimitCycle cycle_of(ContactLaw law, const TransientCase& run)
 {
   const Disc disc = disc_of({kirchhoff_3(1672.13)});
-  return limit_cycle(disc, transient(disc, reference_options(law), run));
+  return limit_cycle(transient(FlexibleDisc(disc, reference_options(law)), run));
 }
 
 /// SQUEAL reference values at 6 pi, 1672.13 Hz: periodic solutions by shooting with DOP853; times
@@ -97,7 +97,8 @@ TEST(LimitCycle, TurnsWithTheEigenvectors)
   turned.turn = 0.4;
   turned.sign = -1.0;
   const Disc disc = disc_of({turned});
-  const LimitCycle other = limit_cycle(disc, transient(disc, reference_options(), reference_run()));
+  const LimitCycle other =
+      limit_cycle(transient(FlexibleDisc(disc, reference_options()), reference_run()));
   const LimitCycle cycle = cycle_of(ContactLaw::bilateral, reference_run());
   const auto modulus_at = [](const Disc& of, const LimitCycle& motion, double phi) {
     return std::abs(
@@ -117,9 +118,9 @@ TEST(LimitCycle, RefusesRunsThatCannotHoldOne)
 {
   EXPECT_THROW(cycle_of(ContactLaw::bilateral, reference_run(0.004)), Error);
   const Disc disc = disc_of({kirchhoff_3(1672.13)});
-  Transient diverged = transient(disc, reference_options(), reference_run(0.1));
+  Transient diverged = transient(FlexibleDisc(disc, reference_options()), reference_run(0.1));
   diverged.finished = false;
-  EXPECT_THROW(limit_cycle(disc, diverged), Error);
+  EXPECT_THROW(limit_cycle(diverged), Error);
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ TEST(ModeSensitivity, SaysWhichModesMoveTheCriticalSpeed)
   const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
   const SquealOptions options = reference_options();
   const ModeSensitivity result = mode_sensitivity(disc, options);
-  EXPECT_EQ(result.critical_speed, critical_speed(disc, options)->speed);
+  EXPECT_EQ(
+      result.critical_speed,
+      critical_speed(stability_over_speed(at_speeds(disc, options), options.study.speeds))->speed);
   ASSERT_EQ(result.influences.size(), 3u);
   EXPECT_GT(result.influences[1].participation, 0.9);
   EXPECT_EQ(result.influences[1].nodal_diameters, 3);
@@ -35,7 +37,10 @@ TEST(ModeSensitivity, SaysWhichModesMoveTheCriticalSpeed)
   auto without = analytic_body({kirchhoff_3(), kirchhoff_4()});
   without.C = body.C.bottomRightCorner(4, 4);
   const auto expected =
-      critical_speed(inertial_disc(make_disc(without, "track", {})), options)->speed;
+      critical_speed(
+          stability_over_speed(at_speeds(inertial_disc(make_disc(without, "track", {})), options),
+                               options.study.speeds))
+          ->speed;
   EXPECT_NEAR(result.influences[0].critical_speed_without.value(), expected, 1e-7 * expected);
   EXPECT_NE(result.influences[0].growth_without.value(), 0.0);
 }
@@ -44,7 +49,7 @@ TEST(ModeSensitivity, ComparesTheLowestTwoEightSixteenAndAllModes)
 {
   // With the (1,0) pair at 584 Hz alone and with all 35 modes (SQUEAL reference value).
   SquealOptions options = reference_options();
-  options.speeds.from = 0.2 * pi;
+  options.study.speeds.from = 0.2 * pi;
   const InertialDisc disc = inertial_disc(disc_of(kirchhoff_modes()));
   const ModeSensitivity result = mode_sensitivity(disc, options);
   ASSERT_EQ(result.subsets.size(), 4u);
@@ -62,7 +67,7 @@ TEST(ModeSensitivity, ComparesTheLowestTwoEightSixteenAndAllModes)
 TEST(ModeSensitivity, NeedsACriticalSpeedInTheRange)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = pi, .to = 2.0 * pi, .count = 10};
+  options.study.speeds = {.from = pi, .to = 2.0 * pi, .count = 10};
   EXPECT_THROW(mode_sensitivity(inertial_disc(disc_of({kirchhoff_3()})), options), Error);
 }
 
@@ -75,7 +80,10 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   Disc disc = make_disc(body, "track", {});
   const double g = 3.0 * 0.00765875649913187;
   const auto critical_by_pi = [&] {
-    return critical_speed(inertial_disc(disc), reference_options())->speed / pi;
+    return critical_speed(stability_over_speed(at_speeds(inertial_disc(disc), reference_options()),
+                                               reference_options().study.speeds))
+               ->speed /
+           pi;
   };
   EXPECT_NEAR(critical_by_pi(), 4.235183338216228, 1e-9);
   // As a body has them: 2 int phi_i . (e_z x phi_j) dm = 2 (S_xy^T - S_xy).
@@ -88,14 +96,15 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   EXPECT_EQ(disc.G, (Eigen::Matrix2d{{0.0, -g}, {g, 0.0}}));
   EXPECT_NEAR(critical_by_pi(), 4.250189346231441, 1e-7);
   // The transient has the same terms in its kick.
-  const Growth result = growth(disc, reference_options(), 6.0 * pi, 3.0);
+  const Growth result = growth(FlexibleDisc(disc, reference_options()), 6.0 * pi, 3.0);
   EXPECT_NEAR(*result.eigenvalue_rate, 2.6557811006225065, 1e-6);
   TransientCase run{.speed = 6.0 * pi,
                     .duration = 3.0,
                     .initial_pad_displacement = 3e-8,
                     .steps_per_period = 40,
                     .integrator = IntegratorKind::splitting};
-  EXPECT_NEAR(transient(disc, reference_options(), run).growth_rate.value(), 2.6557811, 5e-4);
+  EXPECT_NEAR(transient(FlexibleDisc(disc, reference_options()), run).growth_rate.value(),
+              2.6557811, 5e-4);
 }
 
 }  // namespace

@@ -7,10 +7,11 @@
 #include "source_disc.hpp"
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/model_brake.hpp"
 #include "squeal/models/oscillator.hpp"
-#include "squeal/models/rigid_model.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
 #include "squeal/stability/stability.hpp"
-#include "squeal/study/model_run.hpp"
+#include "squeal/study/run.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -21,10 +22,13 @@ using test::source_disc;
 ModelOptions rigid_study(const RigidDiscStudy& study)
 {
   return {.model = study,
-          .speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
-          .analyses = {"eigenvalues", "critical-speed"},
-          .transient = {},
-          .growth = {}};
+          .study = {.speeds = {.from = pi, .to = 20.0 * pi, .count = 20},
+                    .analyses = {"eigenvalues", "critical-speed"}}};
+}
+
+SquealResults of_study(const ModelOptions& options)
+{
+  return run(*model_brake(options), options.study);
 }
 
 /// SQUEAL reference values at 20 pi by shooting over the kinks of the contact law with finite
@@ -42,9 +46,9 @@ TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
   for (const Reference& reference : references) {
     SCOPED_TRACE(static_cast<int>(reference.law));
     ModelOptions options = rigid_study({.disc = source_disc(reference.law)});
-    options.analyses = {"limit-cycle-direct"};
-    options.limit_cycle_direct = DirectCase{20.0 * pi};
-    const DirectLimitCycle cycle = run(options).limit_cycle_direct.value();
+    options.study.analyses = {"limit-cycle-direct"};
+    options.study.limit_cycle_direct = DirectCase{20.0 * pi};
+    const DirectLimitCycle cycle = of_study(options).limit_cycle_direct.value();
     EXPECT_NEAR(cycle.frequency_Hz, reference.frequency_Hz, 1e-3);
     EXPECT_NEAR(cycle.pad_velocity, reference.velocity, reference.tolerance * reference.velocity);
     EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-6);
@@ -55,12 +59,13 @@ TEST(RigidModel, HasTheLimitCyclesOfTheReferenceDirectly)
 TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
 {
   ModelOptions options = rigid_study({.disc = source_disc()});
-  options.analyses = {"stability-map", "critical-speed", "critical-values"};
-  options.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
-  options.critical = {
+  options.study.analyses = {"stability-map", "critical-speed", "critical-values"};
+  options.study.speeds = {.from = 5.0 * pi, .to = 15.0 * pi, .count = 21};
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.5, .to = 0.7, .count = 3};
+  options.study.critical = {
       {.parameter = MapParameter::friction, .from = 0.3, .to = 0.9, .speed = 12.0 * pi}};
-  const SquealResults results = run(options);
+  const SquealResults results = of_study(options);
   const StabilityMap& map = results.map.value();
   for (Eigen::Index j = 0; j < map.speeds.size(); ++j)
     EXPECT_EQ(map.growth(1, j) > 0.0, map.speeds[j] > results.critical_speed->speed);
@@ -68,17 +73,18 @@ TEST(RigidModel, HasAMapWhoseBoundaryIsTheCriticalSpeed)
   ASSERT_TRUE(results.critical_values.at(0).value);
   RigidDisc disc = source_disc();
   disc.friction.kinetic = *results.critical_values[0].value;
-  const auto critical = critical_speed(model_of(disc, Drive::speed, {}).state_matrix,
-                                       {.from = 5.0 * pi, .to = 20.0 * pi, .count = 2});
+  const auto critical =
+      critical_speed(stability_over_speed(state_matrix_at(RigidDiscBrake({.disc = disc})),
+                                          {.from = 5.0 * pi, .to = 20.0 * pi, .count = 2}));
   EXPECT_NEAR(critical.value().speed, 12.0 * pi, 1e-6);
 }
 
 TEST(RigidModel, HasNoLimitCycleInItsLinearEquations)
 {
   ModelOptions options = rigid_study({.disc = source_disc(), .equations = RigidEquations::linear});
-  options.analyses = {"limit-cycle-direct"};
-  options.limit_cycle_direct = DirectCase{20.0 * pi};
-  EXPECT_THROW(run(options), Error);
+  options.study.analyses = {"limit-cycle-direct"};
+  options.study.limit_cycle_direct = DirectCase{20.0 * pi};
+  EXPECT_THROW(of_study(options), Error);
 }
 
 /// A mass on a belt whose friction falls over the speed, with enough damping to be stable above
@@ -103,12 +109,11 @@ TEST(Oscillator, SticksAndSlipsBesideStableSliding)
   // stick-slip cycle lives on above that speed and vanishes in a fold: hysteresis.
   const Oscillator o = falling_friction();
   const double V_c = -0.5 * std::log(60.0 * 0.5 / (500.0 * 0.3));
-  const Model model = model_of(o);
+  const OscillatorBrake model(o);
   EXPECT_GT(least_stable_eigenvalue(model.state_matrix(0.98 * V_c / o.radius)).real(), 0.0);
   EXPECT_LT(least_stable_eigenvalue(model.state_matrix(1.02 * V_c / o.radius)).real(), 0.0);
-  const LimitCycleBranch branch =
-      limit_cycle_branch(cycle_problem(model),
-                         {.from = 0.5 * V_c / o.radius, .to = 1.5 * V_c / o.radius, .count = 41});
+  const LimitCycleBranch branch = limit_cycle_branch(
+      model, {.from = 0.5 * V_c / o.radius, .to = 1.5 * V_c / o.radius, .count = 41});
   ASSERT_FALSE(branch.points.empty());
   bool stable_above = false;
   for (const BranchPoint& point : branch.points)

@@ -6,7 +6,6 @@
 
 #include "planar_motions.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/cycle/cycle_problem.hpp"
 #include "squeal/cycle/harmonic_balance.hpp"
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
@@ -78,7 +77,7 @@ TEST(PeriodicOrbit, HasTheDerivativeOfItsFlow)
   // Central differences of an integration to 1e-12, with contact loss within the period.
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   const auto motion =
-      cycle_problem(disc, reference_options(ContactLaw::unilateral)).motion(6.0 * pi);
+      FlexibleDisc(disc, reference_options(ContactLaw::unilateral)).motion(6.0 * pi);
   const CycleStart start{Eigen::VectorXd::LinSpaced(8, 6.0, -5.0), 1.0 / 1750.0};
   const Eigen::MatrixXd derivative = flow(*motion, start, 1e-11).derivative;
   Eigen::MatrixXd differences(8, 8);
@@ -92,32 +91,28 @@ TEST(PeriodicOrbit, HasTheDerivativeOfItsFlow)
 }
 
 /// The subcritical Hopf bifurcation as something that squeals.
-CycleProblem subcritical_problem()
-{
-  return {.motion =
-              [](double speed) {
-                return std::make_unique<PlanarMotion<SubcriticalHopf>>(SubcriticalHopf{speed});
-              },
-          .state_matrix = [](double speed) -> Eigen::MatrixXd {
-            return SubcriticalHopf{speed}.jacobian(Eigen::Vector2d::Zero());
-          },
-          .compression = 1.0,
-          .measured =
-              [](AutonomousMotion&, const PeriodicOrbit& orbit, double speed) {
-                DirectLimitCycle cycle{};
-                cycle.speed = speed;
-                cycle.frequency_Hz = 1.0 / orbit.at.period;
-                cycle.pad_displacement = orbit.at.x.norm();
-                cycle.x = orbit.at.x;
-                cycle.multipliers = floquet_multipliers(orbit.monodromy);
-                return cycle;
-              }};
-}
+class SubcriticalBrake final : public Brake {
+ public:
+  Eigen::MatrixXd state_matrix(double speed) const override
+  {
+    return SubcriticalHopf{speed}.jacobian(Eigen::Vector2d::Zero());
+  }
+  /// It has none of these parameters.
+  std::unique_ptr<Brake> with(MapParameter /*parameter*/, double /*value*/) const override
+  {
+    return std::make_unique<SubcriticalBrake>();
+  }
+  std::unique_ptr<AutonomousMotion> motion(double speed) const override
+  {
+    return std::make_unique<PlanarMotion<SubcriticalHopf>>(SubcriticalHopf{speed});
+  }
+  double rest_compression() const override { return 1.0; }
+};
 
 TEST(LimitCycleBranch, GoesThroughAFoldToItsUnstablePart)
 {
   const LimitCycleBranch branch =
-      limit_cycle_branch(subcritical_problem(), {.from = 1.0, .to = 3.0, .count = 40});
+      limit_cycle_branch(SubcriticalBrake(), {.from = 1.0, .to = 3.0, .count = 40});
   ASSERT_EQ(branch.folds.size(), 1u);
   EXPECT_NEAR(branch.folds[0].speed, 1.75, 1e-6);
   EXPECT_NEAR(branch.folds[0].pad_displacement, std::sqrt(0.5), 1e-3);  // quadratic there

@@ -26,16 +26,17 @@ struct TemporaryFile {
 SquealResults complete_results()
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 5;
-  options.analyses = {"eigenvalues",        "critical-speed",     "growth",       "limit-cycle",
-                      "limit-cycle-direct", "limit-cycle-branch", "stability-map"};
-  options.map =
+  options.study.speeds.count = 5;
+  options.study.analyses = {"eigenvalues",  "critical-speed",     "growth",
+                            "limit-cycle",  "limit-cycle-direct", "limit-cycle-branch",
+                            "stability-map"};
+  options.study.map =
       MapCase{.parameter = MapParameter::preload, .from = 500.0, .to = 2000.0, .count = 3};
-  options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
-  options.transient =
+  options.study.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 4e-4};
-  options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
-  return run(disc_of({kirchhoff_3()}), options);
+  options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.1};
+  return run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
 }
 
 TEST(ResultFile, ReturnsEveryValueItWasGiven)

@@ -106,7 +106,7 @@ double critical_by_pi(const Change& change)
     change(matrices);
     return first_order(matrices);
   };
-  return critical_speed(matrices_at, speeds).value().speed / pi;
+  return critical_speed(stability_over_speed(matrices_at, speeds)).value().speed / pi;
 }
 
 TEST(RigidDisc, BecomesUnstableAtTheCriticalSpeedOfTheReference)
@@ -120,8 +120,8 @@ TEST(RigidDisc, HasNoCriticalSpeedWithoutFriction)
 {
   RigidDisc disc = source_disc();
   disc.friction = {0.0};
-  EXPECT_FALSE(critical_speed(
-      [&](double speed) { return first_order(rigid_disc_matrices(disc, speed)); }, speeds));
+  EXPECT_FALSE(critical_speed(stability_over_speed(
+      [&](double speed) { return first_order(rigid_disc_matrices(disc, speed)); }, speeds)));
 }
 
 // What docs/rigid_disc.md says about equation (3.2) of the source and its 10.4 pi.

@@ -27,7 +27,8 @@ TEST(RotationStability, IsThatOfTheEigenvaluesOnAnAxisymmetricDisc)
   // The disc in its own frame against the inertial frame; the extrapolation leaves 1e-5 1/s.
   const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
   for (const double speed : {4.0 * pi, 6.0 * pi, 12.0 * pi}) {
-    const auto lambda = least_stable_eigenvalue(inertial_disc(disc), reference_options(), speed);
+    const auto lambda =
+        least_stable_eigenvalue(state_matrix(inertial_disc(disc), reference_options(), speed));
     const RotationGrowth at = rotation_growth(disc, reference_options(), speed);
     EXPECT_NEAR(at.growth, lambda.real(), 3e-5);
     EXPECT_NEAR(at.frequency_Hz, lambda.imag() / (2.0 * pi), 2.0 * 3.0 * speed / (2.0 * pi));
@@ -52,7 +53,7 @@ TEST(RotationStability, IsWhatATransientDoes)
   ASSERT_FALSE(find_inertial_disc(disc));
   SquealOptions options = reference_options();
   const double speed = 16.0 * pi;
-  const Growth simulated = growth(disc, options, speed, 2.0);
+  const Growth simulated = growth(FlexibleDisc(disc, options), speed, 2.0);
   const double expected = rotation_growth(disc, options, speed).growth;
   EXPECT_NEAR(simulated.rate, expected, 0.05 * std::abs(expected));
 }
@@ -60,7 +61,7 @@ TEST(RotationStability, IsWhatATransientDoes)
 TEST(RotationStability, FindsTheCriticalSpeedWithAnyNumberOfThreads)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = 4.0 * pi, .to = 5.0 * pi, .count = 5};
+  options.study.speeds = {.from = 4.0 * pi, .to = 5.0 * pi, .count = 5};
   const Disc disc = split_disc(0.0);
   const RotationStability one = rotation_stability(disc, options, 1);
   // The growth rate rises by 2 1/s for each pi; its error is 1e-5 1/s.

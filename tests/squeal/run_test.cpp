@@ -15,8 +15,8 @@ using namespace test;
 TEST(Run, YieldsWhatWasAskedForAndNothingElse)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"critical-speed"};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  options.study.analyses = {"critical-speed"};
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
   EXPECT_TRUE(results.searched_critical_speed);
   EXPECT_TRUE(results.critical_speed);
   EXPECT_FALSE(results.eigenvalues || results.transient || results.limit_cycle);
@@ -26,13 +26,13 @@ TEST(Run, YieldsWhatWasAskedForAndNothingElse)
 TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues", "growth", "limit-cycle"};
-  options.transient =
+  options.study.analyses = {"eigenvalues", "growth", "limit-cycle"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 1e-4};
-  options.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
+  options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
   std::set<std::string> names;
   const SquealResults results =
-      run(disc_of({kirchhoff_3()}), options,
+      run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study,
           {.progress = [&](const std::string& name, double) { names.insert(name); }});
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
@@ -43,12 +43,13 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
 TEST(Run, GoesOnWhereUnfinishedResultsCannotBeKept)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues", "critical-speed"};
+  options.study.analyses = {"eigenvalues", "critical-speed"};
   int n_kept = 0;
   const StudyKeeping keeping{.unfinished = [&](const SquealResults&) {
     if (++n_kept > 1) throw Error("disk full");
   }};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options, keeping);
+  const SquealResults results =
+      run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study, keeping);
   EXPECT_EQ(n_kept, 2);
   EXPECT_TRUE(results.eigenvalues && results.critical_speed);
   EXPECT_FALSE(results.failure);
@@ -57,9 +58,9 @@ TEST(Run, GoesOnWhereUnfinishedResultsCannotBeKept)
 TEST(Run, FindsALimitCycleWithoutATransient)
 {
   SquealOptions options = reference_options();
-  options.analyses = {"limit-cycle-direct"};
-  options.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
-  const SquealResults results = run(disc_of({kirchhoff_3()}), options);
+  options.study.analyses = {"limit-cycle-direct"};
+  options.study.limit_cycle_direct = DirectCase{.speed = 6.0 * pi};
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
   EXPECT_TRUE(results.limit_cycle_direct);
   EXPECT_FALSE(results.transient || results.limit_cycle || results.limit_cycle_branch);
 }
@@ -70,19 +71,19 @@ TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
   body.omega[1] *= 1.1;
   const Disc disc = make_disc(body, "track", {});
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues"};
-  EXPECT_THROW(run(disc, options), Error);
-  options.analyses = {"transient"};
-  options.transient =
+  options.study.analyses = {"eigenvalues"};
+  EXPECT_THROW(run(FlexibleDisc(disc, options), options.study), Error);
+  options.study.analyses = {"transient"};
+  options.study.transient =
       TransientCase{.speed = 6.0 * pi, .duration = 0.1, .initial_pad_displacement = 1e-6};
-  EXPECT_TRUE(run(disc, options).transient);
+  EXPECT_TRUE(run(FlexibleDisc(disc, options), options.study).transient);
 }
 
 TEST(Run, ValidatesTheOptionsFirst)
 {
   SquealOptions options = reference_options();
-  options.friction = -1.0;
-  EXPECT_THROW(run(disc_of({kirchhoff_3()}), options), Error);
+  options.friction.kinetic = -1.0;
+  EXPECT_THROW(run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study), Error);
 }
 
 }  // namespace

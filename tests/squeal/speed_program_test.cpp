@@ -40,9 +40,9 @@ TEST(SpeedProgram, OfOneSpeedIsAConstantSpeed)
                     .initial_pad_displacement = 1e-6,
                     .steps_per_period = 40,
                     .integrator = IntegratorKind::splitting};
-  const auto constant = transient(disc, reference_options(), run).tail.pad_velocity;
+  const auto constant = transient(FlexibleDisc(disc, reference_options()), run).tail.pad_velocity;
   run.speed_program = {{0.0, 18.0}, {0.05, 18.0}};
-  const auto program = transient(disc, reference_options(), run).tail.pad_velocity;
+  const auto program = transient(FlexibleDisc(disc, reference_options()), run).tail.pad_velocity;
   ASSERT_EQ(constant.size(), program.size());
   for (std::size_t i = 0; i < constant.size(); i += 13)
     EXPECT_NEAR(program[i], constant[i], 1e-8 * 0.02);  // rounding of angles
@@ -53,9 +53,9 @@ TEST(SpeedProgram, BrakesToStandstillWithRegularisedFriction)
   // At rest friction damps: the regularised law is a damper of mu N_0 / eps.
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options(ContactLaw::unilateral);
-  EXPECT_THROW(transient(disc, options, braking()), Error);
-  options.slip_regularisation = 1e-3;
-  const Transient run = transient(disc, options, braking());
+  EXPECT_THROW(transient(FlexibleDisc(disc, options), braking()), Error);
+  options.friction.regularisation = 1e-3;
+  const Transient run = transient(FlexibleDisc(disc, options), braking());
   ASSERT_TRUE(run.finished);
   EXPECT_EQ(run.speed, 0.0);
   EXPECT_FALSE(run.growth_rate);
@@ -69,10 +69,10 @@ TEST(SpeedProgram, NeedsTheSplitting)
 {
   const Disc disc = disc_of({kirchhoff_3()});
   SquealOptions options = reference_options();
-  options.slip_regularisation = 1e-3;
+  options.friction.regularisation = 1e-3;
   TransientCase run = braking();
   run.integrator = IntegratorKind::exponential;
-  EXPECT_THROW(transient(disc, options, run), Error);
+  EXPECT_THROW(transient(FlexibleDisc(disc, options), run), Error);
 }
 
 }  // namespace

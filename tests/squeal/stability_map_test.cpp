@@ -13,15 +13,15 @@ namespace {
 
 using namespace test;
 
-InertialDisc reference_disc()
+Disc reference_disc()
 {
-  return inertial_disc(disc_of({kirchhoff_3()}));
+  return disc_of({kirchhoff_3()});
 }
 
 SquealOptions map_options(const MapCase& map)
 {
   SquealOptions options = reference_options();
-  options.map = map;
+  options.study.map = map;
   return options;
 }
 
@@ -31,11 +31,12 @@ TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
     MapCase map;
     void (*set)(SquealOptions&, double);
   } cases[] = {
-      {{MapParameter::friction, 0.1, 0.9, 3}, [](auto& o, double x) { o.friction = x; }},
+      {{MapParameter::friction, 0.1, 0.9, 3}, [](auto& o, double x) { o.friction.kinetic = x; }},
       {{MapParameter::preload, 500.0, 4e3, 3}, [](auto& o, double x) { o.pads[0].preload = x; }},
       {{MapParameter::stiffness, 1e6, 9e6, 3}, [](auto& o, double x) { o.pads[0].stiffness = x; }}};
   for (const auto& c : cases) {
-    const StabilityMap map = stability_map(reference_disc(), map_options(c.map));
+    const StabilityMap map = stability_map(FlexibleDisc(reference_disc(), reference_options()),
+                                           c.map, reference_options().study.speeds);
     ASSERT_EQ(map.growth.rows(), 3);
     ASSERT_EQ(map.growth.cols(), 60);
     EXPECT_EQ(map.parameter, name_of(c.map.parameter));
@@ -43,7 +44,8 @@ TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
       for (const Eigen::Index j : {0, 17, 59}) {
         SquealOptions point = reference_options();
         c.set(point, map.values[i]);
-        const auto lambda = least_stable_eigenvalue(reference_disc(), point, map.speeds[j]);
+        const auto lambda = least_stable_eigenvalue(
+            state_matrix(inertial_disc(reference_disc()), point, map.speeds[j]));
         EXPECT_EQ(map.growth(i, j), lambda.real());
         EXPECT_EQ(map.frequency_Hz(i, j), lambda.imag() / (2.0 * pi));
       }
@@ -53,10 +55,11 @@ TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
 TEST(StabilityMap, TurnsUnstableAtTheCriticalSpeedOfEachFriction)
 {
   const SquealOptions options = map_options({MapParameter::friction, 0.4, 0.8, 5});
-  const StabilityMap map = stability_map(reference_disc(), options);
+  const FlexibleDisc brake(reference_disc(), options);
+  const StabilityMap map = stability_map(brake, *options.study.map, options.study.speeds);
   for (Eigen::Index i = 0; i < map.values.size(); ++i) {
-    const auto critical = critical_speed(
-        reference_disc(), with_parameter(options, MapParameter::friction, map.values[i]));
+    const auto critical = critical_speed(stability_over_speed(
+        state_matrix_at(*brake.with(MapParameter::friction, map.values[i])), options.study.speeds));
     ASSERT_TRUE(critical);
     for (Eigen::Index j = 0; j < map.speeds.size(); ++j)
       EXPECT_EQ(map.growth(i, j) > 0.0, map.speeds[j] > critical->speed);
@@ -66,11 +69,12 @@ TEST(StabilityMap, TurnsUnstableAtTheCriticalSpeedOfEachFriction)
 TEST(StabilityMap, IsTheSameInEveryRunAndFast)
 {
   SquealOptions options = map_options({MapParameter::stiffness, 1e6, 9e6, 100});
-  options.speeds.count = 100;
+  options.study.speeds.count = 100;
+  const FlexibleDisc brake(reference_disc(), options);
   const auto begin = std::chrono::steady_clock::now();
-  const StabilityMap map = stability_map(reference_disc(), options);
+  const StabilityMap map = stability_map(brake, *options.study.map, options.study.speeds);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  EXPECT_EQ(map.growth, stability_map(reference_disc(), options).growth);
+  EXPECT_EQ(map.growth, stability_map(brake, *options.study.map, options.study.speeds).growth);
 #ifdef NDEBUG
   EXPECT_LT(time.count(), 10.0);  // a promise to users; it takes a fraction of a second
 #endif

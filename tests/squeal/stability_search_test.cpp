@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "common/error.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/models/oscillator.hpp"
@@ -46,6 +47,27 @@ StateMatrixOf side_by_side(const std::vector<Single>& motions)
   };
 }
 
+/// Motions side by side as a brake whose parameters are all the one value.
+class Motions final : public Brake {
+ public:
+  explicit Motions(StateMatrixOf A, double value = 0.0) : A_(std::move(A)), value_(value) {}
+
+  Eigen::MatrixXd state_matrix(double /*speed*/) const override { return A_(value_); }
+  std::unique_ptr<Brake> with(MapParameter /*parameter*/, double value) const override
+  {
+    return std::make_unique<Motions>(A_, value);
+  }
+  std::unique_ptr<AutonomousMotion> motion(double /*speed*/) const override
+  {
+    throw Error("these motions are linear: none of them is a limit cycle");
+  }
+  double rest_compression() const override { return 1.0; }
+
+ private:
+  StateMatrixOf A_;
+  double value_;
+};
+
 double growth_at(const StateMatrixOf& A, double value)
 {
   return least_stable_eigenvalue(A(value)).real();
@@ -61,7 +83,7 @@ TEST(CriticalValue, IsTheFirstOfTwoMotionsWhereverTheRangeEnds)
                     {[](double mu) { return 900.0 * (mu - 0.06718); }, 10500.0}});
   for (const double to : {0.1, 0.2, 0.4, 0.5, 0.7, 1.0, 1.3, 2.0, 5.0}) {
     const CriticalValue found = critical_value(
-        A, {.parameter = MapParameter::friction, .from = 0.01, .to = to, .speed = 10.0});
+        Motions(A), {.parameter = MapParameter::friction, .from = 0.01, .to = to, .speed = 10.0});
     ASSERT_TRUE(found.value) << to;
     // Growth is known to rounding, 1e-12 of the frequency, and has a slope of 40.
     EXPECT_NEAR(*found.value, 0.06240, 1e-9) << to;
@@ -75,17 +97,15 @@ TEST(CriticalValue, OfADiscOfManyModesIsTheLowestWhereverTheRangeEnds)
   // that 64 values up to 0.6 show the second one first.
   auto body = analytic_body(kirchhoff_modes());
   body.C = (2.0 * 2e-5 * body.omega).asDiagonal();
-  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
-  const SquealOptions options = reference_options();
+  const FlexibleDisc brake(make_disc(body, "track", {}), reference_options());
   const double speed = 31.4;
   const auto growth = [&](double mu) {
-    return least_stable_eigenvalue(disc, with_parameter(options, MapParameter::friction, mu), speed)
+    return least_stable_eigenvalue(brake.with(MapParameter::friction, mu)->state_matrix(speed))
         .real();
   };
   for (const double to : {0.25, 0.4, 0.6, 1.0}) {
     const CriticalValue found = critical_value(
-        disc, options,
-        {.parameter = MapParameter::friction, .from = 0.01, .to = to, .speed = speed});
+        brake, {.parameter = MapParameter::friction, .from = 0.01, .to = to, .speed = speed});
     ASSERT_TRUE(found.value) << to;
     EXPECT_NEAR(*found.value, 0.019673, 1e-6) << to;
     EXPECT_NEAR(growth(*found.value), 0.0, 1e-8) << to;  // 1e-13 of the highest frequency
@@ -109,13 +129,10 @@ Oscillator damped_belt(double d)
           .friction = {0.1}};
 }
 
-CriticalValue critical_friction(Oscillator o, double from, double to)
+CriticalValue critical_friction(const Oscillator& o, double from, double to)
 {
   return critical_value(
-      [&](double mu) {
-        o.friction.kinetic = mu;
-        return model_of(o).state_matrix(10.0);
-      },
+      OscillatorBrake(o),
       {.parameter = MapParameter::friction, .from = from, .to = to, .speed = 10.0});
 }
 
@@ -161,10 +178,7 @@ TEST(CriticalValue, OfTheStiffnessIsLostAndRegainedWhereTheClosedFormSays)
   const double low = 0.5 * sum - root, high = 0.5 * sum + root;
   const auto critical_stiffness = [&](double from) {
     return critical_value(
-        [&](double k_c) {
-          o.contact_stiffness = k_c;
-          return model_of(o).state_matrix(10.0);
-        },
+        OscillatorBrake(o),
         {.parameter = MapParameter::stiffness, .from = from, .to = 2e7, .speed = 10.0});
   };
   const CriticalValue lost = critical_stiffness(1e6);

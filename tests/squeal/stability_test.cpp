@@ -102,8 +102,9 @@ TEST(LeastStableEigenvalue, IsThatOfTheReference)
                     {1672.13, 3.8, -1.0360069717642382, 10649.961103576345},
                     {1672.13, 6.0, 2.775972925130693, 10661.774219648141}};
   for (const auto& reference : references) {
-    const auto lambda = least_stable_eigenvalue(inertial_of({kirchhoff_3(reference.f_Hz)}),
-                                                reference_options(), reference.speed_by_pi * pi);
+    const auto lambda =
+        least_stable_eigenvalue(state_matrix(inertial_of({kirchhoff_3(reference.f_Hz)}),
+                                             reference_options(), reference.speed_by_pi * pi));
     EXPECT_NEAR(lambda.real(), reference.growth, 1e-9) << reference.speed_by_pi;
     EXPECT_NEAR(lambda.imag(), reference.omega, 1e-9 * reference.omega);
   }
@@ -119,8 +120,9 @@ TEST(CriticalSpeed, IsThatOfTheKirchhoffPlate)
   } references[] = {{1749.7487734358904, 4.271898407362968, 1772.0954575721983},
                     {1672.13, 4.2567454955104145, 1695.3360061473277}};
   for (const auto& reference : references) {
-    const auto critical =
-        critical_speed(inertial_of({kirchhoff_3(reference.f_Hz)}), reference_options());
+    const auto critical = critical_speed(stability_over_speed(
+        at_speeds(inertial_of({kirchhoff_3(reference.f_Hz)}), reference_options()),
+        reference_options().study.speeds));
     ASSERT_TRUE(critical);
     EXPECT_NEAR(critical->speed / pi, reference.speed_by_pi, 1e-11 * reference.speed_by_pi);
     EXPECT_NEAR(critical->frequency_Hz, reference.frequency, 1e-10 * reference.frequency);
@@ -130,7 +132,9 @@ TEST(CriticalSpeed, IsThatOfTheKirchhoffPlate)
 TEST(CriticalSpeed, OfAMindlinPlateTakesTheSlopesOfItsDirector)
 {
   // SQUEAL reference value, Mindlin data without rotary Coriolis terms.
-  const auto critical = critical_speed(inertial_of({mindlin_3()}), reference_options());
+  const auto critical = critical_speed(
+      stability_over_speed(at_speeds(inertial_of({mindlin_3()}), reference_options()),
+                           reference_options().study.speeds));
   ASSERT_TRUE(critical);
   EXPECT_NEAR(critical->speed / pi, 4.235183338216228, 1e-10);
 }
@@ -147,9 +151,10 @@ TEST(CriticalSpeed, OfAllModesIsThatOfTheLowestPairAndRisesWithDamping)
                     {5e-4, 9.172464690136207},
                     {1e-3, 13.424694341511053}};
   SquealOptions options = reference_options();
-  options.speeds.from = 0.1 * pi;
+  options.study.speeds.from = 0.1 * pi;
   for (const auto& reference : references) {
-    const auto critical = critical_speed(damped_plate(reference.zeta), options);
+    const auto critical = critical_speed(stability_over_speed(
+        at_speeds(damped_plate(reference.zeta), options), options.study.speeds));
     ASSERT_TRUE(critical);
     EXPECT_NEAR(critical->speed / pi, reference.speed_by_pi, 1e-8) << "zeta " << reference.zeta;
   }
@@ -159,29 +164,35 @@ TEST(CriticalSpeed, IsAbsentWhenTheRangeHoldsNone)
 {
   const InertialDisc disc = inertial_of({kirchhoff_3()});
   SquealOptions options = reference_options();
-  options.speeds = {.from = pi, .to = 4.2 * pi, .count = 10};
-  EXPECT_FALSE(critical_speed(disc, options));
-  options.speeds = {.from = 4.3 * pi, .to = 8.0 * pi, .count = 10};  // unstable throughout
-  EXPECT_FALSE(critical_speed(disc, options));
-  options.speeds = {.from = pi, .to = 20.0 * pi, .count = 10};
-  options.friction = 0.0;  // a conservative system: only rounding could cross
-  EXPECT_FALSE(critical_speed(disc, options));
+  options.study.speeds = {.from = pi, .to = 4.2 * pi, .count = 10};
+  EXPECT_FALSE(
+      critical_speed(stability_over_speed(at_speeds(disc, options), options.study.speeds)));
+  options.study.speeds = {.from = 4.3 * pi, .to = 8.0 * pi, .count = 10};  // unstable throughout
+  EXPECT_FALSE(
+      critical_speed(stability_over_speed(at_speeds(disc, options), options.study.speeds)));
+  options.study.speeds = {.from = pi, .to = 20.0 * pi, .count = 10};
+  options.friction.kinetic = 0.0;  // a conservative system: only rounding could cross
+  EXPECT_FALSE(
+      critical_speed(stability_over_speed(at_speeds(disc, options), options.study.speeds)));
 }
 
 TEST(CriticalSpeed, ComesWithTheUnstableIntervalBelowIt)
 {
   // The weak growth below 0.157 pi.
   SquealOptions options = reference_options();
-  options.speeds.from = 0.1 * pi;
+  options.study.speeds.from = 0.1 * pi;
   const InertialDisc disc = damped_plate(0.0);
-  const StabilityProfile profile = stability_over_speed(disc, options);
+  const StabilityProfile profile =
+      stability_over_speed(at_speeds(disc, options), options.study.speeds);
   ASSERT_EQ(profile.unstable.size(), 2u);
   EXPECT_EQ(profile.unstable[0].from.value, 0.1 * pi);
   EXPECT_GT(profile.unstable[0].from.growth, 0.0);
   const double regained = profile.unstable[0].to.value;
   EXPECT_NEAR(regained / pi, 0.157, 0.001);
-  EXPECT_GT(least_stable_eigenvalue(disc, options, regained * (1.0 - 1e-4)).real(), 1e-7);
-  EXPECT_LT(least_stable_eigenvalue(disc, options, regained * (1.0 + 1e-4)).real(), -1e-7);
+  EXPECT_GT(least_stable_eigenvalue(state_matrix(disc, options, regained * (1.0 - 1e-4))).real(),
+            1e-7);
+  EXPECT_LT(least_stable_eigenvalue(state_matrix(disc, options, regained * (1.0 + 1e-4))).real(),
+            -1e-7);
   EXPECT_NEAR(profile.unstable[1].from.value / pi, 4.028040537151143, 1e-8);
   EXPECT_EQ(profile.unstable[1].to.value, 20.0 * pi);
   EXPECT_EQ(stability_of(profile), Stability::lost);
@@ -191,9 +202,10 @@ TEST(CriticalSpeed, TellsWhyThereIsNone)
 {
   const auto stability = [](double from, double to, double friction) {
     SquealOptions options = reference_options();
-    options.speeds = {.from = from * pi, .to = to * pi, .count = 10};
-    options.friction = friction;
-    return stability_of(stability_over_speed(inertial_of({kirchhoff_3()}), options));
+    options.study.speeds = {.from = from * pi, .to = to * pi, .count = 10};
+    options.friction.kinetic = friction;
+    return stability_of(stability_over_speed(at_speeds(inertial_of({kirchhoff_3()}), options),
+                                             options.study.speeds));
   };
   EXPECT_EQ(stability(1.0, 4.2, 0.6), Stability::stable);
   EXPECT_EQ(stability(4.3, 8.0, 0.6), Stability::unstable);
@@ -207,9 +219,11 @@ TEST(CriticalSpeed, DoesNotDependOnTheOrientationOfTheEigenvectors)
   turned.turn = 1.1;
   turned.sign = -1.0;
   SquealOptions options = reference_options();
-  const auto reference = critical_speed(inertial_of({kirchhoff_3()}), options);
+  const auto reference = critical_speed(
+      stability_over_speed(at_speeds(inertial_of({kirchhoff_3()}), options), options.study.speeds));
   options.pads[0].angle = 0.77;  // nor on the place of the pad
-  const auto critical = critical_speed(inertial_of({turned}), options);
+  const auto critical = critical_speed(
+      stability_over_speed(at_speeds(inertial_of({turned}), options), options.study.speeds));
   EXPECT_NEAR(critical->speed, reference->speed, 1e-11 * reference->speed);
 }
 
@@ -221,9 +235,9 @@ TEST(Eigenvalues, AreFollowedThroughACrossing)
   SquealOptions options = reference_options();
   options.pads[0].stiffness = 6e3;
   options.pads[0].preload = 2.0;
-  options.speeds = {.from = 8.0 * pi, .to = 60.0 * pi, .count = 113};
+  options.study.speeds = {.from = 8.0 * pi, .to = 60.0 * pi, .count = 113};
   const InertialDisc disc = damped_plate(1e-4);
-  const EigenvalueMap map = eigenvalues(disc, options);
+  const EigenvalueMap map = eigenvalues(at_speeds(disc, options), options.study.speeds);
   ASSERT_EQ(map.lambda.rows(), 113);
   ASSERT_EQ(map.lambda.cols(), 35);
   double bend = 0.0;
@@ -233,7 +247,7 @@ TEST(Eigenvalues, AreFollowedThroughACrossing)
                               .maxCoeff());
   EXPECT_LT(bend, 0.1);
   EXPECT_NEAR(map.lambda.row(60).real().maxCoeff(),
-              least_stable_eigenvalue(disc, options, map.speeds[60]).real(), 1e-8);
+              least_stable_eigenvalue(state_matrix(disc, options, map.speeds[60])).real(), 1e-8);
 }
 
 TEST(Eigenvalues, KeepTheOscillatingOneNextToAnOverdampedPair)
@@ -241,8 +255,9 @@ TEST(Eigenvalues, KeepTheOscillatingOneNextToAnOverdampedPair)
   // SQUEAL reference values: at 0.001 pi one mode is overdamped, with real eigenvalues -3038 and
   // -40717. They are ill-conditioned, hence 1e-8 relative.
   SquealOptions options = reference_options();
-  options.speeds = {.from = 0.001 * pi, .to = 0.001 * pi, .count = 1};
-  const EigenvalueMap map = eigenvalues(inertial_of({kirchhoff_3()}), options);
+  options.study.speeds = {.from = 0.001 * pi, .to = 0.001 * pi, .count = 1};
+  const EigenvalueMap map =
+      eigenvalues(at_speeds(inertial_of({kirchhoff_3()}), options), options.study.speeds);
   EXPECT_NEAR(map.lambda(0, 0).real(), -3038.4412250221476, 1e-8 * 3038.0);
   EXPECT_EQ(map.lambda(0, 0).imag(), 0.0);
   EXPECT_NEAR(map.lambda(0, 1).imag(), 10994.308328271345, 1e-8 * 1e4);

@@ -16,10 +16,14 @@ using namespace test;
 TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 {
   SquealOptions options = reference_options();
-  options.speeds.count = 7;
-  options.map = MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
-  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
-  const StabilityMap one = stability_map(disc, options, 1), three = stability_map(disc, options, 3);
+  options.study.speeds.count = 7;
+  options.study.map =
+      MapCase{.parameter = MapParameter::friction, .from = 0.1, .to = 0.9, .count = 5};
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), options);
+  const auto on_threads = [&](unsigned n) {
+    return stability_map(brake, *options.study.map, options.study.speeds, n);
+  };
+  const StabilityMap one = on_threads(1), three = on_threads(3);
   EXPECT_EQ(one.growth, three.growth);
   EXPECT_EQ(one.frequency_Hz, three.frequency_Hz);
 }
@@ -28,7 +32,7 @@ TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 TEST(SweepOnThreads, OfTheRotationIsThatOnOne)
 {
   SquealOptions options = reference_options();
-  options.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
+  options.study.speeds = {.from = 270.0 * pi, .to = 300.0 * pi, .count = 4};
   const RotationStability one = rotation_stability(disc_of({kirchhoff_3()}), options, 1);
   const RotationStability three = rotation_stability(disc_of({kirchhoff_3()}), options, 3);
   EXPECT_EQ(one.growth, three.growth);
@@ -44,7 +48,7 @@ TEST(SweepOnThreads, OfTransientsIsThatOnOne)
     std::vector<double> found(speeds.size());
     const auto put = [&](int i) {
       const auto at = static_cast<std::size_t>(i);
-      found[at] = growth(disc, options, speeds[at], 0.05).rate;
+      found[at] = growth(FlexibleDisc(disc, options), speeds[at], 0.05).rate;
     };
     for_each_index(3, put, n_threads);
     return found;

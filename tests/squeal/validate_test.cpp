@@ -16,14 +16,15 @@ using namespace test;
 SquealOptions complete_options()
 {
   SquealOptions options = reference_options();
-  options.analyses = {"eigenvalues",        "critical-speed", "growth",
-                      "transient",          "limit-cycle",    "limit-cycle-direct",
-                      "limit-cycle-branch", "stability-map"};
-  options.transient =
+  options.study.analyses = {"eigenvalues",        "critical-speed", "growth",
+                            "transient",          "limit-cycle",    "limit-cycle-direct",
+                            "limit-cycle-branch", "stability-map"};
+  options.study.transient =
       TransientCase{.speed = 10.0, .duration = 1.0, .initial_pad_displacement = 1e-8};
-  options.growth = GrowthCase{.speeds = {10.0}, .duration = 1.0};
-  options.map = MapCase{.parameter = MapParameter::preload, .from = 100.0, .to = 200.0, .count = 3};
-  options.limit_cycle_direct = DirectCase{.speed = 10.0};
+  options.study.growth = GrowthCase{.speeds = {10.0}, .duration = 1.0};
+  options.study.map =
+      MapCase{.parameter = MapParameter::preload, .from = 100.0, .to = 200.0, .count = 3};
+  options.study.limit_cycle_direct = DirectCase{.speed = 10.0};
   return options;
 }
 
@@ -33,7 +34,7 @@ void expect_named(const std::string& key, const std::function<void(SquealOptions
   SquealOptions options = complete_options();
   change(options);
   try {
-    validate(options);
+    validate(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
     ADD_FAILURE() << "no error for " << key;
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
@@ -42,17 +43,19 @@ void expect_named(const std::string& key, const std::function<void(SquealOptions
 
 TEST(Validate, AcceptsTheReferenceOptions)
 {
-  EXPECT_NO_THROW(validate(complete_options()));
+  EXPECT_NO_THROW(validate(FlexibleDisc(disc_of({kirchhoff_3()}), complete_options()),
+                           complete_options().study));
   SquealOptions frictionless = complete_options();
-  frictionless.friction = 0.0;
-  EXPECT_NO_THROW(validate(frictionless));
+  frictionless.friction.kinetic = 0.0;
+  EXPECT_NO_THROW(
+      validate(FlexibleDisc(disc_of({kirchhoff_3()}), frictionless), frictionless.study));
 }
 
 TEST(Validate, NamesTheKeyThatMakesNoSense)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_named("friction", [](auto& o) { o.friction = -0.1; });
-  expect_named("friction", [&](auto& o) { o.friction = nan; });
+  expect_named("friction", [](auto& o) { o.friction.kinetic = -0.1; });
+  expect_named("friction", [&](auto& o) { o.friction.kinetic = nan; });
   expect_named("thickness", [](auto& o) { o.thickness = 0.0; });
   expect_named("pads", [](auto& o) { o.pads.clear(); });
   expect_named("pads[0].stiffness", [](auto& o) { o.pads[0].stiffness = 0.0; });
@@ -63,24 +66,25 @@ TEST(Validate, NamesTheKeyThatMakesNoSense)
 
 TEST(Validate, NamesWhatAnAnalysisLacks)
 {
-  expect_named("eigenvalue", [](auto& o) { o.analyses = {"eigenvalue"}; });
-  expect_named("from_rad_s", [](auto& o) { o.speeds.from = 0.0; });
-  expect_named("to_rad_s", [](auto& o) { o.speeds.to = 1.0; });
-  expect_named("count", [](auto& o) { o.speeds.count = 0; });
-  expect_named("transient", [](auto& o) { o.transient.reset(); });
-  expect_named("transient.speed", [](auto& o) { o.transient->speed = 0.0; });
-  expect_named("transient.duration", [](auto& o) { o.transient->duration = -1.0; });
-  expect_named("initial_pad", [](auto& o) { o.transient->initial_pad_displacement = 0.0; });
-  expect_named("steps_per_period", [](auto& o) { o.transient->steps_per_period = 4; });
-  expect_named("growth", [](auto& o) { o.growth.reset(); });
-  expect_named("growth.speeds", [](auto& o) { o.growth->speeds = {10.0, 0.0}; });
-  expect_named("limit_cycle_direct", [](auto& o) { o.limit_cycle_direct.reset(); });
-  expect_named("limit_cycle_direct.speed", [](auto& o) { o.limit_cycle_direct->speed = 0.0; });
-  expect_named("map", [](auto& o) { o.map.reset(); });
-  expect_named("map.from", [](auto& o) { o.map->from = 0.0; });
-  expect_named("map.to", [](auto& o) { o.map->to = 50.0; });
-  expect_named("map.count", [](auto& o) { o.map->count = 0; });
-  expect_named("growth.duration", [](auto& o) { o.growth->duration = 0.0; });
+  expect_named("eigenvalue", [](auto& o) { o.study.analyses = {"eigenvalue"}; });
+  expect_named("from_rad_s", [](auto& o) { o.study.speeds.from = 0.0; });
+  expect_named("to_rad_s", [](auto& o) { o.study.speeds.to = 1.0; });
+  expect_named("count", [](auto& o) { o.study.speeds.count = 0; });
+  expect_named("transient", [](auto& o) { o.study.transient.reset(); });
+  expect_named("transient.speed", [](auto& o) { o.study.transient->speed = 0.0; });
+  expect_named("transient.duration", [](auto& o) { o.study.transient->duration = -1.0; });
+  expect_named("initial_pad", [](auto& o) { o.study.transient->initial_pad_displacement = 0.0; });
+  expect_named("steps_per_period", [](auto& o) { o.study.transient->steps_per_period = 4; });
+  expect_named("growth", [](auto& o) { o.study.growth.reset(); });
+  expect_named("growth.speeds", [](auto& o) { o.study.growth->speeds = {10.0, 0.0}; });
+  expect_named("limit_cycle_direct", [](auto& o) { o.study.limit_cycle_direct.reset(); });
+  expect_named("limit_cycle_direct.speed",
+               [](auto& o) { o.study.limit_cycle_direct->speed = 0.0; });
+  expect_named("map", [](auto& o) { o.study.map.reset(); });
+  expect_named("map.from", [](auto& o) { o.study.map->from = 0.0; });
+  expect_named("map.to", [](auto& o) { o.study.map->to = 50.0; });
+  expect_named("map.count", [](auto& o) { o.study.map->count = 0; });
+  expect_named("growth.duration", [](auto& o) { o.study.growth->duration = 0.0; });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "mbs_export/files/body_file.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "squeal/study/run.hpp"
 
@@ -20,12 +21,13 @@ try {
   const chladni::squeal::SquealOptions options{
       .ring = "track",
       .thickness = 0.02,
-      .speeds = {.from = 3.0, .to = 60.0, .count = 20},
-      .friction = 0.6,
+      .friction = {.kinetic = 0.6},
       .pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}},
-      .analyses = {"eigenvalues", "critical-speed"}};
+      .study = {.speeds = {.from = 3.0, .to = 60.0, .count = 20},
+                .analyses = {"eigenvalues", "critical-speed"}}};
   // 3. Where the sliding disc loses its stability.
-  const chladni::squeal::SquealResults results = chladni::squeal::run(disc, options);
+  const chladni::squeal::SquealResults results =
+      chladni::squeal::run(squeal::FlexibleDisc(disc, options), options.study);
   if (!results.critical_speed) {
     const chladni::squeal::Stability stability =
         chladni::squeal::stability_of(results.speed_stability.value());

@@ -1,9 +1,9 @@
-#include "squeal/models/rigid_model.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
 
 #include <cmath>
 #include <complex>
 
-#include <memory>
+#include "common/error.hpp"
 #include "squeal/derivative.hpp"
 #include "squeal/models/model_motion.hpp"
 
@@ -96,14 +96,6 @@ ContactResult<double> nonlinear_pads(const RigidDisc& disc, Drive drive, const E
   return pads_of(pad_state<double>(a.upper, value), pad_state<double>(a.lower, value));
 }
 
-Eigen::MatrixXd state_matrix(const RigidDisc& disc, Drive drive, double speed)
-{
-  const Eigen::Index size = drive == Drive::moment ? 5 : 4;
-  return derivative_at_rest(
-             [&](const Eigen::VectorXcd& x) { return rate_of(disc, drive, x, speed); }, size)
-      .topLeftCorner<4, 4>();
-}
-
 /// For ModelMotion: the nonlinear equations at a speed.
 struct RigidEquationsAt {
   RigidDisc disc;
@@ -132,49 +124,67 @@ double highest_frequency(const RigidDisc& disc)
   return std::sqrt(k / disc.Theta);
 }
 
-AutonomousMotionAt motion_at(const RigidDisc& disc, Drive drive)
+}  // namespace
+
+Eigen::MatrixXd RigidDiscBrake::state_matrix(double speed) const
 {
-  const Eigen::Index size = drive == Drive::moment ? 5 : 4;
-  return [disc, drive, size](double speed) {
-    return std::make_unique<ModelMotion<RigidEquationsAt>>(
-        RigidEquationsAt{disc, drive, speed},
-        ModelMotion<RigidEquationsAt>::Properties{.size = size,
-                                                  .n_switches = 2,
-                                                  .omega_highest = highest_frequency(disc),
-                                                  .law = disc.law});
-  };
+  return derivative_at_rest(
+             [&](const Eigen::VectorXcd& x) {
+               return rate_of(study_.disc, study_.drive, x, speed);
+             },
+             size())
+      .topLeftCorner<4, 4>();
+}
+
+std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value) const
+{
+  RigidDiscStudy changed = study_;
+  if (parameter == MapParameter::friction) changed.disc.friction.kinetic = value;
+  if (parameter == MapParameter::preload) changed.disc.preload = value;
+  if (parameter == MapParameter::stiffness) changed.disc.spring.linear = value;
+  return std::make_unique<RigidDiscBrake>(changed);
+}
+
+std::unique_ptr<AutonomousMotion> RigidDiscBrake::motion(double speed) const
+{
+  if (study_.equations == RigidEquations::linear)
+    throw Error(
+        "limit cycle: the linearised equations of the rigid disc have none; take equations = "
+        "\"nonlinear\"");
+  return std::make_unique<ModelMotion<RigidEquationsAt>>(
+      RigidEquationsAt{study_.disc, study_.drive, speed},
+      ModelMotion<RigidEquationsAt>::Properties{.size = size(),
+                                                .n_switches = 2,
+                                                .omega_highest = highest_frequency(study_.disc),
+                                                .law = study_.disc.law});
+}
+
+double RigidDiscBrake::rest_compression() const
+{
+  return study_.disc.preload / study_.disc.spring.linear;
+}
+
+Eigen::VectorXd RigidDiscBrake::rate(const Eigen::VectorXd& x, double speed) const
+{
+  if (study_.equations == RigidEquations::nonlinear)
+    return rate_of(study_.disc, study_.drive, x, speed);
+  const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
+  return rate_of(study_.disc, study_.drive, along, speed).imag() / complex_step;
+}
+
+ContactResult<double> RigidDiscBrake::contact(const Eigen::VectorXd& x, double speed) const
+{
+  return study_.equations == RigidEquations::linear
+             ? linear_pads(study_.disc, study_.drive, x, speed)
+             : nonlinear_pads(study_.disc, study_.drive, x, speed);
 }
 
 /// The upper pad is displaced by r_0 tan(q_1) + ... = r_0 q_1 to first order.
-Eigen::VectorXd start_of(const RigidDisc& disc, Drive drive, double displacement)
+Eigen::VectorXd RigidDiscBrake::start(double displacement) const
 {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(drive == Drive::moment ? 5 : 4);
-  x[0] = -scale_of(disc) * displacement / disc.radius;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size());
+  x[0] = -scale_of(study_.disc) * displacement / study_.disc.radius;
   return x;
-}
-
-}  // namespace
-
-Model model_of(const RigidDisc& disc, Drive drive, RigidEquations equations)
-{
-  const bool linear = equations == RigidEquations::linear;
-  return {
-      .size = drive == Drive::moment ? 5 : 4,
-      .state_matrix = [disc, drive](double speed) { return state_matrix(disc, drive, speed); },
-      .rate = [disc, drive, linear](const Eigen::VectorXd& x, double speed) -> Eigen::VectorXd {
-        if (!linear) return rate_of(disc, drive, x, speed);
-        const Eigen::VectorXcd along = Complex(0.0, complex_step) * x.cast<Complex>();
-        return rate_of(disc, drive, along, speed).imag() / complex_step;
-      },
-      .motion = linear ? AutonomousMotionAt() : motion_at(disc, drive),
-      .contact =
-          [disc, drive, linear](const Eigen::VectorXd& x, double speed) {
-            return linear ? linear_pads(disc, drive, x, speed)
-                          : nonlinear_pads(disc, drive, x, speed);
-          },
-      .start = [disc, drive](double displacement) { return start_of(disc, drive, displacement); },
-      .rest_height = 0.5 * disc.thickness,
-      .rest_compression = disc.preload / disc.spring.linear};
 }
 
 }  // namespace chladni::squeal

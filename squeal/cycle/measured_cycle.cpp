@@ -1,14 +1,13 @@
-#include "squeal/cycle/cycle_problem.hpp"
+#include "squeal/cycle/measured_cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
 #include <numbers>
 
 #include "squeal/brake/inertial_frame.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/sliding_disc.hpp"
-#include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -97,9 +96,10 @@ CycleEnergy no_energy(std::size_t n_pads)
   return {zero, zero, 0.0, zero, 0.0};
 }
 
-DirectLimitCycle measured_disc(SlidingDisc& motion, const InertialDisc& disc,
-                               const PeriodicOrbit& orbit)
+DirectLimitCycle measured_with_body(const FlexibleDisc& brake, SlidingDisc& motion,
+                                    const PeriodicOrbit& orbit)
 {
+  const InertialDisc& disc = brake.inertial();
   const Eigen::MatrixXd states = states_over_period(motion, orbit.at, n_samples, orbit.tolerance);
   const Eigen::Index n = disc.n_modes();
   PadSamples pad;
@@ -120,14 +120,20 @@ DirectLimitCycle measured_disc(SlidingDisc& motion, const InertialDisc& disc,
   }
   DirectLimitCycle cycle = seen_at_pad(pad, orbit, motion.speed());
   cycle.slip_speed_min = lowest_slip(motion, pad, states, orbit);
+  cycle.mode_numbers = brake.disc().mode_numbers;
   cycle.amplitude = body_amplitude(disc, fundamental);
   cycle.energy = energy;
   cycle.n_contact_evaluations = motion.n_evaluations();
   return cycle;
 }
 
-DirectLimitCycle measured_model(AutonomousMotion& motion, const PeriodicOrbit& orbit, double speed)
+}  // namespace
+
+DirectLimitCycle measured_cycle(const Brake& brake, AutonomousMotion& motion,
+                                const PeriodicOrbit& orbit, double speed)
 {
+  if (const FlexibleDisc* body = brake.body())
+    return measured_with_body(*body, dynamic_cast<SlidingDisc&>(motion), orbit);
   const Eigen::MatrixXd states = states_over_period(motion, orbit.at, n_samples, orbit.tolerance);
   PadSamples pad;
   for (int i = 0; i < n_samples; ++i) pad.set(i, motion.first_contact(states.col(i)));
@@ -135,37 +141,6 @@ DirectLimitCycle measured_model(AutonomousMotion& motion, const PeriodicOrbit& o
   cycle.slip_speed_min = lowest_slip(motion, pad, states, orbit);
   cycle.n_contact_evaluations = motion.n_evaluations();
   return cycle;
-}
-
-}  // namespace
-
-CycleProblem cycle_problem(const Disc& disc, const SquealOptions& options)
-{
-  const auto inertial = std::make_shared<const InertialDisc>(inertial_disc(disc));
-  const std::vector<int> mode_numbers = disc.mode_numbers;
-  return {.motion =
-              [inertial, options](double speed) {
-                return std::make_unique<SlidingDisc>(*inertial, options, speed);
-              },
-          .state_matrix =
-              [inertial, options](double speed) { return state_matrix(*inertial, options, speed); },
-          .compression = options.pads.front().preload / options.pads.front().stiffness,
-          .measured =
-              [inertial, mode_numbers](AutonomousMotion& motion, const PeriodicOrbit& orbit,
-                                       double /*speed*/) {
-                DirectLimitCycle cycle =
-                    measured_disc(dynamic_cast<SlidingDisc&>(motion), *inertial, orbit);
-                cycle.mode_numbers = mode_numbers;
-                return cycle;
-              }};
-}
-
-CycleProblem cycle_problem(const Model& model)
-{
-  return {.motion = model.motion,
-          .state_matrix = model.state_matrix,
-          .compression = model.rest_compression,
-          .measured = measured_model};
 }
 
 }  // namespace chladni::squeal

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "scene/names.hpp"
+#include "scene/squeal_tables.hpp"
+#include "squeal/analysis_options.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using squeal::IntegratorKind;
+
+std::vector<std::string> names_of_analyses(StudyOf of)
+{
+  std::vector<std::string> names;
+  for (const squeal::Analysis& analysis : squeal::analyses) {
+    if (of == StudyOf::body || !analysis.needs_body) names.emplace_back(analysis.name);
+  }
+  return names;
+}
+
+/// Each analysis has the key that it needs, or the one that will do.
+void check_needs(const Table& squeal, const std::vector<std::string>& asked)
+{
+  for (const squeal::Analysis& analysis : squeal::analyses) {
+    if (!contains(asked, analysis.name) || squeal.has(analysis.key)) continue;
+    if (analysis.otherwise.empty()) {
+      squeal.refuse("analyses",
+                    fmt::format("\"{}\" needs the key {}", analysis.name, analysis.key));
+    }
+    if (!squeal.has(analysis.otherwise)) {
+      squeal.refuse("analyses",
+                    fmt::format("\"{}\" needs the key {}, or else the speed in the key {}",
+                                analysis.name, analysis.key, analysis.otherwise));
+    }
+  }
+  if (squeal.has("wav") && !squeal.has("transient")) {
+    squeal.refuse("wav", "needs the key transient");
+  }
+}
+
+/// squeal.analyses, each of which must be one of `known` and have the key that it needs.
+std::vector<std::string> read_analyses(const Table& squeal, const std::vector<std::string>& known)
+{
+  std::vector<std::string> analyses = squeal.texts("analyses");
+  if (analyses.empty()) {
+    squeal.refuse("analyses", "must name at least one of " + quoted_list(known));
+  }
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    if (!contains(known, analyses[i])) {
+      squeal.refuse_element("analyses", i, "must be one of " + quoted_list(known));
+    }
+  }
+  check_needs(squeal, analyses);
+  return analyses;
+}
+
+/// Times rise; the first speed is that at which the transient begins.
+std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, double first_speed)
+{
+  std::vector<squeal::SpeedPoint> points{{.time = 0.0, .speed = first_speed}};
+  for (const Table& row : transient.tables("speed_program")) {
+    points.push_back({.time = row.number("t_s", {.above = points.back().time, .unit = "s"}),
+                      .speed = row.number("speed_rad_s")});
+  }
+  if (points.size() == 1) transient.refuse("speed_program", "must hold at least one point");
+  return points;
+}
+
+/// The keys of one end of the range.
+struct SpeedKeys {
+  std::string_view rad_s, rpm, km_h;
+};
+
+/// In any unit, rad/s.
+double read_speed(const Table& speeds, const SpeedKeys& keys, double least)
+{
+  const std::string_view key = speeds.only_one_of({keys.rad_s, keys.rpm, keys.km_h});
+  double unit = 1.0;
+  if (key == keys.rpm) unit = std::numbers::pi / 30.0;
+  if (key == keys.km_h) unit = 1.0 / (3.6 * speeds.number("wheel_radius"));
+  return unit * speeds.number(key, {.at_least = least / unit});
+}
+
+/// squeal.speeds
+squeal::SpeedRange read_speeds(const Table& squeal)
+{
+  const Table speeds = squeal.table("speeds");
+  const double from = read_speed(speeds, {"from_rad_s", "from_rpm", "from_km_h"}, 0.0);
+  const double to = read_speed(speeds, {"to_rad_s", "to_rpm", "to_km_h"}, from);
+  const int least = to > from ? 2 : 1;
+  return {.from = from,
+          .to = to,
+          .count = speeds.integer("count", {.at_least = static_cast<double>(least)}),
+          .wheel_radius = speeds.has("wheel_radius") ? std::optional(speeds.number("wheel_radius"))
+                                                     : std::nullopt};
+}
+
+/// squeal.transient
+std::optional<squeal::TransientCase> read_transient(const Table& squeal)
+{
+  if (!squeal.has("transient")) return std::nullopt;
+  const Table table = squeal.table("transient");
+  squeal::TransientCase transient{
+      .speed = table.number("speed_rad_s"),
+      .duration = table.number("duration_s"),
+      .initial_pad_displacement = table.number("initial_pad_displacement")};
+  if (table.has("steps_per_period")) {
+    transient.steps_per_period = table.integer("steps_per_period");
+  }
+  if (table.has("integrator")) {
+    transient.integrator = table.choice<IntegratorKind>(
+        "integrator", {{"auto", IntegratorKind::automatic},
+                       {"splitting", IntegratorKind::splitting},
+                       {"exponential", IntegratorKind::exponential},
+                       {"dormand-prince", IntegratorKind::dormand_prince},
+                       {"generalised-alpha", IntegratorKind::generalised_alpha}});
+  }
+  if (table.has("growth_error_1_s")) {
+    transient.growth_error = table.number("growth_error_1_s");
+  }
+  if (table.has("speed_program")) {
+    transient.speed_program = read_speed_program(table, transient.speed);
+  }
+  return transient;
+}
+
+/// squeal.growth
+std::optional<squeal::GrowthCase> read_growth(const Table& squeal)
+{
+  if (!squeal.has("growth")) return std::nullopt;
+  const Table table = squeal.table("growth");
+  squeal::GrowthCase growth{.speeds = table.numbers("speeds_rad_s"),
+                            .duration = table.number("duration_s")};
+  if (growth.speeds.empty()) table.refuse("speeds_rad_s", "must hold at least one speed");
+  return growth;
+}
+
+/// squeal.wav
+std::optional<squeal::SoundCase> read_wav(const Table& squeal)
+{
+  if (!squeal.has("wav")) return std::nullopt;
+  const Table table = squeal.table("wav");
+  return squeal::SoundCase{table.integer("rate_Hz")};
+}
+
+}  // namespace
+
+squeal::StudyOptions read_study(const Table& squeal, StudyOf of)
+{
+  squeal::StudyOptions study{.speeds = read_speeds(squeal),
+                             .analyses = read_analyses(squeal, names_of_analyses(of)),
+                             .transient = read_transient(squeal),
+                             .growth = read_growth(squeal)};
+  study.limit_cycle_direct = read_direct(squeal, study.transient);
+  study.map = read_map(squeal);
+  study.critical = read_critical(squeal);
+  if (of == StudyOf::body) study.sound = read_wav(squeal);
+  return study;
+}
+
+}  // namespace chladni::scene

@@ -1,0 +1,54 @@
+#include "squeal/models/flexible_disc.hpp"
+
+#include <utility>
+
+#include "squeal/brake/state_matrix.hpp"
+#include "squeal/motion/sliding_disc.hpp"
+
+namespace chladni::squeal {
+
+FlexibleDisc::FlexibleDisc(Disc disc, SquealOptions options)
+    : disc_(std::make_shared<const Disc>(std::move(disc))),
+      inertial_(std::make_shared<const std::optional<InertialDisc>>(find_inertial_disc(*disc_))),
+      options_(std::move(options))
+{}
+
+const InertialDisc& FlexibleDisc::inertial() const
+{
+  if (!*inertial_) inertial_disc(*disc_);  // says why there is none
+  return inertial_->value();
+}
+
+Eigen::MatrixXd FlexibleDisc::state_matrix(double speed) const
+{
+  return squeal::state_matrix(inertial(), options_, speed);
+}
+
+std::unique_ptr<Brake> FlexibleDisc::with(MapParameter parameter, double value) const
+{
+  auto changed = std::make_unique<FlexibleDisc>(*this);
+  changed->options_ = with_parameter(options_, parameter, value);
+  return changed;
+}
+
+std::unique_ptr<AutonomousMotion> FlexibleDisc::motion(double speed) const
+{
+  return std::make_unique<SlidingDisc>(inertial(), options_, speed);
+}
+
+double FlexibleDisc::rest_compression() const
+{
+  return options_.pads.front().preload / options_.pads.front().stiffness;
+}
+
+SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value)
+{
+  if (parameter == MapParameter::friction) options.friction.kinetic = value;
+  for (PadPair& pad : options.pads) {
+    if (parameter == MapParameter::preload) pad.preload = value;
+    if (parameter == MapParameter::stiffness) pad.stiffness = value;
+  }
+  return options;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/models/brake.hpp"
+#include "squeal/squeal_options.hpp"
+
+namespace chladni::squeal {
+
+/// A disc with a modal body between pads. It is autonomous when the disc is axisymmetric, in the
+/// inertial frame. Copies share the disc.
+class FlexibleDisc final : public Brake {
+ public:
+  FlexibleDisc(Disc disc, SquealOptions options);
+
+  const Disc& disc() const { return *disc_; }
+  const SquealOptions& options() const { return options_; }
+
+  /// The disc in the inertial frame; absent when it is not axisymmetric.
+  const std::optional<InertialDisc>& find_inertial() const { return *inertial_; }
+  /// @throws chladni::Error with the reason when the disc is not axisymmetric.
+  const InertialDisc& inertial() const;
+
+  bool is_autonomous() const override { return inertial_->has_value(); }
+  Eigen::MatrixXd state_matrix(double speed) const override;
+  std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
+  /// A SlidingDisc.
+  std::unique_ptr<AutonomousMotion> motion(double speed) const override;
+  double rest_compression() const override;
+  const FlexibleDisc* body() const override { return this; }
+
+ private:
+  std::shared_ptr<const Disc> disc_;
+  std::shared_ptr<const std::optional<InertialDisc>> inertial_;
+  SquealOptions options_;
+};
+
+/// The options with one parameter set to `value`, for every pad if it is one of pads.
+SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value);
+
+}  // namespace chladni::squeal

@@ -1,0 +1,15 @@
+#include "squeal/models/model_brake.hpp"
+
+#include "squeal/models/oscillator.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
+
+namespace chladni::squeal {
+
+std::unique_ptr<Brake> model_brake(const ModelOptions& options)
+{
+  if (const auto* study = std::get_if<RigidDiscStudy>(&options.model))
+    return std::make_unique<RigidDiscBrake>(*study);
+  return std::make_unique<OscillatorBrake>(std::get<Oscillator>(options.model));
+}
+
+}  // namespace chladni::squeal

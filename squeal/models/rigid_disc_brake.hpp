@@ -1,0 +1,30 @@
+#pragma once
+
+#include "squeal/models/lumped_brake.hpp"
+#include "squeal/models/rigid_disc.hpp"
+
+namespace chladni::squeal {
+
+/// The rigid disc with x = (w q, q'), w^2 = k_t / Theta, and with Drive::moment a fifth entry, the
+/// deviation of the spin from the speed (rad/s), which the linearisation leaves alone. Its linear
+/// equations have no periodic motion that could be found.
+class RigidDiscBrake final : public LumpedBrake {
+ public:
+  explicit RigidDiscBrake(const RigidDiscStudy& study) : study_(study) {}
+
+  Eigen::MatrixXd state_matrix(double speed) const override;
+  std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
+  std::unique_ptr<AutonomousMotion> motion(double speed) const override;
+  double rest_compression() const override;
+
+  Eigen::Index size() const override { return study_.drive == Drive::moment ? 5 : 4; }
+  Eigen::VectorXd rate(const Eigen::VectorXd& x, double speed) const override;
+  ContactResult<double> contact(const Eigen::VectorXd& x, double speed) const override;
+  Eigen::VectorXd start(double displacement) const override;
+  double rest_height() const override { return 0.5 * study_.disc.thickness; }
+
+ private:
+  RigidDiscStudy study_;
+};
+
+}  // namespace chladni::squeal

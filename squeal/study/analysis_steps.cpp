@@ -1,0 +1,127 @@
+#include "squeal/study/analysis_steps.hpp"
+
+#include <mutex>
+
+#include "squeal/cycle/limit_cycle.hpp"
+#include "squeal/cycle/limit_cycle_branch.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/parallel.hpp"
+#include "squeal/stability/hopf.hpp"
+#include "squeal/stability/mode_sensitivity.hpp"
+#include "squeal/stability/mode_shapes.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_map.hpp"
+#include "squeal/transient/spectrum.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+void find_eigenvalues(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  EigenvalueMap map = eigenvalues(state_matrix_at(study.brake), study.options.speeds);
+  if (const FlexibleDisc* body = study.brake.body()) {
+    map.shapes = mode_shapes(body->inertial(), body->options(), map);
+    map.mode_numbers = body->disc().mode_numbers;
+  }
+  results.eigenvalues = std::move(map);
+}
+
+void find_critical_speed(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.speed_stability =
+      stability_over_speed(state_matrix_at(study.brake), study.options.speeds);
+  results.critical_speed = critical_speed(*results.speed_stability);
+  results.searched_critical_speed = true;
+}
+
+void find_critical_values(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  std::vector<CriticalValue> values;
+  for (const CriticalCase& search : study.options.critical)
+    values.push_back(critical_value(study.brake, search));
+  results.critical_values = std::move(values);
+}
+
+void find_map(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.map = stability_map(study.brake, study.options.map.value(), study.options.speeds);
+}
+
+void find_mode_sensitivity(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  const FlexibleDisc& body = *study.brake.body();
+  results.mode_sensitivity = mode_sensitivity(body.inertial(), body.options());
+}
+
+void find_rotation_stability(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  const FlexibleDisc& body = *study.brake.body();
+  results.rotation_stability = rotation_stability(body.disc(), body.options());
+}
+
+void find_growth(const Study& study, SquealResults& results, const Keeping& keeping)
+{
+  const GrowthCase& runs = study.options.growth.value();
+  std::vector<Growth> found(runs.speeds.size());
+  std::mutex telling;
+  std::size_t n_done = 0;
+  for_each_index(static_cast<int>(found.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    found[at] = growth(study.brake, runs.speeds[at], runs.duration);
+    const std::lock_guard lock(telling);
+    keeping.progress(double(++n_done) / double(found.size()));
+  });
+  results.growth = std::move(found);
+}
+
+void find_transient(const Study& study, SquealResults& results, const Keeping& keeping)
+{
+  results.transient = transient(study.brake, study.options.transient.value(), keeping);
+}
+
+void find_spectrum(const Study& /*study*/, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.spectrum = spectrum(results.transient->tail.pad_velocity, results.transient->step);
+}
+
+void find_limit_cycle(const Study& /*study*/, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.limit_cycle = limit_cycle(*results.transient);
+}
+
+void find_limit_cycle_direct(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.limit_cycle_direct =
+      limit_cycle_direct(study.brake, study.options.limit_cycle_direct.value().speed);
+}
+
+void find_limit_cycle_branch(const Study& study, SquealResults& results, const Keeping& keeping)
+{
+  results.limit_cycle_branch =
+      limit_cycle_branch(study.brake, study.options.speeds, keeping.progress);
+}
+
+}  // namespace
+
+std::span<const AnalysisStep> analysis_steps()
+{
+  static const AnalysisStep steps[] = {
+      {"eigenvalues", {}, find_eigenvalues},
+      {"critical-speed", {}, find_critical_speed},
+      {"critical-values", {}, find_critical_values},
+      {"stability-map", {}, find_map},
+      {"mode-sensitivity", {}, find_mode_sensitivity},
+      {"rotation-stability", {}, find_rotation_stability},
+      {"growth", {}, find_growth},
+      {"transient", {"limit-cycle", "spectrum"}, find_transient},
+      {"spectrum", {}, find_spectrum},
+      {"limit-cycle", {}, find_limit_cycle},
+      {"limit-cycle-direct", {}, find_limit_cycle_direct},
+      {"limit-cycle-branch", {}, find_limit_cycle_branch},
+  };
+  return steps;
+}
+
+}  // namespace chladni::squeal

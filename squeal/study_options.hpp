@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace chladni::squeal {
+
+/// Rotation speeds, rad/s, equally spaced.
+struct SpeedRange {
+  double from;
+  double to;
+  int count;
+  std::optional<double> wheel_radius = {};  ///< m; then speeds are told on the road too
+};
+
+/// How a transient is integrated; see integrator_choice.hpp.
+enum class IntegratorKind {
+  automatic,
+  splitting,         ///< exact modes, kicks of the pads: any disc
+  exponential,       ///< exact modes and linearised pads, kicks of the rest: axisymmetric discs
+  dormand_prince,    ///< explicit Runge-Kutta of order 8, contact events located
+  generalised_alpha  ///< implicit, for stiff pads
+};
+
+/// A point of a speed program.
+struct SpeedPoint {
+  double time;   ///< s
+  double speed;  ///< rad/s
+};
+
+/// A transient from a small initial displacement of the pads at rest in the inertial frame.
+struct TransientCase {
+  double speed;                     ///< rad/s
+  double duration;                  ///< s
+  double initial_pad_displacement;  ///< m
+  /// Of the highest frequency among the modes used; absent: from `growth_error`. With adaptive
+  /// steps it bounds the step.
+  std::optional<int> steps_per_period = {};
+  IntegratorKind integrator = IntegratorKind::automatic;
+  double growth_error = 1e-3;  ///< that the integration may add to a growth rate, 1/s
+  /// Speeds to follow, linear between points that begin at t = 0 with `speed`; empty: constant.
+  std::vector<SpeedPoint> speed_program = {};
+};
+
+/// Growth of the pad velocity over a short transient at each of several speeds.
+struct GrowthCase {
+  std::vector<double> speeds;  ///< rad/s
+  double duration;             ///< s
+};
+
+/// A limit cycle that is found without a transient.
+struct DirectCase {
+  double speed;  ///< rad/s
+};
+
+/// The second parameter of a stability map; the first is the speed.
+enum class MapParameter {
+  friction,  ///< mu
+  preload,   ///< N_0 of every pad, N
+  stiffness  ///< k of every pad, N/m
+};
+
+/// Growth rates over the speeds of the study and over one more parameter, equally spaced.
+struct MapCase {
+  MapParameter parameter;
+  double from;
+  double to;
+  int count;
+};
+
+/// A critical value of a parameter at one speed.
+struct CriticalCase {
+  MapParameter parameter;
+  double from;
+  double to;
+  double speed;  ///< rad/s
+};
+
+/// The pad velocity of the transient as sound.
+struct SoundCase {
+  int rate_Hz;  ///< of the samples
+};
+
+/// What is to be found out about a brake, whatever it is made of.
+struct StudyOptions {
+  SpeedRange speeds;
+  std::vector<std::string> analyses;  ///< names of analysis_options.hpp
+  std::optional<TransientCase> transient = {};
+  std::optional<GrowthCase> growth = {};
+  std::optional<DirectCase> limit_cycle_direct = {};
+  std::optional<MapCase> map = {};
+  std::vector<CriticalCase> critical = {};
+  std::optional<SoundCase> sound = {};
+};
+
+}  // namespace chladni::squeal

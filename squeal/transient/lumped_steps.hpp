@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "squeal/models/lumped_brake.hpp"
+#include "squeal/transient/transient_steps.hpp"
+
+namespace chladni::squeal {
+
+/// Steps of order 8 for one period of the highest frequency of a lumped brake, so that growth rates
+/// are right to about 1e-9 of the frequency.
+inline constexpr int lumped_steps_per_period = 40;
+
+/// A transient of a lumped brake at a constant speed by fixed steps of order 8, at t_i = i step.
+/// Where a contact opens or closes within a step, that step is of first order.
+class LumpedSteps final : public TransientSteps {
+ public:
+  /// @param brake  outlives the steps
+  /// @param step   s
+  LumpedSteps(const LumpedBrake& brake, const TransientCase& run, double step);
+
+  const std::vector<ContactResult<double>>& next() override;
+  std::int64_t n_steps() const override { return n_; }
+  std::int64_t n_contact_evaluations() const override { return n_evaluations_; }
+  void exchange(StateArchive& archive) override { archive(x_, n_, n_evaluations_); }
+
+ private:
+  const LumpedBrake& brake_;
+  double speed_, step_;
+  Eigen::VectorXd x_;  ///< at the next sample
+  std::vector<ContactResult<double>> contacts_;
+  std::int64_t n_ = 0;
+  std::int64_t n_evaluations_ = 0;
+};
+
+}  // namespace chladni::squeal
