@@ -111,6 +111,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.transient = read_transient(squeal);
   options.growth = read_growth(squeal);
   options.limit_cycle_direct = read_direct(squeal, options.transient);
+  options.rotation_method = read_rotation_method(squeal);
   options.map = read_map(squeal);
   options.critical = read_critical(squeal);
   options.sound = read_wav(squeal);

@@ -39,6 +39,9 @@ std::optional<squeal::GrowthCase> read_growth(const Table& squeal);
 std::optional<squeal::DirectCase> read_direct(
     const Table& squeal, const std::optional<squeal::TransientCase>& transient);
 
+/// squeal.rotation_stability; by Hill's method when it is missing.
+squeal::RotationMethod read_rotation_method(const Table& squeal);
+
 /// squeal.critical
 std::vector<squeal::CriticalCase> read_critical(const Table& squeal);
 

@@ -38,6 +38,27 @@ SquealResults complete_results()
   return run(disc_of({kirchhoff_3()}), options);
 }
 
+TEST(ResultFile, ReturnsTheExponentsOfARotation)
+{
+  const TemporaryFile file;
+  SquealOptions options = reference_options();
+  options.speeds.count = 4;
+  options.analyses = {"rotation-stability"};
+  PlatePair pair = kirchhoff_3();
+  pair.split = 0.02;
+  const SquealResults written = run(disc_of({pair}), options);
+  write_results(file.path, written, {});
+  const RotationStability a = *written.rotation_stability;
+  const RotationStability b = read_results(file.path).rotation_stability.value();
+  EXPECT_EQ(b.growth, a.growth);
+  EXPECT_EQ(b.method, "hill");
+  EXPECT_GT(b.harmonics, 0);
+  EXPECT_EQ(b.harmonics, a.harmonics);
+  EXPECT_EQ(b.error, a.error);
+  EXPECT_EQ(b.exponents, a.exponents);
+  EXPECT_EQ(b.frozen_growth, a.frozen_growth);
+}
+
 TEST(ResultFile, ReturnsEveryValueItWasGiven)
 {
   const TemporaryFile file;
