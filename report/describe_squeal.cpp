@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "report/describe.hpp"
+#include "report/describe_rotation.hpp"
 #include "report/quantities.hpp"
 #include "squeal/results/transient_file.hpp"
 #include "squeal/stability/rotation_stability.hpp"
@@ -163,6 +164,7 @@ void add_rotation_stability(TextTable& table, const squeal::RotationStability& s
       add(table, "least growth rate over the speeds (rotation)", stability.growth.minCoeff(),
           "1/s");
   }
+  add_rotation_method(table, stability);
 }
 
 void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivity)

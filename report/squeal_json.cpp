@@ -133,10 +133,23 @@ Json rotation_json(const squeal::RotationStability& stability)
 {
   std::vector<Json> growth;
   for (Eigen::Index i = 0; i < stability.speeds.size(); ++i) {
+    std::vector<Json> lambda;
+    for (Eigen::Index j = 0; j < stability.exponents.cols(); ++j) {
+      const std::complex<double> value = stability.exponents(i, j);
+      lambda.push_back(Json::array({value.real(), value.imag()}));
+    }
+    const bool frozen = stability.frozen_growth.size() > 0;
     growth.push_back(
-        Json::object({{"speed_rad_s", stability.speeds[i]}, {"growth_1_s", stability.growth[i]}}));
+        Json::object({{"speed_rad_s", stability.speeds[i]},
+                      {"growth_1_s", stability.growth[i]},
+                      {"frozen_growth_1_s", frozen ? Json(stability.frozen_growth[i]) : Json()},
+                      {"exponents", Json::array(lambda)}}));
   }
+  const bool hill = stability.method == "hill";
   return Json::object({{"critical_speed_rad_s", optional_json(stability.critical_speed)},
+                       {"method", stability.method.empty() ? "floquet" : stability.method},
+                       {"harmonics", hill ? Json(double(stability.harmonics)) : Json()},
+                       {"error_1_s", hill ? Json(stability.error) : Json()},
                        {"stability", squeal::name_of(squeal::stability_of(stability))},
                        {"growth", Json::array(growth)}});
 }

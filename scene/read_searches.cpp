@@ -25,6 +25,15 @@ std::optional<squeal::DirectCase> read_direct(const Table& squeal,
   return std::nullopt;
 }
 
+squeal::RotationMethod read_rotation_method(const Table& squeal)
+{
+  using squeal::RotationMethod;
+  if (!squeal.has("rotation_stability")) return RotationMethod::hill;
+  return squeal.table("rotation_stability")
+      .choice<RotationMethod>(
+          "method", {{"hill", RotationMethod::hill}, {"floquet", RotationMethod::floquet}});
+}
+
 std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
 {
   std::vector<squeal::CriticalCase> searches;

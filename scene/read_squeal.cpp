@@ -89,6 +89,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.pads = read_pads(squeal);
   check_grids(squeal, scene);
   options.study = read_study(squeal, StudyOf::body);
+  options.study.rotation_method = read_rotation_method(squeal);
   return options;
 }
 

@@ -34,6 +34,9 @@ squeal::StudyOptions read_study(const Table& squeal, StudyOf of);
 std::optional<squeal::DirectCase> read_direct(
     const Table& squeal, const std::optional<squeal::TransientCase>& transient);
 
+/// squeal.rotation_stability; by Hill's method when it is missing.
+squeal::RotationMethod read_rotation_method(const Table& squeal);
+
 /// squeal.critical
 std::vector<squeal::CriticalCase> read_critical(const Table& squeal);
 

@@ -49,6 +49,12 @@ struct GrowthCase {
   double duration;             ///< s
 };
 
+/// How the stability of a disc of any kind is found; see rotation_stability.hpp.
+enum class RotationMethod {
+  hill,    ///< by harmonics of the rotation
+  floquet  ///< by integration over one rotation, the reference
+};
+
 /// A limit cycle that is found without a transient.
 struct DirectCase {
   double speed;  ///< rad/s
@@ -89,6 +95,7 @@ struct StudyOptions {
   std::optional<TransientCase> transient = {};
   std::optional<GrowthCase> growth = {};
   std::optional<DirectCase> limit_cycle_direct = {};
+  RotationMethod rotation_method = RotationMethod::hill;
   std::optional<MapCase> map = {};
   std::vector<CriticalCase> critical = {};
   std::optional<SoundCase> sound = {};

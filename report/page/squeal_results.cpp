@@ -90,6 +90,15 @@ Json map_json(const squeal::StabilityMap& map)
                        {"frequency_Hz", rounded_rows(map.frequency_Hz)}});
 }
 
+Json rotation_json(const squeal::RotationStability& stability)
+{
+  return Json::object({{"speeds", rounded(stability.speeds)},
+                       {"growth", rounded(stability.growth)},
+                       {"exponents", rounded_rows(stability.exponents.real().transpose())},
+                       {"frozen", rounded(stability.frozen_growth)},
+                       {"method", stability.method.empty() ? "floquet" : stability.method}});
+}
+
 Json branch_json(const std::vector<squeal::BranchPoint>& points)
 {
   std::vector<double> speed, velocity, frequency_Hz, multiplier;
@@ -198,6 +207,8 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
     members.emplace_back("stability",
                          squeal::name_of(squeal::stability_of(*results.speed_stability)));
   if (results.map) members.emplace_back("map", map_json(*results.map));
+  if (results.rotation_stability)
+    members.emplace_back("rotation", rotation_json(*results.rotation_stability));
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) members.emplace_back("transient", transient_json(*results.transient));
   if (results.limit_cycle) members.emplace_back("limit_cycle", cycle_json(*results.limit_cycle));

@@ -10,6 +10,7 @@
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/results/cycle_file.hpp"
 #include "squeal/results/file_checks.hpp"
+#include "squeal/results/rotation_file.hpp"
 #include "squeal/results/sensitivity_file.hpp"
 #include "squeal/results/stability_file.hpp"
 #include "squeal/results/transient_file.hpp"
@@ -64,22 +65,6 @@ StabilityMap read_map(const Reader& file)
           .speeds = speeds,
           .growth = file.matrix("stability_map/growth", {values.size(), speeds.size()}),
           .frequency_Hz = file.matrix("stability_map/frequency", {values.size(), speeds.size()})};
-}
-
-void write_rotation_stability(Writer& file, const RotationStability& stability)
-{
-  file.write("rotation_stability/speeds", stability.speeds, "rad/s");
-  file.write("rotation_stability/growth", stability.growth, "1/s");
-  file.write("rotation_stability/frequency", stability.frequency_Hz, "Hz");
-  write_optional(file, "rotation_stability/critical_speed", stability.critical_speed, "rad/s");
-}
-
-RotationStability read_rotation_stability(const Reader& file)
-{
-  const Eigen::VectorXd speeds = read_some(file, "rotation_stability/speeds");
-  return {speeds, file.vector("rotation_stability/growth", speeds.size()),
-          file.vector("rotation_stability/frequency", speeds.size()),
-          read_optional(file, "rotation_stability/critical_speed")};
 }
 
 void write_growth(Writer& file, const std::string& group, const Growth& growth)

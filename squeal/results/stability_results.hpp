@@ -89,13 +89,23 @@ struct StabilityMap {
   Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
 };
 
-/// Floquet stability of the sliding disc in its own frame, over the speed; see
-/// rotation_stability.hpp.
+/// Stability of a sliding disc of any kind over the speed; see rotation_stability.hpp.
 struct RotationStability {
-  Eigen::VectorXd speeds;                ///< [m] rad/s
-  Eigen::VectorXd growth;                ///< [m] largest growth rate, 1/s
-  Eigen::VectorXd frequency_Hz;          ///< [m] of the motion with it, in the frame of the disc
+  Eigen::VectorXd speeds;  ///< [m] rad/s
+  Eigen::VectorXd growth;  ///< [m] largest growth rate, 1/s
+  /// [m] of the motion with it: in the inertial frame by Hill's method, in the frame of the disc by
+  /// Floquet's.
+  Eigen::VectorXd frequency_Hz;
   std::optional<double> critical_speed;  ///< the first from which it grows, rad/s
+  std::string method = {};  ///< "hill" or "floquet"; empty in files of earlier versions: floquet
+  int harmonics = 0;        ///< K of Hill's method, the largest over the speeds
+  double error = 0.0;       ///< of the growth by Hill's method, estimated, the largest, 1/s
+  /// [m x r] the worst exponents by Hill's method, by falling growth: growth rate 1/s + i angular
+  /// frequency rad/s; empty by Floquet's.
+  Eigen::MatrixXcd exponents = {};
+  /// [m] largest growth rate of the disc that stands at some angle, 1/s; empty in files of earlier
+  /// versions.
+  Eigen::VectorXd frozen_growth = {};
 };
 
 /// What the lowest modes alone would say.

@@ -1,14 +1,18 @@
 #include "squeal/stability/rotation_stability.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/ring_shapes.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/root.hpp"
+#include "squeal/stability/hill.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -34,11 +38,18 @@ class LinearSteps {
         flow_(brake_.omega, brake_.C, 0.5 * step)
   {
     G_.topLeftCorner(disc.n_modes(), disc.n_modes()) = disc.G;
-    for (const PointPair& point : pads_.points) {
-      shapes_.push_back(pair_shapes(rings_[point.ring].at(point.angle), pads_, point));
-      derivatives_.push_back(
-          pair_derivatives(point.contact, speed, static_cast<int>(shapes_.back().cols())));
+    contact_ = stacked_contact(pads_, brake_.omega.size());
+    rows_ = pads_.n_modes() > 0 ? pair_rows_max : 3;
+    for (std::size_t i = 0; i < pads_.points.size(); ++i) {
+      const PointPair& point = pads_.points[i];
+      const Eigen::Index at = rows_ * static_cast<Eigen::Index>(i);
+      const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows_));
+      contact_.S.middleCols(at, rows_) =
+          pair_shapes(rings_[point.ring].at(point.angle), pads_, point);
+      contact_.D_a.block(at, at, rows_, rows_) = d.D_a;
+      contact_.D_p.block(at, at, rows_, rows_) = d.D_p;
     }
+    ContactSeries(disc.compliance, pads_, speed).condense(contact_);
   }
 
   const Eigen::VectorXd& omega() const { return brake_.omega; }
@@ -48,10 +59,10 @@ class LinearSteps {
   {
     flow_.advance(x);
     const double angle = speed_ * t_middle;
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    for (std::size_t i = 0; i < pads_.points.size(); ++i) {
       const PointPair& point = pads_.points[i];
       const Eigen::MatrixX3d& S = rings_[point.ring].at(point.angle - angle);
-      shapes_[i].topLeftCorner(S.rows(), 3) = S;
+      contact_.S.block(0, rows_ * static_cast<Eigen::Index>(i), S.rows(), 3) = S;
     }
     x.v += step_ * force(x.q, x.v + 0.5 * step_ * force(x.q, x.v));
     flow_.advance(x);
@@ -61,12 +72,10 @@ class LinearSteps {
   Eigen::MatrixXd force(const Eigen::MatrixXd& q, const Eigen::MatrixXd& v) const
   {
     Eigen::MatrixXd F = -2.0 * speed_ * (G_ * v);
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      const PairShapes& S = shapes_[i];
-      const Eigen::MatrixXd at_point =
-          derivatives_[i].D_a * (S.transpose() * q) + derivatives_[i].D_p * (S.transpose() * v);
-      F.noalias() += S * at_point;
-    }
+    const Eigen::MatrixXd& S = contact_.S;
+    const Eigen::MatrixXd at_points =
+        contact_.D_a * (S.transpose() * q) + contact_.D_p * (S.transpose() * v);
+    F.noalias() += S * at_points;
     return F;
   }
 
@@ -76,8 +85,8 @@ class LinearSteps {
   FreeBrake brake_;
   Eigen::MatrixXd G_;
   OscillatorFlow flow_;
-  std::vector<PairShapes> shapes_;
-  std::vector<PairDerivatives> derivatives_;
+  StackedContact contact_;
+  Eigen::Index rows_ = 3;  ///< of a point
 };
 
 /// By so many steps for a period of the highest mode.
@@ -116,23 +125,61 @@ RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, d
   return fine;
 }
 
+namespace {
+
+/// Exponents that are told at each speed.
+constexpr Eigen::Index n_worst = 5;
+
+RotationStability empty_stability(const Disc& disc, const SquealOptions& options)
+{
+  const SpeedRange& range = options.study.speeds;
+  const bool hill = options.study.rotation_method == RotationMethod::hill;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(range.count);
+  RotationStability result{Eigen::VectorXd::LinSpaced(range.count, range.from, range.to), zero,
+                           zero, std::nullopt};
+  result.method = hill ? "hill" : "floquet";
+  result.frozen_growth = zero;
+  if (hill) result.exponents.resize(range.count, std::min(n_worst, disc.n_modes()));
+  return result;
+}
+
+}  // namespace
+
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads)
 {
-  const SpeedRange& range = options.study.speeds;
-  RotationStability result{Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
-                           Eigen::VectorXd(range.count), Eigen::VectorXd(range.count),
-                           std::nullopt};
+  const Hill hill(disc, options);
+  const bool by_hill = options.study.rotation_method == RotationMethod::hill;
+  RotationStability result = empty_stability(disc, options);
+  const int n = options.study.speeds.count;
+  std::vector<HillExponents> exponents(static_cast<std::size_t>(by_hill ? n : 0));
   for_each_index(
-      range.count,
+      n,
       [&](int i) {
+        result.frozen_growth[i] = hill.frozen_growth(result.speeds[i]);
+        if (by_hill) {
+          exponents[static_cast<std::size_t>(i)] = hill.exponents(result.speeds[i]);
+          return;
+        }
         const RotationGrowth at = rotation_growth(disc, options, result.speeds[i]);
         result.growth[i] = at.growth;
         result.frequency_Hz[i] = at.frequency_Hz;
       },
       n_threads);
-  const auto growth = [&](double speed) { return rotation_growth(disc, options, speed).growth; };
-  for (int i = 1; i < range.count && !result.critical_speed; ++i)
+  for (std::size_t k = 0; k < exponents.size(); ++k) {
+    const HillExponents& at = exponents[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    result.growth[i] = at.lambda[0].real();
+    result.frequency_Hz[i] = at.lambda[0].imag() / (2.0 * pi);
+    result.exponents.row(i) = at.lambda.head(result.exponents.cols()).transpose();
+    result.harmonics = std::max(result.harmonics, at.harmonics);
+    result.error = std::max(result.error, at.error);
+  }
+  const auto growth = [&](double speed) {
+    return by_hill ? hill.exponents(speed).lambda[0].real()
+                   : rotation_growth(disc, options, speed).growth;
+  };
+  for (int i = 1; i < n && !result.critical_speed; ++i)
     if (result.growth[i - 1] < 0.0 && result.growth[i] > 0.0)
       result.critical_speed = root(growth, result.speeds[i - 1], result.speeds[i], speed_error);
   return result;

@@ -319,6 +319,24 @@ TEST(Scene, OfTheExampleIsReadable)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::bilateral);
 }
 
+TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
+{
+  const std::string growth = "growth = { speeds_rad_s = [12.0, 13.0], duration_s = 0.3 }";
+  const auto method_of = [&](const std::string& lines) {
+    return parse_scene(replaced(disc, growth, growth + lines), "scene.toml")
+        .squeal->study.rotation_method;
+  };
+  EXPECT_EQ(method_of(""), squeal::RotationMethod::hill);
+  EXPECT_EQ(method_of("\nrotation_stability = { method = \"hill\" }"),
+            squeal::RotationMethod::hill);
+  EXPECT_EQ(method_of("\nrotation_stability = { method = \"floquet\" }"),
+            squeal::RotationMethod::floquet);
+  const std::string error =
+      error_of(replaced(disc, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
+  EXPECT_NE(error.find("rotation_stability.method"), std::string::npos) << error;
+  EXPECT_NE(error.find("floquet"), std::string::npos) << error;
+}
+
 TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)
 {
   const auto with = [](const std::string& lines) { return error_of(disc + lines + "\n"); };

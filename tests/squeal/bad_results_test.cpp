@@ -139,6 +139,7 @@ TEST(Version1, OfResultsIsReadBitByBit)
   EXPECT_EQ(b.eigenvalues->mode_numbers, a.eigenvalues->mode_numbers);
   EXPECT_EQ(b.map->growth, a.map->growth);
   EXPECT_EQ(b.rotation_stability->growth, a.rotation_stability->growth);
+  EXPECT_EQ(b.rotation_stability->method, "");
   EXPECT_EQ(b.critical_values[0].value, a.critical_values[0].value);
   EXPECT_EQ(b.mode_sensitivity->influences[1].growth_without, 0.25);
   EXPECT_EQ(b.growth[0].envelope.pad_velocity, a.growth[0].envelope.pad_velocity);

@@ -39,6 +39,27 @@ SquealResults complete_results()
   return run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study);
 }
 
+TEST(ResultFile, ReturnsTheExponentsOfARotation)
+{
+  const TemporaryFile file;
+  SquealOptions options = reference_options();
+  options.study.speeds.count = 4;
+  options.study.analyses = {"rotation-stability"};
+  PlatePair pair = kirchhoff_3();
+  pair.split = 0.02;
+  const SquealResults written = run(FlexibleDisc(disc_of({pair}), options), options.study);
+  write_results(file.path, written, {});
+  const RotationStability a = *written.rotation_stability;
+  const RotationStability b = read_results(file.path).rotation_stability.value();
+  EXPECT_EQ(b.growth, a.growth);
+  EXPECT_EQ(b.method, "hill");
+  EXPECT_GT(b.harmonics, 0);
+  EXPECT_EQ(b.harmonics, a.harmonics);
+  EXPECT_EQ(b.error, a.error);
+  EXPECT_EQ(b.exponents, a.exponents);
+  EXPECT_EQ(b.frozen_growth, a.frozen_growth);
+}
+
 TEST(ResultFile, ReturnsEveryValueItWasGiven)
 {
   const TemporaryFile file;

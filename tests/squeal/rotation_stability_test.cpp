@@ -72,5 +72,52 @@ TEST(RotationStability, FindsTheCriticalSpeedWithAnyNumberOfThreads)
   EXPECT_EQ(*one.critical_speed, *two.critical_speed);
 }
 
+TEST(RotationStability, TakesModesWithoutInertia)
+{
+  // Modes of four diameters as compliance alone, against the eigenvalues.
+  const mbs_export::ModalBody body = analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()});
+  const Disc disc = make_disc(body, "track", {.quasi_static_above = 2.0 * pi * 2500.0});
+  ASSERT_EQ(disc.n_modes(), 4);
+  ASSERT_FALSE(disc.compliance.empty());
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 6.0 * pi, .to = 6.0 * pi, .count = 1};
+  const double growth =
+      least_stable_eigenvalue(state_matrix(inertial_disc(disc), options, options.study.speeds.from))
+          .real();
+  EXPECT_NEAR(rotation_stability(disc, options).growth[0], growth, 1e-9);
+  options.study.rotation_method = RotationMethod::floquet;
+  EXPECT_NEAR(rotation_stability(disc, options).growth[0], growth, 3e-5);
+}
+
+TEST(RotationStability, ByHillIsThatByFloquet)
+{
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 4.0 * pi, .to = 9.0 * pi, .count = 6};
+  const Disc disc = split_disc(10.0);
+  const RotationStability hill = rotation_stability(disc, options);
+  options.study.rotation_method = RotationMethod::floquet;
+  const RotationStability floquet = rotation_stability(disc, options);
+  EXPECT_EQ(hill.method, "hill");
+  EXPECT_EQ(floquet.method, "floquet");
+  EXPECT_LT((hill.growth - floquet.growth).cwiseAbs().maxCoeff(), 1e-4);
+  ASSERT_TRUE(hill.critical_speed && floquet.critical_speed);
+  EXPECT_NEAR(*hill.critical_speed, *floquet.critical_speed, 1e-4);
+  EXPECT_EQ(hill.exponents.real().col(0), hill.growth);
+  EXPECT_EQ(floquet.exponents.size(), 0);
+  EXPECT_EQ(hill.frozen_growth, floquet.frozen_growth);
+  // A standing disc seems to squeal already where the turning one is stable.
+  EXPECT_LT(hill.growth[0], 0.0);
+  EXPECT_GT(hill.frozen_growth[0], 0.0);
+}
+
+TEST(RotationStability, SaysThatItIsLostNowhereWhereAllSpeedsAreUnstable)
+{
+  SquealOptions options = reference_options();
+  options.study.speeds = {.from = 8.0 * pi, .to = 9.0 * pi, .count = 3};
+  const RotationStability stability = rotation_stability(split_disc(10.0), options);
+  EXPECT_FALSE(stability.critical_speed);
+  EXPECT_EQ(stability_of(stability), Stability::unstable);
+}
+
 }  // namespace
 }  // namespace chladni::squeal

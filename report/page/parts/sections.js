@@ -156,6 +156,13 @@ function campbellFigures({campbell, critical}) {
   }
 }
 
+function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
+  const others = exponents.slice(1).map((y, j) => ({x: speeds, y, colour: 0, width: 0.8, name: j ? "" : "next exponents"}));
+  const standing = frozen.length ? [{x: speeds, y: frozen, colour: 1, dash: "5 4", name: "standing at its worst angle"}] : [];
+  const series = [...others, {x: speeds, y: growth, colour: 2, name: "turning disc"}, ...standing];
+  return [plot({title: "Growth rates of the disc as it is", x: speedAxis, y: {label: "growth rate, 1/s"}, series})];
+}
+
 function mapFigures({map}) {
   const label = `${map.parameter}${map.unit && map.unit !== "1" ? `, ${map.unit}` : ""}`;
   const x = {label: speedAxis.label, values: map.speeds}, y = {label, values: map.values};
@@ -270,6 +277,7 @@ function drawPage() {
   if (page.modes) drawModes(page);
   if (page.groups) drawGroups(page);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
+  if (page.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(page)));
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);
   if (cycles.length || cycle) section("limit-cycle", "Limit cycle", cycleTable(page), figures(...cycles));

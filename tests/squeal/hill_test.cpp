@@ -1,0 +1,237 @@
+#include "squeal/stability/hill.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+
+#include "references/squeal/analytic_body.hpp"
+#include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/state_matrix.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+using Complex = std::complex<double>;
+
+PlatePair turned_by(PlatePair pair, double turn, double split = 0.0)
+{
+  pair.turn = turn;
+  pair.split = split;
+  return pair;
+}
+
+/// Every function of all rings, f -> change(f).
+template <class Change>
+Disc with_shapes(Disc disc, const Change& change)
+{
+  for (DiscRing& ring : disc.rings)
+    for (Harmonics* f : {&ring.W, &ring.W_r, &ring.W_t}) change(*f);
+  return disc;
+}
+
+Disc split_disc()
+{
+  return disc_of({turned_by(kirchhoff_3(), 0.3, 0.01)});
+}
+
+/// Twelve vanes: each shape of d diameters has a tenth of 12 - d in it.
+Disc disc_with_vanes()
+{
+  const Disc disc = disc_of({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3)});
+  return with_shapes(disc, [](Harmonics& f) {
+    for (const int d : {2, 3}) {
+      f.cosine.row(12 - d) += 0.1 * f.cosine.row(d);
+      f.sine.row(12 - d) -= 0.1 * f.sine.row(d);
+    }
+  });
+}
+
+/// A fifth of two diameters in a mode of three, and the other way round.
+Disc mistuned_disc()
+{
+  const Disc disc = disc_of({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3, 0.003)});
+  Eigen::Matrix4d mixed = Eigen::Matrix4d::Identity();
+  const double c = std::cos(0.2), s = std::sin(0.2);
+  mixed(0, 0) = mixed(3, 3) = c;
+  mixed(0, 3) = -s;
+  mixed(3, 0) = s;
+  return with_shapes(disc, [&](Harmonics& f) {
+    f.cosine = f.cosine * mixed;
+    f.sine = f.sine * mixed;
+  });
+}
+
+/// Damping that one side of the disc has more of.
+Disc disc_with_damping_on_one_side()
+{
+  Disc disc = disc_of({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3)});
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(4, 2);
+  part.col(0) << 2.0, 0.5, 1.0, 0.0;
+  part.col(1) << 0.0, 0.3, 1.0, -2.0;
+  disc.C = part * part.transpose() + 0.3 * Eigen::MatrixXd::Identity(4, 4);
+  return disc;
+}
+
+/// One mode of three diameters without its partner.
+Disc disc_with_half_a_pair()
+{
+  return make_disc(analytic_body({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3)}),
+                   "track", {.nodal_diameters = {}, .list = std::vector{1, 2, 4}});
+}
+
+/// The growth by integration over a rotation, to a thousandth.
+void expect_floquet(const Disc& disc, const SquealOptions& options)
+{
+  ASSERT_FALSE(find_inertial_disc(disc));
+  const Hill hill(disc, options);
+  for (const double speed : {2.0 * pi, 6.0 * pi, 14.0 * pi}) {
+    const double growth = rotation_growth(disc, options, speed).growth;
+    const HillExponents at = hill.exponents(speed);
+    EXPECT_NEAR(at.lambda[0].real(), growth, 1e-3 * std::abs(growth)) << speed / pi << " pi";
+    EXPECT_LT(at.error, 1e-4);
+    EXPECT_EQ(at.lambda.size(), disc.n_modes() + pad_system(options, ring_places(disc)).n_modes());
+  }
+}
+
+TEST(Hill, GivesTheEigenvaluesOfAnAxisymmetricDisc)
+{
+  const Disc disc = disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3()});
+  const Hill hill(disc, reference_options());
+  for (const double speed : {pi, 4.0 * pi, 12.0 * pi}) {
+    const HillExponents at = hill.exponents(speed);
+    const Eigen::MatrixXd A = state_matrix(inertial_disc(disc), reference_options(), speed);
+    const Eigen::VectorXcd expected = A.eigenvalues();
+    for (const Complex lambda : at.lambda)
+      EXPECT_LT((expected.array() - lambda).abs().minCoeff(), 1e-9);
+    EXPECT_NEAR(at.lambda[0].real(), expected.real().maxCoeff(), 1e-9);
+    EXPECT_NEAR(hill.frozen_growth(speed), expected.real().maxCoeff(), 1e-9);
+    EXPECT_EQ(at.harmonics, 0);
+  }
+}
+
+TEST(Hill, AgreesWithFloquetOnASplitPair)
+{
+  expect_floquet(disc_of({turned_by(kirchhoff_3(), 0.3, 0.0101)}), reference_options());
+}
+
+TEST(Hill, AgreesWithFloquetOnADiscWithVanes)
+{
+  expect_floquet(disc_with_vanes(), reference_options());
+}
+
+TEST(Hill, AgreesWithFloquetOnAMistunedDisc)
+{
+  expect_floquet(mistuned_disc(), reference_options());
+}
+
+TEST(Hill, AgreesWithFloquetWhereDampingChangesAroundTheCircumference)
+{
+  expect_floquet(disc_with_damping_on_one_side(), reference_options());
+}
+
+TEST(Hill, AgreesWithFloquetOnHalfAPair)
+{
+  expect_floquet(disc_with_half_a_pair(), reference_options());
+}
+
+TEST(Hill, AgreesWithFloquetWherePadsMoveToo)
+{
+  SquealOptions options = reference_options();
+  options.pads[0].body = PadBody{.mass = 0.4, .height = 0.01, .axial = Suspension{4e6, 20.0}};
+  options.pads.push_back({.angle = 1.9, .stiffness = 4e6, .damping = 2.0, .preload = 1500.0});
+  expect_floquet(disc_of({turned_by(kirchhoff_3(), 0.3, 0.0101)}), options);
+}
+
+TEST(Hill, SolvesTheLadderOfItsEquations)
+{
+  // (lambda + i k 6 speed) x_k = sum_j A_(k-j) x_j for |k| <= 12, as one dense matrix.
+  const Disc disc = split_disc();
+  const double speed = 3.0 * pi;
+  const int K = 12, N = 64, m = 2 * static_cast<int>(disc.n_modes());
+  TurningBrake brake(disc, nearest_pairs(disc), reference_options(), speed);
+  std::vector<Eigen::MatrixXcd> A(static_cast<std::size_t>(2 * K + 1),
+                                  Eigen::MatrixXcd::Zero(m, m));
+  for (int s = 0; s < N; ++s)
+    for (int k = -K; k <= K; ++k)
+      A[static_cast<std::size_t>(k + K)] +=
+          std::polar(1.0 / N, -2.0 * pi * k * s / N) * brake.at(2.0 * pi * s / (6.0 * N));
+  Eigen::MatrixXcd ladder = Eigen::MatrixXcd::Zero(m * (2 * K + 1), m * (2 * K + 1));
+  for (int k = -K; k <= K; ++k)
+    for (int j = std::max(-K, k - K); j <= std::min(K, k + K); ++j) {
+      auto block = ladder.block(m * (k + K), m * (j + K), m, m);
+      block = A[static_cast<std::size_t>(k - j + K)];
+      if (k == j) block.diagonal().array() -= Complex(0.0, 6.0 * k * speed);
+    }
+  const Eigen::VectorXcd expected = ladder.eigenvalues();
+  for (const Complex lambda : Hill(disc, reference_options()).exponents(speed).lambda)
+    EXPECT_LT((expected.array() - lambda).abs().minCoeff(), 1e-6);
+}
+
+TEST(Hill, ConvergesInItsHarmonics)
+{
+  // What a coarse tolerance leaves is below its own estimate, and a finer one takes more harmonics.
+  const Disc disc = mistuned_disc();
+  const HillExponents fine = Hill(disc, reference_options(), 1e-8).exponents(6.0 * pi);
+  const HillExponents coarse = Hill(disc, reference_options(), 1.0).exponents(6.0 * pi);
+  EXPECT_GT(fine.harmonics, coarse.harmonics);
+  EXPECT_LT(fine.error, 1e-7);
+  const double change = (fine.lambda - coarse.lambda).real().cwiseAbs().maxCoeff();
+  EXPECT_GT(change, 0.0);
+  EXPECT_LT(change, coarse.error);
+}
+
+TEST(Hill, FindsEveryExponentAtLowSpeed)
+{
+  // One mode of a pair is damped by 60 1/s more than the other: over a rotation of 2 s the motions
+  // of their group decay by factors that no product of matrices holds beside each other.
+  Disc disc = mistuned_disc();
+  disc.C = Eigen::Vector4d(1.0, 1.0, 1.0, 60.0).asDiagonal();
+  const HillExponents at = Hill(disc, reference_options()).exponents(pi);
+  EXPECT_GE(at.coupled, 2);
+  EXPECT_LT(at.error, 1e-4);
+  const int n = 64;
+  TurningBrake brake(disc, nearest_pairs(disc), reference_options(), pi);
+  double trace = 0.0;
+  for (int s = 0; s < n; ++s) trace += brake.at(2.0 * pi * s / n).trace() / n;
+  EXPECT_EQ(at.lambda.size(), 4);
+  EXPECT_NEAR(2.0 * at.lambda.real().sum(), trace, 1e-4);
+  // Each lies on the ladder of harmonics; a finer tolerance finds the same ones.
+  const HillExponents finer = Hill(disc, reference_options(), 1e-7).exponents(pi);
+  EXPECT_LT((finer.lambda - at.lambda).real().cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT(at.lambda[3].real(), at.lambda[0].real() - 15.0);
+}
+
+TEST(Hill, KnowsWhereFrozenAnglesMislead)
+{
+  // 1 % of split: the standing disc grows at some angle by several times what the turning one does.
+  const Disc disc = split_disc();
+  const Hill hill(disc, reference_options());
+  const double speed = 6.0 * pi, frozen = hill.frozen_growth(speed);
+  EXPECT_GT(frozen, 4.0 * hill.exponents(speed).lambda[0].real());
+  // No angle is missed by more than a few per cent.
+  TurningBrake brake(disc, nearest_pairs(disc), reference_options(), speed);
+  double largest = 0.0;
+  for (int s = 0; s < 300; ++s) {
+    const Eigen::MatrixXd A = brake.at(2.0 * pi * s / 300);
+    largest = std::max(largest, A.eigenvalues().real().maxCoeff());
+  }
+  EXPECT_NEAR(frozen, largest, 0.03 * largest);
+}
+
+TEST(NearestPairs, AreOrthogonalAndOfOneHarmonic)
+{
+  const TurningCoordinates pairs = nearest_pairs(disc_with_half_a_pair());
+  EXPECT_EQ(pairs.d, (std::vector{2, 2, 0}));
+  EXPECT_LT((pairs.R * pairs.R.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  const TurningCoordinates full = nearest_pairs(split_disc());
+  EXPECT_EQ(full.d, (std::vector{3, 3}));
+}
+
+}  // namespace
+}  // namespace chladni::squeal
