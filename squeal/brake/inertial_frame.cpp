@@ -127,7 +127,7 @@ void put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes
     const auto column = static_cast<Eigen::Index>(3 * k);
     InertialRing& ring = inertial.rings[k];
     const double U = alpha[column].real(), U_r = alpha[column + 1].real(),
-                 U_t = size == 1 ? 0.0 : alpha[column + 2].imag();
+                 U_t = size == 1 ? alpha[column + 2].real() : alpha[column + 2].imag();
     ring.U.segment(at, size).setConstant(U);
     ring.U_r.segment(at, size).setConstant(U_r / ring.radius);
     ring.U_t.segment(at, size).setConstant(U_t / ring.radius);
@@ -260,7 +260,10 @@ Shapes shapes_at(const InertialDisc& disc, const InertialRing& ring, double thet
   Shapes shapes{ring.U, ring.U_r, Eigen::VectorXd::Zero(disc.n_modes())};
   for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
     const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
-    if (n == 0) continue;
+    if (n == 0) {
+      shapes.W_t[i] = ring.U_t[i];
+      continue;
+    }
     const Eigen::Vector2d along{std::cos(n * theta), std::sin(n * theta)};
     shapes.W.segment<2>(i) = ring.U[i] * along;
     shapes.W_r.segment<2>(i) = ring.U_r[i] * along;

@@ -15,7 +15,8 @@ struct InertialRing {
   double radius;        ///< m
   Eigen::VectorXd U;    ///< [n_modes] amplitude of W, m per unit of a
   Eigen::VectorXd U_r;  ///< [n_modes] amplitude of W_r, rad per unit of a
-  Eigen::VectorXd U_t;  ///< [n_modes] W_t = U_t (-sin, cos)(n theta), rad per unit of a
+  Eigen::VectorXd
+      U_t;  ///< [n_modes] W_t = U_t (-sin, cos)(n theta), U_t for n = 0, rad per unit of a
 };
 
 /// An axisymmetric disc seen from the inertial frame, where its equations do not depend on time:

@@ -36,9 +36,12 @@ SkewProblem skew_problem(const RingHarmonics& harmonics, const VectorXd& omega)
   const Eigen::Index n = omega.size();
   SkewProblem problem{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd(n, n)};
   for (std::size_t d = 0; d < harmonics.c.size(); ++d) {
+    // S c / d = i c: else a little of harmonic 35 beside harmonic 1, which 36 vanes bring about and
+    // which turns the other way, would weigh more than harmonic 1.
+    const double by_d = 1.0 / std::max(1.0, double(d));
     const MatrixXd a = harmonics.c[d].real(), b = -harmonics.c[d].imag();
-    problem.P += a * a.transpose() + b * b.transpose();
-    problem.Q += double(d) * (b * a.transpose() - a * b.transpose());
+    problem.P += by_d * by_d * (a * a.transpose() + b * b.transpose());
+    problem.Q += double(d) * by_d * by_d * (b * a.transpose() - a * b.transpose());
   }
   const double mean = std::max(problem.P.trace() / double(n), 1e-300);
   problem.P /= mean;

@@ -23,7 +23,7 @@ RingHarmonics ring_harmonics(const std::vector<DiscRing>& rings);
 
 /// The skew matrix S that turns a space of modes like a rotation of the disc, as far as there is
 /// one. Where the space is closed under rotation and the disc the same in every position,
-/// S c[d] = i d c[d] on all rings, and S commutes with the stiffness: both by least squares, the
+/// S c[d] / d = i c[d] on all rings, and S commutes with the stiffness: both by least squares, the
 /// second with the weight (omega_i / omega_j - omega_j / omega_i)^2 of each entry. Its eigenvalues
 /// are then +-i d; modes find their partners in the space, whatever their order and however modes
 /// of neighbouring frequencies mix.

@@ -122,13 +122,13 @@ class Reduction {
       const AngleSamples F = F_;
       AngleHarmonics c = balanced(rest());
       const AngleHarmonics change = c - c_before(c);
-      const double size = change.cwiseAbs().maxCoeff();
+      const double size = std::sqrt(change.cwiseAbs2().maxCoeff());
       const bool diverges = i > 2 && size > 3.0 * least;
-      if (!(c.cwiseAbs().maxCoeff() < share_limit) || diverges) return worst(change);
+      if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges) return worst(change);
       least = std::min(least, size);
       c_ = c;
       X_ = samples_of(std::move(c));
-      if (i > 0 && (F_ - F).cwiseAbs().maxCoeff() < F_error) return group_or_link();
+      if (i > 0 && (F_ - F).cwiseAbs2().maxCoeff() < F_error * F_error) return group_or_link();
     }
     return worst(c_);
   }
@@ -186,7 +186,7 @@ class Reduction {
   Link worst(const AngleHarmonics& change) const
   {
     Index row = 0, column = 0;
-    change.cwiseAbs().maxCoeff(&row, &column);
+    change.cwiseAbs2().maxCoeff(&row, &column);
     return {row % modes_.size(), states_[static_cast<std::size_t>(row / modes_.size())]};
   }
 
@@ -207,7 +207,8 @@ class Reduction {
   std::variant<NearGroup, Link> group_or_link()
   {
     const double error = modes_.highest > 0 ? truncation() : 0.0;
-    if (error > tolerance_ && c_.cwiseAbs().maxCoeff() > long_share_limit) return worst(c_);
+    if (error > tolerance_ && c_.cwiseAbs2().maxCoeff() > long_share_limit * long_share_limit)
+      return worst(c_);
     for (Index j = 0; j < g_; ++j) F_.row(j * g_ + j).array() += lambda(j);
     return NearGroup{states_, true, harmonics_of(F_), kept_, error};
   }

@@ -203,5 +203,18 @@ TEST(InertialDisc, LeavesModesInThePlaneAndTheUnpairedHarmonicOut)
   EXPECT_EQ(inertial_disc(disc).nodal_diameters, (std::vector<int>{2, 2, 3, 3}));
 }
 
+TEST(InertialDisc, HasTorsionThatTurnsTheNormalsAlike)
+{
+  // All points of the ring lean along the circumference by the same angle, as between vanes.
+  mbs_export::ModalBody body = analytic_body(
+      {kirchhoff_2(), {.n = 0, .f_Hz = 2800.0, .mass = 2.0, .U = 0.0, .U_r = 0.0, .U_t = 0.0}});
+  body.rings[0].W_t.col(2).setConstant(4.0);
+  const Disc disc = make_disc(body, "track", {});
+  const InertialDisc inertial = inertial_disc(disc);
+  EXPECT_LT(inertial.largest_impurity, 1e-6);
+  const Eigen::VectorXd q = Eigen::Vector3d{0.0, 0.0, 0.3};
+  EXPECT_NEAR(shapes_at(inertial, 0.9).W_t.dot(inertial.R.transpose() * q), 1.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace chladni::squeal
