@@ -131,6 +131,7 @@ std::unique_ptr<squeal::Brake> brake_of(const scene::Scene& scene,
   squeal::Disc disc = squeal::make_disc(*body, squeal::ring_names(options), options.modes);
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
+  for (const std::string& note : squeal::notes_of(disc)) fmt::print(stderr, "note: {}\n", note);
   return std::make_unique<squeal::FlexibleDisc>(std::move(disc), options);
 }
 

@@ -262,6 +262,21 @@ Disc make_disc(const ModalBody& body, const std::string& ring, const ModeChoice&
   return make_disc(body, std::vector{ring}, modes);
 }
 
+std::vector<std::string> notes_of(const Disc& disc)
+{
+  std::vector<std::string> notes;
+  if (!disc.compliance.empty())
+    notes.push_back(fmt::format(
+        "{} of the body's modes, from {:.5g} Hz on, follow the pads without inertia "
+        "(quasi_static_above_Hz)",
+        disc.compliance.mode_numbers.size(), disc.compliance.lowest_omega / (2.0 * pi)));
+  if (!disc.still.empty())
+    notes.push_back(fmt::format(
+        "{} of the body's modes do not move the ring along the axis and take no part: {}",
+        disc.still.size(), fmt::join(disc.still, ", ")));
+  return notes;
+}
+
 std::vector<std::string> ring_names(const SquealOptions& options)
 {
   std::vector<std::string> names{options.ring};

@@ -97,6 +97,10 @@ Disc make_disc(const mbs_export::ModalBody& body, const std::vector<std::string>
                const ModeChoice& modes);
 Disc make_disc(const mbs_export::ModalBody& body, const std::string& ring, const ModeChoice& modes);
 
+/// Which modes have no part in the motion, a sentence each: "60 modes above 17048 Hz follow the
+/// pads without inertia"; empty when all have one.
+std::vector<std::string> notes_of(const Disc& disc);
+
 /// The ring of the study, then those that the grids of its pads name beside it.
 std::vector<std::string> ring_names(const SquealOptions& options);
 

@@ -65,6 +65,9 @@ TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
       ASSERT_EQ(whole.n_modes(), 17);
       ASSERT_EQ(condensed.n_modes(), 2);
       EXPECT_EQ(condensed.compliance.mode_numbers.size(), 15U);
+      ASSERT_EQ(notes_of(condensed).size(), 1U);
+      EXPECT_TRUE(notes_of(condensed)[0].starts_with("15 of the body's modes, from "));
+      EXPECT_TRUE(notes_of(whole).empty());
       const auto exact = least_stable_of_the_pair(whole, options);
       const auto error = least_stable_of_the_pair(condensed, options) - exact;
       const auto without =
