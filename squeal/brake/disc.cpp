@@ -147,24 +147,23 @@ struct Parts {
   std::vector<int> dynamic, quasi_static;
 };
 
-/// From where on modes follow without inertia, rad/s. Bodies with interface modes: beyond the range
-/// of a tolerance, or of the modes that were kept. Others: nowhere.
-double quasi_static_from(const ModalBody& body, const ModeChoice& choice)
+/// The end of the range for which a body with interface modes was made, rad/s: that of a tolerance,
+/// or of the modes that were kept. Others say nothing of one: infinite.
+double range_of(const ModalBody& body)
 {
-  if (choice.quasi_static_above) return *choice.quasi_static_above;
   double range = 0.0, interface = 0.0;
   for (std::size_t i = 0; i < body.kinds.size(); ++i) {
     double& highest = body.kinds[i] == ModeKind::interface ? interface : range;
     highest = std::max(highest, body.omega[static_cast<Eigen::Index>(i)]);
   }
   if (interface == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
-  return quasi_static_multiple * (body.selection ? body.selection->Omega_max : range);
+  return body.selection ? body.selection->Omega_max : range;
 }
 
 Parts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
 {
   Parts parts;
-  const double limit = quasi_static_from(body, choice);
+  const double limit = choice.quasi_static_above.value_or(quasi_static_multiple * range_of(body));
   for (const int i : moving_modes(disc))
     (disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
   if (parts.dynamic.empty())
@@ -307,6 +306,7 @@ Disc make_disc(const ModalBody& body, const std::vector<std::string>& names,
   const Parts parts = chosen_parts(all, body, choice);
   check_elastic(body, parts.dynamic);
   Disc disc = with_modes(all, parts.dynamic);
+  disc.range = range_of(body);
   if (!parts.quasi_static.empty())
     disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
   if (!choice.nodal_diameters && !choice.list) disc.still = still_modes(all);

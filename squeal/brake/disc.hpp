@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -79,7 +80,10 @@ struct Disc {
   /// add 2 Omega G q'. Zero when the body does not hold it.
   Eigen::MatrixXd G;
   RingCompliance compliance = {};  ///< of modes that follow the pads without inertia
-  std::vector<int> still = {};     ///< 1-based, of modes left out: no pad sees them
+  /// Up to which the modes are those of the disc, rad/s; beyond it interface modes stand for
+  /// others.
+  double range = std::numeric_limits<double>::infinity();
+  std::vector<int> still = {};  ///< 1-based, of modes left out: no pad sees them
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

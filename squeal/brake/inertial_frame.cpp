@@ -104,8 +104,9 @@ InertialDisc empty_inertial_disc(const Disc& disc)
 }
 
 /// Puts modes at the coordinates `at` (and `at` + 1) of the inertial disc.
-void put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes& mode,
-         Eigen::Index at)
+/// @return how far they are from pure harmonics
+double put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes& mode,
+           Eigen::Index at)
 {
   const Eigen::Index size = mode.n == 0 ? 1 : 2;
   const Eigen::VectorXcd e = oriented(mode, harmonics);
@@ -120,7 +121,7 @@ void put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes
   double whole = 0.0, pure = 0.0;
   for (const Eigen::MatrixXcd& c : harmonics.c)
     whole += (inertial.R.middleCols(at, size).transpose() * c).squaredNorm();
-  if (static_cast<std::size_t>(mode.n) >= harmonics.c.size()) return;
+  if (static_cast<std::size_t>(mode.n) >= harmonics.c.size()) return 1.0;
   const Eigen::RowVectorXcd alpha =
       e.adjoint() * harmonics.c[static_cast<std::size_t>(mode.n)] / scale;
   for (std::size_t k = 0; k < inertial.rings.size(); ++k) {
@@ -133,8 +134,7 @@ void put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureModes
     ring.U_t.segment(at, size).setConstant(U_t / ring.radius);
     pure += double(size) * (U * U + U_r * U_r + U_t * U_t);
   }
-  const double impurity = std::sqrt(std::max(0.0, whole - pure) / whole);
-  inertial.largest_impurity = std::max(inertial.largest_impurity, impurity);
+  return std::sqrt(std::max(0.0, whole - pure) / whole);
 }
 
 /// Twice the part of each frequency that is not the same in every position of the disc, relative:
@@ -146,7 +146,10 @@ double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
     const Eigen::MatrixXcd omega = space.E.adjoint() * disc.omega.asDiagonal() * space.E;
     rest -= (space.d == 0 ? 1.0 : 2.0) * (space.E * omega * space.E.adjoint()).real();
   }
-  return 2.0 * rest.rowwise().norm().cwiseQuotient(disc.omega).maxCoeff();
+  Eigen::VectorXd split = 2.0 * rest.rowwise().norm().cwiseQuotient(disc.omega);
+  for (Eigen::Index i = 0; i < split.size(); ++i)
+    if (disc.omega[i] > disc.range) split[i] /= beyond_range;
+  return split.maxCoeff();
 }
 
 /// Mean over the circumference of exp(-phi D) C exp(phi D), of damping or Coriolis terms, exact
@@ -178,7 +181,9 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
   InertialDisc inertial = empty_inertial_disc(disc);
   Eigen::Index at = 0;
   for (const PureModes& mode : pure_modes(disc, spaces)) {
-    put(inertial, harmonics, mode, at);
+    const double impurity =
+        put(inertial, harmonics, mode, at) / (mode.omega > disc.range ? beyond_range : 1.0);
+    inertial.largest_impurity = std::max(inertial.largest_impurity, impurity);
     at += mode.n == 0 ? 1 : 2;
   }
   inertial.largest_split = largest_split(disc, spaces);

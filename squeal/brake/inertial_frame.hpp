@@ -41,6 +41,9 @@ struct InertialDisc {
 /// that is not rotationally symmetric leaves 1e-6 to 1e-3, a disc with vanes or slots much more.
 inline constexpr double impurity_limit = 0.02;
 
+/// What modes beyond Disc::range, which have no frequency of the disc, count less in both.
+inline constexpr double beyond_range = 10.0;
+
 /// How far the two frequencies of a pair may be apart, relative.
 inline constexpr double split_limit = 0.01;
 

@@ -1,0 +1,78 @@
+"""Bodies as people have them, all modes, through `squeal run`: with frequency response modes, of a tolerance, and with
+vanes.
+
+Usage: every_body.py PROGRAM_DIR
+"""
+
+import sys
+import tempfile
+from pathlib import Path
+
+from running import changed, run, summary
+
+DATA = Path(__file__).parents[1] / "data"
+BRAKE = """
+[squeal]
+ring = "track"
+thickness = 0.02
+speeds = { from_rad_s = 3.0, to_rad_s = 60.0, count = 4 }
+friction = 0.6
+pads = [{ angle_deg = 0.0, stiffness = 6e6, damping = 0.0, preload = 2000.0 }]
+"""
+AXISYMMETRIC = 'analyses = ["eigenvalues", "critical-speed", "growth", "transient", "limit-cycle-direct"]\n' \
+    'growth = { speeds_rad_s = [18.85], duration_s = 0.5 }\n' \
+    'transient = { speed_rad_s = 18.85, duration_s = 0.2, initial_pad_displacement = 1e-6 }\n' \
+    'limit_cycle_direct = { speed_rad_s = 40.0 }\n'
+ANY = 'analyses = ["rotation-stability", "growth"]\ngrowth = { speeds_rad_s = [30.0], duration_s = 0.3 }\n'
+FINE = (("element_size = 0.03", "element_size = 0.02"), ("nodes = 12", "nodes = 24"), ("modes = 20", "modes = 60"))
+
+
+def squeal(programs, scene):
+    """What `squeal run` finds on the body of this scene, and what it says."""
+    with tempfile.TemporaryDirectory() as name:
+        file = Path(name) / "scene.toml"
+        file.write_text(scene)
+        for part in DATA.glob("*.geo"):
+            (file.parent / part.name).write_text(part.read_text())
+        run(programs / "chladni", "run", file, "--output", name)
+        said = run(programs / "squeal", "run", file, "--output", name)
+        return summary(programs / "squeal", "run", file, "--output", name), said
+
+
+def check_symmetric(programs):
+    """Response modes do in few modes what many do; a body of a tolerance is as good. Even many modes lack the compliance
+    of those beyond them, so the best body has both."""
+    plain = (DATA / "coarse_disc.toml").read_text() + BRAKE + AXISYMMETRIC
+    keep = "keep = { modes = 30 }"
+    responses = 'interface_modes = [{ kind = "frm", at = "track", dofs = ["z"], omega0 = "auto" }]\n'
+    few = changed(plain, *FINE, (keep, "keep = { up_to_Hz = 3000.0 }"))
+    with_responses = ("damping = {", responses + "damping = {")
+    many, _ = squeal(programs, changed(plain, *FINE, (keep, "keep = { up_to_Hz = 9000.0 }"), with_responses))
+    poor, _ = squeal(programs, few)
+    augmented, said = squeal(programs, changed(few, with_responses))
+    assert "follow the pads without inertia" in said, said
+    tolerant = changed(plain, FINE[0], FINE[1], ("modes = 20", "tolerance = 1e-3\nup_to_Hz = 3000.0"),
+                       (keep, "keep = { tolerance = 1e-3, up_to_Hz = 3000.0 }"))
+    chosen, said = squeal(programs, tolerant)
+    assert "follow the pads without inertia" in said, said
+    best = many["critical_speed_rad_s"]
+    off = {name: abs(found["critical_speed_rad_s"] / best - 1)
+           for name, found in (("few", poor), ("augmented", augmented), ("tolerance", chosen))}
+    print("critical speed", best, "off by", off)
+    assert off["augmented"] < 0.3 * off["few"] and off["tolerance"] < 0.3 * off["few"], off
+    for found in (augmented, chosen):
+        assert found["failure"] is None and not found["missing"], found["failure"]
+        assert found["limit_cycle_direct"]["frequency_Hz"] > 100.0, found["limit_cycle_direct"]
+
+
+def check_others(programs):
+    """Vanes mix harmonics."""
+    vanes = changed((DATA / "ventilated_disc.toml").read_text(), ("modes = 20\npictures", "modes = 30\npictures"))
+    found, _ = squeal(programs, vanes + BRAKE.replace("0.02", "0.032") + ANY)
+    assert found["failure"] is None and not found["missing"], found["failure"]
+
+
+if __name__ == "__main__":
+    check_symmetric(Path(sys.argv[1]))
+    check_others(Path(sys.argv[1]))
+    print("every body is taken")
