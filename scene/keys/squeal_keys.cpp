@@ -65,7 +65,8 @@ constexpr Key squeal_rows[] = {
     {"squeal.quasi_static_above_Hz",
      number,
      "1.5 times the end of the body's range with interface modes, else none",
-     "modes of higher frequency follow the pads without inertia, since interface modes have no frequency that the disc has; with use_modes = \"all\"",
+     "modes of higher frequency follow the pads without inertia, since interface modes have no "
+     "frequency that the disc has; with use_modes = \"all\"",
      {.above = 0.0}},
     {"squeal.speeds", table, "required", "rotation speeds, equally spaced"},
     {"squeal.speeds.from_rad_s", number, "or from_rpm, from_km_h", "the lowest", speed},
