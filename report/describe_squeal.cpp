@@ -9,6 +9,7 @@
 
 #include "report/describe.hpp"
 #include "report/describe_rotation.hpp"
+#include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
 #include "squeal/results/transient_file.hpp"
 #include "squeal/stability/rotation_stability.hpp"
@@ -280,6 +281,7 @@ TextTable describe(const squeal::SquealResults& results)
   }
   add_critical_speed(table, results);
   for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
+  if (results.stability_table) add_unstable_modes(table, *results.stability_table);
   if (results.map) add_map(table, *results.map);
   if (results.rotation_stability)
     add_rotation_stability(table, *results.rotation_stability, results.wheel_radius);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "report/describe_stability.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
 
@@ -208,6 +209,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
       for (Json::Member& member : stability_json(*results.speed_stability, "speeds_rad_s"))
         members.push_back(std::move(member));
   }
+  if (results.stability_table)
+    members.emplace_back("stability_table", stability_table_json(*results.stability_table));
   if (results.rotation_stability) {
     members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
   }

@@ -12,6 +12,27 @@ MapParameter read_parameter(const Table& table)
                                                   {"stiffness", MapParameter::stiffness}});
 }
 
+/// Absent: the speed.
+std::optional<MapParameter> read_over(const Table& table)
+{
+  if (!table.has("over")) return std::nullopt;
+  using Over = std::optional<MapParameter>;
+  return table.choice<Over>("over", {{"speed", std::nullopt},
+                                     {"friction", MapParameter::friction},
+                                     {"preload", MapParameter::preload},
+                                     {"stiffness", MapParameter::stiffness}});
+}
+
+/// Its two ends.
+std::optional<squeal::FrequencyBand> read_band(const Table& table)
+{
+  if (!table.has("band_Hz")) return std::nullopt;
+  const std::vector<double> band = table.numbers("band_Hz");
+  if (band.size() != 2 || !(band[1] > band[0]))
+    table.refuse("band_Hz", "must be the begin and the end of a band, e.g. [1000, 16000]");
+  return squeal::FrequencyBand{band[0], band[1]};
+}
+
 }  // namespace
 
 std::optional<squeal::DirectCase> read_direct(const Table& squeal,
@@ -63,6 +84,29 @@ std::optional<squeal::MapCase> read_map(const Table& squeal)
                          .count = table.integer("count", {.at_most = double(most_values),
                                                           .unit = "10 million points with the "
                                                                   "speeds"})};
+}
+
+std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
+                                                    const squeal::SpeedRange& speeds)
+{
+  if (!squeal.has("stability")) return std::nullopt;
+  const Table table = squeal.table("stability");
+  squeal::StabilityCase search{.over = read_over(table),
+                               .from = speeds.from,
+                               .to = speeds.to,
+                               .count = speeds.count,
+                               .band = read_band(table)};
+  if (search.over) {
+    search.speed = table.number("speed_rad_s");
+  } else if (table.has("speed_rad_s")) {
+    table.refuse("speed_rad_s", "is that of a table over another parameter; leave it out");
+  }
+  if (!search.over && !table.has("from") && !table.has("to") && !table.has("count")) return search;
+  search.from = search.over == MapParameter::friction ? table.number("from")
+                                                      : table.number("from", {.above = 0.0});
+  search.to = table.number("to", {.above = search.from, .unit = "from"});
+  search.count = table.integer("count");
+  return search;
 }
 
 }  // namespace chladni::scene

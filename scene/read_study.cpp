@@ -156,6 +156,7 @@ squeal::StudyOptions read_study(const Table& squeal, StudyOf of)
   study.limit_cycle_direct = read_direct(squeal, study.transient);
   study.map = read_map(squeal);
   study.critical = read_critical(squeal);
+  study.stability = read_stability(squeal, study.speeds);
   if (of == StudyOf::body) study.sound = read_wav(squeal);
   return study;
 }

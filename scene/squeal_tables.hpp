@@ -43,4 +43,8 @@ std::vector<squeal::CriticalCase> read_critical(const Table& squeal);
 /// squeal.map
 std::optional<squeal::MapCase> read_map(const Table& squeal);
 
+/// squeal.stability, which is over the speeds of the study unless it says otherwise.
+std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
+                                                    const squeal::SpeedRange& speeds);
+
 }  // namespace chladni::scene

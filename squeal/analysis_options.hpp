@@ -15,9 +15,10 @@ struct Analysis {
 };
 
 /// All analyses, in the order in which messages and documents list them.
-inline constexpr std::array<Analysis, 12> analyses{{
+inline constexpr std::array<Analysis, 13> analyses{{
     {"eigenvalues", "speeds", "", false},
     {"critical-speed", "speeds", "", false},
+    {"stability", "speeds", "", false},
     {"growth", "growth", "", false},
     {"transient", "transient", "", false},
     {"limit-cycle", "transient", "", false},

@@ -75,6 +75,22 @@ struct MapCase {
   int count;
 };
 
+/// Frequencies in the frame of the pads.
+struct FrequencyBand {
+  double from_Hz;
+  double to_Hz;
+};
+
+/// The table of all unstable modes, over the speed or one more parameter, equally spaced.
+struct StabilityCase {
+  std::optional<MapParameter> over = {};  ///< absent: the speed
+  double from;                            ///< rad/s, 1, N or N/m
+  double to;
+  int count;
+  double speed = 0.0;                      ///< when it is not over the speed, rad/s
+  std::optional<FrequencyBand> band = {};  ///< absent: all frequencies
+};
+
 /// A critical value of a parameter at one speed.
 struct CriticalCase {
   MapParameter parameter;
@@ -98,6 +114,7 @@ struct StudyOptions {
   RotationMethod rotation_method = RotationMethod::hill;
   std::optional<MapCase> map = {};
   std::vector<CriticalCase> critical = {};
+  std::optional<StabilityCase> stability = {};  ///< absent: over `speeds`, all frequencies
   std::optional<SoundCase> sound = {};
 };
 

@@ -80,6 +80,37 @@ Json campbell_json(const squeal::EigenvalueMap& map)
                        {"growth", rounded_rows(map.lambda.real().transpose())}});
 }
 
+/// Growth within a few times that of the unstable modes: what decays fast would hide it.
+Json growth_axis_json(const squeal::StabilityTable& table)
+{
+  double largest = 0.0;
+  for (const squeal::StabilityBranch& branch : table.branches)
+    largest = std::max(largest, branch.worst.growth);
+  return largest > 0.0 ? Json::array({rounded(-1.5 * largest), rounded(1.2 * largest)}) : Json();
+}
+
+Json unstable_modes_json(const squeal::StabilityTable& table)
+{
+  std::vector<Json> branches;
+  for (const squeal::StabilityBranch& branch : table.branches) {
+    const std::optional<int> diameters = nodal_diameters(table, branch);
+    std::vector<Json> unstable;
+    for (const squeal::UnstableInterval& interval : branch.unstable)
+      unstable.push_back(Json::array({rounded(interval.from.value), rounded(interval.to.value)}));
+    branches.push_back(
+        Json::object({{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / two_pi))},
+                      {"growth", rounded(Eigen::VectorXd(branch.lambda.real()))},
+                      {"unstable", Json::array(unstable)},
+                      {"diameters", diameters ? Json(*diameters) : Json()}}));
+  }
+  return Json::object({{"parameter", table.parameter},
+                       {"unit", squeal::unit_of(table.parameter)},
+                       {"values", rounded(table.values)},
+                       {"summary", summary(table)},
+                       {"growth_axis", growth_axis_json(table)},
+                       {"branches", Json::array(branches)}});
+}
+
 Json map_json(const squeal::StabilityMap& map)
 {
   return Json::object({{"parameter", map.parameter},
@@ -206,6 +237,8 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.speed_stability)
     members.emplace_back("stability",
                          squeal::name_of(squeal::stability_of(*results.speed_stability)));
+  if (results.stability_table)
+    members.emplace_back("unstable_modes", unstable_modes_json(*results.stability_table));
   if (results.map) members.emplace_back("map", map_json(*results.map));
   if (results.rotation_stability)
     members.emplace_back("rotation", rotation_json(*results.rotation_stability));

@@ -29,6 +29,7 @@ std::string shape_group(std::size_t i)
 
 std::string unit_of(const std::string& parameter)
 {
+  if (parameter == "speed") return "rad/s";
   return parameter == "preload" ? "N" : parameter == "stiffness" ? "N/m" : "1";
 }
 

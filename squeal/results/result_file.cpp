@@ -13,6 +13,7 @@
 #include "squeal/results/rotation_file.hpp"
 #include "squeal/results/sensitivity_file.hpp"
 #include "squeal/results/stability_file.hpp"
+#include "squeal/results/stability_table_file.hpp"
 #include "squeal/results/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -133,6 +134,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.eigenvalues) write_eigenvalues(file, *results.eigenvalues);
   if (results.searched_critical_speed) write_critical_speed(file, results);
   write_critical_values(file, results.critical_values);
+  if (results.stability_table) write_stability_table(file, *results.stability_table);
   if (results.map) write_map(file, *results.map);
   if (results.rotation_stability) write_rotation_stability(file, *results.rotation_stability);
   if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
@@ -169,6 +171,7 @@ SquealResults read_results(const Reader& file)
   if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("missing")) results.missing = file.texts("missing");
   if (file.contains("inputs")) results.inputs = file.text("inputs");
+  if (file.contains("stability")) results.stability_table = read_stability_table(file);
   if (file.contains("stability_map")) results.map = read_map(file);
   if (file.contains("rotation_stability"))
     results.rotation_stability = read_rotation_stability(file);

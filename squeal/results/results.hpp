@@ -8,6 +8,7 @@
 
 #include "squeal/results/cycle_results.hpp"
 #include "squeal/results/stability_results.hpp"
+#include "squeal/results/stability_table.hpp"
 
 namespace chladni::squeal {
 
@@ -131,6 +132,7 @@ struct SquealResults {
   std::optional<CriticalSpeed> critical_speed;
   std::optional<StabilityProfile> speed_stability;  ///< over the speeds of that search
   std::vector<CriticalValue> critical_values;
+  std::optional<StabilityTable> stability_table;
   std::optional<StabilityMap> map;
   std::optional<RotationStability> rotation_stability;
   std::optional<ModeSensitivity> mode_sensitivity;

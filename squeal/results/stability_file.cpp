@@ -5,75 +5,78 @@
 namespace chladni::squeal {
 namespace {
 
+using Eigen::Index;
 using files::Reader;
 using files::Writer;
 
-/// Points as rows: value, growth, frequency.
-using Points = Eigen::MatrixX3d;
-
-Eigen::RowVector3d row_of(const StabilityPoint& point)
+/// One number of each point.
+Eigen::VectorXd column(const std::vector<StabilityPoint>& points, double StabilityPoint::*of)
 {
-  return {point.value, point.growth, point.frequency_Hz};
-}
-
-StabilityPoint point_of(const Points& points, Eigen::Index i)
-{
-  return {points(i, 0), points(i, 1), points(i, 2)};
-}
-
-void write_points(Writer& file, const std::string& group, const Points& points,
-                  const std::string& unit)
-{
-  file.write(group + "/values", points.col(0).eval(), unit);
-  file.write(group + "/growth", points.col(1).eval(), "1/s");
-  file.write(group + "/frequency", points.col(2).eval(), "Hz");
-}
-
-Points read_points(const Reader& file, const std::string& group, Eigen::Index n)
-{
-  Points points(n, 3);
-  points.col(0) = file.vector(group + "/values", n);
-  points.col(1) = file.vector(group + "/growth", n);
-  points.col(2) = file.vector(group + "/frequency", n);
-  return points;
+  Eigen::VectorXd x(std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i) x[static_cast<Index>(i)] = points[i].*of;
+  return x;
 }
 
 }  // namespace
 
+void write_points(Writer& file, const std::string& group, const std::vector<StabilityPoint>& points,
+                  const std::string& unit)
+{
+  file.write(group + "/values", column(points, &StabilityPoint::value), unit);
+  file.write(group + "/growth", column(points, &StabilityPoint::growth), "1/s");
+  file.write(group + "/frequency", column(points, &StabilityPoint::frequency_Hz), "Hz");
+}
+
+std::vector<StabilityPoint> read_points(const Reader& file, const std::string& group, Index n)
+{
+  const Eigen::VectorXd values = file.vector(group + "/values", n);
+  const Eigen::VectorXd growth = file.vector(group + "/growth", n);
+  const Eigen::VectorXd frequency_Hz = file.vector(group + "/frequency", n);
+  std::vector<StabilityPoint> points;
+  for (Index i = 0; i < n; ++i) points.push_back({values[i], growth[i], frequency_Hz[i]});
+  return points;
+}
+
+void write_intervals(Writer& file, const std::string& group,
+                     const std::vector<UnstableInterval>& intervals, const std::string& unit)
+{
+  if (intervals.empty()) return;
+  std::vector<StabilityPoint> from, to, worst;
+  for (const UnstableInterval& interval : intervals) {
+    from.push_back(interval.from);
+    to.push_back(interval.to);
+    worst.push_back(interval.worst);
+  }
+  write_points(file, group + "/from", from, unit);
+  write_points(file, group + "/to", to, unit);
+  write_points(file, group + "/worst", worst, unit);
+}
+
+std::vector<UnstableInterval> read_intervals(const Reader& file, const std::string& group)
+{
+  std::vector<UnstableInterval> intervals;
+  if (!file.contains(group + "/from/values")) return intervals;
+  const Index n = file.vector(group + "/from/values").size();
+  const auto from = read_points(file, group + "/from", n);
+  const auto to = read_points(file, group + "/to", n);
+  const auto worst = read_points(file, group + "/worst", n);
+  for (std::size_t i = 0; i < from.size(); ++i) intervals.push_back({from[i], to[i], worst[i]});
+  return intervals;
+}
+
 void write_profile(Writer& file, const std::string& group, const StabilityProfile& profile,
                    const std::string& unit)
 {
-  Points range(2, 3);
-  range << row_of(profile.from), row_of(profile.to);
   file.write(group + "/stability", std::string(name_of(stability_of(profile))));
-  write_points(file, group + "/range", range, unit);
-  const auto n = static_cast<Eigen::Index>(profile.unstable.size());
-  if (n == 0) return;
-  Points from(n, 3), to(n, 3), worst(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const UnstableInterval& interval = profile.unstable[static_cast<std::size_t>(i)];
-    from.row(i) = row_of(interval.from);
-    to.row(i) = row_of(interval.to);
-    worst.row(i) = row_of(interval.worst);
-  }
-  write_points(file, group + "/unstable/from", from, unit);
-  write_points(file, group + "/unstable/to", to, unit);
-  write_points(file, group + "/unstable/worst", worst, unit);
+  write_points(file, group + "/range", {profile.from, profile.to}, unit);
+  write_intervals(file, group + "/unstable", profile.unstable, unit);
 }
 
 std::optional<StabilityProfile> read_profile(const Reader& file, const std::string& group)
 {
   if (!file.contains(group + "/range/values")) return std::nullopt;
-  const Points range = read_points(file, group + "/range", 2);
-  StabilityProfile profile{point_of(range, 0), point_of(range, 1), {}};
-  if (!file.contains(group + "/unstable/from/values")) return profile;
-  const Eigen::Index n = file.vector(group + "/unstable/from/values").size();
-  const Points from = read_points(file, group + "/unstable/from", n);
-  const Points to = read_points(file, group + "/unstable/to", n);
-  const Points worst = read_points(file, group + "/unstable/worst", n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    profile.unstable.push_back({point_of(from, i), point_of(to, i), point_of(worst, i)});
-  return profile;
+  const std::vector<StabilityPoint> range = read_points(file, group + "/range", 2);
+  return StabilityProfile{range[0], range[1], read_intervals(file, group + "/unstable")};
 }
 
 }  // namespace chladni::squeal

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "files/hdf5.hpp"
 #include "squeal/results/stability_results.hpp"
@@ -16,5 +17,19 @@ void write_profile(files::Writer& file, const std::string& group, const Stabilit
 
 /// Reads them; absent when the group has none, as in files of earlier versions.
 std::optional<StabilityProfile> read_profile(const files::Reader& file, const std::string& group);
+
+/// Points as the datasets `values`, `growth` and `frequency` of a group.
+/// @param unit  of the parameter
+void write_points(files::Writer& file, const std::string& group,
+                  const std::vector<StabilityPoint>& points, const std::string& unit);
+/// @param n  how many there must be
+std::vector<StabilityPoint> read_points(const files::Reader& file, const std::string& group,
+                                        Eigen::Index n);
+
+/// Intervals as the points `from`, `to` and `worst` of a group, which is missing when there are
+/// none.
+void write_intervals(files::Writer& file, const std::string& group,
+                     const std::vector<UnstableInterval>& intervals, const std::string& unit);
+std::vector<UnstableInterval> read_intervals(const files::Reader& file, const std::string& group);
 
 }  // namespace chladni::squeal

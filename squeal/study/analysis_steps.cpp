@@ -13,6 +13,7 @@
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_map.hpp"
+#include "squeal/stability/unstable_modes.hpp"
 #include "squeal/transient/spectrum.hpp"
 
 namespace chladni::squeal {
@@ -34,6 +35,11 @@ void find_critical_speed(const Study& study, SquealResults& results, const Keepi
       stability_over_speed(state_matrix_at(study.brake), study.options.speeds);
   results.critical_speed = critical_speed(*results.speed_stability);
   results.searched_critical_speed = true;
+}
+
+void find_unstable_modes(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.stability_table = unstable_modes(study.brake, stability_case(study.options));
 }
 
 void find_critical_values(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
@@ -110,6 +116,7 @@ std::span<const AnalysisStep> analysis_steps()
   static const AnalysisStep steps[] = {
       {"eigenvalues", {}, find_eigenvalues},
       {"critical-speed", {}, find_critical_speed},
+      {"stability", {}, find_unstable_modes},
       {"critical-values", {}, find_critical_values},
       {"stability-map", {}, find_map},
       {"mode-sensitivity", {}, find_mode_sensitivity},

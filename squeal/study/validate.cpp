@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "squeal/analysis_options.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "squeal/stability/unstable_modes.hpp"
 #include "squeal/transient/transient_plan.hpp"
 
 namespace chladni::squeal {
@@ -148,6 +149,32 @@ void validate_critical(const StudyOptions& study)
   }
 }
 
+void validate_stability(const StudyOptions& study)
+{
+  const bool own = study.stability.has_value();
+  const std::string key = own ? "stability" : "speeds";
+  const StabilityCase search = stability_case(study);
+  if (search.over == MapParameter::friction)
+    require_not_negative(search.from, key + ".from");
+  else
+    require_positive(search.from, key + ".from");
+  if (search.over) require_positive(search.speed, "stability.speed_rad_s");
+  if (!(search.to > search.from) || !std::isfinite(search.to))
+    throw Error(
+        fmt::format("[squeal] {}: to = {} must be above from = {}; \"stability\" follows "
+                    "modes over a range",
+                    key, search.to, search.from));
+  if (search.count < 2)
+    throw Error(fmt::format("[squeal] {}.count = {}; it must be 2 or more for \"stability\"", key,
+                            search.count));
+  if (!search.band) return;
+  require_not_negative(search.band->from_Hz, "stability.band_Hz");
+  if (!(search.band->to_Hz > search.band->from_Hz) || !std::isfinite(search.band->to_Hz))
+    throw Error(
+        fmt::format("[squeal] stability.band_Hz = [{}, {}]; its end must be above its begin",
+                    search.band->from_Hz, search.band->to_Hz));
+}
+
 void validate_sound(const StudyOptions& study)
 {
   if (!study.sound) return;
@@ -200,6 +227,7 @@ void validate(const Brake& brake, const StudyOptions& study)
   if (needs(study, "growth")) validate_growth(study);
   if (needs(study, "limit_cycle_direct")) validate_direct(study);
   if (needs(study, "map")) validate_map(study);
+  if (asks_for(study, "stability")) validate_stability(study);
 }
 
 }  // namespace chladni::squeal

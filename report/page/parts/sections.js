@@ -163,6 +163,30 @@ function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
   return [plot({title: "Growth rates of the disc as it is", x: speedAxis, y: {label: "growth rate, 1/s"}, series})];
 }
 
+// All modes over a parameter; those that grow somewhere are labelled by their nodal diameters.
+function unstableModesFigures({unstable_modes: table}) {
+  const named = table.parameter === "speed" ? speedAxis.label
+    : `${table.parameter}${table.unit !== "1" ? `, ${table.unit}` : ""}`;
+  const x = {label: named}, values = table.values, legend = new Map();
+  const curves = [], rates = [], grow = [];
+  for (const {frequency_Hz, growth, unstable, diameters} of table.branches) {
+    const colour = unstable.length ? 1 + (diameters ?? 0) % 4 : 0, width = unstable.length ? 1.8 : 0.8;
+    const label = !unstable.length ? "stable modes" : diameters === null ? "unstable modes" : `${diameters} nodal diameters`;
+    const name = legend.has(label) ? "" : label;
+    legend.set(label, true);
+    curves.push({x: values, y: frequency_Hz, colour, width, name});
+    rates.push({x: values, y: growth, colour, width, name});
+    const inside = values.map(v => unstable.some(([from, to]) => from <= v && v <= to));
+    if (inside.some(Boolean))
+      grow.push({x: values.filter((_, i) => inside[i]), y: frequency_Hz.filter((_, i) => inside[i]), colour,
+                 line: false, marker: "circle", name: grow.length ? "" : "grows"});
+  }
+  const [low, high] = table.growth_axis ?? [undefined, undefined];
+  const zero = {x: [values[0], values.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
+  return [plot({title: `Campbell diagram: ${table.summary}`, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
+          plot({title: "Growth of each mode", x, y: {label: "growth rate, 1/s", low, high}, series: [zero, ...rates]})];
+}
+
 function mapFigures({map}) {
   const label = `${map.parameter}${map.unit && map.unit !== "1" ? `, ${map.unit}` : ""}`;
   const x = {label: speedAxis.label, values: map.speeds}, y = {label, values: map.values};
@@ -270,13 +294,15 @@ function drawPage() {
   const key = [page.modes && `${page.modes.length} modes`,
                page.groups && `${page.groups.length} groups`,
                page.critical && `squeals from ${formatted(page.critical.speed)} rad/s on at ${formatted(page.critical.frequency_Hz)} Hz`,
-               !page.critical && page.stability && `stability over the speed: ${page.stability}`,
+               !page.critical && page.stability && (page.stability === "unstable in the whole range" ? "unstable at all speeds"
+                 : `stability over the speed: ${page.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s` +
                  (cycle.settled ? "" : " (end of the transient, not settled)")];
   document.getElementById("key-figures").textContent = key.filter(Boolean).join(" · ");
   if (page.modes) drawModes(page);
   if (page.groups) drawGroups(page);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
+  if (page.unstable_modes) section("modes-of-squeal", "Unstable modes", figures(...unstableModesFigures(page)));
   if (page.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(page)));
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);

@@ -1,0 +1,115 @@
+#include "report/describe_stability.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "report/quantities.hpp"
+#include "squeal/results/analysis_file.hpp"
+
+namespace chladni::report {
+namespace {
+
+using squeal::StabilityBranch;
+using squeal::StabilityTable;
+
+/// Families of modes and pads that are told of, and the least share that is.
+constexpr std::size_t most_shares = 3;
+constexpr double least_share = 0.05;
+
+/// "unstable at all speeds" or "unstable from 13.4 to 62.8 rad/s".
+std::string where(const StabilityTable& table, const StabilityBranch& branch)
+{
+  if (is_always_unstable(table, branch))
+    return "unstable at all " +
+           (table.parameter == "speed" ? "speeds" : table.parameter + " values");
+  const std::string unit = squeal::unit_of(table.parameter);
+  std::vector<std::string> intervals;
+  for (const squeal::UnstableInterval& interval : branch.unstable)
+    intervals.push_back(fmt::format("{:.6g} to {:.6g}", interval.from.value, interval.to.value));
+  return fmt::format("unstable from {}{}", fmt::join(intervals, ", "),
+                     unit == "1" ? "" : " " + unit);
+}
+
+/// "; 3 nodal diameters: 92 % (3, 1750 Hz), 6 % pads"; empty without a body.
+std::string participation(const StabilityTable& table, const StabilityBranch& branch)
+{
+  const std::optional<int> diameters = nodal_diameters(table, branch);
+  if (!diameters) return "";
+  std::vector<std::size_t> order(table.families.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto share = [&](std::size_t i) { return branch.shares[static_cast<Eigen::Index>(i)]; };
+  std::ranges::stable_sort(order, std::ranges::greater(), share);
+  std::vector<std::string> parts;
+  for (const std::size_t i : order) {
+    if (parts.size() == most_shares || share(i) < least_share) break;
+    const squeal::ModeFamily& family = table.families[i];
+    parts.push_back(fmt::format("{:.0f} % ({}, {:.0f} Hz)", 100.0 * share(i),
+                                family.nodal_diameters, family.frequency_Hz));
+  }
+  if (branch.pads >= least_share)
+    parts.push_back(fmt::format("{:.0f} % pads", 100.0 * branch.pads));
+  return fmt::format("; {} nodal diameters: {}", *diameters, fmt::join(parts, ", "));
+}
+
+Json numbers_json(const Eigen::VectorXd& x)
+{
+  return Json::array({x.begin(), x.end()});
+}
+
+Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
+{
+  std::vector<Json> unstable;
+  for (const squeal::UnstableInterval& interval : branch.unstable)
+    unstable.push_back(Json::array({interval.from.value, interval.to.value}));
+  const std::optional<int> diameters = nodal_diameters(table, branch);
+  return Json::object(
+      {{"unstable", Json::array(unstable)},
+       {"worst_value", branch.worst.value},
+       {"worst_growth_1_s", branch.worst.growth},
+       {"worst_frequency_Hz", branch.worst.frequency_Hz},
+       {"damping_ratio", damping_ratio(branch.worst)},
+       {"nodal_diameters", diameters ? Json(*diameters) : Json()},
+       {"shares", numbers_json(branch.shares)},
+       {"pads", branch.pads},
+       {"growth_1_s", numbers_json(branch.lambda.real())},
+       {"frequency_Hz", numbers_json(branch.lambda.imag() / (2.0 * std::numbers::pi))}});
+}
+
+}  // namespace
+
+void add_unstable_modes(TextTable& table, const StabilityTable& stability)
+{
+  table.rows.push_back({"stability of all modes", summary(stability), ""});
+  for (const StabilityBranch& branch : stability.branches) {
+    if (!branch.is_unstable()) continue;
+    const std::string name = fmt::format(
+        "{:.2f} Hz, {}{}; damping ratio {:.3g}, growth up to", branch.worst.frequency_Hz,
+        where(stability, branch), participation(stability, branch), damping_ratio(branch.worst));
+    add(table, name, branch.worst.growth, "1/s");
+  }
+}
+
+Json stability_table_json(const StabilityTable& stability)
+{
+  std::vector<Json> families, branches;
+  for (const squeal::ModeFamily& family : stability.families)
+    families.push_back(Json::object(
+        {{"nodal_diameters", family.nodal_diameters}, {"frequency_Hz", family.frequency_Hz}}));
+  for (const StabilityBranch& branch : stability.branches)
+    branches.push_back(branch_json(stability, branch));
+  const auto& band = stability.band;
+  return Json::object({{"parameter", stability.parameter},
+                       {"speed_rad_s", stability.speed ? Json(*stability.speed) : Json()},
+                       {"band_Hz", band ? Json::array({band->from_Hz, band->to_Hz}) : Json()},
+                       {"values", numbers_json(stability.values)},
+                       {"summary", summary(stability)},
+                       {"families", Json::array(families)},
+                       {"branches", Json::array(branches)}});
+}
+
+}  // namespace chladni::report

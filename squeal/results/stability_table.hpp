@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "squeal/results/stability_results.hpp"
+#include "squeal/study_options.hpp"
+
+namespace chladni::squeal {
+
+/// One motion of the sliding brake, followed by its shape over the values of a parameter.
+struct StabilityBranch {
+  Eigen::VectorXcd lambda;                 ///< [m] growth rate 1/s + i angular frequency rad/s
+  std::vector<UnstableInterval> unstable;  ///< by rising values; empty: stable at all values
+  StabilityPoint worst;    ///< where its growth was largest among the values that were looked at
+  Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without a body
+  double pads = 0.0;       ///< the share of pads with a mass
+
+  bool is_unstable() const { return !unstable.empty(); }
+};
+
+/// A pair of modes of the disc, or a mode without nodal diameters.
+struct ModeFamily {
+  int nodal_diameters;
+  double frequency_Hz;
+};
+
+/// All motions of the sliding brake that have a frequency of the band at some value of a parameter.
+struct StabilityTable {
+  std::string parameter;              ///< "speed", "friction", "preload" or "stiffness"
+  std::optional<double> speed;        ///< of a table over another parameter, rad/s
+  std::optional<FrequencyBand> band;  ///< absent: all motions
+  Eigen::VectorXd values;             ///< [m] of the parameter: rad/s, 1, N or N/m
+  std::vector<ModeFamily> families;   ///< of the disc, by rising frequency; empty without a body
+  std::vector<StabilityBranch> branches;  ///< by rising frequency at their worst value
+};
+
+/// The ratio -growth / |lambda| of the decaying or growing oscillation; negative where it grows.
+double damping_ratio(const StabilityPoint& point);
+
+/// Whether the branch is unstable at all values of the table.
+bool is_always_unstable(const StabilityTable& table, const StabilityBranch& branch);
+
+/// The number of nodal diameters whose modes of the disc have the largest share of the branch;
+/// absent without a body.
+std::optional<int> nodal_diameters(const StabilityTable& table, const StabilityBranch& branch);
+
+/// "no mode is unstable at any speed of the range" or "4 of 35 modes are unstable somewhere".
+std::string summary(const StabilityTable& table);
+
+}  // namespace chladni::squeal

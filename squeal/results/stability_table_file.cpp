@@ -1,0 +1,143 @@
+#include "squeal/results/stability_table_file.hpp"
+
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "squeal/results/analysis_file.hpp"
+#include "squeal/results/file_checks.hpp"
+#include "squeal/results/stability_file.hpp"
+#include "squeal/results/transient_file.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Eigen::Index;
+using files::Reader;
+using files::Writer;
+
+void write_participation(Writer& file, const StabilityTable& table)
+{
+  if (table.families.empty()) return;
+  const auto n = static_cast<Index>(table.families.size()), m = std::ssize(table.branches);
+  std::vector<std::int64_t> diameters;
+  Eigen::VectorXd frequency_Hz(n), pads(m);
+  Eigen::MatrixXd shares(m, n);
+  for (Index i = 0; i < n; ++i) {
+    const ModeFamily& family = table.families[static_cast<std::size_t>(i)];
+    diameters.push_back(family.nodal_diameters);
+    frequency_Hz[i] = family.frequency_Hz;
+  }
+  for (Index j = 0; j < m; ++j) {
+    shares.row(j) = table.branches[static_cast<std::size_t>(j)].shares.transpose();
+    pads[j] = table.branches[static_cast<std::size_t>(j)].pads;
+  }
+  file.write("stability/families/nodal_diameters", std::span<const std::int64_t>(diameters), "1");
+  file.write("stability/families/frequency", frequency_Hz, "Hz");
+  if (m == 0) return;
+  file.write("stability/shares", shares, "1");
+  file.write("stability/pads", pads, "1");
+}
+
+void write_branches(Writer& file, const StabilityTable& table, const std::string& unit)
+{
+  const auto m = std::ssize(table.branches);
+  Eigen::MatrixXcd lambda(m, table.values.size());
+  std::vector<StabilityPoint> worst;
+  std::vector<UnstableInterval> unstable;
+  std::vector<std::int64_t> of;
+  for (Index j = 0; j < m; ++j) {
+    const StabilityBranch& branch = table.branches[static_cast<std::size_t>(j)];
+    lambda.row(j) = branch.lambda.transpose();
+    worst.push_back(branch.worst);
+    unstable.insert(unstable.end(), branch.unstable.begin(), branch.unstable.end());
+    of.insert(of.end(), branch.unstable.size(), j + 1);
+  }
+  file.write("stability/growth", Eigen::MatrixXd(lambda.real()), "1/s");
+  file.write("stability/angular_frequency", Eigen::MatrixXd(lambda.imag()), "rad/s");
+  write_points(file, "stability/worst", worst, unit);
+  if (unstable.empty()) return;
+  write_intervals(file, "stability/unstable", unstable, unit);
+  file.write("stability/unstable/branch", std::span<const std::int64_t>(of), "1");
+}
+
+std::vector<ModeFamily> read_families(const Reader& file)
+{
+  std::vector<ModeFamily> families;
+  if (!file.contains("stability/families")) return families;
+  const Eigen::VectorXd frequency_Hz = file.vector("stability/families/frequency");
+  const auto diameters = file.integers("stability/families/nodal_diameters", frequency_Hz.size());
+  for (std::size_t i = 0; i < diameters.size(); ++i)
+    families.push_back({static_cast<int>(diameters[i]), frequency_Hz[static_cast<Index>(i)]});
+  return families;
+}
+
+void read_intervals_of_branches(const Reader& file, std::vector<StabilityBranch>& branches)
+{
+  const std::vector<UnstableInterval> unstable = read_intervals(file, "stability/unstable");
+  if (unstable.empty()) return;
+  const auto of = file.integers("stability/unstable/branch", std::ssize(unstable));
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i] < 1 || of[i] > std::ssize(branches))
+      file.fail("stability/unstable/branch", "it must number a row of stability/growth, from 1");
+    branches[static_cast<std::size_t>(of[i] - 1)].unstable.push_back(unstable[i]);
+  }
+}
+
+std::vector<StabilityBranch> read_branches(const Reader& file, Index n_values, Index n_families)
+{
+  std::vector<StabilityBranch> branches;
+  if (!file.contains("stability/growth")) return branches;
+  const Eigen::MatrixXd growth = file.matrix("stability/growth", {files::any, n_values});
+  const Index m = growth.rows();
+  const Eigen::MatrixXd omega = file.matrix("stability/angular_frequency", {m, n_values});
+  const std::vector<StabilityPoint> worst = read_points(file, "stability/worst", m);
+  const bool has_shares = n_families > 0;
+  const Eigen::MatrixXd shares =
+      has_shares ? file.matrix("stability/shares", {m, n_families}) : Eigen::MatrixXd(m, 0);
+  const Eigen::VectorXd pads =
+      has_shares ? file.vector("stability/pads", m) : Eigen::VectorXd(Eigen::VectorXd::Zero(m));
+  const std::complex<double> i(0.0, 1.0);
+  for (Index j = 0; j < m; ++j)
+    branches.push_back({.lambda = (growth.row(j) + i * omega.row(j)).transpose(),
+                        .unstable = {},
+                        .worst = worst[static_cast<std::size_t>(j)],
+                        .shares = shares.row(j).transpose(),
+                        .pads = pads[j]});
+  read_intervals_of_branches(file, branches);
+  return branches;
+}
+
+}  // namespace
+
+void write_stability_table(Writer& file, const StabilityTable& table)
+{
+  const std::string unit = unit_of(table.parameter);
+  file.write("stability/parameter", table.parameter);
+  file.write("stability/values", table.values, unit);
+  write_optional(file, "stability/speed", table.speed, "rad/s");
+  if (table.band)
+    file.write("stability/band",
+               Eigen::VectorXd(Eigen::Vector2d(table.band->from_Hz, table.band->to_Hz)), "Hz");
+  write_participation(file, table);
+  if (!table.branches.empty()) write_branches(file, table, unit);
+}
+
+StabilityTable read_stability_table(const Reader& file)
+{
+  StabilityTable table{.parameter = file.text("stability/parameter"),
+                       .speed = read_optional(file, "stability/speed"),
+                       .band = {},
+                       .values = read_some(file, "stability/values"),
+                       .families = read_families(file),
+                       .branches = {}};
+  if (file.contains("stability/band")) {
+    const Eigen::VectorXd band = file.vector("stability/band", 2);
+    table.band = FrequencyBand{band[0], band[1]};
+  }
+  table.branches = read_branches(file, table.values.size(), std::ssize(table.families));
+  return table;
+}
+
+}  // namespace chladni::squeal
