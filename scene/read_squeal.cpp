@@ -52,8 +52,10 @@ squeal::ModeChoice read_modes(const Table& squeal)
   if (squeal.has("quasi_static_above_Hz"))
     modes.quasi_static_above = 2.0 * std::numbers::pi * squeal.number("quasi_static_above_Hz");
   if (!squeal.has("use_modes")) return modes;
-  if (modes.quasi_static_above && !(!squeal.is_list("use_modes") && squeal.text("use_modes") == "all"))
-    squeal.refuse("quasi_static_above_Hz", "needs use_modes = \"all\": modes that are named have their inertia");
+  if (modes.quasi_static_above &&
+      !(!squeal.is_list("use_modes") && squeal.text("use_modes") == "all"))
+    squeal.refuse("quasi_static_above_Hz",
+                  "needs use_modes = \"all\": modes that are named have their inertia");
   if (squeal.is_list("use_modes")) {
     modes.list = read_mode_list(squeal, "use_modes");
     return modes;
