@@ -18,10 +18,10 @@ struct RotationGrowth {
 /// from two step lengths.
 RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, double speed);
 
-/// The growth over `options.study.speeds` by `options.study.rotation_method`, on `n_threads` threads (0: as
-/// many as processors), and the first speed at which it turns positive: Hill's method (see
-/// hill.hpp), or `rotation_growth` at each speed, whose cost is that of one rotation for each of
-/// the 2 n_modes directions. The growth of the disc that stands still is beside it.
+/// The growth over `options.study.speeds` by `options.study.rotation_method`, on `n_threads`
+/// threads (0: as many as processors), and the first speed at which it turns positive: Hill's
+/// method (see hill.hpp), or `rotation_growth` at each speed, whose cost is that of one rotation
+/// for each of the 2 n_modes directions. The growth of the disc that stands still is beside it.
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads = 0);
 
