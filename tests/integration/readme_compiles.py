@@ -16,6 +16,7 @@ PROLOGUE = """
 #include "reduce/held_masters.hpp"
 #include "reduce/reduction.hpp"
 #include "reduce_export/reduced_system.hpp"
+#include "squeal/models/flexible_disc.hpp"
 #include "squeal/study/run.hpp"
 using namespace chladni;
 """
