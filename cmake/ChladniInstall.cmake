@@ -77,6 +77,9 @@ set(light_headers
     squeal/cycle/limit_cycle_direct.hpp
     squeal/cycle/limit_cycle_branch.hpp
     squeal/transient/transient.hpp
+    squeal/models/brake.hpp
+    squeal/models/flexible_disc.hpp
+    squeal/models/model_brake.hpp
     squeal/models/rigid_disc.hpp
     squeal/brake/pad_system.hpp
     squeal/brake/radiation.hpp)
