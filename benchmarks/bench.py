@@ -104,6 +104,7 @@ BENCHMARKS = [
             ("--modes", "100", "500", "--cut", "5")), "reduction_many_modes"),
     ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
+    ("response-modes", "Response modes", script("squeal/response_modes.py"), "response_modes"),
     ("sound", "Sound", sound, "sound_benchmarks"),
     ("end-to-end", "End to end", script("end_to_end/frontier.py"), "end_to_end"),
 ]
