@@ -7,12 +7,15 @@ import matplotlib.pyplot as plt
 COLOURS = {"none": "#777777", "axial": "#2166ac", "axial and slopes": "#b2182b"}
 HEAD = """# What frequency response modes buy
 
-Error of a body without response modes over that of the body with all modes to the same frequency and axial and slope response
-modes at the ring, which has as many coordinates with inertia in `squeal` (rows of the table: end of the range):
+Error of the body without response modes over that of the body with the same modes and axial and slope response modes at the
+ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have
+{inertia} coordinates with inertia there, without and with response modes.
 
 | quantity | {ranges} |
 | --- |{dashes}
 {gains}
+By coordinates of the body, which response modes do add to: {by_body}
+
 Written by `benchmarks/squeal/response_modes.py`{quick}; no number here was typed. The disc of `examples/thesis_disc`, all modes up to a
 frequency, against the FE model itself with {dofs:,} DOFs (`unreduced_disc.py`). Compared are the critical speed of the
 lowest mode, {critical:.6f} rad/s at {critical_Hz:.2f} Hz, and growth and frequency of the unstable modes below 4 kHz at
@@ -60,11 +63,28 @@ def gains(result):
         yield f"| {name} | " + " | ".join(f"{a / b:.0f}" if a and b else "-" for a, b in pairs) + " |\n"
 
 
+def inertia(result, ranges):
+    """Coordinates with inertia without and with response modes, of each range."""
+    of = {(row["up_to_Hz"], row["responses"]): row["n_squeal"] for row in result["bodies"]}
+    return ", ".join(f"{of[r, 'none']} and {of[r, 'axial and slopes']}" for r in ranges)
+
+
+def by_body(result):
+    """The largest body without response modes beside the smallest of each kind with them."""
+    plain = max((row for row in result["bodies"] if row["responses"] == "none"), key=lambda row: row["n_body"])
+    for kind in ("axial", "axial and slopes"):
+        row = min((row for row in result["bodies"] if row["responses"] == kind), key=lambda row: row["n_body"])
+        factors = [f"{a / b:.1f}" if a and b else "-" for a, b in zip(numbers(plain["errors"]), numbers(row["errors"]))]
+        yield (f"{row['n_body']} coordinates with {kind} response modes have errors smaller by {', '.join(factors)} (critical speed, growth, "
+               f"frequency) than {plain['n_body']} modes")
+
+
 def markdown(result):
     reference, ranges = result["reference"], sorted({row["up_to_Hz"] for row in result["bodies"]})
     modes = "; ".join(f"{y / 6.283185307179586:.2f} Hz, {x:.5f} 1/s" for x, y in reference["eigenvalues"])
     yield HEAD.format(
         ranges=" | ".join(f"{1e-3 * r:g} kHz" for r in ranges), dashes=" --- |" * len(ranges), gains="".join(gains(result)),
+        inertia=inertia(result, ranges), by_body="; ".join(by_body(result)) + ".",
         quick=" --quick" if result["quick"] else "", dofs=result["n_fe_dofs"], critical=reference["critical_rad_s"],
         critical_Hz=reference["critical_Hz"], speed=result["speed_rad_s"], modes=modes, receptance=reference["receptance_error"],
         pads=reference["pad_error"], fixed=result["fixed_interface_modes"],
@@ -79,18 +99,17 @@ def markdown(result):
 
 
 def draw(result, path):
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained", sharex=True)
+    figure, axes = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", sharex=True)
     for i, (ax, title) in enumerate(zip(axes, ("critical speed", "growth, largest of the modes", "frequency, largest of the modes"))):
         for name, colour in COLOURS.items():
             rows = [row for row in result["bodies"] if row["responses"] == name and numbers(row["errors"])[i]]
             errors = [numbers(row["errors"])[i] for row in rows]
             ax.semilogy([row["n_squeal"] for row in rows], errors, "o-", ms=4, lw=1.2, color=colour, label=f"{name}, with inertia")
-            if name != "none":
-                ax.semilogy([row["n_body"] for row in rows], errors, "s:", ms=3, lw=1, color=colour, label=f"{name}, of the body")
+            ax.semilogy([row["n_body"] for row in rows], errors, "s:", ms=3, lw=1, color=colour, label=f"{name}, of the body")
         ax.axhline(numbers(result["reduction"])[i], color="black", lw=0.8, label="reduced system, all coordinates")
         ax.set(title=title, xlabel="coordinates", ylabel="relative error")
         ax.grid(color="#eeeeee")
-    axes[0].legend(frameon=False, fontsize=7)
+    axes[0].legend(loc="lower right", bbox_to_anchor=(1.0, 0.08), frameon=False, fontsize=8)
     figure.savefig(path, dpi=120)
 
 
