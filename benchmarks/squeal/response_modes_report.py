@@ -8,8 +8,13 @@ COLOURS = {"none": "#777777", "axial": "#2166ac", "axial and slopes": "#b2182b"}
 HEAD = """# What frequency response modes buy
 
 Error of the body without response modes over that of the body with the same modes and axial and slope response modes at the
+<<<<<<< HEAD
 ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have {inertia} coordinates with inertia
 there, without and with response modes.
+=======
+ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have
+{inertia} coordinates with inertia there, without and with response modes.
+>>>>>>> proof
 
 | quantity | {ranges} |
 | --- |{dashes}
@@ -99,18 +104,17 @@ def markdown(result):
 
 
 def draw(result, path):
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained", sharex=True)
+    figure, axes = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", sharex=True)
     for i, (ax, title) in enumerate(zip(axes, ("critical speed", "growth, largest of the modes", "frequency, largest of the modes"))):
         for name, colour in COLOURS.items():
             rows = [row for row in result["bodies"] if row["responses"] == name and numbers(row["errors"])[i]]
             errors = [numbers(row["errors"])[i] for row in rows]
             ax.semilogy([row["n_squeal"] for row in rows], errors, "o-", ms=4, lw=1.2, color=colour, label=f"{name}, with inertia")
-            if name != "none":
-                ax.semilogy([row["n_body"] for row in rows], errors, "s:", ms=3, lw=1, color=colour, label=f"{name}, of the body")
+            ax.semilogy([row["n_body"] for row in rows], errors, "s:", ms=3, lw=1, color=colour, label=f"{name}, of the body")
         ax.axhline(numbers(result["reduction"])[i], color="black", lw=0.8, label="reduced system, all coordinates")
         ax.set(title=title, xlabel="coordinates", ylabel="relative error")
         ax.grid(color="#eeeeee")
-    axes[0].legend(frameon=False, fontsize=7)
+    axes[0].legend(loc="lower right", bbox_to_anchor=(1.0, 0.08), frameon=False, fontsize=8)
     figure.savefig(path, dpi=120)
 
 
