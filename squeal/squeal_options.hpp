@@ -22,7 +22,7 @@ struct ModeChoice {
   std::optional<int> nodal_diameters = {};    ///< the lowest pair with so many nodal diameters
   std::optional<std::vector<int>> list = {};  ///< 1-based mode numbers of the body
   /// Modes of higher frequency follow the pads without inertia, rad/s; absent: with interface modes
-  /// 1.5 times the end of the range for which the body was made, else none.
+  /// the end of the range for which the body was made, else none.
   std::optional<double> quasi_static_above = {};
 };
 

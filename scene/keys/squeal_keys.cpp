@@ -64,7 +64,7 @@ constexpr Key squeal_rows[] = {
      {.at_least = 1}},
     {"squeal.quasi_static_above_Hz",
      number,
-     "1.5 times the end of the body's range with interface modes, else none",
+     "the end of the body's range with interface modes, else none",
      "modes of higher frequency follow the pads without inertia, since interface modes have no "
      "frequency that the disc has; with use_modes = \"all\"",
      {.above = 0.0}},

@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "mbs_export/mass_integrals.hpp"
 #include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/mode_parts.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
@@ -19,18 +20,7 @@ namespace {
 
 using mbs_export::ContactRing;
 using mbs_export::ModalBody;
-using mbs_export::ModeKind;
 using std::numbers::pi;
-
-/// Below this angular frequency (0.1 Hz) a mode counts as a rigid-body motion, rad/s.
-constexpr double rigid_limit = 0.2 * pi;
-
-/// Ring motion below this part of the largest one, a 4e-6th of its kinetic energy, is that of a
-/// mode in the plane of the disc: rounding of the FE model, or what a hat or vanes make of torsion.
-constexpr double still_limit = 2e-3;
-
-/// Modes of bodies with interface modes have no inertia so far beyond the range.
-constexpr double quasi_static_multiple = 1.5;
 
 /// Angles of a mesh are known to about 1e-9; beyond this the nodes are not equally spaced, rad.
 constexpr double angle_limit = 1e-5;
@@ -83,120 +73,6 @@ Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& na
       .rings = rings, .mode_numbers = numbers, .omega = body.omega, .C = C, .G = coriolis_of(body)};
 }
 
-/// Squared amplitude of each harmonic of each mode on all rings, slopes multiplied by the radius.
-Eigen::MatrixXd ring_motion(const Disc& disc)
-{
-  return ring_harmonics(disc.rings).squares_by_harmonic();
-}
-
-/// 0-based modes that move the ring along the axis.
-std::vector<int> moving_modes(const Disc& disc)
-{
-  const Eigen::VectorXd motion = ring_motion(disc).colwise().sum().transpose().cwiseSqrt();
-  std::vector<int> modes;
-  for (int i = 0; i < motion.size(); ++i)
-    if (motion[i] > still_limit * motion.maxCoeff()) modes.push_back(i);
-  return modes;
-}
-
-/// 1-based, of the others.
-std::vector<int> still_modes(const Disc& disc)
-{
-  const std::vector<int> moving = moving_modes(disc);
-  std::vector<int> still;
-  for (int i = 0; i < disc.n_modes(); ++i)
-    if (!std::ranges::binary_search(moving, i)) still.push_back(i + 1);
-  return still;
-}
-
-std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
-{
-  const std::vector<int> diameters = nodal_diameters(disc);
-  const std::size_t wanted = n == 0 ? 1 : 2;
-  std::vector<int> modes;
-  for (const int i : moving_modes(disc))
-    if (diameters[i] == n && modes.size() < wanted) modes.push_back(i);
-  if (modes.size() < wanted)
-    throw Error(
-        fmt::format("use_modes: the body has {} of the {} modes with {} nodal diameters; "
-                    "keep more modes, or choose others",
-                    modes.size(), wanted, n));
-  return modes;
-}
-
-std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
-{
-  const std::vector<int> moving = moving_modes(disc);
-  std::vector<int> modes;
-  for (const int number : numbers) {
-    if (number < 1 || number > disc.n_modes())
-      throw Error(fmt::format("use_modes: there is no mode {}; the body has modes 1 to {}", number,
-                              disc.n_modes()));
-    if (std::find(moving.begin(), moving.end(), number - 1) == moving.end())
-      throw Error(fmt::format("use_modes: mode {} does not move the ring along the axis", number));
-    modes.push_back(number - 1);
-  }
-  std::sort(modes.begin(), modes.end());
-  if (modes.empty() || std::adjacent_find(modes.begin(), modes.end()) != modes.end())
-    throw Error("use_modes: the list is empty or names a mode twice");
-  return modes;
-}
-
-/// Which 0-based modes of a body are what.
-struct Parts {
-  std::vector<int> dynamic, quasi_static;
-};
-
-/// The end of the range for which a body with interface modes was made, rad/s: that of a tolerance,
-/// or of the modes that were kept. Others say nothing of one: infinite.
-double range_of(const ModalBody& body)
-{
-  double range = 0.0, interface = 0.0;
-  for (std::size_t i = 0; i < body.kinds.size(); ++i) {
-    double& highest = body.kinds[i] == ModeKind::interface ? interface : range;
-    highest = std::max(highest, body.omega[static_cast<Eigen::Index>(i)]);
-  }
-  if (interface == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
-  return body.selection ? body.selection->Omega_max : range;
-}
-
-Parts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
-{
-  Parts parts;
-  const double limit = choice.quasi_static_above.value_or(quasi_static_multiple * range_of(body));
-  for (const int i : moving_modes(disc))
-    (disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
-  if (parts.dynamic.empty())
-    throw Error(
-        fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
-                    "that moves the ring has {:.6g} Hz",
-                    limit / (2.0 * pi), disc.omega[parts.quasi_static.front()] / (2.0 * pi)));
-  return parts;
-}
-
-Parts chosen_parts(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
-{
-  if (choice.nodal_diameters && choice.list)
-    throw Error("use_modes: either nodal diameters or a list, not both");
-  if (choice.nodal_diameters)
-    return {modes_with_nodal_diameters(disc, *choice.nodal_diameters), {}};
-  if (choice.list) return {listed_modes(disc, *choice.list), {}};
-  return parts_of_all(disc, body, choice);
-}
-
-void check_elastic(const ModalBody& body, const std::vector<int>& modes)
-{
-  for (const int i : modes) {
-    const auto at = static_cast<std::size_t>(i);
-    const bool rigid = at < body.kinds.size() && body.kinds[at] == ModeKind::rigid;
-    if (rigid || !(body.omega[i] > rigid_limit))
-      throw Error(
-          fmt::format("mode {} is a rigid-body motion ({:.3g} Hz): hold the disc, e.g. "
-                      "fixed = [\"hub\"] in [body], or choose other modes",
-                      i + 1, body.omega[i] / (2.0 * pi)));
-  }
-}
-
 Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
 {
   return {f.cosine(Eigen::all, modes), f.sine(Eigen::all, modes)};
@@ -246,7 +122,7 @@ Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& val
 
 std::vector<int> nodal_diameters(const Disc& disc)
 {
-  const Eigen::MatrixXd motion = ring_motion(disc);
+  const Eigen::MatrixXd motion = ring_harmonics(disc.rings).squares_by_harmonic();
   std::vector<int> n;
   for (Eigen::Index i = 0; i < motion.cols(); ++i) {
     Eigen::Index k = 0;
@@ -298,18 +174,17 @@ Disc make_disc(const ModalBody& body, const std::vector<std::string>& names,
                const ModeChoice& choice)
 {
   const Disc all = disc_of_all_modes(body, names);
-  if (!(ring_motion(all).maxCoeff() > 0.0))
+  if (!(ring_harmonics(all.rings).squares_by_harmonic().maxCoeff() > 0.0))
     throw Error(
         fmt::format("ring '{}': no mode of the body moves it along the axis; it is held, or "
                     "the body has no bending modes",
                     fmt::join(names, "', '")));
-  const Parts parts = chosen_parts(all, body, choice);
-  check_elastic(body, parts.dynamic);
+  const ModeParts parts = mode_parts(all, body, choice);
   Disc disc = with_modes(all, parts.dynamic);
   disc.range = range_of(body);
   if (!parts.quasi_static.empty())
     disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
-  if (!choice.nodal_diameters && !choice.list) disc.still = still_modes(all);
+  disc.still = parts.still;
   return disc;
 }
 

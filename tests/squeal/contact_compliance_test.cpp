@@ -82,6 +82,20 @@ TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
   }
 }
 
+TEST(ContactCompliance, TakesEveryInterfaceModeBeyondTheRange)
+{
+  // The pair is the range; a tenth above it begins what the disc does not have.
+  mbs_export::ModalBody body = analytic_body(
+      {kirchhoff_3(),
+       {.n = 4, .f_Hz = 1.1 * kirchhoff_3().f_Hz, .mass = 1.0, .U = 0.6, .U_r = 9.0, .U_t = 18.0}});
+  ASSERT_EQ(make_disc(body, "track", {}).n_modes(), 4);
+  body.kinds[2] = body.kinds[3] = mbs_export::ModeKind::interface;
+  const Disc disc = make_disc(body, "track", {});
+  EXPECT_EQ(disc.n_modes(), 2);
+  EXPECT_EQ(disc.compliance.mode_numbers, (std::vector{3, 4}));
+  EXPECT_EQ(make_disc(body, "track", static_above(1e9)).n_modes(), 4);
+}
+
 /// State of the pair in the inertial frame, large enough for the pads to let go.
 Eigen::VectorXd large_state(Eigen::Index n)
 {

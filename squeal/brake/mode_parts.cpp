@@ -1,0 +1,141 @@
+#include "squeal/brake/mode_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "squeal/brake/rotation_generator.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using mbs_export::ModalBody;
+using mbs_export::ModeKind;
+using std::numbers::pi;
+
+/// Below this angular frequency (0.1 Hz) a mode counts as a rigid-body motion, rad/s.
+constexpr double rigid_limit = 0.2 * pi;
+
+/// Ring motion below this part of the largest one, a 4e-6th of its kinetic energy, is that of a
+/// mode in the plane of the disc: rounding of the FE model, or what a hat or vanes make of torsion.
+constexpr double still_limit = 2e-3;
+
+/// Squared amplitude of each harmonic of each mode on all rings, slopes multiplied by the radius.
+Eigen::MatrixXd ring_motion(const Disc& disc)
+{
+  return ring_harmonics(disc.rings).squares_by_harmonic();
+}
+
+/// 0-based modes that move the ring along the axis.
+std::vector<int> moving_modes(const Disc& disc)
+{
+  const Eigen::VectorXd motion = ring_motion(disc).colwise().sum().transpose().cwiseSqrt();
+  std::vector<int> modes;
+  for (int i = 0; i < motion.size(); ++i)
+    if (motion[i] > still_limit * motion.maxCoeff()) modes.push_back(i);
+  return modes;
+}
+
+/// 1-based, of the others.
+std::vector<int> still_modes(const Disc& disc)
+{
+  const std::vector<int> moving = moving_modes(disc);
+  std::vector<int> still;
+  for (int i = 0; i < disc.n_modes(); ++i)
+    if (!std::ranges::binary_search(moving, i)) still.push_back(i + 1);
+  return still;
+}
+
+std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
+{
+  const std::vector<int> diameters = nodal_diameters(disc);
+  const std::size_t wanted = n == 0 ? 1 : 2;
+  std::vector<int> modes;
+  for (const int i : moving_modes(disc))
+    if (diameters[i] == n && modes.size() < wanted) modes.push_back(i);
+  if (modes.size() < wanted)
+    throw Error(
+        fmt::format("use_modes: the body has {} of the {} modes with {} nodal diameters; "
+                    "keep more modes, or choose others",
+                    modes.size(), wanted, n));
+  return modes;
+}
+
+std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
+{
+  const std::vector<int> moving = moving_modes(disc);
+  std::vector<int> modes;
+  for (const int number : numbers) {
+    if (number < 1 || number > disc.n_modes())
+      throw Error(fmt::format("use_modes: there is no mode {}; the body has modes 1 to {}", number,
+                              disc.n_modes()));
+    if (std::find(moving.begin(), moving.end(), number - 1) == moving.end())
+      throw Error(fmt::format("use_modes: mode {} does not move the ring along the axis", number));
+    modes.push_back(number - 1);
+  }
+  std::sort(modes.begin(), modes.end());
+  if (modes.empty() || std::adjacent_find(modes.begin(), modes.end()) != modes.end())
+    throw Error("use_modes: the list is empty or names a mode twice");
+  return modes;
+}
+
+ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
+{
+  ModeParts parts;
+  const double limit = choice.quasi_static_above.value_or(range_of(body));
+  for (const int i : moving_modes(disc))
+    (disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
+  parts.still = still_modes(disc);
+  if (parts.dynamic.empty())
+    throw Error(
+        fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
+                    "that moves the ring has {:.6g} Hz",
+                    limit / (2.0 * pi), disc.omega[parts.quasi_static.front()] / (2.0 * pi)));
+  return parts;
+}
+
+void check_elastic(const ModalBody& body, const std::vector<int>& modes)
+{
+  for (const int i : modes) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool rigid = at < body.kinds.size() && body.kinds[at] == ModeKind::rigid;
+    if (rigid || !(body.omega[i] > rigid_limit))
+      throw Error(
+          fmt::format("mode {} is a rigid-body motion ({:.3g} Hz): hold the disc, e.g. "
+                      "fixed = [\"hub\"] in [body], or choose other modes",
+                      i + 1, body.omega[i] / (2.0 * pi)));
+  }
+}
+
+}  // namespace
+
+double range_of(const ModalBody& body)
+{
+  double range = 0.0, interface = 0.0;
+  for (std::size_t i = 0; i < body.kinds.size(); ++i) {
+    double& highest = body.kinds[i] == ModeKind::interface ? interface : range;
+    highest = std::max(highest, body.omega[static_cast<Eigen::Index>(i)]);
+  }
+  if (interface == 0.0 || range == 0.0) return std::numeric_limits<double>::infinity();
+  return body.selection ? body.selection->Omega_max : range;
+}
+
+ModeParts mode_parts(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
+{
+  if (choice.nodal_diameters && choice.list)
+    throw Error("use_modes: either nodal diameters or a list, not both");
+  ModeParts parts;
+  if (choice.nodal_diameters)
+    parts.dynamic = modes_with_nodal_diameters(disc, *choice.nodal_diameters);
+  else if (choice.list)
+    parts.dynamic = listed_modes(disc, *choice.list);
+  else
+    parts = parts_of_all(disc, body, choice);
+  check_elastic(body, parts.dynamic);
+  return parts;
+}
+
+}  // namespace chladni::squeal
