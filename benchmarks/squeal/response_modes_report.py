@@ -8,13 +8,8 @@ COLOURS = {"none": "#777777", "axial": "#2166ac", "axial and slopes": "#b2182b"}
 HEAD = """# What frequency response modes buy
 
 Error of the body without response modes over that of the body with the same modes and axial and slope response modes at the
-<<<<<<< HEAD
-ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have {inertia} coordinates with inertia
-there, without and with response modes.
-=======
 ring. In `squeal` response modes beyond the range have no inertia: bodies of one range have
 {inertia} coordinates with inertia there, without and with response modes.
->>>>>>> proof
 
 | quantity | {ranges} |
 | --- |{dashes}

@@ -22,6 +22,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr Eigen::Index n_samples_max = 1024;
+/// Part of the tolerance that harmonics left out of the equations may take.
+constexpr double left_out = 0.1;
 /// Of a period, for the disc that stands; no harmonic below it repeats at these angles.
 constexpr int n_frozen_angles = 24;
 
@@ -49,48 +51,47 @@ HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningMo
 }  // namespace
 
 Hill::Hill(const Disc& disc, const SquealOptions& options, double tolerance)
-    : disc_(disc), options_(options), tolerance_(tolerance), coordinates_(nearest_pairs(disc))
-{
-  const int bound = 2 * highest_harmonic(disc, coordinates_);
-  // The terms of slip fall with the speed, those of Coriolis rise with it.
-  for (const double speed : {options.study.speeds.from, options.study.speeds.to}) {
-    const TurningHarmonics found = turning_harmonics(brake(speed), bound);
-    nu_ = std::gcd(nu_, found.nu);
-    highest_ = std::max(highest_, found.highest);
-    left_ = std::max(left_, found.left);
-  }
-}
+    : disc_(disc),
+      options_(options),
+      tolerance_(tolerance),
+      coordinates_(nearest_pairs(disc)),
+      bound_(2 * highest_harmonic(disc, coordinates_))
+{}
 
 HillExponents Hill::exponents(double speed) const
 {
-  const TurningHarmonics harmonics{nu_, highest_, left_};
-  const Eigen::Index highest = nu_ > 0 ? highest_ / nu_ : 0;
+  const TurningHarmonics harmonics =
+      turning_harmonics(brake(speed), speed, bound_, left_out * tolerance_);
+  const int nu = std::max(1, harmonics.nu);
+  const Eigen::Index highest = harmonics.highest / nu;
   for (Eigen::Index N = power_of_two(2 * highest + 1); N <= n_samples_max; N *= 2) {
-    const TurningModes modes = turning_modes(brake(speed), speed, harmonics, N);
+    const TurningModes modes = turning_modes(harmonics, N);
     const std::vector<NearGroup> groups = near_groups(modes, tolerance_);
     double error = 0.0;
     for (const NearGroup& group : groups) error = std::max(error, group.error);
     if (error > tolerance_) continue;
     HillExponents result = exponents_of(groups, modes);
-    result.error += left_;
-    result.harmonics = nu_ * static_cast<int>(highest == 0 ? 0 : groups.front().highest);
+    result.error += harmonics.left;
+    result.harmonics = nu * static_cast<int>(highest == 0 ? 0 : groups.front().highest);
     return result;
   }
   throw Error(
       fmt::format("rotation-stability at {:.6g} rad/s: {} harmonics of the rotation are not enough "
                   "for a growth "
                   "rate to {:.1e} 1/s; use rotation_stability = {{ method = \"floquet\" }}",
-                  speed, n_samples_max / 2 * std::max(1, nu_), tolerance_));
+                  speed, n_samples_max / 2 * nu, tolerance_));
 }
 
 double Hill::frozen_growth(double speed) const
 {
   TurningBrake frozen = brake(speed);
-  const int n = nu_ > 0 ? n_frozen_angles : 1;
+  const TurningHarmonics harmonics =
+      turning_harmonics(frozen, speed, bound_, left_out * tolerance_);
+  const int n = harmonics.nu > 0 ? n_frozen_angles : 1;
   double growth = -std::numeric_limits<double>::infinity();
   for (int s = 0; s < n; ++s) {
     Eigen::EigenSolver<Eigen::MatrixXd> solver;
-    solver.compute(frozen.at(2.0 * pi * s / (n * std::max(1, nu_))), false);
+    solver.compute(frozen.at(2.0 * pi * s / (n * std::max(1, harmonics.nu))), false);
     growth = std::max(growth, solver.eigenvalues().real().maxCoeff());
   }
   return growth;

@@ -47,8 +47,7 @@ class Hill {
   SquealOptions options_;
   double tolerance_;
   TurningCoordinates coordinates_;
-  int nu_ = 0, highest_ = 0;
-  double left_ = 0.0;
+  int bound_;  ///< no harmonic of A is higher
 };
 
 }  // namespace chladni::squeal

@@ -2,33 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
+
+#include "squeal/stability/group_reduction.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-using States = std::vector<Index>;
-
 /// Two states whose coupling is above this part of their distance are in one group from the start.
 constexpr double near = 0.25;
-/// The iteration ends when F changes by less, 1/s.
-constexpr double F_error = 1e-7;
-/// A share of another state above this is no small correction; nor is one above the second limit
-/// whose harmonics do not end in time.
-constexpr double share_limit = 0.5, long_share_limit = 0.03;
-constexpr int n_iterations_max = 80;
-
-/// Two states that must be in one group.
-struct Link {
-  Index i, j;
-};
-
 /// Disjoint sets of states, closed under complex conjugation.
 class Sets {
  public:
@@ -102,125 +90,6 @@ void unite_near(Sets& sets, const TurningModes& modes)
   }
 }
 
-/// The iteration for one group; X is zero in the rows of the group.
-class Reduction {
- public:
-  Reduction(const TurningModes& modes, double tolerance, States states)
-      : modes_(modes),
-        tolerance_(tolerance),
-        states_(std::move(states)),
-        g_(static_cast<Index>(states_.size())),
-        kept_(3 * modes.B.cols() / 8),
-        X_(AngleSamples::Zero(modes.size() * g_, modes.B.cols())),
-        F_(AngleSamples::Zero(g_ * g_, modes.B.cols()))
-  {}
-
-  std::variant<NearGroup, Link> solve()
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < n_iterations_max; ++i) {
-      const AngleSamples F = F_;
-      AngleHarmonics c = balanced(rest());
-      const AngleHarmonics change = c - c_before(c);
-      const double size = std::sqrt(change.cwiseAbs2().maxCoeff());
-      const bool diverges = i > 2 && size > 3.0 * least;
-      if (!(c.cwiseAbs2().maxCoeff() < share_limit * share_limit) || diverges) return worst(change);
-      least = std::min(least, size);
-      c_ = c;
-      X_ = samples_of(std::move(c));
-      if (i > 0 && (F_ - F).cwiseAbs2().maxCoeff() < F_error * F_error) return group_or_link();
-    }
-    return worst(c_);
-  }
-
- private:
-  Eigen::Map<Eigen::MatrixXcd> matrix(AngleSamples& f, Index column, Index rows) const
-  {
-    return {f.col(column).data(), rows, g_};
-  }
-
-  AngleHarmonics c_before(const AngleHarmonics& c) const
-  {
-    return c_.size() > 0 ? c_ : AngleHarmonics::Zero(c.rows(), c.cols());
-  }
-
-  /// B_qg + B_qq X - X (B_gg + B_gq X), and F with it.
-  AngleSamples rest()
-  {
-    const Index m = modes_.size();
-    AngleSamples all(X_.rows(), X_.cols());
-    Eigen::MatrixXcd W(m, g_), F_s(g_, g_);
-    for (Index s = 0; s < X_.cols(); ++s) {
-      const auto X = matrix(X_, s, m);
-      W = X;
-      for (Index j = 0; j < g_; ++j) W(states_[static_cast<std::size_t>(j)], j) += 1.0;
-      auto R = matrix(all, s, m);
-      R.noalias() = modes_.at(s) * W;
-      F_s = R(states_, Eigen::all);
-      R.noalias() -= X * F_s;
-      matrix(F_, s, g_) = F_s;
-    }
-    return all;
-  }
-
-  AngleHarmonics balanced(AngleSamples rest) const
-  {
-    AngleHarmonics c = harmonics_of(std::move(rest));
-    const Index m = modes_.size(), N = c.cols();
-    for (Index column = 0; column < N; ++column) {
-      const Index k = order_of(column, N);
-      Eigen::Map<Eigen::MatrixXcd> X(c.col(column).data(), m, g_);
-      if (std::abs(k) > kept_) {
-        X.setZero();
-        continue;
-      }
-      const Complex turn{0.0, double(k) * modes_.step};
-      for (Index j = 0; j < g_; ++j) X.col(j).array() /= turn + lambda(j) - modes_.lambda.array();
-      X(states_, Eigen::all).setZero();
-    }
-    return c;
-  }
-
-  Complex lambda(Index j) const { return modes_.lambda[states_[static_cast<std::size_t>(j)]]; }
-
-  Link worst(const AngleHarmonics& change) const
-  {
-    Index row = 0, column = 0;
-    change.cwiseAbs2().maxCoeff(&row, &column);
-    return {row % modes_.size(), states_[static_cast<std::size_t>(row / modes_.size())]};
-  }
-
-  /// What is left out of X is less than its last harmonics; it moves F by B times that, and reaches
-  /// an exponent by way of another state, of which the group has its largest share.
-  double truncation() const
-  {
-    double last = 0.0, share = 0.0;
-    const Index N = c_.cols();
-    for (Index column = 0; column < N; ++column) {
-      const double size = c_.col(column).norm();
-      share = std::max(share, size);
-      if (4 * std::abs(order_of(column, N)) > 3 * kept_) last = std::max(last, size);
-    }
-    return last * modes_.B.colwise().norm().maxCoeff() * std::min(1.0, share);
-  }
-
-  std::variant<NearGroup, Link> group_or_link()
-  {
-    const double error = modes_.highest > 0 ? truncation() : 0.0;
-    if (error > tolerance_ && c_.cwiseAbs2().maxCoeff() > long_share_limit * long_share_limit)
-      return worst(c_);
-    for (Index j = 0; j < g_; ++j) F_.row(j * g_ + j).array() += lambda(j);
-    return NearGroup{states_, true, harmonics_of(F_), kept_, error};
-  }
-
-  const TurningModes& modes_;
-  double tolerance_;
-  States states_;
-  Index g_, kept_;
-  AngleSamples X_, F_;
-  AngleHarmonics c_;
-};
-
 }  // namespace
 
 std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance)
@@ -230,17 +99,19 @@ std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance)
   std::vector<std::optional<NearGroup>> done(static_cast<std::size_t>(modes.size()));
   for (bool changed = true; changed;) {
     changed = false;
+    std::vector<States> open;
     for (const Index set : sets.sets()) {
-      auto& group = done[static_cast<std::size_t>(set)];
-      const States states = sets.states(set);
-      if (group && group->states == states) continue;
-      auto outcome = Reduction(modes, tolerance, states).solve();
-      if (const auto* link = std::get_if<Link>(&outcome)) {
+      const auto& group = done[static_cast<std::size_t>(set)];
+      if (!group || group->states != sets.states(set)) open.push_back(sets.states(set));
+    }
+    for (Reduced& one : reduced(modes, tolerance, open)) {
+      if (const auto* link = std::get_if<Link>(&one)) {
         sets.unite(*link);
         changed = true;
-        break;
+      } else {
+        auto& group = std::get<NearGroup>(one);
+        done[static_cast<std::size_t>(group.states.front())] = std::move(group);
       }
-      group = std::get<NearGroup>(std::move(outcome));
     }
   }
   std::vector<NearGroup> groups;

@@ -7,15 +7,25 @@
 
 namespace chladni::squeal {
 
-/// What the equations of a turning brake depend on the angle by.
+/// x' = A(phi) x of a turning brake at one speed, phi = speed t, by the harmonics of A. The upper
+/// half of A, the rates of the coordinates, does not depend on the angle.
 struct TurningHarmonics {
-  int nu;       ///< all harmonics are multiples of it; 0 when A is constant
-  int highest;  ///< of those that are not negligible
-  double left;  ///< sum of the norms of the harmonics left out, 1/s
+  double speed;             ///< rad/s
+  Eigen::MatrixXd A_0;      ///< [m x m] 1/s, the mean of A
+  Eigen::VectorXcd lambda;  ///< [m] 1/s, eigenvalues of A_0
+  Eigen::MatrixXcd V;       ///< [m x m] eigenvectors of A_0
+  Eigen::MatrixXcd left_V;  ///< [m x m / 2] columns of V^-1 that the lower half of A meets
+  AngleHarmonics c;         ///< [m m / 2 x N] 1/s, of the lower half of A, each column a matrix
+  int nu;                   ///< all harmonics that are kept are multiples of it; 0: there is none
+  int highest;              ///< of those that are kept
+  double left;              ///< what those left out move a growth rate by, estimated, 1/s
 };
 
-/// Of A(phi), from samples that resolve every harmonic up to `bound`.
-TurningHarmonics turning_harmonics(TurningBrake brake, int bound);
+/// Harmonics up to `bound` of the brake at this speed (rad/s). Left out is what moves the growth
+/// rates by less than `budget` (1/s) in all: the smallest harmonics by their norm; then, if the
+/// others have a common divisor without them, those that a mesh of unequal elements makes: b
+/// couples two states whose frequencies are d apart, and moves them by min(b, b^2 / d).
+TurningHarmonics turning_harmonics(TurningBrake brake, double speed, int bound, double budget);
 
 /// A(phi) in the eigenvectors of its mean A_0 = V diag(lambda) V^-1:
 /// y' = (diag(lambda) + B(nu phi)) y with x = V y; the mean of B is zero.
@@ -32,8 +42,7 @@ struct TurningModes {
   }
 };
 
-/// @param N  samples, a power of two above twice the highest harmonic of A / nu
-TurningModes turning_modes(TurningBrake brake, double speed, const TurningHarmonics& harmonics,
-                           Eigen::Index N);
+/// @param N  samples, a power of two above twice the highest harmonic kept / nu
+TurningModes turning_modes(const TurningHarmonics& harmonics, Eigen::Index N);
 
 }  // namespace chladni::squeal

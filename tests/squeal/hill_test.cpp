@@ -186,6 +186,35 @@ TEST(Hill, ConvergesInItsHarmonics)
   EXPECT_LT(change, coarse.error);
 }
 
+/// `disc_with_vanes` as a mesh makes it that does not repeat itself: other harmonics in its shapes.
+Disc disc_with_vanes_on_a_mesh(double noise)
+{
+  return with_shapes(disc_with_vanes(), [&](Harmonics& f) {
+    const Eigen::RowVectorXd of_mode = f.cosine.row(2) + f.cosine.row(3);
+    f.cosine.row(4) += noise * of_mode;
+    f.sine.row(6) -= noise * of_mode;
+  });
+}
+
+TEST(Hill, LeavesOutHarmonicsThatMoveNoExponent)
+{
+  // 1e-5 of shapes that do not repeat themselves with the vanes couple states by some 1e-2 1/s,
+  // which moves nothing by 1e-5 1/s: K counts vanes, and the answer is that of all harmonics.
+  const Disc disc = disc_with_vanes_on_a_mesh(1e-5);
+  for (const double speed : {2.0 * pi, 6.0 * pi}) {
+    const HillExponents at = Hill(disc, reference_options()).exponents(speed);
+    const HillExponents all = Hill(disc, reference_options(), 1e-9).exponents(speed);
+    EXPECT_GT(at.harmonics, 0);
+    EXPECT_EQ(at.harmonics % 12, 0);
+    EXPECT_NE(all.harmonics % 12, 0);
+    EXPECT_LT((at.lambda - all.lambda).real().cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LT((at.lambda - all.lambda).real().cwiseAbs().maxCoeff(), at.error);
+  }
+  // A hundred times more is kept.
+  const Disc worse = disc_with_vanes_on_a_mesh(1e-2);
+  EXPECT_NE(Hill(worse, reference_options()).exponents(6.0 * pi).harmonics % 12, 0);
+}
+
 TEST(Hill, FindsEveryExponentAtLowSpeed)
 {
   // One mode of a pair is damped by 60 1/s more than the other: over a rotation of 2 s the motions
