@@ -28,11 +28,6 @@ class Branches {
     if (last_.size() == 4) last_.erase(last_.begin());
     last_.push_back(std::move(values));
   }
-  void restart(Eigen::VectorXcd values)
-  {
-    last_.clear();
-    last_.push_back(std::move(values));
-  }
   /// By the polynomial through the last values.
   Eigen::VectorXcd next() const
   {
@@ -73,9 +68,9 @@ class Follower {
   }
 
   /// @param all  eigenvalues of the matrix at hand, by the QR iteration
-  void restart(const Eigen::VectorXcd& all)
+  void learn(const Eigen::VectorXcd& all)
   {
-    branches_.restart(matched(all, known_ ? branches_.next() : change_.poles()));
+    branches_.add(matched(all, known_ ? branches_.next() : change_.poles()));
     known_ = true;
   }
 
@@ -107,7 +102,7 @@ LeastStableSequence least_stable_eigenvalues(const MatrixOf& A, Index n)
     all.real().maxCoeff(&worst);
     sequence.lambda[i] = all[worst];
     ++sequence.count.by_qr;
-    if (follower) follower->restart(all);
+    if (follower) follower->learn(all);
   }
   return sequence;
 }

@@ -1,7 +1,6 @@
 #include "squeal/stability/eigenvalue_discs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -42,23 +41,21 @@ ComplexArrays pair_products(const Eigen::VectorXcd& a, const Eigen::VectorXcd& z
 }
 
 /// Gaussian elimination in place.
-Complex determinant(std::array<Complex, 36>& N, Index r)
+Complex determinant(Eigen::MatrixXcd& N)
 {
-  const auto at = [&](Index i, Index j) -> Complex& {
-    return N[static_cast<std::size_t>(j * r + i)];
-  };
+  const Index r = N.rows();
   Complex det = 1.0;
   for (Index k = 0; k < r; ++k) {
     Index pivot = k;
     for (Index i = k + 1; i < r; ++i)
-      if (std::norm(at(i, k)) > std::norm(at(pivot, k))) pivot = i;
+      if (std::norm(N(i, k)) > std::norm(N(pivot, k))) pivot = i;
     if (pivot != k) det = -det;
-    for (Index j = k; pivot != k && j < r; ++j) std::swap(at(k, j), at(pivot, j));
-    det *= at(k, k);
+    for (Index j = k; pivot != k && j < r; ++j) std::swap(N(k, j), N(pivot, j));
+    det *= N(k, k);
     if (det == 0.0) return det;
     for (Index i = k + 1; i < r; ++i) {
-      const Complex factor = at(i, k) / at(k, k);
-      for (Index j = k + 1; j < r; ++j) at(i, j) -= factor * at(k, j);
+      const Complex factor = N(i, k) / N(k, k);
+      for (Index j = k + 1; j < r; ++j) N(i, j) -= factor * N(k, j);
     }
   }
   return det;
@@ -75,13 +72,13 @@ Eigen::VectorXcd determinants(const PoleSum& sum, const Eigen::VectorXcd& z)
   inverse.rightCols(n) = -q.im * by_square;
   const Eigen::MatrixXd S = sum.numerators * inverse;
   Eigen::VectorXcd det(n);
-  std::array<Complex, 36> N{};
+  Eigen::MatrixXcd N(r, r);
   for (Index i = 0; i < n; ++i) {
     for (Index e = 0; e < size; ++e)
-      N[static_cast<std::size_t>(e)] =
+      N.reshaped()[e] =
           (e % (r + 1) == 0 ? 1.0 : 0.0) -
           (z[i] * Complex(S(e, i), S(e, n + i)) + Complex(S(size + e, i), S(size + e, n + i)));
-    det[i] = determinant(N, r);
+    det[i] = determinant(N);
   }
   return det;
 }
@@ -134,13 +131,24 @@ std::vector<Index> undecided(const Discs& discs, double from)
   return found;
 }
 
+/// Whether disc i meets none of the others and of their conjugates.
 bool is_alone(const Discs& discs, Index i)
 {
-  for (Index k = 0; k < discs.radius.size(); ++k)
-    if (k != i &&
-        !(std::abs(discs.centre[i] - discs.centre[k]) > discs.radius[i] + discs.radius[k]))
-      return false;
+  for (Index k = 0; k < discs.radius.size(); ++k) {
+    const double apart = std::abs(discs.centre[i] - discs.centre[k]);
+    const double apart_from_conjugate = std::abs(discs.centre[i] - std::conj(discs.centre[k]));
+    const double needed = discs.radius[i] + discs.radius[k];
+    if (!(apart_from_conjugate > needed) || (k != i && !(apart > needed))) return false;
+  }
   return true;
+}
+
+/// Each value or its conjugate: approximations may go to either.
+Eigen::VectorXcd in_upper_half(Eigen::VectorXcd z)
+{
+  for (Complex& x : z)
+    if (x.imag() < 0.0) x = std::conj(x);
+  return z;
 }
 
 /// z, moved a little where it meets a pole.
@@ -198,7 +206,7 @@ std::optional<LeastStable> least_stable_in_discs(const PoleSum& sum, const Eigen
     const Index first = rightmost(discs->centre);
     if (discs->centre[first].real() > left_out.real().maxCoeff() && !is_alone(*discs, first))
       return std::nullopt;
-    found.all(sum.modes) = discs->centre;
+    found.all(sum.modes) = in_upper_half(discs->centre);
   }
   found.lambda = found.all[rightmost(found.all)];
   if (!sum_is(found.all, trace, largest_radius * std::abs(found.lambda))) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "squeal/stability/pole_sum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 
 #include "linear/dense/dense_solvers.hpp"
@@ -17,15 +18,19 @@ constexpr double rounding = 1e-14;
 /// Of the eigenvectors of A_0: it multiplies the rounding errors of all eigenvalues.
 constexpr double largest_condition = 1e4;
 
-/// A sum of r x r matrices takes longer than the QR iteration from about this rank on.
-constexpr Index largest_rank = 6;
+/// Beyond this rank sums of r x r matrices at n / 2 points take longer than the QR iteration, whose
+/// time goes with n^3 and that of the sums with n^2 r^2.
+Index largest_rank(Index n)
+{
+  return static_cast<Index>(2.0 * std::sqrt(double(n)));
+}
 
 /// Orthonormal columns that span those of all `changes` up to `tolerance`, the largest first;
 /// more than `largest_rank` of them say only that there are too many.
 Eigen::MatrixXd common_columns(Eigen::MatrixXd changes, double tolerance)
 {
   Eigen::MatrixXd U(changes.rows(), 0);
-  while (U.cols() <= largest_rank) {
+  while (U.cols() <= largest_rank(U.rows())) {
     Index largest = 0;
     if (changes.colwise().norm().maxCoeff(&largest) <= tolerance) break;
     Eigen::VectorXd u = changes.col(largest).normalized();
@@ -56,7 +61,7 @@ std::optional<LowRankChange> LowRankChange::about(const Eigen::MatrixXd& A_0,
   change.A_0_ = A_0;
   change.rounding_ = rounding * A_0.norm();
   change.U_ = common_columns(changes_of(A_0, samples), change.rounding_);
-  if (change.U_.cols() == 0 || change.U_.cols() > largest_rank) return std::nullopt;
+  if (change.U_.cols() == 0 || change.U_.cols() > largest_rank(n)) return std::nullopt;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A_0);
   if (solver.info() != Eigen::Success || (solver.eigenvalues().imag().array() == 0.0).any())
     return std::nullopt;
