@@ -237,6 +237,26 @@ TEST(EigenvalueDiscs, FindNothingWhereTheSumOfTheEigenvaluesIsNotTheTrace)
   EXPECT_FALSE(least_stable_in_discs(c.sum, c.change.poles(), all, c.A.trace() + 1e-5));
 }
 
+// Two discs that meet hold two eigenvalues between them, and a chain of discs may reach far.
+TEST(EigenvalueDiscs, FindNothingWhereTheDiscOfTheRightmostMeetsAnother)
+{
+  VectorXd omega = VectorXd::LinSpaced(n_oscillators, 4e3, 7e3);
+  VectorXd c = VectorXd::Constant(n_oscillators, 5.0);
+  c.head(2).setOnes();
+  const MatrixXd none = MatrixXd::Zero(n_oscillators, n_oscillators);
+  const double both = 4.1e3;  // rad/s
+  MatrixXd K = none;
+  for (Index i = 0; i < 2; ++i) K(i, i) = both * both - omega[i] * omega[i];
+  const MatrixXd A_0 = oscillators(omega, c.asDiagonal(), none);
+  const MatrixXd A = oscillators(omega, c.asDiagonal(), K);
+  const LowRankChange change = LowRankChange::about(A_0, {A}).value();
+  Eigen::VectorXcd start = matched(oscillating_eigenvalues(A), change.poles());
+  Index i = 0;
+  start.real().maxCoeff(&i);
+  start[i] += 1e-12 * both;
+  EXPECT_FALSE(least_stable_in_discs(change.sum_of(A).value(), change.poles(), start, A.trace()));
+}
+
 // All values are eigenvalues, but one that is not the rightmost stands twice, or the rightmost is
 // far away: corrections of the others alone would not show it.
 TEST(EigenvalueDiscs, DoNotLoseTheRightmostFromWrongApproximations)
