@@ -28,6 +28,7 @@ struct LeastStable {
 /// @param trace  of A, 1/s
 /// @return absent where the corrections do not become small, where the disc of the rightmost meets
 ///         another, and where the sum of the eigenvalues is not the trace.
+/// Source: B. T. Smith, Journal of the ACM 17 (1970) 661, for the discs.
 std::optional<LeastStable> least_stable_in_discs(const PoleSum& sum, const Eigen::VectorXcd& poles,
                                                  const Eigen::VectorXcd& start, double trace);
 

@@ -66,7 +66,7 @@ std::optional<LowRankChange> LowRankChange::about(const Eigen::MatrixXd& A_0,
   if (solver.info() != Eigen::Success || (solver.eigenvalues().imag().array() == 0.0).any())
     return std::nullopt;
   // Columns (p, q) for each pair p +- i q of right eigenvectors.
-  const Eigen::MatrixXd P = solver.pseudoEigenvectors();
+  const Eigen::MatrixXd& P = solver.pseudoEigenvectors();
   const Eigen::MatrixXd P_inverse = P.partialPivLu().inverse();
   if (!(P.norm() * P_inverse.norm() <= largest_condition * double(n))) return std::nullopt;
   change.poles_ = solver.eigenvalues()(Eigen::seqN(0, m, 2));

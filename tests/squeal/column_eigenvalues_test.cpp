@@ -40,17 +40,17 @@ SequenceCount expect_as_qr(const MatrixOf& A, Index n)
   return sequence.count;
 }
 
-constexpr MapCase over_friction{MapParameter::friction, 0.1, 1.0, 24};
-constexpr MapCase over_preload{MapParameter::preload, 500.0, 4e3, 24};
-constexpr MapCase over_stiffness{MapParameter::stiffness, 2e6, 1e7, 24};
+constexpr MapCase over_friction{MapParameter::friction, 0.1, 1.0, 16};
+constexpr MapCase over_preload{MapParameter::preload, 500.0, 4e3, 16};
+constexpr MapCase over_stiffness{MapParameter::stiffness, 2e6, 1e7, 16};
 
-/// All points at five speeds.
+/// All points at three speeds.
 SequenceCount expect_map_as_qr(const Disc& disc, const SquealOptions& options, const MapCase& map)
 {
   const FlexibleDisc brake(disc, options);
   const VectorXd values = VectorXd::LinSpaced(map.count, map.from, map.to);
   SequenceCount total{};
-  for (const double speed : {pi, 3.9 * pi, 6.0 * pi, 11.0 * pi, 20.0 * pi}) {
+  for (const double speed : {pi, 6.0 * pi, 20.0 * pi}) {
     const SequenceCount count = expect_as_qr(
         [&](Index i) { return brake.with(map.parameter, values[i])->state_matrix(speed); },
         map.count);
@@ -71,15 +71,15 @@ TEST(ColumnEigenvalues, OfThirtyFiveModesAreThoseOfTheQrIteration)
 {
   for (const double ratio : {0.0, 1e-4})
     for (const MapCase& map : {over_friction, over_preload, over_stiffness})
-      // The QR iteration starts each of the five columns, and no more.
-      EXPECT_EQ(expect_map_as_qr(disc_with_damping(ratio), reference_options(), map).by_qr, 5);
+      // The QR iteration starts each of the three columns, and no more.
+      EXPECT_EQ(expect_map_as_qr(disc_with_damping(ratio), reference_options(), map).by_qr, 3);
 }
 
 // Without friction nothing grows: all real parts of the undamped disc are rounding errors.
 TEST(ColumnEigenvalues, OfUndampedModesThatDoNotGrowAreThoseOfTheQrIteration)
 {
   SquealOptions options = reference_options();
-  expect_map_as_qr(disc_with_damping(0.0), options, {MapParameter::friction, 0.0, 1e-3, 24});
+  expect_map_as_qr(disc_with_damping(0.0), options, {MapParameter::friction, 0.0, 1e-3, 16});
   options.friction.kinetic = 0.0;
   expect_map_as_qr(disc_with_damping(0.0), options, over_stiffness);
 }
@@ -92,7 +92,7 @@ TEST(ColumnEigenvalues, WithSeveralContactPointsAreThoseOfTheQrIteration)
   grid.pads[0].grid = PadGrid{.sector = 0.7, .points = 4};
   for (const SquealOptions& options : {pads, grid})
     for (const MapCase& map : {over_friction, over_stiffness})
-      EXPECT_EQ(expect_map_as_qr(disc_with_damping(0.0), options, map).by_qr, 5);
+      EXPECT_EQ(expect_map_as_qr(disc_with_damping(0.0), options, map).by_qr, 3);
 }
 
 TEST(ColumnEigenvalues, WithPadsThatHaveAMassAreThoseOfTheQrIteration)
@@ -104,7 +104,7 @@ TEST(ColumnEigenvalues, WithPadsThatHaveAMassAreThoseOfTheQrIteration)
                                  .tangential = Suspension{2e7, 20.0},
                                  .axial = Suspension{5e6, 30.0}};
   for (const MapCase& map : {over_friction, over_preload, over_stiffness})
-    EXPECT_GT(expect_map_as_qr(disc_with_damping(0.0), options, map).by_discs, 40);
+    EXPECT_GT(expect_map_as_qr(disc_with_damping(0.0), options, map).by_discs, 24);
 }
 
 TEST(ColumnEigenvalues, WithModesWithoutInertiaAreThoseOfTheQrIteration)
@@ -123,7 +123,7 @@ TEST(ColumnEigenvalues, WithModesWithoutInertiaAreThoseOfTheQrIteration)
   const Disc disc = make_disc(body, "track", {.quasi_static_above = 2.0 * pi * 30e3});
   ASSERT_FALSE(disc.compliance.empty());
   for (const MapCase& map : {over_friction, over_stiffness})
-    EXPECT_EQ(expect_map_as_qr(disc, reference_options(), map).by_qr, 5);
+    EXPECT_EQ(expect_map_as_qr(disc, reference_options(), map).by_qr, 3);
 }
 
 TEST(ColumnEigenvalues, OnSeveralThreadsAreThoseOnOne)
@@ -154,7 +154,8 @@ TEST(ColumnEigenvalues, OfExactlyMultipleFrequenciesAreThoseOfTheQrIteration)
 {
   VectorXd omega(n_oscillators), shape(n_oscillators), other(n_oscillators);
   for (Index i = 0; i < n_oscillators; ++i) {
-    omega[i] = 4e3 + 1e3 * double(i / 4);  // by fours
+    const Index four = i / 4;
+    omega[i] = 4e3 + 1e3 * double(four);
     shape[i] = std::sin(1.0 + double(i));
     other[i] = std::cos(0.3 * double(i));
   }
