@@ -1,23 +1,23 @@
 #include "squeal/stability/stability_map.hpp"
 
-#include <complex>
 #include <numbers>
 
 #include "squeal/parallel.hpp"
-#include "squeal/stability/stability.hpp"
+#include "squeal/stability/column_eigenvalues.hpp"
 
 namespace chladni::squeal {
 namespace {
 
 using std::numbers::pi;
 
-void fill_row(StabilityMap& map, const Brake& brake, Eigen::Index i)
+void fill_column(StabilityMap& map, const Brake& brake, MapParameter parameter, Eigen::Index j)
 {
-  for (Eigen::Index j = 0; j < map.speeds.size(); ++j) {
-    const std::complex<double> lambda = least_stable_eigenvalue(brake.state_matrix(map.speeds[j]));
-    map.growth(i, j) = lambda.real();
-    map.frequency_Hz(i, j) = lambda.imag() / (2.0 * pi);
-  }
+  const auto A = [&](Eigen::Index i) {
+    return brake.with(parameter, map.values[i])->state_matrix(map.speeds[j]);
+  };
+  const Eigen::VectorXcd lambda = least_stable_eigenvalues(A, map.values.size()).lambda;
+  map.growth.col(j) = lambda.real();
+  map.frequency_Hz.col(j) = lambda.imag() / (2.0 * pi);
 }
 
 }  // namespace
@@ -44,8 +44,7 @@ StabilityMap stability_map(const Brake& brake, const MapCase& range, const Speed
                    .growth = Eigen::MatrixXd(range.count, speeds.count),
                    .frequency_Hz = Eigen::MatrixXd(range.count, speeds.count)};
   for_each_index(
-      range.count, [&](int i) { fill_row(map, *brake.with(range.parameter, map.values[i]), i); },
-      n_threads);
+      speeds.count, [&](int j) { fill_column(map, brake, range.parameter, j); }, n_threads);
   return map;
 }
 
