@@ -31,7 +31,7 @@ constexpr int n_frozen_angles = 24;
 HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningModes& modes)
 {
   std::vector<std::complex<double>> all;
-  HillExponents result{{}, 0, 0.0, 0};
+  HillExponents result{{}, 0, 0.0, 0, 0};
   double trace = modes.lambda.sum().real();
   for (const NearGroup& group : groups) {
     const GroupExponents found = group_exponents(group, modes.step);
@@ -58,10 +58,19 @@ Hill::Hill(const Disc& disc, const SquealOptions& options, double tolerance)
       bound_(2 * highest_harmonic(disc, coordinates_))
 {}
 
+TurningHarmonics Hill::harmonics(double speed) const
+{
+  return turning_harmonics(brake(speed), speed, bound_, left_out * tolerance_);
+}
+
+int Hill::nu(double speed) const
+{
+  return harmonics(speed).nu;
+}
+
 HillExponents Hill::exponents(double speed) const
 {
-  const TurningHarmonics harmonics =
-      turning_harmonics(brake(speed), speed, bound_, left_out * tolerance_);
+  const TurningHarmonics harmonics = this->harmonics(speed);
   const int nu = std::max(1, harmonics.nu);
   const Eigen::Index highest = harmonics.highest / nu;
   for (Eigen::Index N = power_of_two(2 * highest + 1); N <= n_samples_max; N *= 2) {
@@ -72,6 +81,7 @@ HillExponents Hill::exponents(double speed) const
     if (error > tolerance_) continue;
     HillExponents result = exponents_of(groups, modes);
     result.error += harmonics.left;
+    result.nu = harmonics.nu;
     result.harmonics = nu * static_cast<int>(highest == 0 ? 0 : groups.front().highest);
     return result;
   }
@@ -82,16 +92,14 @@ HillExponents Hill::exponents(double speed) const
                   speed, n_samples_max / 2 * nu, tolerance_));
 }
 
-double Hill::frozen_growth(double speed) const
+double Hill::frozen_growth(double speed, int nu) const
 {
   TurningBrake frozen = brake(speed);
-  const TurningHarmonics harmonics =
-      turning_harmonics(frozen, speed, bound_, left_out * tolerance_);
-  const int n = harmonics.nu > 0 ? n_frozen_angles : 1;
+  const int n = nu > 0 ? n_frozen_angles : 1;
   double growth = -std::numeric_limits<double>::infinity();
   for (int s = 0; s < n; ++s) {
     Eigen::EigenSolver<Eigen::MatrixXd> solver;
-    solver.compute(frozen.at(2.0 * pi * s / (n * std::max(1, harmonics.nu))), false);
+    solver.compute(frozen.at(2.0 * pi * s / (n * std::max(1, nu))), false);
     growth = std::max(growth, solver.eigenvalues().real().maxCoeff());
   }
   return growth;

@@ -5,6 +5,7 @@
 #include "squeal/brake/disc.hpp"
 #include "squeal/squeal_options.hpp"
 #include "squeal/stability/turning_brake.hpp"
+#include "squeal/stability/turning_modes.hpp"
 
 namespace chladni::squeal {
 
@@ -17,6 +18,7 @@ struct HillExponents {
   int harmonics;         ///< K, of the rotation, kept in the corrections by distant states
   double error;          ///< estimated, of all growth rates, 1/s
   Eigen::Index coupled;  ///< the largest number of states that are near each other
+  int nu;                ///< the equations have the period of this part of a rotation; 0: constant
 };
 
 /// Hill's method: the motion and the equations are expanded into harmonics of the rotation,
@@ -36,11 +38,16 @@ class Hill {
   /// @throws chladni::Error when K = 512 nu is not enough.
   HillExponents exponents(double speed) const;
 
+  /// The equations at this speed (rad/s) have the period of this part of a rotation; 0: constant.
+  int nu(double speed) const;
+
   /// The largest growth rate (1/s) among the eigenvalues of the matrices A(phi) with the disc
   /// standing at some angle phi, over 24 angles of a period: exact for an axisymmetric disc alone.
-  double frozen_growth(double speed) const;
+  /// @param nu  at this speed
+  double frozen_growth(double speed, int nu) const;
 
  private:
+  TurningHarmonics harmonics(double speed) const;
   TurningBrake brake(double speed) const { return {disc_, coordinates_, options_, speed}; }
 
   Disc disc_;

@@ -156,11 +156,14 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
   for_each_index(
       n,
       [&](int i) {
-        result.frozen_growth[i] = hill.frozen_growth(result.speeds[i]);
+        const double speed = result.speeds[i];
         if (by_hill) {
-          exponents[static_cast<std::size_t>(i)] = hill.exponents(result.speeds[i]);
+          HillExponents& at = exponents[static_cast<std::size_t>(i)];
+          at = hill.exponents(speed);
+          result.frozen_growth[i] = hill.frozen_growth(speed, at.nu);
           return;
         }
+        result.frozen_growth[i] = hill.frozen_growth(speed, hill.nu(speed));
         const RotationGrowth at = rotation_growth(disc, options, result.speeds[i]);
         result.growth[i] = at.growth;
         result.frequency_Hz[i] = at.frequency_Hz;

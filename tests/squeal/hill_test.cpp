@@ -110,7 +110,7 @@ TEST(Hill, GivesTheEigenvaluesOfAnAxisymmetricDisc)
     for (const Complex lambda : at.lambda)
       EXPECT_LT((expected.array() - lambda).abs().minCoeff(), 1e-9);
     EXPECT_NEAR(at.lambda[0].real(), expected.real().maxCoeff(), 1e-9);
-    EXPECT_NEAR(hill.frozen_growth(speed), expected.real().maxCoeff(), 1e-9);
+    EXPECT_NEAR(hill.frozen_growth(speed, hill.nu(speed)), expected.real().maxCoeff(), 1e-9);
     EXPECT_EQ(at.harmonics, 0);
   }
 }
@@ -241,7 +241,7 @@ TEST(Hill, KnowsWhereFrozenAnglesMislead)
   // 1 % of split: the standing disc grows at some angle by several times what the turning one does.
   const Disc disc = split_disc();
   const Hill hill(disc, reference_options());
-  const double speed = 6.0 * pi, frozen = hill.frozen_growth(speed);
+  const double speed = 6.0 * pi, frozen = hill.frozen_growth(speed, hill.nu(speed));
   EXPECT_GT(frozen, 4.0 * hill.exponents(speed).lambda[0].real());
   // No angle is missed by more than a few per cent.
   TurningBrake brake(disc, nearest_pairs(disc), reference_options(), speed);
