@@ -130,8 +130,10 @@ Json rotation_json(const squeal::RotationStability& stability)
                        {"method", stability.method.empty() ? "floquet" : stability.method}});
 }
 
-Json branch_json(const std::vector<squeal::BranchPoint>& points)
+Json branch_json(const squeal::LimitCycleBranch& branch)
 {
+  std::vector<squeal::BranchPoint> points = branch.points;
+  if (branch.origin) points.insert(points.begin(), branch.origin->first);
   std::vector<double> speed, velocity, frequency_Hz, multiplier;
   for (const squeal::BranchPoint& point : points) {
     speed.push_back(point.speed);
@@ -248,7 +250,7 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.limit_cycle_direct)
     members.emplace_back("limit_cycle_direct", cycle_json(*results.limit_cycle_direct));
   if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
-    members.emplace_back("branch", branch_json(results.limit_cycle_branch->points));
+    members.emplace_back("branch", branch_json(*results.limit_cycle_branch));
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
   return members;
 }

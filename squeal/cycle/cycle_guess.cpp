@@ -52,10 +52,8 @@ UnstableMotion unstable_motion(AutonomousMotion& motion, const Eigen::MatrixXd& 
   const Eigen::EigenSolver<Eigen::MatrixXd> left(Eigen::MatrixXd(A.transpose()));
   Eigen::Index i = 0;
   (left.eigenvalues().array() - right.lambda).abs().minCoeff(&i);
-  UnstableMotion result{right.lambda, Eigen::VectorXcd::Zero(motion.size()),
+  UnstableMotion result{right.lambda, moving_the_pad(motion, right.u, compression),
                         Eigen::VectorXcd::Zero(motion.size())};
-  result.v.head(A.rows()) = right.u;
-  result.v *= compression / pad_displacement(motion, result.v, compression);
   result.y.head(A.rows()) = left.eigenvectors().col(i);
   result.y /= (result.y.transpose() * result.v).value();
   return result;
@@ -82,6 +80,14 @@ Complex averaged(AutonomousMotion& motion, const UnstableMotion& unstable, doubl
 }
 
 }  // namespace
+
+Eigen::VectorXcd moving_the_pad(AutonomousMotion& motion, const Eigen::VectorXcd& u,
+                                double displacement)
+{
+  Eigen::VectorXcd v = Eigen::VectorXcd::Zero(motion.size());
+  v.head(u.size()) = u;
+  return v * (displacement / pad_displacement(motion, v, displacement));
+}
 
 std::vector<HarmonicCycle> cycle_guesses(AutonomousMotion& motion, const Eigen::MatrixXd& A,
                                          double compression)

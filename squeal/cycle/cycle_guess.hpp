@@ -8,6 +8,11 @@
 
 namespace chladni::squeal {
 
+/// An eigenvector of the sliding disc as a motion Re(v exp(lambda t)) that displaces the first
+/// upper pad by an amplitude, m.
+Eigen::VectorXcd moving_the_pad(AutonomousMotion& motion, const Eigen::VectorXcd& u,
+                                double displacement);
+
 /// Where a limit cycle may be, without an integration: motions s Re(v exp(i omega t)) along the
 /// least stable eigenvector v of the sliding disc, whose growth averaged over a period,
 ///   s'/s = Re(y^T F_1(s)) / s,   F_1 = (1 / pi) int f(s Re(v exp(i tau))) exp(-i tau) dtau,
