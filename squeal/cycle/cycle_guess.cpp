@@ -16,7 +16,7 @@ using std::numbers::pi;
 /// Amplitudes that are looked at, relative to the displacement at which a pad loses its force, each
 /// twice the one before.
 constexpr double amplitude_min = 0.1;
-constexpr int n_amplitudes = 10;
+constexpr int n_amplitudes = 14;
 /// Samples of the forces in a period, and halvings of the interval in which growth ends.
 constexpr int n_samples = 16;
 constexpr int n_halvings = 3;
@@ -89,12 +89,12 @@ Eigen::VectorXcd moving_the_pad(AutonomousMotion& motion, const Eigen::VectorXcd
   return v * (displacement / pad_displacement(motion, v, displacement));
 }
 
-std::vector<HarmonicCycle> cycle_guesses(AutonomousMotion& motion, const Eigen::MatrixXd& A,
-                                         double compression)
+std::vector<CycleGuess> cycle_guesses(AutonomousMotion& motion, const Eigen::MatrixXd& A,
+                                      double compression)
 {
   const UnstableMotion unstable = unstable_motion(motion, A, compression);
   const auto grows = [&](double s) { return averaged(motion, unstable, s).real() > 0.0; };
-  std::vector<HarmonicCycle> guesses;
+  std::vector<CycleGuess> guesses;
   double low = amplitude_min;
   bool before = grows(low);
   for (int k = 1; k < n_amplitudes; ++k) {
@@ -107,13 +107,13 @@ std::vector<HarmonicCycle> cycle_guesses(AutonomousMotion& motion, const Eigen::
         (grows(middle) ? inside : outside) = middle;
       }
       const double s = std::sqrt(inside * outside);
-      guesses.push_back(cycle_of(unstable, s));
-      guesses.back().omega = averaged(motion, unstable, s).imag();
+      guesses.push_back({cycle_of(unstable, s), s, true});
+      guesses.back().cycle.omega = averaged(motion, unstable, s).imag();
     }
     before = now;
     low = high;
   }
-  for (const double s : other_amplitudes) guesses.push_back(cycle_of(unstable, s));
+  for (const double s : other_amplitudes) guesses.push_back({cycle_of(unstable, s), s, false});
   return guesses;
 }
 
