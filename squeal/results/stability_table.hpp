@@ -25,7 +25,7 @@ struct StabilityBranch {
   StabilityPoint worst;    ///< where its growth was largest among the values that were looked at
   Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without a body
   double pads = 0.0;       ///< the share of pads with a mass
-  std::optional<PeriodWork> work = {};  ///< there; absent without a body
+  std::optional<PeriodWork> work = {};  ///< there; absent of stable ones and without a body
 
   bool is_unstable() const { return !unstable.empty(); }
 };
