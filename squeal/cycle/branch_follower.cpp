@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/cycle/measured_cycle.hpp"

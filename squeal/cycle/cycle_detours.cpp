@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "squeal/cycle/cycle_guess.hpp"
 #include "squeal/cycle/hopf_cycle.hpp"

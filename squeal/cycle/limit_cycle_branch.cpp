@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "common/error.hpp"
 #include "squeal/cycle/branch_follower.hpp"
