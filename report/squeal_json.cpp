@@ -62,7 +62,8 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"normal_work_J", cycle.energy.normal.sum()},
                        {"damping_work_J", cycle.energy.damping},
                        {"multipliers", Json::array(multipliers)},
-                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
+                       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
 }
 
 Json branch_point_json(const squeal::BranchPoint& point)

@@ -19,7 +19,8 @@ thickness = 0.02
 speeds = { from_rad_s = 3.0, to_rad_s = 60.0, count = 12 }
 friction = 0.6
 pads = [{ angle_deg = 0.0, stiffness = 6e6, damping = 2.0, preload = 2000.0 }]
-analyses = ["eigenvalues", "stability", "limit-cycle-branch", "rotation-stability"]
+analyses = ["eigenvalues", "stability", "limit-cycle-direct", "limit-cycle-branch", "rotation-stability"]
+limit_cycle_direct = { speed_rad_s = 40.0 }
 """
 FINE = (("element_size = 0.03", "element_size = 0.02"), ("nodes = 12", "nodes = 24"), ("modes = 20", "modes = 60"),
         ("keep = { modes = 30 }", "keep = { up_to_Hz = 6000.0 }"))
@@ -56,6 +57,12 @@ def check_branch(found):
     else:
         nearest = min(abs(begin - origin["hopf_speed_rad_s"]) for begin, _ in limits)
         assert nearest < 1e-6, (origin, limits)
+
+
+def check_direct(found, said):
+    """What led to the cycle is told."""
+    way = found["limit_cycle_direct"]["way"]
+    assert way.startswith("from the unstable eigenvector") and way in said, (way, said)
 
 
 def check_terminal(said, unstable):
@@ -103,6 +110,7 @@ def main(programs, chromium=None):
         found = summary(programs / "squeal", "run", scene, "--output", name)
         unstable = check_json(found)
         check_branch(found)
+        check_direct(found, said)
         check_terminal(said, unstable)
         run(programs / "squeal", "report", scene, "--output", name)
         page = next(Path(name).glob("*.report.html"))
