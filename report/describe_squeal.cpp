@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 
 #include "report/describe.hpp"
+#include "report/describe_cycles.hpp"
 #include "report/describe_rotation.hpp"
 #include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
@@ -19,20 +19,8 @@
 namespace chladni::report {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// Growth that rounding can make of a neutral motion, relative to the largest frequency of a map.
 constexpr double rounding = 1e-12;
-
-double rpm(double rad_s)
-{
-  return rad_s * 30.0 / pi;
-}
-
-/// "18.8496 rad/s (180 rpm)"
-std::string spoken(double rad_s)
-{
-  return fmt::format("{:.6g} rad/s ({:.4g} rpm)", rad_s, rpm(rad_s));
-}
 
 /// In all units that there are.
 void add_speed(TextTable& table, const std::string& name, double rad_s,
@@ -147,7 +135,7 @@ void add_map(TextTable& table, const squeal::StabilityMap& map)
 {
   add_count(table, fmt::format("points of the map of speed and {}", map.parameter),
             map.growth.size());
-  const double zero = rounding * 2.0 * pi * map.frequency_Hz.maxCoeff();
+  const double zero = rounding * 2.0 * std::numbers::pi * map.frequency_Hz.maxCoeff();
   add_count(table, "unstable ones of them", (map.growth.array() > zero).count());
   add(table, "largest growth rate in the map", map.growth.maxCoeff(), "1/s");
 }
@@ -199,19 +187,6 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
   }
 }
 
-void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
-{
-  // What still grows or decays is the end of a transient and no limit cycle.
-  const std::string name = cycle.settled ? "limit cycle: " : "end of the transient, not settled: ";
-  add(table, name + "speed", cycle.speed, "rad/s");
-  add(table, name + "frequency", cycle.frequency_Hz, "Hz");
-  add(table, name + "pad velocity", cycle.pad_velocity, "m/s");
-  add(table, name + "pad displacement", 1e3 * cycle.pad_displacement, "mm");
-  add(table, name + "least normal force", cycle.N_min, "N");
-  add(table, name + "largest normal force", cycle.N_max, "N");
-  if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
-}
-
 /// The eigenvalue's where there is one. A short run may show other motions than the least stable
 /// one: what it measured stands beside it where the two disagree.
 void add_growth(TextTable& table, const squeal::Growth& growth)
@@ -220,33 +195,6 @@ void add_growth(TextTable& table, const squeal::Growth& growth)
   add(table, name, growth.eigenvalue_rate.value_or(growth.rate), "1/s");
   if (growth.eigenvalue_rate && squeal::disagree(growth.rate, *growth.eigenvalue_rate))
     add(table, name + ", measured in a run too short for it", growth.rate, "1/s");
-}
-
-void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
-{
-  add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
-  add(table, "direct limit cycle: frequency", cycle.frequency_Hz, "Hz");
-  add(table, "direct limit cycle: pad velocity", cycle.pad_velocity, "m/s");
-  add(table, "direct limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
-  add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
-  add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
-  add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
-  if (!cycle.stable) table.rows.push_back({"direct limit cycle", "not stable", ""});
-  add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
-}
-
-void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
-{
-  add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
-  if (branch.points.empty()) return;
-  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
-    add(table, "pad velocity at " + spoken(end.speed), end.pad_velocity, "m/s");
-  }
-  for (const squeal::BranchPoint& fold : branch.folds) {
-    add(table, "fold of the limit cycle at", fold.speed, "rad/s");
-  }
-  if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
-  if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
 }
 
 /// Why results that were asked for are not there.

@@ -56,6 +56,14 @@ std::string participation(const StabilityTable& table, const StabilityBranch& br
   return fmt::format("; {} nodal diameters: {}", *diameters, fmt::join(parts, ", "));
 }
 
+/// "; friction feeds 12 % of its energy in a period"; empty without a body.
+std::string feeding(const StabilityBranch& branch)
+{
+  if (!branch.work) return "";
+  return fmt::format("; friction feeds {:.3g} % of its energy in a period",
+                     100.0 * branch.work->friction);
+}
+
 Json numbers_json(const Eigen::VectorXd& x)
 {
   return Json::array({x.begin(), x.end()});
@@ -76,6 +84,9 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
        {"nodal_diameters", diameters ? Json(*diameters) : Json()},
        {"shares", numbers_json(branch.shares)},
        {"pads", branch.pads},
+       {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
+       {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
+       {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
        {"growth_1_s", numbers_json(branch.lambda.real())},
        {"frequency_Hz", numbers_json(branch.lambda.imag() / (2.0 * std::numbers::pi))}});
 }
@@ -87,9 +98,10 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
   table.rows.push_back({"stability of all modes", summary(stability), ""});
   for (const StabilityBranch& branch : stability.branches) {
     if (!branch.is_unstable()) continue;
-    const std::string name = fmt::format(
-        "{:.2f} Hz, {}{}; damping ratio {:.3g}, growth up to", branch.worst.frequency_Hz,
-        where(stability, branch), participation(stability, branch), damping_ratio(branch.worst));
+    const std::string name =
+        fmt::format("{:.2f} Hz, {}{}{}; damping ratio {:.3g}, growth up to",
+                    branch.worst.frequency_Hz, where(stability, branch),
+                    participation(stability, branch), feeding(branch), damping_ratio(branch.worst));
     add(table, name, branch.worst.growth, "1/s");
   }
 }

@@ -62,20 +62,34 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"normal_work_J", cycle.energy.normal.sum()},
                        {"damping_work_J", cycle.energy.damping},
                        {"multipliers", Json::array(multipliers)},
-                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)}});
+                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
+                       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
+}
+
+Json branch_point_json(const squeal::BranchPoint& point)
+{
+  return Json::object({{"speed_rad_s", point.speed},
+                       {"frequency_Hz", point.frequency_Hz},
+                       {"pad_velocity_m_s", point.pad_velocity},
+                       {"pad_displacement_m", point.pad_displacement},
+                       {"largest_multiplier", point.largest_multiplier}});
 }
 
 Json branch_json(const squeal::LimitCycleBranch& branch)
 {
   std::vector<Json> points;
-  for (const squeal::BranchPoint& point : branch.points) {
-    points.push_back(Json::object({{"speed_rad_s", point.speed},
-                                   {"frequency_Hz", point.frequency_Hz},
-                                   {"pad_velocity_m_s", point.pad_velocity},
-                                   {"pad_displacement_m", point.pad_displacement},
-                                   {"largest_multiplier", point.largest_multiplier}}));
-  }
+  for (const squeal::BranchPoint& point : branch.points) points.push_back(branch_point_json(point));
   return Json::array(points);
+}
+
+/// Where the branch begins.
+Json origin_json(const squeal::LimitCycleBranch& branch)
+{
+  const auto& origin = branch.origin;
+  return Json::object({{"hopf_speed_rad_s", origin ? Json(origin->speed) : Json()},
+                       {"hopf_frequency_Hz", origin ? Json(origin->frequency_Hz) : Json()},
+                       {"first", origin ? branch_point_json(origin->first) : Json()},
+                       {"note", branch.note.empty() ? Json() : Json(branch.note)}});
 }
 
 /// Something of two points, as a pair.
@@ -237,6 +251,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   }
   if (results.limit_cycle_branch) {
     members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
+    members.emplace_back("limit_cycle_branch_origin", origin_json(*results.limit_cycle_branch));
   }
   return members;
 }

@@ -34,8 +34,10 @@ std::string report_page(std::string_view title, const Json& content, std::string
   std::string page(page_parts::page_html);
   page = with(page, "/*STYLE*/", page_parts::style_css);
   page = with(page, "/*PLOT*/", page_parts::plot_js);
+  page = with(page, "/*LABELS*/", page_parts::labels_js);
   page = with(page, "/*VIEWER*/", page_parts::viewer_js);
   page = with(page, "/*GROUPS*/", page_parts::groups_js);
+  page = with(page, "/*STABILITY*/", page_parts::stability_js);
   page = with(page, "/*SECTIONS*/", page_parts::sections_js);
   const std::string::size_type at = page.find("<!--CONTENT-->");
   const std::string scripts = "<script type=\"application/json\" id=\"content\">" +

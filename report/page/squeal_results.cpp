@@ -80,15 +80,6 @@ Json campbell_json(const squeal::EigenvalueMap& map)
                        {"growth", rounded_rows(map.lambda.real().transpose())}});
 }
 
-/// Growth within a few times that of the unstable modes: what decays fast would hide it.
-Json growth_axis_json(const squeal::StabilityTable& table)
-{
-  double largest = 0.0;
-  for (const squeal::StabilityBranch& branch : table.branches)
-    largest = std::max(largest, branch.worst.growth);
-  return largest > 0.0 ? Json::array({rounded(-1.5 * largest), rounded(1.2 * largest)}) : Json();
-}
-
 Json unstable_modes_json(const squeal::StabilityTable& table)
 {
   std::vector<Json> branches;
@@ -101,13 +92,16 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
         Json::object({{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / two_pi))},
                       {"growth", rounded(Eigen::VectorXd(branch.lambda.real()))},
                       {"unstable", Json::array(unstable)},
+                      {"worst_Hz", rounded(branch.worst.frequency_Hz)},
+                      {"worst_growth", rounded(branch.worst.growth)},
+                      {"damping_ratio", rounded(damping_ratio(branch.worst))},
+                      {"friction_work", branch.work ? rounded(branch.work->friction) : Json()},
                       {"diameters", diameters ? Json(*diameters) : Json()}}));
   }
   return Json::object({{"parameter", table.parameter},
                        {"unit", squeal::unit_of(table.parameter)},
                        {"values", rounded(table.values)},
                        {"summary", summary(table)},
-                       {"growth_axis", growth_axis_json(table)},
                        {"branches", Json::array(branches)}});
 }
 
@@ -130,10 +124,14 @@ Json rotation_json(const squeal::RotationStability& stability)
                        {"method", stability.method.empty() ? "floquet" : stability.method}});
 }
 
-Json branch_json(const std::vector<squeal::BranchPoint>& points)
+Json branch_json(const squeal::LimitCycleBranch& branch)
 {
+  std::vector<squeal::BranchPoint> points = branch.points;
+  if (branch.origin) points.insert(points.begin(), branch.origin->first);
   std::vector<double> speed, velocity, frequency_Hz, multiplier;
+  std::vector<Json> stable;  // a multiplier beside a Hopf point may be rounded to 1
   for (const squeal::BranchPoint& point : points) {
+    stable.push_back(point.largest_multiplier < 1.0 ? 1 : 0);
     speed.push_back(point.speed);
     velocity.push_back(point.pad_velocity);
     frequency_Hz.push_back(point.frequency_Hz);
@@ -142,6 +140,7 @@ Json branch_json(const std::vector<squeal::BranchPoint>& points)
   return Json::object({{"speed", rounded(speed)},
                        {"pad_velocity", rounded(velocity)},
                        {"frequency_Hz", rounded(frequency_Hz)},
+                       {"stable", Json::array(stable)},
                        {"largest_multiplier", rounded(multiplier)}});
 }
 
@@ -248,7 +247,7 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.limit_cycle_direct)
     members.emplace_back("limit_cycle_direct", cycle_json(*results.limit_cycle_direct));
   if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
-    members.emplace_back("branch", branch_json(results.limit_cycle_branch->points));
+    members.emplace_back("branch", branch_json(*results.limit_cycle_branch));
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
   return members;
 }

@@ -74,20 +74,27 @@ std::optional<ArcPoint> arc_point(const AutonomousMotionAt& motion, const CycleS
 std::optional<ArcPoint> next_on_arc(const AutonomousMotionAt& motion, const ArcPoint& point,
                                     double length)
 {
-  CycleStart at = point.at;
-  double speed = point.speed;
-  move(at, speed, length * point.tangent);
-  const Eigen::Index last = point.tangent.size() - 1;
+  ArcPoint near = point;
+  move(near.at, near.speed, length * point.tangent);
+  return corrected(motion, near, 2.0 * std::abs(length));
+}
+
+std::optional<ArcPoint> corrected(const AutonomousMotionAt& motion, const ArcPoint& near,
+                                  double largest_change)
+{
+  CycleStart at = near.at;
+  double speed = near.speed;
+  const Eigen::Index last = near.tangent.size() - 1;
   for (int i = 0; i < newton_steps_max; ++i) {
     ArcEquations equations = equations_at(motion, at, speed);
     if (!equations.J.allFinite() || !equations.residual.allFinite()) return std::nullopt;
     const ArcEquations kept = equations;
-    equations.J.row(last) = equations.J.row(last - 1).norm() * point.tangent.transpose();
+    equations.J.row(last) = equations.J.row(last - 1).norm() * near.tangent.transpose();
     const Eigen::VectorXd change = equations.J.partialPivLu().solve(equations.residual);
-    if (!change.allFinite() || change.norm() > 2.0 * std::abs(length)) return std::nullopt;
+    if (!change.allFinite() || change.norm() > largest_change) return std::nullopt;
     move(at, speed, change);
     if (change.norm() > converged) continue;
-    const auto tangent = tangent_of(kept, point.tangent);
+    const auto tangent = tangent_of(kept, near.tangent);
     if (!tangent) return std::nullopt;
     return ArcPoint{at, speed, *tangent};
   }

@@ -27,4 +27,9 @@ std::optional<ArcPoint> arc_point(const AutonomousMotionAt& motion, const CycleS
 std::optional<ArcPoint> next_on_arc(const AutonomousMotionAt& motion, const ArcPoint& point,
                                     double length);
 
+/// The point of the branch near `near` in the plane normal to its tangent, by Newton's method.
+/// @param largest_change  of one of its steps, in the coordinates of the tangent
+std::optional<ArcPoint> corrected(const AutonomousMotionAt& motion, const ArcPoint& near,
+                                  double largest_change);
+
 }  // namespace chladni::squeal

@@ -16,7 +16,7 @@ using std::numbers::pi;
 /// Amplitudes that are looked at, relative to the displacement at which a pad loses its force, each
 /// twice the one before.
 constexpr double amplitude_min = 0.1;
-constexpr int n_amplitudes = 10;
+constexpr int n_amplitudes = 14;
 /// Samples of the forces in a period, and halvings of the interval in which growth ends.
 constexpr int n_samples = 16;
 constexpr int n_halvings = 3;
@@ -52,10 +52,8 @@ UnstableMotion unstable_motion(AutonomousMotion& motion, const Eigen::MatrixXd& 
   const Eigen::EigenSolver<Eigen::MatrixXd> left(Eigen::MatrixXd(A.transpose()));
   Eigen::Index i = 0;
   (left.eigenvalues().array() - right.lambda).abs().minCoeff(&i);
-  UnstableMotion result{right.lambda, Eigen::VectorXcd::Zero(motion.size()),
+  UnstableMotion result{right.lambda, moving_the_pad(motion, right.u, compression),
                         Eigen::VectorXcd::Zero(motion.size())};
-  result.v.head(A.rows()) = right.u;
-  result.v *= compression / pad_displacement(motion, result.v, compression);
   result.y.head(A.rows()) = left.eigenvectors().col(i);
   result.y /= (result.y.transpose() * result.v).value();
   return result;
@@ -83,12 +81,20 @@ Complex averaged(AutonomousMotion& motion, const UnstableMotion& unstable, doubl
 
 }  // namespace
 
-std::vector<HarmonicCycle> cycle_guesses(AutonomousMotion& motion, const Eigen::MatrixXd& A,
-                                         double compression)
+Eigen::VectorXcd moving_the_pad(AutonomousMotion& motion, const Eigen::VectorXcd& u,
+                                double displacement)
+{
+  Eigen::VectorXcd v = Eigen::VectorXcd::Zero(motion.size());
+  v.head(u.size()) = u;
+  return v * (displacement / pad_displacement(motion, v, displacement));
+}
+
+std::vector<CycleGuess> cycle_guesses(AutonomousMotion& motion, const Eigen::MatrixXd& A,
+                                      double compression)
 {
   const UnstableMotion unstable = unstable_motion(motion, A, compression);
   const auto grows = [&](double s) { return averaged(motion, unstable, s).real() > 0.0; };
-  std::vector<HarmonicCycle> guesses;
+  std::vector<CycleGuess> guesses;
   double low = amplitude_min;
   bool before = grows(low);
   for (int k = 1; k < n_amplitudes; ++k) {
@@ -101,13 +107,13 @@ std::vector<HarmonicCycle> cycle_guesses(AutonomousMotion& motion, const Eigen::
         (grows(middle) ? inside : outside) = middle;
       }
       const double s = std::sqrt(inside * outside);
-      guesses.push_back(cycle_of(unstable, s));
-      guesses.back().omega = averaged(motion, unstable, s).imag();
+      guesses.push_back({cycle_of(unstable, s), s, true});
+      guesses.back().cycle.omega = averaged(motion, unstable, s).imag();
     }
     before = now;
     low = high;
   }
-  for (const double s : other_amplitudes) guesses.push_back(cycle_of(unstable, s));
+  for (const double s : other_amplitudes) guesses.push_back({cycle_of(unstable, s), s, false});
   return guesses;
 }
 

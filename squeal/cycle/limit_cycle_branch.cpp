@@ -1,139 +1,19 @@
 #include "squeal/cycle/limit_cycle_branch.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
+#include <fmt/format.h>
 
-#include "squeal/cycle/branch_arc.hpp"
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "common/error.hpp"
+#include "squeal/cycle/branch_follower.hpp"
+#include "squeal/cycle/hopf_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
-#include "squeal/cycle/measured_cycle.hpp"
-#include "squeal/root.hpp"
 #include "squeal/stability/stability.hpp"
 
 namespace chladni::squeal {
 namespace {
-
-/// Lengths of steps along the branch, whose unit is a change of the amplitude by itself.
-constexpr double length_first = 0.05, length_max = 0.3, length_min = 1e-4;
-constexpr int steps_max = 2000;
-/// A cycle below this fraction of the largest one of the branch is its end at rest.
-constexpr double end_at_rest = 1e-3;
-/// Of the place of a fold, relative to the step in which it is.
-constexpr double fold_error = 1e-3;
-/// Of the integration of a cycle at a fold.
-constexpr double orbit_tolerance = 1e-9;
-
-BranchPoint point_of(const DirectLimitCycle& cycle)
-{
-  return {.speed = cycle.speed,
-          .frequency_Hz = cycle.frequency_Hz,
-          .pad_velocity = cycle.pad_velocity,
-          .pad_displacement = cycle.pad_displacement,
-          .N_min = cycle.N_min,
-          .N_max = cycle.N_max,
-          .largest_multiplier = std::abs(cycle.multipliers[1])};
-}
-
-/// One part of a branch as it is followed.
-class Follower {
- public:
-  Follower(const Brake& brake, const SpeedRange& range)
-      : brake_(brake),
-        motion_([&brake](double speed) { return brake.motion(speed); }),
-        range_(range),
-        speeds_(Eigen::VectorXd::LinSpaced(range.count, range.from, range.to))
-  {}
-
-  /// From a cycle towards lower (-1) or higher (1) speeds.
-  LimitCycleBranch follow(const DirectLimitCycle& start, double direction, const Progress& progress)
-  {
-    LimitCycleBranch part;
-    auto point = arc_point(motion_, {start.x, 1.0 / start.frequency_Hz}, start.speed, direction);
-    double length = length_first, largest = start.x.norm();
-    for (int i = 0; point && i < steps_max; ++i) {
-      if (progress) progress(progress_at(point->speed, direction));
-      const auto next = next_on_arc(motion_, *point, length);
-      if (!next) {
-        length *= 0.5;
-        if (length > length_min) continue;
-        part.lost_below = point->speed;
-        break;
-      }
-      add_between(*point, *next, length, part);
-      largest = std::max(largest, next->at.x.norm());
-      const bool rest = next->at.x.norm() < end_at_rest * largest;
-      if (rest || next->speed < range_.from || next->speed > range_.to) break;
-      point = next;
-      length = std::min(1.5 * length, length_max);
-    }
-    return part;
-  }
-
- private:
-  double progress_at(double speed, double direction) const
-  {
-    const double part = (speed - range_.from) / std::max(range_.to - range_.from, 1e-300);
-    return std::clamp(direction < 0.0 ? 1.0 - part : part, 0.0, 1.0);
-  }
-
-  /// The speeds of the range between two points of the arc, and the fold if there is one.
-  void add_between(const ArcPoint& a, const ArcPoint& b, double length, LimitCycleBranch& part)
-  {
-    const auto slope = [](const ArcPoint& point) {
-      return point.tangent[point.tangent.size() - 1];
-    };
-    if (slope(a) * slope(b) >= 0.0) return add_speeds(a, b, part);
-    ArcPoint fold = a;
-    const double sign = slope(a) < 0.0 ? 1.0 : -1.0;
-    const auto turned = [&](double s) {
-      if (s <= 0.0) return sign * slope(a);
-      if (s >= length) return sign * slope(b);
-      if (const auto at = next_on_arc(motion_, a, s)) fold = *at;
-      return sign * slope(fold);
-    };
-    root(turned, 0.0, length, fold_error);
-    add_speeds(a, fold, part);
-    part.folds.push_back(as_it_is(fold));
-    add_speeds(fold, b, part);
-  }
-
-  void add_speeds(const ArcPoint& a, const ArcPoint& b, LimitCycleBranch& part)
-  {
-    std::vector<double> between;
-    for (const double speed : speeds_) {
-      const bool passed = b.speed < a.speed ? speed < a.speed && speed >= b.speed
-                                            : speed > a.speed && speed <= b.speed;
-      if (passed) between.push_back(speed);
-    }
-    if (b.speed < a.speed) std::reverse(between.begin(), between.end());
-    for (const double speed : between) {
-      const double s = (speed - a.speed) / (b.speed - a.speed);
-      add({a.at.x + s * (b.at.x - a.at.x), a.at.period + s * (b.at.period - a.at.period)}, speed,
-          part.points);
-    }
-  }
-
-  void add(const CycleStart& near, double speed, std::vector<BranchPoint>& points) const
-  {
-    if (const auto cycle = limit_cycle_near(brake_, speed, near))
-      points.push_back(point_of(*cycle));
-  }
-
-  /// Newton's method at one speed does not converge at a fold.
-  BranchPoint as_it_is(const ArcPoint& point) const
-  {
-    const std::unique_ptr<AutonomousMotion> motion = brake_.motion(point.speed);
-    const Flow end = flow(*motion, point.at, orbit_tolerance);
-    return point_of(measured_cycle(brake_, *motion, {point.at, end.derivative, 0, orbit_tolerance},
-                                   point.speed));
-  }
-
-  const Brake& brake_;
-  AutonomousMotionAt motion_;
-  SpeedRange range_;
-  Eigen::VectorXd speeds_;
-};
 
 /// The highest speed of the range at which the sliding brake is unstable.
 std::optional<double> highest_unstable(const Brake& brake, const SpeedRange& range)
@@ -144,25 +24,89 @@ std::optional<double> highest_unstable(const Brake& brake, const SpeedRange& ran
   return std::nullopt;
 }
 
+void append(LimitCycleBranch& branch, const LimitCycleBranch& part)
+{
+  branch.points.insert(branch.points.end(), part.points.begin(), part.points.end());
+  branch.folds.insert(branch.folds.end(), part.folds.begin(), part.folds.end());
+  if (part.lost_below) branch.lost_below = part.lost_below;
+  if (part.lost_above) branch.lost_above = part.lost_above;
+}
+
+/// The branch through a cycle, in both directions, from its end on the side of low speeds.
+LimitCycleBranch branch_through(const BranchFollower& follower, const DirectLimitCycle& start,
+                                const SpeedRange& range, const Progress& progress)
+{
+  LimitCycleBranch branch = follower.from_cycle(start, -1.0, progress);
+  std::reverse(branch.points.begin(), branch.points.end());
+  std::reverse(branch.folds.begin(), branch.folds.end());
+  branch.points.push_back(point_of(start));
+  if (start.speed < range.to) append(branch, follower.from_cycle(start, 1.0, progress));
+  return branch;
+}
+
+/// The limit at which the first branch begins.
+std::optional<StabilityPoint> limit_of(const StabilityProfile& profile)
+{
+  const std::optional<StabilityPoint> lost = first_loss(profile);
+  return lost ? lost : first_regain(profile);
+}
+
+/// The branch from its Hopf point on; the limit of stability says where that is.
+LimitCycleBranch branch_from(const BranchFollower& follower, const Brake& brake,
+                             const StabilityPoint& limit, const Progress& progress)
+{
+  const auto start = cycle_at_hopf(brake, follower.motion(), limit);
+  if (!start) return {};
+  LimitCycleBranch branch = follower.from_point(*start, progress);
+  branch.origin = BranchOrigin{limit.value, limit.frequency_Hz, follower.as_it_is(*start)};
+  return branch;
+}
+
+bool reaches(const LimitCycleBranch& branch, double speed)
+{
+  return std::any_of(branch.points.begin(), branch.points.end(),
+                     [speed](const BranchPoint& point) { return point.speed == speed; });
+}
+
+/// Why a branch begins, or goes on, with a cycle at a speed.
+std::string note_of(const LimitCycleBranch& branch, const std::optional<StabilityPoint>& limit,
+                    double speed)
+{
+  const std::string begins = fmt::format("begins with the limit cycle at {:.6g} rad/s", speed);
+  if (!limit)
+    return "sliding is unstable at all of the speeds, no Hopf point: the branch " + begins;
+  if (!branch.origin)
+    return fmt::format(
+        "no small cycle was found at the limit of stability, {:.6g} rad/s: the "
+        "branch {}",
+        limit->value, begins);
+  return fmt::format(
+      "the branch from the Hopf point does not reach {0:.6g} rad/s within the "
+      "speeds: a second part goes through the limit cycle at {0:.6g} rad/s",
+      speed);
+}
+
 }  // namespace
 
 LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
                                     const Progress& progress)
 {
   brake.motion(range.to);  // says why, where there is none
-  const auto speed = highest_unstable(brake, range);
-  if (!speed) return {};
-  const DirectLimitCycle start = limit_cycle_direct(brake, *speed);
-  Follower follower(brake, range);
-  LimitCycleBranch branch = follower.follow(start, -1.0, progress);
-  std::reverse(branch.points.begin(), branch.points.end());
-  std::reverse(branch.folds.begin(), branch.folds.end());
-  branch.points.push_back(point_of(start));
-  if (*speed < range.to) {
-    const LimitCycleBranch above = follower.follow(start, 1.0, progress);
-    branch.points.insert(branch.points.end(), above.points.begin(), above.points.end());
-    branch.folds.insert(branch.folds.end(), above.folds.begin(), above.folds.end());
-    branch.lost_above = above.lost_below;
+  const BranchFollower follower(brake, range);
+  const auto limit = limit_of(stability_over_speed(state_matrix_at(brake), range));
+  LimitCycleBranch branch;
+  if (limit) branch = branch_from(follower, brake, *limit, progress);
+  const std::optional<double> speed = highest_unstable(brake, range);
+  if (!speed || reaches(branch, *speed)) return branch;
+  try {
+    const DirectLimitCycle start = limit_cycle_direct(brake, *speed);
+    const std::string note = note_of(branch, limit, *speed);
+    append(branch, branch_through(follower, start, range, progress));
+    branch.note = note;
+  } catch (const Error& error) {
+    if (!branch.origin) throw;
+    branch.note = fmt::format("the branch from the Hopf point does not reach {:.6g} rad/s; {}",
+                              *speed, error.what());
   }
   return branch;
 }

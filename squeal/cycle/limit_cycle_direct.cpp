@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "common/error.hpp"
+#include "squeal/cycle/cycle_detours.hpp"
 #include "squeal/cycle/cycle_guess.hpp"
 #include "squeal/cycle/harmonic_balance.hpp"
 #include "squeal/cycle/measured_cycle.hpp"
@@ -40,6 +42,13 @@ std::optional<DirectLimitCycle> cycle_of(const Brake& brake, AutonomousMotion& m
   return cycle;
 }
 
+std::string way_of(const CycleGuess& start)
+{
+  return fmt::format(
+      "from the unstable eigenvector at {:.3g} times the compression of the first pad{}",
+      start.amplitude, start.balanced ? ", where its averaged growth ends" : "");
+}
+
 }  // namespace
 
 DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
@@ -52,12 +61,26 @@ DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
         fmt::format("limit cycle: the sliding disc is stable at {:.6g} rad/s (largest growth rate "
                     "{:.3g} 1/s); a limit cycle grows from an unstable one",
                     speed, growth));
-  for (const HarmonicCycle& start : cycle_guesses(*motion, A, brake.rest_compression()))
-    if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start), speed)) return *cycle;
-  throw Error(
-      fmt::format("limit cycle: Newton's method finds no periodic motion at {:.6g} rad/s; simulate "
-                  "a transient instead",
-                  speed));
+  for (const CycleGuess& start : cycle_guesses(*motion, A, brake.rest_compression())) {
+    if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start.cycle), speed)) {
+      cycle->way = way_of(start);
+      return *cycle;
+    }
+  }
+  std::string tried;
+  for (const auto& detour : {cycle_by_continuation, cycle_by_transient}) {
+    Detour end = detour(brake, speed);
+    if (end.cycle) {
+      end.cycle->way = end.said;
+      return *end.cycle;
+    }
+    tried += ", " + end.said;
+  }
+  throw Error(fmt::format(
+      "limit cycle: Newton's method finds no periodic motion at {:.6g} rad/s: it comes to "
+      "none from the unstable eigenvector at any amplitude{}; simulate a transient to "
+      "see what the brake does",
+      speed, tried));
 }
 
 std::optional<DirectLimitCycle> limit_cycle_near(const Brake& brake, double speed,

@@ -10,9 +10,11 @@ namespace chladni::squeal {
 
 /// The limit cycle at `speed` (rad/s) without a transient. It begins with the unstable eigenvector
 /// of the sliding brake where its averaged growth ends (cycle_guess.hpp); harmonic balance brings
-/// it near, shooting ends it.
+/// it near, shooting ends it. Where that leads nowhere, other amplitudes are tried, then the branch
+/// from the Hopf point and a short transient (cycle_detours.hpp); `way` says which one it was.
 /// @throws chladni::Error when the brake has no autonomous motion, when it is stable at this speed,
-///         and when no start leads to a periodic motion.
+///         and, with what was tried, when
+///         no start leads to a periodic motion.
 DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed);
 
 /// The same from a given start, such as the cycle at a speed nearby; absent when Newton's method

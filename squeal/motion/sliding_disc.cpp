@@ -40,19 +40,23 @@ struct PointPower {
 
 /// Friction is what the normal forces are not; so is the friction at rest that plates are held
 /// against.
-/// @param all  the contact at this motion
-PointPower point_power(const BrakePoint& point, const PairVector<double>& g,
-                       const PairVector<double>& g_dot, const ContactResult<double>& all)
+/// @param at        the motion, with what modes without inertia do
+/// @param velocity  of the modes with inertia alone, which hold the energy
+/// @param all       the contact at this motion
+PointPower point_power(const BrakePoint& point, const PointMotion& at,
+                       const PairVector<double>& velocity, const ContactResult<double>& all)
 {
   const PadContact& pad = point.contact;
-  const auto rows = static_cast<int>(g.size());
-  const RingMotion<double> m = pair_motion(g, g_dot);
+  const auto rows = static_cast<int>(at.g.size());
+  const RingMotion<double> m = pair_motion(at.g, at.g_dot);
   const PadState<double> up = without_friction(all.upper, m, 1.0);
   const PadState<double> lo = without_friction(all.lower, m, -1.0);
   PadState<double> at_rest = point.at_rest;
   at_rest.f_t = 0.0;
-  const double total = g_dot.dot(pair_forces(all.force, all.upper, all.lower, point.at_rest, rows));
-  const double normal = g_dot.dot(pair_forces(pair_force(pad, m, up, lo), up, lo, at_rest, rows));
+  const double total =
+      velocity.dot(pair_forces(all.force, all.upper, all.lower, point.at_rest, rows));
+  const double normal =
+      velocity.dot(pair_forces(pair_force(pad, m, up, lo), up, lo, at_rest, rows));
   return {total - normal, normal, heat(pad, all.upper) + heat(pad, all.lower)};
 }
 
@@ -164,7 +168,11 @@ SlidingDisc::Sample SlidingDisc::sample(const Eigen::VectorXd& x)
   const auto p = x.tail(n);
   Power power{zero, zero, zero, p.dot(A_.bottomRightCorner(n, n) * p)};
   std::vector<ContactResult<double>> contacts;
-  for (std::size_t i = 0; i < points_.size(); ++i) motions_[i] = motion_at(points_[i], x);
+  std::vector<PairVector<double>> velocities;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    motions_[i] = motion_at(points_[i], x);
+    velocities.push_back(motions_[i].g_dot);
+  }
   series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
     const auto force = contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_).force;
     return {force.F_w, force.F_r, force.F_t};
@@ -172,7 +180,7 @@ SlidingDisc::Sample SlidingDisc::sample(const Eigen::VectorXd& x)
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointMotion& at = motions_[i];
     contacts.push_back(contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_));
-    const PointPower of_point = point_power(points_[i], at.g, at.g_dot, contacts.back());
+    const PointPower of_point = point_power(points_[i], at, velocities[i], contacts.back());
     const auto pad = static_cast<Eigen::Index>(pads_.points[i].pad);
     power.friction[pad] += of_point.friction;
     power.normal[pad] += of_point.normal;

@@ -78,6 +78,7 @@ void write_direct(Writer& file, const DirectLimitCycle& cycle)
   file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
   file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
   write_energy(file, cycle.energy);
+  if (!cycle.way.empty()) file.write("limit_cycle_direct/way", cycle.way);
 }
 
 DirectLimitCycle read_direct(const Reader& file)
@@ -105,7 +106,8 @@ DirectLimitCycle read_direct(const Reader& file)
       .mode_numbers = std::move(numbers),
       .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
                                   file.vector("limit_cycle_direct/amplitude_im", n)),
-      .energy = read_energy(file)};
+      .energy = read_energy(file),
+      .way = file.contains("limit_cycle_direct/way") ? file.text("limit_cycle_direct/way") : ""};
 }
 
 void write_branch(Writer& file, const LimitCycleBranch& branch)
@@ -114,6 +116,11 @@ void write_branch(Writer& file, const LimitCycleBranch& branch)
   if (!branch.folds.empty()) write_points(file, "limit_cycle_branch/folds/", branch.folds);
   write_optional(file, "limit_cycle_branch/lost_below", branch.lost_below, "rad/s");
   write_optional(file, "limit_cycle_branch/lost_above", branch.lost_above, "rad/s");
+  if (!branch.note.empty()) file.write("limit_cycle_branch/note", branch.note);
+  if (!branch.origin) return;
+  file.write("limit_cycle_branch/origin/speed", branch.origin->speed, "rad/s");
+  file.write("limit_cycle_branch/origin/frequency", branch.origin->frequency_Hz, "Hz");
+  write_points(file, "limit_cycle_branch/origin/first/", {branch.origin->first});
 }
 
 LimitCycleBranch read_branch(const Reader& file)
@@ -124,6 +131,12 @@ LimitCycleBranch read_branch(const Reader& file)
     branch.folds = read_points(file, "limit_cycle_branch/folds/");
   branch.lost_below = read_optional(file, "limit_cycle_branch/lost_below");
   branch.lost_above = read_optional(file, "limit_cycle_branch/lost_above");
+  if (file.contains("limit_cycle_branch/note")) branch.note = file.text("limit_cycle_branch/note");
+  if (!file.contains("limit_cycle_branch/origin")) return branch;
+  const auto first = read_points(file, "limit_cycle_branch/origin/first/");
+  if (first.size() != 1) file.fail("limit_cycle_branch/origin/first/speeds", "expected one cycle");
+  branch.origin = BranchOrigin{file.real("limit_cycle_branch/origin/speed"),
+                               file.real("limit_cycle_branch/origin/frequency"), first.front()};
   return branch;
 }
 

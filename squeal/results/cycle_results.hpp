@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace chladni::squeal {
@@ -56,6 +57,7 @@ struct DirectLimitCycle {
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
   Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
   CycleEnergy energy;
+  std::string way = {};  ///< which start led to it, in words; empty in files of earlier versions
 };
 
 /// What is kept of each limit cycle of a branch; see DirectLimitCycle.
@@ -69,6 +71,13 @@ struct BranchPoint {
   double largest_multiplier;  ///< modulus, without the one along the cycle
 };
 
+/// The Hopf point in which a branch of limit cycles leaves stable sliding.
+struct BranchOrigin {
+  double speed;         ///< rad/s, at which stability is lost or regained
+  double frequency_Hz;  ///< of the undamped oscillation there
+  BranchPoint first;    ///< the small cycle beside it from which the branch was followed
+};
+
 /// Limit cycles over the speed, in the order along their branch.
 struct LimitCycleBranch {
   std::vector<BranchPoint> points;
@@ -78,6 +87,8 @@ struct LimitCycleBranch {
   /// The branch could not be followed from this speed (rad/s) to lower, or to higher ones.
   std::optional<double> lost_below = {};
   std::optional<double> lost_above = {};
+  std::optional<BranchOrigin> origin = {};  ///< absent where the branch begins elsewhere
+  std::string note = {};  ///< where it begins or goes on when not from its origin, and why
 };
 
 }  // namespace chladni::squeal

@@ -10,6 +10,14 @@
 
 namespace chladni::squeal {
 
+/// Works in one period of a growing or decaying oscillation, relative to its energy: both are means
+/// over the phase, with the amplitude of one moment. The sum is 2 * growth / frequency.
+struct PeriodWork {
+  double friction;  ///< of the friction of all pads; > 0 feeds the oscillation
+  double normal;    ///< of their normal forces
+  double damping;   ///< of the modes of the disc and of the suspensions of pads
+};
+
 /// One motion of the sliding brake, followed by its shape over the values of a parameter.
 struct StabilityBranch {
   Eigen::VectorXcd lambda;                 ///< [m] growth rate 1/s + i angular frequency rad/s
@@ -17,6 +25,7 @@ struct StabilityBranch {
   StabilityPoint worst;    ///< where its growth was largest among the values that were looked at
   Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without a body
   double pads = 0.0;       ///< the share of pads with a mass
+  std::optional<PeriodWork> work = {};  ///< there; absent of stable ones and without a body
 
   bool is_unstable() const { return !unstable.empty(); }
 };

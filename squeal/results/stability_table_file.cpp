@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,26 @@ void write_participation(Writer& file, const StabilityTable& table)
   if (m == 0) return;
   file.write("stability/shares", shares, "1");
   file.write("stability/pads", pads, "1");
+}
+
+/// The works of those branches that have some, and which these are.
+void write_works(Writer& file, const StabilityTable& table)
+{
+  std::vector<std::int64_t> of;
+  std::vector<double> friction, normal, damping;
+  for (std::size_t j = 0; j < table.branches.size(); ++j) {
+    const auto& work = table.branches[j].work;
+    if (!work) continue;
+    of.push_back(static_cast<std::int64_t>(j) + 1);
+    friction.push_back(work->friction);
+    normal.push_back(work->normal);
+    damping.push_back(work->damping);
+  }
+  if (of.empty()) return;
+  file.write("stability/work/branch", std::span<const std::int64_t>(of), "1");
+  file.write("stability/work/friction", friction, "1");
+  file.write("stability/work/normal", normal, "1");
+  file.write("stability/work/damping", damping, "1");
 }
 
 void write_branches(Writer& file, const StabilityTable& table, const std::string& unit)
@@ -85,6 +106,22 @@ void read_intervals_of_branches(const Reader& file, std::vector<StabilityBranch>
   }
 }
 
+void read_works(const Reader& file, std::vector<StabilityBranch>& branches)
+{
+  if (!file.contains("stability/work")) return;
+  const Eigen::VectorXd friction = file.vector("stability/work/friction");
+  const Eigen::VectorXd normal = file.vector("stability/work/normal", friction.size());
+  const Eigen::VectorXd damping = file.vector("stability/work/damping", friction.size());
+  const auto of = file.integers("stability/work/branch", friction.size());
+  for (Index i = 0; i < friction.size(); ++i) {
+    const std::int64_t branch = of[static_cast<std::size_t>(i)];
+    if (branch < 1 || branch > std::ssize(branches))
+      file.fail("stability/work/branch", "it must number a row of stability/growth, from 1");
+    branches[static_cast<std::size_t>(branch - 1)].work =
+        PeriodWork{friction[i], normal[i], damping[i]};
+  }
+}
+
 std::vector<StabilityBranch> read_branches(const Reader& file, Index n_values, Index n_families)
 {
   std::vector<StabilityBranch> branches;
@@ -106,6 +143,7 @@ std::vector<StabilityBranch> read_branches(const Reader& file, Index n_values, I
                         .shares = shares.row(j).transpose(),
                         .pads = pads[j]});
   read_intervals_of_branches(file, branches);
+  read_works(file, branches);
   return branches;
 }
 
@@ -121,7 +159,9 @@ void write_stability_table(Writer& file, const StabilityTable& table)
     file.write("stability/band",
                Eigen::VectorXd(Eigen::Vector2d(table.band->from_Hz, table.band->to_Hz)), "Hz");
   write_participation(file, table);
-  if (!table.branches.empty()) write_branches(file, table, unit);
+  if (table.branches.empty()) return;
+  write_branches(file, table, unit);
+  write_works(file, table);
 }
 
 StabilityTable read_stability_table(const Reader& file)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/stability/mode_limits.hpp"
 #include "squeal/stability/mode_samples.hpp"
+#include "squeal/stability/period_work.hpp"
 #include "squeal/stability/stability_map.hpp"
 
 namespace chladni::squeal {
@@ -82,13 +84,13 @@ std::vector<Coordinates> families_of(const InertialDisc& disc)
 
 /// Where the motion grows most, and what takes part in it: kinetic energy is |p|^2 / 2 of each
 /// coordinate, the second half of an eigenvector (omega a, p).
-void add_worst(StabilityBranch& branch, const std::vector<ModeSample>& samples, Index j,
-               const FlexibleDisc* body)
+const ModeSample& add_worst(StabilityBranch& branch, const std::vector<ModeSample>& samples,
+                            Index j, const FlexibleDisc* body)
 {
   const ModeSample& worst = *std::ranges::max_element(
       samples, {}, [j](const ModeSample& sample) { return sample.growth(j); });
   branch.worst = stability_point(worst, j);
-  if (!body) return;
+  if (!body) return worst;
   const Eigen::VectorXd p = worst.X.col(j).tail(worst.X.rows() / 2).cwiseAbs2();
   const auto families = families_of(body->inertial());
   branch.shares.resize(std::ssize(families));
@@ -96,6 +98,18 @@ void add_worst(StabilityBranch& branch, const std::vector<ModeSample>& samples, 
     branch.shares[static_cast<Index>(i)] =
         p.segment(families[i].first, families[i].size).sum() / p.sum();
   branch.pads = p.tail(p.size() - body->inertial().n_modes()).sum() / p.sum();
+  return worst;
+}
+
+/// The works in a period of motion j; absent without a body, and where it does not oscillate.
+std::optional<PeriodWork> work_of(const Brake& brake, const StabilityCase& search,
+                                  const ModeSample& sample, Index j)
+{
+  if (!brake.body() || !(sample.lambda[j].imag() > 0.0)) return std::nullopt;
+  if (!search.over)
+    return period_work(*brake.body(), sample.value, sample.lambda[j], sample.X.col(j));
+  const auto there = brake.with(*search.over, sample.value);
+  return period_work(*there->body(), search.speed, sample.lambda[j], sample.X.col(j));
 }
 
 /// Without its branches.
@@ -144,7 +158,9 @@ StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search)
   samples = with_hidden_changes(A, std::move(samples), which);
   for (std::size_t k = 0; k < which.size(); ++k) {
     table.branches[k].unstable = unstable_intervals(A, samples, which[k]);
-    add_worst(table.branches[k], samples, which[k], brake.body());
+    StabilityBranch& branch = table.branches[k];
+    const ModeSample& worst = add_worst(branch, samples, which[k], brake.body());
+    if (branch.is_unstable()) branch.work = work_of(brake, search, worst, which[k]);
   }
   std::ranges::stable_sort(table.branches, {},
                            [](const StabilityBranch& b) { return b.worst.frequency_Hz; });

@@ -4,6 +4,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/state_matrix.hpp"
+#include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/rotating_disc.hpp"
 #include "squeal/motion/sliding_disc.hpp"
@@ -194,6 +195,17 @@ TEST(ContactCompliance, GrowsInTransientsAsItsEigenvaluesSay)
     ASSERT_TRUE(run.growth_rate);
     EXPECT_NEAR(*run.growth_rate, exact, 2e-3) << run.integrator;  // of the mesh of times
   }
+}
+
+TEST(ContactCompliance, TakesNoEnergyInALimitCycle)
+{
+  const FlexibleDisc brake(make_disc(augmented_body(1.0), "track", {}), two_pads());
+  ASSERT_FALSE(brake.disc().compliance.empty());
+  const CycleEnergy energy = limit_cycle_direct(brake, 12.0 * pi).energy;
+  EXPECT_GT(energy.friction.sum(), 0.0);
+  // Forces that change sides within a sample leave 1e-4 of it.
+  EXPECT_NEAR(energy.friction.sum() + energy.normal.sum() + energy.damping, 0.0,
+              2e-4 * energy.friction.cwiseAbs().sum());
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
@@ -109,6 +111,30 @@ TEST(LimitCycleBranch, BeginsAtTheCriticalSpeedWithASquareRoot)
   const BranchPoint& first = branch.points.front();
   const double v = first.pad_velocity;
   EXPECT_NEAR(v * v / (first.speed / pi - 4.2718984074), 486.0, 5.0);
+}
+
+TEST(LimitCycleBranch, BeginsAtTheHopfPointWithASmallCycle)
+{
+  const LimitCycleBranch branch = branch_over(ContactLaw::bilateral, onset);
+  ASSERT_TRUE(branch.origin);
+  EXPECT_NEAR(branch.origin->speed / pi, 4.2718984074, 1e-8);
+  const BranchPoint& first = branch.origin->first;
+  EXPECT_LT(first.pad_displacement, 0.03 * 2000.0 / 6e6);
+  EXPECT_GT(first.speed, branch.origin->speed);
+  EXPECT_NEAR(first.speed, branch.origin->speed, 1e-4);
+  // The same square root as farther on.
+  const double v = first.pad_velocity;
+  EXPECT_NEAR(v * v / ((first.speed - branch.origin->speed) / pi), 486.0, 5.0);
+  EXPECT_NEAR(first.frequency_Hz, branch.origin->frequency_Hz, 1e-3);
+  EXPECT_EQ(branch.note, "");
+}
+
+TEST(LimitCycleBranch, SaysThatItDoesNotBeginAtAHopfPointWhereThereIsNone)
+{
+  const LimitCycleBranch branch = branch_over(ContactLaw::unilateral, fast);
+  EXPECT_FALSE(branch.origin);
+  EXPECT_NE(branch.note.find("unstable at all"), std::string::npos) << branch.note;
+  EXPECT_EQ(branch.points.size(), 8u);
 }
 
 TEST(LimitCycleBranch, IsTheSameFromAboveAndFromTheEigenvector)

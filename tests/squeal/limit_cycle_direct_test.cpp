@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <string>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/cycle/cycle_detours.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/transient/transient.hpp"
 
@@ -158,6 +160,58 @@ TEST(DirectLimitCycle, IsNotTheStateOfRest)
       limit_cycle_direct(FlexibleDisc(reference_disc(), reference_options()), 4.3 * pi);
   EXPECT_FALSE(limit_cycle_near(FlexibleDisc(reference_disc(), reference_options()), 4.2 * pi,
                                 {start.x, 1.0 / start.frequency_Hz}));
+}
+
+SquealOptions two_pads(ContactLaw law, double angle)
+{
+  SquealOptions options = reference_options(law);
+  options.pads.push_back(options.pads.front());
+  options.pads.back().angle = angle;
+  return options;
+}
+
+TEST(DirectLimitCycle, ExistsBetweenTwoPadPairsWithEachContactLaw)
+{
+  // at 60 degrees, 20 pi and with signed forces the first pad moves by more than 50 compressions.
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()});
+  for (const ContactLaw law :
+       {ContactLaw::bilateral, ContactLaw::unilateral, ContactLaw::signed_force}) {
+    for (const double angle : {0.3, pi / 3.0, 1.2, pi}) {
+      const FlexibleDisc brake(disc, two_pads(law, angle));
+      for (const double by_pi : {6.5, 12.0, 20.0}) {
+        SCOPED_TRACE(testing::Message()
+                     << static_cast<int>(law) << ", " << angle << " rad, " << by_pi << " pi");
+        const DirectLimitCycle cycle = limit_cycle_direct(brake, by_pi * pi);
+        EXPECT_GT(cycle.pad_velocity, 1.0);
+        EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-5);
+        EXPECT_EQ(cycle.way.find("from the unstable eigenvector"), 0u) << cycle.way;
+      }
+    }
+  }
+}
+
+TEST(DirectLimitCycle, IsTheSameByEachDetour)
+{
+  const FlexibleDisc brake(reference_disc(), two_pads(ContactLaw::unilateral, 0.3));
+  const DirectLimitCycle cycle = limit_cycle_direct(brake, 8.0 * pi);
+  const Detour branch = cycle_by_continuation(brake, 8.0 * pi),
+               transient = cycle_by_transient(brake, 8.0 * pi);
+  ASSERT_TRUE(branch.cycle) << branch.said;
+  ASSERT_TRUE(transient.cycle) << transient.said;
+  for (const Detour& detour : {branch, transient})
+    EXPECT_NEAR(detour.cycle->pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity)
+        << detour.said;
+  EXPECT_NE(branch.said.find("Hopf point"), std::string::npos) << branch.said;
+  EXPECT_NE(transient.said.find("periods"), std::string::npos) << transient.said;
+}
+
+TEST(DirectLimitCycle, SaysWhyADetourLeadsNowhere)
+{
+  // With one sinusoidal mode pair and two pads the brake is unstable only above 4.24 pi.
+  const FlexibleDisc stable(reference_disc(), two_pads(ContactLaw::unilateral, 0.3));
+  const Detour branch = cycle_by_continuation(stable, 3.0 * pi);
+  EXPECT_FALSE(branch.cycle);
+  EXPECT_NE(branch.said.find("no Hopf point"), std::string::npos) << branch.said;
 }
 
 }  // namespace

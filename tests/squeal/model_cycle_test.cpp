@@ -115,6 +115,8 @@ TEST(Oscillator, SticksAndSlipsBesideStableSliding)
   const LimitCycleBranch branch = limit_cycle_branch(
       model, {.from = 0.5 * V_c / o.radius, .to = 1.5 * V_c / o.radius, .count = 41});
   ASSERT_FALSE(branch.points.empty());
+  ASSERT_TRUE(branch.origin);
+  EXPECT_NEAR(branch.origin->speed * o.radius, V_c, 1e-2 * V_c);
   bool stable_above = false;
   for (const BranchPoint& point : branch.points)
     stable_above |= point.speed * o.radius > V_c && point.largest_multiplier < 1.0;

@@ -133,5 +133,34 @@ TEST(LimitCycleBranch, GoesThroughAFoldToItsUnstablePart)
   EXPECT_EQ(n_stable, 25);
 }
 
+TEST(LimitCycleBranch, GoesBackFromASubcriticalHopfPoint)
+{
+  const LimitCycleBranch branch =
+      limit_cycle_branch(SubcriticalBrake(), {.from = 1.0, .to = 3.0, .count = 40});
+  ASSERT_TRUE(branch.origin);
+  EXPECT_NEAR(branch.origin->speed, 2.0, 1e-9);
+  EXPECT_NEAR(branch.origin->frequency_Hz, 0.5 / pi, 1e-9);
+  const BranchPoint& first = branch.origin->first;
+  const double s = first.pad_displacement * first.pad_displacement;
+  EXPECT_LT(s, 1e-2);
+  EXPECT_NEAR(2.0 - first.speed, s - s * s, 1e-2 * s);
+  EXPECT_GT(first.largest_multiplier, 1.0);
+  // Backwards first, then forward.
+  ASSERT_GE(branch.points.size(), 6u);
+  EXPECT_GT(branch.points[0].speed, branch.points[1].speed);
+  EXPECT_LT(branch.points[5].speed, branch.points[6].speed);
+}
+
+TEST(LimitCycleBranch, FindsTheLargeCyclesThatTheBranchReachesOutsideOfTheSpeeds)
+{
+  // The fold at 1.75 is below the lowest of the speeds, so that the branch leaves them.
+  const LimitCycleBranch branch =
+      limit_cycle_branch(SubcriticalBrake(), {.from = 1.9, .to = 3.0, .count = 12});
+  ASSERT_TRUE(branch.origin);
+  int n_stable = 0;
+  for (const BranchPoint& point : branch.points) n_stable += point.largest_multiplier < 1.0;
+  EXPECT_EQ(n_stable, 12);
+}
+
 }  // namespace
 }  // namespace chladni::squeal

@@ -65,6 +65,9 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   const TemporaryFile file;
   SquealResults written = complete_results();
   written.limit_cycle_branch->lost_below = 18.0;
+  ASSERT_TRUE(written.limit_cycle_branch->origin);
+  written.limit_cycle_branch->note = "a second part";
+  written.limit_cycle_direct->way = "by a detour";
   write_results(file.path, written, {});
   const SquealResults read = read_results(file.path);
   EXPECT_EQ(read.largest_split, written.largest_split);
@@ -89,6 +92,15 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   EXPECT_EQ(read.map->growth, written.map->growth);
   EXPECT_EQ(read.map->frequency_Hz, written.map->frequency_Hz);
   EXPECT_EQ(read.limit_cycle_branch->lost_below, 18.0);
+  EXPECT_EQ(read.limit_cycle_branch->note, "a second part");
+  EXPECT_EQ(read.limit_cycle_direct->way, "by a detour");
+  ASSERT_TRUE(read.limit_cycle_branch->origin);
+  const BranchOrigin &a = *read.limit_cycle_branch->origin,
+                     &b = *written.limit_cycle_branch->origin;
+  EXPECT_EQ(a.speed, b.speed);
+  EXPECT_EQ(a.frequency_Hz, b.frequency_Hz);
+  EXPECT_EQ(a.first.speed, b.first.speed);
+  EXPECT_EQ(a.first.pad_velocity, b.first.pad_velocity);
   ASSERT_EQ(read.limit_cycle_branch->points.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(read.limit_cycle_branch->points[i].speed,

@@ -171,7 +171,8 @@ function plot(options) {
   drawToWidth(figure, width => {
     const svg = svgElement("svg", {role: "img", "aria-label": options.title});
     const rows = drawLegend(svg, named, 70, 14, width - 80);
-    const box = {left: 70, top: named.length ? 26 + rows : 10, width: width - 84,
+    const right = series.some(one => one.label) ? 62 : 14;
+    const box = {left: 70, top: named.length ? 26 + rows : 10, width: width - 70 - right,
                  height: options.height ?? 260};
     svg.setAttribute("height", box.top + box.height + 42);
     const clip = `clip${clipCount++}`;
@@ -184,6 +185,7 @@ function plot(options) {
     for (const band of bands) drawBand(inside, band, toX, toY);
     for (const one of series) drawSeries(inside, one, toX, toY);
     svg.append(definition, inside);
+    drawLabels(svg, series, box, toX, toY);
     addReadout(svg, box, {axis: xAxis, log: options.x.log}, {axis: yAxis, log: options.y.log});
     return svg;
   });

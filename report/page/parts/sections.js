@@ -130,63 +130,6 @@ function firstMotion(content) {
   return squeal >= 0 ? squeal : Math.max(0, elastic);
 }
 
-const speedAxis = {label: "rotation speed, rad/s"};
-
-function campbellFigures({campbell, critical}) {
-  const curves = campbell.frequency_Hz.map((f, j) => ({x: campbell.speeds, y: f, colour: 0, name: j ? "" : "eigenfrequency"}));
-  const unstable = {x: [], y: [], line: false, marker: "circle", colour: 1, name: "grows"};
-  campbell.growth.forEach((row, j) => row.forEach((growth, i) => {
-    if (!(growth > 1e-6)) return;
-    unstable.x.push(campbell.speeds[i]);
-    unstable.y.push(campbell.frequency_Hz[j][i]);
-  }));
-  const marks = unstable.x.length ? [unstable] : [];
-  const star = key => critical ? [{x: [critical.speed], y: [key ? critical.frequency_Hz : 0], line: false, marker: "star",
-                                   colour: 3, name: "onset of squeal"}] : [];
-  const rates = campbell.growth.map((row, j) => ({x: campbell.speeds, y: row, colour: 0, name: j ? "" : "growth rate"}));
-  const zero = {x: [campbell.speeds[0], campbell.speeds.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
-  return [plot({title: "Campbell diagram: frequencies in the frame of the pads over the speed",
-                x: speedAxis, y: {label: "frequency, Hz"}, series: [...curves, ...marks, ...star(true)]}),
-          plot({title: "Growth rates: above zero the brake squeals", x: speedAxis, y: {label: "growth rate, 1/s"},
-                series: [zero, ...rates, ...growthMarks(), ...star(false)]})];
-  function growthMarks() {
-    const growth = content().growth ?? [];
-    return growth.length ? [{x: growth.map(g => g.speed), y: growth.map(g => g.rate), line: false, marker: "square",
-                             colour: 2, name: "measured in transients"}] : [];
-  }
-}
-
-function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
-  const others = exponents.slice(1).map((y, j) => ({x: speeds, y, colour: 0, width: 0.8, name: j ? "" : "next exponents"}));
-  const standing = frozen.length ? [{x: speeds, y: frozen, colour: 1, dash: "5 4", name: "standing at its worst angle"}] : [];
-  const series = [...others, {x: speeds, y: growth, colour: 2, name: "turning disc"}, ...standing];
-  return [plot({title: "Growth rates of the disc as it is", x: speedAxis, y: {label: "growth rate, 1/s"}, series})];
-}
-
-// All modes over a parameter; those that grow somewhere are labelled by their nodal diameters.
-function unstableModesFigures({unstable_modes: table}) {
-  const named = table.parameter === "speed" ? speedAxis.label
-    : `${table.parameter}${table.unit !== "1" ? `, ${table.unit}` : ""}`;
-  const x = {label: named}, values = table.values, legend = new Map();
-  const curves = [], rates = [], grow = [];
-  for (const {frequency_Hz, growth, unstable, diameters} of table.branches) {
-    const colour = unstable.length ? 1 + (diameters ?? 0) % 4 : 0, width = unstable.length ? 1.8 : 0.8;
-    const label = !unstable.length ? "stable modes" : diameters === null ? "unstable modes" : `${diameters} nodal diameters`;
-    const name = legend.has(label) ? "" : label;
-    legend.set(label, true);
-    curves.push({x: values, y: frequency_Hz, colour, width, name});
-    rates.push({x: values, y: growth, colour, width, name});
-    const inside = values.map(v => unstable.some(([from, to]) => from <= v && v <= to));
-    if (inside.some(Boolean))
-      grow.push({x: values.filter((_, i) => inside[i]), y: frequency_Hz.filter((_, i) => inside[i]), colour,
-                 line: false, marker: "circle", name: grow.length ? "" : "grows"});
-  }
-  const [low, high] = table.growth_axis ?? [undefined, undefined];
-  const zero = {x: [values[0], values.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
-  return [plot({title: `Campbell diagram: ${table.summary}`, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
-          plot({title: "Growth of each mode", x, y: {label: "growth rate, 1/s", low, high}, series: [zero, ...rates]})];
-}
-
 function mapFigures({map}) {
   const label = `${map.parameter}${map.unit && map.unit !== "1" ? `, ${map.unit}` : ""}`;
   const x = {label: speedAxis.label, values: map.speeds}, y = {label, values: map.values};
@@ -217,7 +160,7 @@ function cycleFigures(content) {
     }
   }
   if (branch) {
-    const stable = branch.largest_multiplier.map(m => m < 1);
+    const stable = branch.stable.map(Boolean);
     const pick = wanted => branch.pad_velocity.map((v, i) => stable[i] === wanted ? v : NaN);
     made.push(plot({title: "Limit cycles over the speed", x: speedAxis, y: {label: "pad velocity, m/s"},
                     series: [{x: branch.speed, y: pick(true), colour: 0, marker: "circle", name: "stable"},
@@ -302,7 +245,7 @@ function drawPage() {
   if (page.modes) drawModes(page);
   if (page.groups) drawGroups(page);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
-  if (page.unstable_modes) section("modes-of-squeal", "Unstable modes", figures(...unstableModesFigures(page)));
+  if (page.unstable_modes) section("modes-of-squeal", "Unstable modes", unstableModesTable(page), figures(...unstableModesFigures(page)));
   if (page.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(page)));
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);

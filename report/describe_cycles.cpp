@@ -1,0 +1,70 @@
+#include "report/describe_cycles.hpp"
+
+#include <fmt/format.h>
+
+#include <complex>
+#include <numbers>
+
+#include "report/quantities.hpp"
+
+namespace chladni::report {
+
+double rpm(double rad_s)
+{
+  return rad_s * 30.0 / std::numbers::pi;
+}
+
+std::string spoken(double rad_s)
+{
+  return fmt::format("{:.6g} rad/s ({:.4g} rpm)", rad_s, rpm(rad_s));
+}
+
+void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
+{
+  // What still grows or decays is the end of a transient and no limit cycle.
+  const std::string name = cycle.settled ? "limit cycle: " : "end of the transient, not settled: ";
+  add(table, name + "speed", cycle.speed, "rad/s");
+  add(table, name + "frequency", cycle.frequency_Hz, "Hz");
+  add(table, name + "pad velocity", cycle.pad_velocity, "m/s");
+  add(table, name + "pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, name + "least normal force", cycle.N_min, "N");
+  add(table, name + "largest normal force", cycle.N_max, "N");
+  if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
+}
+
+void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
+{
+  add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
+  add(table, "direct limit cycle: frequency", cycle.frequency_Hz, "Hz");
+  add(table, "direct limit cycle: pad velocity", cycle.pad_velocity, "m/s");
+  add(table, "direct limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
+  add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
+  add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
+  if (!cycle.stable) table.rows.push_back({"direct limit cycle", "not stable", ""});
+  add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
+  if (!cycle.way.empty()) table.rows.push_back({"direct limit cycle: found", cycle.way, ""});
+}
+
+void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
+{
+  add_count(table, "limit cycles over speed", static_cast<Eigen::Index>(branch.points.size()));
+  if (branch.origin) {
+    add(table, "limit cycles begin at the Hopf point", branch.origin->speed, "rad/s");
+    const bool forward = branch.origin->first.speed > branch.origin->speed;
+    table.rows.push_back(
+        {"limit cycles begin towards", forward ? "higher speeds" : "lower speeds", ""});
+  }
+  if (!branch.note.empty()) table.rows.push_back({"limit cycles over speed", branch.note, ""});
+  if (branch.points.empty()) return;
+  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
+    add(table, "pad velocity at " + spoken(end.speed), end.pad_velocity, "m/s");
+  }
+  for (const squeal::BranchPoint& fold : branch.folds) {
+    add(table, "fold of the limit cycle at", fold.speed, "rad/s");
+  }
+  if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
+  if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
+}
+
+}  // namespace chladni::report
