@@ -82,14 +82,21 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
   return Json::array(points);
 }
 
-/// Where the branch begins.
+/// The index of its first point, from 0.
+Json second_part_json(const squeal::LimitCycleBranch& branch)
+{
+  return branch.second_part ? Json(static_cast<int>(*branch.second_part)) : Json();
+}
+
+/// Where the branch begins, and where it goes on.
 Json origin_json(const squeal::LimitCycleBranch& branch)
 {
   const auto& origin = branch.origin;
   return Json::object({{"hopf_speed_rad_s", origin ? Json(origin->speed) : Json()},
                        {"hopf_frequency_Hz", origin ? Json(origin->frequency_Hz) : Json()},
                        {"first", origin ? branch_point_json(origin->first) : Json()},
-                       {"note", branch.note.empty() ? Json() : Json(branch.note)}});
+                       {"note", branch.note.empty() ? Json() : Json(branch.note)},
+                       {"second_part_from", second_part_json(branch)}});
 }
 
 /// Something of two points, as a pair.

@@ -137,11 +137,15 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
     frequency_Hz.push_back(point.frequency_Hz);
     multiplier.push_back(point.largest_multiplier);
   }
-  return Json::object({{"speed", rounded(speed)},
-                       {"pad_velocity", rounded(velocity)},
-                       {"frequency_Hz", rounded(frequency_Hz)},
-                       {"stable", Json::array(stable)},
-                       {"largest_multiplier", rounded(multiplier)}});
+  const std::size_t before = branch.origin ? 1 : 0;
+  return Json::object(
+      {{"speed", rounded(speed)},
+       {"second_part",
+        branch.second_part ? Json(static_cast<int>(*branch.second_part + before)) : Json()},
+       {"pad_velocity", rounded(velocity)},
+       {"frequency_Hz", rounded(frequency_Hz)},
+       {"stable", Json::array(stable)},
+       {"largest_multiplier", rounded(multiplier)}});
 }
 
 Json growth_json(const std::vector<squeal::Growth>& growths)

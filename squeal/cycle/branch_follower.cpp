@@ -100,7 +100,7 @@ void BranchFollower::add_between(const ArcPoint& a, const ArcPoint& b, double le
   };
   root(turned, 0.0, length, fold_error);
   add_speeds(a, fold, part);
-  part.folds.push_back(as_it_is(fold));
+  if (const auto cycle = as_it_is(fold)) part.folds.push_back(*cycle);
   add_speeds(fold, b, part);
 }
 
@@ -126,10 +126,11 @@ void BranchFollower::add(const CycleStart& near, double speed,
   if (const auto cycle = limit_cycle_near(brake_, speed, near)) points.push_back(point_of(*cycle));
 }
 
-BranchPoint BranchFollower::as_it_is(const ArcPoint& point) const
+std::optional<BranchPoint> BranchFollower::as_it_is(const ArcPoint& point) const
 {
   const std::unique_ptr<AutonomousMotion> motion = brake_.motion(point.speed);
   const Flow end = flow(*motion, point.at, orbit_tolerance);
+  if (!end.end.allFinite() || !end.derivative.allFinite()) return std::nullopt;
   return point_of(
       measured_cycle(brake_, *motion, {point.at, end.derivative, 0, orbit_tolerance}, point.speed));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "squeal/cycle/branch_arc.hpp"
@@ -32,7 +33,8 @@ class BranchFollower {
 
   /// The cycle at a point, where Newton's method at one speed does not converge: at folds and
   /// beside rest.
-  BranchPoint as_it_is(const ArcPoint& point) const;
+  /// @return absent where it is stuck in a contact
+  std::optional<BranchPoint> as_it_is(const ArcPoint& point) const;
 
  private:
   double progress_at(double speed, double direction) const;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/error.hpp"
 #include "squeal/cycle/branch_follower.hpp"
+#include "squeal/cycle/branch_parts.hpp"
 #include "squeal/cycle/hopf_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/stability/stability.hpp"
@@ -22,14 +24,6 @@ std::optional<double> highest_unstable(const Brake& brake, const SpeedRange& ran
   for (Eigen::Index i = speeds.size() - 1; i >= 0; --i)
     if (least_stable_eigenvalue(brake.state_matrix(speeds[i])).real() > 0.0) return speeds[i];
   return std::nullopt;
-}
-
-void append(LimitCycleBranch& branch, const LimitCycleBranch& part)
-{
-  branch.points.insert(branch.points.end(), part.points.begin(), part.points.end());
-  branch.folds.insert(branch.folds.end(), part.folds.begin(), part.folds.end());
-  if (part.lost_below) branch.lost_below = part.lost_below;
-  if (part.lost_above) branch.lost_above = part.lost_above;
 }
 
 /// The branch through a cycle, in both directions, from its end on the side of low speeds.
@@ -57,15 +51,17 @@ LimitCycleBranch branch_from(const BranchFollower& follower, const Brake& brake,
 {
   const auto start = cycle_at_hopf(brake, follower.motion(), limit);
   if (!start) return {};
+  const auto first = follower.as_it_is(*start);
+  if (!first) return {};
   LimitCycleBranch branch = follower.from_point(*start, progress);
-  branch.origin = BranchOrigin{limit.value, limit.frequency_Hz, follower.as_it_is(*start)};
+  branch.origin = BranchOrigin{limit.value, limit.frequency_Hz, *first};
   return branch;
 }
 
 bool reaches(const LimitCycleBranch& branch, double speed)
 {
-  return std::any_of(branch.points.begin(), branch.points.end(),
-                     [speed](const BranchPoint& point) { return point.speed == speed; });
+  return std::ranges::any_of(branch.points,
+                             [speed](const BranchPoint& point) { return point.speed == speed; });
 }
 
 /// Why a branch begins, or goes on, with a cycle at a speed.
@@ -100,9 +96,9 @@ LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
   if (!speed || reaches(branch, *speed)) return branch;
   try {
     const DirectLimitCycle start = limit_cycle_direct(brake, *speed);
+    LimitCycleBranch second = branch_through(follower, start, range, progress);
     const std::string note = note_of(branch, limit, *speed);
-    append(branch, branch_through(follower, start, range, progress));
-    branch.note = note;
+    return joined(std::move(branch), std::move(second), note);
   } catch (const Error& error) {
     if (!branch.origin) throw;
     branch.note = fmt::format("the branch from the Hopf point does not reach {:.6g} rad/s; {}",

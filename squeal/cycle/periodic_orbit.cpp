@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
@@ -116,6 +117,27 @@ Flow flow_with(AutonomousMotion& motion, const CycleStart& start, double toleran
   return result;
 }
 
+/// What `integrate` returns, or `otherwise` where it is stuck in a contact.
+template <class Integrate, class Result>
+Result unless_stuck(const Integrate& integrate, Result otherwise)
+{
+  try {
+    return integrate();
+  } catch (const StuckContact&) {
+    return otherwise;
+  }
+}
+
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+
+Flow flow_or_nowhere(AutonomousMotion& motion, const CycleStart& start, double tolerance,
+                     const Exponentials& exponentials)
+{
+  const Eigen::Index n = start.x.size();
+  return unless_stuck([&] { return flow_with(motion, start, tolerance, exponentials); },
+                      Flow{Eigen::VectorXd::Constant(n, nowhere), Eigen::MatrixXd::Identity(n, n)});
+}
+
 /// A Newton step (dx, dT / T) from the end of a flow:
 /// [X - I, T f(x_T); T f(x_0)^T, 0] (dx, dT / T) = (x_0 - x_T, 0).
 Eigen::VectorXd newton_step(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
@@ -153,7 +175,7 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
   double before = 1.0;
   for (int i = 1; i <= newton_steps_max; ++i) {
     if (renew)
-      now = flow_with(motion, at, tolerance, rough);
+      now = flow_or_nowhere(motion, at, tolerance, rough);
     else
       now.end = end_of(motion, at, tolerance);
     if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
@@ -180,21 +202,29 @@ double error_along(const Eigen::MatrixXd& monodromy)
 
 Flow flow(AutonomousMotion& motion, const CycleStart& start, double tolerance)
 {
-  return flow_with(motion, start, tolerance, fine(tolerance));
+  return flow_or_nowhere(motion, start, tolerance, fine(tolerance));
 }
 
 Eigen::VectorXd end_of(AutonomousMotion& motion, const CycleStart& start, double tolerance)
 {
-  DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
-  return orbit.at(start.period);
+  const auto integrate = [&]() -> Eigen::VectorXd {
+    DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
+    return orbit.at(start.period);
+  };
+  return unless_stuck(integrate,
+                      Eigen::VectorXd(Eigen::VectorXd::Constant(start.x.size(), nowhere)));
 }
 
 Eigen::MatrixXd states_over_period(AutonomousMotion& motion, const CycleStart& start, int n,
                                    double tolerance)
 {
-  DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
-  Eigen::MatrixXd states(start.x.size(), n);
-  for (int i = 0; i < n; ++i) states.col(i) = orbit.at(start.period * i / n);
+  Eigen::MatrixXd states = Eigen::MatrixXd::Constant(start.x.size(), n, nowhere);
+  const auto integrate = [&] {
+    DormandPrince orbit(motion, 0.0, start.x, control_of(motion, tolerance));
+    for (int i = 0; i < n; ++i) states.col(i) = orbit.at(start.period * i / n);
+    return true;
+  };
+  unless_stuck(integrate, false);
   return states;
 }
 

@@ -15,7 +15,8 @@ struct CycleStart {
 
 /// x(T) and its derivatives by x(0). The motion is integrated with order 8 and located switching;
 /// the derivative is the product of the exponentials of Magnus' series of order 4 along it, which
-/// takes two derivatives of f for each 36th of the fastest period.
+/// takes two derivatives of f for each 36th of the fastest period. Where a contact changes its side
+/// without end, `end` is not finite; so are the states of the two functions below.
 struct Flow {
   Eigen::VectorXd end;
   Eigen::MatrixXd derivative;  ///< [size x size]

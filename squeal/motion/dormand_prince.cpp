@@ -145,7 +145,7 @@ void DormandPrince::cross(const Crossing& crossing, double step)
     extend();
     step_next_ = step;
   } else if (++n_stuck_ > stuck_max) {
-    throw Error(fmt::format(
+    throw StuckContact(fmt::format(
         "the contact of a pad changes more than {} times at t = {:.9g} s; give the pads "
         "some damping, or take integrator = \"splitting\"",
         stuck_max, t_));

@@ -2,12 +2,19 @@
 
 #include <optional>
 
+#include "common/error.hpp"
 #include "squeal/motion/integrator.hpp"
 
 namespace chladni::squeal {
 
 /// Events that are kept: a run that has more of them may be long, and its memory may not grow.
 inline constexpr std::size_t events_max = 100000;
+
+/// Sides that change again and again at one time: no motion leads on from there.
+class StuckContact : public Error {
+ public:
+  using Error::Error;
+};
 
 /// The explicit Runge-Kutta method of order 8 by Dormand and Prince with an error estimate of
 /// orders 5 and 3, dense output of order 7 and located zeros of the switching functions: at each of
@@ -21,7 +28,7 @@ class DormandPrince final : public Integrator {
   DormandPrince(SwitchedMotion& motion, double t, const Eigen::VectorXd& y,
                 const StepControl& control);
 
-  /// @throws chladni::Error when the sides change again and again without progress in time.
+  /// @throws StuckContact when the sides change again and again without progress in time.
   const Eigen::VectorXd& at(double t) override;
 
   /// Takes one more step, between `begin` and `end` of which `at` then interpolates. The sides of

@@ -1,6 +1,10 @@
 #include "squeal/results/cycle_file.hpp"
 
+#include <fmt/format.h>
+
 #include <complex>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -55,6 +59,16 @@ std::vector<BranchPoint> read_points(const Reader& file, const std::string& grou
       points[static_cast<std::size_t>(i)].*column.member = values[i];
   }
   return points;
+}
+
+std::optional<std::size_t> read_second_part(const Reader& file, std::size_t n_points)
+{
+  const std::string name = "limit_cycle_branch/second_part";
+  if (!file.contains(name)) return std::nullopt;
+  const std::int64_t first = file.integer(name);
+  if (first < 0 || static_cast<std::size_t>(first) >= n_points)
+    file.fail(name, fmt::format("there is no point {} among {}", first, n_points));
+  return static_cast<std::size_t>(first);
 }
 
 }  // namespace
@@ -117,6 +131,9 @@ void write_branch(Writer& file, const LimitCycleBranch& branch)
   write_optional(file, "limit_cycle_branch/lost_below", branch.lost_below, "rad/s");
   write_optional(file, "limit_cycle_branch/lost_above", branch.lost_above, "rad/s");
   if (!branch.note.empty()) file.write("limit_cycle_branch/note", branch.note);
+  if (branch.second_part)
+    file.write("limit_cycle_branch/second_part", static_cast<std::int64_t>(*branch.second_part),
+               "1");
   if (!branch.origin) return;
   file.write("limit_cycle_branch/origin/speed", branch.origin->speed, "rad/s");
   file.write("limit_cycle_branch/origin/frequency", branch.origin->frequency_Hz, "Hz");
@@ -132,6 +149,7 @@ LimitCycleBranch read_branch(const Reader& file)
   branch.lost_below = read_optional(file, "limit_cycle_branch/lost_below");
   branch.lost_above = read_optional(file, "limit_cycle_branch/lost_above");
   if (file.contains("limit_cycle_branch/note")) branch.note = file.text("limit_cycle_branch/note");
+  branch.second_part = read_second_part(file, branch.points.size());
   if (!file.contains("limit_cycle_branch/origin")) return branch;
   const auto first = read_points(file, "limit_cycle_branch/origin/first/");
   if (first.size() != 1) file.fail("limit_cycle_branch/origin/first/speeds", "expected one cycle");

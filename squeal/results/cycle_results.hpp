@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -89,6 +90,8 @@ struct LimitCycleBranch {
   std::optional<double> lost_above = {};
   std::optional<BranchOrigin> origin = {};  ///< absent where the branch begins elsewhere
   std::string note = {};  ///< where it begins or goes on when not from its origin, and why
+  /// Index of the first point that is not connected with those before it; absent where all are.
+  std::optional<std::size_t> second_part = {};
 };
 
 }  // namespace chladni::squeal

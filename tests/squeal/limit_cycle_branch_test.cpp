@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "references/squeal/analytic_body.hpp"
+#include "squeal/cycle/branch_parts.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 
@@ -145,6 +146,47 @@ TEST(LimitCycleBranch, IsTheSameFromAboveAndFromTheEigenvector)
   const DirectLimitCycle cycle = limit_cycle_direct(
       FlexibleDisc(disc_of({kirchhoff_3()}), reference_options(ContactLaw::unilateral)), 6.0 * pi);
   EXPECT_NEAR(branch.points.front().pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity);
+}
+
+LimitCycleBranch part_of(const std::vector<double>& speeds, double velocity)
+{
+  LimitCycleBranch part;
+  for (const double speed : speeds) part.points.push_back({speed, 1000.0, velocity, 1e-3, 0, 0, 0});
+  return part;
+}
+
+std::vector<double> speeds_of(const LimitCycleBranch& branch)
+{
+  std::vector<double> speeds;
+  for (const BranchPoint& point : branch.points) speeds.push_back(point.speed);
+  return speeds;
+}
+
+TEST(LimitCycleBranch, TellsWhereItsSecondPartBegins)
+{
+  const LimitCycleBranch branch = joined(part_of({1, 2}, 1.0), part_of({2, 3, 4}, 5.0), "two");
+  EXPECT_EQ(speeds_of(branch), (std::vector<double>{1, 2, 2, 3, 4}));
+  EXPECT_EQ(branch.second_part, 2u);
+  EXPECT_EQ(branch.note, "two");
+  const LimitCycleBranch alone = joined({}, part_of({2, 3}, 5.0), "one");
+  EXPECT_FALSE(alone.second_part);
+  EXPECT_EQ(alone.note, "one");
+}
+
+TEST(LimitCycleBranch, HasNoSecondPartThatItHasAlready)
+{
+  // The first part has lost its cycle at 3; that at 4 led to the second.
+  LimitCycleBranch first = part_of({1, 2, 4}, 1.0);
+  first.origin = BranchOrigin{0.5, 1000.0, first.points.front()};
+  const LimitCycleBranch branch = joined(first, part_of({1, 2, 3, 4}, 1.0), "two");
+  EXPECT_EQ(speeds_of(branch), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_FALSE(branch.second_part);
+  EXPECT_EQ(branch.note, "");
+  EXPECT_TRUE(branch.origin);
+  // A branch begins with its small cycles, also those that go to lower speeds.
+  LimitCycleBranch down = part_of({1, 2, 3, 4}, 1.0);
+  first.points.back().pad_displacement = down.points.back().pad_displacement = 1e-6;
+  EXPECT_EQ(speeds_of(joined(first, down, "")), (std::vector<double>{4, 3, 2, 1}));
 }
 
 TEST(LimitCycleBranch, IsEmptyWhereTheDiscIsStable)

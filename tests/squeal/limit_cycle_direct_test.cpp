@@ -198,11 +198,30 @@ TEST(DirectLimitCycle, IsTheSameByEachDetour)
                transient = cycle_by_transient(brake, 8.0 * pi);
   ASSERT_TRUE(branch.cycle) << branch.said;
   ASSERT_TRUE(transient.cycle) << transient.said;
-  for (const Detour& detour : {branch, transient})
+  for (const Detour& detour : {branch, transient}) {
     EXPECT_NEAR(detour.cycle->pad_velocity, cycle.pad_velocity, 1e-5 * cycle.pad_velocity)
         << detour.said;
+    EXPECT_NEAR(detour.cycle->frequency_Hz, cycle.frequency_Hz, 1e-6 * cycle.frequency_Hz)
+        << detour.said;
+  }
   EXPECT_NE(branch.said.find("Hopf point"), std::string::npos) << branch.said;
   EXPECT_NE(transient.said.find("periods"), std::string::npos) << transient.said;
+}
+
+TEST(DirectLimitCycle, HasOnePeriodAfterATransientToo)
+{
+  // With bilateral contact cycles are faster than their eigenvectors, and two of their periods are
+  // among those that are looked at.
+  for (const ContactLaw law : {ContactLaw::bilateral, ContactLaw::unilateral}) {
+    const FlexibleDisc brake(reference_disc(), reference_options(law));
+    for (const double by_pi : {5.0, 6.0, 7.0, 9.0}) {
+      const Detour end = cycle_by_transient(brake, by_pi * pi);
+      ASSERT_TRUE(end.cycle) << end.said;
+      const DirectLimitCycle cycle = limit_cycle_direct(brake, by_pi * pi);
+      EXPECT_NEAR(end.cycle->frequency_Hz, cycle.frequency_Hz, 1e-6 * cycle.frequency_Hz)
+          << static_cast<int>(law) << ", " << by_pi << " pi";
+    }
+  }
 }
 
 TEST(DirectLimitCycle, SaysWhyADetourLeadsNowhere)

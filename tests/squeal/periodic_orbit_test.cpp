@@ -15,6 +15,42 @@ namespace {
 
 using namespace test;
 
+/// x_1' = -side, x_2' = 1, with the side of x_1: from x_1 = 0 no motion leads on.
+class Chatter final : public AutonomousMotion {
+ public:
+  Eigen::Index size() const override { return 2; }
+  double omega_highest() const override { return 1.0; }
+  const Eigen::VectorXd& rate(double /*t*/, const Eigen::VectorXd& x) override
+  {
+    S_ = x.head(1);
+    f_ = Eigen::Vector2d(-side_, 1.0);
+    return f_;
+  }
+  const Eigen::VectorXd& switches() const override { return S_; }
+  double side(Eigen::Index /*i*/) const override { return side_; }
+  void set_side(Eigen::Index /*i*/, double side) override { side_ = side; }
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& /*x*/) override
+  {
+    return Eigen::Matrix2d::Zero();
+  }
+  ContactResult<double> first_contact(const Eigen::VectorXd& /*x*/) override { return {}; }
+
+ private:
+  double side_ = 1.0;
+  Eigen::VectorXd f_, S_ = Eigen::VectorXd::Zero(1);
+};
+
+TEST(PeriodicOrbit, IsAbsentWhereAContactChangesItsSideWithoutEnd)
+{
+  Chatter motion;
+  const CycleStart start{Eigen::Vector2d(0.5, 0.0), 2.0};
+  EXPECT_TRUE(end_of(motion, {start.x, 0.4}, 1e-9).allFinite());
+  EXPECT_FALSE(end_of(motion, start, 1e-9).allFinite());
+  EXPECT_FALSE(flow(motion, start, 1e-9).end.allFinite());
+  EXPECT_FALSE(states_over_period(motion, start, 4, 1e-9).allFinite());
+  EXPECT_FALSE(periodic_orbit(motion, start));
+}
+
 TEST(HarmonicBalance, FindsThePeriodOfVanDerPol)
 {
   // The harmonics of the cycle fall by 0.3 from one odd one to the next; 15 leave 1e-5 of the

@@ -67,6 +67,7 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   written.limit_cycle_branch->lost_below = 18.0;
   ASSERT_TRUE(written.limit_cycle_branch->origin);
   written.limit_cycle_branch->note = "a second part";
+  written.limit_cycle_branch->second_part = 2;
   written.limit_cycle_direct->way = "by a detour";
   write_results(file.path, written, {});
   const SquealResults read = read_results(file.path);
@@ -93,6 +94,7 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   EXPECT_EQ(read.map->frequency_Hz, written.map->frequency_Hz);
   EXPECT_EQ(read.limit_cycle_branch->lost_below, 18.0);
   EXPECT_EQ(read.limit_cycle_branch->note, "a second part");
+  EXPECT_EQ(read.limit_cycle_branch->second_part, 2u);
   EXPECT_EQ(read.limit_cycle_direct->way, "by a detour");
   ASSERT_TRUE(read.limit_cycle_branch->origin);
   const BranchOrigin &a = *read.limit_cycle_branch->origin,

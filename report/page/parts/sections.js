@@ -161,10 +161,11 @@ function cycleFigures(content) {
   }
   if (branch) {
     const stable = branch.stable.map(Boolean);
-    const pick = wanted => branch.pad_velocity.map((v, i) => stable[i] === wanted ? v : NaN);
+    const gap = branch.second_part, speed = withGap(branch.speed, gap);
+    const pick = wanted => withGap(branch.pad_velocity.map((v, i) => stable[i] === wanted ? v : NaN), gap);
     made.push(plot({title: "Limit cycles over the speed", x: speedAxis, y: {label: "pad velocity, m/s"},
-                    series: [{x: branch.speed, y: pick(true), colour: 0, marker: "circle", name: "stable"},
-                             ...(stable.includes(false) ? [{x: branch.speed, y: pick(false), colour: 1, dash: "4 4",
+                    series: [{x: speed, y: pick(true), colour: 0, marker: "circle", name: "stable"},
+                             ...(stable.includes(false) ? [{x: speed, y: pick(false), colour: 1, dash: "4 4",
                                                             marker: "circle", hollow: true, name: "not stable"}] : [])]}));
   }
   if (content.spectrum)
@@ -172,6 +173,11 @@ function cycleFigures(content) {
                     x: {label: "frequency, Hz"}, y: {label: "amplitude, m/s", log: true},
                     series: [{x: content.spectrum.frequency_Hz, y: content.spectrum.amplitude, width: 1.2}]}));
   return made;
+}
+
+// No line leads from the part of a curve before the index to the one behind it.
+function withGap(values, index) {
+  return index == null ? values : [...values.slice(0, index), NaN, ...values.slice(index)];
 }
 
 // What a transient has not settled at is no limit cycle where one was found as such.
