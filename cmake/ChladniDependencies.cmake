@@ -1,4 +1,4 @@
-# Every dependency is a Debian 12 package; nothing is downloaded.
+# Every dependency is a package of Debian 12 and 13; nothing is downloaded.
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)

@@ -41,5 +41,6 @@ function(chladni_test name)
              COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${n} $<TARGET_FILE:${name}>)
     set_tests_properties(${name}.ranks${n} PROPERTIES PROCESSORS ${n} ENVIRONMENT
       "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
+    label_long(${name}.ranks${n})
   endforeach()
 endfunction()

@@ -23,6 +23,7 @@
 #include "files/foreign_parts.hpp"
 #include "files/hdf5_dataset.hpp"
 #include "files/hdf5_handle.hpp"
+#include "files/visit_objects.hpp"
 
 namespace chladni::files {
 namespace {
@@ -96,7 +97,7 @@ std::string read_everything(const std::string& path)
   if (std::string link = foreign_link(file.get()); !link.empty()) return link;
   std::error_code unknown;
   Walk walk{.file_size = std::filesystem::file_size(path, unknown)};
-  H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_NATIVE, read_object, &walk, H5O_INFO_BASIC);
+  visit_objects(file.get(), H5_ITER_NATIVE, read_object, &walk);
   return walk.refusal;
 }
 

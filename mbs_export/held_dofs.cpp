@@ -22,7 +22,8 @@ Specification parse(const ReducedSystem& reduced, const std::string& text)
   const auto whole = std::ranges::find(reduced.sets, text, &AttachmentSet::name);
   if (whole != reduced.sets.end()) return {*whole, -1};
   const std::size_t dot = text.rfind('.');
-  const AttachmentSet& set = find_set(reduced, text.substr(0, dot));
+  const std::string name = text.substr(0, dot);
+  const AttachmentSet& set = find_set(reduced, name);
   for (int component = 0; component < 6; ++component)
     if (component_name(component) == text.substr(dot + 1)) return {set, component};
   throw BodyOptionError("fixed",

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "common/petsc_compat.hpp"
 #include "linear/lanczos/block_iteration.hpp"
 #include "plugin/chladni_cms.h"
 #include "plugin/eps_operator.hpp"
@@ -57,15 +58,15 @@ PetscErrorCode set_up(EPS eps)
   PetscCall(check_problem(eps));
   PetscCall(PetscObjectTypeCompare((PetscObject)eps->st, STSINVERT, &sinvert));
   if (!eps->which) eps->which = sinvert ? EPS_TARGET_MAGNITUDE : EPS_LARGEST_MAGNITUDE;
-  if (eps->ncv == PETSC_DEFAULT) eps->ncv = std::min(eps->n, 2 * eps->nev + 16 * b);
+  if (eps->ncv == petsc::automatic) eps->ncv = std::min(eps->n, 2 * eps->nev + 16 * b);
   PetscCheck(eps->ncv >= std::min(eps->n, eps->nev + 2 * b), PetscObjectComm((PetscObject)eps),
              PETSC_ERR_USER_INPUT,
              "-eps_ncv %" PetscInt_FMT
              " is too small: give at least nev + 2 blocks = %" PetscInt_FMT
              ", or a smaller -eps_blocklanczos_blocksize",
              eps->ncv, std::min(eps->n, eps->nev + 2 * b));
-  if (eps->mpd == PETSC_DEFAULT) eps->mpd = eps->ncv;
-  if (eps->max_it == PETSC_DEFAULT) eps->max_it = std::max<PetscInt>(100, 2 * eps->n / b);
+  if (eps->mpd == petsc::automatic) eps->mpd = eps->ncv;
+  if (eps->max_it == petsc::automatic) eps->max_it = std::max<PetscInt>(100, 2 * eps->n / b);
   PetscCall(EPSAllocateSolution(eps, 0));
   PetscCall(EPS_SetInnerProduct(eps));
   // The iteration has a basis of its own; this one holds the eigenvectors, and first the initial
@@ -188,7 +189,7 @@ PetscErrorCode back_transform(EPS eps)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode set_from_options(EPS eps, PetscOptionItems* PetscOptionsObject)
+PetscErrorCode set_from_options(EPS eps, petsc::OptionItems PetscOptionsObject)
 {
   Options& options = *options_of(eps);
   PetscFunctionBegin;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/petsc_compat.hpp"
 #include "linear/cholesky/inner_solver.hpp"
 
 namespace chladni::reduce {
@@ -54,8 +55,8 @@ linear::EigenPairs krylov_schur(const linear::Factorization& K_ss, Mat M_ss, Pet
   linear::set_options_source(eps, K_ss.options().petsc);
   petsc::check(EPSSetOperators(eps, K_ss.matrix(), M_ss));
   petsc::check(EPSSetProblemType(eps, EPS_GHEP));
-  petsc::check(EPSSetDimensions(eps, n_modes, PETSC_DEFAULT, PETSC_DEFAULT));
-  petsc::check(EPSSetTolerances(eps, K_ss.options().lanczos.tolerance, PETSC_DEFAULT));
+  petsc::check(EPSSetDimensions(eps, n_modes, petsc::automatic, petsc::automatic));
+  petsc::check(EPSSetTolerances(eps, K_ss.options().lanczos.tolerance, petsc::automatic));
   petsc::check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   petsc::check(EPSSetTarget(eps, 0.0));
   // Purification would cost one single solve for each mode and gains nothing at this tolerance.

@@ -242,7 +242,8 @@ AirMesh mesh_air(const Outline& outline, const AirMeshOptions& options, int dime
           },
           options);
     }
-    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) {
+    // Versions of Gmsh from 4.9 on have one argument more.
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z, auto...) {
       return size_at(outline, options,
                      dimension == 2 ? Eigen::Vector3d(x, 0.0, y) : Eigen::Vector3d(x, y, z));
     });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/hdf5_handle.hpp"
+#include "files/visit_objects.hpp"
 
 namespace chladni::fuzz {
 namespace {
@@ -25,7 +26,7 @@ herr_t add_name(hid_t, const char* name, const H5O_info_t* info, void* names)
 std::vector<std::string> dataset_names(hid_t file)
 {
   std::vector<std::string> names;
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_name, &names, H5O_INFO_BASIC);
+  files::visit_objects(file, H5_ITER_INC, add_name, &names);
   return names;
 }
 

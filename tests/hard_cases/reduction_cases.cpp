@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/petsc_compat.hpp"
 #include "hard_case.hpp"
 #include "linear/cholesky/sylvester.hpp"
 #include "reduce/completeness.hpp"
@@ -130,7 +131,7 @@ Chain contrast_chain(double contrast)
 double orthonormality_error(const FixedInterfaceModes& modes, Mat M_ss)
 {
   petsc::Matrix M_Phi;
-  petsc::check(MatMatMult(M_ss, modes.Phi, MAT_INITIAL_MATRIX, PETSC_DEFAULT, M_Phi.put()));
+  petsc::check(MatMatMult(M_ss, modes.Phi, MAT_INITIAL_MATRIX, petsc::automatic, M_Phi.put()));
   const linear::SmallMatrix I = linear::inner_product(modes.Phi, M_Phi);
   double worst = 0.0;
   for (PetscInt i = 0; i < I.n_rows; ++i)

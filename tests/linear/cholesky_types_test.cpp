@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "chain.hpp"
+#include "common/petsc_compat.hpp"
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
@@ -416,7 +417,7 @@ TEST_P(SparseProductOf, EqualsPetscs)
   const petsc::Matrix X = columns(A, GetParam());
   petsc::Matrix Y = uninitialized_dense(A, GetParam()), by_PETSc;
   SparseProduct(A).apply(X, Y);
-  petsc::check(MatMatMult(A, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, by_PETSc.put()));
+  petsc::check(MatMatMult(A, X, MAT_INITIAL_MATRIX, petsc::automatic, by_PETSc.put()));
   EXPECT_LT(difference(Y, by_PETSc), 1e-15);  // five terms each
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/seal.hpp"
+#include "files/visit_objects.hpp"
 
 namespace chladni::mbs_export::test {
 
@@ -26,7 +27,7 @@ inline std::vector<std::string> real_datasets(const std::string& path)
     return 0;
   };
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, add, &names, H5O_INFO_BASIC);
+  files::visit_objects(file, H5_ITER_NATIVE, add, &names);
   H5Fclose(file);
   return names;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "common/petsc_compat.hpp"
 #include "plate/assembly/assemble.hpp"
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/mass_points.hpp"
@@ -70,7 +71,7 @@ petsc::Matrix rigid_motions(const System& system)
 Eigen::MatrixXd product(Mat A, Mat B)
 {
   petsc::Matrix C;
-  petsc::check(MatTransposeMatMult(A, B, MAT_INITIAL_MATRIX, PETSC_DEFAULT, C.put()));
+  petsc::check(MatTransposeMatMult(A, B, MAT_INITIAL_MATRIX, petsc::automatic, C.put()));
   PetscInt rows = 0, columns = 0, first = 0, last = 0;
   petsc::check(MatGetSize(C, &rows, &columns));
   petsc::check(MatGetOwnershipRange(C, &first, &last));
@@ -104,8 +105,8 @@ TEST(DisplacementProducts, OfRigidMotionsAreTheMomentsOfTheMass)
   const MassMoments moments = mass_moments(model);
   const petsc::Matrix R = rigid_motions(disc.system);
   petsc::Matrix S_R;
-  petsc::check(MatMatMult(displacement_product(model, 0, 1), R, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                          S_R.put()));
+  petsc::check(MatMatMult(displacement_product(model, 0, 1), R, MAT_INITIAL_MATRIX,
+                          petsc::automatic, S_R.put()));
   const Eigen::MatrixXd S = product(R, S_R);
   // int u_x u_y: of a translation along x and a rotation about z, u_y = x; of the rotation about z
   // and itself, u_x u_y = -x y; of those about y and x, u_x = z, u_y = -z.

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/petsc_compat.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "tests/linear/chain.hpp"
@@ -115,7 +116,7 @@ TEST(CMS, GivesTheTransformationThatItProjectsWith)
   petsc::check(CMSGetReducedOperators(solver.cms, &K_r, &M_r, nullptr));
   const auto expect_projection = [&](Mat A, Mat A_r) {
     petsc::Matrix AT;
-    petsc::check(MatMatMult(A, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AT.put()));
+    petsc::check(MatMatMult(A, T, MAT_INITIAL_MATRIX, petsc::automatic, AT.put()));
     const linear::SmallMatrix projected = linear::inner_product(T, AT),
                               reduced = linear::replicate(A_r);
     for (PetscInt i = 0; i < reduced.n_rows; ++i) {
@@ -202,7 +203,7 @@ TEST(CMS, ProjectsGyroscopicForces)
     petsc::check(CMSGetTransformation(solver.cms, &T));
     petsc::check(CMSGetReducedOperators(solver.cms, nullptr, nullptr, &C_r));
     petsc::Matrix GT;
-    petsc::check(MatMatMult(G, T, MAT_INITIAL_MATRIX, PETSC_DEFAULT, GT.put()));
+    petsc::check(MatMatMult(G, T, MAT_INITIAL_MATRIX, petsc::automatic, GT.put()));
     const linear::SmallMatrix C = linear::replicate(C_r), projected = linear::inner_product(T, GT);
     double largest = 0.0;
     for (PetscInt i = 0; i < C.n_rows; ++i) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/petsc_compat.hpp"
 #include "tests/linear/matrices.hpp"
 
 namespace chladni::reduce {
@@ -31,7 +32,7 @@ struct Search {
   PetscInt nev = 6;
   bool inverts = true;
   double target = 0.0;
-  PetscInt ncv = PETSC_DEFAULT;
+  PetscInt ncv = petsc::automatic;
 };
 
 /// An EPS with the solver type, shift and invert with MUMPS.
@@ -43,7 +44,7 @@ petsc::EigenSolver solver(Mat A, Mat B, const Search& search)
   petsc::check(EPSSetOperators(eps, A, B));
   petsc::check(EPSSetProblemType(eps, B != nullptr ? EPS_GHEP : EPS_HEP));
   petsc::check(EPSSetType(eps, "blocklanczos"));
-  petsc::check(EPSSetDimensions(eps, search.nev, search.ncv, PETSC_DEFAULT));
+  petsc::check(EPSSetDimensions(eps, search.nev, search.ncv, petsc::automatic));
   petsc::check(EPSSetTarget(eps, search.target));
   if (!search.inverts) return eps;
   ST st = nullptr;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 
+#include "common/petsc_compat.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 #include "pencils.hpp"
@@ -72,8 +73,8 @@ void expect_pairs(Mat K, Mat M, const linear::EigenPairs& pairs, const std::vect
     ASSERT_NEAR(pairs.lambda[i], exact[i], allowed * exact[i]) << "pair " << i + 1;
   }
   petsc::Matrix KX, MX;
-  petsc::check(MatMatMult(K, pairs.X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, KX.put()));
-  petsc::check(MatMatMult(M, pairs.X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, MX.put()));
+  petsc::check(MatMatMult(K, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, KX.put()));
+  petsc::check(MatMatMult(M, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, MX.put()));
   const linear::SmallMatrix I = linear::inner_product(pairs.X, MX);
   for (PetscInt i = 0; i < I.n_rows; ++i) {
     for (PetscInt j = 0; j < I.n_cols; ++j) ASSERT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/petsc_compat.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::strangers {
@@ -136,9 +137,9 @@ PetscErrorCode solve(EPS eps, const Operators& A, int n, double target)
   PetscCall(EPSSetOperators(eps, A.K, A.M));
   PetscCall(EPSSetProblemType(eps, EPS_GHEP));
   PetscCall(EPSSetType(eps, "blocklanczos"));
-  PetscCall(EPSSetDimensions(eps, n, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(EPSSetDimensions(eps, n, petsc::automatic, petsc::automatic));
   PetscCall(EPSSetTarget(eps, target));
-  PetscCall(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
+  PetscCall(EPSSetTolerances(eps, 1e-10, petsc::automatic));
   PetscCall(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   PetscCall(EPSGetST(eps, &st));
   PetscCall(STSetType(st, STSINVERT));

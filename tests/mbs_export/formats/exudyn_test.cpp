@@ -10,6 +10,7 @@
 #include "../wheel.hpp"
 #include "files/hdf5.hpp"
 #include "files/hdf5_handle.hpp"
+#include "files/visit_objects.hpp"
 #include "tests/files/scratch_folder.hpp"
 
 namespace chladni::mbs_export::formats {
@@ -137,7 +138,7 @@ std::map<std::string, Entry> entries_of(const std::string& path)
   std::map<std::string, Entry> entries;
   const files::Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   EXPECT_TRUE(file.valid()) << path;
-  H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, add_entry, &entries, H5O_INFO_BASIC);
+  files::visit_objects(file.get(), H5_ITER_INC, add_entry, &entries);
   return entries;
 }
 

@@ -1,0 +1,130 @@
+"""What the commands of README.md do on another Debian: a bare system in a folder, the committed files, ./dev demo and
+./dev test in it; as root. Adds a section of that system to a page, in place of an earlier one.
+
+Usage: on_system.py SUITE PAGE.md [FOLDER]. Called by `./dev test-on SUITE`. The system stays in FOLDER
+(/var/tmp/chladni-SUITE), so that a second call needs no download.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+MIRROR = "http://deb.debian.org/debian"
+MOUNTED = ("proc", "sys", "dev")
+PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-dev", "libgmsh-dev", "libhdf5-dev",
+            "libeigen3-dev", "libopenmpi-dev")  # fmt: skip
+SHOWN = 12  # last lines of a command that failed
+HEAD = ["# Systems", "",
+        "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev demo` and `./dev test` of the "
+        "committed files, without compiler cache. Where a warning is no error, the newer compilers' are counted.", ""]  # fmt: skip
+
+
+def call(*command, **options):
+    subprocess.run(command, check=True, **options)
+
+
+def bare_system(suite, folder):
+    """Debian as debootstrap leaves it; what is there is taken as it is."""
+    if (folder / "etc/debian_version").exists():
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    call("debootstrap", "--variant=minbase", suite, str(folder), MIRROR, stdout=subprocess.DEVNULL)
+    (folder / "etc/apt/sources.list").write_text(f"deb {MIRROR} {suite} main\n")
+
+
+@contextmanager
+def mounted(folder):
+    """With what programs expect of a kernel, and the network of this machine."""
+    for name in ("resolv.conf", "hosts"):
+        (folder / "etc" / name).write_text(Path("/etc", name).read_text())
+    made = []
+    try:
+        for name in MOUNTED:
+            if not os.path.ismount(folder / name):
+                call("mount", "--rbind", f"/{name}", str(folder / name))
+                call("mount", "--make-rslave", str(folder / name))
+                made.append(name)
+        yield
+    finally:
+        for name in reversed(made):
+            call("umount", "--recursive", "--lazy", str(folder / name))
+
+
+def committed_files(folder):
+    clone = folder / "root/chladni"
+    call("rm", "-rf", str(clone))
+    call("git", "clone", "--quiet", str(ROOT), str(clone))
+
+
+def inside(folder, command):
+    """(exit code, what it prints, seconds) of a shell command in the clone."""
+    start = time.monotonic()
+    environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8", "CCACHE_DISABLE": "1"}
+    run = subprocess.run(["chroot", str(folder), "sh", "-c", f"cd /root/chladni && {command}"], env=environment, text=True,
+                         errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # fmt: skip
+    return run.returncode, run.stdout, time.monotonic() - start
+
+
+def versions(folder):
+    _, printed, _ = inside(folder, f"dpkg-query -W -f '${{Package}} ${{Version}}\\n' {' '.join(PACKAGES)}")
+    return dict(line.split(" ", 1) for line in printed.splitlines() if line.count(" ") == 1)
+
+
+def outcome(command, code, printed, seconds):
+    """Lines of the page."""
+    tests = re.findall(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)", printed)
+    warnings = len(re.findall(r": warning: ", printed))
+    facts = [f"{seconds / 60:.0f} minutes", f"exit code {code}", f"{warnings} warnings"]
+    facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
+    lines = [f"`{command}`: {', '.join(facts)}.", ""]
+    failed = re.findall(r"^\s*\d+ - (\S+ \(.*\))", printed, re.M)
+    if failed:
+        lines += ["Failed: " + ", ".join(failed) + ".", ""]
+    if code:
+        lines += ["```text", *printed.strip().splitlines()[-SHOWN:], "```", ""]
+    return lines
+
+
+def section(suite, folder):
+    """The exit code of the last command, and the lines of the page."""
+    lines, code = [], 0
+    for command in ("./dev demo", "./dev test"):
+        code, printed, seconds = inside(folder, command)
+        (folder / "root" / (command.split()[-1] + ".log")).write_text(printed)
+        print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
+        lines += outcome(command, code, printed, seconds)
+        if code:
+            break
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    debian = (folder / "etc/debian_version").read_text().strip()
+    table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
+    return code, [f"## {suite}", "",
+                  f"Debian {debian}, commit {commit}, {time.strftime('%Y-%m-%d')}, {os.cpu_count()} cores.", "", *table, "",
+                  *lines]  # fmt: skip
+
+
+def with_section(page, suite, lines):
+    """The page's text with this section, in the order of names."""
+    parts = re.split(r"(?m)^## ", page.read_text())[1:] if page.exists() else []
+    kept = {part.split("\n", 1)[0]: "## " + part.rstrip() for part in parts}
+    kept[suite] = "\n".join(lines).rstrip()
+    return "\n".join(HEAD) + "\n" + "\n\n".join(kept[name] for name in sorted(kept)) + "\n"
+
+
+def main(suite, page, folder=None):
+    folder = Path(folder or f"/var/tmp/chladni-{suite}")
+    bare_system(suite, folder)
+    with mounted(folder):
+        committed_files(folder)
+        code, lines = section(suite, folder)
+    Path(page).write_text(with_section(Path(page), suite, lines))
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
