@@ -1,6 +1,9 @@
 # Every dependency is a package of Debian 12 and 13; nothing is downloaded.
 find_package(PkgConfig REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Eigen3 REQUIRED NO_MODULE)  # 5 follows 3.4, and says that it is not compatible
+if(Eigen3_VERSION VERSION_LESS 3.4)
+  message(FATAL_ERROR "Chladni needs Eigen 3.4 or newer; found ${Eigen3_VERSION}")
+endif()
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)

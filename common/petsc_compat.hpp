@@ -20,3 +20,7 @@ using OptionItems = PetscOptionItems;
 #endif
 
 }  // namespace chladni::petsc
+
+#if PETSC_VERSION_LT(3, 20, 0)
+#define PetscAssertPointer PetscValidPointer
+#endif

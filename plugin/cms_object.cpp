@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "common/petsc_compat.hpp"
 #include "plugin/cms_impl.hpp"
 #include "plugin/guard.hpp"
 
@@ -61,7 +62,7 @@ PetscErrorCode CMSCreate(MPI_Comm comm, CMS* newcms)
 {
   CMS cms = nullptr;
   PetscFunctionBegin;
-  PetscValidPointer(newcms, 2);
+  PetscAssertPointer(newcms, 2);
   *newcms = nullptr;
   PetscCheck(SlepcInitializeCalled, comm, PETSC_ERR_ORDER,
              "CMS needs SLEPc: call SlepcInitialize instead of PetscInitialize");
@@ -145,7 +146,7 @@ PetscErrorCode CMSGetInterface(CMS cms, IS* masters)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
-  PetscValidPointer(masters, 2);
+  PetscAssertPointer(masters, 2);
   *masters = cms->inside->interface;
   PetscFunctionReturn(0);
 }

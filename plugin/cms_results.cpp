@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/petsc_compat.hpp"
 #include "plugin/cms_impl.hpp"
 #include "plugin/guard.hpp"
 
@@ -184,7 +185,7 @@ PetscErrorCode CMSGetTransformation(CMS cms, Mat* T)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
-  PetscValidPointer(T, 2);
+  PetscAssertPointer(T, 2);
   CMSCheckSolved(cms);
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     Inside& in = *cms->inside;
@@ -253,7 +254,7 @@ PetscErrorCode CMSGetQuality(CMS cms, CMSQuality* quality)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
-  PetscValidPointer(quality, 2);
+  PetscAssertPointer(quality, 2);
   CMSCheckSolved(cms);
   *quality = cms->inside->result->quality;
   PetscFunctionReturn(0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/petsc_compat.hpp"
 #include "linear/read_solver_options.hpp"
 #include "plugin/cms_impl.hpp"
 #include "plugin/guard.hpp"
@@ -68,7 +69,7 @@ PetscErrorCode CMSGetType(CMS cms, CMSType* type)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
-  PetscValidPointer(type, 2);
+  PetscAssertPointer(type, 2);
   *type = ((PetscObject)cms)->type_name;
   PetscFunctionReturn(0);
 }
@@ -145,7 +146,7 @@ PetscErrorCode CMSGetOptionsPrefix(CMS cms, const char* prefix[])
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
-  PetscValidPointer(prefix, 2);
+  PetscAssertPointer(prefix, 2);
   PetscCall(PetscObjectGetOptionsPrefix((PetscObject)cms, prefix));
   PetscFunctionReturn(0);
 }

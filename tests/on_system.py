@@ -33,7 +33,9 @@ def bare_system(suite, folder):
     if (folder / "etc/debian_version").exists():
         return
     folder.mkdir(parents=True, exist_ok=True)
-    call("debootstrap", "--variant=minbase", suite, str(folder), MIRROR, stdout=subprocess.DEVNULL)
+    scripts = Path("/usr/share/debootstrap/scripts")
+    script = [] if (scripts / suite).exists() else [str(scripts / "sid")]  # a suite that is newer than debootstrap
+    call("debootstrap", "--variant=minbase", suite, str(folder), MIRROR, *script, stdout=subprocess.DEVNULL)
     (folder / "etc/apt/sources.list").write_text(f"deb {MIRROR} {suite} main\n")
 
 

@@ -19,7 +19,13 @@ void check(int flag, const char* what)
   if (flag < 0) throw Error(fmt::format("{} failed: {}", what, flag));
 }
 
-int rate(realtype t, N_Vector y, N_Vector f, void* data)
+#ifdef SUN_COMM_NULL
+const SUNComm no_communicator = SUN_COMM_NULL;
+#else
+void* const no_communicator = nullptr;  // before SUNDIALS 7
+#endif
+
+int rate(sunrealtype t, N_Vector y, N_Vector f, void* data)
 {
   auto& motion = *static_cast<Motion*>(data);
   const Eigen::Index n = 2 * motion.omega().size();
@@ -48,7 +54,7 @@ Eigen::VectorXd cvode(Motion& motion, const Eigen::VectorXd& y, double duration,
                       CvodeMethod method)
 {
   SUNContext context = nullptr;
-  check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  check(SUNContext_Create(no_communicator, &context), "SUNContext_Create");
   const std::unique_ptr<SUNContext, void (*)(SUNContext*)> context_owner(
       &context, [](SUNContext* c) { SUNContext_Free(c); });
   Eigen::VectorXd state = y;

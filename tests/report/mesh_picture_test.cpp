@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/generators.hpp"
@@ -25,9 +26,9 @@ mesh::Mesh plate(double element_size)
 }
 
 const GroupParts& parts_of(const mesh::Mesh& mesh, const std::vector<GroupParts>& parts,
-                           const std::string& name)
+                           std::string_view name)
 {
-  return parts[&mesh::find_group(mesh, name) - mesh.groups.data()];
+  return parts[&mesh::find_group(mesh, std::string(name)) - mesh.groups.data()];
 }
 
 TEST(GroupParts, HaveKindSizeAndExtents)
