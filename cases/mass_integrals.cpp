@@ -1,5 +1,6 @@
 #include "cases/mass_integrals.hpp"
 
+#include "common/eigen_every.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 
 namespace chladni::cases {
@@ -15,7 +16,7 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
   const linear::SmallMatrix rows =
       reduce::project_vectors(reduced.reduction.Q_CB, reduced.body.dofs, moments.displacement);
   const MatrixXd V = Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(
-                         reduced.places, Eigen::all)
+                         reduced.places, every)
                          .transpose();
   mbs_export::MassIntegrals integrals{.mass = moments.mass,
                                       .first = moments.first,

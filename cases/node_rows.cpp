@@ -1,4 +1,5 @@
 #include "cases/node_rows.hpp"
+#include "common/eigen_every.hpp"
 
 #include <algorithm>
 
@@ -25,7 +26,7 @@ MatrixXd node_rows(const std::vector<int>& nodes, const plate::DofMap& dofs, con
     for (const plate::MotionTerm& term : dofs.motion(nodes[static_cast<std::size_t>(k)])) {
       const auto place = std::ranges::lower_bound(numbers, term.number) - numbers.begin();
       rows.middleRows<6>(6 * k) +=
-          term.T(Eigen::all, dofs.components()) * known.middleRows(n_c * place, n_c);
+          term.T(every, dofs.components()) * known.middleRows(n_c * place, n_c);
     }
   }
   return rows;

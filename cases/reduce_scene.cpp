@@ -13,6 +13,7 @@
 #include "cases/reduce_steps.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
+#include "common/eigen_every.hpp"
 #include "files/file_digest.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "mesh/partition.hpp"
@@ -181,7 +182,7 @@ RowsOf rows_of(const SceneReduction& reduced)
   return [&](const std::vector<int>& dofs) -> MatrixXd {
     const linear::SmallMatrix rows =
         reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs);
-    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(Eigen::all,
+    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(every,
                                                                                     reduced.places);
   };
 }

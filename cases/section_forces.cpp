@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/shell_section_forces.hpp"
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "plate/elements/beam_element.hpp"
 #include "plate/sections/directors.hpp"
@@ -68,7 +69,7 @@ void drop_silent_kinds(ResultantModes& forces)
   const Index n_points = forces.positions.rows();
   std::vector<Index> kept;
   for (Index kind = 0; kind < n; ++kind) {
-    if (!forces.S(Eigen::seqN(kind, n_points, n), Eigen::all).isZero(0.0)) {
+    if (!forces.S(Eigen::seqN(kind, n_points, n), every).isZero(0.0)) {
       kept.push_back(kind);
     }
   }
@@ -83,7 +84,7 @@ void drop_silent_kinds(ResultantModes& forces)
     forces.kinds.push_back(all.kinds[static_cast<std::size_t>(kind)]);
     forces.units.push_back(all.units[static_cast<std::size_t>(kind)]);
   }
-  forces.S = all.S(rows, Eigen::all);
+  forces.S = all.S(rows, every);
 }
 
 std::vector<ResultantModes> section_forces(const scene::ResultantChoice& choice,

@@ -5,6 +5,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "plate/assembly/loads.hpp"
@@ -80,7 +81,7 @@ report::TextTable reported_table(const scene::Scene& scene, const cases::Support
   report::TextTable table{.header = {"mean displacement of", "x, m", "y, m", "z, m"}, .rows = {}};
   for (const std::string& name : scene.static_solution.value_or(scene::StaticOptions{}).report) {
     const std::vector<int> nodes = model.system.dofs.named_nodes(model.mesh, name);
-    const Eigen::RowVectorXd mean = found.motions(nodes, Eigen::all).colwise().mean();
+    const Eigen::RowVectorXd mean = found.motions(nodes, every).colwise().mean();
     table.rows.push_back({name, fmt::format("{:.6e}", mean[0]), fmt::format("{:.6e}", mean[1]),
                           fmt::format("{:.6e}", mean[2])});
   }

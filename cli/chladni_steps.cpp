@@ -1,6 +1,7 @@
 #include "cli/chladni_steps.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <cstdlib>

@@ -32,13 +32,27 @@ inline bool is_out_of_memory(PetscErrorCode code, const char* text)
   return code == PETSC_ERR_MEM || (errno == ENOMEM && is_a_name);
 }
 
+/// What PETSc says of an error: in general, and of this one; its type is another one from 3.25 on.
+template <class Specific>
+struct ErrorTexts {
+  const char* text = nullptr;
+  Specific* specific = nullptr;
+};
+
+template <class Specific>
+ErrorTexts<Specific> error_texts(PetscErrorCode (*ask)(PetscErrorCode, const char**, Specific**),
+                                 PetscErrorCode code)
+{
+  ErrorTexts<Specific> texts;
+  ask(code, &texts.text, &texts.specific);
+  return texts;
+}
+
 /// @throws Failure with PETSc's own text when a PETSc call failed.
 inline void check(PetscErrorCode code)
 {
   if (code == 0) return;
-  const char* text = nullptr;
-  char* specific = nullptr;
-  PetscErrorMessage(code, &text, &specific);
+  const auto [text, specific] = error_texts(PetscErrorMessage, code);
   if (is_out_of_memory(code, specific)) {
     throw Failure(PETSC_ERR_MEM,
                   fmt::format("out of memory ({}); use more machines, a coarser mesh or fewer "

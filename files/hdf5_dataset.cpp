@@ -1,6 +1,7 @@
 #include "files/hdf5_dataset.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/eigen_every.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/mode_shift.hpp"
@@ -74,7 +75,7 @@ void refuse_drilling_support(const ReducedSystem& reduced, const HeldDofs& held)
   const auto first = std::ranges::find_if(
       held.dofs, [&](int dof) { return is_drilling(reduced, dof / 6, dof % 6); });
   if (first == held.dofs.end()) return;
-  const MatrixXd motion = attachment_motion(reduced, rigid_modes(reduced).R)(held.dofs, Eigen::all);
+  const MatrixXd motion = attachment_motion(reduced, rigid_modes(reduced).R)(held.dofs, every);
   const MatrixXd spins = drilling_spins(reduced, held);
   MatrixXd both(motion.rows(), motion.cols() + spins.cols());
   both << motion, spins;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/eigen_every.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/body_option_error.hpp"
 
@@ -51,7 +52,7 @@ struct Held {
 
 Eigen::MatrixXd HeldDofs::displacements(const Eigen::MatrixXd& Q) const
 {
-  if (are_masters()) return Q(rows, Eigen::all);
+  if (are_masters()) return Q(rows, every);
   return forms * Q;
 }
 
@@ -79,7 +80,7 @@ HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>&
     held.names.push_back(one.name);
   }
   if (!held.rows.empty() && held.rows.front() < 0)
-    held.forms = reduced.ring_motion->displacements(held.dofs, Eigen::all);
+    held.forms = reduced.ring_motion->displacements(held.dofs, every);
   return held;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/eigen_every.hpp"
 #include "linear/dense/eigenmodes.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/drilling.hpp"
@@ -44,15 +45,15 @@ HeldModeShapes held_mode_shapes(const ReducedSystem& reduced, const std::vector<
   refuse_drilling_support(reduced, held);
   if (!held.are_masters()) return by_mode_shift(reduced, held);
   const RigidModes rigid = rigid_modes(reduced);
-  const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, Eigen::all));
+  const MatrixXd unheld = rigid.R * unheld_combinations(rigid.R(held.rows, every));
   const std::vector<int> rows = other_rows(held.rows, reduced.K.rows());
   const linear::Eigenmodes elastic = linear::lowest_eigenmodes(
-      reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, Eigen::all), wanted);
+      reduced.K(rows, rows), reduced.M(rows, rows), unheld(rows, every), wanted);
   HeldModeShapes shapes{.omega = elastic.lambda.cwiseSqrt(),
                         .X = MatrixXd::Zero(reduced.K.rows(), elastic.X.cols()),
                         .n_rigid = static_cast<int>(unheld.cols()),
                         .n_free_rigid = static_cast<int>(rigid.R.cols())};
-  shapes.X(rows, Eigen::all) = elastic.X;
+  shapes.X(rows, every) = elastic.X;
   return shapes;
 }
 

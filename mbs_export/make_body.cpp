@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/eigen_every.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/constrained_modes.hpp"
@@ -92,12 +93,12 @@ Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
     throw BodyOptionError("keep",
                           "a tolerance chooses the modes itself; give nothing else with it");
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
-  const MatrixXd B = modes.U(loads.dofs, Eigen::all).transpose();
+  const MatrixXd B = modes.U(loads.dofs, every).transpose();
   ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
   const VectorXd omega_n = modes.omega(chosen.neglected);
   MatrixXd responses(omega_n.size(), 0);
   for (const InterfaceChoice& one : chosen.interface) {
-    const MatrixXd g = B(chosen.neglected, Eigen::all) * one.patterns;
+    const MatrixXd g = B(chosen.neglected, every) * one.patterns;
     responses = beside(responses, response_modes(omega_n, g, one.Omega_0));
   }
   return {{std::move(chosen.kept), std::move(chosen.neglected), 0},
@@ -111,11 +112,11 @@ BodyModes merge(const HeldModes& modes, const ModeSelection& selection, const In
   VectorXd omega(n);
   omega << modes.omega(selection.kept), basis.omega;
   MatrixXd T(modes.T.rows(), n);
-  T << modes.T(Eigen::all, selection.kept), modes.T(Eigen::all, selection.neglected) * basis.V;
+  T << modes.T(every, selection.kept), modes.T(every, selection.neglected) * basis.V;
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](int i) { return omega[i]; });
-  BodyModes body{.omega = omega(order), .kinds = {}, .T = T(Eigen::all, order)};
+  BodyModes body{.omega = omega(order), .kinds = {}, .T = T(every, order)};
   for (const int i : order)
     body.kinds.push_back(i >= n_kept         ? ModeKind::interface
                          : omega[i] == 0.0 ? ModeKind::rigid

@@ -1,6 +1,7 @@
 #include "mbs_export/modal_body.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,11 +1,13 @@
 #include "mbs_export/mode_shift.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/body_option_error.hpp"
@@ -64,7 +66,7 @@ std::vector<int> rigid_then_elastic(const FreeModes& modes, const MatrixXd& Q_he
   MatrixXd rest = Q_held * preference(modes).asDiagonal();
   rest.leftCols(modes.n_rigid).setZero();
   if (!chosen.empty()) {
-    const Eigen::HouseholderQR<MatrixXd> qr(Q_held(Eigen::all, chosen));
+    const Eigen::HouseholderQR<MatrixXd> qr(Q_held(every, chosen));
     const MatrixXd V = qr.householderQ() * MatrixXd::Identity(Q_held.rows(), Index(chosen.size()));
     rest -= V * (V.transpose() * rest).eval();
   }
@@ -113,7 +115,7 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
                             dependent.size(), held.dofs.size()));
   const MatrixXd Q_held = held.displacements(modes.Q_e);
   const std::vector<int> independent = complement(dependent, modes.omega.size());
-  const MatrixXd Q_dd = Q_held(Eigen::all, dependent);
+  const MatrixXd Q_dd = Q_held(every, dependent);
   const double directions = condition(rows_of_unit_length(Q_dd));
   if (!(directions <= largest_condition))
     throw BodyOptionError(
@@ -125,7 +127,7 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
 
   // q_d = G q_i,  K_c = G^T Lambda_d G + Lambda_i,  M_c = G^T G + I
   const VectorXd lambda = modes.omega.cwiseAbs2();
-  const MatrixXd G = -Q_dd.partialPivLu().solve(MatrixXd(Q_held(Eigen::all, independent)));
+  const MatrixXd G = -Q_dd.partialPivLu().solve(MatrixXd(Q_held(every, independent)));
   const Index n_i = Index(independent.size());
   ModeShift shift{.Q_c = MatrixXd::Zero(modes.omega.size(), n_i),
                   .K_c = G.transpose() * lambda(dependent).asDiagonal() * G,
@@ -134,14 +136,14 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
                   .dependent = dependent,
                   .condition_Q_dd = condition(Q_dd),
                   .condition_directions = directions};
-  shift.Q_c(dependent, Eigen::all) = G;
-  shift.Q_c(independent, Eigen::all).setIdentity();
+  shift.Q_c(dependent, every) = G;
+  shift.Q_c(independent, every).setIdentity();
   shift.K_c.diagonal() += lambda(independent);
   shift.M_c.diagonal().array() += 1.0;
   const MatrixXd left = unheld_combinations(Q_held.leftCols(modes.n_rigid));
   MatrixXd q = MatrixXd::Zero(modes.omega.size(), left.cols());
   q.topRows(modes.n_rigid) = left;
-  shift.R_c = q(independent, Eigen::all);
+  shift.R_c = q(independent, every);
   return shift;
 }
 
@@ -149,7 +151,7 @@ ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vect
 void refuse_cancellation(const ModeShift& shift, const FreeModes& modes)
 {
   if (modes.n_rigid >= modes.omega.size() || shift.Q_c.cols() == 0) return;
-  const MatrixXd G = shift.Q_c(shift.dependent, Eigen::all);
+  const MatrixXd G = shift.Q_c(shift.dependent, every);
   const VectorXd lambda = modes.omega(shift.dependent).cwiseAbs2();
   const double stiffest = (G.cwiseAbs2().transpose() * lambda).maxCoeff();
   const double softest = modes.omega[modes.n_rigid] * modes.omega[modes.n_rigid];
@@ -168,8 +170,7 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
   const MatrixXd Q_held = rows_of_unit_length(held.displacements(modes.Q_e));
   std::vector<int> dependent = rigid_then_elastic(modes, Q_held);
   const bool complete = Index(dependent.size()) == Q_held.rows();
-  if (!complete ||
-      condition(rows_of_unit_length(Q_held(Eigen::all, dependent))) > largest_condition) {
+  if (!complete || condition(rows_of_unit_length(Q_held(every, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
     if (dependent.size() < held.dofs.size())
       throw BodyOptionError("fixed", fmt::format("mode shifting: the modes cannot hold {} apart "

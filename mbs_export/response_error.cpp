@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "common/eigen_every.hpp"
 #include "mbs_export/interface_modes.hpp"
 
 namespace chladni::mbs_export {
@@ -157,12 +158,12 @@ void update_interface(const ReferenceResponse& reference, TrialBasis& basis)
   for (const InterfaceChoice& choice : basis.interface) {
     const MatrixXd x = undamped_response(reference, basis, choice);
     responses.conservativeResize(Eigen::NoChange, responses.cols() + x.cols());
-    responses.rightCols(x.cols()) = x(neglected, Eigen::all);
+    responses.rightCols(x.cols()) = x(neglected, every);
   }
   const InterfaceBasis interface = interface_basis(reference.omega(neglected), responses);
   basis.omega_p = interface.omega;
   basis.V = MatrixXd::Zero(reference.omega.size(), interface.omega.size());
-  basis.V(neglected, Eigen::all) = interface.V;
+  basis.V(neglected, every) = interface.V;
 }
 
 /// Columns of X made orthonormal to V and to each other, without those that depend on them.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/eigen_every.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/eigenmodes.hpp"
 
@@ -48,7 +49,7 @@ MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
 {
   if (rows.empty() || R.cols() == 0) return R;
   constexpr double round_off = 1e-10;
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(R(rows, Eigen::all).transpose()));
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(R(rows, every).transpose()));
   qr.setThreshold(round_off);
   const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(R.cols(), R.cols());
   return R * Q.rightCols(R.cols() - qr.rank());
@@ -87,7 +88,7 @@ SupportedModes HeldMasters::modes(const ReducedModel& model, const SpectrumRange
   const std::vector<int> free = all_but(rows_, M.rows());
   constexpr double three_digits = 1e-3;  // of a mass: the certificate tells of the others
   const linear::Eigenmodes found =
-      linear::eigenmodes(K(free, free), M(free, free), R_free(free, Eigen::all), three_digits);
+      linear::eigenmodes(K(free, free), M(free, free), R_free(free, every), three_digits);
   SupportedModes modes{.are_all = true,
                        .n_zero = static_cast<int>(R_free.cols()),
                        .n_free_zero = static_cast<int>(R.cols())};

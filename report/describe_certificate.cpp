@@ -1,6 +1,7 @@
 #include "report/describe_certificate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>

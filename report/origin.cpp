@@ -1,6 +1,7 @@
 #include "report/origin.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <vector>

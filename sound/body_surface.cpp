@@ -1,4 +1,5 @@
 #include "sound/body_surface.hpp"
+#include "common/eigen_every.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -27,7 +28,7 @@ BodySurface body_surface(const AirMesh& mesh)
   Index at = 0;
   for (const auto& [element, f] : mesh.body) {
     const auto nodes = mesh.elements.row(element);
-    const MatrixXd X = mesh.positions(nodes, Eigen::all);
+    const MatrixXd X = mesh.positions(nodes, every);
     const auto side = static_cast<std::size_t>(f);
     for (Index q = 0; q < per_face; ++q, ++at) {
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> J(dimension, dimension);

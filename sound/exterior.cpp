@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/eigen_every.hpp"
 #include "sound/element_matrix.hpp"
 
 namespace chladni::sound {
@@ -39,8 +40,8 @@ ComplexFactor::Sparse assemble(const AirMesh& mesh, const Wave& wave, const Abso
   entries.reserve(std::size_t(mesh.n_elements()) * std::size_t(n * (n + 1) / 2));
   for (int e = 0; e < mesh.n_elements(); ++e) {
     const auto nodes = mesh.elements.row(e);
-    const MatrixXcd s = stretched(nodes, Eigen::all);
-    const MatrixXd x = mesh.positions(nodes, Eigen::all);
+    const MatrixXcd s = stretched(nodes, every);
+    const MatrixXd x = mesh.positions(nodes, every);
     const MatrixXcd K =
         s.imag().isZero(0.0) ? MatrixXcd(integral(x).cast<Complex>()) : integral(x, s);
     for (Index i = 0; i < n; ++i) {
@@ -89,7 +90,7 @@ MatrixXcd Exterior::pressure(const MatrixXcd& v_n)
                          (surface_.trace.transpose().cast<Complex>() *
                           (surface_.weight.cast<Complex>().asDiagonal() * v_n));
   MatrixXcd p = MatrixXcd::Zero(mesh_->n_nodes(), v_n.cols());
-  p(free_, Eigen::all) = factor_->solve(load(free_, Eigen::all));
+  p(free_, every) = factor_->solve(load(free_, every));
   return p;
 }
 

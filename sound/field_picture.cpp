@@ -1,4 +1,5 @@
 #include "sound/field_picture.hpp"
+#include "common/eigen_every.hpp"
 
 #include <cmath>
 #include <map>
@@ -100,7 +101,7 @@ FieldPicture tetrahedra(const Field& field)
     for (Index k = 0; k < 4; ++k) cell.push_back(rows.row(mesh.elements(e, k)));
     picture.cells.push_back(std::move(cell));
   }
-  picture.points = mesh.positions(rows.nodes, Eigen::all);
+  picture.points = mesh.positions(rows.nodes, every);
   picture.pressure = field.p.col(0)(rows.nodes);
   return picture;
 }
@@ -131,9 +132,8 @@ Triangles inner_triangles(const AirMesh& mesh)
     for (const auto& triangle : small)
       for (const int place : triangle) corners.push_back(rows.row(mesh.elements(e, place)));
   }
-  Triangles triangles{mesh.positions(rows.nodes, Eigen::all),
-                      rows.nodes,
-                      {static_cast<Index>(corners.size()) / 3, 3}};
+  Triangles triangles{
+      mesh.positions(rows.nodes, every), rows.nodes, {static_cast<Index>(corners.size()) / 3, 3}};
   std::copy(corners.begin(), corners.end(), triangles.corners.data());
   return triangles;
 }

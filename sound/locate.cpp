@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 
 namespace chladni::sound {
@@ -15,7 +16,7 @@ Locator::Locator(std::shared_ptr<const AirMesh> mesh)
     : mesh_(std::move(mesh)), low_(mesh_->n_elements(), mesh_->dimension()), high_(low_)
 {
   for (int e = 0; e < mesh_->n_elements(); ++e) {
-    const MatrixXd x = mesh_->positions(mesh_->elements.row(e), Eigen::all);
+    const MatrixXd x = mesh_->positions(mesh_->elements.row(e), every);
     const RowVectorXd size = x.colwise().maxCoeff() - x.colwise().minCoeff();
     low_.row(e) = x.colwise().minCoeff() - 0.05 * size;  // curved edges bulge
     high_.row(e) = x.colwise().maxCoeff() + 0.05 * size;
@@ -25,7 +26,7 @@ Locator::Locator(std::shared_ptr<const AirMesh> mesh)
 std::optional<RowVectorXd> Locator::reference_place(int element, const RowVectorXd& x) const
 {
   const int dimension = mesh_->dimension();
-  const MatrixXd X = mesh_->positions(mesh_->elements.row(element), Eigen::all);
+  const MatrixXd X = mesh_->positions(mesh_->elements.row(element), every);
   RowVectorXd xi = RowVectorXd::Constant(dimension, 1.0 / (dimension + 1));
   for (int step = 0; step < 20; ++step) {
     const RowVectorXd rest = x - mesh_->basis.values(xi) * X;
@@ -57,7 +58,7 @@ Eigen::RowVectorXcd Locator::value(const Eigen::Vector3d& x, const Eigen::Matrix
     const auto xi = reference_place(e, at);
     if (!xi) continue;
     const MatrixXd N = mesh_->basis.values(*xi);
-    return (mirrored ? -1.0 : 1.0) * (N * p(mesh_->elements.row(e), Eigen::all));
+    return (mirrored ? -1.0 : 1.0) * (N * p(mesh_->elements.row(e), every));
   }
   throw Error(
       fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) m is inside the body", x[0], x[1], x[2]));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "common/eigen_every.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "sound/field_picture.hpp"
@@ -56,7 +57,7 @@ void write_tone(Writer& file, const Tone& tone, const Accuracy& accuracy)
     const Triangles triangles = inner_triangles(*field.mesh);
     file.write(name + "/nodes", triangles.nodes, "m");
     file.write(name + "/triangles", triangles.corners, "1");
-    const Eigen::MatrixXcd p = field.p(triangles.index, Eigen::all);
+    const Eigen::MatrixXcd p = field.p(triangles.index, every);
     file.write(name + "/cosine_re", p.col(0).real(), "Pa");
     file.write(name + "/cosine_im", p.col(0).imag(), "Pa");
     file.write(name + "/sine_re", p.col(1).real(), "Pa");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 
 namespace chladni::sound {
@@ -92,7 +93,7 @@ std::array<MatrixXd, 3> cylindrical(const mbs_export::Picture& picture,
   std::array<MatrixXd, 3> u{MatrixXd(n, n_modes), MatrixXd(n, n_modes), MatrixXd(n, n_modes)};
   for (Index k = 0; k < n; ++k) {
     const Sample& sample = samples[std::size_t(k)];
-    const MatrixXd x = picture.transformation.middleRows(3 * sample.node, 3)(Eigen::all, modes);
+    const MatrixXd x = picture.transformation.middleRows(3 * sample.node, 3)(every, modes);
     const double c = std::cos(sample.angle), s = std::sin(sample.angle);
     u[0].row(k) = c * x.row(0) + s * x.row(1);
     u[1].row(k) = c * x.row(1) - s * x.row(0);

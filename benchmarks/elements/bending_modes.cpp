@@ -7,6 +7,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "common/eigen_every.hpp"
 #include "plate/elements/shell_element.hpp"
 #include "plate/sections/directors.hpp"
 #include "reduce/fixed_interface_modes.hpp"
@@ -58,7 +59,7 @@ Equations number_equations(const mesh::Mesh& plate, Formulation formulation)
 
 plate::ShellNodes selected(const plate::ShellNodes& nodes, const std::vector<int>& places)
 {
-  return {.x = nodes.x(places, Eigen::all), .D = nodes.D(places, Eigen::all)};
+  return {.x = nodes.x(places, every), .D = nodes.D(places, every)};
 }
 
 struct Triplets {

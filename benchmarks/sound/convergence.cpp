@@ -4,6 +4,7 @@
 // Usage: sound_convergence [--smallest] FILE.json
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 
 #include <cstdio>

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/deflated_factor.hpp"
 
@@ -85,7 +86,7 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
   X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
   const std::vector<Index> massive = with_mass(X, M, mu, orthonormal_to);
   const VectorXd lambda = mu(massive).cwiseInverse();
-  return {lambda, orthonormalized(X(Eigen::all, massive), M, R),
+  return {lambda, orthonormalized(X(every, massive), M, R),
           static_cast<int>(n - r - lambda.size())};
 }
 

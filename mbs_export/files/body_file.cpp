@@ -1,6 +1,7 @@
 #include "mbs_export/files/body_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/eigen_every.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/inertia_shapes.hpp"
@@ -140,8 +141,7 @@ void write_products(Dictionary& dictionary, const MassIntegrals& integrals)
     // C4 - C4^T = int phi x^T - x phi^T dm = (int x x phi dm)~
     x_Psi.col(j) = -Vector3d(C4(2, 1) - C4(1, 2), C4(0, 2) - C4(2, 0), C4(1, 0) - C4(0, 1));
   }
-  for (int c = 0; c < 3; ++c)
-    Psi_Psi(Eigen::seqN(c, n, 3), Eigen::all) = -cross_product(integrals, c);
+  for (int c = 0; c < 3; ++c) Psi_Psi(Eigen::seqN(c, n, 3), every) = -cross_product(integrals, c);
   dictionary.array("mPhitTPsi", integrals.displacement);
   dictionary.array("mPhitTPsiTilde", Phi_Psi_tilde);
   dictionary.array("mXRefTildePsi", x_Psi);

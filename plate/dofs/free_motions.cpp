@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "plate/dofs/point_elements.hpp"
 
@@ -265,7 +266,7 @@ std::string describe_motions(const FreePart& part)
   for (Index c = 0; c < 6; ++c) {
     // A motion of all pieces alike, if all of it lies in the space of the free ones.
     Eigen::VectorXd alike = Eigen::VectorXd::Zero(part.motions.rows());
-    alike(Eigen::seq(c, Eigen::last, 6)).setConstant(std::sqrt(6.0 / double(alike.size())));
+    alike(Eigen::seq(c, last, 6)).setConstant(std::sqrt(6.0 / double(alike.size())));
     if ((alike.transpose() * part.motions).norm() > 1.0 - same_motion) {
       pure.emplace_back(names[static_cast<std::size_t>(c)]);
     }

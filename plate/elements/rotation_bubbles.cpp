@@ -1,4 +1,5 @@
 #include "plate/elements/rotation_bubbles.hpp"
+#include "common/eigen_every.hpp"
 
 #include <Eigen/Dense>
 #include <vector>
@@ -90,7 +91,7 @@ MatrixXd motion_with_bubbles(const MatrixXd& K, const ShellNodes& nodes)
   const BubbleSolution bubbles = solve_bubbles(K, nodes);
   MatrixXd T = MatrixXd::Zero(K.rows(), n);
   T.topRows(n).setIdentity();
-  T(bubbles.rotations, Eigen::all) = -bubbles.X;
+  T(bubbles.rotations, every) = -bubbles.X;
   return T;
 }
 

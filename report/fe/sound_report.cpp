@@ -1,6 +1,7 @@
 #include "report/fe/sound_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <numbers>
 #include <optional>

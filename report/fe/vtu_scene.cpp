@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/eigen_every.hpp"
 #include "plate/sections/profile.hpp"
 #include "plate/sections/sections.hpp"
 
@@ -103,7 +104,7 @@ SceneGrid scene_grid(const mesh::Mesh& mesh, std::span<const plate::ShellSection
 
 void add_motions(SceneGrid& scene_grid, const Eigen::MatrixXd& motions, const std::string& prefix)
 {
-  const MatrixXd of_points = motions(scene_grid.node_of_point, Eigen::all);
+  const MatrixXd of_points = motions(scene_grid.node_of_point, every);
   auto& fields = scene_grid.grid.of_points;
   fields.push_back({.name = prefix + "displacement", .values = of_points.leftCols<3>()});
   fields.push_back({.name = prefix + "rotation", .values = of_points.rightCols<3>()});

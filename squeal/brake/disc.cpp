@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "mbs_export/mass_integrals.hpp"
 #include "squeal/brake/contact_compliance.hpp"
@@ -75,7 +76,7 @@ Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& na
 
 Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
 {
-  return {f.cosine(Eigen::all, modes), f.sine(Eigen::all, modes)};
+  return {f.cosine(every, modes), f.sine(every, modes)};
 }
 
 Disc with_modes(const Disc& all, const std::vector<int>& modes)

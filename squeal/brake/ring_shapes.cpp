@@ -1,4 +1,5 @@
 #include "squeal/brake/ring_shapes.hpp"
+#include "common/eigen_every.hpp"
 
 #include <cmath>
 
@@ -34,7 +35,7 @@ RingShapes::RingShapes(const DiscRing& ring) : shapes_(ring.W.cosine.cols(), 3)
     orders_.push_back(static_cast<int>(k));
     kept.insert(kept.end(), {2 * k, 2 * k + 1});
   }
-  coefficients_ = all(Eigen::all, kept);
+  coefficients_ = all(every, kept);
   waves_.resize(coefficients_.cols());
 }
 

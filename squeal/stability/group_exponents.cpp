@@ -1,4 +1,5 @@
 #include "squeal/stability/group_exponents.hpp"
+#include "common/eigen_every.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -120,7 +121,7 @@ class Orbit {
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       return std::abs(solver.eigenvalues()[a]) > std::abs(solver.eigenvalues()[b]);
     });
-    Square<G> Q = solver.eigenvectors()(Eigen::all, order);
+    Square<G> Q = solver.eigenvectors()(every, order);
     orthogonalise(Q);
     Flag flag = passed(Q);
     for (int i = 0; i < n_passes_max && flag.error > flag_error; ++i) flag = passed(Q);

@@ -1,4 +1,5 @@
 #include "squeal/stability/group_reduction.hpp"
+#include "common/eigen_every.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ class Reduction {
   {
     auto X = matrix(X_, s, modes_.size());
     auto F = matrix(F_, s, g_);
-    F = BW(states_, Eigen::all);
+    F = BW(states_, every);
     X = (BW - X * F).eval();
   }
 
@@ -103,7 +104,7 @@ class Reduction {
       }
       const Complex turn{0.0, double(k) * modes_.step};
       for (Index j = 0; j < g_; ++j) X.col(j).array() /= turn + lambda(j) - modes_.lambda.array();
-      X(states_, Eigen::all).setZero();
+      X(states_, every).setZero();
     }
     return c;
   }

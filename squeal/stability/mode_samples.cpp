@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/parallel.hpp"
@@ -44,8 +45,8 @@ std::vector<Index> oscillating(const Eigen::VectorXcd& lambda)
 
 ModeSample in_order(const ModeSample& sample, const std::vector<Index>& order)
 {
-  return {sample.value, sample.lambda(order), sample.X(Eigen::all, order),
-          sample.Y(Eigen::all, order), sample.doubt(order)};
+  return {sample.value, sample.lambda(order), sample.X(every, order), sample.Y(every, order),
+          sample.doubt(order)};
 }
 
 /// The motions of a sample in the order of another one.
@@ -118,7 +119,7 @@ ModeSample mode_sample(const StateMatrixOf& A, double value)
   const Eigen::MatrixXcd X = solver.eigenvectors().colwise().normalized();
   const Eigen::MatrixXcd Y = X.inverse().adjoint();
   const std::vector<Index> at = oscillating(solver.eigenvalues());
-  ModeSample sample{value, solver.eigenvalues()(at), X(Eigen::all, at), Y(Eigen::all, at), {}};
+  ModeSample sample{value, solver.eigenvalues()(at), X(every, at), Y(every, at), {}};
   sample.doubt.resize(sample.size());
   const double zero = rounding_of(solver.eigenvalues());
   for (Index j = 0; j < sample.size(); ++j) {

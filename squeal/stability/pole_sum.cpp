@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "common/eigen_every.hpp"
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
@@ -70,12 +71,12 @@ std::optional<LowRankChange> LowRankChange::about(const Eigen::MatrixXd& A_0,
   const Eigen::MatrixXd P_inverse = P.partialPivLu().inverse();
   if (!(P.norm() * P_inverse.norm() <= largest_condition * double(n))) return std::nullopt;
   change.poles_ = solver.eigenvalues()(Eigen::seqN(0, m, 2));
-  change.re_ = P(Eigen::all, Eigen::seqN(0, m, 2));
-  change.im_ = P(Eigen::all, Eigen::seqN(1, m, 2));
+  change.re_ = P(every, Eigen::seqN(0, m, 2));
+  change.im_ = P(every, Eigen::seqN(1, m, 2));
   const Eigen::MatrixXd q = P_inverse * change.U_;
   change.left_.resize(m, q.cols());
-  change.left_.real() = 0.5 * q(Eigen::seqN(0, m, 2), Eigen::all);
-  change.left_.imag() = -0.5 * q(Eigen::seqN(1, m, 2), Eigen::all);
+  change.left_.real() = 0.5 * q(Eigen::seqN(0, m, 2), every);
+  change.left_.imag() = -0.5 * q(Eigen::seqN(1, m, 2), every);
   return change;
 }
 

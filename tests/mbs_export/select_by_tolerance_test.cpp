@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bending_beam.hpp"
+#include "common/eigen_every.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "tests/files/scratch_folder.hpp"
@@ -56,7 +57,7 @@ MatrixXcd receptances(const ModalBody& body, const std::vector<int>& rows, doubl
 {
   const Eigen::VectorXcd d =
       std::complex<double>(1.0, 0.02) * body.omega.array().square() - Omega * Omega;
-  const MatrixXd B = body.attachment_modes(rows, Eigen::all);
+  const MatrixXd B = body.attachment_modes(rows, every);
   return B * d.cwiseInverse().asDiagonal() * B.transpose();
 }
 
@@ -66,7 +67,7 @@ double largest_error(const ModalBody& body, const ModalBody& complete, const std
                      double Omega_max)
 {
   constexpr int n_frequencies = 3000;
-  const MatrixXd B = complete.attachment_modes(rows, Eigen::all);
+  const MatrixXd B = complete.attachment_modes(rows, every);
   double largest = 0.0;
   for (int i = 0; i <= n_frequencies; ++i) {
     const double Omega = Omega_max * i / n_frequencies;

@@ -48,9 +48,7 @@ struct Solver {
 /// What PETSc says of the error just returned.
 std::string message(PetscErrorCode code)
 {
-  const char* text = nullptr;
-  char* specific = nullptr;
-  PetscErrorMessage(code, &text, &specific);
+  const char* specific = petsc::error_texts(PetscErrorMessage, code).specific;
   return specific != nullptr ? specific : "";
 }
 

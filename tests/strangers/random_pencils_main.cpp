@@ -2,6 +2,7 @@
 //   random_pencils --count 10000 --seed 1 [--known "refused"]
 // A property in --known may fail: round-off decides which pencils are refused.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -40,9 +40,7 @@ petsc::IndexSet interface(const std::vector<int>& masters, MPI_Comm comm)
 
 std::string message_of(PetscErrorCode code)
 {
-  const char* text = nullptr;
-  char* specific = nullptr;
-  PetscErrorMessage(code, &text, &specific);
+  const char* specific = petsc::error_texts(PetscErrorMessage, code).specific;
   std::string message = specific != nullptr ? specific : "";
   std::ranges::replace(message, '\n', ' ');
   return message;

@@ -1,5 +1,6 @@
 // Every pencil by every way of solving, on all ranks, against dense matrices.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
