@@ -15,6 +15,7 @@
 #include "squeal/stability/mode_samples.hpp"
 #include "squeal/stability/period_work.hpp"
 #include "squeal/stability/stability_map.hpp"
+#include "squeal/stability/turning_table.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -120,7 +121,8 @@ StabilityTable empty_table(const Brake& brake, const StabilityCase& search)
                        .band = search.band,
                        .values = Eigen::VectorXd::LinSpaced(search.count, search.from, search.to),
                        .families = {},
-                       .branches = {}};
+                       .branches = {},
+                       .method = "eigenvalues"};
   if (const FlexibleDisc* body = brake.body()) {
     const InertialDisc& disc = body->inertial();
     for (const Coordinates& family : families_of(disc))
@@ -141,7 +143,10 @@ StabilityCase stability_case(const StudyOptions& options)
 
 StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search)
 {
-  if (const FlexibleDisc* body = brake.body()) check_band(body->disc(), search);
+  if (const FlexibleDisc* body = brake.body()) {
+    check_band(body->disc(), search);
+    if (!brake.is_autonomous()) return turning_table(*body, search);
+  }
   StabilityTable table = empty_table(brake, search);
   const StateMatrixOf A = state_matrix_over(brake, search);
   const int finer = refinement(search.count);
