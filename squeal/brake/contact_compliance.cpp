@@ -60,6 +60,20 @@ StackedContact stacked_contact(const PadSystem& pads, Eigen::Index n)
   return {Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(m, m), Eigen::MatrixXd::Zero(m, m)};
 }
 
+StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double speed)
+{
+  StackedContact contact = stacked_contact(pads, n);
+  const Eigen::Index rows = pad_rows(pads);
+  Eigen::Index at = 0;
+  for (const PointPair& point : pads.points) {
+    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows));
+    contact.D_a.block(at, at, rows, rows) = d.D_a;
+    contact.D_p.block(at, at, rows, rows) = d.D_p;
+    at += rows;
+  }
+  return contact;
+}
+
 ContactSeries::ContactSeries(const RingCompliance& rings, const PadSystem& pads, double speed)
     : rows_(pad_rows(pads))
 {

@@ -24,8 +24,11 @@ struct StackedContact {
   Eigen::MatrixXd D_p;  ///< [m x m] by its rates
 };
 
-/// Zero derivatives of so many coordinates at the points of the pads.
+/// Zero shapes and derivatives of so many coordinates at the points of the pads.
 StackedContact stacked_contact(const PadSystem& pads, Eigen::Index n);
+
+/// Zero shapes, and the derivatives about the undeformed disc that slides at this speed (rad/s).
+StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double speed);
 
 /// Modes without inertia stand in series with the springs of the pads: a force f at the contact
 /// points moves them by y = G f, and the pads feel the sum of this and of the motion u of the other

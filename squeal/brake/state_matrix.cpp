@@ -6,17 +6,13 @@
 namespace chladni::squeal {
 StackedContact linear_contact(const InertialDisc& disc, const PadSystem& pads, double speed)
 {
-  StackedContact all = stacked_contact(pads, disc.n_modes() + pads.n_modes());
+  StackedContact all = contact_at_rest(pads, disc.n_modes() + pads.n_modes(), speed);
   Eigen::Index at = 0;
   for (const PointPair& point : pads.points) {
     const PairShapes S =
         pair_shapes(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)), pads, point);
-    const Eigen::Index rows = S.cols();
-    const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows));
-    all.S.middleCols(at, rows) = S;
-    all.D_a.block(at, at, rows, rows) = d.D_a;
-    all.D_p.block(at, at, rows, rows) = d.D_p;
-    at += rows;
+    all.S.middleCols(at, S.cols()) = S;
+    at += S.cols();
   }
   ContactSeries(disc.compliance, pads, speed).condense(all);
   return all;

@@ -42,13 +42,6 @@ std::optional<DirectLimitCycle> cycle_of(const Brake& brake, AutonomousMotion& m
   return cycle;
 }
 
-std::string way_of(const CycleGuess& start)
-{
-  return fmt::format(
-      "from the unstable eigenvector at {:.3g} times the compression of the first pad{}",
-      start.amplitude, start.balanced ? ", where its averaged growth ends" : "");
-}
-
 }  // namespace
 
 DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
@@ -63,7 +56,7 @@ DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
                     speed, growth));
   for (const CycleGuess& start : cycle_guesses(*motion, A, brake.rest_compression())) {
     if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start.cycle), speed)) {
-      cycle->way = way_of(start);
+      cycle->way = "from the eigenvector";
       return *cycle;
     }
   }

@@ -3,10 +3,9 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
-#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/disc.hpp"
-#include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/switching_contact.hpp"
 #include "squeal/motion/motion.hpp"
 #include "squeal/motion/state_archive.hpp"
 
@@ -22,9 +21,9 @@ class RotatingDisc final : public Motion {
 
   const Eigen::VectorXd& omega() const override { return omega_; }
   const Eigen::VectorXd& rate(double t, const Eigen::VectorXd& y) override;
-  const Eigen::VectorXd& switches() const override { return S_; }
-  double side(Eigen::Index i) const override;
-  void set_side(Eigen::Index i, double side) override;
+  const Eigen::VectorXd& switches() const override { return contact_.switches(); }
+  double side(Eigen::Index i) const override { return contact_.side(i); }
+  void set_side(Eigen::Index i, double side) override { contact_.set_side(i, side); }
   Tangent tangent(double t, const Eigen::VectorXd& y) override;
 
   /// The contacts at (t, y) as the contact law has them, one for each pair.
@@ -37,27 +36,18 @@ class RotatingDisc final : public Motion {
   /// Evaluations of the contact forces of all pads so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
 
-  void exchange(StateArchive& archive) { archive(branches_, n_evaluations_); }
+  void exchange(StateArchive& archive) { archive(contact_.branches(), n_evaluations_); }
 
  private:
-  /// Shapes of the point pair i at time t.
-  const PairShapes& shapes(std::size_t i, double t);
-  PointMotion point_motion(const PairShapes& S, const Eigen::VectorXd& y);
-  /// Of all points at (t, y), on the present branches, with what modes without inertia do.
-  const std::vector<PointMotion>& motions(double t, const Eigen::VectorXd& y);
+  /// Shapes of the contact points at time t, and their motions by the modes with inertia.
+  void move_points(double t, const Eigen::VectorXd& y);
 
   double speed_;
-  double pulled_;  ///< branch of a pad whose axial force is negative
+  SwitchingContact contact_;  ///< with the shapes where the disc stood last
   Eigen::VectorXd omega_;
   Eigen::MatrixXd C_;
   bool damped_;
   std::vector<RingShapes> rings_;
-  PadSystem pads_;
-  std::vector<BrakePoint> points_;  ///< with the shapes where the disc stood last
-  ContactSeries series_;
-  std::vector<PointMotion> motions_;
-  std::vector<double> branches_;  ///< of each point; see contact_branch.hpp
-  Eigen::VectorXd S_;
   Eigen::VectorXd f_;
   Eigen::VectorXd q_;
   std::int64_t n_evaluations_ = 0;

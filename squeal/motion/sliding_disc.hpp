@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "squeal/brake/contact.hpp"
-#include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/inertial_frame.hpp"
-#include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/switching_contact.hpp"
 #include "squeal/motion/autonomous_motion.hpp"
 #include "squeal/squeal_options.hpp"
 
@@ -21,15 +20,15 @@ class SlidingDisc final : public AutonomousMotion {
  public:
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);
 
-  double speed() const { return speed_; }                ///< rad/s
-  std::size_t n_pads() const { return pads_.n_pads(); }  ///< pairs
+  double speed() const { return speed_; }                          ///< rad/s
+  std::size_t n_pads() const { return contact_.pads().n_pads(); }  ///< pairs
   Eigen::Index size() const override { return A_.rows(); }
   double omega_highest() const override { return omega_.maxCoeff(); }
 
   const Eigen::VectorXd& rate(double t, const Eigen::VectorXd& x) override;
-  const Eigen::VectorXd& switches() const override { return S_; }
-  double side(Eigen::Index i) const override;
-  void set_side(Eigen::Index i, double side) override;
+  const Eigen::VectorXd& switches() const override { return contact_.switches(); }
+  double side(Eigen::Index i) const override { return contact_.side(i); }
+  void set_side(Eigen::Index i, double side) override { contact_.set_side(i, side); }
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) override;
   ContactResult<double> first_contact(const Eigen::VectorXd& x) override;
 
@@ -49,20 +48,13 @@ class SlidingDisc final : public AutonomousMotion {
   Sample sample(const Eigen::VectorXd& x);
 
  private:
-  PointMotion motion_at(const BrakePoint& point, const Eigen::VectorXd& x) const;
-  /// Of all points on the present branches, with what modes without inertia do.
-  const std::vector<PointMotion>& motions(const Eigen::VectorXd& x);
+  /// Motions of the contact points by the modes with inertia.
+  void move_points(const Eigen::VectorXd& x);
 
   double speed_;
-  double pulled_;  ///< branch of a pad whose axial force is negative
-  PadSystem pads_;
+  SwitchingContact contact_;
   Eigen::VectorXd omega_;
   Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
-  std::vector<BrakePoint> points_;
-  ContactSeries series_;
-  std::vector<PointMotion> motions_;
-  std::vector<double> branches_;  ///< of each point; see contact_branch.hpp
-  Eigen::VectorXd S_;
   Eigen::VectorXd f_;
 };
 

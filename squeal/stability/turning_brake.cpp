@@ -136,15 +136,7 @@ TurningBrake::TurningBrake(const Disc& disc, const TurningCoordinates& coordinat
     w_.segment<2>(i).setConstant(std::sqrt(0.5 * K_.block<2, 2>(i, i).trace()));
     ++i;
   }
-  contact_ = stacked_contact(pads_, n + m);
-  const Eigen::Index rows = m > 0 ? pair_rows_max : 3;
-  for (std::size_t i = 0; i < pads_.points.size(); ++i) {
-    const auto at = rows * static_cast<Eigen::Index>(i);
-    const PairDerivatives d =
-        pair_derivatives(pads_.points[i].contact, speed, static_cast<int>(rows));
-    contact_.D_a.block(at, at, rows, rows) = d.D_a;
-    contact_.D_p.block(at, at, rows, rows) = d.D_p;
-  }
+  contact_ = contact_at_rest(pads_, n + m, speed);
   ContactSeries(disc.compliance, pads_, speed).condense(contact_);
 }
 

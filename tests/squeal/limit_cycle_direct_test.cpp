@@ -184,7 +184,7 @@ TEST(DirectLimitCycle, ExistsBetweenTwoPadPairsWithEachContactLaw)
         const DirectLimitCycle cycle = limit_cycle_direct(brake, by_pi * pi);
         EXPECT_GT(cycle.pad_velocity, 1.0);
         EXPECT_LT(std::abs(cycle.multipliers[0] - 1.0), 1e-5);
-        EXPECT_EQ(cycle.way.find("from the unstable eigenvector"), 0u) << cycle.way;
+        EXPECT_EQ(cycle.way, "from the eigenvector");
       }
     }
   }

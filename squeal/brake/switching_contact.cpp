@@ -1,0 +1,93 @@
+#include "squeal/brake/switching_contact.hpp"
+
+#include <span>
+#include <utility>
+
+#include "squeal/brake/contact.hpp"
+#include "squeal/brake/contact_branch.hpp"
+
+namespace chladni::squeal {
+
+SwitchingContact::SwitchingContact(const RingCompliance& compliance, PadSystem pads, ContactLaw law,
+                                   double speed)
+    : speed_(speed),
+      pulled_(pulled_branch(law)),
+      pads_(std::move(pads)),
+      series_(compliance, pads_, speed),
+      motions_(pads_.points.size()),
+      branches_(2 * pads_.points.size(), 1.0),
+      S_(law == ContactLaw::signed_force
+             ? Eigen::VectorXd()
+             : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(branches_.size())))
+{}
+
+void SwitchingContact::follow_on_branches()
+{
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    return force_on_branch<double>(points_[i], pair_motion(at.g, at.g_dot), speed_,
+                                   std::span(branches_).subspan(2 * i, 2))
+        .head<3>();
+  });
+}
+
+void SwitchingContact::add_forces(Eigen::Ref<Eigen::VectorXd> p_dot)
+{
+  follow_on_branches();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PairShapes& S = points_[i].S;
+    const PadContact& pad = points_[i].contact;
+    const RingMotion<double> motion = pair_motion(motions_[i].g, motions_[i].g_dot);
+    const auto up = pad_on_branch(pad, motion, speed_, {1.0, branches_[2 * i]});
+    const auto lo = pad_on_branch(pad, motion, speed_, {-1.0, branches_[2 * i + 1]});
+    if (S_.size() > 0) {
+      const auto first = static_cast<Eigen::Index>(2 * i);
+      S_[first] = pressure(pad, up, motion.upper, 1.0);
+      S_[first + 1] = pressure(pad, lo, motion.lower, -1.0);
+    }
+    p_dot.noalias() += S * pair_forces(pair_force(pad, motion, up, lo), up, lo, points_[i].at_rest,
+                                       static_cast<int>(S.cols()));
+  }
+}
+
+StackedContact SwitchingContact::derivatives(Eigen::Index n)
+{
+  follow_on_branches();
+  StackedContact contact = stacked_contact(pads_, n);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PairShapes& S = points_[i].S;
+    const Eigen::MatrixXd D = force_derivative(points_[i], motions_[i].g, motions_[i].g_dot,
+                                               {speed_, std::span(branches_).subspan(2 * i, 2)});
+    const Eigen::Index at = S.cols() * static_cast<Eigen::Index>(i);
+    contact.S.middleCols(at, S.cols()) = S;
+    contact.D_a.block(at, at, S.cols(), S.cols()) = D.leftCols(S.cols());
+    contact.D_p.block(at, at, S.cols(), S.cols()) = D.rightCols(S.cols());
+  }
+  series_.condense(contact);
+  return contact;
+}
+
+std::vector<ContactResult<double>> SwitchingContact::contacts()
+{
+  const auto at_point = [&](std::size_t i, const PointMotion& at) {
+    return contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_);
+  };
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+    const auto force = at_point(i, at).force;
+    return {force.F_w, force.F_r, force.F_t};
+  });
+  std::vector<ContactResult<double>> results;
+  for (std::size_t i = 0; i < points_.size(); ++i) results.push_back(at_point(i, motions_[i]));
+  return results;
+}
+
+double SwitchingContact::side(Eigen::Index i) const
+{
+  return branches_[static_cast<std::size_t>(i)] == 1.0 ? 1.0 : -1.0;
+}
+
+void SwitchingContact::set_side(Eigen::Index i, double side)
+{
+  branches_[static_cast<std::size_t>(i)] = side > 0.0 ? 1.0 : pulled_;
+}
+
+}  // namespace chladni::squeal
