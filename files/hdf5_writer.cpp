@@ -34,7 +34,11 @@ bool set_attribute(hid_t object, const std::string& name, hid_t type, const void
 
 bool set_text_attribute(hid_t object, const std::string& name, const std::string& text)
 {
-  return set_attribute(object, name, text_type(text.size()).get(), text.c_str());
+  const Handle type = text_type(text.size());
+  // VTK reads no text that calls itself UTF-8, from 9.2 on.
+  const bool is_ascii = std::ranges::all_of(text, [](char c) { return c > 0; });
+  if (is_ascii) H5Tset_cset(type.get(), H5T_CSET_ASCII);
+  return set_attribute(object, name, type.get(), text.c_str());
 }
 
 /// Where it is written and what it is measured in.

@@ -97,7 +97,11 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
     // A file of an earlier version does not tell stable from unstable.
     table.rows.push_back({"critical speed", "stability is not lost in the range", ""});
   }
-  if (results.speed_stability) add_intervals(table, *results.speed_stability, speed);
+  if (!results.speed_stability) return;
+  add_intervals(table, *results.speed_stability, speed);
+  if (results.speed_stability->method == "hill")
+    table.rows.push_back(
+        {"method of the critical speed", "Hill, the disc is not axisymmetric", ""});
 }
 
 void add_critical(TextTable& table, const squeal::CriticalValue& value)

@@ -83,7 +83,7 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
        {"damping_ratio", damping_ratio(branch.worst)},
        {"nodal_diameters", diameters ? Json(*diameters) : Json()},
        {"shares", numbers_json(branch.shares)},
-       {"pads", branch.pads},
+       {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
        {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
        {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
        {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
@@ -96,6 +96,12 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
 void add_unstable_modes(TextTable& table, const StabilityTable& stability)
 {
   table.rows.push_back({"stability of all modes", summary(stability), ""});
+  if (stability.is_by_hill()) {
+    table.rows.push_back({"method of the table",
+                          "Hill, the disc is not axisymmetric: without nodal diameters and works",
+                          ""});
+    add(table, "estimated error of the table's growth rates", stability.error, "1/s");
+  }
   for (const StabilityBranch& branch : stability.branches) {
     if (!branch.is_unstable()) continue;
     const std::string name =
@@ -116,6 +122,8 @@ Json stability_table_json(const StabilityTable& stability)
     branches.push_back(branch_json(stability, branch));
   const auto& band = stability.band;
   return Json::object({{"parameter", stability.parameter},
+                       {"method", stability.method.empty() ? "eigenvalues" : stability.method},
+                       {"error_1_s", stability.is_by_hill() ? Json(stability.error) : Json()},
                        {"speed_rad_s", stability.speed ? Json(*stability.speed) : Json()},
                        {"band_Hz", band ? Json::array({band->from_Hz, band->to_Hz}) : Json()},
                        {"values", numbers_json(stability.values)},

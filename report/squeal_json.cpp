@@ -229,6 +229,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     if (results.speed_stability)
       for (Json::Member& member : stability_json(*results.speed_stability, "speeds_rad_s"))
         members.push_back(std::move(member));
+    if (results.speed_stability && !results.speed_stability->method.empty())
+      members.emplace_back("critical_speed_method", results.speed_stability->method);
   }
   if (results.stability_table)
     members.emplace_back("stability_table", stability_table_json(*results.stability_table));

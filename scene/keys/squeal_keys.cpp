@@ -64,9 +64,9 @@ constexpr Key squeal_rows[] = {
      {.at_least = 1}},
     {"squeal.quasi_static_above_Hz",
      number,
-     "the end of the body's range with interface modes, else none",
-     "modes of higher frequency follow the pads without inertia, since interface modes have no "
-     "frequency that the disc has; with use_modes = \"all\"",
+     "interface modes beyond the body's range",
+     "modes of higher frequency, of every kind, follow the pads without inertia; without it "
+     "interface modes do, which have no frequency that the disc has; with use_modes = \"all\"",
      {.above = 0.0}},
     {"squeal.speeds", table, "required", "rotation speeds, equally spaced"},
     {"squeal.speeds.from_rad_s", number, "or from_rpm, from_km_h", "the lowest", speed},

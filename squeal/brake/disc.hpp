@@ -91,8 +91,9 @@ struct Disc {
 /// The disc of `body` that touches the pads at the rings of these names. With no choice or a choice
 /// by nodal diameters, modes that do not move the ring along the axis are left out: no pad sees
 /// them. With no choice, modes beyond `ModeChoice::quasi_static_above` give it their compliance
-/// alone: interface modes stand for what all modes beyond the range do slowly, at frequencies that
-/// the disc does not have.
+/// alone; where that is not given, interface modes beyond the body's range do. They stand for what
+/// all modes beyond the range do slowly, at frequencies that the disc does not have; modes of the
+/// disc keep their inertia, and a mode of unknown kind counts as one.
 /// @throws chladni::Error for an unknown ring, two rings of one name, a mode number out of range or
 /// given twice, a number
 ///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),

@@ -215,7 +215,8 @@ InertialDisc inertial_disc(const Disc& disc)
     throw Error(
         fmt::format("the disc is not axisymmetric: {}. Eigenvalues, critical values and limit "
                     "cycles need an axisymmetric disc and both modes of each pair; the analyses "
-                    "\"rotation-stability\", \"growth\" and \"transient\" do not",
+                    "\"stability\", \"critical-speed\", \"rotation-stability\", \"growth\" and "
+                    "\"transient\" do not",
                     complaint->text));
   return std::get<InertialDisc>(std::move(outcome));
 }

@@ -82,12 +82,22 @@ std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
   return modes;
 }
 
+ModeKind kind_of(const ModalBody& body, int i)
+{
+  const auto at = static_cast<std::size_t>(i);
+  return at < body.kinds.size() ? body.kinds[at] : ModeKind::constrained;
+}
+
+/// What the scene says holds for all modes. Otherwise only what an interface mode does beyond the
+/// range is not the disc's: a mode of the disc has its frequency there too.
 ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice& choice)
 {
   ModeParts parts;
   const double limit = choice.quasi_static_above.value_or(range_of(body));
-  for (const int i : moving_modes(disc))
-    (disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
+  for (const int i : moving_modes(disc)) {
+    const bool may = choice.quasi_static_above || kind_of(body, i) == ModeKind::interface;
+    (may && disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
+  }
   parts.still = still_modes(disc);
   if (parts.dynamic.empty())
     throw Error(
@@ -100,9 +110,7 @@ ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice
 void check_elastic(const ModalBody& body, const std::vector<int>& modes)
 {
   for (const int i : modes) {
-    const auto at = static_cast<std::size_t>(i);
-    const bool rigid = at < body.kinds.size() && body.kinds[at] == ModeKind::rigid;
-    if (rigid || !(body.omega[i] > rigid_limit))
+    if (kind_of(body, i) == ModeKind::rigid || !(body.omega[i] > rigid_limit))
       throw Error(
           fmt::format("mode {} is a rigid-body motion ({:.3g} Hz): hold the disc, e.g. "
                       "fixed = [\"hub\"] in [body], or choose other modes",

@@ -68,6 +68,7 @@ void write_profile(Writer& file, const std::string& group, const StabilityProfil
                    const std::string& unit)
 {
   file.write(group + "/stability", std::string(name_of(stability_of(profile))));
+  if (!profile.method.empty()) file.write(group + "/method", profile.method);
   write_points(file, group + "/range", {profile.from, profile.to}, unit);
   write_intervals(file, group + "/unstable", profile.unstable, unit);
 }
@@ -76,7 +77,8 @@ std::optional<StabilityProfile> read_profile(const Reader& file, const std::stri
 {
   if (!file.contains(group + "/range/values")) return std::nullopt;
   const std::vector<StabilityPoint> range = read_points(file, group + "/range", 2);
-  return StabilityProfile{range[0], range[1], read_intervals(file, group + "/unstable")};
+  return StabilityProfile{range[0], range[1], read_intervals(file, group + "/unstable"),
+                          file.contains(group + "/method") ? file.text(group + "/method") : ""};
 }
 
 }  // namespace chladni::squeal

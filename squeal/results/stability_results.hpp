@@ -39,6 +39,7 @@ struct UnstableInterval {
 struct StabilityProfile {
   StabilityPoint from, to;                 ///< the ends of the range
   std::vector<UnstableInterval> unstable;  ///< by rising values
+  std::string method = {};  ///< "hill" for discs that are not axisymmetric; else empty
 };
 
 /// What a range of a parameter does to the stability.

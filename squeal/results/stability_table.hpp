@@ -23,9 +23,9 @@ struct StabilityBranch {
   Eigen::VectorXcd lambda;                 ///< [m] growth rate 1/s + i angular frequency rad/s
   std::vector<UnstableInterval> unstable;  ///< by rising values; empty: stable at all values
   StabilityPoint worst;    ///< where its growth was largest among the values that were looked at
-  Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without a body
+  Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without families
   double pads = 0.0;       ///< the share of pads with a mass
-  std::optional<PeriodWork> work = {};  ///< there; absent of stable ones and without a body
+  std::optional<PeriodWork> work = {};  ///< there; absent of stable ones and without families
 
   bool is_unstable() const { return !unstable.empty(); }
 };
@@ -44,6 +44,12 @@ struct StabilityTable {
   Eigen::VectorXd values;             ///< [m] of the parameter: rad/s, 1, N or N/m
   std::vector<ModeFamily> families;   ///< of the disc, by rising frequency; empty without a body
   std::vector<StabilityBranch> branches;  ///< by rising frequency at their worst value
+  /// "eigenvalues", or "hill" for discs that are not axisymmetric: then without families, shares
+  /// and works; empty in files of earlier versions: eigenvalues.
+  std::string method = {};
+  double error = 0.0;  ///< of the growth rates by Hill's method, estimated, 1/s
+
+  bool is_by_hill() const { return method == "hill"; }
 };
 
 /// The ratio -growth / |lambda| of the decaying or growing oscillation; negative where it grows.

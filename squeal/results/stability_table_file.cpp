@@ -158,6 +158,8 @@ void write_stability_table(Writer& file, const StabilityTable& table)
   if (table.band)
     file.write("stability/band",
                Eigen::VectorXd(Eigen::Vector2d(table.band->from_Hz, table.band->to_Hz)), "Hz");
+  if (!table.method.empty()) file.write("stability/method", table.method);
+  if (table.is_by_hill()) file.write("stability/error", table.error, "1/s");
   write_participation(file, table);
   if (table.branches.empty()) return;
   write_branches(file, table, unit);
@@ -176,6 +178,8 @@ StabilityTable read_stability_table(const Reader& file)
     const Eigen::VectorXd band = file.vector("stability/band", 2);
     table.band = FrequencyBand{band[0], band[1]};
   }
+  if (file.contains("stability/method")) table.method = file.text("stability/method");
+  table.error = read_optional(file, "stability/error").value_or(0.0);
   table.branches = read_branches(file, table.values.size(), std::ssize(table.families));
   return table;
 }

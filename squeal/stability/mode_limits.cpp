@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "squeal/stability/followed_samples.hpp"
 #include "squeal/stability/hopf.hpp"
 
 namespace chladni::squeal {
@@ -22,50 +23,6 @@ constexpr int halvings_max = 60;
 constexpr int halvings_of_extremum = 20;
 /// How near Newton's frequency must be to that of the motion at Newton's value, relative.
 constexpr double same_frequency = 1e-6;
-
-/// Three neighbours.
-struct Triple {
-  ModeSample low, middle, high;
-};
-
-/// How far motion j is from a change of its stability; it changes above zero.
-double height(const ModeSample& sample, Index j, const ModeSample& from)
-{
-  return from.is_unstable(j) ? -sample.growth(j) : sample.growth(j);
-}
-
-/// Whether the height is largest in the middle and may rise above zero beside it; see
-/// stability_search.cpp.
-bool may_change(const Triple& t, Index j)
-{
-  if (t.low.is_unstable(j) != t.middle.is_unstable(j) ||
-      t.high.is_unstable(j) != t.middle.is_unstable(j))
-    return false;
-  const double low = height(t.low, j, t.middle), middle = height(t.middle, j, t.middle),
-               high = height(t.high, j, t.middle);
-  const double rise = 2.0 * middle - low - high;
-  return middle >= low && middle >= high && middle + rise > t.middle.doubt[j];
-}
-
-/// A sample of the other stability about the extremum.
-std::optional<ModeSample> beyond_extremum(const StateMatrixOf& A, Triple t, Index j)
-{
-  for (int k = 0; k < halvings_of_extremum && may_change(t, j); ++k) {
-    ModeSample left = mode_sample_between(A, t.low, t.middle, 0.5);
-    if (left.is_unstable(j) != t.middle.is_unstable(j)) return left;
-    ModeSample right = mode_sample_between(A, t.middle, t.high, 0.5);
-    if (right.is_unstable(j) != t.middle.is_unstable(j)) return right;
-    const double at_left = height(left, j, t.middle), at_right = height(right, j, t.middle);
-    const double in_middle = height(t.middle, j, t.middle);
-    if (at_left > in_middle && at_left >= at_right)
-      t = {std::move(t.low), std::move(left), std::move(t.middle)};
-    else if (at_right > in_middle)
-      t = {std::move(t.middle), std::move(right), std::move(t.high)};
-    else
-      t = {std::move(left), std::move(t.middle), std::move(right)};
-  }
-  return std::nullopt;
-}
 
 double frequency_distance(const ModeSample& sample, Index j, Index k)
 {
@@ -128,18 +85,12 @@ StabilityPoint limit_within(const StateMatrixOf& A, const Bracket& wide, Index j
       return {newton->value, 0.0, std::abs(newton->omega) / (2.0 * std::numbers::pi),
               newton->n_newton_steps};
   }
-  StabilityPoint limit = stability_point(halved(A, near, j, halvings_max).unstable, j);
+  StabilityPoint limit = halved(A, near, j, halvings_max).unstable.point(j);
   limit.growth = 0.0;
   return limit;
 }
 
 }  // namespace
-
-StabilityPoint stability_point(const ModeSample& sample, Index j)
-{
-  return {sample.value, sample.growth(j),
-          std::abs(sample.lambda[j].imag()) / (2.0 * std::numbers::pi)};
-}
 
 std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<ModeSample> samples,
                                             const std::vector<Index>& which)
@@ -149,13 +100,17 @@ std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<
   samples.insert(samples.begin() + 1, mode_sample_between(A, samples[0], samples[1], 0.5));
   samples.insert(samples.end() - 1,
                  mode_sample_between(A, samples.end()[-2], samples.end()[-1], 0.5));
+  const auto half_way = [&A](const ModeSample& a, const ModeSample& b) {
+    return mode_sample_between(A, a, b, 0.5);
+  };
   std::vector<ModeSample> more;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     std::ranges::move(at_crossings(A, samples[i - 1], samples[i], which), std::back_inserter(more));
     if (i + 1 == samples.size()) break;
     for (const Index j : which) {
-      const Triple t{samples[i - 1], samples[i], samples[i + 1]};
-      if (auto sample = beyond_extremum(A, t, j)) more.push_back(std::move(*sample));
+      const Neighbours<ModeSample> t{samples[i - 1], samples[i], samples[i + 1]};
+      if (auto sample = beyond_extremum(t, j, halvings_of_extremum, half_way))
+        more.push_back(std::move(*sample));
     }
   }
   std::ranges::move(more, std::back_inserter(samples));
@@ -166,26 +121,9 @@ std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<
 std::vector<UnstableInterval> unstable_intervals(const StateMatrixOf& A,
                                                  const std::vector<ModeSample>& samples, Index j)
 {
-  std::vector<UnstableInterval> found;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const StabilityPoint here = stability_point(samples[i], j);
-    const bool is = samples[i].is_unstable(j), was = i > 0 && samples[i - 1].is_unstable(j);
-    if (is != was) {
-      const StabilityPoint limit = i == 0 ? here
-                                          : limit_within(A,
-                                                         was ? Bracket{samples[i], samples[i - 1]}
-                                                             : Bracket{samples[i - 1], samples[i]},
-                                                         j);
-      if (was)
-        found.back().to = limit;
-      else
-        found.push_back({limit, here, here});
-    }
-    if (!is) continue;
-    found.back().to = here;
-    if (here.growth > found.back().worst.growth) found.back().worst = here;
-  }
-  return found;
+  return intervals_among(samples, j, [&](const ModeSample& a, const ModeSample& b) {
+    return limit_within(A, a.is_unstable(j) ? Bracket{b, a} : Bracket{a, b}, j);
+  });
 }
 
 }  // namespace chladni::squeal

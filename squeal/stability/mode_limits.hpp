@@ -21,7 +21,4 @@ std::vector<UnstableInterval> unstable_intervals(const StateMatrixOf& A,
                                                  const std::vector<ModeSample>& samples,
                                                  Eigen::Index j);
 
-/// Where motion j of a sample is, with its growth and frequency.
-StabilityPoint stability_point(const ModeSample& sample, Eigen::Index j);
-
 }  // namespace chladni::squeal

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -110,6 +111,11 @@ ModeSample continued(const StateMatrixOf& A, const Last& last, const ModeSample&
 }
 
 }  // namespace
+
+StabilityPoint ModeSample::point(Index j) const
+{
+  return {value, growth(j), std::abs(lambda[j].imag()) / (2.0 * std::numbers::pi)};
+}
 
 ModeSample mode_sample(const StateMatrixOf& A, double value)
 {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "squeal/results/stability_results.hpp"
 #include "squeal/stability/stability_search.hpp"
 
 namespace chladni::squeal {
@@ -18,7 +19,9 @@ struct ModeSample {
 
   Eigen::Index size() const { return lambda.size(); }
   double growth(Eigen::Index j) const { return lambda[j].real(); }
+  double doubt_of(Eigen::Index j) const { return doubt[j]; }
   bool is_unstable(Eigen::Index j) const { return growth(j) > doubt[j]; }
+  StabilityPoint point(Eigen::Index j) const;
 };
 
 /// The motions in the order of `oscillating_eigenvalues`.

@@ -15,6 +15,7 @@
 #include "squeal/stability/mode_samples.hpp"
 #include "squeal/stability/period_work.hpp"
 #include "squeal/stability/stability_map.hpp"
+#include "squeal/stability/turning_table.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -61,7 +62,7 @@ std::vector<Index> within_band(const std::vector<ModeSample>& samples,
   std::vector<Index> which;
   for (Index j = 0; j < samples.front().size(); ++j) {
     const bool within = !band || std::ranges::any_of(samples, [&](const ModeSample& sample) {
-      const double f_Hz = stability_point(sample, j).frequency_Hz;
+      const double f_Hz = sample.point(j).frequency_Hz;
       return f_Hz >= band->from_Hz && f_Hz <= band->to_Hz;
     });
     if (within) which.push_back(j);
@@ -89,7 +90,7 @@ const ModeSample& add_worst(StabilityBranch& branch, const std::vector<ModeSampl
 {
   const ModeSample& worst = *std::ranges::max_element(
       samples, {}, [j](const ModeSample& sample) { return sample.growth(j); });
-  branch.worst = stability_point(worst, j);
+  branch.worst = worst.point(j);
   if (!body) return worst;
   const Eigen::VectorXd p = worst.X.col(j).tail(worst.X.rows() / 2).cwiseAbs2();
   const auto families = families_of(body->inertial());
@@ -120,7 +121,8 @@ StabilityTable empty_table(const Brake& brake, const StabilityCase& search)
                        .band = search.band,
                        .values = Eigen::VectorXd::LinSpaced(search.count, search.from, search.to),
                        .families = {},
-                       .branches = {}};
+                       .branches = {},
+                       .method = "eigenvalues"};
   if (const FlexibleDisc* body = brake.body()) {
     const InertialDisc& disc = body->inertial();
     for (const Coordinates& family : families_of(disc))
@@ -141,7 +143,10 @@ StabilityCase stability_case(const StudyOptions& options)
 
 StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search)
 {
-  if (const FlexibleDisc* body = brake.body()) check_band(body->disc(), search);
+  if (const FlexibleDisc* body = brake.body()) {
+    check_band(body->disc(), search);
+    if (!brake.is_autonomous()) return turning_table(*body, search);
+  }
   StabilityTable table = empty_table(brake, search);
   const StateMatrixOf A = state_matrix_over(brake, search);
   const int finer = refinement(search.count);

@@ -12,9 +12,9 @@ StabilityCase stability_case(const StudyOptions& options);
 /// All motions of the sliding brake that have a frequency of the band at some value of the
 /// parameter, followed by their shapes (see mode_samples.hpp), and the intervals in which each is
 /// unstable (see mode_limits.hpp), on 128 values or more. Growth that rounding can make of a
-/// neutral motion is none.
-/// @throws chladni::Error for a band that the modes of the body do not reach, and when the brake is
-///         not autonomous.
+/// neutral motion is none. Of a disc that is not axisymmetric it is the table of Hill's method; see
+/// turning_table.hpp.
+/// @throws chladni::Error for a band that the modes of the body do not reach.
 StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search);
 
 }  // namespace chladni::squeal

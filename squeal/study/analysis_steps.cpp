@@ -13,6 +13,7 @@
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_map.hpp"
+#include "squeal/stability/turning_table.hpp"
 #include "squeal/stability/unstable_modes.hpp"
 #include "squeal/transient/spectrum.hpp"
 
@@ -29,10 +30,20 @@ void find_eigenvalues(const Study& study, SquealResults& results, const Keeping&
   results.eigenvalues = std::move(map);
 }
 
+/// Of a disc that is not axisymmetric by Hill's method.
+StabilityProfile speed_stability(const Study& study)
+{
+  const SpeedRange& speeds = study.options.speeds;
+  if (study.brake.is_autonomous())
+    return stability_over_speed(state_matrix_at(study.brake), speeds);
+  return profile_of(turning_table(
+      *study.brake.body(),
+      {.over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}}));
+}
+
 void find_critical_speed(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.speed_stability =
-      stability_over_speed(state_matrix_at(study.brake), study.options.speeds);
+  results.speed_stability = speed_stability(study);
   results.critical_speed = critical_speed(*results.speed_stability);
   results.searched_critical_speed = true;
 }

@@ -85,7 +85,6 @@ TEST(Confined, StartsNoProgram)
   const std::vector<std::function<bool()>> acts{
       [&] { return execv("/bin/true", words) == 0; },
       [&] { return syscall(SYS_execveat, AT_FDCWD, "/bin/true", words, environ, 0) == 0; },
-      [] { return fork() >= 0; },
 #ifdef SYS_vfork
       [] { return syscall(SYS_fork) >= 0; },
 #endif
@@ -93,9 +92,15 @@ TEST(Confined, StartsNoProgram)
   };
   for (std::size_t i = 0; i < acts.size(); ++i)
     EXPECT_EQ(offence_by(acts[i]), Offence::program) << i;
-  // Signals are held back there, so that the kernel itself ends the process.
-  const int status = status_after([] { return std::system("true") == 0; });
-  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) << status;
+  // Where signals are held back the kernel itself ends the process: in `system`, and from glibc 2.41
+  // on in `fork`.
+  const auto is_killed = [](const std::function<bool()>& act) {
+    const int status = status_after(act);
+    return WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS;
+  };
+  EXPECT_TRUE(is_killed([] { return std::system("true") == 0; }));
+  const auto forks = [] { return fork() >= 0; };
+  EXPECT_TRUE(offence_by(forks) == Offence::program || is_killed(forks));
   std::array<unsigned long, 11> clone3{};
   EXPECT_EQ(
       exit_code_after([&] { return syscall(SYS_clone3, clone3.data(), sizeof(clone3)) >= 0; }),

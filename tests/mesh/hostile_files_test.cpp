@@ -141,7 +141,9 @@ TEST_F(HostileFile, ThatGmshCrashesOnEndsInASentence)
     disc += "Line(" + n + ") = {" + n + ", " + std::to_string(i % 60 + 1) + "};\n";
   }
   write("disc.txt", disc + "Curve Loop(1) = {1:60}; Plane Surface(1) = {1};\nMesh 2;\n");
-  expect_words(error_of({.file = write("a.geo", "Include \"disc.txt\";\n")}), {"a.geo", crash});
+  const std::string error = error_of({.file = write("a.geo", "Include \"disc.txt\";\n")});
+  if (error == "no error") GTEST_SKIP() << "this version of Gmsh does not crash on it";
+  expect_words(error, {"a.geo", crash});
 }
 
 TEST_F(HostileFile, ThatSwellsIsEnded)

@@ -97,6 +97,43 @@ TEST(ContactCompliance, TakesEveryInterfaceModeBeyondTheRange)
   EXPECT_EQ(make_disc(body, "track", static_above(1e9)).n_modes(), 4);
 }
 
+/// The pair of the reference, at which the range of a tolerance ends, a pair of interface modes a
+/// fiftieth above it and a pair of the disc a twentieth above it.
+mbs_export::ModalBody body_with_a_pair_beyond_its_range()
+{
+  const double end_Hz = kirchhoff_3().f_Hz;
+  mbs_export::ModalBody body = analytic_body(
+      {kirchhoff_3(),
+       {.n = 2, .f_Hz = 1.02 * end_Hz, .mass = 1.0, .U = 0.5, .U_r = 5.0, .U_t = 9.0},
+       {.n = 4, .f_Hz = 1.05 * end_Hz, .mass = 1.0, .U = 0.6, .U_r = 9.0, .U_t = 18.0}});
+  body.kinds[2] = body.kinds[3] = mbs_export::ModeKind::interface;
+  body.selection = {.error = 1e-2,
+                    .Omega_max = 2.0 * pi * end_Hz,
+                    .loads = {},
+                    .modes_only = {},
+                    .with_interface_modes = {}};
+  return body;
+}
+
+TEST(ContactCompliance, LeavesTheModesOfTheDiscBeyondATolerancesRangeTheirInertia)
+{
+  const mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
+  const Disc disc = make_disc(body, "track", {});
+  EXPECT_EQ(disc.mode_numbers, (std::vector{1, 2, 5, 6}));
+  EXPECT_EQ(disc.compliance.mode_numbers, (std::vector{3, 4}));
+  // What the scene says holds for modes of all kinds.
+  const Disc said = make_disc(body, "track", static_above(1.01 * kirchhoff_3().f_Hz));
+  EXPECT_EQ(said.mode_numbers, (std::vector{1, 2}));
+  EXPECT_EQ(said.compliance.mode_numbers, (std::vector{3, 4, 5, 6}));
+}
+
+TEST(ContactCompliance, CountsAModeOfUnknownKindAsOneOfTheDisc)
+{
+  mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
+  body.kinds.resize(4);
+  EXPECT_EQ(make_disc(body, "track", {}).mode_numbers, (std::vector{1, 2, 5, 6}));
+}
+
 /// State of the pair in the inertial frame, large enough for the pads to let go.
 Eigen::VectorXd large_state(Eigen::Index n)
 {

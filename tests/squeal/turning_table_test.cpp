@@ -1,0 +1,168 @@
+#include "squeal/stability/turning_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "squeal/stability/exponent_branches.hpp"
+#include "squeal/stability/hill.hpp"
+#include "squeal/stability/rotation_stability.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/unstable_modes.hpp"
+#include "tests/squeal/turning_discs.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+using Complex = std::complex<double>;
+
+StabilityCase over_speeds(double from, double to, int count)
+{
+  return {.over = {}, .from = from * pi, .to = to * pi, .count = count};
+}
+
+std::vector<StabilityBranch> unstable_ones(const StabilityTable& table)
+{
+  std::vector<StabilityBranch> rows;
+  std::ranges::copy_if(table.branches, std::back_inserter(rows), &StabilityBranch::is_unstable);
+  return rows;
+}
+
+/// Limits to a thousandth of the distance of two values that are looked at, the rest as they are.
+void expect_same(const StabilityTable& table, const StabilityTable& expected, double step)
+{
+  const auto rows = unstable_ones(table), references = unstable_ones(expected);
+  ASSERT_EQ(rows.size(), references.size());
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    ASSERT_EQ(rows[j].unstable.size(), references[j].unstable.size()) << j;
+    for (std::size_t i = 0; i < rows[j].unstable.size(); ++i) {
+      const UnstableInterval &found = rows[j].unstable[i], &reference = references[j].unstable[i];
+      EXPECT_NEAR(found.from.value, reference.from.value, 1e-3 * step) << j;
+      EXPECT_NEAR(found.to.value, reference.to.value, 1e-3 * step) << j;
+      EXPECT_NEAR(found.from.frequency_Hz, reference.from.frequency_Hz, 1e-3) << j;
+    }
+    EXPECT_LT((rows[j].lambda.real() - references[j].lambda.real()).cwiseAbs().maxCoeff(), 1e-6)
+        << j;
+  }
+}
+
+TEST(TurningTable, IsThatOfTheEigenvaluesWhereTheDiscIsAxisymmetric)
+{
+  const FlexibleDisc brake(disc_of({turned_by(kirchhoff_2(), 0.4), kirchhoff_3(), kirchhoff_4()}),
+                           reference_options());
+  const StabilityCase speeds = over_speeds(1.0, 14.0, 40);
+  const StabilityTable expected = unstable_modes(brake, speeds);
+  ASSERT_GE(unstable_ones(expected).size(), 1u);
+  const StabilityTable table = turning_table(brake, speeds);
+  EXPECT_EQ(table.method, "hill");
+  EXPECT_EQ(expected.method, "eigenvalues");
+  expect_same(table, expected, pi / 3.0);
+  StabilityCase friction{.over = MapParameter::friction, .from = 0.1, .to = 1.0, .count = 20};
+  friction.speed = 6.0 * pi;
+  expect_same(turning_table(brake, friction), unstable_modes(brake, friction), 0.9 / 19.0);
+}
+
+TEST(TurningTable, HasTheGrowthOfARotationOfADiscWithVanes)
+{
+  const FlexibleDisc brake(disc_with_vanes(), reference_options());
+  ASSERT_FALSE(brake.is_autonomous());
+  const StabilityTable table = unstable_modes(brake, over_speeds(2.0, 14.0, 4));
+  ASSERT_EQ(table.values.size(), 4);
+  for (Eigen::Index i = 0; i < table.values.size(); ++i) {
+    double growth = -1e9;
+    for (const StabilityBranch& branch : table.branches)
+      growth = std::max(growth, branch.lambda[i].real());
+    const double floquet = rotation_growth(brake.disc(), brake.options(), table.values[i]).growth;
+    EXPECT_NEAR(growth, floquet, 1e-3 * std::abs(floquet)) << table.values[i];
+  }
+}
+
+TEST(TurningTable, HasLimitsAtWhichTheGrowthIsThatOfNoOtherMethod)
+{
+  // Just below each limit over the speed the disc grows otherwise than just above it, by Floquet.
+  const FlexibleDisc brake(mistuned_disc(), reference_options());
+  const StabilityProfile profile = profile_of(turning_table(brake, over_speeds(2.0, 14.0, 20)));
+  ASSERT_FALSE(profile.unstable.empty());
+  EXPECT_EQ(profile.method, "hill");
+  int n_limits = 0;
+  const auto growth = [&](double speed) {
+    return rotation_growth(brake.disc(), brake.options(), speed).growth;
+  };
+  for (const UnstableInterval& interval : profile.unstable) {
+    for (const auto& [at, sign] :
+         {std::pair(interval.from.value, 1.0), {interval.to.value, -1.0}}) {
+      if (at == profile.from.value || at == profile.to.value) continue;
+      EXPECT_LT(sign * growth(0.999 * at), 0.0) << at;
+      EXPECT_GT(sign * growth(1.001 * at), 0.0) << at;
+      ++n_limits;
+    }
+  }
+  EXPECT_GT(n_limits, 0);
+}
+
+TEST(TurningTable, KeepsMotionsOfTheBand)
+{
+  const FlexibleDisc brake(disc_with_vanes(), reference_options());
+  StabilityCase speeds = over_speeds(2.0, 14.0, 4);
+  const std::size_t n_all = turning_table(brake, speeds).branches.size();
+  EXPECT_EQ(n_all, 4u);
+  speeds.band = FrequencyBand{1500.0, 2500.0};
+  const StabilityTable table = turning_table(brake, speeds);
+  EXPECT_EQ(table.branches.size(), 2u);
+  for (const StabilityBranch& branch : table.branches)
+    EXPECT_NEAR(branch.worst.frequency_Hz, 1750.0, 60.0);
+}
+
+/// Motions that are known at each value, at a speed of 1 rad/s with the period of a rotation.
+ExponentsAt known(const std::function<Eigen::VectorXcd(double)>& lambda)
+{
+  return [lambda](double value) {
+    const Eigen::VectorXcd at = lambda(value);
+    return ExponentSample{value, 1.0, {at, 0, 1e-9, 1, 1}, Eigen::VectorXd::Zero(at.size())};
+  };
+}
+
+TEST(ExponentBranches, FindAnIntervalBetweenTheirSamples)
+{
+  // Growth 5e-4 - (value - 0.53)^2: positive from 0.5076 to 0.5524.
+  const ExponentsAt exponents = known([](double value) {
+    const double d = value - 0.53;
+    return Eigen::VectorXcd::Constant(1, Complex(5e-4 - d * d, 100.3));
+  });
+  const auto samples = followed_exponents(exponents, Eigen::VectorXd::LinSpaced(5, 0.0, 1.0));
+  for (const ExponentSample& sample : samples) EXPECT_FALSE(sample.is_unstable(0));
+  const auto intervals = unstable_intervals(exponents, samples, 0);
+  ASSERT_EQ(intervals.size(), 1u);
+  EXPECT_NEAR(intervals[0].from.value, 0.53 - std::sqrt(5e-4), 1e-4);
+  EXPECT_NEAR(intervals[0].to.value, 0.53 + std::sqrt(5e-4), 1e-4);
+  EXPECT_GT(intervals[0].worst.growth, 0.0);
+}
+
+TEST(ExponentBranches, FollowMotionsThroughReplicasAndOtherOrders)
+{
+  // Frequencies that cross each other, and whose replica jumps by the speed at 0.5; the growth
+  // tells which one it is.
+  const ExponentsAt exponents = known([](double value) {
+    const double jump = value < 0.5 ? 0.0 : 1.0;
+    Eigen::VectorXcd lambda(2);
+    lambda << Complex(-1.0, 20.1 + 0.5 * value + jump), Complex(-2.0, 20.4 - 0.3 * value);
+    if (value > 0.3) lambda.reverseInPlace();
+    return lambda;
+  });
+  for (const ExponentSample& sample :
+       followed_exponents(exponents, Eigen::VectorXd::LinSpaced(21, 0.0, 1.0))) {
+    EXPECT_NEAR(sample.growth(0), -1.0, 1e-12) << sample.value;
+    EXPECT_NEAR(sample.growth(1), -2.0, 1e-12) << sample.value;
+    EXPECT_EQ(sample.turns[0], sample.value < 0.5 ? 0.0 : -1.0) << sample.value;
+  }
+}
+
+}  // namespace
+}  // namespace chladni::squeal
