@@ -100,8 +100,7 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
   if (!results.speed_stability) return;
   add_intervals(table, *results.speed_stability, speed);
   if (results.speed_stability->method == "hill")
-    table.rows.push_back(
-        {"method of the critical speed", "Hill, the disc is not axisymmetric", ""});
+    table.rows.push_back({"method of the critical speed", "Hill", ""});
 }
 
 void add_critical(TextTable& table, const squeal::CriticalValue& value)

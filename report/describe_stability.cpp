@@ -97,9 +97,7 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
 {
   table.rows.push_back({"stability of all modes", summary(stability), ""});
   if (stability.is_by_hill()) {
-    table.rows.push_back({"method of the table",
-                          "Hill, the disc is not axisymmetric: without nodal diameters and works",
-                          ""});
+    table.rows.push_back({"method of the table", "Hill", ""});
     add(table, "estimated error of the table's growth rates", stability.error, "1/s");
   }
   for (const StabilityBranch& branch : stability.branches) {

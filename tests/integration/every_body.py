@@ -70,6 +70,18 @@ def check_others(programs):
     vanes = changed((DATA / "ventilated_disc.toml").read_text(), ("modes = 20\npictures", "modes = 30\npictures"))
     found, _ = squeal(programs, vanes + BRAKE.replace("0.02", "0.032") + ANY)
     assert found["failure"] is None and not found["missing"], found["failure"]
+    # Twelve vanes split the pairs of six nodal diameters, and others: by Hill's method.
+    split = changed(vanes, ('file = "ventilated_disc.geo"', 'file = "ventilated_disc.geo"\nparameters = { n_vanes = 12 }'))
+    found, said = squeal(programs, split + BRAKE.replace("0.02", "0.032").replace("3.0", "20.0") +
+                         'analyses = ["critical-speed", "stability"]\n')  # fmt: skip
+    assert found["failure"] is None and not found["missing"], found["failure"]
+    table = found["stability_table"]
+    assert (table["method"], found["critical_speed_method"]) == ("hill", "hill") and "Hill" in said, found
+    assert 0.0 < table["error_1_s"] < 1e-3, table["error_1_s"]
+    unstable = sorted(limits[0] for branch in table["branches"] for limits in branch["unstable"])
+    assert unstable and abs(found["unstable_speeds_rad_s"][0][0] - unstable[0]) < 1e-9, (unstable, found)
+    grows = [max(branch["growth_1_s"]) > table["error_1_s"] for branch in table["branches"]]
+    assert sum(grows) <= sum(bool(branch["unstable"]) for branch in table["branches"]), grows
 
 
 if __name__ == "__main__":

@@ -92,6 +92,8 @@ function unstableModesFigures({unstable_modes: table}) {
                  line: false, marker: "circle", name: grow.length ? "" : "grows"});
   }
   const zero = {x: [values[0], values.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
-  return [plot({title: `Campbell diagram: ${table.summary}; number of each mode and, in brackets, its nodal diameters`, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
+  const named_by = table.branches.some(({diameters}) => diameters !== null)
+    ? "number of each mode and, in brackets, its nodal diameters" : "number of each mode";
+  return [plot({title: `Campbell diagram: ${table.summary}; ${named_by}`, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
           plot({title: "Growth of each mode", x, y: growthAxis(table.branches.map(({growth}) => growth)), series: [zero, ...rates]})];
 }
