@@ -22,5 +22,5 @@ using OptionItems = PetscOptionItems;
 }  // namespace chladni::petsc
 
 #if PETSC_VERSION_LT(3, 20, 0)
-#define PetscAssertPointer PetscValidPointer
+#define PetscAssertPointer PetscValidPointer  // NOLINT(readability-identifier-naming)
 #endif
