@@ -2,11 +2,13 @@
 
 const speedAxis = {label: "rotation speed, rad/s"};
 
-// Growth within a few times that of the motions that matter: what decays fast would hide it.
-function growthAxis(rows) {
-  const values = rows.flat().filter(Number.isFinite).sort((a, b) => a - b);
+// Growth within a few times that of the motions that matter: what decays fast would hide it. All of
+// what was measured is seen.
+function growthAxis(rows, measured = []) {
+  const values = [...rows.flat(), ...measured].filter(Number.isFinite).sort((a, b) => a - b);
   const [lowest, largest] = [values[0], values.at(-1)], median = values[values.length >> 1];
-  const low = largest > 1e-6 ? -1.5 * largest : 4 * median, high = largest > 1e-6 ? 1.2 * largest : -0.1 * median;
+  const least = largest > 1e-6 ? -1.5 * largest : 4 * median, high = largest > 1e-6 ? 1.2 * largest : -0.1 * median;
+  const low = Math.min(least, ...measured.map(rate => 1.1 * rate));
   const axis = {label: "growth rate, 1/s"};
   return lowest < low && low < high ? {...axis, low, high} : axis;
 }
@@ -20,7 +22,7 @@ function numbers(rows) {
 }
 
 function campbellFigures({campbell, critical}) {
-  const number = numbers(campbell.frequency_Hz);
+  const number = numbers(campbell.frequency_Hz), measured = content().growth ?? [];
   const first = campbell.growth.map(row => row.some(growth => growth > 1e-6));
   const labelled = j => ({label: String(number[j]), first: first[j]});
   const curves = campbell.frequency_Hz.map((f, j) =>
@@ -39,11 +41,10 @@ function campbellFigures({campbell, critical}) {
   const zero = {x: [campbell.speeds[0], campbell.speeds.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
   return [plot({title: "Campbell diagram: frequencies in the frame of the pads over the speed",
                 x: speedAxis, y: {label: "frequency, Hz"}, series: [...curves, ...marks, ...star(true)]}),
-          plot({title: "Growth rates: above zero the brake squeals", x: speedAxis, y: growthAxis(campbell.growth),
+          plot({title: "Growth rates: above zero the brake squeals", x: speedAxis, y: growthAxis(campbell.growth, measured.map(g => g.rate)),
                 series: [zero, ...rates, ...growthMarks(), ...star(false)]})];
   function growthMarks() {
-    const growth = content().growth ?? [];
-    return growth.length ? [{x: growth.map(g => g.speed), y: growth.map(g => g.rate), line: false, marker: "square",
+    return measured.length ? [{x: measured.map(g => g.speed), y: measured.map(g => g.rate), line: false, marker: "square",
                              colour: 2, name: "measured in transients"}] : [];
   }
 }
