@@ -79,9 +79,10 @@ TEST(ColumnEigenvalues, OfThirtyFiveModesAreThoseOfTheQrIteration)
 TEST(ColumnEigenvalues, OfUndampedModesThatDoNotGrowAreThoseOfTheQrIteration)
 {
   SquealOptions options = reference_options();
-  expect_map_as_qr(disc_with_damping(0.0), options, {MapParameter::friction, 0.0, 1e-3, 16});
+  const MapCase little{MapParameter::friction, 0.0, 1e-3, 16};
+  EXPECT_EQ(expect_map_as_qr(disc_with_damping(0.0), options, little).by_qr, 3);
   options.friction.kinetic = 0.0;
-  expect_map_as_qr(disc_with_damping(0.0), options, over_stiffness);
+  EXPECT_EQ(expect_map_as_qr(disc_with_damping(0.0), options, over_stiffness).by_qr, 3);
 }
 
 TEST(ColumnEigenvalues, WithSeveralContactPointsAreThoseOfTheQrIteration)
@@ -159,13 +160,14 @@ TEST(ColumnEigenvalues, OfExactlyMultipleFrequenciesAreThoseOfTheQrIteration)
     shape[i] = std::sin(1.0 + double(i));
     other[i] = std::cos(0.3 * double(i));
   }
-  for (const double damping : {0.0, 2.0})
-    expect_as_qr(
-        [&](Index i) {
-          const MatrixXd C = damping * MatrixXd::Identity(n_oscillators, n_oscillators);
-          return oscillators(omega, C, 1e5 * double(i) * shape * (shape + other).transpose());
-        },
-        30);
+  // No disc is apart from the others about a multiple eigenvalue: the QR iteration has to decide.
+  for (const double damping : {0.0, 2.0}) {
+    const auto A = [&](Index i) {
+      const MatrixXd C = damping * MatrixXd::Identity(n_oscillators, n_oscillators);
+      return oscillators(omega, C, 1e5 * double(i) * shape * (shape + other).transpose());
+    };
+    EXPECT_EQ(expect_as_qr(A, 30).by_qr, 30);
+  }
 }
 
 /// The stiffness of the first oscillator rises through that of the second at i = 12 exactly; its
@@ -187,12 +189,14 @@ TEST(ColumnEigenvalues, WhereBranchesCrossAreThoseOfTheQrIteration)
 {
   for (const double step : {0.0, 0.05, -0.05})
     for (const double coupling : {0.0, 1e3, 1e5, -1e3, -1e5})
-      expect_as_qr([&](Index i) { return crossing(i, step, coupling); }, 30);
+      EXPECT_GE(expect_as_qr([&](Index i) { return crossing(i, step, coupling); }, 30).by_discs,
+                26);
 }
 
 TEST(ColumnEigenvalues, AfterAJumpOfTheParameterAreThoseOfTheQrIteration)
 {
-  expect_as_qr([&](Index i) { return crossing(i < 15 ? i : 100 * i, 0.05, -1e5); }, 30);
+  const auto A = [](Index i) { return crossing(i < 15 ? i : 100 * i, 0.05, -1e5); };
+  EXPECT_GE(expect_as_qr(A, 30).by_discs, 25);
 }
 
 TEST(ColumnEigenvalues, OfOverdampedMotionsAndOfChangesOfFullRankComeFromTheQrIteration)
