@@ -95,11 +95,13 @@ HillExponents Hill::exponents(double speed) const
 double Hill::frozen_growth(double speed, int nu) const
 {
   TurningBrake frozen = brake(speed);
-  const int n = nu > 0 ? n_frozen_angles : 1;
+  nu = std::max(1, nu);
   double growth = -std::numeric_limits<double>::infinity();
-  for (int s = 0; s < n; ++s) {
+  for (int s = 0; s < n_frozen_angles; ++s) {
+    // Each in another period: those harmonics that were left out of the motion count here.
+    const double angle = 2.0 * pi * (double(s) / n_frozen_angles + s % nu) / nu;
     Eigen::EigenSolver<Eigen::MatrixXd> solver;
-    solver.compute(frozen.at(2.0 * pi * s / (n * std::max(1, nu))), false);
+    solver.compute(frozen.at(angle), false);
     growth = std::max(growth, solver.eigenvalues().real().maxCoeff());
   }
   return growth;

@@ -42,7 +42,8 @@ class Hill {
   int nu(double speed) const;
 
   /// The largest growth rate (1/s) among the eigenvalues of the matrices A(phi) with the disc
-  /// standing at some angle phi, over 24 angles of a period: exact for an axisymmetric disc alone.
+  /// standing at some angle phi, over 24 angles of a period, which lie in different periods: exact
+  /// for an axisymmetric disc alone.
   /// @param nu  at this speed
   double frozen_growth(double speed, int nu) const;
 

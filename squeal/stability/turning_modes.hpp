@@ -24,7 +24,9 @@ struct TurningHarmonics {
 /// Harmonics up to `bound` of the brake at this speed (rad/s). Left out is what moves the growth
 /// rates by less than `budget` (1/s) in all: the smallest harmonics by their norm; then, if the
 /// others have a common divisor without them, those that a mesh of unequal elements makes: b
-/// couples two states whose frequencies are d apart, and moves them by min(b, b^2 / d).
+/// couples two states whose frequencies, with the turns of the harmonic, are d apart, and moves
+/// them by min(b, b^2 / d). That is no bound: d is that of the eigenvalues of A_0, and what the
+/// other harmonics add to them may make a resonance.
 TurningHarmonics turning_harmonics(TurningBrake brake, double speed, int bound, double budget);
 
 /// A(phi) in the eigenvectors of its mean A_0 = V diag(lambda) V^-1:
