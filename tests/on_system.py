@@ -84,7 +84,7 @@ def outcome(command, code, printed, seconds):
     facts = [f"{seconds / 60:.0f} minutes", f"exit code {code}", f"{warnings} warnings"]
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
     lines = [f"`{command}`: {', '.join(facts)}.", ""]
-    failed = re.findall(r"^\s*\d+ - (\S+ \(.*\))", printed, re.M)
+    failed = re.findall(r"^\s*\d+ - (\S+ \((?!Skipped).*\))", printed, re.M)
     if failed:
         lines += ["Failed: " + ", ".join(failed) + ".", ""]
     if code:
