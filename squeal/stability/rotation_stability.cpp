@@ -38,16 +38,12 @@ class LinearSteps {
         flow_(brake_.omega, brake_.C, 0.5 * step)
   {
     G_.topLeftCorner(disc.n_modes(), disc.n_modes()) = disc.G;
-    contact_ = stacked_contact(pads_, brake_.omega.size());
+    contact_ = contact_at_rest(pads_, brake_.omega.size(), speed);
     rows_ = pads_.n_modes() > 0 ? pair_rows_max : 3;
     for (std::size_t i = 0; i < pads_.points.size(); ++i) {
       const PointPair& point = pads_.points[i];
-      const Eigen::Index at = rows_ * static_cast<Eigen::Index>(i);
-      const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows_));
-      contact_.S.middleCols(at, rows_) =
+      contact_.S.middleCols(rows_ * static_cast<Eigen::Index>(i), rows_) =
           pair_shapes(rings_[point.ring].at(point.angle), pads_, point);
-      contact_.D_a.block(at, at, rows_, rows_) = d.D_a;
-      contact_.D_p.block(at, at, rows_, rows_) = d.D_p;
     }
     ContactSeries(disc.compliance, pads_, speed).condense(contact_);
   }
