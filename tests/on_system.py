@@ -102,7 +102,7 @@ def section(suite, folder):
         lines += outcome(command, code, printed, seconds)
         if code:
             break
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=folder / "root/chladni", capture_output=True, text=True).stdout.strip()
     debian = (folder / "etc/debian_version").read_text().strip()
     table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",
