@@ -92,8 +92,8 @@ TEST(Confined, StartsNoProgram)
   };
   for (std::size_t i = 0; i < acts.size(); ++i)
     EXPECT_EQ(offence_by(acts[i]), Offence::program) << i;
-  // Where signals are held back the kernel itself ends the process: in `system`, and from glibc 2.41
-  // on in `fork`.
+  // Where signals are held back the kernel itself ends the process: in `system`, and from
+  // glibc 2.41 on in `fork`.
   const auto is_killed = [](const std::function<bool()>& act) {
     const int status = status_after(act);
     return WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS;
