@@ -1,12 +1,11 @@
 #pragma once
 
-#include <malloc.h>
-
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "linear/machine_memory.hpp"
 #include "linear/progress.hpp"
 #include "reduce/phases.hpp"
 #include "report/timing.hpp"
@@ -31,7 +30,7 @@ class Phases : public reduce::PhaseListener {
 
   void end() override
   {
-    malloc_trim(0);  // what a phase has let go is there for the next one, in pieces of any size
+    linear::give_back_freed();  // is there for the next one
     listener_.reset();
     clock_.end_phase(name_);
     if (progress_) progress_(name_, 1.0);

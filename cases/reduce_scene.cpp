@@ -94,14 +94,17 @@ reduce::Body body_of(const scene::Scene& scene, FeModel& fe)
 
 reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::SolverOptions& solver)
 {
-  constexpr double in_mass_integrals = 350.0, for_each_mode = 0.6;  // columns, measured
-  const bool has_integrals = scene.mass_integrals;
+  // Of mass integrals: 64 columns of the product of a matrix with Psi and Phi; of these, and of Psi
+  // and Phi, the rows that move in one direction; that matrix and its block of the slaves.
+  constexpr double moving_rows = 0.4, block = 64.0;
+  constexpr reduce::WorkAfterwards in_integrals{.columns = block * (1.0 + moving_rows),
+                                                .columns_for_each_kept = moving_rows,
+                                                .matrices = 2.0};
   return {.basis = scene.reduce,
           .solver = solver,
           .count = scene.sylvester,
           .keeps_matrices = wants_full_responses(scene),
-          .later_columns = has_integrals ? in_mass_integrals : 0.0,
-          .later_columns_for_each_mode = has_integrals ? for_each_mode : 0.0};
+          .later = scene.mass_integrals ? in_integrals : reduce::WorkAfterwards{}};
 }
 
 /// The system that is written without its matrices.

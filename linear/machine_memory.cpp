@@ -1,5 +1,7 @@
 #include "linear/machine_memory.hpp"
 
+#include <malloc.h>
+
 #include <array>
 #include <fstream>
 
@@ -31,6 +33,11 @@ double free_MiB()
     std::getline(meminfo, unit);
   }
   return std::numeric_limits<double>::infinity();
+}
+
+void give_back_freed()
+{
+  malloc_trim(0);
 }
 
 MemoryNeed tightest_machine(double own_MiB, double free_MiB, MPI_Comm comm)

@@ -20,6 +20,9 @@ struct MemoryNeed {
 /// MiB that processes may still take on this machine, by the kernel's estimate.
 double free_MiB();
 
+/// What was freed goes back from the heap to the machine, in pieces of any size.
+void give_back_freed();
+
 /// The machine that lacks most, or where least is left over.
 /// @param own_MiB   that this rank needs
 /// @param free_MiB  on its machine

@@ -54,23 +54,34 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOption
   petsc::check(MatGetSize(K_ss, &n, nullptr));
   n_slaves_ = static_cast<double>(n);
   column_MiB_ = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
+  M_MiB_ = own_MiB(body.M);
   const bool keeps = needs_matrices(options, options.count.value_or(false));
-  let_go_MiB_ = keeps ? 0.0 : own_MiB(body.K) + own_MiB(body.M);
+  let_go_MiB_ = keeps ? 0.0 : own_MiB(body.K) + M_MiB_;
+}
+
+/// Pairs are looked at in blocks: their motions and residuals, a product, a solution and the one
+/// before. Bounds keep the solutions of all.
+double MemoryForecast::columns_in_estimates(double n_modes) const
+{
+  constexpr double block = 32.0, arrays = 5.0, most_pairs = 100.0;
+  const double kept = options_.count.value_or(false) ? std::min(n_modes, most_pairs) : 0.0;
+  return arrays * block + kept;
 }
 
 double MemoryForecast::beside_MiB(double n_modes) const
 {
   constexpr double basis_for_each_mode = 2.2, least_basis = 85.0, blocks_of_lanczos = 16.0;
-  constexpr double in_estimates = 230.0;
   n_modes = std::min(n_modes, n_slaves_);
   const double basis = std::min(basis_for_each_mode * n_modes + least_basis, n_slaves_);
   const double there = options_.basis.tolerance ? n_masters_ : 0.0;  // Psi comes first
   const double in_search = n_modes > 0.0 ? there + basis + n_modes + blocks_of_lanczos : 0.0;
-  const double residuals = options_.count.value_or(false) ? std::min(n_modes, 100.0) : 0.0;
-  const double later = options_.later_columns + options_.later_columns_for_each_mode * n_modes;
   const double kept = n_masters_ + n_modes;
+  const WorkAfterwards& later = options_.later;
+  const double later_MiB =
+      column_MiB_ * (later.columns + later.columns_for_each_kept * kept) + M_MiB_ * later.matrices;
   return std::max(column_MiB_ * in_search + (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
-                  column_MiB_ * (kept + std::max(in_estimates + residuals, later))) -
+                  column_MiB_ * kept +
+                      std::max(column_MiB_ * columns_in_estimates(n_modes), later_MiB)) -
          let_go_MiB_;
 }
 

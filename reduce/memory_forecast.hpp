@@ -10,7 +10,7 @@ bool needs_matrices(const ReductionOptions& options, bool counts);
 /// What this rank takes beside the factor of K_ss, at the phase that takes most: in columns of its
 /// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
 /// error estimates or the caller work in; or all of these with the factor that counts eigenvalues
-/// where that is asked for. The numbers are measured.
+/// where that is asked for.
 class MemoryForecast {
  public:
   /// Before the factor and before K and M are given back.
@@ -26,10 +26,11 @@ class MemoryForecast {
 
  private:
   double beside_MiB(double n_modes) const;
+  double columns_in_estimates(double n_modes) const;
   linear::SecondFactor second(double n_modes) const;
 
   ReductionOptions options_;
-  double n_masters_, n_slaves_, column_MiB_, let_go_MiB_;
+  double n_masters_, n_slaves_, column_MiB_, M_MiB_, let_go_MiB_;
 };
 
 }  // namespace chladni::reduce

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "linear/cholesky/condition_estimate.hpp"
+#include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
 #include "reduce/memory_forecast.hpp"
@@ -87,6 +88,7 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
   if (!needs_matrices(options, count.is_possible())) {  // the blocks are enough
     body.K = {};
     body.M = {};
+    linear::give_back_freed();  // the basis does not come from the heap
   }
   Basis basis = make_basis(body, options, support, phases);
   ReducedModel model = in_phase(phases, "projection",

@@ -26,6 +26,13 @@ struct Body {
   std::function<std::string(PetscInt)> name_of_dof = {};
 };
 
+/// The memory in which the caller works afterwards, beside Psi and Phi.
+struct WorkAfterwards {
+  double columns = 0.0;                ///< of the length of Psi
+  double columns_for_each_kept = 0.0;  ///< master or mode
+  double matrices = 0.0;               ///< as large as M
+};
+
 /// How a body is reduced.
 struct ReductionOptions {
   ReduceOptions basis = {};
@@ -35,8 +42,7 @@ struct ReductionOptions {
   std::optional<bool> count = false;
   /// Whether K and M are wanted afterwards; else they are given back as soon as may be.
   bool keeps_matrices = true;
-  /// What the caller computes afterwards with Psi and Phi, in columns of their length.
-  double later_columns = 0.0, later_columns_for_each_mode = 0.0;
+  WorkAfterwards later = {};
 };
 
 /// Masters and slaves parted, and the factor of K_ss: what all methods share.

@@ -34,6 +34,7 @@ PetscErrorCode analyze(Mat F, Mat A, IS, const MatFactorInfo*)
   return guarded([&] {
     CholeskyFactor& factor = factor_of(F);
     factor.analyze(A);
+    give_back_freed();  // the graphs of the ordering: more than K at times
     F->factorerrortype = factor.error();
     if (!factor.memory_need(petsc::communicator(A)).fits())
       F->factorerrortype = MAT_FACTOR_OUTMEMORY;
