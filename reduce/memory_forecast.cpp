@@ -54,9 +54,10 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOption
   petsc::check(MatGetSize(K_ss, &n, nullptr));
   n_slaves_ = static_cast<double>(n);
   column_MiB_ = sizeof(double) * double(n_local) / linear::bytes_in_MiB;
+  K_MiB_ = own_MiB(body.K);
   M_MiB_ = own_MiB(body.M);
   const bool keeps = needs_matrices(options, options.count.value_or(false));
-  let_go_MiB_ = keeps ? 0.0 : own_MiB(body.K) + M_MiB_;
+  let_go_MiB_ = keeps ? 0.0 : K_MiB_ + M_MiB_;
 }
 
 /// Pairs are looked at in blocks: their motions and residuals, a product, a solution and the one
@@ -89,7 +90,8 @@ linear::SecondFactor MemoryForecast::second(double n_modes) const
 {
   if (!options_.count.value_or(false)) return {};
   return {.entries = entries_of_counting_factor,
-          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_))};
+          .beside_MiB =
+              column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) + K_MiB_};  // K - sigma M
 }
 
 linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const

@@ -30,7 +30,7 @@ class MemoryForecast {
   linear::SecondFactor second(double n_modes) const;
 
   ReductionOptions options_;
-  double n_masters_, n_slaves_, column_MiB_, M_MiB_, let_go_MiB_;
+  double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
 };
 
 }  // namespace chladni::reduce
