@@ -123,5 +123,5 @@ if __name__ == "__main__":
         check(chladni, changed(uncounted, ("craig-bampton", "guyan"), ("modes = 100\n", "")), "Guyan", Path(folder))
         check(chladni, PLATE, "plate, 50 modes", Path(folder))
         check(chladni, changed(PLATE, ("modes = 50\n", "modes = 180\n")), "plate, 180 modes", Path(folder))
-        cut_off = ("modes = 50\n", "cutoff_Hz = 6000.0\n")
-        check_growth(chladni, changed(PLATE, cut_off), "plate, cut-off", Path(folder))
+        cut_off = (("modes = 50\n", "cutoff_Hz = 4000.0\n"), ("element_size = 0.012", "element_size = 0.02"))
+        check_growth(chladni, changed(PLATE, *cut_off), "plate, cut-off", Path(folder))
