@@ -90,7 +90,7 @@ def squeal_targets(found):
         said.append(("Squeal", f"a transient of two modes takes {pair['measured']:.1g} of real time, of 35 modes {many['measured']:.1g}"))
     if plane:
         met = "met" if plane["measured"] < plane["target"] else "**missed**"
-        said.append(("Stability map", f"100 x 100 points with 35 modes in {plane['measured']:.0f} s (target {plane['target']:.0f} s: {met})"))
+        said.append(("Stability map", f"100 x 100 points with 35 modes in {plane['measured']:.2g} s (target {plane['target']:.0f} s: {met})"))
     least = {}  # over the integrators, by the law
     for name, target in targets.items():
         if name.startswith("those of the transient of 6 s by "):

@@ -57,7 +57,7 @@ std::vector<Target> map_targets(bool smallest)
                          stability_map(FlexibleDisc(all, options), *options.study.map,
                                        options.study.speeds);
                        }),
-                       10.0});
+                       2.0});
   return targets;
 }
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "squeal/parallel.hpp"
-#include "squeal/stability/exponent_branches.hpp"
 #include "squeal/stability/hill.hpp"
 #include "squeal/stability/stability_map.hpp"
 
@@ -76,34 +76,75 @@ StabilityPoint least_stable(const StabilityTable& table, Index i)
 
 }  // namespace
 
-StabilityTable turning_table(const FlexibleDisc& brake, const StabilityCase& search)
+TurningMotions::TurningMotions(const FlexibleDisc& brake, const StabilityCase& search)
+    : brake_(brake), search_(search)
 {
-  StabilityTable table{.parameter = search.over ? name_of(*search.over) : "speed",
-                       .speed = search.over ? std::optional(search.speed) : std::nullopt,
-                       .band = search.band,
-                       .values = Eigen::VectorXd::LinSpaced(search.count, search.from, search.to),
-                       .families = {},
-                       .branches = {},
-                       .method = "hill"};
-  const ExponentsAt exponents = exponents_over(brake, search);
+  exponents_ = [this, exponents = exponents_over(brake, search)](double value) {
+    ++n_exponents_;
+    return exponents(value);
+  };
   const int finer = refinement(search.count);
-  const std::vector<ExponentSample> samples = followed_exponents(
-      exponents,
+  samples_ = followed_exponents(
+      exponents_,
       Eigen::VectorXd::LinSpaced(finer * (search.count - 1) + 1, search.from, search.to));
-  for (const ExponentSample& sample : samples)
+  branches_.resize(static_cast<std::size_t>(samples_.front().size()));
+}
+
+bool TurningMotions::are_of(const FlexibleDisc& brake, const StabilityCase& search) const
+{
+  return &brake == &brake_ && search.over == search_.over && search.from == search_.from &&
+         search.to == search_.to && search.count == search_.count &&
+         (!search.over || search.speed == search_.speed);
+}
+
+StabilityTable TurningMotions::table(const std::optional<FrequencyBand>& band)
+{
+  StabilityTable table{
+      .parameter = search_.over ? name_of(*search_.over) : "speed",
+      .speed = search_.over ? std::optional(search_.speed) : std::nullopt,
+      .band = band,
+      .values = Eigen::VectorXd::LinSpaced(search_.count, search_.from, search_.to),
+      .families = {},
+      .branches = {},
+      .method = "hill"};
+  for (const ExponentSample& sample : samples_)
     table.error = std::max(table.error, sample.motion.error);
   std::vector<Index> which;
-  for (Index j = 0; j < samples.front().size(); ++j)
-    if (is_within(samples, j, search.band)) which.push_back(j);
-  table.branches.resize(which.size());
+  for (Index j = 0; j < samples_.front().size(); ++j)
+    if (is_within(samples_, j, band)) which.push_back(j);
   for_each_index(static_cast<int>(which.size()), [&](int k) {
-    const auto at = static_cast<std::size_t>(k);
-    table.branches[at] = branch_of(samples, which[at], finer);
-    table.branches[at].unstable = unstable_intervals(exponents, samples, which[at]);
+    const Index j = which[static_cast<std::size_t>(k)];
+    std::optional<StabilityBranch>& branch = branches_[static_cast<std::size_t>(j)];
+    if (branch) return;
+    StabilityBranch found = branch_of(samples_, j, refinement(search_.count));
+    found.unstable = unstable_intervals(exponents_, samples_, j);
+    branch = std::move(found);
   });
+  for (const Index j : which)
+    table.branches.push_back(branches_[static_cast<std::size_t>(j)].value());
   std::ranges::stable_sort(table.branches, {},
                            [](const StabilityBranch& b) { return b.worst.frequency_Hz; });
   return table;
+}
+
+StabilityTable TurningTables::table(const FlexibleDisc& brake, const StabilityCase& search)
+{
+  const auto are = [&](const TurningMotions& motions) { return motions.are_of(brake, search); };
+  const auto known = std::ranges::find_if(motions_, are);
+  return (known != motions_.end() ? *known : motions_.emplace_back(brake, search))
+      .table(search.band);
+}
+
+int TurningTables::n_exponents() const
+{
+  int n = 0;
+  for (const TurningMotions& motions : motions_) n += motions.n_exponents();
+  return n;
+}
+
+StabilityTable turning_table(const FlexibleDisc& brake, const StabilityCase& search)
+{
+  return TurningMotions(brake, search).table(search.band);
 }
 
 StabilityProfile profile_of(const StabilityTable& table)

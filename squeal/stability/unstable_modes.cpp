@@ -15,7 +15,6 @@
 #include "squeal/stability/mode_samples.hpp"
 #include "squeal/stability/period_work.hpp"
 #include "squeal/stability/stability_map.hpp"
-#include "squeal/stability/turning_table.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -141,11 +140,12 @@ StabilityCase stability_case(const StudyOptions& options)
       .over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}});
 }
 
-StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search)
+StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search,
+                              const TurningTableOf& by_hill)
 {
   if (const FlexibleDisc* body = brake.body()) {
     check_band(body->disc(), search);
-    if (!brake.is_autonomous()) return turning_table(*body, search);
+    if (!brake.is_autonomous()) return by_hill(*body, search);
   }
   StabilityTable table = empty_table(brake, search);
   const StateMatrixOf A = state_matrix_over(brake, search);

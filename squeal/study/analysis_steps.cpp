@@ -13,7 +13,6 @@
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_map.hpp"
-#include "squeal/stability/turning_table.hpp"
 #include "squeal/stability/unstable_modes.hpp"
 #include "squeal/transient/spectrum.hpp"
 
@@ -36,7 +35,7 @@ StabilityProfile speed_stability(const Study& study)
   const SpeedRange& speeds = study.options.speeds;
   if (study.brake.is_autonomous())
     return stability_over_speed(state_matrix_at(study.brake), speeds);
-  return profile_of(turning_table(
+  return profile_of(study.turning.table(
       *study.brake.body(),
       {.over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}}));
 }
@@ -50,7 +49,10 @@ void find_critical_speed(const Study& study, SquealResults& results, const Keepi
 
 void find_unstable_modes(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.stability_table = unstable_modes(study.brake, stability_case(study.options));
+  const auto by_hill = [&](const FlexibleDisc& body, const StabilityCase& search) {
+    return study.turning.table(body, search);
+  };
+  results.stability_table = unstable_modes(study.brake, stability_case(study.options), by_hill);
 }
 
 void find_critical_values(const Study& study, SquealResults& results, const Keeping& /*keeping*/)

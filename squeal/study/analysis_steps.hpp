@@ -6,6 +6,7 @@
 
 #include "squeal/models/brake.hpp"
 #include "squeal/results/results.hpp"
+#include "squeal/stability/turning_table.hpp"
 #include "squeal/study_options.hpp"
 #include "squeal/transient/transient.hpp"
 
@@ -15,6 +16,7 @@ namespace chladni::squeal {
 struct Study {
   const Brake& brake;
   const StudyOptions& options;
+  TurningTables& turning;  ///< what several analyses of a disc that is not axisymmetric need
 };
 
 /// How an analysis of analysis_options.hpp is done.

@@ -75,7 +75,8 @@ Beginning beginning_of(const Study& study, const StudyKeeping& keeping)
 SquealResults run(const Brake& brake, const StudyOptions& options, const StudyKeeping& keeping)
 {
   validate(brake, options);
-  const Study study{brake, options};
+  TurningTables turning;
+  const Study study{brake, options, turning};
   Beginning begin = beginning_of(study, keeping);
   const std::vector<AnalysisStep>& to_do = begin.to_do;
   SquealResults& results = begin.results;

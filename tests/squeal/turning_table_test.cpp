@@ -7,6 +7,7 @@
 #include <complex>
 #include <functional>
 #include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/unstable_modes.hpp"
+#include "squeal/study/analysis_steps.hpp"
 #include "tests/squeal/turning_discs.hpp"
 
 namespace chladni::squeal {
@@ -118,6 +120,38 @@ TEST(TurningTable, KeepsMotionsOfTheBand)
   EXPECT_EQ(table.branches.size(), 2u);
   for (const StabilityBranch& branch : table.branches)
     EXPECT_NEAR(branch.worst.frequency_Hz, 1750.0, 60.0);
+}
+
+/// Performs the analysis of this name.
+void perform(std::string_view name, const Study& study, SquealResults& results)
+{
+  const auto steps = analysis_steps();
+  std::ranges::find(steps, name, &AnalysisStep::name)->perform(study, results, {});
+}
+
+TEST(TurningTables, AreComputedOnceForTheAnalysesOfARun)
+{
+  const FlexibleDisc brake(disc_with_vanes(), reference_options());
+  StudyOptions options = reference_options().study;
+  options.speeds = {.from = 2.0 * pi, .to = 14.0 * pi, .count = 4};
+  TurningTables turning;
+  const Study study{brake, options, turning};
+  SquealResults results;
+  perform("critical-speed", study, results);
+  const int n_exponents = turning.n_exponents();
+  EXPECT_GT(n_exponents, 32);
+  perform("stability", study, results);
+  EXPECT_EQ(turning.n_exponents(), n_exponents);
+  EXPECT_EQ(results.stability_table->branches.size(), 4u);
+  // Another band has the same motions, other values have not.
+  options.stability = over_speeds(2.0, 14.0, 4);
+  options.stability->band = FrequencyBand{1500.0, 1600.0};
+  perform("stability", study, results);
+  EXPECT_EQ(turning.n_exponents(), n_exponents);
+  options.stability->band.reset();
+  options.stability->to = 13.0 * pi;
+  perform("stability", study, results);
+  EXPECT_GT(turning.n_exponents(), n_exponents + 32);
 }
 
 /// Motions that are known at each value, at a speed of 1 rad/s with the period of a rotation.
