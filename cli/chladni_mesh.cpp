@@ -9,6 +9,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "cli/writer_mark.hpp"
 #include "files/text_file.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
@@ -94,11 +95,14 @@ PictureFiles picture_files(const Subject& subject, const SceneArguments& argumen
           .page = folder / (subject.name + ".mesh.html")};
 }
 
-void write_picture(const PictureFiles& files, const std::string& title, const mesh::Mesh& mesh)
+void write_picture(const PictureFiles& files, const Subject& subject, const mesh::Mesh& mesh,
+                   const SceneArguments& arguments)
 {
   const std::vector<report::GroupParts> parts = report::group_parts(mesh);
-  files::write_text(files.vtu, report::mesh_vtu(mesh, parts));
-  files::write_text(files.page, report::mesh_page(title, mesh, parts, mesh_table(mesh)));
+  const std::string mark = writer_mark(arguments);
+  files::write_text(files.vtu, report::mesh_vtu(mesh, parts) + mark);
+  files::write_text(files.page,
+                    report::mesh_page(subject.title, mesh, parts, mesh_table(mesh)) + mark);
 }
 
 void mesh_and_print(const ChladniArguments& all)
@@ -121,7 +125,7 @@ void mesh_and_print(const ChladniArguments& all)
       summary.push_back(member);
     clock.end_phase("quality");
   }
-  write_picture(files, subject.title, mesh);
+  write_picture(files, subject, mesh, arguments);
   clock.end_phase("picture");
   const report::Cost cost = report::cost_so_far(clock.phases());
   fmt::print("{}\n\n{}\n{}{}", report::printable(subject.title),

@@ -8,6 +8,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "cli/writer_mark.hpp"
 #include "files/text_file.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "reduce/supported_solutions.hpp"
@@ -64,8 +65,8 @@ void modes_command(const ChladniArguments& arguments)
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".modes.vtu");
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
-  const cases::ReduceProgress silent;
-  cases::Phases phases(silent);
+  cases::ReduceProgress bar = progress_bar({{"mesh", 10.0}, {"assembly", 20.0}, {"modes", 70.0}});
+  cases::Phases phases(bar);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
   const int n_rigid = plate::n_free_motions(model.free);
   const int n_modes = scene.natural_modes.value_or(scene::ModesOptions{}).count;
@@ -76,9 +77,10 @@ void modes_command(const ChladniArguments& arguments)
   });
   const Eigen::VectorXd omega = angular_frequencies(modes.lambda, n_rigid);
   const report::SceneGrid grid = mode_grid(scene, model, modes);
+  bar = {};
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {
-    files::write_text(file, report::vtu_text(grid.grid));
+    files::write_text(file, report::vtu_text(grid.grid) + writer_mark(arguments.scene));
     fmt::print("{}\n\n{}\n{}\n{}\nwrote {}\n", report::printable(scene.title),
                report::format_table(mode_table(omega, n_rigid)),
                report::format_table(cases::model_table(model)),

@@ -5,6 +5,7 @@
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
+#include "cli/writer_mark.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
@@ -136,14 +137,17 @@ void static_command(const ChladniArguments& arguments)
   const std::filesystem::path file =
       std::filesystem::path(arguments.scene.output) / (scene.name + ".static.vtu");
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
-  const cases::ReduceProgress silent;
-  cases::Phases phases(silent);
+  cases::ReduceProgress bar =
+      progress_bar({{"mesh", 10.0}, {"assembly", 20.0}, {"solution", 70.0}});
+  cases::Phases phases(bar);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
   const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
+  bar = {};
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {
     const report::TextTable reported = reported_table(scene, model, found);
-    files::write_text(file, report::vtu_text(picture(scene, model, found)));
+    files::write_text(
+        file, report::vtu_text(picture(scene, model, found)) + writer_mark(arguments.scene));
     fmt::print("{}\n\n{}\n{}{}{}\n{}\nwrote {}\n", report::printable(scene.title),
                report::format_table(solution_table(found)),
                reported.rows.empty() ? "" : report::format_table(reported),

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -87,6 +88,20 @@ std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
 
 }  // namespace
 
+cases::ReduceProgress progress_bar(std::vector<report::Stage> stages)
+{
+  if (cases::rank() != 0) return [](const std::string&, double) {};
+  struct Bar {
+    report::ProgressLine line;
+    report::WholeProgress whole;
+  };
+  const std::shared_ptr<Bar> bar(
+      new Bar{.line = {}, .whole = report::WholeProgress(std::move(stages))});
+  return [bar](const std::string& phase, double fraction) {
+    bar->line.show(phase, bar->whole.at(phase, fraction));
+  };
+}
+
 cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
                                           const ChladniArguments& arguments)
 {
@@ -96,13 +111,7 @@ cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
   }
   const cases::SaidOfSolvers solvers{.text = said_of_solvers(arguments),
                                      .options = arguments.solver};
-  if (cases::rank() != 0)
-    return cases::reduce_scene(scene, solvers, [](const std::string&, double) {});
-  report::ProgressLine line;
-  report::WholeProgress whole(stages_of(scene.reduce));
-  return cases::reduce_scene(scene, solvers, [&](const std::string& phase, double fraction) {
-    line.show(phase, whole.at(phase, fraction));
-  });
+  return cases::reduce_scene(scene, solvers, progress_bar(stages_of(scene.reduce)));
 }
 
 namespace {

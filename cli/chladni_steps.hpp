@@ -8,6 +8,7 @@
 #include "cli/reserve_outputs.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "report/cost.hpp"
+#include "report/progress.hpp"
 #include "scene/scene.hpp"
 
 /// The steps that the subcommands of `chladni` share.
@@ -24,6 +25,10 @@ std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments&
 /// On the first rank; see reserve_outputs.hpp. @note Collective.
 ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
                                       const std::vector<std::filesystem::path>& files);
+
+/// Tells on the terminal of the first rank how far the phases are that take these parts of the
+/// time; what it shows is wiped out when the last copy of the function goes.
+cases::ReduceProgress progress_bar(std::vector<report::Stage> stages);
 
 /// The reduction, with a line of progress on the first rank. @note Collective.
 cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "cli/writer_mark.hpp"
 #include "common/error.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "report/output.hpp"
@@ -17,7 +18,9 @@ using std::filesystem::path;
 /// Of the scene that wrote a file; empty where the file does not tell.
 std::string writer_of(const path& file)
 {
-  if (file.extension() != ".h5" || !exists(file)) return "";
+  if (!is_regular_file(file)) return "";
+  if (file.extension() == ".vtu" || file.extension() == ".html") return marked_writer(file);
+  if (file.extension() != ".h5") return "";
   try {
     return mbs_export::file_parts::read_provenance(file).scene_file;
   } catch (const Error&) {  // damaged, or something else: nothing is lost with it

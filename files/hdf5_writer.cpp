@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
@@ -75,10 +77,11 @@ Writer::Writer(std::string target) : replacement_(std::move(target))
   silence_errors();
   const Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
   H5Pset_userblock(creation.get(), seal_size);
+  errno = 0;
   file_ = H5Fcreate(replacement_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
   if (file_ < 0)
-    throw Error(fmt::format(
-        "{}: cannot be written; does its folder exist, and may you write there?", path()));
+    throw Error(fmt::format("{}: cannot be written ({}); an older file is left as it was", path(),
+                            errno != 0 ? std::strerror(errno) : "libhdf5 does not say why"));
 }
 
 Writer::~Writer()

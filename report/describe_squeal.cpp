@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "report/describe.hpp"
 #include "report/describe_cycles.hpp"
 #include "report/describe_rotation.hpp"
 #include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/results/transient_file.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
@@ -125,11 +127,14 @@ void add_critical(TextTable& table, const squeal::CriticalValue& value)
   if (value.profile) add_intervals(table, *value.profile, searched);
 }
 
-/// The four largest.
-void add_peaks(TextTable& table, const squeal::Spectrum& spectrum)
+/// The four largest. Those of a transient that has not settled are no lines of a limit cycle.
+void add_peaks(TextTable& table, const squeal::SquealResults& results)
 {
+  const squeal::Spectrum& spectrum = *results.spectrum;
+  const std::string_view whose =
+      squeal::has_unsettled_end(results) ? "end of the transient, not settled: " : "";
   for (std::size_t i = 0; i < std::min<std::size_t>(4, spectrum.peaks.size()); ++i) {
-    add(table, fmt::format("pad velocity at {:.2f} Hz", spectrum.peaks[i].frequency_Hz),
+    add(table, fmt::format("{}pad velocity at {:.2f} Hz", whose, spectrum.peaks[i].frequency_Hz),
         spectrum.peaks[i].amplitude, "m/s");
   }
 }
@@ -190,12 +195,11 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
   }
 }
 
-/// The eigenvalue's where there is one. A short run may show other motions than the least stable
-/// one: what it measured stands beside it where the two disagree.
+/// What a run measured stands beside it where that is another motion's.
 void add_growth(TextTable& table, const squeal::Growth& growth)
 {
   const std::string name = "growth at " + spoken(growth.speed);
-  add(table, name, growth.eigenvalue_rate.value_or(growth.rate), "1/s");
+  add(table, name, squeal::told_rate(growth), "1/s");
   if (growth.eigenvalue_rate && squeal::disagree(growth.rate, *growth.eigenvalue_rate))
     add(table, name + ", measured in a run too short for it", growth.rate, "1/s");
 }
@@ -244,7 +248,7 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
   if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);
-  if (results.spectrum) add_peaks(table, *results.spectrum);
+  if (results.spectrum) add_peaks(table, results);
   return table;
 }
 

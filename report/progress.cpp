@@ -78,7 +78,7 @@ void ProgressLine::show(const std::string& phase, double whole)
   constexpr std::chrono::milliseconds pause{200};
   const Clock::time_point now = Clock::now();
   // The name of a phase at once: a factorisation says nothing until it is done.
-  if (phase == phase_ && now - shown_ < pause) return;
+  if (phase == phase_ && now - shown_ < pause && whole < 1.0) return;
   phase_ = phase;
   shown_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();

@@ -7,6 +7,7 @@
 #include "report/describe_stability.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
+#include "squeal/transient/growth_rate.hpp"
 
 namespace chladni::report {
 namespace {
@@ -31,7 +32,8 @@ Json growth_json(const std::vector<squeal::Growth>& growths)
   for (const squeal::Growth& growth : growths) {
     speeds.push_back(
         Json::object({{"speed_rad_s", growth.speed},
-                      {"growth_1_s", growth.rate},
+                      {"growth_1_s", squeal::told_rate(growth)},
+                      {"measured_growth_1_s", growth.rate},
                       {"eigenvalue_growth_1_s",
                        growth.eigenvalue_rate ? Json(*growth.eigenvalue_rate) : Json()}}));
   }
@@ -61,6 +63,7 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
                        {"friction_work_J", cycle.energy.friction.sum()},
                        {"normal_work_J", cycle.energy.normal.sum()},
                        {"damping_work_J", cycle.energy.damping},
+                       {"stable", cycle.stable ? 1 : 0},
                        {"multipliers", Json::array(multipliers)},
                        {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
                        {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
@@ -247,7 +250,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;
-    members.emplace_back("growth_1_s", rate ? Json(*rate) : Json());
+    members.emplace_back("transient_growth_1_s", rate ? Json(*rate) : Json());
     members.emplace_back("integrator", results.transient->integrator);
     const std::string& warning = results.transient->warning;
     members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));

@@ -62,12 +62,20 @@ bool is_of_reduction(std::string_view key, const Values& values)
   return false;
 }
 
-/// Whether a key of [sound] says what is listened to, and not what radiates into which air.
-bool is_of_listening(std::string_view key)
+/// Whether a key of [sound] says what radiates into which air, and not what is listened to.
+bool is_of_radiation(std::string_view key)
 {
   static constexpr std::array keys{"sound.microphones", "sound.cycle", "sound.harmonics",
                                    "sound.speeds_rad_s", "sound.wav"};
-  return std::ranges::any_of(keys, [&](std::string_view one) { return key.starts_with(one); });
+  const bool is_of_sound = key == "sound" || key.starts_with("sound.");
+  return is_of_sound &&
+         std::ranges::none_of(keys, [&](std::string_view one) { return key.starts_with(one); });
+}
+
+bool is_damped_by_sound(const Values& values)
+{
+  const auto found = values.find("squeal.radiation");
+  return found != values.end() && found->second == "true";
 }
 
 bool is_of(Step step, std::string_view key, const Values& values)
@@ -77,9 +85,9 @@ bool is_of(Step step, std::string_view key, const Values& values)
     case Step::body:
       return table == "body";
     case Step::squeal:
-      return table == "squeal";
+      return table == "squeal" || (is_damped_by_sound(values) && is_of_radiation(key));
     case Step::radiation:
-      return table == "sound" && !is_of_listening(key);
+      return is_of_radiation(key);
     case Step::reduction:
       break;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
 
 namespace chladni::sound {
 namespace {
@@ -58,8 +59,8 @@ Vibration vibration_in(const squeal::SquealResults& results, CycleChoice choice)
     return v;
   };
   // What a transient has not settled at is no limit cycle where one was found as such.
-  const bool better = choice == CycleChoice::automatic && results.limit_cycle &&
-                      !results.limit_cycle->settled && results.limit_cycle_direct;
+  const bool better = choice == CycleChoice::automatic && squeal::has_unsettled_end(results) &&
+                      results.limit_cycle_direct;
   if (results.limit_cycle && choice != CycleChoice::direct && !better)
     return fundamental(*results.limit_cycle);
   if (results.limit_cycle_direct && choice != CycleChoice::transient)

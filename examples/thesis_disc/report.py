@@ -45,7 +45,7 @@ def three_diameters(chladni):
 def growth(squeal, speed):
     """Growth rates at the computed speed next to this one: of the simulation, of the eigenvalue."""
     case = min(squeal["growth"], key=lambda case: abs(case["speed_rad_s"] - speed))
-    return case["growth_1_s"], case["eigenvalue_growth_1_s"]
+    return case["measured_growth_1_s"], case["eigenvalue_growth_1_s"]
 
 
 def figures(chladni, squeal):

@@ -7,8 +7,10 @@
 
 #include "common/error.hpp"
 #include "report/page/numbers.hpp"
+#include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/stability/stability_search.hpp"
+#include "squeal/transient/growth_rate.hpp"
 
 namespace chladni::report {
 namespace {
@@ -152,8 +154,8 @@ Json growth_json(const std::vector<squeal::Growth>& growths)
 {
   std::vector<Json> points;
   for (const squeal::Growth& growth : growths)
-    points.push_back(
-        Json::object({{"speed", rounded(growth.speed)}, {"rate", rounded(growth.rate)}}));
+    points.push_back(Json::object(
+        {{"speed", rounded(growth.speed)}, {"rate", rounded(squeal::told_rate(growth))}}));
   return Json::array(points);
 }
 
@@ -170,14 +172,15 @@ Json spectrum_json(const squeal::Spectrum& spectrum)
   return Json::object({{"frequency_Hz", rounded(f_Hz)}, {"amplitude", rounded(amplitude)}});
 }
 
-bool is_settled(const squeal::LimitCycle& cycle)
+/// What a table says of a motion that is no limit cycle which lasts; empty for one that does.
+std::string doubt_of(const squeal::LimitCycle& cycle)
 {
-  return cycle.settled;
+  return cycle.settled ? "" : "not settled";
 }
 
-bool is_settled(const squeal::DirectLimitCycle& /*periodic*/)
+std::string doubt_of(const squeal::DirectLimitCycle& cycle)
 {
-  return true;
+  return cycle.stable ? "" : "not stable";
 }
 
 template <class Cycle>
@@ -189,7 +192,7 @@ Json cycle_json(const Cycle& cycle)
                        {"pad_displacement", rounded(cycle.pad_displacement)},
                        {"N_min", rounded(cycle.N_min)},
                        {"N_max", rounded(cycle.N_max)},
-                       {"settled", is_settled(cycle) ? 1 : 0}});
+                       {"doubt", doubt_of(cycle)}});
 }
 
 /// Amplitudes of the modes used, among all modes of the body.
@@ -216,11 +219,24 @@ Eigen::VectorXcd spread(const Eigen::VectorXcd& amplitude, const std::vector<int
   return all;
 }
 
+std::string name_of(const squeal::LimitCycle& cycle)
+{
+  if (!cycle.settled)
+    return fmt::format("End of the transient at {:.5g} rad/s, not settled", cycle.speed);
+  return fmt::format("Limit cycle at {:.5g} rad/s", cycle.speed);
+}
+
+std::string name_of(const squeal::DirectLimitCycle& cycle)
+{
+  return fmt::format("Limit cycle at {:.5g} rad/s{}", cycle.speed,
+                     cycle.stable ? "" : ", not stable");
+}
+
 template <class Cycle>
 void add_cycle(std::vector<Motion>& motions, const std::optional<Cycle>& cycle, Index n_modes)
 {
   if (!cycle || cycle->amplitude.size() == 0) return;
-  motions.push_back({.name = fmt::format("Limit cycle at {:.5g} rad/s", cycle->speed),
+  motions.push_back({.name = name_of(*cycle),
                      .frequency_Hz = cycle->frequency_Hz,
                      .amplitude = spread(cycle->amplitude, cycle->mode_numbers, n_modes)});
 }
@@ -260,8 +276,11 @@ std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
                                    const std::vector<int>& mode_numbers, Index n_modes)
 {
   std::vector<Motion> motions;
-  add_cycle(motions, results.limit_cycle, n_modes);
+  // The first one is shown first.
+  const bool unsettled = squeal::has_unsettled_end(results);
+  if (!unsettled) add_cycle(motions, results.limit_cycle, n_modes);
   add_cycle(motions, results.limit_cycle_direct, n_modes);
+  if (unsettled) add_cycle(motions, results.limit_cycle, n_modes);
   if (!results.eigenvalues || results.eigenvalues->shapes.empty()) return motions;
   const squeal::EigenvalueMap& map = *results.eigenvalues;
   Index i = 0, j = 0;

@@ -123,4 +123,9 @@ LimitCycle limit_cycle(const Transient& run)
   return cycle;
 }
 
+bool has_unsettled_end(const SquealResults& results)
+{
+  return results.limit_cycle && !results.limit_cycle->settled;
+}
+
 }  // namespace chladni::squeal

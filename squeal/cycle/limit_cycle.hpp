@@ -12,4 +12,8 @@ inline constexpr double settled_drift = 1e-3;
 /// @throws chladni::Error when the transient diverged or is shorter than its tail.
 LimitCycle limit_cycle(const Transient& transient);
 
+/// Whether the end of the transient in these results is known to be no limit cycle, nor what was
+/// computed from it.
+bool has_unsettled_end(const SquealResults& results);
+
 }  // namespace chladni::squeal

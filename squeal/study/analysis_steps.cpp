@@ -127,19 +127,19 @@ void find_limit_cycle_branch(const Study& study, SquealResults& results, const K
 std::span<const AnalysisStep> analysis_steps()
 {
   static const AnalysisStep steps[] = {
-      {"eigenvalues", {}, find_eigenvalues},
-      {"critical-speed", {}, find_critical_speed},
-      {"stability", {}, find_unstable_modes},
-      {"critical-values", {}, find_critical_values},
-      {"stability-map", {}, find_map},
-      {"mode-sensitivity", {}, find_mode_sensitivity},
-      {"rotation-stability", {}, find_rotation_stability},
-      {"growth", {}, find_growth},
-      {"transient", {"limit-cycle", "spectrum"}, find_transient},
-      {"spectrum", {}, find_spectrum},
-      {"limit-cycle", {}, find_limit_cycle},
-      {"limit-cycle-direct", {}, find_limit_cycle_direct},
-      {"limit-cycle-branch", {}, find_limit_cycle_branch},
+      {"eigenvalues", 1.0, {}, find_eigenvalues},
+      {"critical-speed", 1.0, {}, find_critical_speed},
+      {"stability", 5.0, {}, find_unstable_modes},
+      {"critical-values", 2.0, {}, find_critical_values},
+      {"stability-map", 10.0, {}, find_map},
+      {"mode-sensitivity", 10.0, {}, find_mode_sensitivity},
+      {"rotation-stability", 20.0, {}, find_rotation_stability},
+      {"growth", 40.0, {}, find_growth},
+      {"transient", 60.0, {"limit-cycle", "spectrum"}, find_transient},
+      {"spectrum", 1.0, {}, find_spectrum},
+      {"limit-cycle", 1.0, {}, find_limit_cycle},
+      {"limit-cycle-direct", 10.0, {}, find_limit_cycle_direct},
+      {"limit-cycle-branch", 40.0, {}, find_limit_cycle_branch},
   };
   return steps;
 }

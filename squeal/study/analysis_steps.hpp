@@ -22,6 +22,7 @@ struct Study {
 /// How an analysis of analysis_options.hpp is done.
 struct AnalysisStep {
   std::string_view name;
+  double share;                          ///< of the time of a run, usually, in any unit
   std::vector<std::string_view> serves;  ///< other analyses that begin with its result
   /// Adds its result; of an analysis that needs a body, the brake has one.
   void (*perform)(const Study&, SquealResults&, const Keeping&);

@@ -82,13 +82,13 @@ SquealResults run(const Brake& brake, const StudyOptions& options, const StudyKe
   SquealResults& results = begin.results;
   bool any_done = begin.goes_on;
   if (keeping.unfinished && !to_do.empty()) keeping.unfinished(results);
-  double n_done = 0.0;
+  double done = 0.0, all = 0.0;
+  for (const AnalysisStep& step : to_do) all += step.share;
   for (const AnalysisStep& step : to_do) {
     if (any_done) keep_unfinished(keeping, results);
     const std::string name(step.name);
-    const double n_all = double(to_do.size());
     const auto report = [&](double fraction) {
-      if (keeping.progress) keeping.progress(name, (n_done + fraction) / n_all);
+      if (keeping.progress) keeping.progress(name, (done + fraction * step.share) / all);
     };
     report(0.0);
     try {
@@ -101,7 +101,8 @@ SquealResults run(const Brake& brake, const StudyOptions& options, const StudyKe
     }
     std::erase(results.missing, name);
     any_done = true;
-    n_done += 1.0;
+    report(1.0);
+    done += step.share;
   }
   if (results.transient && !results.transient->finished)
     results.failure = "transient: " + divergence_of(*results.transient);

@@ -21,6 +21,11 @@ std::optional<double> growth_rate(const Envelope& envelope, double linear_limit)
   return (x * v.log()).sum() / x.square().sum();
 }
 
+double told_rate(const Growth& growth)
+{
+  return growth.eigenvalue_rate.value_or(growth.rate);
+}
+
 bool disagree(double measured, double of_eigenvalue)
 {
   return std::abs(measured - of_eigenvalue) > std::max(0.1 * std::abs(of_eigenvalue), 0.01);

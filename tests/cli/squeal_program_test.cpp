@@ -219,10 +219,11 @@ TEST(SquealProgram, CallsWhatHasNotSettledNoLimitCycle)
   const Folder folder;
   const std::string scene = example_scene();
   const std::size_t analyses = scene.find("analyses = ");
-  write_text(folder.path() / "scene.toml",
-             replaced(replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
-                               "analyses = [\"limit-cycle\", \"limit-cycle-direct\"]"),
-                      "duration_s = 6.0, initial", "duration_s = 1.0, initial"));
+  write_text(
+      folder.path() / "scene.toml",
+      replaced(replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+                        "analyses = [\"limit-cycle\", \"limit-cycle-direct\", \"spectrum\"]"),
+               "duration_s = 6.0, initial", "duration_s = 1.0, initial"));
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
   const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
   ASSERT_EQ(ending.exit_code, 0) << ending.err;
@@ -231,6 +232,10 @@ TEST(SquealProgram, CallsWhatHasNotSettledNoLimitCycle)
   EXPECT_NE(ending.out.find("\ndirect limit cycle: pad velocity"), std::string::npos);
   EXPECT_EQ(ending.out.find("\nlimit cycle: "), std::string::npos) << ending.out;
   EXPECT_EQ(number_at(read_text(folder.path() / "summary.json"), "settled"), 0.0);
+  EXPECT_NE(ending.out.find("\nend of the transient, not settled: pad velocity at "),
+            std::string::npos)
+      << "so with its spectrum: " << ending.out;
+  EXPECT_EQ(ending.out.find("\npad velocity at "), std::string::npos);
 }
 
 TEST(SquealProgram, PrintsTheGrowthOfTheEigenvalueBesideThatOfAShortRun)
@@ -246,7 +251,7 @@ TEST(SquealProgram, PrintsTheGrowthOfTheEigenvalueBesideThatOfAShortRun)
   }
   write_text(folder.path() / "scene.toml", scene);
   mbs_export::write_body(folder.path() / "disc.body.h5", kirchhoff_body());
-  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  const Ending ending = run(folder, squeal_program + " run scene.toml --json summary.json");
   ASSERT_EQ(ending.exit_code, 0) << ending.err;
   const squeal::Growth growth = squeal::read_results(folder.path() / "disc.squeal.h5").growth.at(0);
   ASSERT_GT(growth.eigenvalue_rate.value(), 0.1);
@@ -257,6 +262,9 @@ TEST(SquealProgram, PrintsTheGrowthOfTheEigenvalueBesideThatOfAShortRun)
   EXPECT_NEAR(std::stod(ending.out.substr(at + name.size())), *growth.eigenvalue_rate, 1e-4);
   EXPECT_NE(ending.out.find(name + ", measured in a run too short"), std::string::npos)
       << ending.out;
+  const std::string json = read_text(folder.path() / "summary.json");
+  EXPECT_EQ(number_at(json, "growth_1_s"), *growth.eigenvalue_rate);
+  EXPECT_EQ(number_at(json, "measured_growth_1_s"), growth.rate);
 }
 
 TEST(SquealProgram, SaysThatTheOscillatorAsShippedSquealsAtAllSpeeds)

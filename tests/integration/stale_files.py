@@ -143,6 +143,7 @@ SOUND = """
 [sound]
 microphones = [{ name = "above", position = [0.5, 0.0, 0.5] }]
 """
+AIR = "medium = { density = 1.0, speed_of_sound = 343.0 }\n"
 
 
 def check_radiation(folder):
@@ -154,8 +155,17 @@ def check_radiation(folder):
     folder.run("squeal", "run")
     folder.scene.write_text(changed(scene, ("[0.5, 0.0, 0.5]", "[0.7, 0.0, 0.5]")))
     folder.run("squeal", "run")
-    folder.scene.write_text(scene + "medium = { density = 1.0, speed_of_sound = 343.0 }\n")
+    folder.scene.write_text(scene + AIR)
     folder.refused("squeal", "run", "disc.radiation.h5", "sound.medium.density = 1", "chladni sound", "--radiation")
+    folder.scene.write_text(scene)
+    folder.run("squeal", "run")
+    folder.scene.write_text(scene + AIR)
+    folder.refused("squeal", "report", "disc.squeal.h5", "sound.medium.density = 1", "squeal run")
+    undamped = changed(scene, ("radiation = true", "radiation = false"))
+    folder.scene.write_text(undamped + AIR)
+    folder.run("squeal", "run")
+    folder.scene.write_text(undamped)
+    folder.run("squeal", "report")  # the air takes no part in these results
     folder.scene.write_text(changed(scene, OF_BODY[3][0]))
     folder.run("chladni", "body")
     folder.refused("squeal", "run", "disc.radiation.h5", OF_BODY[3][1], "chladni sound", "--radiation")
@@ -170,6 +180,18 @@ def check_spelling(folder):
     folder.scene.write_text(changed(DISC, ("friction = 0.6", "friction = 0.5")))
     folder.run("squeal", "run")
 
+# What `chladni static` needs besides.
+LOADED = """
+[[support]]
+group = "hub"
+type = "clamped"
+
+[[load]]
+type = "gravity"
+acceleration = [0.0, 0.0, -9.81]
+"""
+PICTURES = {"mesh": ["disc.mesh.vtu", "disc.mesh.html"], "modes": ["disc.modes.vtu"], "static": ["disc.static.vtu"]}
+
 
 def check_mesh_file(programs, folder):
     """A mesh file that another program wrote anew."""
@@ -182,6 +204,26 @@ def check_mesh_file(programs, folder):
     made.refused("squeal", "run", "the mesh file", "plate.geo", "chladni run")
 
 
+def pictures_of_two(folder, other):
+    """Pictures of one scene are not replaced by those of another one of its name either."""
+    texts = {scene: scene.read_text() for scene in (folder.scene, other)}
+    for scene, text in texts.items():
+        scene.write_text(text + LOADED)
+    for name, files in PICTURES.items():
+        folder.run("chladni", name)
+        before = [(folder.folder / file).read_bytes() for file in files]
+        words = folder.run("chladni", name, scene=other, code=1)
+        if files[0] not in words or "disc.toml" not in words or "--overwrite" not in words:
+            sys.exit(f"FAILED: what is in the way of chladni {name} is not said:\n{words}")
+        if before != [(folder.folder / file).read_bytes() for file in files]:
+            sys.exit(f"FAILED: chladni {name} touched the other scene's files")
+        folder.run("chladni", name)
+        folder.run("chladni", name, "--overwrite", scene=other)
+        folder.run("chladni", name, scene=other)
+    for scene, text in texts.items():
+        scene.write_text(text)
+
+
 def check_name(folder):
     """Two scenes of one name in one folder."""
     other = folder.folder / "other.toml"
@@ -192,6 +234,7 @@ def check_name(folder):
         sys.exit(f"FAILED: what is in the way is not said:\n{words}")
     if (folder.folder / "disc.reduced.h5").read_bytes() != before:
         sys.exit("FAILED: the other scene's file was touched")
+    pictures_of_two(folder, other)
     folder.run("chladni", "run", "--overwrite", scene=other)
     folder.run("chladni", "run", scene=other)
     folder.scene.unlink()

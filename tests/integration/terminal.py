@@ -2,7 +2,7 @@
 
 Usage: terminal.py BIN_DIR
 
-On a terminal of its own `chladni run` draws one bar whose percentage never falls, also while a tolerance goes through the
+On a terminal of its own each long command draws one bar whose percentage never falls, also while a tolerance goes through the
 same phase again and again, and wipes it out. With --quiet nothing is printed and the files are the same. The completion of
 bash finds an option, and every subcommand is in the manual page.
 """
@@ -17,9 +17,13 @@ import tempfile
 from pathlib import Path
 
 from running import changed, run
-from stale_files import DISC
+from stale_files import DISC, LOADED
 
 BAR = re.compile(r"\r\x1b\[K\[([#-]{20})\] +(\d+) %  ([^\r]*)")
+
+SQUEALING = """analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle"]
+transient = { speed_rad_s = 18.85, duration_s = 0.5, initial_pad_displacement = 1e-9 }
+"""
 
 
 def on_terminal(*command):
@@ -45,20 +49,20 @@ def fail(why, text):
     sys.exit(f"FAILED: {why}\n{text!r}")
 
 
-def check_bar(chladni, scene, folder):
-    text = on_terminal(chladni, "run", scene, "--output", folder)
+def check_bar(program, command, scene, folder, expected):
+    text = on_terminal(program, command, scene, "--output", folder)
     bars = BAR.findall(text)
     percent = [int(bar[1]) for bar in bars]
     phases = {bar[2].split(",")[0] for bar in bars}
-    if not {"mesh", "fixed-interface modes", "choice of modes"} <= phases:
-        fail(f"phases {phases}", text)
+    if not expected <= phases:
+        fail(f"{program.name} {command}: phases {phases}", text)
     if percent != sorted(percent) or percent[-1] < 90:
         fail(f"the bar shows {percent}", text)
     if any(bar[0].count("#") != int(20 * p / 100) for bar, p in zip(bars, percent)):
         fail("a bar is not as long as its percentage", text)
     if not text.endswith("\r\x1b[K"):
         fail("the bar stays", text[-200:])
-    print(f"ok      one bar from {percent[0]} to {percent[-1]} %, {len(bars)} times")
+    print(f"ok      {program.name} {command}: one bar from {percent[0]} to {percent[-1]} %, {len(bars)} times")
 
 
 def check_quiet(chladni, scene, folder):
@@ -102,8 +106,13 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         scene = folder / "scene.toml"
-        scene.write_text(changed(DISC, ("modes = 10", "tolerance = 1e-3\nup_to_Hz = 4000.0")))
-        check_bar(programs / "chladni", scene, folder)
+        scene.write_text(changed(DISC, ("modes = 10", "tolerance = 1e-3\nup_to_Hz = 4000.0")) + LOADED)
+        chladni, squeal = programs / "chladni", programs / "squeal"
+        check_bar(chladni, "run", scene, folder, {"mesh", "fixed-interface modes", "choice of modes"})
+        check_bar(chladni, "modes", scene, folder, {"mesh", "assembly", "modes"})
+        check_bar(chladni, "static", scene, folder, {"mesh", "assembly", "solution"})
+        scene.write_text(changed(scene.read_text(), ('analyses = ["eigenvalues"]', SQUEALING)))
+        check_bar(squeal, "run", scene, folder, {"eigenvalues", "transient", "limit-cycle"})
         check_quiet(programs / "chladni", scene, folder)
         check_description(programs / "chladni")
         check_description(programs / "squeal")

@@ -84,6 +84,20 @@ TEST(SquealMotions, ArePutAmongTheModesOfTheBody)
   EXPECT_EQ(motions[0].amplitude, Eigen::Vector4cd(1.0, 0.0, 1.0, 0.0));
 }
 
+TEST(SquealMotions, BeginWithWhatIsALimitCycle)
+{
+  squeal::SquealResults results = limit_cycle_of({1, 3}, 2);
+  results.limit_cycle->settled = false;
+  results.limit_cycle_direct = squeal::DirectLimitCycle{};
+  results.limit_cycle_direct->stable = true;
+  results.limit_cycle_direct->mode_numbers = {1, 3};
+  results.limit_cycle_direct->amplitude = Eigen::VectorXcd::Constant(2, 2.0);
+  const auto motions = squeal_motions(results, {1, 3}, 4);
+  ASSERT_EQ(motions.size(), 2u);
+  EXPECT_EQ(motions[0].amplitude[0], 2.0) << motions[0].name;
+  EXPECT_EQ(motions[1].name, "End of the transient at 0 rad/s, not settled");
+}
+
 TEST(SquealMotions, OfAnotherBodyAreRefused)
 {
   EXPECT_THROW(squeal_motions(limit_cycle_of({1, 19}, 2), {1, 19}, 3), Error);  // 19 of 3 modes

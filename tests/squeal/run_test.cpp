@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
@@ -31,13 +33,19 @@ TEST(Run, PerformsTheTransientThatALimitCycleNeeds)
       TransientCase{.speed = 6.0 * pi, .duration = 0.2, .initial_pad_displacement = 1e-4};
   options.study.growth = GrowthCase{.speeds = {5.0 * pi, 6.0 * pi}, .duration = 0.3};
   std::set<std::string> names;
-  const SquealResults results =
-      run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study,
-          {.progress = [&](const std::string& name, double) { names.insert(name); }});
+  std::vector<double> done;
+  const SquealResults results = run(FlexibleDisc(disc_of({kirchhoff_3()}), options), options.study,
+                                    {.progress = [&](const std::string& name, double whole) {
+                                      names.insert(name);
+                                      done.push_back(whole);
+                                    }});
   EXPECT_TRUE(results.eigenvalues && results.transient && results.limit_cycle);
   EXPECT_EQ(results.growth.size(), 2u);
   EXPECT_FALSE(results.searched_critical_speed);
   EXPECT_EQ(names, (std::set<std::string>{"eigenvalues", "growth", "limit-cycle", "transient"}));
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+  EXPECT_EQ(done.front(), 0.0);
+  EXPECT_EQ(done.back(), 1.0);
 }
 
 TEST(Run, GoesOnWhereUnfinishedResultsCannotBeKept)

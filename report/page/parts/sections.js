@@ -169,7 +169,8 @@ function cycleFigures(content) {
                                                             marker: "circle", hollow: true, name: "not stable"}] : [])]}));
   }
   if (content.spectrum)
-    made.push(plot({title: "Spectrum of the pad velocity over the last periods",
+    made.push(plot({title: "Spectrum of the pad velocity over the last periods" +
+                           (content.limit_cycle?.doubt ? " of a transient that has not settled" : ""),
                     x: {label: "frequency, Hz"}, y: {label: "amplitude, m/s", log: true},
                     series: [{x: content.spectrum.frequency_Hz, y: content.spectrum.amplitude, width: 1.2}]}));
   return made;
@@ -182,14 +183,14 @@ function withGap(values, index) {
 
 // What a transient has not settled at is no limit cycle where one was found as such.
 function chosenCycle({limit_cycle, limit_cycle_direct}) {
-  return limit_cycle?.settled ? limit_cycle : limit_cycle_direct ?? limit_cycle;
+  return limit_cycle && !limit_cycle.doubt ? limit_cycle : limit_cycle_direct ?? limit_cycle;
 }
 
 function cycleTable(content) {
   const rows = [["limit_cycle", "end of the transient"], ["limit_cycle_direct", "periodic motion, found as such"]]
     .filter(([key]) => content[key]).map(([key, name]) => {
       const cycle = content[key];
-      return [name + (cycle.settled ? "" : ", not settled"), formatted(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
+      return [name + (cycle.doubt && `, ${cycle.doubt}`), formatted(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
               formatted(1e3 * cycle.pad_displacement, 5), `${formatted(cycle.N_min, 4)} … ${formatted(cycle.N_max, 4)}`];
     });
   return rows.length ? scrolled(table(["limit cycle", "speed, rad/s", "frequency, Hz", "pad velocity, m/s",
@@ -246,7 +247,7 @@ function drawPage() {
                !page.critical && page.stability && (page.stability === "unstable in the whole range" ? "unstable at all speeds"
                  : `stability over the speed: ${page.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s` +
-                 (cycle.settled ? "" : " (end of the transient, not settled)")];
+                 (cycle.doubt && ` (${cycle.doubt === "not settled" ? "end of the transient, " : ""}${cycle.doubt})`)];
   document.getElementById("key-figures").textContent = key.filter(Boolean).join(" · ");
   if (page.modes) drawModes(page);
   if (page.groups) drawGroups(page);
