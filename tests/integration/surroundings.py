@@ -5,6 +5,7 @@ Usage: surroundings.py PROGRAM_DIR SOURCE_DIR
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -77,10 +78,55 @@ def left_behind(programs, source, folder):
         yield "a daemon of Open MPI is started for one process"
 
 
+# Half a minute's work for Gmsh.
+SLOW = """size = 0.001;
+Point(1) = {0, 0, 0, size};
+Point(2) = {1, 0, 0, size};
+Point(3) = {1, 1, 0, size};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 1};
+Curve Loop(1) = {1, 2, 3};
+Plane Surface(1) = {1};
+Physical Surface("plate") = {1};
+"""
+
+
+def children(pid):
+    return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def is_at_work(pid):
+    try:
+        return re.search(r"State:\s+(\w)", Path(f"/proc/{pid}/status").read_text())[1] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+def reader_left_behind(programs, _, folder):
+    """The process that reads a mesh file ends with a program that is killed or terminated."""
+    (folder / "slow.geo").write_text(SLOW)
+    for number in (signal.SIGKILL, signal.SIGTERM):
+        command = [programs / "chladni", "mesh", folder / "slow.geo", "--output", folder]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        readers = []
+        while not readers and process.poll() is None:
+            time.sleep(0.05)
+            readers = children(process.pid)
+        time.sleep(0.3)  # it has begun
+        if not any(map(is_at_work, readers)):
+            yield "no process reads the mesh file"
+        process.send_signal(number)
+        process.wait()
+        time.sleep(0.2)
+        if any(map(is_at_work, readers)):
+            yield f"the reader of a mesh outlives its program after signal {number}"
+
+
 def main(programs, source):
     with tempfile.TemporaryDirectory() as name:
         case = (Path(programs), Path(source), Path(name))
-        failures = [*wrong(*case), *left_behind(*case)]
+        failures = [*wrong(*case), *left_behind(*case), *reader_left_behind(*case)]
     print("\n".join(f"FAILED: {line}" for line in failures))
     sys.exit(bool(failures))
 
