@@ -1,14 +1,16 @@
 #include "scene/changes.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <map>
 #include <optional>
 #include <set>
 #include <string_view>
+
+#include "scene/parse_values.hpp"
 
 namespace chladni::scene {
 
@@ -42,8 +44,8 @@ void collect(const toml::node& node, const std::string& path, Values& values)
 std::optional<toml::table> parsed(const std::string& text)
 {
   try {
-    return toml::parse(text);
-  } catch (const toml::parse_error&) {
+    return parse_values(text);
+  } catch (const std::exception&) {  // what a file calls its scene may be anything
     return std::nullopt;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "common/error.hpp"
 #include "scene/document_node.hpp"
+#include "scene/parse_values.hpp"
 
 namespace chladni::scene {
 
@@ -153,7 +154,7 @@ Table parse_toml(const std::string& text, const std::string& file)
 {
   try {
     const auto whole = std::make_shared<Table::Node::File>(
-        Table::Node::File{.table = toml::parse(text, file), .notes = {}});
+        Table::Node::File{.table = parse_values(text, file), .notes = {}});
     return Table(
         std::make_shared<Table::Node>(Table::Node{whole, file, {}, {}, &whole->table, {}, {}}));
   } catch (const toml::parse_error& error) {

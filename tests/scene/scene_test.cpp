@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/changes.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -882,6 +884,22 @@ TEST(SceneError, NamesWhatAMassOrSpringCannotBe)
          "rz, x, y, z");
   expect("to = \"end\"", "to = \"start\"",
          "scene.toml:43: spring[2].to = \"start\": is the place where the spring begins");
+}
+
+TEST(SceneError, EndsKeysDeeperThanAStackInASentence)
+{
+  std::string key = "a";
+  for (int i = 1; i < 40000; ++i) key += ".a";
+  const std::string said = "a key of more than 16 parts; a scene has none so deep";
+  for (const std::string& text :
+       {key + " = 1\n", "[" + key + "]\n", "x = { " + key + " = 1 }\n", "\"=\"." + key + " = 1\n"})
+    EXPECT_EQ(error_of("\n" + text), "scene.toml:2: " + said);
+  const std::string dots(40000, '.');
+  EXPECT_EQ(error_of("title = \"" + dots + "\\\"" + dots + "\"  # " + dots + "\n").find(said),
+            std::string::npos)
+      << "texts and comments are no keys";
+  EXPECT_EQ(changed_keys(key + " = 1\n", "", Step::squeal), std::vector<std::string>{})
+      << "nor is the scene that a file names";
 }
 
 TEST(SceneError, NamesTheLineOfASyntaxError)
