@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "squeal/parameters.hpp"
+#include "squeal/parameter_options.hpp"
 
 namespace chladni::squeal {
 

@@ -3,7 +3,7 @@
 
 #include "scene/keys.hpp"
 #include "squeal/analysis_options.hpp"
-#include "squeal/parameters.hpp"
+#include "squeal/parameter_options.hpp"
 
 namespace chladni::scene {
 namespace {

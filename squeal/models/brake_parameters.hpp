@@ -1,6 +1,6 @@
 #pragma once
 
-#include "squeal/parameters.hpp"
+#include "squeal/parameter_options.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {

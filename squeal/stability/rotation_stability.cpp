@@ -174,9 +174,12 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
     result.harmonics = std::max(result.harmonics, at.harmonics);
     result.error = std::max(result.error, at.error);
   }
+  // Growth within its own error is none: the search would only follow what the errors do.
   const auto growth = [&](double speed) {
-    return by_hill ? hill.exponents(speed).lambda[0].real()
-                   : rotation_growth(disc, options, speed).growth;
+    if (!by_hill) return rotation_growth(disc, options, speed).growth;
+    const HillExponents at = hill.exponents(speed);
+    const double largest = at.lambda[0].real();
+    return std::abs(largest) <= at.error ? 0.0 : largest;
   };
   for (int i = 1; i < n && !result.critical_speed; ++i)
     if (result.growth[i - 1] < 0.0 && result.growth[i] > 0.0)

@@ -1,4 +1,4 @@
-#include "squeal/parameters.hpp"
+#include "squeal/parameter_options.hpp"
 
 #include <fmt/format.h>
 
