@@ -128,7 +128,7 @@ std::unique_ptr<squeal::Brake> brake_of(const scene::Scene& scene,
 {
   if (!body) return squeal::model_brake(scene.squeal_model.value());
   const squeal::SquealOptions& options = scene.squeal.value();
-  squeal::Disc disc = squeal::make_disc(*body, squeal::ring_names(options), options.modes);
+  squeal::Disc disc = squeal::make_disc(*body, squeal::ring_choice(options), options.modes);
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(radiation, scene));
   for (const std::string& note : squeal::notes_of(disc)) fmt::print(stderr, "note: {}\n", note);

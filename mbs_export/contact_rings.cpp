@@ -23,10 +23,12 @@ double angle_of(const Eigen::Vector3d& position)
   return angle < 0.0 ? angle + 2.0 * pi : angle;
 }
 
-bool has_out_of_plane_dofs(const ReducedSystem& reduced, int node)
+/// Whether all nodes of a ring have the rotations that slopes are taken from.
+bool rotates(const ReducedSystem& reduced, const ContactRing& ring)
 {
-  return has_component(reduced, node, 2) && has_component(reduced, node, 3) &&
-         has_component(reduced, node, 4);
+  return std::ranges::all_of(ring.nodes, [&](int node) {
+    return has_component(reduced, node, 3) && has_component(reduced, node, 4);
+  });
 }
 
 /// The geometry of a ring without its modes, when the set is one.
@@ -53,7 +55,7 @@ std::optional<ContactRing> ring_of(const ReducedSystem& reduced, const Attachmen
     const double expected = ring.angles[0] + static_cast<double>(i) * step;
     if (std::abs(X.head<2>().norm() - ring.radius) > placement * ring.radius ||
         std::abs(X.z() - ring.height) > placement * ring.radius ||
-        std::abs(ring.angles[i] - expected) > placement || !has_out_of_plane_dofs(reduced, node))
+        std::abs(ring.angles[i] - expected) > placement || !has_component(reduced, node, 2))
       return std::nullopt;
   }
   return ring.radius > 0.0 ? std::optional(ring) : std::nullopt;
@@ -69,11 +71,13 @@ std::vector<ContactRing> contact_rings(const ReducedSystem& reduced,
     std::optional<ContactRing> ring = ring_of(reduced, set);
     if (!ring) continue;
     const Index n = ring->angles.size(), n_modes = attachment_modes.cols();
-    ring->W = ring->W_r = ring->W_t = MatrixXd(n, n_modes);
+    ring->W = ring->W_r = ring->W_t = MatrixXd::Zero(n, n_modes);
+    const bool has_slopes = rotates(reduced, *ring);
     for (Index i = 0; i < n; ++i) {
       const auto rows = attachment_modes.middleRows(6 * ring->nodes[std::size_t(i)], 6);
       const double c = std::cos(ring->angles[i]), s = std::sin(ring->angles[i]);
       ring->W.row(i) = rows.row(2);
+      if (!has_slopes) continue;
       ring->W_r.row(i) = s * rows.row(3) - c * rows.row(4);  // -theta . e_t
       ring->W_t.row(i) = c * rows.row(3) + s * rows.row(4);  // theta . e_r
     }

@@ -8,9 +8,9 @@
 namespace chladni::mbs_export {
 
 /// A contact ring for every attachment set of three or more nodes that lie at equal angles on one
-/// circle about the z axis and whose displacement z and rotations x, y are masters. With the nodal
-/// rotations theta_r = theta . e_r and theta_t = theta . e_t the slopes are W_r = -theta_t and
-/// W_t = theta_r.
+/// circle about the z axis and whose displacement z is a master. With the nodal rotations
+/// theta_r = theta . e_r and theta_t = theta . e_t the slopes are W_r = -theta_t and W_t = theta_r;
+/// they are zero where rotations x, y of a node are no masters.
 /// @param attachment_modes  [6 n_nodes x n_modes]
 std::vector<ContactRing> contact_rings(const ReducedSystem& reduced,
                                        const Eigen::MatrixXd& attachment_modes);

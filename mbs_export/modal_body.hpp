@@ -13,7 +13,8 @@ enum class ModeKind { rigid, constrained, interface };
 
 /// A contact ring of the body: attachment nodes on a circle about the z axis, ordered by angle, and
 /// what each mode does there. Slopes come from the nodal rotations of the shear-flexible shell:
-/// W_r = -theta_t and W_t = theta_r (unit normal (-W_r, -W_t, 1) to first order).
+/// W_r = -theta_t and W_t = theta_r (unit normal (-W_r, -W_t, 1) to first order); zero where the
+/// nodes have no rotations.
 struct ContactRing {
   std::string name;
   double radius;           ///< m

@@ -13,6 +13,7 @@
 #include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
+#include "squeal/results/analysis_file.hpp"
 #include "squeal/results/transient_file.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
@@ -107,10 +108,8 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
 
 void add_critical(TextTable& table, const squeal::CriticalValue& value)
 {
-  const Searched searched{value.parameter, "values",
-                          value.parameter == "preload"     ? "N"
-                          : value.parameter == "stiffness" ? "N/m"
-                                                           : ""};
+  const std::string unit = squeal::unit_of(value.parameter);
+  const Searched searched{value.parameter, "values", unit == "1" ? "" : unit};
   const bool regained =
       value.profile && squeal::stability_of(*value.profile) == squeal::Stability::regained;
   const std::string name = fmt::format("critical {} at {}{}", value.parameter, spoken(value.speed),

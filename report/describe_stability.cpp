@@ -53,7 +53,14 @@ std::string participation(const StabilityTable& table, const StabilityBranch& br
   }
   if (branch.pads >= least_share)
     parts.push_back(fmt::format("{:.0f} % pads", 100.0 * branch.pads));
-  return fmt::format("; {} nodal diameters: {}", *diameters, fmt::join(parts, ", "));
+  const std::optional<int> circles = nodal_circles(table, branch);
+  const std::optional<double> in_plane = in_plane_share(table, branch);
+  return fmt::format(
+      "; {} nodal diameters{}{}: {}", *diameters,
+      circles ? fmt::format(", {} circle{}", *circles, *circles == 1 ? "" : "s") : "",
+      in_plane && *in_plane > least_share ? fmt::format(", {:.0f} % in plane", 100.0 * *in_plane)
+                                          : "",
+      fmt::join(parts, ", "));
 }
 
 /// "; friction feeds 12 % of its energy in a period"; empty without a body.
@@ -75,6 +82,8 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
   for (const squeal::UnstableInterval& interval : branch.unstable)
     unstable.push_back(Json::array({interval.from.value, interval.to.value}));
   const std::optional<int> diameters = nodal_diameters(table, branch);
+  const std::optional<int> circles = nodal_circles(table, branch);
+  const std::optional<double> in_plane = in_plane_share(table, branch);
   return Json::object(
       {{"unstable", Json::array(unstable)},
        {"worst_value", branch.worst.value},
@@ -82,6 +91,8 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
        {"worst_frequency_Hz", branch.worst.frequency_Hz},
        {"damping_ratio", damping_ratio(branch.worst)},
        {"nodal_diameters", diameters ? Json(*diameters) : Json()},
+       {"nodal_circles", circles ? Json(*circles) : Json()},
+       {"in_plane", in_plane ? Json(*in_plane) : Json()},
        {"shares", numbers_json(branch.shares)},
        {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
        {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
@@ -115,7 +126,10 @@ Json stability_table_json(const StabilityTable& stability)
   std::vector<Json> families, branches;
   for (const squeal::ModeFamily& family : stability.families)
     families.push_back(Json::object(
-        {{"nodal_diameters", family.nodal_diameters}, {"frequency_Hz", family.frequency_Hz}}));
+        {{"nodal_diameters", family.nodal_diameters},
+         {"frequency_Hz", family.frequency_Hz},
+         {"nodal_circles", family.nodal_circles ? Json(*family.nodal_circles) : Json()},
+         {"in_plane", family.in_plane ? Json(*family.in_plane) : Json()}}));
   for (const StabilityBranch& branch : stability.branches)
     branches.push_back(branch_json(stability, branch));
   const auto& band = stability.band;

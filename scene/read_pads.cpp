@@ -10,6 +10,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
+/// Whether one ring serves both contact planes.
+enum class RingsOf { both_planes, each_plane };
+
 squeal::Suspension read_suspension(const Table& table, std::string_view stiffness_unit)
 {
   return {.stiffness = table.number("stiffness", {.above = 0.0, .unit = stiffness_unit}),
@@ -62,21 +65,32 @@ std::optional<squeal::Caliper> read_caliper(const Table& pad,
   return squeal::Caliper{.mass = table.number("mass"), .axial = read_suspension(table, "N/m")};
 }
 
-std::optional<squeal::PadGrid> read_grid(const Table& pad)
+/// The rings of a grid, or pairs of them where each contact plane has its own.
+void read_grid_rings(squeal::PadGrid& grid, const Table& table, RingsOf of)
+{
+  if (of == RingsOf::both_planes)
+    grid.rings = table.texts("rings");
+  else
+    for (const Table& pair : table.tables("rings")) {
+      grid.rings.push_back(pair.text("inboard"));
+      grid.opposite_rings.push_back(pair.text("outboard"));
+    }
+  if (grid.rings.empty()) table.refuse("rings", "must name at least one ring");
+  std::vector<std::string> sorted = grid.rings;
+  sorted.insert(sorted.end(), grid.opposite_rings.begin(), grid.opposite_rings.end());
+  std::ranges::sort(sorted);
+  if (std::ranges::adjacent_find(sorted) != sorted.end()) {
+    table.refuse("rings", "must not name a ring twice");
+  }
+}
+
+std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
 {
   if (!pad.has("grid")) return std::nullopt;
   const Table table = pad.table("grid");
   squeal::PadGrid grid{.sector = degree * table.number("sector_deg"),
                        .points = table.integer("points")};
-  if (table.has("rings")) {
-    grid.rings = table.texts("rings");
-    if (grid.rings.empty()) table.refuse("rings", "must name at least one ring");
-    std::vector<std::string> sorted = grid.rings;
-    std::ranges::sort(sorted);
-    if (std::ranges::adjacent_find(sorted) != sorted.end()) {
-      table.refuse("rings", "must not name a ring twice");
-    }
-  }
+  if (table.has("rings")) read_grid_rings(grid, table, of);
   return grid;
 }
 
@@ -93,7 +107,7 @@ std::size_t contacts_of(const std::vector<squeal::PadPair>& pads)
   return n;
 }
 
-squeal::PadPair read_pad(const Table& pad)
+squeal::PadPair read_pad(const Table& pad, RingsOf of)
 {
   const squeal::PadSpring spring = read_pad_spring(pad);
   const std::optional<squeal::PadBody> body = read_body_of_pad(pad);
@@ -102,7 +116,7 @@ squeal::PadPair read_pad(const Table& pad)
           .damping = pad.number("damping"),
           .preload = pad.number("preload"),
           .cubic_stiffness = spring.cubic,
-          .grid = read_grid(pad),
+          .grid = read_grid(pad, of),
           .body = body,
           .caliper = read_caliper(pad, body)};
 }
@@ -117,7 +131,8 @@ std::vector<squeal::PadPair> read_pads(const Table& squeal)
     squeal.refuse("pads",
                   fmt::format("are {} pad pairs; there may be {}", tables.size(), pads_max));
   std::vector<squeal::PadPair> pads;
-  for (const Table& pad : tables) pads.push_back(read_pad(pad));
+  const RingsOf of = squeal.is_table("ring") ? RingsOf::each_plane : RingsOf::both_planes;
+  for (const Table& pad : tables) pads.push_back(read_pad(pad, of));
   const std::size_t n_contacts = contacts_of(pads);
   if (n_contacts > contacts_max)
     squeal.refuse("pads", fmt::format("have {} contact points in all; there may be {}", n_contacts,

@@ -5,22 +5,38 @@ namespace {
 
 using squeal::MapParameter;
 
-MapParameter read_parameter(const Table& table)
+/// Whether a brake of this kind has the parameter; the rigid disc has a thickness too.
+bool is_of(const squeal::ParameterRow& row, StudyOf of)
 {
-  return table.choice<MapParameter>("parameter", {{"friction", MapParameter::friction},
-                                                  {"preload", MapParameter::preload},
-                                                  {"stiffness", MapParameter::stiffness}});
+  using squeal::ParameterOf;
+  if (row.of == ParameterOf::any) return true;
+  if (of == StudyOf::body) return row.of == ParameterOf::body;
+  return row.of != ParameterOf::body || row.name == "thickness";
+}
+
+MapParameter read_parameter(const Table& table, std::string_view key, StudyOf of)
+{
+  const std::string word = table.text(key);
+  const squeal::ParameterRow* const row = squeal::find_parameter(word);
+  if (row && is_of(*row, of)) return {row->name};
+  std::vector<std::string> names;
+  for (const squeal::ParameterRow& known : squeal::parameters)
+    if (is_of(known, of)) names.emplace_back(known.name);
+  table.refuse(key, "must be one of " + quoted_list(names));
 }
 
 /// Absent: the speed.
-std::optional<MapParameter> read_over(const Table& table)
+std::optional<MapParameter> read_over(const Table& table, StudyOf of)
 {
-  if (!table.has("over")) return std::nullopt;
-  using Over = std::optional<MapParameter>;
-  return table.choice<Over>("over", {{"speed", std::nullopt},
-                                     {"friction", MapParameter::friction},
-                                     {"preload", MapParameter::preload},
-                                     {"stiffness", MapParameter::stiffness}});
+  if (!table.has("over") || table.text("over") == "speed") return std::nullopt;
+  return read_parameter(table, "over", of);
+}
+
+/// The begin of a range of the parameter.
+double read_from(const Table& table, MapParameter parameter)
+{
+  return squeal::find_parameter(parameter.name)->may_be_zero ? table.number("from")
+                                                             : table.number("from", {.above = 0.0});
 }
 
 /// Its two ends.
@@ -55,13 +71,13 @@ squeal::RotationMethod read_rotation_method(const Table& squeal)
           "method", {{"hill", RotationMethod::hill}, {"floquet", RotationMethod::floquet}});
 }
 
-std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
+std::vector<squeal::CriticalCase> read_critical(const Table& squeal, StudyOf of)
 {
   std::vector<squeal::CriticalCase> searches;
   if (!squeal.has("critical")) return searches;
   for (const Table& table : squeal.tables("critical")) {
     const double from = table.number("from");
-    searches.push_back({.parameter = read_parameter(table),
+    searches.push_back({.parameter = read_parameter(table, "parameter", of),
                         .from = from,
                         .to = table.number("to", {.above = from, .unit = "from"}),
                         .speed = table.number("speed_rad_s")});
@@ -69,13 +85,12 @@ std::vector<squeal::CriticalCase> read_critical(const Table& squeal)
   return searches;
 }
 
-std::optional<squeal::MapCase> read_map(const Table& squeal)
+std::optional<squeal::MapCase> read_map(const Table& squeal, StudyOf of)
 {
   if (!squeal.has("map")) return std::nullopt;
   const Table table = squeal.table("map");
-  const MapParameter parameter = read_parameter(table);
-  const double from = parameter == MapParameter::friction ? table.number("from")
-                                                          : table.number("from", {.above = 0.0});
+  const MapParameter parameter = read_parameter(table, "parameter", of);
+  const double from = read_from(table, parameter);
   constexpr int most_points = 10'000'000;
   const int most_values = most_points / squeal.table("speeds").integer("count");
   return squeal::MapCase{.parameter = parameter,
@@ -87,11 +102,11 @@ std::optional<squeal::MapCase> read_map(const Table& squeal)
 }
 
 std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
-                                                    const squeal::SpeedRange& speeds)
+                                                    const squeal::SpeedRange& speeds, StudyOf of)
 {
   if (!squeal.has("stability")) return std::nullopt;
   const Table table = squeal.table("stability");
-  squeal::StabilityCase search{.over = read_over(table),
+  squeal::StabilityCase search{.over = read_over(table, of),
                                .from = speeds.from,
                                .to = speeds.to,
                                .count = speeds.count,
@@ -102,8 +117,7 @@ std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
     table.refuse("speed_rad_s", "is that of a table over another parameter; leave it out");
   }
   if (!search.over && !table.has("from") && !table.has("to") && !table.has("count")) return search;
-  search.from = search.over == MapParameter::friction ? table.number("from")
-                                                      : table.number("from", {.above = 0.0});
+  search.from = search.over ? read_from(table, *search.over) : table.number("from", {.above = 0.0});
   search.to = table.number("to", {.above = search.from, .unit = "from"});
   search.count = table.integer("count");
   return search;

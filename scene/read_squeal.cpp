@@ -1,5 +1,7 @@
+#include <array>
 #include <charconv>
 #include <numbers>
+#include <utility>
 
 #include "scene/read_tables.hpp"
 #include "scene/squeal_tables.hpp"
@@ -17,11 +19,49 @@ void check_ring(const Table& table, std::string_view key, const std::string& rin
   }
 }
 
-std::string read_ring(const Table& squeal, const Scene& scene)
+/// ring = "track", or { inboard = "track_in", outboard = "track_out" }: the second ring is empty
+/// for one ring alone.
+std::pair<std::string, std::string> read_rings(const Table& squeal, const Scene& scene)
 {
-  const std::string ring = squeal.text("ring");
-  check_ring(squeal, "ring", ring, scene);
-  return ring;
+  if (!squeal.is_table("ring")) {
+    check_ring(squeal, "ring", squeal.text("ring"), scene);
+    return {squeal.text("ring"), {}};
+  }
+  const Table ring = squeal.table("ring");
+  for (const char* key : {"inboard", "outboard"}) check_ring(ring, key, ring.text(key), scene);
+  if (ring.text("inboard") == ring.text("outboard"))
+    ring.refuse("outboard",
+                "must be another ring than inboard; one ring for both planes is ring = \"NAME\"");
+  return {ring.text("inboard"), ring.text("outboard")};
+}
+
+/// squeal.contact_planes = [lower, upper], m
+std::optional<std::array<double, 2>> read_planes(const Table& squeal)
+{
+  if (!squeal.has("contact_planes")) return std::nullopt;
+  const std::vector<double> z = squeal.numbers("contact_planes");
+  if (z.size() != 2 || !(z[1] > z[0]))
+    squeal.refuse("contact_planes", "must be [z of the lower plane, z of the upper one], in m");
+  return std::array{z[0], z[1]};
+}
+
+/// The rings, what of them pads feel, and the contact planes.
+void read_faces(squeal::SquealOptions& options, const Table& squeal, const Scene& scene)
+{
+  const auto [ring, opposite] = read_rings(squeal, scene);
+  const std::optional<std::array<double, 2>> planes = read_planes(squeal);
+  options.ring = ring;
+  if (squeal.only_one_of({"thickness", "contact_planes"}) == "thickness")
+    options.thickness = squeal.number("thickness");
+  else
+    options.thickness = (*planes)[1] - (*planes)[0];
+  if (planes || !opposite.empty())
+    options.planes = squeal::ContactPlanes{.opposite_ring = opposite, .heights = planes};
+  if (!squeal.has("slopes_from")) return;
+  options.slopes_from = squeal.texts("slopes_from");
+  if (options.slopes_from.empty()) squeal.refuse("slopes_from", "must name at least one ring");
+  for (const std::string& name : options.slopes_from)
+    check_ring(squeal, "slopes_from", name, scene);
 }
 
 /// The rings of all grids are those of the body.
@@ -30,7 +70,12 @@ void check_grids(const Table& squeal, const Scene& scene)
   for (const Table& pad : squeal.tables("pads")) {
     if (!pad.has("grid") || !pad.table("grid").has("rings")) continue;
     const Table grid = pad.table("grid");
-    for (const std::string& ring : grid.texts("rings")) check_ring(grid, "rings", ring, scene);
+    if (!squeal.is_table("ring")) {
+      for (const std::string& ring : grid.texts("rings")) check_ring(grid, "rings", ring, scene);
+      continue;
+    }
+    for (const Table& pair : grid.tables("rings"))
+      for (const char* key : {"inboard", "outboard"}) check_ring(pair, key, pair.text(key), scene);
   }
 }
 
@@ -83,8 +128,7 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   if (!root.has("squeal")) return std::nullopt;
   const Table squeal = root.table("squeal");
   squeal::SquealOptions options{};
-  options.ring = read_ring(squeal, scene);
-  options.thickness = squeal.number("thickness");
+  read_faces(options, squeal, scene);
   options.modes = read_modes(squeal);
   options.friction = read_friction(squeal);
   options.contact = read_contact(squeal);

@@ -154,9 +154,9 @@ squeal::StudyOptions read_study(const Table& squeal, StudyOf of)
                              .transient = read_transient(squeal),
                              .growth = read_growth(squeal)};
   study.limit_cycle_direct = read_direct(squeal, study.transient);
-  study.map = read_map(squeal);
-  study.critical = read_critical(squeal);
-  study.stability = read_stability(squeal, study.speeds);
+  study.map = read_map(squeal, of);
+  study.critical = read_critical(squeal, of);
+  study.stability = read_stability(squeal, study.speeds, of);
   if (of == StudyOf::body) study.sound = read_wav(squeal);
   return study;
 }

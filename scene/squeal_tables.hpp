@@ -38,13 +38,13 @@ std::optional<squeal::DirectCase> read_direct(
 squeal::RotationMethod read_rotation_method(const Table& squeal);
 
 /// squeal.critical
-std::vector<squeal::CriticalCase> read_critical(const Table& squeal);
+std::vector<squeal::CriticalCase> read_critical(const Table& squeal, StudyOf of);
 
 /// squeal.map
-std::optional<squeal::MapCase> read_map(const Table& squeal);
+std::optional<squeal::MapCase> read_map(const Table& squeal, StudyOf of);
 
 /// squeal.stability, which is over the speeds of the study unless it says otherwise.
 std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
-                                                    const squeal::SpeedRange& speeds);
+                                                    const squeal::SpeedRange& speeds, StudyOf of);
 
 }  // namespace chladni::scene

@@ -98,7 +98,7 @@ std::vector<int> modes_of(const squeal::Disc& disc)
 Stage make_stage(const mbs_export::ModalBody& body, const squeal::SquealOptions& squeal,
                  const SoundOptions& sound)
 {
-  squeal::Disc disc = squeal::make_disc(body, squeal.ring, squeal.modes);
+  squeal::Disc disc = squeal::make_disc(body, squeal::ring_choice(squeal), squeal.modes);
   ThickBody thick = thick_body(sound.lines, sound.hub, sound.holes);
   SurfaceMotion motion(body, thick, modes_of(disc), harmonics_of(disc));
   return {std::move(disc), std::move(thick), std::move(motion), sound.air};

@@ -39,6 +39,8 @@ struct PadGrid {
   double sector;                        ///< rad
   int points;                           ///< on each ring
   std::vector<std::string> rings = {};  ///< of the body; empty: that of the study
+  /// [rings] the rings of the other contact plane; empty where one ring serves both pads.
+  std::vector<std::string> opposite_rings = {};
 };
 
 /// One pad pair: an upper and a lower pad on one vertical axis; massless unless it has a body.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,10 +27,25 @@ struct ModeChoice {
   std::optional<double> quasi_static_above = {};
 };
 
+/// Two contact planes that move by themselves, with the displacements of their rings in all three
+/// directions: those of a ring each, or both of one ring that need not lie in the middle.
+struct ContactPlanes {
+  std::string opposite_ring = {};  ///< of the other plane; empty: one ring for both
+  /// z of the lower and of the upper plane, m; absent: half the thickness on both sides of the
+  /// middle of the rings.
+  std::optional<std::array<double, 2>> heights = {};
+};
+
 /// The scene's [squeal] with a flexible disc: the brake around a modal body, and its study.
 struct SquealOptions {
   std::string ring;
   double thickness;  ///< distance h of the two contact planes, m
+  /// Absent: `ring` lies in the middle surface of a plate, whose displacements along the plane no
+  /// pad feels.
+  std::optional<ContactPlanes> planes = {};
+  /// Rings beside those of the contact, from whose displacements along the axis radial slopes are
+  /// taken; empty: from the rotations of the nodes.
+  std::vector<std::string> slopes_from = {};
   ModeChoice modes;
   FrictionLaw friction;
   ContactLaw contact = ContactLaw::unilateral;

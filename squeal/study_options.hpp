@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "squeal/parameter_options.hpp"
+
 namespace chladni::squeal {
 
 /// Rotation speeds, rad/s, equally spaced.
@@ -60,13 +62,6 @@ struct DirectCase {
   double speed;  ///< rad/s
 };
 
-/// The second parameter of a stability map; the first is the speed.
-enum class MapParameter {
-  friction,  ///< mu
-  preload,   ///< N_0 of every pad, N
-  stiffness  ///< k of every pad, N/m
-};
-
 /// Growth rates over the speeds of the study and over one more parameter, equally spaced.
 struct MapCase {
   MapParameter parameter;
@@ -84,7 +79,7 @@ struct FrequencyBand {
 /// The table of all unstable modes, over the speed or one more parameter, equally spaced.
 struct StabilityCase {
   std::optional<MapParameter> over = {};  ///< absent: the speed
-  double from;                            ///< rad/s, 1, N or N/m
+  double from;                            ///< rad/s, or in the unit of the parameter
   double to;
   int count;
   double speed = 0.0;                      ///< when it is not over the speed, rad/s

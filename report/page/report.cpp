@@ -106,7 +106,7 @@ std::optional<squeal::Disc> disc_of(const Found& found)
 {
   if (!found.body || !found.scene.squeal) return std::nullopt;
   const squeal::SquealOptions& study = *found.scene.squeal;
-  if (found.results) return squeal::make_disc(*found.body, study.ring, study.modes);
+  if (found.results) return squeal::make_disc(*found.body, squeal::ring_choice(study), study.modes);
   return std::nullopt;
 }
 
@@ -114,7 +114,8 @@ std::map<int, int> diameters_of(const Found& found, const std::optional<squeal::
 {
   std::map<int, int> diameters;
   if (!used) return diameters;
-  const squeal::Disc all = squeal::make_disc(*found.body, found.scene.squeal->ring, {});
+  const squeal::Disc all =
+      squeal::make_disc(*found.body, squeal::ring_choice(*found.scene.squeal), {});
   const std::vector<int> n = squeal::nodal_diameters(all);
   for (std::size_t i = 0; i < n.size(); ++i) diameters[all.mode_numbers[i]] = n[i];
   return diameters;

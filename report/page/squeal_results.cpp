@@ -87,6 +87,8 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
   std::vector<Json> branches;
   for (const squeal::StabilityBranch& branch : table.branches) {
     const std::optional<int> diameters = nodal_diameters(table, branch);
+    const std::optional<int> circles = nodal_circles(table, branch);
+    const std::optional<double> in_plane = in_plane_share(table, branch);
     std::vector<Json> unstable;
     for (const squeal::UnstableInterval& interval : branch.unstable)
       unstable.push_back(Json::array({rounded(interval.from.value), rounded(interval.to.value)}));
@@ -98,7 +100,9 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
                       {"worst_growth", rounded(branch.worst.growth)},
                       {"damping_ratio", rounded(damping_ratio(branch.worst))},
                       {"friction_work", branch.work ? rounded(branch.work->friction) : Json()},
-                      {"diameters", diameters ? Json(*diameters) : Json()}}));
+                      {"diameters", diameters ? Json(*diameters) : Json()},
+                      {"circles", circles ? Json(*circles) : Json()},
+                      {"in_plane", in_plane ? rounded(*in_plane) : Json()}}));
   }
   return Json::object({{"parameter", table.parameter},
                        {"unit", squeal::unit_of(table.parameter)},

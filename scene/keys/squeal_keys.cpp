@@ -3,6 +3,7 @@
 
 #include "scene/keys.hpp"
 #include "squeal/analysis_options.hpp"
+#include "squeal/parameter_options.hpp"
 
 namespace chladni::scene {
 namespace {
@@ -19,29 +20,35 @@ constexpr Admissible speed_rpm{
 constexpr Admissible speed_km_h{
     .above = 0.0, .unit = "km/h", .usual_to = 600.0, .usually = "squeal is heard below 50 km/h"};
 constexpr Admissible duration{.above = 0.0, .unit = "s"};
-constexpr std::string_view parameters = "friction | preload | stiffness";
-
 constexpr std::string_view separator = " | ";
 
-constexpr std::size_t length_of_words()
+template <class Rows>
+constexpr std::size_t length_of_names(const Rows& rows)
 {
-  std::size_t n = (squeal::analyses.size() - 1) * separator.size();
-  for (const squeal::Analysis& analysis : squeal::analyses) n += analysis.name.size();
+  std::size_t n = (rows.size() - 1) * separator.size();
+  for (const auto& row : rows) n += row.name.size();
   return n;
 }
 
-/// The names of all analyses: a row has a view of its words alone.
-constexpr std::array<char, length_of_words()> joined_names = [] {
-  std::array<char, length_of_words()> text{};
+/// The names of all rows: a key has a view of its words alone.
+template <std::size_t length, class Rows>
+constexpr std::array<char, length> joined_names(const Rows& rows)
+{
+  std::array<char, length> text{};
   std::size_t at = 0;
-  for (const squeal::Analysis& analysis : squeal::analyses) {
+  for (const auto& row : rows) {
     if (at > 0)
       for (const char letter : separator) text[at++] = letter;
-    for (const char letter : analysis.name) text[at++] = letter;
+    for (const char letter : row.name) text[at++] = letter;
   }
   return text;
-}();
-constexpr std::string_view analysis_words(joined_names.data(), joined_names.size());
+}
+
+constexpr auto analysis_names = joined_names<length_of_names(squeal::analyses)>(squeal::analyses);
+constexpr std::string_view analysis_words(analysis_names.data(), analysis_names.size());
+constexpr auto parameter_names =
+    joined_names<length_of_names(squeal::parameters)>(squeal::parameters);
+constexpr std::string_view parameter_words(parameter_names.data(), parameter_names.size());
 
 constexpr Key squeal_rows[] = {
     {"squeal", table, "not asked for", "what `squeal run` does, [squeal](squeal.md)"},
@@ -51,10 +58,20 @@ constexpr Key squeal_rows[] = {
      "the others need neither mesh nor body",
      {},
      "flexible disc | rigid disc | oscillator"},
-    {"squeal.ring", text, "required", "ring of the mesh on which the pads rub"},
+    {"squeal.ring", text, "required",
+     "ring of the mesh on which the pads rub; or [two](squeal_models.md#two-contact-planes)"},
+    {"squeal.ring.inboard", text, "required", "ring of one of the two contact planes"},
+    {"squeal.ring.outboard", text, "required", "ring of the other"},
+    {"squeal.contact_planes",
+     numbers,
+     "half of thickness on both sides of the ring, or of the middle of two",
+     "z of the lower and the upper contact plane; instead of thickness",
+     {.unit = "m", .usual_to = 1.0, .usually = "it is in m; is it in mm?"}},
+    {"squeal.slopes_from", texts, "rotations of the ring's nodes",
+     "rings beside it, at its height, whose displacements give radial slopes"},
     {"squeal.thickness",
      number,
-     "required",
+     "or contact_planes",
      "distance of the two contact planes",
      {.above = 0.0, .unit = "m", .usual_to = 1.0, .usually = "it is in m; is it in mm?"}},
     {"squeal.use_modes",
@@ -129,8 +146,13 @@ constexpr Key squeal_rows[] = {
      {},
      "hill | floquet"},
     {"squeal.map", table, "for stability-map", "growth over the speeds and one more parameter"},
-    {"squeal.map.parameter", word, "required", "of all pads", {}, parameters},
-    {"squeal.map.from", number, "required", "1, N or N/m", {.at_least = 0.0}},
+    {"squeal.map.parameter",
+     word,
+     "required",
+     "those of pads are of all pads",
+     {},
+     parameter_words},
+    {"squeal.map.from", number, "required", "in the unit of the parameter", {.at_least = 0.0}},
     {"squeal.map.to", number, "required", "as from", {.at_least = 0.0}},
     {"squeal.map.count",
      integer,
@@ -144,16 +166,11 @@ constexpr Key squeal_rows[] = {
      "all frequencies",
      "begin and end, up to the highest mode of the body",
      {.at_least = 0.0, .unit = "Hz"}},
-    {"squeal.stability.over",
-     word,
-     "speed",
-     "the others of all pads",
-     {},
-     "speed | friction | preload | stiffness"},
+    {"squeal.stability.over", word, "speed", "or any parameter of squeal.map", {}},
     {"squeal.stability.from",
      number,
      "required unless over the speeds",
-     "rad/s, 1, N or N/m",
+     "rad/s, or in the unit of the parameter",
      {.at_least = 0.0}},
     {"squeal.stability.to", number, "with from", "as from", {.above = 0.0}},
     {"squeal.stability.count",
@@ -164,8 +181,8 @@ constexpr Key squeal_rows[] = {
     {"squeal.stability.speed_rad_s", number, "required unless over the speed", "rotation speed",
      speed},
     {"squeal.critical", tables, "for critical-values", "searches for the limit of stability"},
-    {"squeal.critical.parameter", word, "required", "of all pads", {}, parameters},
-    {"squeal.critical.from", number, "required", "1, N or N/m", {.above = 0.0}},
+    {"squeal.critical.parameter", word, "required", "any of squeal.map", {}},
+    {"squeal.critical.from", number, "required", "in the unit of the parameter", {.above = 0.0}},
     {"squeal.critical.to", number, "required", "as from", {.above = 0.0}},
     {"squeal.critical.speed_rad_s", number, "required", "rotation speed", speed},
     {"squeal.radiation", truth, "false",

@@ -28,9 +28,6 @@ std::vector<ContactResult<double>> by_pad(const PadSystem& pads,
     ++counts.back();
     add(sums.back().upper, points[i].upper);
     add(sums.back().lower, points[i].lower);
-    sums.back().force.F_w += points[i].force.F_w;
-    sums.back().force.F_r += points[i].force.F_r;
-    sums.back().force.F_t += points[i].force.F_t;
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
     for (PadState<double>* pad : {&sums[i].upper, &sums[i].lower}) {

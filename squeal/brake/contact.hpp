@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -9,16 +10,28 @@
 
 namespace chladni::squeal {
 
-/// One pad pair on the ring of a disc: everything that the contact forces depend on but the motion.
+/// Where one of the two pads of a pair touches the disc at rest.
+struct PadFace {
+  double radius;    ///< of the ring under the pad, m
+  double plane;     ///< height of the contact plane above the middle of both planes, m
+  double distance;  ///< height of the contact plane above the ring, m; < 0 below it
+};
+
+/// One pad pair on a disc: everything that the contact forces depend on but the motion.
 struct PadContact {
-  double radius;     ///< of the contact ring, m
-  double thickness;  ///< distance h of the two contact planes, m
+  std::array<PadFace, 2> faces;  ///< of the upper pad, of the lower one
   FrictionLaw friction;
   ContactLaw law;
   PadSpring spring;  ///< of each pad
   double damping;    ///< d, N s/m
   double preload;    ///< N_0, N
 };
+
+/// The face of the pad above (sigma = 1) or below (sigma = -1).
+inline const PadFace& face_of(const PadContact& pad, double sigma)
+{
+  return pad.faces[sigma > 0.0 ? 0 : 1];
+}
 
 inline double real_part(double x)
 {
@@ -46,10 +59,10 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 }
 
 /// The pad above (sigma = +1) or below (sigma = -1) a tangent plane that is rigidly extended from
-/// the middle surface; massless and laterally guided, so its vertical equilibrium gives the normal
-/// force.
-///   z = w + sigma h s / 2,   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
-///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   x = z - sigma h / 2
+/// the ring to the contact plane, by the distance e = sigma h / 2 from a middle surface; massless
+/// and laterally guided, so its vertical equilibrium gives the normal force.
+///   x = w + e (s - 1),   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
+///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   z = x + the height of the contact plane
 ///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
 ///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
 /// with mu(v) and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
@@ -61,22 +74,23 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
 {
   using std::sqrt;
   const Scalar s = sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
-  const Scalar lever = sigma * 0.5 * pad.thickness / s;
+  const PadFace& face = face_of(pad, sigma);
+  const Scalar lever = face.distance / s;
   const PlateMotion<Scalar>& plate = sigma > 0.0 ? m.upper : m.lower;
   const Scalar v_x = -lever * m.g_r_dot - plate.r_dot;
-  const Scalar v_y = speed * pad.radius - lever * m.g_t_dot - plate.t_dot;
+  const Scalar v_y = speed * face.radius - lever * m.g_t_dot - plate.t_dot;
   const Scalar v_z = m.g_r * v_x + m.g_t * v_y;
   const Scalar slip_squared = v_x * v_x + v_y * v_y + v_z * v_z;
   const Scalar v = regularised_speed(pad.friction, slip_squared);
 
-  const Scalar lift = m.w + sigma * 0.5 * pad.thickness * (s - 1.0);
+  const Scalar lift = m.w + face.distance * (s - 1.0);
   const Scalar z_dot = m.w_dot - v_z;
   const auto [S, g] = axial_force<Scalar>(
       pad.law, pad.preload + sigma * (force(pad.spring, Scalar(lift - plate.z)) +
                                       pad.damping * (z_dot - plate.z_dot)));
   const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v) / v;
   const Scalar N = S / (1.0 / s + sigma * g_mu_by_v * v_z);
-  return {lift + sigma * 0.5 * pad.thickness,
+  return {lift + face.plane,
           z_dot,
           N,
           sqrt(slip_squared),
@@ -85,26 +99,31 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
           sigma * N * m.g_t / s - g_mu_by_v * N * v_y};
 }
 
-/// Generalised force of the two pads of a pair.
+/// Moment arm of in-plane forces at the contact plane about the ring, e / s.
+template <class Scalar>
+Scalar lever_arm(const PadFace& face, const RingMotion<Scalar>& m)
+{
+  using std::sqrt;
+  return face.distance / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+}
+
+/// Generalised force of the two pads of a pair on a middle surface.
 ///   Q_i = (S_- - S_+) W_i + h / (2 s) ((f_r- - f_r+) W_r,i + (f_t- - f_t+) W_t,i)
 template <class Scalar>
 RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
                              const PadState<Scalar>& up, const PadState<Scalar>& lo)
 {
-  using std::sqrt;
-  const Scalar lever = 0.5 * pad.thickness / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
+  const Scalar lever = lever_arm(pad.faces[0], m);
   return {lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)};
 }
 
-/// Forces of a pad pair on the disc; `speed` (rad/s) must not be zero when the disc is at rest,
-/// unless friction is regularised.
+/// States of both pads; `speed` (rad/s) must not be zero when the disc is at rest, unless friction
+/// is regularised.
 /// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
 template <class Scalar>
-ContactResult<Scalar> contact(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
+ContactResult<Scalar> contact(const PadContact& pad, const PairMotion<Scalar>& m, double speed)
 {
-  const PadState<Scalar> up = pad_state(pad, m, speed, 1.0);
-  const PadState<Scalar> lo = pad_state(pad, m, speed, -1.0);
-  return {pair_force(pad, m, up, lo), up, lo};
+  return {pad_state(pad, m.upper, speed, 1.0), pad_state(pad, m.lower, speed, -1.0)};
 }
 
 }  // namespace chladni::squeal

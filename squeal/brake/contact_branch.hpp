@@ -35,20 +35,27 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
 inline double pressure(const PadContact& pad, const PadState<double>& state,
                        const PlateMotion<double>& plate, double sigma)
 {
-  const double x = state.z - sigma * 0.5 * pad.thickness - plate.z;
+  const double x = state.z - face_of(pad, sigma).plane - plate.z;
   return 1.0 +
          sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
 }
 
-/// The force at a point pair, each pad on its branch: upper, lower.
+/// The states of both pads of a pair, each on its branch: upper, lower.
 template <class Scalar>
-PairVector<Scalar> force_on_branch(const BrakePoint& point, const RingMotion<Scalar>& m,
+ContactResult<Scalar> contact_on_branch(const PadContact& pad, const PairMotion<Scalar>& m,
+                                        double speed, std::span<const double> branches)
+{
+  return {pad_on_branch(pad, m.upper, speed, {1.0, branches[0]}),
+          pad_on_branch(pad, m.lower, speed, {-1.0, branches[1]})};
+}
+
+/// The forces at a point pair, each pad on its branch.
+template <class Scalar>
+PairVector<Scalar> force_on_branch(const BrakePoint& point, const PairMotion<Scalar>& m,
                                    double speed, std::span<const double> branches)
 {
-  const auto up = pad_on_branch(point.contact, m, speed, {1.0, branches[0]});
-  const auto lo = pad_on_branch(point.contact, m, speed, {-1.0, branches[1]});
-  return pair_forces(pair_force(point.contact, m, up, lo), up, lo, point.at_rest,
-                     static_cast<int>(point.S.cols()));
+  return pair_forces(point.contact, m, contact_on_branch(point.contact, m, speed, branches),
+                     point.at_rest, static_cast<int>(point.S.cols()));
 }
 
 /// Derivatives of `force_on_branch` by the motion of the point and by its rates, exact to rounding.

@@ -4,33 +4,32 @@
 #include <complex>
 
 #include "linear/dense/dense_solvers.hpp"
-#include "squeal/brake/pads.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-/// Between all contact points of the pads, (w, g_r, g_t) of one point after the other.
+/// Between all contact points of the pads, the rows of the disc of one point after the other.
 Eigen::MatrixXd point_compliance(const RingCompliance& rings, const PadSystem& pads)
 {
-  const auto n = static_cast<Eigen::Index>(3 * pads.points.size());
+  const Eigen::Index m = pads.disc_rows, per_ring = m == middle_rows ? middle_rows : face_rows;
+  const auto n = m * static_cast<Eigen::Index>(pads.points.size());
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t i = 0; i < pads.points.size(); ++i)
-    for (std::size_t j = 0; j < pads.points.size(); ++j) {
-      const PointPair &a = pads.points[i], &b = pads.points[j];
+  const auto ring_of = [&](Eigen::Index row) {
+    return static_cast<Eigen::Index>(
+        pads.points[static_cast<std::size_t>(row / m)].rings[row % m < per_ring ? 0 : 1]);
+  };
+  for (Eigen::Index i = 0; i < n; i += per_ring)
+    for (Eigen::Index j = 0; j < n; j += per_ring) {
+      const double turn = pads.points[static_cast<std::size_t>(i / m)].angle -
+                          pads.points[static_cast<std::size_t>(j / m)].angle;
       for (std::size_t d = 0; d < rings.C.size(); ++d)
-        G.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) +=
-            (std::polar(1.0, double(d) * (a.angle - b.angle)) *
-             rings.C[d].block<3, 3>(static_cast<Eigen::Index>(3 * a.ring),
-                                    static_cast<Eigen::Index>(3 * b.ring)))
+        G.block(i, j, per_ring, per_ring) +=
+            (std::polar(1.0, double(d) * turn) *
+             rings.C[d].block(per_ring * ring_of(i), per_ring * ring_of(j), per_ring, per_ring))
                 .real();
     }
   return G;
-}
-
-Eigen::Index pad_rows(const PadSystem& pads)
-{
-  return pads.n_modes() == 0 ? 3 : pair_rows_max;
 }
 
 }  // namespace
@@ -38,10 +37,10 @@ Eigen::Index pad_rows(const PadSystem& pads)
 RingCompliance ring_compliance(const Disc& disc)
 {
   const RingHarmonics harmonics = ring_harmonics(disc.rings);
-  const auto n_columns = harmonics.c.front().cols();
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(n_columns);
-  for (std::size_t k = 0; k < disc.rings.size(); ++k)
-    scale.segment<2>(static_cast<Eigen::Index>(3 * k + 1)).setConstant(1.0 / disc.rings[k].radius);
+  Eigen::VectorXd scale(harmonics.c.front().cols());
+  Eigen::Index column = 0;
+  for (const DiscRing& ring : disc.rings)
+    for (const RingFunction& f : functions_of(ring)) scale[column++] = 1.0 / f.scale;
   RingCompliance result{
       .C = {}, .mode_numbers = disc.mode_numbers, .lowest_omega = disc.omega.minCoeff()};
   for (std::size_t d = 0; d < harmonics.c.size(); ++d) {
@@ -56,14 +55,14 @@ RingCompliance ring_compliance(const Disc& disc)
 
 StackedContact stacked_contact(const PadSystem& pads, Eigen::Index n)
 {
-  const Eigen::Index m = pad_rows(pads) * static_cast<Eigen::Index>(pads.points.size());
+  const Eigen::Index m = pads.rows() * static_cast<Eigen::Index>(pads.points.size());
   return {Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(m, m), Eigen::MatrixXd::Zero(m, m)};
 }
 
 StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double speed)
 {
   StackedContact contact = stacked_contact(pads, n);
-  const Eigen::Index rows = pad_rows(pads);
+  const Eigen::Index rows = pads.rows();
   Eigen::Index at = 0;
   for (const PointPair& point : pads.points) {
     const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(rows));
@@ -75,15 +74,15 @@ StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double spe
 }
 
 ContactSeries::ContactSeries(const RingCompliance& rings, const PadSystem& pads, double speed)
-    : rows_(pad_rows(pads))
+    : rows_(pads.rows()), disc_rows_(pads.disc_rows)
 {
   if (rings.empty() || pads.points.empty()) return;
   G_ = point_compliance(rings, pads);
-  const Eigen::Index n = G_.rows();
+  const Eigen::Index n = G_.rows(), m = disc_rows_;
   Eigen::MatrixXd D_a = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index i = 0; i < n / 3; ++i) {
+  for (Eigen::Index i = 0; i < n / m; ++i) {
     const PadContact& pad = pads.points[static_cast<std::size_t>(i)].contact;
-    D_a.block<3, 3>(3 * i, 3 * i) = contact_derivatives(pad, speed).D_a;
+    D_a.block(m * i, m * i, m, m) = pair_derivatives(pad, speed, pads.disc_rows).D_a;
     force_scale_ = std::max(force_scale_, pad.preload);
   }
   newton_ = Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n) - D_a * G_).partialPivLu().inverse();
@@ -94,12 +93,12 @@ ContactSeries::ContactSeries(const RingCompliance& rings, const PadSystem& pads,
 void ContactSeries::condense(StackedContact& contact) const
 {
   if (empty()) return;
-  const Eigen::Index m = contact.D_a.rows(), n = G_.rows() / 3;
+  const Eigen::Index m = contact.D_a.rows(), r = disc_rows_, n = G_.rows() / r;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(m, m), with_rate = Eigen::MatrixXd::Identity(m, m);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
-      G.block<3, 3>(rows_ * i, rows_ * j) = G_.block<3, 3>(3 * i, 3 * j);
-      with_rate.block<3, 3>(rows_ * i, rows_ * j) += by_rate_.block<3, 3>(3 * i, 3 * j);
+      G.block(rows_ * i, rows_ * j, r, r) = G_.block(r * i, r * j, r, r);
+      with_rate.block(rows_ * i, rows_ * j, r, r) += by_rate_.block(r * i, r * j, r, r);
     }
   const Eigen::PartialPivLU<Eigen::MatrixXd> series(
       Eigen::MatrixXd(Eigen::MatrixXd::Identity(m, m) - contact.D_a * G));

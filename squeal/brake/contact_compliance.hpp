@@ -11,15 +11,10 @@ namespace chladni::squeal {
 /// The compliance of all modes of `disc` without their inertia.
 RingCompliance ring_compliance(const Disc& disc);
 
-/// Motion of a contact point, as in `PairShapes`.
-struct PointMotion {
-  PairVector<double> g, g_dot;
-};
-
 /// Shapes at all contact points side by side, and derivatives of the forces there, which act on
 /// small motions as S (D_a S^T q + D_p S^T q').
 struct StackedContact {
-  Eigen::MatrixXd S;    ///< [n x m], m = 3 or 9 for each point
+  Eigen::MatrixXd S;    ///< [n x m], m = rows of a point pair, one after the other
   Eigen::MatrixXd D_a;  ///< [m x m] by the motion
   Eigen::MatrixXd D_p;  ///< [m x m] by its rates
 };
@@ -44,13 +39,14 @@ class ContactSeries {
   void condense(StackedContact& contact) const;
 
   /// Adds y and y' to the motions of all points.
-  /// @param force  (i, motion) -> the force (F_w, F_r, F_t) at the point i
+  /// @param force  (i, motion) -> the force at the point i, in the order of its rows
   template <class Force>
   void add_to(std::vector<PointMotion>& motions, const Force& force) const;
 
  private:
-  Eigen::Index rows_;          ///< of a point: 3, or 9 where plates move
-  Eigen::MatrixXd G_;          ///< [3 n_points x 3 n_points]
+  Eigen::Index rows_;          ///< of a point
+  Eigen::Index disc_rows_;     ///< of a point, those of the disc
+  Eigen::MatrixXd G_;          ///< [disc_rows n_points x disc_rows n_points]
   Eigen::MatrixXd by_rate_;    ///< y' by u'
   Eigen::MatrixXd newton_;     ///< (I - D_a G)^-1 at rest
   Eigen::MatrixXd by_motion_;  ///< f by u, at rest
@@ -65,21 +61,23 @@ void ContactSeries::add_to(std::vector<PointMotion>& motions, const Force& force
   constexpr double error = 1e-11;
   if (empty()) return;
   const auto n = static_cast<Eigen::Index>(motions.size());
-  Eigen::VectorXd u(3 * n), u_dot(3 * n), change(3 * n);
+  const Eigen::Index m = disc_rows_;
+  Eigen::VectorXd u(m * n), u_dot(m * n), change(m * n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    u.segment<3>(3 * i) = motions[static_cast<std::size_t>(i)].g.head<3>();
-    u_dot.segment<3>(3 * i) = motions[static_cast<std::size_t>(i)].g_dot.head<3>();
+    u.segment(m * i, m) = motions[static_cast<std::size_t>(i)].g.head(m);
+    u_dot.segment(m * i, m) = motions[static_cast<std::size_t>(i)].g_dot.head(m);
   }
   u_dot += (by_rate_ * u_dot).eval();
   for (Eigen::Index i = 0; i < n; ++i)
-    motions[static_cast<std::size_t>(i)].g_dot.head<3>() = u_dot.segment<3>(3 * i);
+    motions[static_cast<std::size_t>(i)].g_dot.head(m) = u_dot.segment(m * i, m);
   Eigen::VectorXd f = by_motion_ * u;
   for (int k = 0; k < iterations_max; ++k) {
     const Eigen::VectorXd whole = u + G_ * f;
     for (Eigen::Index i = 0; i < n; ++i) {
       PointMotion& at = motions[static_cast<std::size_t>(i)];
-      at.g.head<3>() = whole.segment<3>(3 * i);
-      change.segment<3>(3 * i) = force(static_cast<std::size_t>(i), at) - f.segment<3>(3 * i);
+      at.g.head(m) = whole.segment(m * i, m);
+      change.segment(m * i, m) =
+          force(static_cast<std::size_t>(i), at).head(m) - f.segment(m * i, m);
     }
     if (change.lpNorm<Eigen::Infinity>() <= error * force_scale_) break;
     f += newton_ * change;

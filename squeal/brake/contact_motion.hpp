@@ -25,6 +25,14 @@ struct RingMotion {
   PlateMotion<Scalar> lower = {};
 };
 
+/// Motion of the disc under the two pads of a pair: one and the same point of a middle surface, or
+/// the points of two rings, each with the plate above or below it.
+template <class Scalar>
+struct PairMotion {
+  RingMotion<Scalar> upper;
+  RingMotion<Scalar> lower;
+};
+
 /// Generalised contact force: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
 template <class Scalar>
 struct RingForce {
@@ -48,10 +56,9 @@ struct PadState {
   Scalar f_t;         ///< in-plane force on the disc, circumferential, N
 };
 
-/// Forces on the disc and the state of the two pads of a pair.
+/// The states of the two pads of a pair.
 template <class Scalar>
 struct ContactResult {
-  RingForce<Scalar> force;
   PadState<Scalar> upper;
   PadState<Scalar> lower;
 };

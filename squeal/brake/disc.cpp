@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -19,41 +17,8 @@
 namespace chladni::squeal {
 namespace {
 
-using mbs_export::ContactRing;
 using mbs_export::ModalBody;
 using std::numbers::pi;
-
-/// Angles of a mesh are known to about 1e-9; beyond this the nodes are not equally spaced, rad.
-constexpr double angle_limit = 1e-5;
-
-void check_ring(const ModalBody& body, const ContactRing& ring)
-{
-  const auto n = static_cast<Eigen::Index>(ring.angles.size());
-  if (n < 3 || !(ring.radius > 0.0))
-    throw Error(fmt::format("ring '{}': {} nodes at radius {} m; it needs 3 nodes and a radius > 0",
-                            ring.name, n, ring.radius));
-  for (const Eigen::MatrixXd* values : {&ring.W, &ring.W_r, &ring.W_t})
-    if (values->rows() != n || values->cols() != body.n_modes())
-      throw Error(fmt::format("ring '{}': shapes are [{} x {}], expected [{} x {}]", ring.name,
-                              values->rows(), values->cols(), n, body.n_modes()));
-  if (ring.W.norm() > 0.0 && ring.W_r.norm() + ring.W_t.norm() == 0.0)
-    throw Error(fmt::format(
-        "ring '{}': its nodes move along the axis and do not rotate, but friction acts on the disc "
-        "through its slopes; reduce it with the rotations of these nodes among the coordinates",
-        ring.name));
-}
-
-DiscRing ring_of(const ModalBody& body, const std::string& name)
-{
-  const ContactRing& ring = mbs_export::find_ring(body, name);
-  check_ring(body, ring);
-  return {.name = name,
-          .radius = ring.radius,
-          .W = harmonics_of(ring.angles, ring.W),
-          .W_r = harmonics_of(ring.angles, ring.W_r),
-          .W_t = harmonics_of(ring.angles, ring.W_t),
-          .n_nodes = static_cast<int>(ring.angles.size())};
-}
 
 /// int rho phi_i . (e_z x phi_j) dV when the body has the integrals, else zero.
 Eigen::MatrixXd coriolis_of(const ModalBody& body)
@@ -62,10 +27,10 @@ Eigen::MatrixXd coriolis_of(const ModalBody& body)
   return 0.5 * mbs_export::gyroscopic_matrix(*body.mass_integrals, Eigen::Vector3d::UnitZ());
 }
 
-Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& names)
+Disc disc_of_all_modes(const ModalBody& body, const RingChoice& choice)
 {
   std::vector<DiscRing> rings;
-  for (const std::string& name : names) rings.push_back(ring_of(body, name));
+  for (const std::string& name : choice.names) rings.push_back(disc_ring(body, name, choice));
   std::vector<int> numbers(static_cast<std::size_t>(body.n_modes()));
   std::iota(numbers.begin(), numbers.end(), 1);
   const Eigen::MatrixXd C =
@@ -76,6 +41,7 @@ Disc disc_of_all_modes(const ModalBody& body, const std::vector<std::string>& na
 
 Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
 {
+  if (f.cosine.size() == 0) return {};
   return {f.cosine(every, modes), f.sine(every, modes)};
 }
 
@@ -87,7 +53,8 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
   std::vector<DiscRing> rings;
   for (const DiscRing& ring : all.rings)
     rings.push_back({ring.name, ring.radius, columns(ring.W, modes), columns(ring.W_r, modes),
-                     columns(ring.W_t, modes), ring.n_nodes});
+                     columns(ring.W_t, modes), ring.n_nodes, columns(ring.V_r, modes),
+                     columns(ring.V_t, modes), ring.height});
   return {.rings = rings,
           .mode_numbers = numbers,
           .omega = all.omega(modes),
@@ -96,30 +63,6 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
 }
 
 }  // namespace
-
-Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& values)
-{
-  const Eigen::Index n = angles.size();
-  for (Eigen::Index j = 0; j < n; ++j)
-    if (!(std::abs(angles[j] - angles[0] - 2.0 * pi * double(j) / double(n)) < angle_limit))
-      throw Error(
-          fmt::format("ring node {} of {} is at {:.6f} rad: the nodes of a contact ring must "
-                      "be equally spaced, in the order of their angles",
-                      j + 1, n, angles[j]));
-  Harmonics f{Eigen::MatrixXd(n / 2 + 1, values.cols()), Eigen::MatrixXd(n / 2 + 1, values.cols())};
-  for (Eigen::Index k = 0; k <= n / 2; ++k) {
-    // Through harmonic n / 2 only one function can be told: cos(k (theta - theta_0)).
-    const bool single = k == 0 || 2 * k == n;
-    const Eigen::ArrayXd phase = double(k) * (angles.array() - angles[0]);
-    const double scale = (single ? 1.0 : 2.0) / double(n);
-    const Eigen::RowVectorXd c = scale * phase.cos().matrix().transpose() * values;
-    const Eigen::RowVectorXd s = (single ? 0.0 : scale) * phase.sin().matrix().transpose() * values;
-    const double cos_0 = std::cos(double(k) * angles[0]), sin_0 = std::sin(double(k) * angles[0]);
-    f.cosine.row(k) = c * cos_0 - s * sin_0;
-    f.sine.row(k) = c * sin_0 + s * cos_0;
-  }
-  return f;
-}
 
 std::vector<int> nodal_diameters(const Disc& disc)
 {
@@ -135,7 +78,7 @@ std::vector<int> nodal_diameters(const Disc& disc)
 
 Disc make_disc(const ModalBody& body, const std::string& ring, const ModeChoice& modes)
 {
-  return make_disc(body, std::vector{ring}, modes);
+  return make_disc(body, RingChoice{.names = {ring}}, modes);
 }
 
 std::vector<std::string> notes_of(const Disc& disc)
@@ -148,57 +91,55 @@ std::vector<std::string> notes_of(const Disc& disc)
         disc.compliance.mode_numbers.size(), disc.compliance.lowest_omega / (2.0 * pi)));
   if (!disc.still.empty())
     notes.push_back(fmt::format(
-        "{} of the body's modes do not move the ring along the axis and take no part: {}",
-        disc.still.size(), fmt::join(disc.still, ", ")));
+        "{} of the body's modes do not move the ring{} and take no part: {}", disc.still.size(),
+        disc.rings.front().V_r.cosine.size() > 0 ? "" : " along the axis",
+        fmt::join(disc.still, ", ")));
   return notes;
 }
 
-std::vector<std::string> ring_names(const SquealOptions& options)
+RingChoice ring_choice(const SquealOptions& options)
 {
-  std::vector<std::string> names{options.ring};
+  RingChoice choice{.names = {options.ring},
+                    .in_plane = options.planes.has_value(),
+                    .slopes_from = options.slopes_from};
+  const auto add = [&](const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      if (!name.empty() && std::ranges::find(choice.names, name) == choice.names.end())
+        choice.names.push_back(name);
+  };
+  if (options.planes) add({options.planes->opposite_ring});
   for (const PadPair& pad : options.pads) {
     if (!pad.grid) continue;
-    for (const std::string& name : pad.grid->rings)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    add(pad.grid->rings);
+    add(pad.grid->opposite_rings);
   }
-  return names;
+  return choice;
 }
 
 std::vector<RingPlace> ring_places(const Disc& disc)
 {
   std::vector<RingPlace> places;
-  for (const DiscRing& ring : disc.rings) places.push_back({ring.name, ring.radius});
+  for (const DiscRing& ring : disc.rings) places.push_back({ring.name, ring.radius, ring.height});
   return places;
 }
 
-Disc make_disc(const ModalBody& body, const std::vector<std::string>& names,
-               const ModeChoice& choice)
+Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice& choice)
 {
-  const Disc all = disc_of_all_modes(body, names);
+  const Disc all = disc_of_all_modes(body, rings);
   if (!(ring_harmonics(all.rings).squares_by_harmonic().maxCoeff() > 0.0))
     throw Error(
-        fmt::format("ring '{}': no mode of the body moves it along the axis; it is held, or "
-                    "the body has no bending modes",
-                    fmt::join(names, "', '")));
+        fmt::format("ring '{}': no mode of the body moves it{}; it is held, or the body has no "
+                    "bending modes",
+                    fmt::join(rings.names, "', '"), rings.in_plane ? "" : " along the axis"));
   const ModeParts parts = mode_parts(all, body, choice);
   Disc disc = with_modes(all, parts.dynamic);
   disc.range = range_of(body);
   if (!parts.quasi_static.empty())
     disc.compliance = ring_compliance(with_modes(all, parts.quasi_static));
   disc.still = parts.still;
+  const std::vector<ModeFigure> figures = mode_figures(body, nodal_diameters(all));
+  for (const int i : parts.dynamic) disc.figures.push_back(figures[static_cast<std::size_t>(i)]);
   return disc;
-}
-
-Shapes shapes_at(const DiscRing& ring, double theta)
-{
-  const Eigen::Index n_orders = ring.W.cosine.rows();
-  const Eigen::ArrayXd phase =
-      theta * Eigen::ArrayXd::LinSpaced(n_orders, 0.0, double(n_orders - 1));
-  const Eigen::VectorXd c = phase.cos(), s = phase.sin();
-  const auto at = [&](const Harmonics& f) -> Eigen::VectorXd {
-    return f.cosine.transpose() * c + f.sine.transpose() * s;
-  };
-  return {at(ring.W), at(ring.W_r), at(ring.W_t)};
 }
 
 Shapes shapes_at(const Disc& disc, double theta)

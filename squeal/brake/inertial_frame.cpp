@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -70,14 +71,18 @@ std::vector<PureModes> pure_modes(const Disc& disc, const std::vector<HarmonicSp
 
 /// Turned so that the motion of the rings that tells most of it is a cosine: displacement, or slope
 /// in case a nodal circle lies on each ring.
-Eigen::VectorXcd oriented(const PureModes& mode, const RingHarmonics& harmonics)
+/// @param n_functions  of each ring
+Eigen::VectorXcd oriented(const PureModes& mode, const RingHarmonics& harmonics,
+                          Eigen::Index n_functions)
 {
   const auto at = static_cast<std::size_t>(mode.n);
   if (at >= harmonics.c.size()) return mode.e;
   std::complex<double> largest = 0.0;
+  // W, W_r, W_t, V_r, V_t of one ring after the other; V_t is a sine where V_r is a cosine.
+  const std::array<std::complex<double>, 5> weights{1.0, 0.1, 0.0, 0.5, {0.0, 0.5}};
   for (Eigen::Index k = 0; k < harmonics.c[at].cols(); ++k) {
-    const double weight = k % 3 == 0 ? 1.0 : k % 3 == 1 ? 0.1 : 0.0;
-    const std::complex<double> alpha = weight * mode.e.dot(harmonics.c[at].col(k));
+    const std::complex<double> alpha =
+        weights[static_cast<std::size_t>(k % n_functions)] * mode.e.dot(harmonics.c[at].col(k));
     if (std::abs(alpha) > std::abs(largest)) largest = alpha;
   }
   return std::abs(largest) > 0.0 ? mode.e * (largest / std::abs(largest)) : mode.e;
@@ -86,11 +91,13 @@ Eigen::VectorXcd oriented(const PureModes& mode, const RingHarmonics& harmonics)
 InertialDisc empty_inertial_disc(const Disc& disc)
 {
   const Eigen::Index n = disc.n_modes();
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n), none;
   const Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(n, n);
   std::vector<InertialRing> rings;
-  for (const DiscRing& ring : disc.rings)
-    rings.push_back({ring.name, ring.radius, zero, zero, zero});
+  for (const DiscRing& ring : disc.rings) {
+    const Eigen::VectorXd& in_plane = ring.V_r.cosine.size() > 0 ? zero : none;
+    rings.push_back({ring.name, ring.radius, zero, zero, zero, in_plane, in_plane, ring.height});
+  }
   return {.rings = rings,
           .nodal_diameters = std::vector<int>(static_cast<std::size_t>(n), 0),
           .omega = zero,
@@ -109,7 +116,8 @@ double put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureMod
            Eigen::Index at)
 {
   const Eigen::Index size = mode.n == 0 ? 1 : 2;
-  const Eigen::VectorXcd e = oriented(mode, harmonics);
+  const auto n_functions = static_cast<Eigen::Index>(amplitudes_of(inertial.rings.front()).size());
+  const Eigen::VectorXcd e = oriented(mode, harmonics, n_functions);
   const double scale = size == 1 ? 1.0 : std::sqrt(2.0);
   inertial.R.col(at) = scale * e.real();
   if (size == 2) inertial.R.col(at + 1) = -scale * e.imag();
@@ -124,15 +132,15 @@ double put(InertialDisc& inertial, const RingHarmonics& harmonics, const PureMod
   if (static_cast<std::size_t>(mode.n) >= harmonics.c.size()) return 1.0;
   const Eigen::RowVectorXcd alpha =
       e.adjoint() * harmonics.c[static_cast<std::size_t>(mode.n)] / scale;
-  for (std::size_t k = 0; k < inertial.rings.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(3 * k);
-    InertialRing& ring = inertial.rings[k];
-    const double U = alpha[column].real(), U_r = alpha[column + 1].real(),
-                 U_t = size == 1 ? alpha[column + 2].real() : alpha[column + 2].imag();
-    ring.U.segment(at, size).setConstant(U);
-    ring.U_r.segment(at, size).setConstant(U_r / ring.radius);
-    ring.U_t.segment(at, size).setConstant(U_t / ring.radius);
-    pure += double(size) * (U * U + U_r * U_r + U_t * U_t);
+  Eigen::Index column = 0;
+  for (InertialRing& ring : inertial.rings) {
+    const std::vector<Eigen::VectorXd*> amplitudes = amplitudes_of(ring);
+    for (std::size_t j = 0; j < amplitudes.size(); ++j, ++column) {
+      const bool is_along = j == 2 || j == 4, is_slope = j == 1 || j == 2;
+      const double value = is_along && size == 2 ? alpha[column].imag() : alpha[column].real();
+      amplitudes[j]->segment(at, size).setConstant(is_slope ? value / ring.radius : value);
+      pure += double(size) * value * value;
+    }
   }
   return std::sqrt(std::max(0.0, whole - pure) / whole);
 }
@@ -235,6 +243,13 @@ std::optional<InertialDisc> find_inertial_disc(const Disc& disc)
   return inertial ? std::optional(std::move(*inertial)) : std::nullopt;
 }
 
+std::vector<Eigen::VectorXd*> amplitudes_of(InertialRing& ring)
+{
+  std::vector<Eigen::VectorXd*> amplitudes{&ring.U, &ring.U_r, &ring.U_t};
+  if (ring.V_r.size() > 0) amplitudes.insert(amplitudes.end(), {&ring.V_r, &ring.V_t});
+  return amplitudes;
+}
+
 Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, double angle)
 {
   Eigen::VectorXd b = a;
@@ -252,7 +267,7 @@ Eigen::VectorXd turned(const InertialDisc& disc, const Eigen::VectorXd& a, doubl
 std::vector<RingPlace> ring_places(const InertialDisc& disc)
 {
   std::vector<RingPlace> places;
-  for (const auto& ring : disc.rings) places.push_back({ring.name, ring.radius});
+  for (const auto& ring : disc.rings) places.push_back({ring.name, ring.radius, ring.height});
   return places;
 }
 
@@ -263,17 +278,16 @@ Shapes shapes_at(const InertialDisc& disc, double theta)
 
 Shapes shapes_at(const InertialDisc& disc, const InertialRing& ring, double theta)
 {
-  Shapes shapes{ring.U, ring.U_r, Eigen::VectorXd::Zero(disc.n_modes())};
+  Shapes shapes{ring.U, ring.U_r, ring.U_t, ring.V_r, ring.V_t};
   for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
     const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
-    if (n == 0) {
-      shapes.W_t[i] = ring.U_t[i];
-      continue;
-    }
-    const Eigen::Vector2d along{std::cos(n * theta), std::sin(n * theta)};
-    shapes.W.segment<2>(i) = ring.U[i] * along;
-    shapes.W_r.segment<2>(i) = ring.U_r[i] * along;
-    shapes.W_t.segment<2>(i) = ring.U_t[i] * Eigen::Vector2d{-along[1], along[0]};
+    if (n == 0) continue;
+    const Eigen::Vector2d across{std::cos(n * theta), std::sin(n * theta)};
+    const Eigen::Vector2d along{-across[1], across[0]};
+    for (Eigen::VectorXd* f : {&shapes.W, &shapes.W_r, &shapes.V_r})
+      if (f->size() > 0) f->segment<2>(i) = (*f)[i] * across;
+    for (Eigen::VectorXd* f : {&shapes.W_t, &shapes.V_t})
+      if (f->size() > 0) f->segment<2>(i) = (*f)[i] * along;
     ++i;
   }
   return shapes;

@@ -17,7 +17,14 @@ struct InertialRing {
   Eigen::VectorXd U_r;  ///< [n_modes] amplitude of W_r, rad per unit of a
   Eigen::VectorXd
       U_t;  ///< [n_modes] W_t = U_t (-sin, cos)(n theta), U_t for n = 0, rad per unit of a
+  /// [n_modes] of the displacements in the plane, V_r like W and V_t like W_t, m per unit of a;
+  /// empty where no pad feels them
+  Eigen::VectorXd V_r = {}, V_t = {};
+  double height = 0.0;  ///< z, m
 };
+
+/// U, U_r, U_t and, where there are some, V_r, V_t.
+std::vector<Eigen::VectorXd*> amplitudes_of(InertialRing& ring);
 
 /// An axisymmetric disc seen from the inertial frame, where its equations do not depend on time:
 /// a' = -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - (C + 2 Omega G) p + Q.

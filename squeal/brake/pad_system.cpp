@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/pads.hpp"
+#include "squeal/brake/ring_pairs.hpp"
 #include "squeal/derivative.hpp"
 
 namespace chladni::squeal {
@@ -118,47 +119,30 @@ void check(const PadPair& pad, std::size_t i)
         i));
 }
 
-/// Indices in `rings` of those that a grid lies on.
-std::vector<std::size_t> rings_of(const PadGrid& grid, const std::vector<RingPlace>& rings,
-                                  std::size_t pad)
-{
-  if (grid.rings.empty()) return {0};
-  std::vector<std::size_t> indices;
-  for (const std::string& name : grid.rings) {
-    const auto at = std::find_if(rings.begin(), rings.end(),
-                                 [&](const RingPlace& ring) { return ring.name == name; });
-    if (at == rings.end())
-      throw Error(
-          fmt::format("[squeal] pads[{}].grid.rings: the disc has no ring \"{}\"", pad, name));
-    indices.push_back(static_cast<std::size_t>(at - rings.begin()));
-  }
-  return indices;
-}
-
 /// The points of pad `i` of the scene, on one ring after the other.
 void add_points(PadSystem& system, const SquealOptions& options, std::size_t i,
                 const std::vector<RingPlace>& rings)
 {
   const PadPair& pad = options.pads[i];
   const PadGrid grid = pad.grid.value_or(PadGrid{.sector = 0.0, .points = 1});
-  const std::vector<std::size_t> on = rings_of(grid, rings, i);
+  const std::vector<RingPair> on = ring_pairs(options, grid, rings, i);
   const int n = grid.points * static_cast<int>(on.size());
-  for (const std::size_t ring : on)
+  for (const RingPair& pair : on)
     for (int k = 0; k < grid.points; ++k) {
       const double turn = grid.sector * ((k + 0.5) / grid.points - 0.5);
       system.points.push_back({.pad = i,
                                .angle = pad.angle + turn,
-                               .ring = ring,
-                               .contact = part_of(pad_contact(options, pad, rings[ring].radius), n),
+                               .rings = pair.rings,
+                               .contact = part_of(pad_contact(options, pad, pair.faces), n),
                                .upper = {},
                                .lower = {}});
     }
 }
 
 /// Motion of the plates at each point, in all coordinates of the pads; the centre of a plate is
-/// above the first ring.
-void add_plate_motion(PadSystem& system, const SquealOptions& options, double centre,
-                      Eigen::Index n)
+/// above (below) the ring of the study.
+void add_plate_motion(PadSystem& system, const SquealOptions& options,
+                      const std::array<PadFace, 2>& study, Eigen::Index n)
 {
   for (PointPair& point : system.points) {
     const PadPair& pad = options.pads[point.pad];
@@ -169,12 +153,13 @@ void add_plate_motion(PadSystem& system, const SquealOptions& options, double ce
     const std::vector<PlateFreedom> all = freedoms(*pad.body);
     const auto n_plate = static_cast<Eigen::Index>(all.size());
     const double turn = point.angle - pad.angle;
-    const double radius = point.contact.radius;
-    FacePoint at{turn, {radius * std::cos(turn) - centre, radius * std::sin(turn), 0.0}};
-    at.of_centre[2] = -pad.body->height;
-    point.upper.middleRows(first, n_plate) = plate_motion(all, at);
-    at.of_centre[2] = pad.body->height;
-    point.lower.middleRows(first + n_plate, n_plate) = plate_motion(all, at);
+    const auto at = [&](std::size_t side, double height) -> FacePoint {
+      const double radius = point.contact.faces[side].radius;
+      return {turn,
+              {radius * std::cos(turn) - study[side].radius, radius * std::sin(turn), height}};
+    };
+    point.upper.middleRows(first, n_plate) = plate_motion(all, at(0, -pad.body->height));
+    point.lower.middleRows(first + n_plate, n_plate) = plate_motion(all, at(1, pad.body->height));
   }
 }
 
@@ -202,13 +187,14 @@ PadSystem pad_system(const SquealOptions& options, double radius)
 PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>& rings)
 {
   PadSystem system;
+  system.disc_rows = options.planes ? 2 * face_rows : middle_rows;
   for (std::size_t i = 0; i < options.pads.size(); ++i) {
     check(options.pads[i], i);
     add_points(system, options, i, rings);
   }
   const PadMatrices matrices = pad_matrices(options);
   if (matrices.M.size() == 0) return system;
-  add_plate_motion(system, options, rings.front().radius, matrices.M.rows());
+  add_plate_motion(system, options, study_pair(options, rings).faces, matrices.M.rows());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
   const Eigen::MatrixXd& Phi = modes.eigenvectors();  // Phi^T M Phi = I
   system.omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
@@ -235,7 +221,7 @@ InertialDisc with_pads(InertialDisc disc, const PadSystem& pads)
   disc.D = extended(disc.D, Eigen::MatrixXd::Zero(m, m));
   disc.R = extended(disc.R, Eigen::MatrixXd::Identity(m, m));
   for (InertialRing& ring : disc.rings)
-    for (Eigen::VectorXd* amplitude : {&ring.U, &ring.U_r, &ring.U_t})
+    for (Eigen::VectorXd* amplitude : amplitudes_of(ring))
       amplitude->conservativeResizeLike(Eigen::VectorXd::Zero(n + m));
   disc.omega.conservativeResize(n + m);
   disc.omega.tail(m) = pads.omega;
@@ -243,21 +229,29 @@ InertialDisc with_pads(InertialDisc disc, const PadSystem& pads)
   return disc;
 }
 
-PairShapes pair_shapes(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point)
+PairShapes pair_shapes(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point)
 {
   const Eigen::Index m = pads.n_modes();
-  PairShapes shapes = PairShapes::Zero(S.rows() + m, m == 0 ? 3 : pair_rows_max);
-  shapes.topLeftCorner(S.rows(), 3) = S;
+  PairShapes shapes = PairShapes::Zero(S.rows() + m, pads.rows());
+  shapes.topLeftCorner(S.rows(), S.cols()) = S;
   if (m > 0) shapes.bottomRightCorner(m, 6) << point.upper, point.lower;
   return shapes;
 }
 
-BrakePoint brake_point(const Eigen::MatrixX3d& S, const PadSystem& pads, const PointPair& point,
+BrakePoint brake_point(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point,
                        double speed)
 {
   return {.contact = point.contact,
           .S = pair_shapes(S, pads, point),
-          .at_rest = pad_state(point.contact, RingMotion<double>{}, speed, 1.0)};
+          .at_rest = states_at_rest(point.contact, speed)};
+}
+
+PairContact contact_at(const BrakePoint& point, const PointMotion& motion, double speed)
+{
+  const PairMotion<double> m = pair_motion(motion.g, motion.g_dot);
+  const ContactResult<double> states = contact(point.contact, m, speed);
+  return {states,
+          pair_forces(point.contact, m, states, point.at_rest, static_cast<int>(motion.g.size()))};
 }
 
 FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
@@ -275,12 +269,11 @@ FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
 PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)
 {
   using Complex = std::complex<double>;
-  const PadState<double> at_rest = pad_state(pad, RingMotion<double>{}, speed, 1.0);
+  const RestStates at_rest = states_at_rest(pad, speed);
   const Eigen::MatrixXd D = derivative_at_rest(
       [&](const Eigen::VectorXcd& y) -> Eigen::VectorXcd {
         const auto m = pair_motion<Complex>(y.head(rows), y.tail(rows));
-        const ContactResult<Complex> result = contact(pad, m, speed);
-        return pair_forces(result.force, result.upper, result.lower, at_rest, rows);
+        return pair_forces(pad, m, contact(pad, m, speed), at_rest, rows);
       },
       Eigen::Index{2} * rows);
   return {D.leftCols(rows), D.rightCols(rows)};

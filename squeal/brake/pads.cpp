@@ -1,36 +1,23 @@
 #include "squeal/brake/pads.hpp"
 
-#include <array>
-#include <complex>
-
 namespace chladni::squeal {
 
-PadContact pad_contact(const SquealOptions& options, const PadPair& pad, double radius)
+std::array<PadFace, 2> faces_of_plate(double thickness, double radius)
 {
-  return {.radius = radius,
-          .thickness = options.thickness,
+  const double half = 0.5 * thickness;
+  return {PadFace{.radius = radius, .plane = half, .distance = half},
+          PadFace{.radius = radius, .plane = -half, .distance = -half}};
+}
+
+PadContact pad_contact(const SquealOptions& options, const PadPair& pad,
+                       const std::array<PadFace, 2>& faces)
+{
+  return {.faces = faces,
           .friction = options.friction,
           .law = options.contact,
           .spring = {.linear = pad.stiffness, .cubic = pad.cubic_stiffness},
           .damping = pad.damping,
           .preload = pad.preload};
-}
-
-ContactDerivatives contact_derivatives(const PadContact& pad, double speed)
-{
-  using Complex = std::complex<double>;
-  // Any step does: f(i h) / h has no difference in it, and h^2 is far below rounding.
-  constexpr double step = 1e-30;
-  ContactDerivatives D;
-  for (int j = 0; j < 6; ++j) {
-    std::array<Complex, 6> x{};
-    x[static_cast<std::size_t>(j)] = Complex(0.0, step);
-    const RingMotion<Complex> motion{x[0], x[1], x[2], x[3], x[4], x[5]};
-    const RingForce<Complex> F = contact(pad, motion, speed).force;
-    const Eigen::Vector3d column{F.F_w.imag(), F.F_r.imag(), F.F_t.imag()};
-    (j < 3 ? D.D_a : D.D_p).col(j % 3) = column / step;
-  }
-  return D;
 }
 
 }  // namespace chladni::squeal

@@ -9,23 +9,21 @@ namespace {
 /// Part of the largest coefficient of a function below which another one is rounding.
 constexpr double negligible = 1e-15;
 
-Eigen::VectorXd column_of(const Eigen::MatrixXd& W, const Eigen::MatrixXd& W_r,
-                          const Eigen::MatrixXd& W_t, Eigen::Index k)
-{
-  Eigen::VectorXd column(3 * W.cols());
-  column << W.row(k).transpose(), W_r.row(k).transpose(), W_t.row(k).transpose();
-  return column;
-}
-
 }  // namespace
 
-RingShapes::RingShapes(const DiscRing& ring) : shapes_(ring.W.cosine.cols(), 3)
+RingShapes::RingShapes(const DiscRing& ring)
 {
+  const std::vector<RingFunction> functions = functions_of(ring);
+  const auto n_functions = static_cast<Eigen::Index>(functions.size());
+  shapes_.resize(ring.W.cosine.cols(), n_functions);
   const Eigen::Index n_orders = ring.W.cosine.rows(), n = ring.W.cosine.cols();
-  Eigen::MatrixXd all(3 * n, 2 * n_orders);
-  for (Eigen::Index k = 0; k < n_orders; ++k) {
-    all.col(2 * k) = column_of(ring.W.cosine, ring.W_r.cosine, ring.W_t.cosine, k);
-    all.col(2 * k + 1) = column_of(ring.W.sine, ring.W_r.sine, ring.W_t.sine, k);
+  Eigen::MatrixXd all(n_functions * n, 2 * n_orders);
+  for (Eigen::Index j = 0; j < n_functions; ++j) {
+    const Harmonics& f = *functions[static_cast<std::size_t>(j)].values;
+    for (Eigen::Index k = 0; k < n_orders; ++k) {
+      all.col(2 * k).segment(n * j, n) = f.cosine.row(k).transpose();
+      all.col(2 * k + 1).segment(n * j, n) = f.sine.row(k).transpose();
+    }
   }
   const Eigen::ArrayXd limit = negligible * all.cwiseAbs().rowwise().maxCoeff();
   std::vector<Eigen::Index> kept;
@@ -39,7 +37,7 @@ RingShapes::RingShapes(const DiscRing& ring) : shapes_(ring.W.cosine.cols(), 3)
   waves_.resize(coefficients_.cols());
 }
 
-const Eigen::MatrixX3d& RingShapes::at(double theta)
+const Eigen::MatrixXd& RingShapes::at(double theta)
 {
   const double c_1 = std::cos(theta), s_1 = std::sin(theta);
   double c = 1.0, s = 0.0;

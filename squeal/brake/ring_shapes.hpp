@@ -13,14 +13,15 @@ class RingShapes {
  public:
   explicit RingShapes(const DiscRing& ring);
 
-  /// [n_modes x 3], columns W, W_r, W_t at the angle `theta` (rad); valid until the next call.
-  const Eigen::MatrixX3d& at(double theta);
+  /// [n_modes x 3 or 5], columns W, W_r, W_t and, where pads feel them, V_r, V_t at the angle
+  /// `theta` (rad); valid until the next call.
+  const Eigen::MatrixXd& at(double theta);
 
  private:
   std::vector<int> orders_;       ///< harmonics that are not zero
-  Eigen::MatrixXd coefficients_;  ///< [3 n_modes x 2 n_orders]: cosine and sine of each in turn
+  Eigen::MatrixXd coefficients_;  ///< [n_columns n_modes x 2 n_orders]: cosine and sine in turn
   Eigen::VectorXd waves_;         ///< [2 n_orders] cos(k theta), sin(k theta)
-  Eigen::MatrixX3d shapes_;
+  Eigen::MatrixXd shapes_;
 };
 
 }  // namespace chladni::squeal

@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 
@@ -105,20 +104,18 @@ RingHarmonics ring_harmonics(const std::vector<DiscRing>& rings)
   Eigen::Index n_orders = 0;
   const Eigen::Index n_modes = rings.front().W.cosine.cols();
   for (const DiscRing& ring : rings) n_orders = std::max(n_orders, ring.n_whole_harmonics());
-  const auto n_columns = static_cast<Eigen::Index>(3 * rings.size());
+  const auto n_columns =
+      static_cast<Eigen::Index>(functions_of(rings.front()).size() * rings.size());
   RingHarmonics all{std::vector<MatrixXcd>(static_cast<std::size_t>(n_orders),
                                            MatrixXcd::Zero(n_modes, n_columns))};
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    const DiscRing& ring = rings[k];
-    const std::array<const Harmonics*, 3> functions{&ring.W, &ring.W_r, &ring.W_t};
-    for (int j = 0; j < 3; ++j) {
-      const Harmonics& f = *functions[static_cast<std::size_t>(j)];
-      const double scale = j == 0 ? 1.0 : ring.radius;
+  Eigen::Index column = 0;
+  for (const DiscRing& ring : rings)
+    for (const auto& [f, scale] : functions_of(ring)) {
       for (Eigen::Index d = 0; d < ring.n_whole_harmonics(); ++d)
-        all.c[static_cast<std::size_t>(d)].col(static_cast<Eigen::Index>(3 * k) + j) =
-            scale * (f.cosine.row(d) - Complex(0.0, 1.0) * f.sine.row(d)).transpose();
+        all.c[static_cast<std::size_t>(d)].col(column) =
+            scale * (f->cosine.row(d) - Complex(0.0, 1.0) * f->sine.row(d)).transpose();
+      ++column;
     }
-  }
   return all;
 }
 

@@ -7,11 +7,11 @@
 
 namespace chladni::squeal {
 
-/// What modes do on the contact rings, harmonic by harmonic: row i of `c[d]` are the displacements
-/// along the axis and, times the radius, the slopes of mode i on each ring, Re(c exp(i d theta)).
+/// What modes do on the contact rings, harmonic by harmonic: row i of `c[d]` are the functions of
+/// mode i on each ring, as lengths (`functions_of`), Re(c exp(i d theta)).
 /// A function that n nodes of a ring cannot tell from its neighbour n - d, d = n / 2, is left out.
 struct RingHarmonics {
-  std::vector<Eigen::MatrixXcd> c;  ///< [d][n_modes x 3 n_rings]
+  std::vector<Eigen::MatrixXcd> c;  ///< [d][n_modes x functions of all rings]
 
   /// [n_modes] squares summed over all harmonics.
   Eigen::VectorXd squares() const;

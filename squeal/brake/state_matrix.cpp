@@ -2,6 +2,7 @@
 
 #include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/point_shapes.hpp"
 
 namespace chladni::squeal {
 StackedContact linear_contact(const InertialDisc& disc, const PadSystem& pads, double speed)
@@ -9,8 +10,7 @@ StackedContact linear_contact(const InertialDisc& disc, const PadSystem& pads, d
   StackedContact all = contact_at_rest(pads, disc.n_modes() + pads.n_modes(), speed);
   Eigen::Index at = 0;
   for (const PointPair& point : pads.points) {
-    const PairShapes S =
-        pair_shapes(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)), pads, point);
+    const PairShapes S = pair_shapes(shapes_at(disc, point), pads, point);
     all.S.middleCols(at, S.cols()) = S;
     at += S.cols();
   }

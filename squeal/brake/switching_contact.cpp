@@ -23,10 +23,9 @@ SwitchingContact::SwitchingContact(const RingCompliance& compliance, PadSystem p
 
 void SwitchingContact::follow_on_branches()
 {
-  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) {
     return force_on_branch<double>(points_[i], pair_motion(at.g, at.g_dot), speed_,
-                                   std::span(branches_).subspan(2 * i, 2))
-        .head<3>();
+                                   std::span(branches_).subspan(2 * i, 2));
   });
 }
 
@@ -36,16 +35,16 @@ void SwitchingContact::add_forces(Eigen::Ref<Eigen::VectorXd> p_dot)
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PairShapes& S = points_[i].S;
     const PadContact& pad = points_[i].contact;
-    const RingMotion<double> motion = pair_motion(motions_[i].g, motions_[i].g_dot);
-    const auto up = pad_on_branch(pad, motion, speed_, {1.0, branches_[2 * i]});
-    const auto lo = pad_on_branch(pad, motion, speed_, {-1.0, branches_[2 * i + 1]});
+    const PairMotion<double> motion = pair_motion(motions_[i].g, motions_[i].g_dot);
+    const ContactResult<double> at =
+        contact_on_branch(pad, motion, speed_, std::span(branches_).subspan(2 * i, 2));
     if (S_.size() > 0) {
       const auto first = static_cast<Eigen::Index>(2 * i);
-      S_[first] = pressure(pad, up, motion.upper, 1.0);
-      S_[first + 1] = pressure(pad, lo, motion.lower, -1.0);
+      S_[first] = pressure(pad, at.upper, motion.upper.upper, 1.0);
+      S_[first + 1] = pressure(pad, at.lower, motion.lower.lower, -1.0);
     }
-    p_dot.noalias() += S * pair_forces(pair_force(pad, motion, up, lo), up, lo, points_[i].at_rest,
-                                       static_cast<int>(S.cols()));
+    p_dot.noalias() +=
+        S * pair_forces(pad, motion, at, points_[i].at_rest, static_cast<int>(S.cols()));
   }
 }
 
@@ -68,15 +67,12 @@ StackedContact SwitchingContact::derivatives(Eigen::Index n)
 
 std::vector<ContactResult<double>> SwitchingContact::contacts()
 {
-  const auto at_point = [&](std::size_t i, const PointMotion& at) {
-    return contact(points_[i].contact, pair_motion(at.g, at.g_dot), speed_);
-  };
-  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
-    const auto force = at_point(i, at).force;
-    return {force.F_w, force.F_r, force.F_t};
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) {
+    return contact_at(points_[i], at, speed_).force;
   });
   std::vector<ContactResult<double>> results;
-  for (std::size_t i = 0; i < points_.size(); ++i) results.push_back(at_point(i, motions_[i]));
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    results.push_back(contact_at(points_[i], motions_[i], speed_).states);
   return results;
 }
 

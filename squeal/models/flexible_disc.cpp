@@ -41,14 +41,4 @@ double FlexibleDisc::rest_compression() const
   return options_.pads.front().preload / options_.pads.front().stiffness;
 }
 
-SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value)
-{
-  if (parameter == MapParameter::friction) options.friction.kinetic = value;
-  for (PadPair& pad : options.pads) {
-    if (parameter == MapParameter::preload) pad.preload = value;
-    if (parameter == MapParameter::stiffness) pad.stiffness = value;
-  }
-  return options;
-}
-
 }  // namespace chladni::squeal

@@ -6,6 +6,7 @@
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/models/brake.hpp"
+#include "squeal/models/brake_parameters.hpp"
 #include "squeal/squeal_options.hpp"
 
 namespace chladni::squeal {
@@ -37,8 +38,5 @@ class FlexibleDisc final : public Brake {
   std::shared_ptr<const std::optional<InertialDisc>> inertial_;
   SquealOptions options_;
 };
-
-/// The options with one parameter set to `value`, for every pad if it is one of pads.
-SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value);
 
 }  // namespace chladni::squeal

@@ -1,8 +1,10 @@
 #include "squeal/models/oscillator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "squeal/derivative.hpp"
 #include "squeal/models/model_motion.hpp"
@@ -69,7 +71,7 @@ PadState<double> pad_of(const Oscillator& o, const Eigen::Vector4d& motion, doub
 ContactResult<double> pads_of(const Oscillator& o, const Eigen::Vector4d& motion, double speed)
 {
   const PadState<double> pad = pad_of(o, motion, speed);
-  return {.force = {pad.N, 0.0, pad.f_t}, .upper = pad, .lower = pad};
+  return {.upper = pad, .lower = pad};
 }
 
 /// For ModelMotion: the equations at a speed, x = scale (x, y, x', y').
@@ -128,9 +130,20 @@ Eigen::MatrixXd OscillatorBrake::state_matrix(double speed) const
 std::unique_ptr<Brake> OscillatorBrake::with(MapParameter parameter, double value) const
 {
   Oscillator changed = o_;
-  if (parameter == MapParameter::friction) changed.friction.kinetic = value;
-  if (parameter == MapParameter::preload) changed.preload = value;
-  if (parameter == MapParameter::stiffness) changed.contact_stiffness = value;
+  const std::array<std::pair<std::string_view, double*>, 9> places{
+      {{"friction", &changed.friction.kinetic},
+       {"preload", &changed.preload},
+       {"stiffness", &changed.contact_stiffness},
+       {"oscillator.mass", &changed.mass},
+       {"oscillator.stiffness_along", &changed.k_x},
+       {"oscillator.stiffness_normal", &changed.k_y},
+       {"oscillator.stiffness_coupling", &changed.k_xy},
+       {"oscillator.damping_along", &changed.d_x},
+       {"oscillator.damping_normal", &changed.d_y}}};
+  double* at = nullptr;
+  for (const auto& [name, place] : places)
+    if (name == parameter.name) at = place;
+  set_parameter(at, parameter, value);
   return std::make_unique<OscillatorBrake>(changed);
 }
 

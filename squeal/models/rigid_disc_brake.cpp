@@ -1,7 +1,9 @@
 #include "squeal/models/rigid_disc_brake.hpp"
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "common/error.hpp"
 #include "squeal/derivative.hpp"
@@ -67,7 +69,7 @@ PadState<double> pad_state(const RigidPad<Scalar>& pad, double (*part)(const Sca
 
 ContactResult<double> pads_of(const PadState<double>& up, const PadState<double>& lo)
 {
-  return {.force = {lo.S - up.S, 0.0, 0.0}, .upper = up, .lower = lo};
+  return {.upper = up, .lower = lo};
 }
 
 PadState<double> sum(const PadState<double>& a, const PadState<double>& b)
@@ -139,9 +141,22 @@ Eigen::MatrixXd RigidDiscBrake::state_matrix(double speed) const
 std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value) const
 {
   RigidDiscStudy changed = study_;
-  if (parameter == MapParameter::friction) changed.disc.friction.kinetic = value;
-  if (parameter == MapParameter::preload) changed.disc.preload = value;
-  if (parameter == MapParameter::stiffness) changed.disc.spring.linear = value;
+  RigidDisc& disc = changed.disc;
+  const std::array<std::pair<std::string_view, double*>, 10> places{
+      {{"friction", &disc.friction.kinetic},
+       {"preload", &disc.preload},
+       {"stiffness", &disc.spring.linear},
+       {"damping", &disc.damping},
+       {"thickness", &disc.thickness},
+       {"rigid_disc.diametral_inertia", &disc.Theta},
+       {"rigid_disc.axial_inertia", &disc.Phi},
+       {"rigid_disc.stiffness", &disc.k_t},
+       {"rigid_disc.damping", &disc.d_t},
+       {"rigid_disc.pad_radius", &disc.radius}}};
+  double* at = nullptr;
+  for (const auto& [name, place] : places)
+    if (name == parameter.name) at = place;
+  set_parameter(at, parameter, value);
   return std::make_unique<RigidDiscBrake>(changed);
 }
 

@@ -7,7 +7,7 @@
 #include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
 #include "squeal/motion/speed_program.hpp"
 
@@ -41,13 +41,12 @@ class ContactKick {
 
   double speed_;       ///< at the last kick, rad/s
   Eigen::MatrixXd G_;  ///< of the disc; see Disc
-  std::vector<RingShapes> rings_;
+  PointShapes shapes_;
   PadSystem pads_;
-  std::vector<PairShapes> shapes_;            ///< of each point at this instant
+  std::vector<BrakePoint> points_;            ///< at this instant; at rest at the first speed
   std::vector<PairVector<double>> position_;  ///< of each point at this instant
   ContactSeries series_;
   std::vector<PointMotion> motions_;
-  std::vector<PadState<double>> at_rest_;        ///< of each point, at the first speed
   std::vector<ContactResult<double>> contacts_;  ///< of each point at the last force
   std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
   Eigen::VectorXd Q_;

@@ -3,6 +3,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"
 
 namespace chladni::squeal {
@@ -22,8 +23,7 @@ ExponentialFlow::ExponentialFlow(const InertialDisc& disc, const SquealOptions& 
   p_mid_.resize(A.rows() / 2);
   const Eigen::VectorXd omega = with_pads(disc, pads_).omega;
   for (const PointPair& point : pads_.points) {
-    BrakePoint at = brake_point(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)),
-                                pads_, point, speed);
+    BrakePoint at = brake_point(shapes_at(disc, point), pads_, point, speed);
     const PairShapes S_by_omega = omega.cwiseInverse().asDiagonal() * at.S;
     points_.push_back({std::move(at), S_by_omega});
   }
@@ -41,9 +41,6 @@ void ExponentialFlow::advance(Eigen::VectorXd& x)
 void ExponentialFlow::add_remainders(const Eigen::VectorXd& p, double factor,
                                      Eigen::Ref<Eigen::VectorXd> to)
 {
-  const auto at_point = [&](std::size_t i, const PointMotion& at) {
-    return contact(points_[i].at.contact, pair_motion(at.g, at.g_dot), speed_);
-  };
   linear_force_.setZero(linear_.D_a.rows());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     motions_[i] = {position_[i], points_[i].at.S.transpose() * p};
@@ -51,17 +48,14 @@ void ExponentialFlow::add_remainders(const Eigen::VectorXd& p, double factor,
     linear_force_.noalias() += linear_.D_a.middleCols(first, rows) * motions_[i].g;
     linear_force_.noalias() += linear_.D_p.middleCols(first, rows) * motions_[i].g_dot;
   }
-  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) -> Eigen::Vector3d {
-    const auto force = at_point(i, at).force;
-    return {force.F_w, force.F_r, force.F_t};
+  series_.add_to(motions_, [&](std::size_t i, const PointMotion& at) {
+    return contact_at(points_[i].at, at, speed_).force;
   });
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    contacts_[i] = at_point(i, motions_[i]);
+    const PairContact at = contact_at(points_[i].at, motions_[i], speed_);
+    contacts_[i] = at.states;
     const Eigen::Index rows = motions_[i].g.size(), first = rows * static_cast<Eigen::Index>(i);
-    const PairVector<double> F =
-        pair_forces(contacts_[i].force, contacts_[i].upper, contacts_[i].lower,
-                    points_[i].at.at_rest, static_cast<int>(rows)) -
-        linear_force_.segment(first, rows);
+    const PairVector<double> F = at.force - linear_force_.segment(first, rows);
     to.noalias() += points_[i].at.S * (factor * F);
   }
 }

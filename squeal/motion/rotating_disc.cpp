@@ -7,7 +7,7 @@ namespace chladni::squeal {
 RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
       contact_(disc.compliance, pad_system(options, ring_places(disc)), options.contact, speed),
-      rings_(disc.rings.begin(), disc.rings.end())
+      shapes_(disc)
 {
   FreeBrake brake = free_brake(disc, contact_.pads(), speed);
   omega_ = std::move(brake.omega);
@@ -16,8 +16,7 @@ RotatingDisc::RotatingDisc(const Disc& disc, const SquealOptions& options, doubl
   f_.resize(2 * omega_.size());
   q_.resize(omega_.size());
   for (const PointPair& point : contact_.pads().points)
-    contact_.points().push_back(
-        brake_point(rings_[point.ring].at(point.angle), contact_.pads(), point, speed));
+    contact_.points().push_back(brake_point(shapes_.at(point, 0.0), contact_.pads(), point, speed));
 }
 
 void RotatingDisc::move_points(double t, const Eigen::VectorXd& y)
@@ -27,8 +26,8 @@ void RotatingDisc::move_points(double t, const Eigen::VectorXd& y)
   for (std::size_t i = 0; i < contact_.points().size(); ++i) {
     const PointPair& point = contact_.pads().points[i];
     PairShapes& S = contact_.points()[i].S;
-    const Eigen::MatrixX3d& of_disc = rings_[point.ring].at(point.angle - speed_ * t);
-    S.topLeftCorner(of_disc.rows(), 3) = of_disc;
+    const Eigen::MatrixXd& of_disc = shapes_.at(point, speed_ * t);
+    S.topLeftCorner(of_disc.rows(), of_disc.cols()) = of_disc;
     contact_.motions()[i] = {.g = S.transpose() * q_, .g_dot = S.transpose() * y.tail(n)};
   }
 }

@@ -4,7 +4,7 @@
 
 #include "squeal/brake/contact.hpp"
 #include "squeal/brake/disc.hpp"
-#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/switching_contact.hpp"
 #include "squeal/motion/motion.hpp"
 #include "squeal/motion/state_archive.hpp"
@@ -47,7 +47,7 @@ class RotatingDisc final : public Motion {
   Eigen::VectorXd omega_;
   Eigen::MatrixXd C_;
   bool damped_;
-  std::vector<RingShapes> rings_;
+  PointShapes shapes_;
   Eigen::VectorXd f_;
   Eigen::VectorXd q_;
   std::int64_t n_evaluations_ = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"
 
 namespace chladni::squeal {
@@ -46,15 +47,13 @@ PointPower point_power(const BrakePoint& point, const PointMotion& at,
 {
   const PadContact& pad = point.contact;
   const auto rows = static_cast<int>(at.g.size());
-  const RingMotion<double> m = pair_motion(at.g, at.g_dot);
-  const PadState<double> up = without_friction(all.upper, m, 1.0);
-  const PadState<double> lo = without_friction(all.lower, m, -1.0);
-  PadState<double> at_rest = point.at_rest;
-  at_rest.f_t = 0.0;
-  const double total =
-      velocity.dot(pair_forces(all.force, all.upper, all.lower, point.at_rest, rows));
-  const double normal =
-      velocity.dot(pair_forces(pair_force(pad, m, up, lo), up, lo, at_rest, rows));
+  const PairMotion<double> m = pair_motion(at.g, at.g_dot);
+  const ContactResult<double> pressed{without_friction(all.upper, m.upper, 1.0),
+                                      without_friction(all.lower, m.lower, -1.0)};
+  RestStates at_rest = point.at_rest;
+  for (PadState<double>& state : at_rest) state.f_t = 0.0;
+  const double total = velocity.dot(pair_forces(pad, m, all, point.at_rest, rows));
+  const double normal = velocity.dot(pair_forces(pad, m, pressed, at_rest, rows));
   return {total - normal, normal, heat(pad, all.upper) + heat(pad, all.lower)};
 }
 
@@ -67,9 +66,7 @@ SlidingDisc::SlidingDisc(const InertialDisc& disc, const SquealOptions& options,
       A_(state_matrix(with_pads(disc, contact_.pads()), without_pads(options), speed))
 {
   for (const PointPair& point : contact_.pads().points)
-    contact_.points().push_back(
-        brake_point(matrix_of(shapes_at(disc, disc.rings[point.ring], point.angle)),
-                    contact_.pads(), point, speed));
+    contact_.points().push_back(brake_point(shapes_at(disc, point), contact_.pads(), point, speed));
 }
 
 void SlidingDisc::move_points(const Eigen::VectorXd& x)

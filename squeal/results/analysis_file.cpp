@@ -30,7 +30,8 @@ std::string shape_group(std::size_t i)
 std::string unit_of(const std::string& parameter)
 {
   if (parameter == "speed") return "rad/s";
-  return parameter == "preload" ? "N" : parameter == "stiffness" ? "N/m" : "1";
+  const ParameterRow* const row = find_parameter(parameter);
+  return row ? std::string(row->unit) : "1";
 }
 
 void write_eigenvalues(Writer& file, const EigenvalueMap& map)

@@ -31,6 +31,29 @@ std::optional<int> nodal_diameters(const StabilityTable& table, const StabilityB
       ->first;
 }
 
+std::optional<int> nodal_circles(const StabilityTable& table, const StabilityBranch& branch)
+{
+  const std::optional<int> diameters = nodal_diameters(table, branch);
+  std::optional<std::size_t> largest;
+  for (std::size_t i = 0; i < table.families.size(); ++i)
+    if (table.families[i].nodal_diameters == diameters &&
+        (!largest || branch.shares[static_cast<Eigen::Index>(i)] >
+                         branch.shares[static_cast<Eigen::Index>(*largest)]))
+      largest = i;
+  return largest ? table.families[*largest].nodal_circles : std::nullopt;
+}
+
+std::optional<double> in_plane_share(const StabilityTable& table, const StabilityBranch& branch)
+{
+  if (branch.shares.size() == 0) return std::nullopt;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < table.families.size(); ++i) {
+    if (!table.families[i].in_plane) return std::nullopt;
+    sum += branch.shares[static_cast<Eigen::Index>(i)] * *table.families[i].in_plane;
+  }
+  return sum / branch.shares.sum();
+}
+
 std::string summary(const StabilityTable& table)
 {
   const auto n = std::ranges::count_if(table.branches, &StabilityBranch::is_unstable);

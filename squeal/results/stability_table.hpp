@@ -34,6 +34,10 @@ struct StabilityBranch {
 struct ModeFamily {
   int nodal_diameters;
   double frequency_Hz;
+  /// Of the motion along the axis; absent where the body has no picture, for modes in the plane,
+  /// and in files of earlier versions.
+  std::optional<int> nodal_circles = {};
+  std::optional<double> in_plane = {};  ///< share of its kinetic energy; absent where it is unknown
 };
 
 /// All motions of the sliding brake that have a frequency of the band at some value of a parameter.
@@ -61,6 +65,14 @@ bool is_always_unstable(const StabilityTable& table, const StabilityBranch& bran
 /// The number of nodal diameters whose modes of the disc have the largest share of the branch;
 /// absent without a body.
 std::optional<int> nodal_diameters(const StabilityTable& table, const StabilityBranch& branch);
+
+/// Of the family with so many nodal diameters that has the largest share; absent where that is
+/// unknown.
+std::optional<int> nodal_circles(const StabilityTable& table, const StabilityBranch& branch);
+
+/// The share of motion in the plane in the kinetic energy of the disc; absent where it is unknown
+/// of a family.
+std::optional<double> in_plane_share(const StabilityTable& table, const StabilityBranch& branch);
 
 /// "no mode is unstable at any speed of the range" or "4 of 35 modes are unstable somewhere".
 std::string summary(const StabilityTable& table);

@@ -18,6 +18,31 @@ using Eigen::Index;
 using files::Reader;
 using files::Writer;
 
+/// -1 stands for what is unknown.
+void write_figures(Writer& file, const std::vector<ModeFamily>& families)
+{
+  std::vector<std::int64_t> circles;
+  std::vector<double> in_plane;
+  for (const ModeFamily& family : families) {
+    circles.push_back(family.nodal_circles.value_or(-1));
+    in_plane.push_back(family.in_plane.value_or(-1.0));
+  }
+  file.write("stability/families/nodal_circles", std::span<const std::int64_t>(circles), "1");
+  file.write("stability/families/in_plane", in_plane, "1");
+}
+
+void read_figures(const Reader& file, std::vector<ModeFamily>& families)
+{
+  if (!file.contains("stability/families/nodal_circles")) return;
+  const auto circles = file.integers("stability/families/nodal_circles", std::ssize(families));
+  const Eigen::VectorXd in_plane = file.vector("stability/families/in_plane", std::ssize(families));
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    if (circles[i] >= 0) families[i].nodal_circles = static_cast<int>(circles[i]);
+    const double share = in_plane[static_cast<Index>(i)];
+    if (share >= 0.0) families[i].in_plane = share;
+  }
+}
+
 void write_participation(Writer& file, const StabilityTable& table)
 {
   if (table.families.empty()) return;
@@ -36,6 +61,7 @@ void write_participation(Writer& file, const StabilityTable& table)
   }
   file.write("stability/families/nodal_diameters", std::span<const std::int64_t>(diameters), "1");
   file.write("stability/families/frequency", frequency_Hz, "Hz");
+  write_figures(file, table.families);
   if (m == 0) return;
   file.write("stability/shares", shares, "1");
   file.write("stability/pads", pads, "1");
@@ -91,6 +117,7 @@ std::vector<ModeFamily> read_families(const Reader& file)
   const auto diameters = file.integers("stability/families/nodal_diameters", frequency_Hz.size());
   for (std::size_t i = 0; i < diameters.size(); ++i)
     families.push_back({static_cast<int>(diameters[i]), frequency_Hz[static_cast<Index>(i)]});
+  read_figures(file, families);
   return families;
 }
 

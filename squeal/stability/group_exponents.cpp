@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -176,13 +177,18 @@ GroupExponents integrated(const NearGroup& group, double step)
   const double turns = 2.0 * pi * samples_of(F.c).cwiseAbs().colwise().maxCoeff().maxCoeff();
   Index M = power_of_two(std::max(4 * F.c.cols(), static_cast<Index>(4.0 * turns)));
   Flag flag = Orbit<G>(F.c, g, M).motions();
-  double change = 0.0;
-  do {
+  double change = std::numeric_limits<double>::infinity(), last = change;
+  // Each half of a step errs a 64th: what does not fall is rounding, or exponents so near each
+  // other that the flag of their vectors turns slowly, and no step helps.
+  int stuck = 0;
+  while (change > growth_error && M < n_steps_max && stuck < 2) {
     M *= 2;
     const Flag finer = Orbit<G>(F.c, g, M).motions();
+    last = change;
     change = step * (finer.exponent - flag.exponent).real().cwiseAbs().maxCoeff();
+    stuck = change > 0.25 * last ? stuck + 1 : 0;
     flag = finer;
-  } while (change > growth_error && M < n_steps_max);
+  }
   GroupExponents result{Eigen::VectorXcd(g), std::max(change, step * flag.error)};
   for (Index i = 0; i < g; ++i) {
     const double replica = std::round(flag.frequency[i] - flag.exponent[i].imag());

@@ -53,8 +53,8 @@ InertialDisc with_families(const InertialDisc& disc, const std::vector<Family>& 
     part.nodal_diameters.push_back(disc.nodal_diameters[static_cast<std::size_t>(i)]);
   part.omega = disc.omega(kept);
   for (InertialRing& ring : part.rings)
-    for (auto member : {&InertialRing::U, &InertialRing::U_r, &InertialRing::U_t})
-      ring.*member = Eigen::VectorXd((ring.*member)(kept));
+    for (Eigen::VectorXd* amplitude : amplitudes_of(ring))
+      *amplitude = Eigen::VectorXd((*amplitude)(kept));
   for (auto member : {&InertialDisc::C, &InertialDisc::D, &InertialDisc::G, &InertialDisc::R})
     part.*member = Eigen::MatrixXd((disc.*member)(kept, kept));
   return part;

@@ -8,7 +8,7 @@
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/root.hpp"
@@ -32,18 +32,18 @@ class LinearSteps {
       : speed_(speed),
         step_(step),
         pads_(pad_system(options, ring_places(disc))),
-        rings_(disc.rings.begin(), disc.rings.end()),
+        shapes_(disc),
         brake_(free_brake(disc, pads_, 0.0)),
         G_(Eigen::MatrixXd::Zero(brake_.omega.size(), brake_.omega.size())),
         flow_(brake_.omega, brake_.C, 0.5 * step)
   {
     G_.topLeftCorner(disc.n_modes(), disc.n_modes()) = disc.G;
     contact_ = contact_at_rest(pads_, brake_.omega.size(), speed);
-    rows_ = pads_.n_modes() > 0 ? pair_rows_max : 3;
+    rows_ = pads_.rows();
     for (std::size_t i = 0; i < pads_.points.size(); ++i) {
       const PointPair& point = pads_.points[i];
       contact_.S.middleCols(rows_ * static_cast<Eigen::Index>(i), rows_) =
-          pair_shapes(rings_[point.ring].at(point.angle), pads_, point);
+          pair_shapes(shapes_.at(point, 0.0), pads_, point);
     }
     ContactSeries(disc.compliance, pads_, speed).condense(contact_);
   }
@@ -57,8 +57,8 @@ class LinearSteps {
     const double angle = speed_ * t_middle;
     for (std::size_t i = 0; i < pads_.points.size(); ++i) {
       const PointPair& point = pads_.points[i];
-      const Eigen::MatrixX3d& S = rings_[point.ring].at(point.angle - angle);
-      contact_.S.block(0, rows_ * static_cast<Eigen::Index>(i), S.rows(), 3) = S;
+      const Eigen::MatrixXd& S = shapes_.at(point, angle);
+      contact_.S.block(0, rows_ * static_cast<Eigen::Index>(i), S.rows(), S.cols()) = S;
     }
     x.v += step_ * force(x.q, x.v + 0.5 * step_ * force(x.q, x.v));
     flow_.advance(x);
@@ -77,12 +77,12 @@ class LinearSteps {
 
   double speed_, step_;
   PadSystem pads_;
-  std::vector<RingShapes> rings_;
+  PointShapes shapes_;
   FreeBrake brake_;
   Eigen::MatrixXd G_;
   OscillatorFlow flow_;
   StackedContact contact_;
-  Eigen::Index rows_ = 3;  ///< of a point
+  Eigen::Index rows_ = 0;  ///< of a point
 };
 
 /// By so many steps for a period of the highest mode.
@@ -174,9 +174,12 @@ RotationStability rotation_stability(const Disc& disc, const SquealOptions& opti
     result.harmonics = std::max(result.harmonics, at.harmonics);
     result.error = std::max(result.error, at.error);
   }
+  // Growth within its own error is none: the search would only follow what the errors do.
   const auto growth = [&](double speed) {
-    return by_hill ? hill.exponents(speed).lambda[0].real()
-                   : rotation_growth(disc, options, speed).growth;
+    if (!by_hill) return rotation_growth(disc, options, speed).growth;
+    const HillExponents at = hill.exponents(speed);
+    const double largest = at.lambda[0].real();
+    return std::abs(largest) <= at.error ? 0.0 : largest;
   };
   for (int i = 1; i < n && !result.critical_speed; ++i)
     if (result.growth[i - 1] < 0.0 && result.growth[i] > 0.0)

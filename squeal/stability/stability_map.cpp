@@ -22,23 +22,10 @@ void fill_column(StabilityMap& map, const Brake& brake, MapParameter parameter, 
 
 }  // namespace
 
-const char* name_of(MapParameter parameter)
-{
-  switch (parameter) {
-    case MapParameter::friction:
-      return "friction";
-    case MapParameter::preload:
-      return "preload";
-    case MapParameter::stiffness:
-      return "stiffness";
-  }
-  return "";
-}
-
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,
                            unsigned n_threads)
 {
-  StabilityMap map{.parameter = name_of(range.parameter),
+  StabilityMap map{.parameter = std::string(range.parameter.name),
                    .values = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
                    .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
                    .growth = Eigen::MatrixXd(range.count, speeds.count),

@@ -6,9 +6,6 @@
 
 namespace chladni::squeal {
 
-/// "friction", "preload" or "stiffness", as in the scene.
-const char* name_of(MapParameter parameter);
-
 /// The least stable eigenvalues of the brake over the speeds and over the parameter of `range`, on
 /// `n_threads` threads (0: as many as processors). The result does not depend on their number.
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,

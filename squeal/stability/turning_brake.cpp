@@ -18,14 +18,21 @@ constexpr double phase_limit = 0.3;
 /// Part of the largest coefficient of the shapes below which a harmonic is rounding.
 constexpr double rounding = 1e-13;
 
+/// Those that are a cosine where W is one, with weights.
+std::vector<RingFunction> across_functions(const DiscRing& ring)
+{
+  std::vector<RingFunction> functions{{&ring.W, 1.0}, {&ring.W_r, 0.1 * ring.radius}};
+  if (ring.V_r.cosine.size() > 0) functions.push_back({&ring.V_r, 0.5});
+  return functions;
+}
+
 /// [cos(n theta), sin(n theta)] B = (f_i, f_j) on the ring where the two modes move most.
 Matrix2d harmonic_of_pair(const Disc& disc, int n, std::pair<int, int> modes)
 {
   const auto [i, j] = modes;
   Matrix2d largest = Matrix2d::Zero();
   for (const DiscRing& ring : disc.rings)
-    for (const auto& [f, scale] :
-         {std::pair{&ring.W, 1.0}, std::pair{&ring.W_r, 0.1 * ring.radius}}) {
+    for (const auto& [f, scale] : across_functions(ring)) {
       Matrix2d B;
       B << f->cosine(n, i), f->cosine(n, j), f->sine(n, i), f->sine(n, j);
       if (scale * B.norm() > largest.norm()) largest = scale * B;
@@ -105,7 +112,7 @@ int highest_harmonic(const Disc& disc, const TurningCoordinates& coordinates)
 {
   int highest = 0;
   for (const DiscRing& ring : disc.rings)
-    for (const Harmonics* f : {&ring.W, &ring.W_r, &ring.W_t}) {
+    for (const auto& [f, scale] : functions_of(ring)) {
       const double limit =
           rounding * std::max(f->cosine.cwiseAbs().maxCoeff(), f->sine.cwiseAbs().maxCoeff());
       for (Eigen::Index k = 0; k < f->cosine.rows(); ++k)
@@ -124,7 +131,7 @@ TurningBrake::TurningBrake(const Disc& disc, const TurningCoordinates& coordinat
       d_(coordinates.d),
       R_(coordinates.R),
       pads_(pad_system(options, ring_places(disc))),
-      rings_(disc.rings.begin(), disc.rings.end())
+      shapes_(disc)
 {
   const Eigen::Index n = disc.n_modes(), m = pads_.n_modes();
   K_ = R_.transpose() * disc.omega.cwiseAbs2().asDiagonal() * R_;
@@ -155,8 +162,7 @@ Eigen::MatrixXd TurningBrake::at(double phi)
   if (m > 0) C.bottomRightCorner(m, m) = pads_.C;
   for (std::size_t i = 0; i < pads_.points.size(); ++i) {
     const PointPair& point = pads_.points[i];
-    const Eigen::MatrixX3d at_point =
-        turned_rows(d_, R_.transpose() * rings_[point.ring].at(point.angle - phi), phi);
+    const Eigen::MatrixXd at_point = turned_rows(d_, R_.transpose() * shapes_.at(point, phi), phi);
     const PairShapes S = pair_shapes(at_point, pads_, point);
     contact_.S.middleCols(S.cols() * static_cast<Eigen::Index>(i), S.cols()) = S;
   }

@@ -5,7 +5,7 @@
 
 #include "squeal/brake/contact_compliance.hpp"
 #include "squeal/brake/pad_system.hpp"
-#include "squeal/brake/ring_shapes.hpp"
+#include "squeal/brake/point_shapes.hpp"
 
 namespace chladni::squeal {
 
@@ -42,7 +42,7 @@ class TurningBrake {
   std::vector<int> d_;
   Eigen::MatrixXd R_;
   PadSystem pads_;
-  std::vector<RingShapes> rings_;
+  PointShapes shapes_;
   StackedContact contact_;  ///< its shapes are those of the last angle
   Eigen::MatrixXd K_, C_;   ///< of the disc without pads, in the coordinates at phi = 0
   Eigen::VectorXd w_;       ///< [n] rad/s, the same for both of a pair

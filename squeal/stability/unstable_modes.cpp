@@ -112,10 +112,19 @@ std::optional<PeriodWork> work_of(const Brake& brake, const StabilityCase& searc
   return period_work(*there->body(), search.speed, sample.lambda[j], sample.X.col(j));
 }
 
+/// Of the mode of the body that has the largest part in a coordinate of the inertial disc.
+ModeFigure figure_of(const Disc& disc, const InertialDisc& inertial, Index coordinate)
+{
+  if (disc.figures.empty()) return {};
+  Index mode = 0;
+  inertial.R.col(coordinate).cwiseAbs().maxCoeff(&mode);
+  return disc.figures[static_cast<std::size_t>(mode)];
+}
+
 /// Without its branches.
 StabilityTable empty_table(const Brake& brake, const StabilityCase& search)
 {
-  StabilityTable table{.parameter = search.over ? name_of(*search.over) : "speed",
+  StabilityTable table{.parameter = std::string(search.over ? search.over->name : "speed"),
                        .speed = search.over ? std::optional(search.speed) : std::nullopt,
                        .band = search.band,
                        .values = Eigen::VectorXd::LinSpaced(search.count, search.from, search.to),
@@ -124,9 +133,12 @@ StabilityTable empty_table(const Brake& brake, const StabilityCase& search)
                        .method = "eigenvalues"};
   if (const FlexibleDisc* body = brake.body()) {
     const InertialDisc& disc = body->inertial();
-    for (const Coordinates& family : families_of(disc))
+    for (const Coordinates& family : families_of(disc)) {
+      const ModeFigure figure = figure_of(body->disc(), disc, family.first);
       table.families.push_back({disc.nodal_diameters[static_cast<std::size_t>(family.first)],
-                                disc.omega[family.first] / two_pi});
+                                disc.omega[family.first] / two_pi, figure.circles,
+                                figure.in_plane});
+    }
   }
   return table;
 }

@@ -43,6 +43,26 @@ void require_not_negative(double x, const std::string& key)
     throw Error(fmt::format("[squeal] {} = {}; it must be a number >= 0", key, x));
 }
 
+void require_value_of(MapParameter parameter, double x, const std::string& key)
+{
+  const ParameterRow* const row = find_parameter(parameter.name);
+  if (!row) throw Error(fmt::format("[squeal] \"{}\" is no parameter", parameter.name));
+  if (row->may_be_zero)
+    require_not_negative(x, key);
+  else
+    require_positive(x, key);
+}
+
+/// The brake has what is to vary.
+void require_parameters(const Brake& brake, const StudyOptions& study)
+{
+  if (needs(study, "map")) brake.with(study.map->parameter, study.map->to);
+  if (needs(study, "critical"))
+    for (const CriticalCase& search : study.critical) brake.with(search.parameter, search.to);
+  const StabilityCase table = stability_case(study);
+  if (asks_for(study, "stability") && table.over) brake.with(*table.over, table.to);
+}
+
 void validate_pads(const SquealOptions& options)
 {
   if (options.pads.empty()) throw Error("[squeal] pads: there is none; give at least one pad pair");
@@ -122,10 +142,7 @@ void validate_map(const StudyOptions& study)
         "[squeal] analyses: \"stability-map\" needs `map = { parameter = ..., from = ..., to = "
         "..., "
         "count = ... }`");
-  if (study.map->parameter == MapParameter::friction)
-    require_not_negative(study.map->from, "map.from");
-  else
-    require_positive(study.map->from, "map.from");
+  require_value_of(study.map->parameter, study.map->from, "map.from");
   if (!(study.map->to >= study.map->from) || !std::isfinite(study.map->to))
     throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", study.map->to,
                             study.map->from));
@@ -154,8 +171,8 @@ void validate_stability(const StudyOptions& study)
   const bool own = study.stability.has_value();
   const std::string key = own ? "stability" : "speeds";
   const StabilityCase search = stability_case(study);
-  if (search.over == MapParameter::friction)
-    require_not_negative(search.from, key + ".from");
+  if (search.over)
+    require_value_of(*search.over, search.from, key + ".from");
   else
     require_positive(search.from, key + ".from");
   if (search.over) require_positive(search.speed, "stability.speed_rad_s");
@@ -198,6 +215,9 @@ void validate_analyses(const StudyOptions& study)
 void validate_brake(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
+  if (options.planes && options.planes->heights)
+    require_positive((*options.planes->heights)[1] - (*options.planes->heights)[0],
+                     "contact_planes: the second minus the first");
   require_not_negative(options.friction.kinetic, "friction");
   require_not_negative(options.friction.rise, "friction.static minus friction.kinetic");
   require_positive(options.friction.decay_speed, "friction.decay_speed");
@@ -228,6 +248,7 @@ void validate(const Brake& brake, const StudyOptions& study)
   if (needs(study, "limit_cycle_direct")) validate_direct(study);
   if (needs(study, "map")) validate_map(study);
   if (asks_for(study, "stability")) validate_stability(study);
+  require_parameters(brake, study);
 }
 
 }  // namespace chladni::squeal

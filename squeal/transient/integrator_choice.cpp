@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "squeal/brake/pad_system.hpp"
+#include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"
 #include "squeal/motion/generalised_alpha.hpp"
 #include "squeal/motion/oscillator_flow.hpp"
@@ -41,13 +42,13 @@ struct LinearPads {
   Eigen::MatrixXd C;
 };
 
-Shapes shapes_on(const Disc& disc, const PointPair& point)
+Eigen::MatrixXd shapes_on(const Disc& disc, const PointPair& point)
 {
-  return shapes_at(disc.rings[point.ring], point.angle);
+  return PointShapes(disc).at(point, 0.0);
 }
-Shapes shapes_on(const InertialDisc& disc, const PointPair& point)
+Eigen::MatrixXd shapes_on(const InertialDisc& disc, const PointPair& point)
 {
-  return shapes_at(disc, disc.rings[point.ring], point.angle);
+  return shapes_at(disc, point);
 }
 
 template <class AnyDisc>
@@ -57,7 +58,7 @@ LinearPads linear_pads(const AnyDisc& disc, const SquealOptions& options, double
   const Eigen::Index n = disc.n_modes() + system.n_modes();
   LinearPads pads{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   for (const PointPair& point : system.points) {
-    const PairShapes S = pair_shapes(matrix_of(shapes_on(disc, point)), system, point);
+    const PairShapes S = pair_shapes(shapes_on(disc, point), system, point);
     const PairDerivatives d = pair_derivatives(point.contact, speed, static_cast<int>(S.cols()));
     pads.K -= S * d.D_a * S.transpose();
     pads.C -= S * d.D_p * S.transpose();

@@ -30,7 +30,11 @@ double surface_speed(const Disc& disc, double thickness, const ModalState& start
       (amplitudes(ring.W_r).square() + amplitudes(ring.W_t).square()).sqrt();
   const Eigen::ArrayXd rates =
       (disc.omega.cwiseProduct(start.q).cwiseAbs2() + start.v.cwiseAbs2()).cwiseSqrt().array();
-  return 0.5 * thickness * (slopes * rates).sum();
+  const double bending = 0.5 * thickness * (slopes * rates).sum();
+  if (ring.V_r.cosine.size() == 0) return bending;
+  const Eigen::ArrayXd in_plane =
+      (amplitudes(ring.V_r).square() + amplitudes(ring.V_t).square()).sqrt();
+  return bending + (in_plane * rates).sum();
 }
 
 }  // namespace chladni::squeal

@@ -65,6 +65,24 @@ def check_symmetric(programs):
         assert found["limit_cycle_direct"]["frequency_Hz"] > 100.0, found["limit_cycle_direct"]
 
 
+def check_contact_planes(programs):
+    """Each friction ring of a ventilated disc under its own pad: rings in the two plates, planes 4 mm from them. A single ring
+    stands for both where the plates move alike, which vanes see to up to a few kHz."""
+    ring = 'rings = [{ name = "track", radius = 0.13, nodes = 24, z = 0.012 }'
+    scene = changed((DATA / "ventilated_disc.toml").read_text(), ("modes = 20\npictures", "modes = 30\npictures"),
+                    (ring, ring + ', { name = "inner", radius = 0.13, nodes = 24, z = -0.012 }'),
+                    ('nodes = ["track", "hub"]', 'nodes = ["track", "inner", "hub"]'))
+    brake = BRAKE.replace("0.02", "0.032") + 'use_modes = "nodal-diameters 3"\nanalyses = ["critical-speed"]\n'
+    faces = changed(brake, ('ring = "track"', 'ring = { inboard = "inner", outboard = "track" }'))
+    both, _ = squeal(programs, scene + faces)
+    planes, _ = squeal(programs, scene + changed(faces, ("thickness = 0.032", "contact_planes = [-0.016, 0.016]")))
+    one, _ = squeal(programs, scene + brake)
+    found, same, plate = (each["critical_speed_rad_s"] for each in (both, planes, one))
+    print("critical speed", found, "of two rings,", plate, "of one")
+    assert abs(found / same - 1) < 1e-12, (found, same)
+    assert 1e-3 < abs(found / plate - 1) < 0.2, (found, plate)
+
+
 def check_others(programs):
     """Vanes mix harmonics."""
     vanes = changed((DATA / "ventilated_disc.toml").read_text(), ("modes = 20\npictures", "modes = 30\npictures"))
@@ -86,5 +104,6 @@ def check_others(programs):
 
 if __name__ == "__main__":
     check_symmetric(Path(sys.argv[1]))
+    check_contact_planes(Path(sys.argv[1]))
     check_others(Path(sys.argv[1]))
     print("every body is taken")

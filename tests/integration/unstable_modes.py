@@ -24,8 +24,8 @@ limit_cycle_direct = { speed_rad_s = 40.0 }
 """
 FINE = (("element_size = 0.03", "element_size = 0.02"), ("nodes = 12", "nodes = 24"), ("modes = 20", "modes = 60"),
         ("keep = { modes = 30 }", "keep = { up_to_Hz = 6000.0 }"))
-KEYS = {"unstable", "worst_value", "worst_growth_1_s", "worst_frequency_Hz", "damping_ratio", "nodal_diameters", "shares", "pads",
-        "friction_work", "normal_work", "damping_work", "growth_1_s", "frequency_Hz"}
+KEYS = {"unstable", "worst_value", "worst_growth_1_s", "worst_frequency_Hz", "damping_ratio", "nodal_diameters", "nodal_circles",
+        "in_plane", "shares", "pads", "friction_work", "normal_work", "damping_work", "growth_1_s", "frequency_Hz"}
 
 
 def check_json(found):

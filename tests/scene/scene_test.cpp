@@ -220,9 +220,12 @@ TEST(SceneError, NamesWhatAStabilityMapCannotBe)
 {
   const std::string map =
       "map = { parameter = \"stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
-  EXPECT_EQ(error_of(disc + replaced(map, "stiffness", "speed")),
-            "scene.toml:43: squeal.map.parameter = \"speed\": must be one of \"friction\", "
-            "\"preload\", \"stiffness\"");
+  const std::string speed = error_of(disc + replaced(map, "stiffness", "speed"));
+  EXPECT_NE(speed.find("scene.toml:43: squeal.map.parameter = \"speed\": must be one of "
+                       "\"friction\", \"preload\", \"stiffness\", \"damping\""),
+            std::string::npos)
+      << speed;
+  EXPECT_EQ(speed.find("oscillator"), std::string::npos);  // no parameter of a disc
   EXPECT_EQ(error_of(disc + replaced(map, "to = 9e6", "to = 9e5")),
             "scene.toml:43: squeal.map.to = 900000: must be >= 1000000");
   EXPECT_EQ(error_of(replaced(disc, "\"growth\", ", "\"stability-map\", ")),
@@ -337,6 +340,63 @@ TEST(Scene, TakesHillsMethodUnlessFloquetIsAskedFor)
       error_of(replaced(disc, growth, growth + "\nrotation_stability = { method = \"hil\" }"));
   EXPECT_NE(error.find("rotation_stability.method"), std::string::npos) << error;
   EXPECT_NE(error.find("floquet"), std::string::npos) << error;
+}
+
+/// The disc of the scene with a second ring.
+std::string disc_with_two_rings()
+{
+  const std::string ring = "{ name = \"track\", radius = 0.13, nodes = 60 }";
+  return replaced(replaced(disc, ring, ring + ", { name = \"inner\", radius = 0.12, nodes = 60 }"),
+                  "nodes = [\"track\", \"hub\"]", "nodes = [\"track\", \"inner\", \"hub\"]");
+}
+
+TEST(Scene, NamesOneRingOrOneForEachContactPlane)
+{
+  const squeal::SquealOptions one = parse_scene(disc, "scene.toml").squeal.value();
+  EXPECT_FALSE(one.planes);
+  const std::string two = replaced(disc_with_two_rings(), "ring = \"track\"",
+                                   "ring = { inboard = \"inner\", outboard = \"track\" }");
+  const squeal::SquealOptions faces = parse_scene(two, "scene.toml").squeal.value();
+  EXPECT_EQ(faces.ring, "inner");
+  EXPECT_EQ(faces.planes.value().opposite_ring, "track");
+  EXPECT_FALSE(faces.planes->heights);
+  EXPECT_EQ(faces.thickness, 0.03);
+  const squeal::SquealOptions planes =
+      parse_scene(replaced(disc, "thickness = 0.03", "contact_planes = [-0.01, 0.015]"),
+                  "scene.toml")
+          .squeal.value();
+  EXPECT_EQ(planes.planes.value().opposite_ring, "");
+  EXPECT_EQ(planes.planes->heights.value(), (std::array{-0.01, 0.015}));
+  EXPECT_DOUBLE_EQ(planes.thickness, 0.025);
+  const std::string grid =
+      "grid = { sector_deg = 20.0, points = 2, rings = [{ inboard = \"inner\", outboard = "
+      "\"track\" }] }, angle_deg";
+  const squeal::PadGrid pairs = parse_scene(replaced(two, "{ angle_deg", "{ " + grid), "scene.toml")
+                                    .squeal->pads[0]
+                                    .grid.value();
+  EXPECT_EQ(pairs.rings, std::vector<std::string>{"inner"});
+  EXPECT_EQ(pairs.opposite_rings, std::vector<std::string>{"track"});
+}
+
+TEST(SceneError, NamesWhatIsWrongWithContactPlanes)
+{
+  const auto with = [](const std::string& old_part, const std::string& new_part) {
+    return error_of(replaced(disc_with_two_rings(), old_part, new_part));
+  };
+  const std::string ring = "ring = \"track\"";
+  EXPECT_NE(with(ring, "ring = { inboard = \"inner\" }").find("outboard"), std::string::npos);
+  EXPECT_NE(with(ring, "ring = { inboard = \"inner\", outboard = \"inner\" }")
+                .find("must be another ring than inboard"),
+            std::string::npos);
+  EXPECT_NE(with(ring, "ring = { inboard = \"inner\", outboard = \"outer\" }").find("outer"),
+            std::string::npos);
+  EXPECT_NE(with("thickness = 0.03", "contact_planes = [0.01, -0.01]").find("z of the lower plane"),
+            std::string::npos);
+  EXPECT_NE(with("thickness = 0.03", "thickness = 0.03\ncontact_planes = [-0.01, 0.01]")
+                .find("contact_planes"),
+            std::string::npos);
+  EXPECT_NE(with("thickness = 0.03", "thickness = 0.03\nslopes_from = [\"outer\"]").find("outer"),
+            std::string::npos);
 }
 
 TEST(SceneError, NamesWhatAnIntegratorACriticalValueOrASoundLacks)

@@ -160,10 +160,10 @@ TEST(ContactCompliance, StandsInSeriesWithPadsThatLetGo)
           {S.transpose() * x.head(2).cwiseQuotient(disc.omega), S.transpose() * x.tail(2)});
     }
     const std::vector<PointMotion> before = at;
-    const auto force = [&](std::size_t i, const PointMotion& motion) -> Eigen::Vector3d {
-      const auto F =
-          contact(pads.points[i].contact, pair_motion(motion.g, motion.g_dot), 6.0 * pi).force;
-      return {F.F_w, F.F_r, F.F_t};
+    const auto force = [&](std::size_t i, const PointMotion& motion) {
+      const BrakePoint point = brake_point(matrix_of(shapes_at(disc, pads.points[i].angle)), pads,
+                                           pads.points[i], 6.0 * pi);
+      return contact_at(point, motion, 6.0 * pi).force;
     };
     series.add_to(at, force);
     // A second solution from the first one's forces, point by point through the modes themselves.

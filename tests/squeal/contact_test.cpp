@@ -4,6 +4,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/disc.hpp"
+#include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/pads.hpp"
 
 namespace chladni::squeal {
@@ -15,7 +16,21 @@ PadContact reference_pad(ContactLaw law, double damping = 0.0)
 {
   SquealOptions options = reference_options(law);
   options.pads[0].damping = damping;
-  return pad_contact(options, options.pads[0], ring_radius);
+  return pad_contact(options, options.pads[0], faces_of_plate(options.thickness, ring_radius));
+}
+
+/// Both pads on one middle surface.
+template <class Scalar>
+ContactResult<Scalar> contact_of(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
+{
+  return contact(pad, PairMotion<Scalar>{m, m}, speed);
+}
+
+template <class Scalar>
+RingForce<Scalar> force_of(const PadContact& pad, const RingMotion<Scalar>& m, double speed)
+{
+  const ContactResult<Scalar> at = contact_of(pad, m, speed);
+  return pair_force(pad, m, at.upper, at.lower);
 }
 
 RingMotion<double> motion_of(const Shapes& shapes, const Eigen::VectorXd& q,
@@ -38,8 +53,16 @@ struct PlateState {
 ContactResult<double> contact_in(const Shapes& shapes, const PlateState& x)
 {
   const Eigen::VectorXd root = x.mass.cwiseSqrt();
-  return contact(reference_pad(ContactLaw::bilateral),
-                 motion_of(shapes, root.cwiseProduct(x.q), root.cwiseProduct(x.v)), 6.0 * pi);
+  return contact_of(reference_pad(ContactLaw::bilateral),
+                    motion_of(shapes, root.cwiseProduct(x.q), root.cwiseProduct(x.v)), 6.0 * pi);
+}
+
+Eigen::VectorXd force_in(const Shapes& shapes, const PlateState& x)
+{
+  const Eigen::VectorXd root = x.mass.cwiseSqrt();
+  const RingMotion<double> m = motion_of(shapes, root.cwiseProduct(x.q), root.cwiseProduct(x.v));
+  return modal_force(shapes, force_of(reference_pad(ContactLaw::bilateral), m, 6.0 * pi))
+      .cwiseProduct(root);
 }
 
 /// h / (2 s) Omega (g . dg/dtheta): what the reference adds to the velocity of the upper pad. It
@@ -70,7 +93,7 @@ TEST(Contact, ReproducesTheReferenceStateOfOnePair)
   const PlateState x{Eigen::Vector2d{m, m}, Eigen::Vector2d{1e-3, -5e-4},
                      Eigen::Vector2d{3.0, 8.0}};
   const ContactResult<double> result = contact_in(shapes, x);
-  const Eigen::VectorXd Q = modal_force(shapes, result.force).cwiseProduct(x.mass.cwiseSqrt());
+  const Eigen::VectorXd Q = force_in(shapes, x);
   EXPECT_NEAR(Q[0], -4671.319862472467, 1e-10 * 4671.0);
   EXPECT_NEAR(Q[1], 334.80848999020003, 1e-10 * 4671.0);
   EXPECT_NEAR(result.upper.z, 0.0106176389621003, 1e-12);
@@ -94,7 +117,7 @@ TEST(Contact, ReproducesTheReferenceStateOfThreePairs)
       0.14211120657898393, 2.733564933062235;
   for (int i = 0; i < 6; ++i) x.mass[i] = pairs[static_cast<std::size_t>(i / 2)].mass;
   const ContactResult<double> result = contact_in(shapes, x);
-  const Eigen::VectorXd Q = modal_force(shapes, result.force).cwiseProduct(x.mass.cwiseSqrt());
+  const Eigen::VectorXd Q = force_in(shapes, x);
   const double expected[] = {-3849.0845071373446, 252.04434629123708, -3487.79614378601,
                              342.69084065191765,  -3152.912526532923, 413.195222352852};
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(Q[i], expected[i], 1e-10 * 4000.0) << "mode " << i;
@@ -109,7 +132,7 @@ TEST(Contact, LeavesTheFlatDiscInEquilibriumAtAnySpeed)
 {
   for (const double speed : {0.1, 6.0 * pi, 300.0}) {
     const auto force =
-        contact(reference_pad(ContactLaw::unilateral, 20.0), RingMotion<double>{}, speed).force;
+        force_of(reference_pad(ContactLaw::unilateral, 20.0), RingMotion<double>{}, speed);
     EXPECT_EQ(force.F_w, 0.0);
     EXPECT_EQ(force.F_r, 0.0);
     EXPECT_EQ(force.F_t, 0.0);
@@ -139,7 +162,7 @@ TEST(Contact, LosesItsForceOnlyWhenUnilateral)
 {
   // The lower pad is unloaded by 6e6 * 5e-4 = 3000 N from 2000 N.
   const RingMotion<double> up{5e-4, 0.001, 0.002, 0.0, 0.0, 0.0};
-  const auto lower = [&](ContactLaw law) { return contact(reference_pad(law), up, 10.0).lower; };
+  const auto lower = [&](ContactLaw law) { return contact_of(reference_pad(law), up, 10.0).lower; };
   EXPECT_EQ(lower(ContactLaw::unilateral).N, 0.0);
   EXPECT_LT(lower(ContactLaw::bilateral).N, -900.0);
   EXPECT_LT(lower(ContactLaw::signed_force).N, -900.0);
@@ -151,7 +174,7 @@ TEST(Contact, LosesItsForceOnlyWhenUnilateral)
 TEST(Contact, DoesNotDependOnTheLawWhileBothPadsPress)
 {
   const RingMotion<double> m{1e-4, 0.003, -0.002, 0.5, 2.0, 4.0};
-  const auto force = [&](ContactLaw law) { return contact(reference_pad(law), m, 10.0).force; };
+  const auto force = [&](ContactLaw law) { return force_of(reference_pad(law), m, 10.0); };
   const auto reference = force(ContactLaw::bilateral);
   for (const ContactLaw law : {ContactLaw::unilateral, ContactLaw::signed_force}) {
     EXPECT_EQ(force(law).F_w, reference.F_w);
@@ -159,18 +182,17 @@ TEST(Contact, DoesNotDependOnTheLawWhileBothPadsPress)
   }
 }
 
-TEST(ContactDerivatives, AgreeWithDifferencesOfTheKernel)
+TEST(PairDerivatives, AgreeWithDifferencesOfTheKernel)
 {
   const PadContact pad = reference_pad(ContactLaw::bilateral, 30.0);
-  const ContactDerivatives D = contact_derivatives(pad, 15.0);
+  const PairDerivatives D = pair_derivatives(pad, 15.0, middle_rows);
   // Second-order differences: error about step^2 of the nonlinear terms plus rounding / step.
   const double step = 1e-6;
   for (int j = 0; j < 6; ++j) {
     double x[6] = {};
     const auto force = [&](double value) {
       x[j] = value;
-      const auto F =
-          contact(pad, RingMotion<double>{x[0], x[1], x[2], x[3], x[4], x[5]}, 15.0).force;
+      const auto F = force_of(pad, RingMotion<double>{x[0], x[1], x[2], x[3], x[4], x[5]}, 15.0);
       return Eigen::Vector3d{F.F_w, F.F_r, F.F_t};
     };
     const Eigen::Vector3d difference = (force(step) - force(-step)) / (2.0 * step);

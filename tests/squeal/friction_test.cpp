@@ -7,6 +7,7 @@
 
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
+#include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
@@ -17,6 +18,11 @@ namespace chladni::squeal {
 namespace {
 
 using namespace test;
+
+PadContact pad_on_plate(const SquealOptions& options)
+{
+  return pad_contact(options, options.pads[0], faces_of_plate(options.thickness, ring_radius));
+}
 
 SquealOptions stribeck_options(ContactLaw law = ContactLaw::bilateral)
 {
@@ -44,7 +50,7 @@ TEST(Friction, AlwaysTakesPowerAndVanishesAtRest)
   // f_r, f_t on a flat disc are friction alone; the pad above slides with v_x = -h g_r' / 2 and
   // v_y = Omega r - h g_t' / 2.
   const SquealOptions options = stribeck_options();
-  const PadContact pad = pad_contact(options, options.pads[0], ring_radius);
+  const PadContact pad = pad_on_plate(options);
   for (const double speed : {-2.0, 0.0, 1e-3, 0.1, 20.0}) {
     const RingMotion<double> m{0.0, 0.0, 0.0, 0.0, 0.3, -0.1};
     const PadState<double> up = pad_state(pad, m, speed, 1.0);
@@ -94,7 +100,7 @@ TEST(Friction, FallingOverTheSpeedAddsNegativeDampingToTheCircumferentialSlope)
   SquealOptions options = stribeck_options();
   options.friction.regularisation = 0.0;
   const double speed = 12.0, v = speed * ring_radius;
-  const auto D = contact_derivatives(pad_contact(options, options.pads[0], ring_radius), speed);
+  const auto D = pair_derivatives(pad_on_plate(options), speed, middle_rows);
   const double h = options.thickness, mu = 0.4 + 0.3 * std::exp(-v / 1.5);
   const double slope = -0.3 / 1.5 * std::exp(-v / 1.5);
   EXPECT_NEAR(D.D_p(2, 2), -0.5 * h * h * 2000.0 * slope, 1e-14);
@@ -104,9 +110,9 @@ TEST(Friction, FallingOverTheSpeedAddsNegativeDampingToTheCircumferentialSlope)
 TEST(Friction, WithoutARiseIsCoulombs)
 {
   SquealOptions constant = reference_options();
-  const PadContact coulomb = pad_contact(constant, constant.pads[0], ring_radius);
+  const PadContact coulomb = pad_on_plate(constant);
   constant.friction.regularisation = 1e-9;
-  const PadContact regularised = pad_contact(constant, constant.pads[0], ring_radius);
+  const PadContact regularised = pad_on_plate(constant);
   const auto a = pad_state(coulomb, large_motion, 20.0, 1.0);
   const auto b = pad_state(regularised, large_motion, 20.0, 1.0);
   EXPECT_NEAR(a.N, b.N, 1e-9);  // (1e-9 / 2)^2 relative
@@ -116,14 +122,15 @@ TEST(Friction, WithoutARiseIsCoulombs)
 TEST(PadSpring, StiffensByTheCubeOfItsCompression)
 {
   SquealOptions options = reference_options();
-  const PadContact linear = pad_contact(options, options.pads[0], ring_radius);
+  const PadContact linear = pad_on_plate(options);
   options.pads[0].cubic_stiffness = 2e13;
-  const PadContact cubic = pad_contact(options, options.pads[0], ring_radius);
+  const PadContact cubic = pad_on_plate(options);
   RingMotion<double> m{};
   m.w = 2e-4;
   EXPECT_NEAR(pad_state(cubic, m, 20.0, 1.0).S - pad_state(linear, m, 20.0, 1.0).S, 160.0, 1e-9);
   // To first order it is not there.
-  EXPECT_EQ(contact_derivatives(cubic, 20.0).D_a, contact_derivatives(linear, 20.0).D_a);
+  EXPECT_EQ(pair_derivatives(cubic, 20.0, middle_rows).D_a,
+            pair_derivatives(linear, 20.0, middle_rows).D_a);
 }
 
 TEST(PadSpring, ThatStiffensRaisesTheFrequencyOfTheLimitCycleAlsoWithContactLoss)

@@ -114,7 +114,7 @@ PadPair pad_on(const std::vector<std::string>& rings, int points = 3)
 
 Disc disc_for(const PadPair& pad)
 {
-  return make_disc(body_with_two_rings(), ring_names(options_with(pad)), {});
+  return make_disc(body_with_two_rings(), ring_choice(options_with(pad)), {});
 }
 
 TEST(PadGrid, OnTwoRingsIsTheMeanOfThePadsOnEach)
@@ -137,10 +137,10 @@ TEST(PadGrid, SharesItsForcesAmongAllRings)
   double preload = 0.0;
   for (const PointPair& point : pads.points) preload += point.contact.preload;
   EXPECT_DOUBLE_EQ(preload, 2000.0);
-  EXPECT_EQ(pads.points[0].ring, 1u);
-  EXPECT_EQ(pads.points[0].contact.radius, 0.11);
-  EXPECT_EQ(pads.points[3].ring, 0u);
-  EXPECT_EQ(pads.points[3].contact.radius, 0.13);
+  EXPECT_EQ(pads.points[0].rings[0], 1u);
+  EXPECT_EQ(pads.points[0].contact.faces[0].radius, 0.11);
+  EXPECT_EQ(pads.points[3].rings[1], 0u);
+  EXPECT_EQ(pads.points[3].contact.faces[1].radius, 0.13);
 }
 
 TEST(PadGrid, OnTwoRingsGrowsInTimeAsItsEigenvaluesSayUnderEveryIntegrator)
@@ -176,7 +176,7 @@ TEST(PadGrid, OnTwoRingsHasALimitCycle)
 TEST(PadGrid, RefusesARingThatTheDiscDoesNotHave)
 {
   EXPECT_THROW(pad_system(options_with(pad_on({"outer"})), ring_radius), Error);
-  EXPECT_THROW(make_disc(body_with_two_rings(), std::vector<std::string>{"track", "outer"}, {}),
+  EXPECT_THROW(make_disc(body_with_two_rings(), RingChoice{.names = {"track", "outer"}}, {}),
                Error);
 }
 

@@ -39,7 +39,7 @@ TEST(StabilityMap, HoldsTheLeastStableEigenvalueOfEachPoint)
                                            c.map, reference_options().study.speeds);
     ASSERT_EQ(map.growth.rows(), 3);
     ASSERT_EQ(map.growth.cols(), 60);
-    EXPECT_EQ(map.parameter, name_of(c.map.parameter));
+    EXPECT_EQ(map.parameter, c.map.parameter.name);
     for (Eigen::Index i = 0; i < 3; ++i)
       for (const Eigen::Index j : {0, 17, 59}) {
         SquealOptions point = reference_options();

@@ -59,15 +59,20 @@ function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
 // Per cent of its energy that a motion takes from something in a period.
 const inPeriod = x => x === null ? "" : `${formatted(100 * x, 3)} %`;
 
+const share = x => x === null ? "" : `${formatted(100 * x, 2)} %`;
+
 function unstableModesTable({unstable_modes: {branches, parameter, unit}}) {
   const rows = branches.map((branch, j) => [j + 1, branch]).filter(([, {unstable}]) => unstable.length);
   if (!rows.length) return note("");
   const known = rows.some(([, {diameters}]) => diameters !== null);
-  const header = ["mode", "frequency, Hz", ...(known ? ["nodal diameters"] : []),
+  const circled = rows.some(([, {circles}]) => circles !== null), flat = rows.some(([, {in_plane}]) => in_plane !== null);
+  const header = ["mode", "frequency, Hz", ...(known ? ["nodal diameters"] : []), ...(circled ? ["nodal circles"] : []),
+                  ...(flat ? ["in plane"] : []),
                   `unstable from, to (${parameter}${unit !== "1" ? `, ${unit}` : ""})`, "growth, 1/s", "damping ratio",
                   ...(known ? ["gain from friction in a period"] : [])];
   return scrolled(table(header, rows.map(([number, branch]) => [
     String(number), formatted(branch.worst_Hz, 6), ...(known ? [String(branch.diameters)] : []),
+    ...(circled ? [branch.circles === null ? "" : String(branch.circles)] : []), ...(flat ? [share(branch.in_plane)] : []),
     branch.unstable.map(([from, to]) => `${formatted(from)} to ${formatted(to)}`).join(", "),
     formatted(branch.worst_growth), formatted(branch.damping_ratio, 3), ...(known ? [inPeriod(branch.friction_work)] : [])])));
 }

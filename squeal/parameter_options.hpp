@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace chladni::squeal {
+
+/// A scalar key of [squeal] that a study may vary, for all pads if it is one of pads.
+struct MapParameter {
+  std::string_view name;  ///< of a row of `parameters`
+
+  static const MapParameter friction;   ///< mu
+  static const MapParameter preload;    ///< N_0 of every pad, N
+  static const MapParameter stiffness;  ///< k of every pad, N/m
+  static const MapParameter damping;    ///< d of every pad, N s/m
+
+  bool operator==(const MapParameter&) const = default;
+};
+inline constexpr MapParameter MapParameter::friction{"friction"};
+inline constexpr MapParameter MapParameter::preload{"preload"};
+inline constexpr MapParameter MapParameter::stiffness{"stiffness"};
+inline constexpr MapParameter MapParameter::damping{"damping"};
+
+/// Which brakes have a parameter.
+enum class ParameterOf { any, body, rigid_disc, oscillator };
+
+struct ParameterRow {
+  std::string_view
+      name;  ///< that of its key in [squeal]; of pads the first four have none of theirs
+  std::string_view unit;
+  bool may_be_zero = false;
+  ParameterOf of = ParameterOf::body;
+};
+
+inline constexpr std::array parameters = {
+    ParameterRow{"friction", "1", true, ParameterOf::any},
+    ParameterRow{"preload", "N", false, ParameterOf::any},
+    ParameterRow{"stiffness", "N/m", false, ParameterOf::any},
+    ParameterRow{"damping", "N s/m", true, ParameterOf::any},
+    ParameterRow{"thickness", "m"},
+    ParameterRow{"friction.static", "1", true},
+    ParameterRow{"friction.decay_speed", "m/s"},
+    ParameterRow{"friction.regularisation", "m/s", true},
+    ParameterRow{"pads.grid.sector_deg", "degrees"},
+    ParameterRow{"pads.body.mass", "kg"},
+    ParameterRow{"pads.body.height", "m", true},
+    ParameterRow{"pads.body.radial.stiffness", "N/m"},
+    ParameterRow{"pads.body.radial.damping", "N s/m", true},
+    ParameterRow{"pads.body.tangential.stiffness", "N/m"},
+    ParameterRow{"pads.body.tangential.damping", "N s/m", true},
+    ParameterRow{"pads.body.axial.stiffness", "N/m"},
+    ParameterRow{"pads.body.axial.damping", "N s/m", true},
+    ParameterRow{"pads.body.about_radial.inertia", "kg m^2"},
+    ParameterRow{"pads.body.about_radial.stiffness", "N m"},
+    ParameterRow{"pads.body.about_radial.damping", "N m s", true},
+    ParameterRow{"pads.body.about_tangential.inertia", "kg m^2"},
+    ParameterRow{"pads.body.about_tangential.stiffness", "N m"},
+    ParameterRow{"pads.body.about_tangential.damping", "N m s", true},
+    ParameterRow{"pads.body.about_axial.inertia", "kg m^2"},
+    ParameterRow{"pads.body.about_axial.stiffness", "N m"},
+    ParameterRow{"pads.body.about_axial.damping", "N m s", true},
+    ParameterRow{"pads.caliper.mass", "kg"},
+    ParameterRow{"pads.caliper.stiffness", "N/m"},
+    ParameterRow{"pads.caliper.damping", "N s/m", true},
+    ParameterRow{"rigid_disc.diametral_inertia", "kg m^2", false, ParameterOf::rigid_disc},
+    ParameterRow{"rigid_disc.axial_inertia", "kg m^2", false, ParameterOf::rigid_disc},
+    ParameterRow{"rigid_disc.stiffness", "N m", false, ParameterOf::rigid_disc},
+    ParameterRow{"rigid_disc.damping", "N m s", true, ParameterOf::rigid_disc},
+    ParameterRow{"rigid_disc.pad_radius", "m", false, ParameterOf::rigid_disc},
+    ParameterRow{"oscillator.mass", "kg", false, ParameterOf::oscillator},
+    ParameterRow{"oscillator.stiffness_along", "N/m", false, ParameterOf::oscillator},
+    ParameterRow{"oscillator.stiffness_normal", "N/m", false, ParameterOf::oscillator},
+    ParameterRow{"oscillator.stiffness_coupling", "N/m", true, ParameterOf::oscillator},
+    ParameterRow{"oscillator.damping_along", "N s/m", true, ParameterOf::oscillator},
+    ParameterRow{"oscillator.damping_normal", "N s/m", true, ParameterOf::oscillator},
+};
+
+/// The row of this name; null when there is none.
+constexpr const ParameterRow* find_parameter(std::string_view name)
+{
+  for (const ParameterRow& row : parameters)
+    if (row.name == name) return &row;
+  return nullptr;
+}
+
+/// Sets what `at` points to.
+/// @param at  null where the brake has no such key
+/// @throws chladni::Error then, with the parameter and what to do.
+void set_parameter(double* at, MapParameter parameter, double value);
+
+}  // namespace chladni::squeal

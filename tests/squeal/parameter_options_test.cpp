@@ -1,0 +1,170 @@
+#include "squeal/parameter_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "common/error.hpp"
+#include "references/squeal/analytic_body.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/models/oscillator.hpp"
+#include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/stability/eigenvalue_branches.hpp"
+#include "squeal/stability/unstable_modes.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+
+/// A brake that has every parameter of a body.
+SquealOptions full_options()
+{
+  SquealOptions options = reference_options();
+  options.friction = {.kinetic = 0.4, .rise = 0.2, .decay_speed = 0.5, .regularisation = 1e-2};
+  PadPair& pad = options.pads.front();
+  pad.damping = 5.0;
+  pad.grid = PadGrid{.sector = 0.4, .points = 3};
+  pad.body = PadBody{.mass = 0.3,
+                     .height = 0.01,
+                     .radial = Suspension{3e7, 20.0},
+                     .tangential = Suspension{2e7, 20.0},
+                     .axial = Suspension{5e6, 30.0},
+                     .about_radial = RotarySuspension{1.5e-4, {3e3, 0.05}},
+                     .about_tangential = RotarySuspension{1e-4, {2e3, 0.05}},
+                     .about_axial = RotarySuspension{2e-4, {2e4, 0.05}}};
+  pad.caliper = Caliper{.mass = 3.0, .axial = {4e6, 10.0}};
+  return options;
+}
+
+std::string complaint(const Brake& brake, MapParameter parameter, double value)
+{
+  try {
+    brake.with(parameter, value);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, OfABodyChangeItsStateMatrix)
+{
+  const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3()}), full_options());
+  const Eigen::MatrixXd A = brake.state_matrix(8.0);
+  int n = 0;
+  for (const ParameterRow& row : parameters) {
+    if (row.of != ParameterOf::body && row.of != ParameterOf::any) continue;
+    const double value = row.name == "friction" ? 0.3 : row.name == "friction.static" ? 0.9 : 0.07;
+    const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
+    // Modes of the pads come with any sign: their spectra are compared.
+    EXPECT_GT((changed.eigenvalues() - A.eigenvalues()).norm(), 1e-9 * A.norm()) << row.name;
+    ++n;
+  }
+  EXPECT_EQ(n, 29);
+}
+
+TEST(Parameters, AreThoseOfTheScene)
+{
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), full_options());
+  const auto same = [&](std::string_view name, double value, const auto& change) {
+    SquealOptions options = full_options();
+    change(options);
+    EXPECT_EQ(brake.with({name}, value)->state_matrix(8.0),
+              FlexibleDisc(disc_of({kirchhoff_3()}), options).state_matrix(8.0))
+        << name;
+  };
+  same("damping", 9.0, [](auto& o) { o.pads[0].damping = 9.0; });
+  same("friction.static", 0.7, [](auto& o) { o.friction.rise = 0.7 - 0.4; });
+  same("thickness", 0.03, [](auto& o) { o.thickness = 0.03; });
+  same("pads.grid.sector_deg", 30.0, [](auto& o) { o.pads[0].grid->sector = 30.0 * (pi / 180.0); });
+  same("pads.body.mass", 0.5, [](auto& o) { o.pads[0].body->mass = 0.5; });
+  same("pads.body.tangential.damping", 7.0,
+       [](auto& o) { o.pads[0].body->tangential->damping = 7.0; });
+  same("pads.body.about_axial.inertia", 3e-4,
+       [](auto& o) { o.pads[0].body->about_axial->inertia = 3e-4; });
+  same("pads.caliper.stiffness", 5e6, [](auto& o) { o.pads[0].caliper->axial.stiffness = 5e6; });
+}
+
+TEST(Parameters, ThatABrakeLacksAreNamed)
+{
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), reference_options());
+  EXPECT_EQ(complaint(brake, MapParameter::damping, 1.0), "");
+  const std::string text = complaint(brake, {"pads.body.mass"}, 0.3);
+  EXPECT_NE(text.find("\"pads.body.mass\" cannot vary"), std::string::npos) << text;
+  EXPECT_NE(complaint(brake, {"friction.static"}, 0.9), "");  // Coulomb's law has none
+  const FlexibleDisc falling(disc_of({kirchhoff_3()}), full_options());
+  EXPECT_NE(complaint(falling, {"friction.static"}, 0.1).find("below friction.kinetic"),
+            std::string::npos);
+}
+
+TEST(Parameters, HaveATableOfAllModes)
+{
+  // Over the mass of the plates, and over the damping of the pads from zero on.
+  const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3()}), full_options());
+  for (const auto& [name, from, to] :
+       {std::tuple{"pads.body.mass", 0.1, 0.9}, {"damping", 0.0, 200.0}}) {
+    const StabilityCase search{
+        .over = MapParameter{name}, .from = from, .to = to, .count = 5, .speed = 20.0};
+    const StabilityTable table = unstable_modes(brake, search);
+    EXPECT_EQ(table.parameter, name);
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const auto exact =
+          oscillating_eigenvalues(brake.with({name}, table.values[i])->state_matrix(20.0));
+      ASSERT_EQ(exact.size(), std::ssize(table.branches));
+      for (const StabilityBranch& branch : table.branches)
+        EXPECT_LT((exact.array() - branch.lambda[i]).abs().minCoeff(),
+                  1e-9 * std::abs(branch.lambda[i]));
+    }
+  }
+}
+
+/// A picture of 12 rings of 48 points between r = 0.05 and 0.16, and integrals over the mass.
+mbs_export::ModalBody pictured_body(double circle, double in_plane)
+{
+  mbs_export::ModalBody body = analytic_body({kirchhoff_3()});
+  body.picture.positions.resize(12 * 48, 3);
+  body.picture.transformation = Eigen::MatrixXd::Zero(3 * 12 * 48, 2);
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 48; ++j) {
+      const double r = 0.05 + 0.01 * i, theta = 2.0 * pi * j / 48.0;
+      const Eigen::Index at = 48 * i + j;
+      body.picture.positions.row(at) << r * std::cos(theta), r * std::sin(theta), 0.0;
+      body.picture.transformation.row(3 * at + 2) << (r - circle) * std::cos(3.0 * theta),
+          (r - circle) * std::sin(3.0 * theta);
+    }
+  body.mass_integrals = mbs_export::MassIntegrals{};
+  body.mass_integrals->displacement = Eigen::MatrixXd::Zero(3, 2);
+  for (Eigen::MatrixXd& S : body.mass_integrals->products) S = Eigen::MatrixXd::Zero(2, 2);
+  body.mass_integrals->products[0] = 0.5 * in_plane * Eigen::Matrix2d::Identity();
+  body.mass_integrals->products[1] = 0.5 * in_plane * Eigen::Matrix2d::Identity();
+  body.mass_integrals->products[2] = (1.0 - in_plane) * Eigen::Matrix2d::Identity();
+  return body;
+}
+
+StabilityTable table_of(const mbs_export::ModalBody& body)
+{
+  const FlexibleDisc brake(make_disc(body, "track", {}), reference_options());
+  return unstable_modes(brake, {.from = 10.0, .to = 20.0, .count = 2});
+}
+
+TEST(ModeFigures, CountCirclesAndTellMotionInThePlane)
+{
+  const StabilityTable one = table_of(pictured_body(0.1, 0.2));
+  ASSERT_FALSE(one.branches.empty());
+  EXPECT_EQ(nodal_circles(one, one.branches.front()), 1);
+  EXPECT_NEAR(in_plane_share(one, one.branches.front()).value(), 0.2, 1e-12);
+  const StabilityTable none = table_of(pictured_body(0.0, 0.2));
+  EXPECT_EQ(nodal_circles(none, none.branches.front()), 0);
+  // Of motion in the plane nodal circles say nothing; a body may have no picture and no integrals.
+  const StabilityTable flat = table_of(pictured_body(0.1, 0.9));
+  EXPECT_FALSE(nodal_circles(flat, flat.branches.front()));
+  const StabilityTable bare = table_of(analytic_body({kirchhoff_3()}));
+  EXPECT_FALSE(nodal_circles(bare, bare.branches.front()));
+  EXPECT_FALSE(in_plane_share(bare, bare.branches.front()));
+}
+
+}  // namespace
+}  // namespace chladni::squeal
