@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -183,18 +184,33 @@ void add_interface_motion(MatrixXd& motion, const SectorModel& model, const Harm
   }
 }
 
-mbs_export::ModeCount sum_of(const std::vector<HarmonicPart>& parts,
-                             reduce::EigenvalueCount reduce::Certificate::*which)
+/// The counts of all harmonics as one. Where no harmonic misses a mode, all together have as many
+/// as the model has below the lowest of their limits.
+/// @param lambda  of the model, all of a part
+mbs_export::ModeCount whole_count(
+    const std::vector<HarmonicPart>& parts, reduce::EigenvalueCount reduce::Certificate::*which,
+    const std::function<std::vector<double>(const HarmonicPart&)>& lambda)
 {
+  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   mbs_export::ModeCount sum;
   for (const HarmonicPart& part : parts) {
     const reduce::EigenvalueCount& count = part.certificate.*which;
     if (!(count.sigma > 0.0)) return {};
-    const double up_to = std::sqrt(count.sigma);
-    sum.up_to = sum.up_to > 0.0 ? std::min(sum.up_to, up_to) : up_to;
+    least = std::min(least, count.sigma);
+    largest = std::max(largest, count.sigma);
     sum.expected += count.expected;
     sum.found += count.found;
   }
+  sum.up_to = std::sqrt(largest);
+  if (sum.missing() > 0) return sum;
+  sum = {.up_to = std::sqrt(least), .expected = 0, .found = 0};
+  for (const HarmonicPart& part : parts) {
+    const double sigma = (part.certificate.*which).sigma;
+    const auto is_above = [&](double value) { return value >= least && value < sigma; };
+    sum.found += (part.certificate.*which).found -
+                 static_cast<int>(std::ranges::count_if(lambda(part), is_above));
+  }
+  sum.expected = sum.found;
   return sum;
 }
 
@@ -255,9 +271,14 @@ mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts
   whole.estimates = column(&Entry::estimate, entries.size());
   whole.rounding = column(&Entry::rounding, entries.size());
   whole.bounds = column(&Entry::bound, lower.size());
-  whole.fixed_interface = sum_of(parts, &reduce::Certificate::fixed_interface);
-  whole.range = sum_of(parts, &reduce::Certificate::range);
-  whole.complete = sum_of(parts, &reduce::Certificate::complete);
+  const auto of_model = [](const HarmonicPart& part) { return part.certificate.lambda; };
+  const auto of_modes = [](const HarmonicPart& part) {
+    const VectorXd lambda = part.omega.cwiseAbs2();
+    return std::vector<double>(lambda.begin(), lambda.end());
+  };
+  whole.fixed_interface = whole_count(parts, &reduce::Certificate::fixed_interface, of_modes);
+  whole.range = whole_count(parts, &reduce::Certificate::range, of_model);
+  whole.complete = whole_count(parts, &reduce::Certificate::complete, of_model);
   return whole;
 }
 

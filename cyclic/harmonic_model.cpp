@@ -101,18 +101,29 @@ void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
   }
 }
 
-/// The statics alone where the harmonic has no mode below the cut-off.
-reduce::ReductionOptions with_modes_there_are(reduce::ReductionOptions options,
-                                              const reduce::FactoredBody& body)
+/// Fixed-interface modes below a frequency: a few at a time, since a harmonic has few.
+int modes_below(double cutoff_Hz, const reduce::FactoredBody& body)
 {
-  if (!options.basis.cutoff_Hz) return options;
-  const std::vector<double> first =
-      reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss, {.modes = 1}).omega;
-  const double cutoff = 2.0 * std::numbers::pi * *options.basis.cutoff_Hz;
-  if (!first.empty() && first.front() < cutoff) return options;
-  options.basis = {.method = reduce::Method::guyan,
-                   .certified_up_to_Hz = options.basis.certified_up_to_Hz};
-  return options;
+  const double cutoff = 2.0 * std::numbers::pi * cutoff_Hz;
+  PetscInt n_slaves = 0;
+  petsc::check(MatGetSize(body.K_blocks.ss, &n_slaves, nullptr));
+  for (int asked = 4;; asked *= 2) {
+    const int most = std::min(asked, static_cast<int>(n_slaves));
+    const std::vector<double> omega =
+        reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss, {.modes = most}).omega;
+    if (omega.back() >= cutoff || std::ssize(omega) >= n_slaves)
+      return static_cast<int>(std::ranges::lower_bound(omega, cutoff) - omega.begin());
+  }
+}
+
+/// Modes that only the certificate needed: it says that the harmonic has nothing below them.
+void leave_out_modes(HarmonicModel& model)
+{
+  const Index n_m = model.n_masters();
+  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+    if (A->size() > 0) *A = A->topLeftCorner(n_m, n_m).eval();
+  model.W = MatrixXd(model.W.rows(), 0);
+  model.omega.resize(0);
 }
 
 }  // namespace
@@ -128,8 +139,14 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
     if (is_held(master)) held.push_back(master.coordinate);
   const reduce::HeldMasters support(whole.masters, std::move(held));
   reduce::FactoredBody body = reduce::factored(std::move(whole), options, phases);
-  reduce::Reduction reduction =
-      reduce::reduction(body, with_modes_there_are(options, body), support, phases);
+  const int n_below = options.basis.cutoff_Hz ? modes_below(*options.basis.cutoff_Hz, body) : -1;
+  const bool beyond = n_below == 0;
+  reduce::ReductionOptions chosen = options;
+  if (n_below >= 0) {
+    chosen.basis.cutoff_Hz.reset();
+    chosen.basis.modes = std::max(n_below, 1);
+  }
+  reduce::Reduction reduction = reduce::reduction(body, chosen, support, phases);
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   HarmonicModel model{.coordinates = std::move(coordinates),
                       .K = in_order(reduction.model.K, places),
@@ -152,6 +169,7 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
     make_pairs(model, sector);
     return 0;
   });
+  if (beyond) leave_out_modes(model);
   return model;
 }
 
