@@ -4,6 +4,7 @@
 
 #include "cases/mesh_scene.hpp"
 #include "cases/ranks.hpp"
+#include "common/error.hpp"
 #include "mesh/partition.hpp"
 #include "plate/dofs/drilling.hpp"
 #include "plate/dofs/supports.hpp"
@@ -13,6 +14,11 @@ namespace {
 
 SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 {
+  if (mesh.sectors.count > 1) {
+    throw Error(
+        "sectors: one sector can be reduced, but `static` and `modes` solve whole bodies; "
+        "take mesh.sectors out");
+  }
   std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
   plate::DofMap dofs = plate::make_dof_map(
       mesh, {.couplings = scene.couplings, .components = scene.components}, owners, n_ranks());

@@ -10,6 +10,7 @@
 #include "cases/mesh_scene.hpp"
 #include "cases/picture.hpp"
 #include "cases/ranks.hpp"
+#include "cases/reduce_sectors.hpp"
 #include "cases/reduce_steps.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
@@ -231,23 +232,39 @@ MatrixXd projected(const SceneReduction& reduced, Mat A)
       reduced.places);
 }
 
-ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
-                           const ReduceProgress& progress)
+namespace {
+
+mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers& solvers,
+                                  const mesh::Mesh& mesh)
 {
-  Phases phases(progress);
-  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
-  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
-  SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
-  reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
-  mbs_export::ReducedSystem& system = reduced.system;
-  system.provenance = {
+  return {
       .scene = scene.text,
-      .mesh_checksum = mesh::checksum(fe.mesh),
+      .mesh_checksum = mesh::checksum(mesh),
       .versions = fmt::format("Chladni {}; {}; Gmsh via its C++ API", report::version,
                               reduce_export::library_versions()),
       .options = solvers.text,
       .ranks = n_ranks(),
       .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};
+}
+
+}  // namespace
+
+ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
+                           const ReduceProgress& progress)
+{
+  Phases phases(progress);
+  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
+  if (mesh.sectors.count > 1) {
+    const mbs_export::Provenance from = provenance(scene, solvers, mesh);
+    ReduceSummary summary = reduce_sectors(scene, std::move(mesh), solvers.options, phases);
+    summary.reduced.provenance = from;
+    return summary;
+  }
+  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
+  SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
+  reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
+  mbs_export::ReducedSystem& system = reduced.system;
+  system.provenance = provenance(scene, solvers, fe.mesh);
   return {
       .reduced = std::move(system),
       .phases = phases.times(),

@@ -9,6 +9,7 @@
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
+#include "mesh/sectors.hpp"
 #include "mesh/structured_disc.hpp"
 #include "mesh/sweep.hpp"
 
@@ -65,6 +66,7 @@ void check_radii(const AnnulusOptions& o)
                             o.inner_radius, o.outer_radius));
   }
   if (o.edge_row) check_edge_rows(*o.edge_row, o.outer_radius - o.inner_radius);
+  check_pattern_of_sectors(o.sectors, o.pattern);
   const double row = o.edge_row.value_or(0.0);
   for (const RingOptions& ring : o.rings) {
     if (!(ring.radius > o.inner_radius + row && ring.radius < o.outer_radius - row)) {

@@ -11,6 +11,7 @@
 #include "mesh/generators.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/rings.hpp"
+#include "mesh/sectors.hpp"
 #include "mesh/structured_disc.hpp"
 #include "mesh/sweep.hpp"
 
@@ -207,6 +208,7 @@ void check(const HatDiscOptions& o)
   }
   check_rings(o);
   check_bolts(o);
+  check_pattern_of_sectors(o.sectors, o.pattern);
 }
 
 }  // namespace

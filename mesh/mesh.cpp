@@ -69,6 +69,7 @@ std::string checksum(const Mesh& mesh)
   Fnv1a hash;
   hash.add(std::span(mesh.positions));
   for (const ElementBlock& block : mesh.blocks) hash.add(std::span(block.nodes));
+  if (mesh.sectors.count > 1) hash.add(std::span(&mesh.sectors.count, 1));
   return fmt::format("{:016x}", hash.value());
 }
 

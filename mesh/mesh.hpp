@@ -36,6 +36,14 @@ struct Group {
       nodes;  ///< indices into Mesh::positions; of a ring ordered by angle, else ascending
 };
 
+/// The sectors of a body that repeats about the z axis. The mesh is the first of them; the others
+/// follow by turns of 360 degrees / count.
+struct Sectors {
+  int count = 1;  ///< 1: the mesh is the whole body
+  std::vector<std::array<int, 2>>
+      pairs;  ///< nodes of its cut edges: `low`, and `high`, where one turn takes `low`
+};
+
 /// A mesh of lines, triangles and quadrilaterals in space; the same on every rank.
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
@@ -43,6 +51,7 @@ struct Mesh {
   std::vector<ElementBlock> blocks;              ///< surfaces, and lines that are beams
   std::vector<Group> groups;
   std::vector<std::string> notes;  ///< for the user: what was changed or left out on the way here
+  Sectors sectors = {};
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };

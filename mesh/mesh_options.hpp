@@ -33,6 +33,7 @@ struct AnnulusOptions {
   std::vector<RingOptions> rings;
   Pattern pattern = Pattern::unstructured;
   std::optional<double> edge_row = {};  ///< m, width of one row of elements along both edges
+  int sectors = 1;                      ///< equal ones, of which one is meshed; structured only
 };
 
 /// Round holes at equal angles on a circle of the flange, the first on the x axis.
@@ -60,6 +61,7 @@ struct HatDiscOptions {
   Pattern pattern = Pattern::structured;
   std::optional<double> edge_row = {};  ///< m, along the edges of disc and hub and around bolts
   std::optional<BoltOptions> bolts = {};
+  int sectors = 1;  ///< equal ones, of which one is meshed; structured only
 };
 
 /// Plane sector of an annulus about the z axis, symmetric to `centre_angle`: a pad. Groups: "pad"
@@ -134,6 +136,7 @@ struct MeshOptions {
   std::vector<EntityGroup> groups = {};       ///< besides those of the file
   std::vector<RingOptions> rings = {};        ///< nodes must lie there; a .step gets them
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
+  int sectors = 1;                            ///< equal ones, of which the file holds one
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
   Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh

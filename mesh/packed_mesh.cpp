@@ -33,6 +33,8 @@ void transfer_mesh(auto& archive, auto& mesh)
   archive.each(mesh.blocks, [](auto& a, auto& block) { transfer_block(a, block); });
   archive.each(mesh.groups, [](auto& a, auto& group) { transfer_group(a, group); });
   archive.each(mesh.notes, [](auto& a, auto& note) { a(note); });
+  archive(mesh.sectors.count);
+  archive(mesh.sectors.pairs);
 }
 
 void transfer_options(auto& archive, auto& options)
@@ -114,6 +116,8 @@ void check(const Mesh& mesh)
     require(group.dimension >= 0 && group.dimension <= 2, "a group of no dimension");
     check_indices(group.nodes, 0, mesh.positions.size(), "a group of nodes that are not there");
   }
+  for (const auto& [low, high] : mesh.sectors.pairs)
+    check_indices({low, high}, 0, mesh.positions.size(), "a pair of nodes that are not there");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rings.hpp"
+#include "mesh/sectors.hpp"
 
 namespace chladni::mesh {
 
@@ -52,6 +53,7 @@ Mesh read_gmsh(const MeshOptions& options)
   try {
     Mesh mesh =
         treat_coincident_nodes(read(options), options.coincident_nodes, options.merge_tolerance);
+    find_sector_edges(mesh, options.sectors);
     const std::string hint = hint_of_unit(mesh, options);
     if (!hint.empty()) mesh.notes.push_back(hint);
     add_rings_or_hint(mesh, options, hint);

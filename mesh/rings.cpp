@@ -66,18 +66,43 @@ std::vector<Place> places_of(const Mesh& mesh, const RingOptions& ring)
   return places;
 }
 
-void check_all_are_there(const std::vector<Place>& places, const RingOptions& ring,
-                         double tolerance)
+void refuse_missing(const std::vector<Place>& places, const Place& missing, const RingOptions& ring,
+                    double tolerance)
 {
   const auto is_there = [&](const Place& place) { return place.nearest.distance <= tolerance; };
-  const auto missing = std::ranges::find_if_not(places, is_there);
-  if (missing == places.end()) return;
   throw Error(fmt::format(
       "ring \"{}\": {} of its {} nodes are there; no node of the mesh is within {:.2g} m of radius "
       "{} m, angle {:.6g} degrees (the nearest is {:.3g} m away); put {} points at equal angles "
       "from the x axis on that circle",
       ring.name, std::ranges::count_if(places, is_there), ring.nodes, tolerance, ring.radius,
-      missing->angle * 180.0 / std::numbers::pi, missing->nearest.distance, ring.nodes));
+      missing.angle * 180.0 / std::numbers::pi, missing.nearest.distance, ring.nodes));
+}
+
+/// The places that have a node: all of them, or, of a sector, those inside and at its edges.
+/// @throws chladni::Error when a place has no node in any sector.
+std::vector<Place> occupied(const Mesh& mesh, const std::vector<Place>& places,
+                            const RingOptions& ring, double tolerance)
+{
+  if (ring.nodes % mesh.sectors.count != 0) {
+    throw Error(
+        fmt::format("ring \"{}\": its {} nodes do not repeat in {} sectors; take a multiple",
+                    ring.name, ring.nodes, mesh.sectors.count));
+  }
+  const int n_each = ring.nodes / mesh.sectors.count;
+  std::vector<bool> is_there(static_cast<std::size_t>(n_each), false);
+  std::vector<Place> found;
+  for (int i = 0; i < ring.nodes; ++i) {
+    const Place& place = places[static_cast<std::size_t>(i)];
+    if (place.nearest.distance > tolerance) continue;
+    is_there[static_cast<std::size_t>(i % n_each)] = true;
+    found.push_back(place);
+  }
+  const auto missing = std::ranges::find(is_there, false);
+  if (missing != is_there.end()) {
+    refuse_missing(places, places[static_cast<std::size_t>(missing - is_there.begin())], ring,
+                   tolerance);
+  }
+  return found;
 }
 
 Group ring_group(Mesh& mesh, const RingOptions& ring)
@@ -85,8 +110,7 @@ Group ring_group(Mesh& mesh, const RingOptions& ring)
   constexpr double of_spacing = 1e-3;  // no element is bent by that; a file of 8 digits needs 1e-7
   constexpr double round_off = 1e-9;   // of Gmsh's arcs and of a file with 16 digits
   const double tolerance = of_spacing * 2.0 * std::numbers::pi * ring.radius / ring.nodes;
-  const std::vector<Place> places = places_of(mesh, ring);
-  check_all_are_there(places, ring, tolerance);
+  const std::vector<Place> places = occupied(mesh, places_of(mesh, ring), ring, tolerance);
   Group group{.name = ring.name, .dimension = 0, .nodes = {}};
   double largest_move = 0.0;
   for (const Place& place : places) {

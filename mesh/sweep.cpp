@@ -149,10 +149,10 @@ std::vector<double> with_edge_rows(std::vector<double> breaks, double row)
   return breaks;
 }
 
-int n_elements_around(double radius, double size, std::span<const RingOptions> rings)
+int n_elements_around(double radius, double size, std::span<const RingOptions> rings, int sectors)
 {
   const double wanted = std::max(12.0, 2.0 * std::numbers::pi * radius / size);
-  std::int64_t divisor = 1;
+  std::int64_t divisor = sectors;
   for (const RingOptions& ring : rings) {
     divisor = std::lcm(divisor, std::int64_t(ring.nodes));
     if (double(divisor) > 4.0 * wanted) {

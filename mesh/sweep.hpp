@@ -58,8 +58,10 @@ void check_edge_rows(double row, double distance);
 std::vector<double> with_edge_rows(std::vector<double> breaks, double row);
 
 /// Elements around a circle of `radius`: about its length over `size`, at least 12 (a cubic edge of
-/// 90 degrees folds its element over), with a corner at each node of each ring.
-/// @throws chladni::Error when the rings ask for more than four times that.
-int n_elements_around(double radius, double size, std::span<const RingOptions> rings);
+/// 90 degrees folds its element over), with a corner at each node of each ring, as many in each of
+/// the sectors.
+/// @throws chladni::Error when rings and sectors ask for more than four times that.
+int n_elements_around(double radius, double size, std::span<const RingOptions> rings,
+                      int sectors = 1);
 
 }  // namespace chladni::mesh

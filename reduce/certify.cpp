@@ -66,6 +66,10 @@ SpectrumRange certified_range(const ReduceOptions& options, const ReducedModel& 
   if (options.tolerance) {  // which holds for all of them
     return {.lambda_max = up_to(2.0 * std::numbers::pi * options.tolerance->up_to_Hz)};
   }
+  if (options.certified_up_to_Hz) {
+    return {.lambda_max = up_to(2.0 * std::numbers::pi * *options.certified_up_to_Hz),
+            .most = most};
+  }
   if (model.omega.empty()) return {.most = without_modes};
   return {.lambda_max = up_to(model.omega.back()), .most = most};
 }

@@ -20,6 +20,9 @@ struct ReduceOptions {
   std::optional<int> modes = {};
   std::optional<double> cutoff_Hz = {};
   std::optional<ModesByTolerance> tolerance = {};
+  /// The modes that get an error are those below this frequency, however many modes the basis has;
+  /// without it those up to the last mode of the basis, or of the tolerance's range.
+  std::optional<double> certified_up_to_Hz = {};
 };
 
 }  // namespace chladni::reduce

@@ -45,6 +45,12 @@ double read_outer_radius(const Table& mesh, double inner_radius)
   return mesh.number("outer_radius", {.above = inner_radius, .unit = "m, the inner radius"});
 }
 
+void refuse_free_pattern(const Table& mesh, int sectors, mesh::Pattern pattern)
+{
+  if (sectors == 1 || pattern == mesh::Pattern::structured) return;
+  mesh.refuse("sectors", "needs pattern = \"structured\": Gmsh's elements differ between sectors");
+}
+
 mesh::AnnulusOptions read_annulus(const Table& mesh)
 {
   mesh::AnnulusOptions annulus{};
@@ -54,7 +60,10 @@ mesh::AnnulusOptions read_annulus(const Table& mesh)
   annulus.element_size =
       read_element_size(mesh, width, area_of_ring(annulus.inner_radius, annulus.outer_radius));
   if (mesh.has("element_order")) annulus.element_order = read_element_order(mesh);
-  annulus.pattern = read_pattern(mesh, mesh::Pattern::unstructured);
+  annulus.sectors = read_sectors(mesh);
+  annulus.pattern = read_pattern(
+      mesh, annulus.sectors > 1 ? mesh::Pattern::structured : mesh::Pattern::unstructured);
+  refuse_free_pattern(mesh, annulus.sectors, annulus.pattern);
   annulus.edge_row = read_edge_row(mesh, width);
   annulus.rings = read_rings(mesh, generated_groups({.annulus = annulus}),
                              {.above = annulus.inner_radius,
@@ -101,6 +110,8 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
   if (mesh.has("element_order")) hat.element_order = read_element_order(mesh);
   hat.pattern = read_pattern(
       mesh, mesh.has("bolts") ? mesh::Pattern::unstructured : mesh::Pattern::structured);
+  hat.sectors = read_sectors(mesh);
+  refuse_free_pattern(mesh, hat.sectors, hat.pattern);
   hat.edge_row = read_edge_row(mesh, width);
   hat.bolts = read_bolts(mesh, hat);
   hat.rings = read_rings(mesh, generated_groups({.hat_disc = hat}),

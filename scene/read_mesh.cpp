@@ -100,6 +100,7 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
   if (mesh.has("length_unit")) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
+  options.sectors = read_sectors(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
   if (mesh.has("merge_tolerance")) {
     options.merge_tolerance = mesh.number("merge_tolerance");
@@ -111,6 +112,11 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
 }
 
 }  // namespace
+
+int read_sectors(const Table& mesh)
+{
+  return mesh.has("sectors") ? mesh.integer("sectors") : 1;
+}
 
 int read_element_order(const Table& mesh)
 {

@@ -12,6 +12,16 @@ namespace chladni::plate {
 
 namespace {
 
+/// Whether the group goes on in the next sectors, all around the axis.
+bool closes_around_axis(const mesh::Mesh& mesh, const mesh::Group& group)
+{
+  const auto has = [&](int node) {
+    return std::ranges::find(group.nodes, node) != group.nodes.end();
+  };
+  return std::ranges::any_of(mesh.sectors.pairs,
+                             [&](const auto& pair) { return has(pair[0]) && has(pair[1]); });
+}
+
 std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
 {
   std::array<double, 3> sum{};
@@ -19,6 +29,7 @@ std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
     for (std::size_t c = 0; c < 3; ++c) sum[c] += mesh.positions[node][c];
   }
   for (double& s : sum) s /= static_cast<double>(group.nodes.size());
+  if (closes_around_axis(mesh, group)) return {0.0, 0.0, sum[2]};
   return sum;
 }
 

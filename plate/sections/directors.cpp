@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -60,6 +61,19 @@ void check_normals(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int 
   }
 }
 
+/// Nodes of the cut edges of a sector have the elements of both its neighbours around them.
+void add_over_sector_edges(const mesh::Mesh& mesh, NodeVectors& sum)
+{
+  const double angle = 2.0 * std::numbers::pi / mesh.sectors.count;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).matrix();
+  for (const auto& [low, high] : mesh.sectors.pairs) {
+    const RowVector3d at_low = sum.row(low), from_high = sum.row(high) * turn;
+    const RowVector3d both = at_low + (at_low.dot(from_high) < 0.0 ? -1.0 : 1.0) * from_high;
+    sum.row(low) = both;
+    sum.row(high) = both * turn.transpose();
+  }
+}
+
 }  // namespace
 
 NodeVectors element_positions(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
@@ -88,6 +102,7 @@ NodeVectors mean_normals(const mesh::Mesh& mesh)
       }
     }
   }
+  add_over_sector_edges(mesh, sum);
   sum.rowwise().normalize();
   return sum;
 }

@@ -71,6 +71,12 @@ constexpr Key mesh_rows[] = {
      {},
      "structured | unstructured | triangles"},
     {"mesh.edge_row", number, "none", "width of one row of elements along the edges", length},
+    {"mesh.sectors",
+     integer,
+     "1",
+     "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed; "
+     "[sectors](sectors.md)",
+     {.at_least = 3, .at_most = 1e4}},
     {"mesh.rings", tables, "none", "circles with nodes exactly on them"},
     {"mesh.rings.name", text, "required", "by which the scene speaks of it"},
     {"mesh.rings.radius", number, "required", "about the z axis", length},

@@ -12,7 +12,7 @@ from pathlib import Path
 LIGHT = ("common", "files", "linear/dense")
 LINEAR = ("common", "linear/")
 BODIES = (*LIGHT, "mbs_export/")
-MODELS = ("common", "mesh", "plate/", "reduce", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
+MODELS = ("common", "mesh", "plate/", "reduce", "cyclic", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
 ALLOWED = {
     "common": (),
     "files": ("common",),
@@ -30,6 +30,7 @@ ALLOWED = {
     "plate/dofs": ("common", "mesh", "plate", "plate/elements", "plate/sections"),
     "plate/assembly": ("common", "mesh", "plate/"),
     "reduce": LINEAR,
+    "cyclic": (*LINEAR, "reduce"),
     "mbs_export": BODIES,
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "mbs_export/", "reduce_export"),
@@ -60,6 +61,7 @@ CUTS = {
     "linear/dense": HEAVY,
     "linear": ("gmsh.h",),
     "reduce": ("gmsh.h", "metis.h"),
+    "cyclic": ("gmsh.h", "metis.h"),
     "plugin": ("gmsh.h", "metis.h"),
     "mbs_export": HEAVY,
     "squeal": HEAVY,

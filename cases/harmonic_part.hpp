@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "cases/picture.hpp"
+#include "cases/sector_model.hpp"
+
+namespace chladni::cases {
+
+/// What one harmonic is to the whole body: plain numbers, which ranks can send.
+struct HarmonicPart {
+  int order = 0;
+  std::int64_t n_coordinates = 0;
+  std::vector<int> masters;  ///< `master_index` of each
+  Eigen::MatrixXd K, M, C;   ///< masters, then modes
+  Eigen::VectorXd omega;     ///< rad/s, of the modes
+  reduce::Certificate certificate;
+  cyclic::SectorMotion interface;  ///< rows: six components of each interface node of the sector
+  cyclic::SectorMotion picture;    ///< rows: x, y, z of each node of the sector's picture
+  double factor_entries = 0.0;
+  double factor_s = 0.0;
+  double modes_residual = 0.0;
+};
+
+/// The parts of all ranks, by order, on the first rank; none on the others.
+/// @note   Collective on all ranks.
+std::vector<HarmonicPart> gathered(const std::vector<HarmonicPart>& own);
+
+/// The whole body from all harmonics.
+/// @param whole       `described_whole`
+/// @param fixed       the support of the certificates
+/// @param lambda_max  up to which each harmonic is certified, rad^2/s^2
+mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const SectorModel& model,
+                                   const std::vector<HarmonicPart>& parts,
+                                   const std::vector<std::string>& fixed, double lambda_max);
+
+/// Surface of all sectors, and its motion.
+/// @param chosen  nodes and cells of the sector, as in the pictures of the parts
+mbs_export::Picture unfolded_picture(const PictureNodes& chosen, const SectorModel& model,
+                                     const std::vector<HarmonicPart>& parts,
+                                     Eigen::Index n_masters);
+
+}  // namespace chladni::cases

@@ -1,0 +1,283 @@
+#include "cases/reduce_sectors.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "cases/harmonic_part.hpp"
+#include "cases/ranks.hpp"
+#include "common/all_ranks.hpp"
+#include "common/error.hpp"
+#include "cyclic/sparse_rows.hpp"
+#include "linear/progress.hpp"
+#include "reduce_export/reduced_system.hpp"
+#include "report/timing.hpp"
+
+namespace chladni::cases {
+
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd;
+
+/// Remembers how long the factorisations took.
+class FactorTime : public reduce::PhaseListener {
+ public:
+  void begin(const std::string& phase) override
+  {
+    is_factor_ = phase == "factorization";
+    watch_ = {};
+  }
+  void end() override
+  {
+    if (is_factor_) seconds_ += watch_.wall_s();
+  }
+  double seconds() const { return seconds_; }
+
+ private:
+  bool is_factor_ = false;
+  report::Stopwatch watch_;
+  double seconds_ = 0.0;
+};
+
+std::vector<int> own_harmonics(int count)
+{
+  std::vector<int> orders;
+  for (int n = rank(); n < cyclic::n_harmonics(count); n += n_ranks()) orders.push_back(n);
+  return orders;
+}
+
+cyclic::SectorMatrices matrices_of(const SectorModel& model)
+{
+  return {
+      .K = cyclic::sparse_rows(model.system.K),
+      .M = cyclic::sparse_rows(model.system.M),
+      .C = model.system.C != nullptr ? cyclic::sparse_rows(model.system.C) : cyclic::SparseRows()};
+}
+
+/// All ranks' numbers in one list.
+std::vector<double> joined(const std::vector<double>& own)
+{
+  const auto n = static_cast<int>(own.size());
+  const auto ranks = static_cast<std::size_t>(n_ranks());
+  std::vector<int> sizes(ranks), starts(ranks, 0);
+  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  for (std::size_t r = 1; r < sizes.size(); ++r) starts[r] = starts[r - 1] + sizes[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
+  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE,
+                 PETSC_COMM_WORLD);
+  return all;
+}
+
+/// The frequency below which the whole body has so many fixed-interface modes, Hz, both of a pair
+/// with it.
+double frequency_of_modes(int n_modes, const SectorModel& model,
+                          const cyclic::SectorMatrices& matrices,
+                          const reduce::ReductionOptions& options)
+{
+  const int count = model.dofs.count;
+  const std::vector<int> orders = own_harmonics(count);
+  int asked = 2 + 4 * n_modes / cyclic::n_harmonics(count);
+  std::vector<std::vector<double>> omega(orders.size());
+  for (;;) {
+    std::vector<double> own, last;
+    on_all_ranks(PETSC_COMM_WORLD, [&] {
+      for (std::size_t i = 0; i < orders.size(); ++i) {
+        if (std::ssize(omega[i]) < asked) {
+          omega[i] = cyclic::lowest_held_frequencies(
+              matrices, cyclic::harmonic_coordinates(model.dofs, orders[i]), asked, options);
+        }
+        own.insert(own.end(), omega[i].begin(), omega[i].end());
+        last.push_back(omega[i].back());
+      }
+      return 0;
+    });
+    std::vector<double> all = joined(own);
+    const std::vector<double> ends = joined(last);
+    std::ranges::sort(all);
+    if (std::ssize(all) >= n_modes) {
+      constexpr double both = 1.0 + 1e-6;
+      const double wanted = all[std::size_t(n_modes - 1)] * both;
+      if (std::ranges::all_of(ends, [&](double end) { return end > wanted; }))
+        return wanted / (2.0 * std::numbers::pi);
+    }
+    asked *= 2;
+  }
+}
+
+reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
+                                          const cyclic::SectorMatrices& matrices,
+                                          const linear::SolverOptions& solver)
+{
+  reduce::ReductionOptions options{.basis = scene.reduce,
+                                   .solver = solver,
+                                   .count = scene.sylvester,
+                                   .keeps_matrices = true,
+                                   .later = {}};
+  const bool is_known = scene.reduce.method == reduce::Method::craig_bampton ||
+                        scene.reduce.method == reduce::Method::guyan;
+  if (!is_known)
+    throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
+  if (scene.reduce.modes) {
+    options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
+    options.basis.modes.reset();
+  }
+  if (options.basis.cutoff_Hz) options.basis.certified_up_to_Hz = options.basis.cutoff_Hz;
+  return options;
+}
+
+/// Six rows for each interface node: components that the model does not have are at rest.
+cyclic::SectorMotion interface_motion(const cyclic::HarmonicModel& harmonic,
+                                      const SectorModel& model)
+{
+  const std::vector<int>& components = model.dofs.components;
+  std::vector<int> dofs;
+  std::vector<Index> rows;
+  for (Index i = 0; i < std::ssize(model.interface.nodes); ++i) {
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      dofs.push_back(model.interface.nodes[std::size_t(i)].block *
+                         static_cast<int>(components.size()) +
+                     static_cast<int>(k));
+      rows.push_back(6 * i + components[k]);
+    }
+  }
+  const cyclic::SectorMotion known = cyclic::sector_motion(harmonic, dofs);
+  const Index n = 6 * std::ssize(model.interface.nodes);
+  cyclic::SectorMotion motion{.x = MatrixXd::Zero(n, known.x.cols()),
+                              .y = MatrixXd::Zero(n, known.y.cols())};
+  motion.x(rows, Eigen::seqN(0, known.x.cols())) = known.x;
+  motion.y(rows, Eigen::seqN(0, known.y.cols())) = known.y;
+  return motion;
+}
+
+/// Displacements of nodes of the mesh, dependent ones too.
+cyclic::SectorMotion picture_motion(const cyclic::HarmonicModel& harmonic, const SectorModel& model,
+                                    const std::vector<int>& nodes)
+{
+  const plate::DofMap& dofs = model.system.dofs;
+  const int n_c = dofs.n_components();
+  std::vector<int> wanted;
+  for (const int node : nodes) {
+    for (const plate::MotionTerm& term : dofs.motion(node))
+      for (int c = 0; c < n_c; ++c) wanted.push_back(n_c * term.number + c);
+  }
+  const cyclic::SectorMotion known = cyclic::sector_motion(harmonic, wanted);
+  const Index n = 3 * std::ssize(nodes);
+  cyclic::SectorMotion motion{.x = MatrixXd::Zero(n, known.x.cols()),
+                              .y = MatrixXd::Zero(n, known.y.cols())};
+  Index row = 0;
+  for (Index i = 0; i < std::ssize(nodes); ++i) {
+    for (const plate::MotionTerm& term : dofs.motion(nodes[std::size_t(i)])) {
+      const MatrixXd T = term.T.topRows<3>()(Eigen::seqN(0, 3), dofs.components());
+      motion.x.middleRows<3>(3 * i) += T * known.x.middleRows(row, n_c);
+      motion.y.middleRows<3>(3 * i) += T * known.y.middleRows(row, n_c);
+      row += n_c;
+    }
+  }
+  return motion;
+}
+
+HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& model,
+                     const mbs_export::ReducedSystem& whole, const PictureNodes& chosen)
+{
+  HarmonicPart part{.order = harmonic.coordinates.order,
+                    .n_coordinates = harmonic.coordinates.n(),
+                    .masters = {},
+                    .K = harmonic.K,
+                    .M = harmonic.M,
+                    .C = harmonic.C,
+                    .omega = harmonic.omega,
+                    .certificate = harmonic.certificate,
+                    .interface = interface_motion(harmonic, model),
+                    .picture = picture_motion(harmonic, model, chosen.nodes)};
+  for (const cyclic::Master& master : harmonic.coordinates.masters)
+    part.masters.push_back(master_index(whole, model, master));
+  part.factor_entries = linear::factor_size(harmonic.body.K_ss.factor()).entries;
+  if (harmonic.basis.modes && harmonic.basis.n_modes() > 0) {
+    part.modes_residual = reduce::largest_residual(*harmonic.basis.modes, harmonic.body.K_blocks.ss,
+                                                   harmonic.body.M_blocks.ss);
+  }
+  return part;
+}
+
+/// The harmonics of this rank.
+std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
+                                            const cyclic::SectorMatrices& matrices,
+                                            const reduce::ReductionOptions& options,
+                                            const mbs_export::ReducedSystem& whole,
+                                            const SectorSupport& support,
+                                            const PictureNodes& chosen)
+{
+  return on_all_ranks(PETSC_COMM_WORLD, [&] {
+    std::vector<HarmonicPart> parts;
+    for (const int order : own_harmonics(model.dofs.count)) {
+      FactorTime phases;
+      try {
+        const cyclic::HarmonicModel harmonic =
+            cyclic::reduce_harmonic(matrices, cyclic::harmonic_coordinates(model.dofs, order),
+                                    options, support.is_held, phases);
+        parts.push_back(part_of(harmonic, model, whole, chosen));
+      } catch (const Error& error) {
+        throw Error(
+            fmt::format("harmonic {} of {} sectors: {}", order, model.dofs.count, error.what()));
+      }
+      parts.back().factor_s = phases.seconds();
+    }
+    return parts;
+  });
+}
+
+}  // namespace
+
+ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
+                             const linear::SolverOptions& solver, Phases& phases)
+{
+  SectorModel model = phases.run("assembly", [&] {
+    return on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_model(scene, std::move(mesh)); });
+  });
+  const mbs_export::ReducedSystem described = described_whole(scene, model);
+  const SectorSupport support = sector_support(scene, model);
+  const cyclic::SectorMatrices matrices = matrices_of(model);
+  const reduce::ReductionOptions options = phases.run(
+      "choice of modes", [&] { return harmonic_options(scene, model, matrices, solver); });
+  const PictureNodes chosen = picture_nodes(model.mesh, scene.pictures);
+  const std::vector<HarmonicPart> own = phases.run("harmonics", [&] {
+    return reduced_harmonics(model, matrices, options, described, support, chosen);
+  });
+  const std::vector<HarmonicPart> parts = phases.run("whole body", [&] { return gathered(own); });
+  ReduceSummary summary{};
+  summary.n_masters = static_cast<int>(described.masters.size());
+  if (rank() == 0) {
+    if (scene.mass_integrals) {
+      fmt::print(stderr,
+                 "note: sectors: mass integrals are not available for one sector; the body has no "
+                 "Coriolis and centrifugal forces of its deformation\n");
+    }
+    double lambda_max = std::numeric_limits<double>::infinity();
+    if (options.basis.certified_up_to_Hz)
+      lambda_max = std::pow(2.0 * std::numbers::pi * *options.basis.certified_up_to_Hz, 2);
+    if (options.basis.tolerance)
+      lambda_max = std::pow(2.0 * std::numbers::pi * options.basis.tolerance->up_to_Hz, 2);
+    const Index n_m = described.n_masters();
+    summary.reduced = unfolded(described, model, parts, support.names, lambda_max);
+    if (!chosen.nodes.empty())
+      summary.reduced.picture = unfolded_picture(chosen, model, parts, n_m);
+  }
+  for (const HarmonicPart& part : parts) {
+    summary.n_dofs += part.n_coordinates;
+    summary.n_modes += static_cast<int>(part.omega.size());
+    summary.factorization.wall_s += part.factor_s;
+    summary.modes_residual = std::max(summary.modes_residual, part.modes_residual);
+    summary.factor.entries = std::max(summary.factor.entries, part.factor_entries);
+  }
+  summary.n_nodes = std::int64_t{model.mesh.sectors.count} *
+                    (model.mesh.n_nodes() - std::ssize(model.mesh.sectors.pairs));
+  summary.factorization.name = "factorization";
+  summary.phases = phases.times();
+  return summary;
+}
+
+}  // namespace chladni::cases

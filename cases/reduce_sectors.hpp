@@ -1,0 +1,16 @@
+#pragma once
+
+#include "cases/reduce_scene.hpp"
+#include "mesh/mesh.hpp"
+
+namespace chladni::cases {
+
+/// Reduces a scene of which one sector is meshed, harmonic by harmonic; the ranks share the
+/// harmonics. The reduced system is that of the whole body: its masters are the DOFs of nodes on
+/// the axis and the harmonics of rings, its modes come in exact pairs.
+/// @note   Collective on all ranks.
+/// @throws chladni::Error on all ranks alike, for what sectors cannot do yet too.
+ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
+                             const linear::SolverOptions& solver, Phases& phases);
+
+}  // namespace chladni::cases

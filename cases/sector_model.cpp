@@ -1,0 +1,446 @@
+#include "cases/sector_model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cases/attachments.hpp"
+#include "cases/reduce_steps.hpp"
+#include "common/error.hpp"
+#include "mesh/sectors.hpp"
+#include "plate/dofs/drilling.hpp"
+
+namespace chladni::cases {
+
+namespace {
+
+using Eigen::Vector3d;
+
+double angle_of(const Vector3d& x)
+{
+  constexpr double digits = 1e-9;
+  const double angle = std::atan2(x.y(), x.x());
+  return angle < -digits ? angle + 2.0 * std::numbers::pi : std::max(angle, 0.0);
+}
+
+bool is_on_axis(const SectorModel& model, int node)
+{
+  const Vector3d x = model.system.dofs.position(node);
+  return mesh::is_on_axis({x[0], x[1], x[2]}, mesh::outer_radius(model.mesh));
+}
+
+void refuse_unclosed_components(const std::vector<int>& components)
+{
+  for (const int c : {0, 1, 3, 4}) {
+    const int partner = c % 3 == 0 ? c + 1 : c - 1;
+    const auto has = [&](int k) { return std::ranges::find(components, k) != components.end(); };
+    if (has(c) == has(partner)) continue;
+    throw Error(fmt::format(
+        "sectors: nodes with {} but without {} do not turn with the sectors; take both or neither "
+        "in model.dofs",
+        plate::component_names[std::size_t(c)], plate::component_names[std::size_t(partner)]));
+  }
+}
+
+/// What harmonics do not know yet.
+void refuse_unsupported(const scene::Scene& scene)
+{
+  const auto refuse = [](const char* what) {
+    throw Error(fmt::format("sectors: {}; mesh the whole body, or take this out", what));
+  };
+  refuse_unclosed_components(scene.components);
+  if (std::ranges::count(scene.couplings, plate::CouplingKind::averaging, &plate::Coupling::kind))
+    refuse("averaging couplings are not available for one sector");
+  if (!scene.resultants.groups.empty())
+    refuse("section forces (reduce.resultants) are not available for one sector");
+  for (const auto& interface : scene.body.interface_modes) {
+    if (interface.space == mbs_export::InterfaceModes::Space::full)
+      refuse("interface modes with space = \"full\" are not available for one sector");
+  }
+}
+
+bool is_same_across(const std::array<double, 6>& values)
+{
+  return values[0] == values[1] && values[3] == values[4];
+}
+
+/// Lumped masses and springs of the whole body, of which a sector has its share.
+struct SectorPoints {
+  std::vector<plate::PointMass> masses;
+  std::vector<plate::Spring> springs;
+};
+
+/// Whether a name is a node on the axis; refused where nodes of the cut edges would count twice.
+bool names_axis(const SectorModel& model, const std::string& what, const std::string& name)
+{
+  const std::vector<int> nodes = model.system.dofs.named_nodes(model.mesh, name);
+  if (nodes.size() == 1 && is_on_axis(model, nodes[0])) return true;
+  for (const auto& [low, high] : model.mesh.sectors.pairs) {
+    if (std::ranges::find(nodes, high) == nodes.end()) continue;
+    throw Error(fmt::format(
+        "sectors: {} at \"{}\" stands on a cut edge of the sector, where it would count twice; "
+        "cut the body elsewhere",
+        what, name));
+  }
+  return false;
+}
+
+SectorPoints sector_points(const scene::Scene& scene, const SectorModel& model)
+{
+  SectorPoints points{.masses = scene.masses, .springs = scene.springs};
+  const double share = 1.0 / model.mesh.sectors.count;
+  for (plate::PointMass& mass : points.masses) {
+    if (!names_axis(model, "the mass", mass.at)) continue;
+    const auto& I = mass.inertia;
+    const bool repeats = I[0] == I[1] && I[3] == 0.0 && I[4] == 0.0 && I[5] == 0.0 &&
+                         mass.offset[0] == 0.0 && mass.offset[1] == 0.0;
+    if (!repeats) {
+      throw Error(
+          fmt::format("sectors: the mass at \"{}\" does not look the same from each "
+                      "sector; give it inertia[0] = inertia[1], no products of inertia and "
+                      "an offset along z alone",
+                      mass.at));
+    }
+    mass.mass *= share;
+    for (double& value : mass.inertia) value *= share;
+  }
+  for (plate::Spring& spring : points.springs) {
+    bool on_axis = names_axis(model, "the spring", spring.at);
+    if (spring.to) on_axis = names_axis(model, "the spring", *spring.to) && on_axis;
+    if (!on_axis) continue;
+    if (!is_same_across(spring.stiffness) || !is_same_across(spring.damping)) {
+      throw Error(
+          fmt::format("sectors: the spring at \"{}\" does not look the same from each "
+                      "sector; give x the value of y, and rx that of ry",
+                      spring.at));
+    }
+    for (double& value : spring.stiffness) value *= share;
+    for (double& value : spring.damping) value *= share;
+  }
+  return points;
+}
+
+/// Nodes of the cut edges have the same motion, or follow the same.
+std::vector<std::array<int, 2>> edge_blocks(const SectorModel& model)
+{
+  const plate::DofMap& dofs = model.system.dofs;
+  std::vector<int> image(std::size_t(dofs.n_nodes()), -1);
+  for (const auto& [low, high] : model.mesh.sectors.pairs) image[std::size_t(low)] = high;
+  std::vector<std::array<int, 2>> blocks;
+  for (const auto& [low, high] : model.mesh.sectors.pairs) {
+    if (!dofs.is_dependent(low) && !dofs.is_dependent(high)) {
+      blocks.push_back({dofs.number(low), dofs.number(high)});
+      continue;
+    }
+    const int from = dofs.is_dependent(low) ? dofs.reference(low) : low;
+    const int to = dofs.is_dependent(high) ? dofs.reference(high) : high;
+    if ((from == to && is_on_axis(model, from)) || image[std::size_t(from)] == to) continue;
+    throw Error(fmt::format(
+        "sectors: nodes {} and {} of the cut edges are one of the body, but follow different "
+        "nodes; cut the body where no coupling ends",
+        model.mesh.node_numbers[std::size_t(low)], model.mesh.node_numbers[std::size_t(high)]));
+  }
+  return blocks;
+}
+
+int highest_harmonic(const scene::Scene& scene, const std::string& ring, int n_nodes)
+{
+  const auto wanted = std::ranges::find(scene.ring_harmonics, ring, &plate::RingHarmonics::ring);
+  return wanted == scene.ring_harmonics.end() ? n_nodes / 2 : wanted->up_to;
+}
+
+/// Refuses nodes that are not equally spaced on one circle of the whole body.
+void check_ring(const SectorModel& model, const std::string& name,
+                std::span<const SectorNode> nodes, const cyclic::Ring& ring)
+{
+  constexpr double placement = 1e-6;
+  const Vector3d first = model.system.dofs.position(nodes.front().node);
+  const double radius = first.head<2>().norm(), step = 2.0 * std::numbers::pi / ring.n_nodes;
+  for (const SectorNode& node : nodes) {
+    const Vector3d x = model.system.dofs.position(node.node);
+    const double steps = (node.angle - nodes.front().angle) / step;
+    if (std::abs(x.head<2>().norm() - radius) < placement * radius &&
+        std::abs(x.z() - first.z()) < placement * radius &&
+        std::abs(steps - std::round(steps)) * step < placement)
+      continue;
+    throw Error(fmt::format(
+        "sectors: the nodes of \"{}\" are not equally spaced on one circle of the whole body, as "
+        "its harmonics need them ({} in each sector); make it by mesh.rings, or give each circle a "
+        "name of its own",
+        name, nodes.size()));
+  }
+}
+
+void add_ring(const scene::Scene& scene, SectorModel& model, const std::string& name,
+              const std::vector<int>& nodes, const Eigen::MatrixX3d& axes)
+{
+  const auto& pairs = model.mesh.sectors.pairs;
+  const plate::DofMap& dofs = model.system.dofs;
+  cyclic::Ring ring{};
+  std::vector<SectorNode> own;
+  for (const int node : nodes) {
+    const double angle = angle_of(dofs.position(node));
+    ring.blocks.push_back(dofs.number(node));
+    ring.angles.push_back(angle);
+    const bool is_high = std::ranges::any_of(pairs, [&](const auto& p) { return p[1] == node; });
+    if (is_high) continue;
+    own.push_back({.node = node,
+                   .block = dofs.number(node),
+                   .ring = static_cast<int>(model.dofs.rings.size()),
+                   .angle = angle,
+                   .drilling_axis = axes.row(node)});
+  }
+  std::ranges::sort(own, {}, &SectorNode::angle);
+  ring.n_nodes = static_cast<int>(own.size()) * model.mesh.sectors.count;
+  ring.up_to = highest_harmonic(scene, name, ring.n_nodes);
+  const double step = 2.0 * std::numbers::pi / ring.n_nodes;
+  ring.first_angle = std::fmod(own.front().angle + 1e-9, step) - 1e-9;
+  ring.first_angle = std::max(ring.first_angle, 0.0);
+  check_ring(model, name, own, ring);
+  if (ring.up_to > ring.n_nodes / 2 || ring.up_to < 1) {
+    throw Error(
+        fmt::format("ring \"{}\": harmonics = {}, but {} nodes show the harmonics 1 to {} "
+                    "only; give fewer, or more nodes to the ring",
+                    name, ring.up_to, ring.n_nodes, ring.n_nodes / 2));
+  }
+  if (ring.up_to < model.mesh.sectors.count / 2) {
+    throw Error(fmt::format(
+        "ring \"{}\": harmonics = {}, but each of the harmonics 0 to {} of {} sectors needs one; "
+        "give at least that many",
+        name, ring.up_to, model.mesh.sectors.count / 2, model.mesh.sectors.count));
+  }
+  model.dofs.rings.push_back(std::move(ring));
+  model.interface.ring_names.push_back(name);
+  model.interface.nodes.insert(model.interface.nodes.end(), own.begin(), own.end());
+}
+
+void add_interface(const scene::Scene& scene, SectorModel& model)
+{
+  const plate::DofMap& dofs = model.system.dofs;
+  const Eigen::MatrixX3d axes = plate::drilling_axes(model.mesh, dofs);
+  for (const std::string& name : scene.interface_nodes) {
+    const std::vector<int> nodes = dofs.named_nodes(model.mesh, name);
+    for (const int node : nodes) {
+      if (!dofs.is_dependent(node)) continue;
+      throw Error(
+          fmt::format("interface node set \"{}\": node {} follows \"{}\"; put \"{}\" into "
+                      "interface.nodes instead",
+                      name, model.mesh.node_numbers[std::size_t(node)], dofs.followed(node),
+                      dofs.followed(node)));
+    }
+    if (nodes.size() == 1 && is_on_axis(model, nodes[0])) {
+      model.interface.nodes.push_back({.node = nodes[0],
+                                       .block = dofs.number(nodes[0]),
+                                       .ring = -1,
+                                       .angle = 0.0,
+                                       .drilling_axis = axes.row(nodes[0])});
+      model.interface.axis_names.push_back(name);
+    } else {
+      add_ring(scene, model, name, nodes, axes);
+    }
+  }
+}
+
+/// Nodes on the axis are masters, or the harmonics would not know them.
+void add_axis(SectorModel& model)
+{
+  for (const SectorNode& node : model.interface.nodes)
+    if (node.ring < 0) model.dofs.axis.push_back(node.block);
+  const plate::DofMap& dofs = model.system.dofs;
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    if (dofs.is_dependent(node) || !is_on_axis(model, node)) continue;
+    const bool is_known =
+        std::ranges::find(model.dofs.axis, dofs.number(node)) != model.dofs.axis.end();
+    if (is_known) continue;
+    throw Error(fmt::format("sectors: {} stands on the axis; put it into interface.nodes",
+                            node < dofs.n_mesh_nodes()
+                                ? fmt::format("node {}", model.mesh.node_numbers[std::size_t(node)])
+                                : fmt::format("\"{}\"", dofs.reference_name(node))));
+  }
+}
+
+Eigen::Matrix3d turn(double angle)
+{
+  return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+/// The nodes of a ring all around, by angle; the first one is the first of the sector.
+struct WholeRing {
+  std::vector<int> nodes;  ///< indices in attachment_nodes
+  std::vector<double> angles;
+};
+
+/// F of the masters of a ring.
+void add_shapes(Eigen::MatrixXd& F, const WholeRing& whole, const cyclic::Ring& ring,
+                const std::vector<mbs_export::MasterDof>& masters, int set)
+{
+  for (Eigen::Index column = 0; column < std::ssize(masters); ++column) {
+    const auto& master = masters[static_cast<std::size_t>(column)];
+    if (!master.harmonic || master.harmonic->set != set) continue;
+    const int d = master.harmonic->order;
+    const bool is_highest = 2 * d == ring.n_nodes;
+    const double length = std::sqrt((d == 0 || is_highest ? 1.0 : 2.0) / ring.n_nodes);
+    for (std::size_t i = 0; i < whole.nodes.size(); ++i) {
+      const double phase = d * (whole.angles[i] - (is_highest ? ring.first_angle : 0.0));
+      const double value = length * (master.harmonic->is_sine ? std::sin(phase) : std::cos(phase));
+      F.block<3, 1>(6 * whole.nodes[i] + 3 * (master.component / 3), column) =
+          value * turn(whole.angles[i]).col(master.component % 3);
+    }
+  }
+}
+
+}  // namespace
+
+SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
+{
+  refuse_unsupported(scene);
+  const std::vector<int> owners(std::size_t(mesh.n_nodes()), 0);
+  plate::DofMap dofs = plate::make_dof_map(
+      mesh, {.couplings = scene.couplings, .components = scene.components, .rings = {}}, owners, 1);
+  SectorModel model{.mesh = std::move(mesh),
+                    .system = {.K = {}, .M = {}, .C = {}, .dofs = dofs},
+                    .dofs = {},
+                    .interface = {}};
+  const SectorPoints points = sector_points(scene, model);
+  plate::Structure structure = structure_of(scene);
+  structure.masses = points.masses;
+  structure.springs = points.springs;
+  model.system = plate::assemble(model.mesh, structure, std::move(dofs), PETSC_COMM_SELF);
+  model.dofs = {.count = model.mesh.sectors.count,
+                .n_blocks = model.system.dofs.n_active(),
+                .components = scene.components,
+                .edges = edge_blocks(model),
+                .axis = {},
+                .rings = {}};
+  add_interface(scene, model);
+  add_axis(model);
+  return model;
+}
+
+mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const SectorModel& model)
+{
+  mbs_export::ReducedSystem whole;
+  whole.title = scene.title;
+  const int count = model.mesh.sectors.count;
+  const std::int64_t n_numbers = model.mesh.node_numbers.back() + model.system.dofs.n_nodes();
+  std::vector<WholeRing> rings(model.dofs.rings.size());
+  int n_axis = 0;
+  const auto add_node = [&](const SectorNode& node, int sector) {
+    const Eigen::Matrix3d R = turn(2.0 * std::numbers::pi * sector / count);
+    whole.attachment_nodes.push_back(
+        {.number = node_number(model.mesh, model.system.dofs, node.node) + sector * n_numbers,
+         .position = R * model.system.dofs.position(node.node),
+         .drilling_axis = R * node.drilling_axis});
+    return static_cast<int>(whole.attachment_nodes.size()) - 1;
+  };
+  for (const SectorNode& node : model.interface.nodes) {
+    if (node.ring >= 0) continue;
+    const int place = add_node(node, 0);
+    whole.sets.push_back(
+        {.name = model.interface.axis_names[std::size_t(n_axis++)], .nodes = {place}});
+    for (const int c : scene.components) whole.masters.push_back({.node = place, .component = c});
+  }
+  constexpr double digits = 1e-9;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    std::vector<std::pair<double, int>> by_angle;
+    for (int sector = 0; sector < count; ++sector) {
+      for (const SectorNode& node : model.interface.nodes) {
+        if (node.ring != static_cast<int>(r)) continue;
+        const double angle = node.angle + 2.0 * std::numbers::pi * sector / count;
+        by_angle.emplace_back(std::fmod(angle + digits, 2.0 * std::numbers::pi) - digits,
+                              add_node(node, sector));
+      }
+    }
+    std::ranges::sort(by_angle);
+    for (const auto& [angle, node] : by_angle) {
+      rings[r].angles.push_back(angle);
+      rings[r].nodes.push_back(node);
+    }
+    whole.sets.push_back({.name = model.interface.ring_names[r], .nodes = rings[r].nodes});
+    const cyclic::Ring& ring = model.dofs.rings[r];
+    for (int k = 0; k < std::min(2 * ring.up_to + 1, ring.n_nodes); ++k) {
+      for (const int c : scene.components) {
+        whole.masters.push_back(
+            {.node = -1,
+             .component = c,
+             .harmonic = mbs_export::RingHarmonic{.set = static_cast<int>(whole.sets.size()) - 1,
+                                                  .order = (k + 1) / 2,
+                                                  .is_sine = k > 0 && k % 2 == 0}});
+      }
+    }
+  }
+  Eigen::MatrixXd F =
+      Eigen::MatrixXd::Zero(6 * std::ssize(whole.attachment_nodes), std::ssize(whole.masters));
+  for (Eigen::Index i = 0; i < std::ssize(whole.masters); ++i) {
+    const auto& master = whole.masters[static_cast<std::size_t>(i)];
+    if (master.node >= 0) F(6 * master.node + master.component, i) = 1.0;
+  }
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    add_shapes(F, rings[r], model.dofs.rings[r], whole.masters, n_axis + static_cast<int>(r));
+  whole.ring_motion = {.shapes = std::move(F), .displacements = {}};
+  return whole;
+}
+
+int master_index(const mbs_export::ReducedSystem& whole, const SectorModel& model,
+                 const cyclic::Master& master)
+{
+  const auto n_axis = static_cast<int>(model.dofs.axis.size());
+  const auto found = std::ranges::find_if(whole.masters, [&](const mbs_export::MasterDof& dof) {
+    if (dof.component != master.component) return false;
+    if (master.ring < 0) return dof.node == master.place;
+    return dof.harmonic && dof.harmonic->set == n_axis + master.ring &&
+           dof.harmonic->order == (master.place + 1) / 2 &&
+           dof.harmonic->is_sine == (master.place > 0 && master.place % 2 == 0);
+  });
+  return static_cast<int>(found - whole.masters.begin());
+}
+
+SectorSupport sector_support(const scene::Scene& scene, const SectorModel& model)
+{
+  struct Held {
+    int ring, place;
+    std::vector<int> components;
+  };
+  std::vector<Held> held;
+  SectorSupport support;
+  for (const std::string& fixed : scene.body.fixed) {
+    const std::string::size_type dot = fixed.rfind('.');
+    const auto place_in = [](const std::vector<std::string>& names, const std::string& name) {
+      const auto it = std::ranges::find(names, name);
+      return it == names.end() ? -1 : static_cast<int>(it - names.begin());
+    };
+    int component = -1;
+    std::string name = fixed;
+    const auto& [nodes, axis, rings] = model.interface;
+    if (place_in(axis, name) < 0 && place_in(rings, name) < 0 && dot != std::string::npos) {
+      name = fixed.substr(0, dot);
+      component = place_in({"x", "y", "z", "rx", "ry", "rz"}, fixed.substr(dot + 1));
+    }
+    // A component across the axis is no component of a harmonic.
+    if (component >= 0 && component % 3 != 2) continue;
+    const std::vector<int> components =
+        component >= 0 ? std::vector{component} : std::vector{0, 1, 2, 3, 4, 5};
+    if (const int place = place_in(axis, name); place >= 0) {
+      held.push_back({.ring = -1, .place = place, .components = components});
+      support.names.push_back(fixed);
+    }
+    const int ring = place_in(rings, name);
+    if (ring < 0) continue;
+    const cyclic::Ring& wanted = model.dofs.rings[std::size_t(ring)];
+    if (wanted.up_to < wanted.n_nodes / 2) continue;
+    held.push_back({.ring = ring, .place = -1, .components = components});
+    support.names.push_back(fixed);
+  }
+  support.is_held = [held](const cyclic::Master& master) {
+    return std::ranges::any_of(held, [&](const Held& one) {
+      return one.ring == master.ring && (one.place < 0 || one.place == master.place) &&
+             std::ranges::find(one.components, master.component) != one.components.end();
+    });
+  };
+  return support;
+}
+
+}  // namespace chladni::cases

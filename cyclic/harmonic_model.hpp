@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "cyclic/harmonic_coordinates.hpp"
+#include "reduce/reduction.hpp"
+
+namespace chladni::cyclic {
+
+/// The matrices of the assembled sector.
+struct SectorMatrices {
+  SparseRows K, M, C;  ///< C of the dampers, or empty
+};
+
+/// Masters that the support holds, as (ring, place, component) of `Master`.
+using IsHeld = std::function<bool(const Master&)>;
+
+/// One harmonic of the body, reduced: rows are its masters, then modes in exact pairs.
+struct HarmonicModel {
+  HarmonicCoordinates coordinates;
+  Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
+  Eigen::VectorXd omega;    ///< [n_modes] rad/s
+  reduce::Certificate certificate;
+  /// Q: the coordinates that each row of the model is the amplitude of, [n x n_masters + n_modes].
+  reduce::FactoredBody body;
+  reduce::CraigBamptonBasis basis;
+  std::vector<int> places;  ///< `reduce::coordinate_places`
+  Eigen::MatrixXd W;        ///< of the modes, `ExactPairs`
+
+  Eigen::Index n_masters() const { return std::ssize(coordinates.masters); }
+};
+
+/// How the sector's DOFs move, in the two phases of HarmonicCoordinates.
+struct SectorMotion {
+  Eigen::MatrixXd x, y;  ///< [n_dofs x n_masters + n_modes]
+};
+
+/// Reduces one harmonic by the methods of `reduce::reduction`, with masters as its masters.
+/// @throws chladni::Error as reduce::factored and reduce::reduction.
+HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates coordinates,
+                              const reduce::ReductionOptions& options, const IsHeld& is_held,
+                              reduce::PhaseListener& phases);
+
+/// The lowest eigenvalues with all masters held, ascending, in rad/s, those of pairs twice; at
+/// least `count` of them.
+std::vector<double> lowest_held_frequencies(const SectorMatrices& sector,
+                                            const HarmonicCoordinates& coordinates, int count,
+                                            const reduce::ReductionOptions& options);
+
+/// Rows of the transformation from the model to the sector.
+SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs);
+
+}  // namespace chladni::cyclic

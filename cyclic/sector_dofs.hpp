@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+/// Bodies of equal sectors about the z axis, of which one has been assembled.
+namespace chladni::cyclic {
+
+/// Nodes at equal angles on a circle of the whole body, whose harmonics are coordinates.
+struct Ring {
+  std::vector<int> blocks;     ///< of its nodes in this sector, those of both cut edges included
+  std::vector<double> angles;  ///< of these nodes, rad
+  int n_nodes;                 ///< of the whole ring: a multiple of the number of sectors
+  double first_angle;          ///< of the node with the least angle in [0, 2 pi), rad
+  int up_to;                   ///< highest harmonic that is a master
+};
+
+/// The DOFs of the assembled sector: blocks of `components`, a block for each node that has DOFs.
+struct SectorDofs {
+  int count;  ///< of sectors, at least 3
+  int n_blocks;
+  std::vector<int> components;  ///< ascending, of u_x, u_y, u_z, theta_x, theta_y, theta_z
+  std::vector<std::array<int, 2>> edges;  ///< blocks of the cut edges: a turn takes [0] to [1]
+  std::vector<int> axis;                  ///< blocks of nodes on the axis; all are masters
+  std::vector<Ring> rings;
+
+  int n_dofs() const { return n_blocks * static_cast<int>(components.size()); }
+};
+
+/// Harmonics 0 .. floor(count / 2): from a sector to the next the motion is multiplied by
+/// exp(i mu), mu = 2 pi order / count.
+constexpr int n_harmonics(int count)
+{
+  return count / 2 + 1;
+}
+
+/// Whether mu is 0 or pi: the motion has one phase, all others two.
+constexpr bool has_one_phase(int order, int count)
+{
+  return order == 0 || 2 * order == count;
+}
+
+}  // namespace chladni::cyclic

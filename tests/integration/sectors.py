@@ -1,0 +1,168 @@
+"""One sector and the whole body: the same frequencies, masses, certificates and critical speed, in exact pairs.
+
+Usage: sectors.py PROGRAM_DIR MPIRUN
+"""
+
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from running import changed, start, summary
+
+from checked import failed_checks
+
+DISC = """
+name = "disc"
+[mesh]
+generator = "{generator}"
+{shape}
+element_order = 3
+pattern = "structured"
+{sectors}
+rings = [{{ name = "track", radius = 0.13, nodes = 24 }}]
+[material.iron]
+young = 9.15915e10
+poisson = 0.3
+density = 6300.0
+{sections}
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = "{held}"
+[[mass]]
+at = "hub"
+mass = 0.4
+inertia = [1e-4, 1e-4, 2e-4, 0.0, 0.0, 0.0]
+[interface]
+nodes = ["hub", "track"]
+rings = [{{ name = "track", harmonics = 12 }}]
+[reduce]
+method = "craig-bampton"
+cutoff_Hz = 9000.0
+mass_integrals = false
+sylvester = true
+pictures = "vertices"
+[body]
+fixed = ["hub"]
+keep = {{ up_to_Hz = 7000.0 }}
+[squeal]
+ring = "track"
+thickness = 0.02
+speeds = {{ from_rad_s = 3.0, to_rad_s = 60.0, count = 8 }}
+friction = 0.6
+contact = "bilateral"
+pads = [{{ angle_deg = 20.0, stiffness = 6e6, damping = 0.0, preload = 2000.0 }}]
+analyses = ["eigenvalues", "critical-speed"]
+"""
+SECTION = '[[section]]\ngroup = "{}"\ntype = "shell"\nmaterial = "iron"\nthickness = {}\n'
+ANNULUS = {"generator": "annulus", "shape": "inner_radius = 0.025\nouter_radius = 0.162\nelement_size = 0.04",
+           "sections": SECTION.format("disc", 0.02), "held": "inner_edge"}
+HAT = {"generator": "hat_disc", "shape": "outer_radius = 0.162\nwall_radius = 0.09\ntop_radius = 0.085\n"
+       "hub_radius = 0.03\nheight = 0.05\nelement_size = 0.045",
+       "sections": SECTION.format("disc", 0.02) + SECTION.format("wall", 0.01) + SECTION.format("flange", 0.01),
+       "held": "hub_edge"}
+
+
+class Case:
+    """The files of a scene, in a folder of its own."""
+
+    def __init__(self, programs, scene, mpirun=None, ranks=1):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name)
+        (self.path / "scene.toml").write_text(scene)
+        words = (self.path / "scene.toml", "--output", self.path)
+        self.reduced = summary(programs / "chladni", "run", *words, mpirun=mpirun, ranks=ranks)
+        self.squeal = summary(programs / "squeal", "run", *words)
+
+    def read(self, kind, *names):
+        with h5py.File(next(self.path.glob(f"*.{kind}.h5"))) as file:
+            return [file[name][()] for name in names]
+
+    def attrs(self, kind, group):
+        with h5py.File(next(self.path.glob(f"*.{kind}.h5"))) as file:
+            return dict(file[group].attrs)
+
+    def flexibility(self):
+        """Of the ring against forces along the axis."""
+        omega, W = self.read("body", "modes/frequencies", "rings/track/displacement")
+        return W / omega**2 @ W.T
+
+
+def worst(a, b):
+    return np.max(np.abs(np.asarray(a) / np.asarray(b) - 1))
+
+
+def split_of_pairs(omega):
+    """The largest relative distance within a pair, of all modes that have a neighbour nearer than 1e-6."""
+    gaps = np.diff(omega) / omega[1:]
+    return max(gaps[gaps < 1e-6], default=0.0)
+
+
+def same(programs, shape, sectors, mpirun):
+    """Frequencies, matrices at the ring, response and critical speed of sector and whole body."""
+    name = shape["generator"]
+    whole = Case(programs, DISC.format(sectors="", **shape))
+    part = Case(programs, DISC.format(sectors=f"sectors = {sectors}", **shape), mpirun, 2 if mpirun else 1)
+    yield f"{name}: as many DOFs, masters and modes", all(
+        whole.reduced[key] == part.reduced[key] for key in ("n_dofs", "n_masters", "n_modes"))
+    off = worst(part.reduced["frequencies_Hz"], whole.reduced["frequencies_Hz"])
+    yield f"{name}: frequencies of the body equal to {off:.1e}", off < 1e-9
+    K, M, n = [], [], whole.reduced["n_masters"]
+    for case in (part, whole):
+        k, m = case.read("reduced", "matrices/stiffness", "matrices/mass")
+        K.append(k[:n, :n])
+        M.append(m[:n, :n])
+    off = max(np.abs(a[0] - a[1]).max() / np.abs(a[1]).max() for a in (K, M))
+    yield f"{name}: K and M of the masters equal to {off:.1e} of their largest entry", off < 1e-9
+    reference = whole.flexibility()
+    off = np.abs(part.flexibility() - reference).max() / reference.max()
+    yield f"{name}: flexibility of the ring equal to {off:.1e}", off < 1e-8
+    off = worst(part.squeal["critical_speed_rad_s"], whole.squeal["critical_speed_rad_s"])
+    yield f"{name}: critical speed equal to {off:.1e}", off < 1e-8
+    (omega,) = part.read("reduced", "fixed_interface_frequencies")
+    split = split_of_pairs(np.sort(omega))
+    yield f"{name}: pairs split by {split:.1e}", split < 1e-12
+    ours, theirs = (c.read("reduced", "certificate/frequencies", "certificate/eta2") for c in (part, whole))
+    common = min(len(ours[0]), len(theirs[0]))
+    yield f"{name}: {common} certified frequencies", common > 20
+    off = worst(ours[0][:common], theirs[0][:common])
+    yield f"{name}: certified frequencies equal to {off:.1e}", off < 1e-9
+    yield f"{name}: error estimates are those of the whole", np.allclose(ours[1][:common], theirs[1][:common], rtol=1e-2,
+                                                                        atol=1e-11)
+    yield from ((line, False) for line in failed_checks(programs, part.path))
+
+
+def refused(programs):
+    """What does not repeat is named."""
+    good = DISC.format(sectors="sectors = 8", **ANNULUS)
+    for change, words in (
+            (("nodes = 24", "nodes = 28"), "do not repeat in 8 sectors"),
+            (("inertia = [1e-4, 1e-4", "inertia = [1e-4, 3e-4"), "does not look the same from each sector"),
+            (("harmonics = 12", "harmonics = 3"), "each of the harmonics 0 to 4"),
+            (('pattern = "structured"', 'pattern = "unstructured"'), "structured"),
+            (("sectors = 8", "sectors = 2"), "sectors"),
+            (('"craig-bampton"\ncutoff_Hz = 9000.0', '"rubin"\nmodes = 20'), "craig-bampton")):
+        with tempfile.TemporaryDirectory() as name:
+            scene = Path(name) / "scene.toml"
+            scene.write_text(changed(good, change))
+            done = start(programs / "chladni", "reduce", scene, "--output", name)
+            yield f"refused: {words}", done.returncode != 0 and words in done.stderr
+
+
+def main(programs, mpirun):
+    good = True
+    for shape, sectors, launcher in ((ANNULUS, 8, None), (HAT, 6, mpirun)):
+        for line, holds in same(programs, shape, sectors, launcher):
+            print(line if holds else f"FAILED: {line}")
+            good = good and holds
+    for line, holds in refused(programs):
+        print(line if holds else f"FAILED: {line}")
+        good = good and holds
+    return good
+
+
+if __name__ == "__main__":
+    sys.exit(not main(Path(sys.argv[1]), sys.argv[2]))

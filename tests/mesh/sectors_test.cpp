@@ -1,0 +1,83 @@
+#include "mesh/sectors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "mesh/generators.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+AnnulusOptions annulus_of(int sectors)
+{
+  return {.inner_radius = 0.05,
+          .outer_radius = 0.15,
+          .element_size = 0.02,
+          .element_order = 3,
+          .rings = {{.name = "track", .radius = 0.12, .nodes = 24}},
+          .pattern = Pattern::structured,
+          .sectors = sectors};
+}
+
+std::string message_of(Mesh mesh, int count)
+{
+  try {
+    find_sector_edges(mesh, count);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Sector, OfAnAnnulusHasTheNodesOfTheWholeOne)
+{
+  const Mesh whole = annulus(annulus_of(1)), sector = annulus(annulus_of(12));
+  const auto n_pairs = std::ssize(sector.sectors.pairs);
+  EXPECT_EQ(whole.n_nodes(), 12 * (sector.n_nodes() - n_pairs));
+  EXPECT_EQ(find_group(sector, "track").nodes.size(), 3u) << "two nodes and that of the next one";
+  for (const auto& [low, high] : sector.sectors.pairs) {
+    const auto x = turned(sector.sectors, sector.positions[std::size_t(low)]);
+    EXPECT_EQ(x, sector.positions[std::size_t(high)]);
+  }
+}
+
+TEST(Sector, HasTheElementsAroundDividedAndRefusesARingThatIsNot)
+{
+  AnnulusOptions options = annulus_of(7);
+  EXPECT_THROW(annulus(options), Error) << "24 nodes do not repeat seven times";
+  options.rings.clear();
+  EXPECT_NO_THROW(annulus(options)) << "elements around are a multiple of the sectors";
+}
+
+TEST(Sector, NamesTheDistanceOfEdgesThatDoNotMatch)
+{
+  Mesh mesh = annulus(annulus_of(12));
+  // Corners of the second edge, all but its ends, move along it.
+  for (const auto& [low, high] : mesh.sectors.pairs) {
+    auto& x = mesh.positions[std::size_t(high)];
+    const double radius = std::hypot(x[0], x[1]);
+    if (radius < 0.06 || radius > 0.14) continue;
+    for (std::size_t c = 0; c < 2; ++c) x[c] *= 1.0 + 2e-3 / radius;
+  }
+  const std::string message = message_of(mesh, 12);
+  EXPECT_NE(message.find("do not match"), std::string::npos) << message;
+  EXPECT_NE(message.find("0.002 m away"), std::string::npos) << message;
+}
+
+TEST(Sector, IsRefusedWhereTheMeshIsWider)
+{
+  const Mesh mesh = annulus(annulus_of(12));
+  EXPECT_NE(message_of(mesh, 24).find("wider than one sector"), std::string::npos);
+}
+
+TEST(Sector, IsRefusedWhereNothingMeets)
+{
+  const Mesh mesh = annulus(annulus_of(12));
+  EXPECT_NE(message_of(mesh, 5).find("no node of the mesh meets"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace chladni::mesh
