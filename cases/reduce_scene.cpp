@@ -14,6 +14,7 @@
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"
+#include "common/error.hpp"
 #include "files/file_digest.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "mesh/partition.hpp"
@@ -158,11 +159,12 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
   reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
   system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
   const auto n_modes = static_cast<int>(reduction.model.omega.size());
-  const double residual = phases.run("residuals", [&] {
-    return finds_modes(scene)
-               ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
-               : 0.0;
-  });
+  phases.begin("residuals");
+  const double residual =
+      finds_modes(scene)
+          ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
+          : 0.0;
+  phases.end();
   if (wants_full_responses(scene)) {
     reduction = reduce::with_responses(std::move(reduction), body,
                                        full_response_loads(scene, system, body.masters), phases);
@@ -195,22 +197,22 @@ SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& f
                                      SceneReduction reduced, Phases& phases)
 {
   if (scene.mass_integrals) {
-    reduced.system.mass_integrals = phases.run(
-        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, reduced); });
+    phases.begin("mass integrals");
+    reduced.system.mass_integrals = mass_integrals(structure_of(scene), fe, reduced);
   }
   const RowsOf rows = rows_of(reduced);
   if (reduced.system.ring_motion) {
     reduced.system.ring_motion->displacements =
         node_rows(fe.attachments.nodes, fe.system.dofs, rows);
   }
-  reduced.system.picture = phases.run("pictures", [&] {
-    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
-  });
+  phases.begin("pictures");
+  reduced.system.picture =
+      make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
   if (!scene.resultants.groups.empty()) {
-    reduced.system.resultants = phases.run("section forces", [&] {
-      return section_forces(scene.resultants, structure_of(scene), fe, rows);
-    });
+    phases.begin("section forces");
+    reduced.system.resultants = section_forces(scene.resultants, structure_of(scene), fe, rows);
   }
+  phases.end();
   return reduced;
 }
 
@@ -234,9 +236,15 @@ MatrixXd projected(const SceneReduction& reduced, Mat A)
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress)
 {
+  if (scene.interface_nodes.empty()) {
+    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
+                            scene.path));
+  }
   Phases phases(progress);
-  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
-  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
+  phases.begin("mesh");
+  mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  phases.begin("assembly");
+  FeModel fe = assemble_scene(scene, std::move(mesh));
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;

@@ -139,7 +139,9 @@ void static_command(const ChladniArguments& arguments)
   const cases::ReduceProgress silent;
   cases::Phases phases(silent);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
-  const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
+  phases.begin("solution");
+  const Found found = solve(scene, model, arguments.solver);
+  phases.end();
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {
     const report::TextTable reported = reported_table(scene, model, found);

@@ -25,9 +25,11 @@ std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments&
 ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
                                       const std::vector<std::filesystem::path>& files);
 
-/// The reduction, with a line of progress on the first rank. @note Collective.
-cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
-                                          const ChladniArguments& arguments);
+/// PETSc's options from the environment and behind `--`.
+cases::SaidOfSolvers said_of_solvers(const ChladniArguments& arguments);
+
+/// A line on the first rank that tells how far the reduction of a scene is, until it is destroyed.
+cases::ReduceProgress line_of_progress(const scene::Scene& scene);
 
 /// The body of the scene.
 /// @throws chladni::Error when the scene wants to hear a squeal but its supports leave the body

@@ -96,10 +96,11 @@ class Phase {
 class CMSPhases : public reduce::PhaseListener {
  public:
   explicit CMSPhases(CMS cms) : cms_(cms) {}
-  void begin(const std::string& name) override;
-  void end() override;
 
  private:
+  void begun(const std::string& name) override;
+  void ended() override;
+
   CMS cms_;
   std::optional<Phase> phase_;
 };

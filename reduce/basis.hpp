@@ -15,7 +15,8 @@ struct Basis {
   std::optional<linear::SmallMatrix> mass = {};  ///< M_r where the method does not project it
 };
 
-/// By the method of the options: the one place that tells the methods apart.
+/// By the method of the options: the one place that tells the methods apart. Its last phase is
+/// still under way at its end.
 /// @param support  under which a tolerance is kept
 /// @note   Collective.
 Basis make_basis(const FactoredBody& body, const ReductionOptions& options, const Support& support,
