@@ -185,10 +185,8 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
 RowsOf rows_of(const SceneReduction& reduced)
 {
   return [&](const std::vector<int>& dofs) -> MatrixXd {
-    const linear::SmallMatrix rows =
-        reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs);
-    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(every,
-                                                                                    reduced.places);
+    return reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs)(every,
+                                                                               reduced.places);
   };
 }
 
@@ -228,9 +226,8 @@ plate::Structure structure_of(const scene::Scene& scene)
 
 MatrixXd projected(const SceneReduction& reduced, Mat A)
 {
-  return reduce_export::in_order(
-      reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs)),
-      reduced.places);
+  return reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs))(
+      reduced.places, reduced.places);
 }
 
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
