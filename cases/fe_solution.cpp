@@ -39,8 +39,10 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 
 SupportedModel supported_model(const scene::Scene& scene, Phases& phases)
 {
-  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
-  return phases.run("assembly", [&] { return assemble_supported(scene, std::move(mesh)); });
+  phases.begin("mesh");
+  mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  phases.begin("assembly");
+  return assemble_supported(scene, std::move(mesh));
 }
 
 report::TextTable model_table(const SupportedModel& model)

@@ -20,6 +20,7 @@ struct SupportedModel {
   std::vector<plate::FreePart> free;  ///< what can still move as a rigid body
 };
 
+/// The phase of the assembly is still under way at its end.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike.
 SupportedModel supported_model(const scene::Scene& scene, Phases& phases);

@@ -13,10 +13,8 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
   const plate::MassModel model =
       plate::mass_model(fe.mesh, structure, fe.system.dofs, PETSC_COMM_WORLD);
   const plate::MassMoments moments = plate::mass_moments(model);
-  const linear::SmallMatrix rows =
-      reduce::project_vectors(reduced.reduction.Q_CB, reduced.body.dofs, moments.displacement);
-  const MatrixXd V = Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(
-                         reduced.places, every)
+  const MatrixXd V = reduce::project_vectors(reduced.reduction.Q_CB, reduced.body.dofs,
+                                             moments.displacement)(reduced.places, every)
                          .transpose();
   mbs_export::MassIntegrals integrals{.mass = moments.mass,
                                       .first = moments.first,

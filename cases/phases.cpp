@@ -2,7 +2,25 @@
 
 #include <algorithm>
 
+#include "linear/machine_memory.hpp"
+
 namespace chladni::cases {
+
+void Phases::begun(const std::string& name)
+{
+  name_ = name;
+  if (!progress_) return;
+  progress_(name_, 0.0);
+  listener_.emplace([this](double fraction) { progress_(name_, fraction); });
+}
+
+void Phases::ended()
+{
+  linear::give_back_freed();  // is there for the next one
+  listener_.reset();
+  clock_.end_phase(name_);
+  if (progress_) progress_(name_, 1.0);
+}
 
 const report::PhaseTime& Phases::time_of(const std::string& name) const
 {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "linear/machine_memory.hpp"
 #include "linear/progress.hpp"
 #include "reduce/phases.hpp"
 #include "report/timing.hpp"
@@ -20,32 +19,14 @@ class Phases : public reduce::PhaseListener {
  public:
   explicit Phases(const ReduceProgress& progress) : progress_(progress) {}
 
-  void begin(const std::string& name) override
-  {
-    name_ = name;
-    if (!progress_) return;
-    progress_(name_, 0.0);
-    listener_.emplace([this](double fraction) { progress_(name_, fraction); });
-  }
-
-  void end() override
-  {
-    linear::give_back_freed();  // is there for the next one
-    listener_.reset();
-    clock_.end_phase(name_);
-    if (progress_) progress_(name_, 1.0);
-  }
-
-  template <typename Work>
-  auto run(const std::string& name, const Work& work)
-  {
-    return reduce::in_phase(*this, name, work);
-  }
   const std::vector<report::PhaseTime>& times() const { return clock_.phases(); }
   /// The last phase of this name.
   const report::PhaseTime& time_of(const std::string& name) const;
 
  private:
+  void begun(const std::string& name) override;
+  void ended() override;
+
   const ReduceProgress& progress_;
   std::string name_;
   std::optional<linear::ListenToProgress> listener_;

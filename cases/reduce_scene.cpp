@@ -15,6 +15,7 @@
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"
+#include "common/error.hpp"
 #include "files/file_digest.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "mesh/partition.hpp"
@@ -159,11 +160,12 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
   reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
   system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
   const auto n_modes = static_cast<int>(reduction.model.omega.size());
-  const double residual = phases.run("residuals", [&] {
-    return finds_modes(scene)
-               ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
-               : 0.0;
-  });
+  phases.begin("residuals");
+  const double residual =
+      finds_modes(scene)
+          ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
+          : 0.0;
+  phases.end();
   if (wants_full_responses(scene)) {
     reduction = reduce::with_responses(std::move(reduction), body,
                                        full_response_loads(scene, system, body.masters), phases);
@@ -184,10 +186,8 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
 RowsOf rows_of(const SceneReduction& reduced)
 {
   return [&](const std::vector<int>& dofs) -> MatrixXd {
-    const linear::SmallMatrix rows =
-        reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs);
-    return Eigen::Map<const MatrixXd>(rows.values.data(), rows.n_rows, rows.n_cols)(every,
-                                                                                    reduced.places);
+    return reduce::basis_rows(reduced.reduction.Q_CB, reduced.body.dofs, dofs)(every,
+                                                                               reduced.places);
   };
 }
 
@@ -196,22 +196,22 @@ SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& f
                                      SceneReduction reduced, Phases& phases)
 {
   if (scene.mass_integrals) {
-    reduced.system.mass_integrals = phases.run(
-        "mass integrals", [&] { return mass_integrals(structure_of(scene), fe, reduced); });
+    phases.begin("mass integrals");
+    reduced.system.mass_integrals = mass_integrals(structure_of(scene), fe, reduced);
   }
   const RowsOf rows = rows_of(reduced);
   if (reduced.system.ring_motion) {
     reduced.system.ring_motion->displacements =
         node_rows(fe.attachments.nodes, fe.system.dofs, rows);
   }
-  reduced.system.picture = phases.run("pictures", [&] {
-    return make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
-  });
+  phases.begin("pictures");
+  reduced.system.picture =
+      make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
   if (!scene.resultants.groups.empty()) {
-    reduced.system.resultants = phases.run("section forces", [&] {
-      return section_forces(scene.resultants, structure_of(scene), fe, rows);
-    });
+    phases.begin("section forces");
+    reduced.system.resultants = section_forces(scene.resultants, structure_of(scene), fe, rows);
   }
+  phases.end();
   return reduced;
 }
 
@@ -227,9 +227,8 @@ plate::Structure structure_of(const scene::Scene& scene)
 
 MatrixXd projected(const SceneReduction& reduced, Mat A)
 {
-  return reduce_export::in_order(
-      reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs)),
-      reduced.places);
+  return reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs))(
+      reduced.places, reduced.places);
 }
 
 namespace {
@@ -252,15 +251,21 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress)
 {
+  if (scene.interface_nodes.empty()) {
+    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
+                            scene.path));
+  }
   Phases phases(progress);
-  mesh::Mesh mesh = phases.run("mesh", [&] { return mesh_on_all_ranks(scene); });
+  phases.begin("mesh");
+  mesh::Mesh mesh = mesh_on_all_ranks(scene);
   if (mesh.sectors.count > 1) {
     const mbs_export::Provenance from = provenance(scene, solvers, mesh);
     ReduceSummary summary = reduce_sectors(scene, std::move(mesh), solvers.options, phases);
     summary.reduced.provenance = from;
     return summary;
   }
-  FeModel fe = phases.run("assembly", [&] { return assemble_scene(scene, std::move(mesh)); });
+  phases.begin("assembly");
+  FeModel fe = assemble_scene(scene, std::move(mesh));
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;

@@ -26,18 +26,19 @@ using Eigen::Index, Eigen::MatrixXd;
 /// Remembers how long the factorisations took.
 class FactorTime : public reduce::PhaseListener {
  public:
-  void begin(const std::string& phase) override
+  double seconds() const { return seconds_; }
+
+ private:
+  void begun(const std::string& phase) override
   {
     is_factor_ = phase == "factorization";
     watch_ = {};
   }
-  void end() override
+  void ended() override
   {
     if (is_factor_) seconds_ += watch_.wall_s();
   }
-  double seconds() const { return seconds_; }
 
- private:
   bool is_factor_ = false;
   report::Stopwatch watch_;
   double seconds_ = 0.0;
@@ -235,19 +236,21 @@ std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
 ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
                              const linear::SolverOptions& solver, Phases& phases)
 {
-  SectorModel model = phases.run("assembly", [&] {
-    return on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_model(scene, std::move(mesh)); });
-  });
+  phases.begin("assembly");
+  const SectorModel model =
+      on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_model(scene, std::move(mesh)); });
   const mbs_export::ReducedSystem described = described_whole(scene, model);
   const SectorSupport support = sector_support(scene, model);
   const cyclic::SectorMatrices matrices = matrices_of(model);
-  const reduce::ReductionOptions options = phases.run(
-      "choice of modes", [&] { return harmonic_options(scene, model, matrices, solver); });
+  phases.begin("choice of modes");
+  const reduce::ReductionOptions options = harmonic_options(scene, model, matrices, solver);
   const PictureNodes chosen = picture_nodes(model.mesh, scene.pictures);
-  const std::vector<HarmonicPart> own = phases.run("harmonics", [&] {
-    return reduced_harmonics(model, matrices, options, described, support, chosen);
-  });
-  const std::vector<HarmonicPart> parts = phases.run("whole body", [&] { return gathered(own); });
+  phases.begin("harmonics");
+  const std::vector<HarmonicPart> own =
+      reduced_harmonics(model, matrices, options, described, support, chosen);
+  phases.begin("whole body");
+  const std::vector<HarmonicPart> parts = gathered(own);
+  phases.end();
   ReduceSummary summary{};
   summary.n_masters = static_cast<int>(described.masters.size());
   if (rank() == 0) {

@@ -1,5 +1,6 @@
 #include "cases/scene_support.hpp"
 
+#include "common/eigen_every.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/held_modes.hpp"
 #include "reduce_export/reduced_system.hpp"
@@ -28,15 +29,11 @@ reduce::SupportedModes SceneSupport::modes(const reduce::ReducedModel& model,
       mbs_export::held_mode_shapes(reduce_export::with_model(described_, model, places), fixed_,
                                    {.lambda_max = wanted.lambda_max, .most = wanted.most});
   reduce::SupportedModes modes{
-      .pairs = {.X = {model.K.n_rows, static_cast<PetscInt>(held.omega.size())}, .lambda = {}},
+      .pairs = {.X = Eigen::MatrixXd::Zero(model.K.rows(), held.omega.size()), .lambda = {}},
       .n_zero = held.n_rigid,
       .n_free_zero = held.n_free_rigid};
-  for (Eigen::Index j = 0; j < held.omega.size(); ++j) {
-    modes.pairs.lambda.push_back(held.omega[j] * held.omega[j]);
-    for (Eigen::Index i = 0; i < held.X.rows(); ++i) {
-      modes.pairs.X(places[static_cast<std::size_t>(i)], static_cast<PetscInt>(j)) = held.X(i, j);
-    }
-  }
+  modes.pairs.X(places, every) = held.X;
+  for (const double omega : held.omega) modes.pairs.lambda.push_back(omega * omega);
   return modes;
 }
 

@@ -70,11 +70,11 @@ void modes_command(const ChladniArguments& arguments)
   const cases::SupportedModel model = cases::supported_model(scene, phases);
   const int n_rigid = plate::n_free_motions(model.free);
   const int n_modes = scene.natural_modes.value_or(scene::ModesOptions{}).count;
-  const reduce::NaturalModes modes = phases.run("modes", [&] {
-    return reduce::natural_modes(
-        model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
-        {.n_modes = n_modes, .n_rigid = n_rigid, .solver = arguments.solver});
-  });
+  phases.begin("modes");
+  const reduce::NaturalModes modes = reduce::natural_modes(
+      model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
+      {.n_modes = n_modes, .n_rigid = n_rigid, .solver = arguments.solver});
+  phases.end();
   const Eigen::VectorXd omega = angular_frequencies(modes.lambda, n_rigid);
   const report::SceneGrid grid = mode_grid(scene, model, modes);
   bar = {};

@@ -29,7 +29,8 @@ void reduce_command(const ChladniArguments& arguments)
   const scene::Scene scene = read_scene_to_mesh(arguments);
   const std::filesystem::path file = reduced_file(scene, arguments.scene);
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
-  cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
+  cases::ReduceSummary summary =
+      cases::reduce_scene(scene, said_of_solvers(arguments), line_of_progress(scene));
   report::PhaseClock clock;
   summary.reduced.provenance.scene_file = scene_file_of(arguments.scene);
   cases::on_first_rank([&] { mbs_export::write_reduced(file, summary.reduced); });

@@ -51,7 +51,8 @@ void run_command(const ChladniArguments& arguments)
   const SceneArguments& said = arguments.scene;
   const ReservedOutputs reserved =
       reserve_on_first_rank(said, {reduced_file(scene, said), body_file(scene, said)});
-  cases::ReduceSummary summary = reduce_with_progress(scene, arguments);
+  cases::ReduceSummary summary =
+      cases::reduce_scene(scene, said_of_solvers(arguments), line_of_progress(scene));
   summary.reduced.provenance.scene_file = scene_file_of(said);
   report::PhaseClock clock;
   cases::on_first_rank(

@@ -141,7 +141,9 @@ void static_command(const ChladniArguments& arguments)
       progress_bar({{"mesh", 10.0}, {"assembly", 20.0}, {"solution", 70.0}});
   cases::Phases phases(bar);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
-  const Found found = phases.run("solution", [&] { return solve(scene, model, arguments.solver); });
+  phases.begin("solution");
+  const Found found = solve(scene, model, arguments.solver);
+  phases.end();
   bar = {};
   const report::Cost cost = cost_of_all_ranks(phases.times());
   cases::on_first_rank([&] {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "cases/ranks.hpp"
-#include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/make_body.hpp"
@@ -45,17 +44,16 @@ ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
   return reserved;
 }
 
-namespace {
-
-/// PETSc's options from the environment and behind `--`.
-std::string said_of_solvers(const ChladniArguments& arguments)
+cases::SaidOfSolvers said_of_solvers(const ChladniArguments& arguments)
 {
   const char* environment = std::getenv("PETSC_OPTIONS");
   std::vector<std::string> said;
   if (environment != nullptr && *environment != '\0') said.emplace_back(environment);
   said.insert(said.end(), arguments.petsc_options.begin(), arguments.petsc_options.end());
-  return fmt::format("{}", fmt::join(said, " "));
+  return {.text = fmt::format("{}", fmt::join(said, " ")), .options = arguments.solver};
 }
+
+namespace {
 
 /// The phases of a reduction in their order, and their usual parts of the time, per cent.
 std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
@@ -102,16 +100,9 @@ cases::ReduceProgress progress_bar(std::vector<report::Stage> stages)
   };
 }
 
-cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
-                                          const ChladniArguments& arguments)
+cases::ReduceProgress line_of_progress(const scene::Scene& scene)
 {
-  if (scene.interface_nodes.empty()) {
-    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
-                            scene.path));
-  }
-  const cases::SaidOfSolvers solvers{.text = said_of_solvers(arguments),
-                                     .options = arguments.solver};
-  return cases::reduce_scene(scene, solvers, progress_bar(stages_of(scene.reduce)));
+  return progress_bar(stages_of(scene.reduce));
 }
 
 namespace {

@@ -30,9 +30,11 @@ ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
 /// time; what it shows is wiped out when the last copy of the function goes.
 cases::ReduceProgress progress_bar(std::vector<report::Stage> stages);
 
-/// The reduction, with a line of progress on the first rank. @note Collective.
-cases::ReduceSummary reduce_with_progress(const scene::Scene& scene,
-                                          const ChladniArguments& arguments);
+/// PETSc's options from the environment and behind `--`.
+cases::SaidOfSolvers said_of_solvers(const ChladniArguments& arguments);
+
+/// A line on the first rank that tells how far the reduction of a scene is, until it is destroyed.
+cases::ReduceProgress line_of_progress(const scene::Scene& scene);
 
 /// The body of the scene.
 /// @throws chladni::Error when the scene wants to hear a squeal but its supports leave the body

@@ -15,11 +15,6 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-MatrixXd in_order(const linear::SmallMatrix& A, const std::vector<int>& places)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols)(places, places);
-}
-
 reduce::Body body_of(const SectorMatrices& sector, const HarmonicCoordinates& c)
 {
   reduce::Body body{.K = as_matrix(harmonic_form(sector.K, c), Symmetry::symmetric),
@@ -89,8 +84,8 @@ void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
   if (n_modes > 0) {
     const petsc::Matrix MJ =
         as_matrix(times_quarter_turn(harmonic_form(sector.M, c), c), Symmetry::none);
-    const MatrixXd form = in_order(
-        reduce::project_form(model.basis, reduce::split(MJ, model.body.dofs)), model.places);
+    const MatrixXd form = reduce::project_form(model.basis, reduce::split(MJ, model.body.dofs))(
+        model.places, model.places);
     ExactPairs pairs = exact_pairs(model.omega, form.bottomRightCorner(n_modes, n_modes));
     model.W = std::move(pairs.W);
     model.omega = std::move(pairs.omega);
@@ -132,8 +127,8 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                               const reduce::ReductionOptions& options, const IsHeld& is_held,
                               reduce::PhaseListener& phases)
 {
-  reduce::Body whole =
-      reduce::in_phase(phases, "harmonic matrices", [&] { return body_of(sector, coordinates); });
+  phases.begin("harmonic matrices");
+  reduce::Body whole = body_of(sector, coordinates);
   std::vector<PetscInt> held;
   for (const Master& master : coordinates.masters)
     if (is_held(master)) held.push_back(master.coordinate);
@@ -149,8 +144,8 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
   reduce::Reduction reduction = reduce::reduction(body, chosen, support, phases);
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   HarmonicModel model{.coordinates = std::move(coordinates),
-                      .K = in_order(reduction.model.K, places),
-                      .M = in_order(reduction.model.M, places),
+                      .K = reduction.model.K(places, places),
+                      .M = reduction.model.M(places, places),
                       .C = {},
                       .omega = Eigen::Map<const VectorXd>(reduction.model.omega.data(),
                                                           std::ssize(reduction.model.omega)),
@@ -162,13 +157,12 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
   if (sector.C.size() > 0) {
     const petsc::Matrix C =
         as_matrix(harmonic_form(sector.C, model.coordinates), Symmetry::symmetric);
-    model.C = in_order(reduce::project_form(model.basis, reduce::split(C, model.body.dofs)),
-                       model.places);
+    model.C = reduce::project_form(model.basis, reduce::split(C, model.body.dofs))(model.places,
+                                                                                    model.places);
   }
-  reduce::in_phase(phases, "pairs", [&] {
-    make_pairs(model, sector);
-    return 0;
-  });
+  phases.begin("pairs");
+  make_pairs(model, sector);
+  phases.end();
   if (beyond) leave_out_modes(model);
   return model;
 }
@@ -198,9 +192,8 @@ SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs
     row = std::ssize(wanted);
     wanted.push_back(coordinate);
   }
-  const linear::SmallMatrix known = reduce::basis_rows(model.basis, model.body.dofs, wanted);
-  const MatrixXd Q = Eigen::Map<const MatrixXd>(known.values.data(), known.n_rows, known.n_cols)(
-      every, model.places);
+  const MatrixXd Q =
+      reduce::basis_rows(model.basis, model.body.dofs, wanted)(every, model.places);
   const Index n_m = model.n_masters(), n = n_m + model.W.cols();
   MatrixXd rows(Q.rows(), n);
   rows << Q.leftCols(n_m), Q.rightCols(model.W.rows()) * model.W;

@@ -96,10 +96,11 @@ class Phase {
 class CMSPhases : public reduce::PhaseListener {
  public:
   explicit CMSPhases(CMS cms) : cms_(cms) {}
-  void begin(const std::string& name) override;
-  void end() override;
 
  private:
+  void begun(const std::string& name) override;
+  void ended() override;
+
   CMS cms_;
   std::optional<Phase> phase_;
 };
@@ -111,7 +112,7 @@ linear::OptionSource option_source(CMS cms);
 SetUp make_set_up(CMS cms);
 Result make_result(CMS cms);
 /// T^T C T; masters ascending by DOF. Symmetric where C is.
-linear::SmallMatrix reduced_velocity_forces(const Inside& in);
+Eigen::MatrixXd reduced_velocity_forces(const Inside& in);
 void write_file(CMS cms, const std::string& path);
 
 }  // namespace chladni::plugin

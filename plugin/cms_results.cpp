@@ -16,8 +16,7 @@ std::vector<int> places_of(const Inside& in)
 }
 
 /// A replicated matrix as dense one of the communicator, in the order of the user.
-petsc::Matrix distributed(const linear::SmallMatrix& A, const std::vector<int>& places,
-                          MPI_Comm comm)
+petsc::Matrix distributed(const Eigen::MatrixXd& A, const std::vector<int>& places, MPI_Comm comm)
 {
   petsc::Matrix B;
   PetscInt first = 0, last = 0;
@@ -113,7 +112,7 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
           fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", dof, n - 1));
     }
   }
-  const linear::SmallMatrix rows =
+  const Eigen::MatrixXd rows =
       reduce::basis_rows(in.result->reduction.Q_CB, in.set_up->body.dofs, dofs);
   const std::vector<PetscInt> own = own_indices(in.output);
   const PetscInt first = before(own, comm);
@@ -148,14 +147,12 @@ void make_reduced_operators(Inside& in)
 
 }  // namespace
 
-linear::SmallMatrix reduced_velocity_forces(const Inside& in)
+Eigen::MatrixXd reduced_velocity_forces(const Inside& in)
 {
   const auto& [C, is_symmetric] = in.set_up->velocity;
-  linear::SmallMatrix C_r =
+  Eigen::MatrixXd C_r =
       reduce::project_form(in.result->reduction.Q_CB, reduce::split(C, in.set_up->body.dofs));
-  for (PetscInt j = 0; is_symmetric && j < C_r.n_cols; ++j) {
-    for (PetscInt i = 0; i < j; ++i) C_r(i, j) = C_r(j, i) = 0.5 * (C_r(i, j) + C_r(j, i));
-  }
+  if (is_symmetric) C_r = (0.5 * (C_r + C_r.transpose())).eval();
   return C_r;
 }
 

@@ -99,8 +99,8 @@ void write_file(CMS cms, const std::string& path)
   mbs_export::ReducedSystem system =
       reduce_export::reduced_system(std::move(described), body, reduction);
   if (velocity.C) {
-    system.C = reduce_export::in_order(reduced_velocity_forces(in),
-                                       reduce::coordinate_places(body.masters, reduction.model));
+    const std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
+    system.C = reduced_velocity_forces(in)(places, places);
   }
   system.provenance = provenance(cms, comm);
   on_first_rank(comm, [&] { mbs_export::write_reduced(path, system); });

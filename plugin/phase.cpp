@@ -103,13 +103,13 @@ constexpr std::array events_of_phases{
 
 }  // namespace
 
-void CMSPhases::begin(const std::string& name)
+void CMSPhases::begun(const std::string& name)
 {
   const auto* const found = std::ranges::find(events_of_phases, name, &EventOfPhase::phase);
   if (found != events_of_phases.end()) phase_.emplace(cms_, events.*(found->event), name);
 }
 
-void CMSPhases::end()
+void CMSPhases::ended()
 {
   if (phase_) phase_->done();
   phase_.reset();

@@ -11,11 +11,10 @@ namespace {
 
 petsc::Matrix constraint_modes_of(const FactoredBody& body, PhaseListener& phases)
 {
-  return in_phase(phases, "constraint modes", [&] {
-    petsc::Matrix Psi = constraint_modes(body.K_ss, body.K_blocks);
-    if (body.R == nullptr) return Psi;
-    return with_rigid_motions(std::move(Psi), {.R = body.R, .dofs = body.dofs, .K = body.K_blocks});
-  });
+  phases.begin("constraint modes");
+  petsc::Matrix Psi = constraint_modes(body.K_ss, body.K_blocks);
+  if (body.R == nullptr) return Psi;
+  return with_rigid_motions(std::move(Psi), {.R = body.R, .dofs = body.dofs, .K = body.K_blocks});
 }
 
 /// As few fixed-interface modes as keep the tolerance.
@@ -38,14 +37,13 @@ FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
         return leading_pairs(modes_everywhere(support, model, range, body.comm()), range);
       },
       body.require_memory);
-  const auto find_modes = [&] {
-    search.find_modes();
-    return 0;
-  };
   do {
-    in_phase(phases, "fixed-interface modes", find_modes);
-  } while (!in_phase(phases, "choice of modes", [&] { return search.is_enough(); }));
-  return in_phase(phases, "fixed-interface modes", [&] { return search.modes(); });
+    phases.begin("fixed-interface modes");
+    search.find_modes();
+    phases.begin("choice of modes");
+  } while (!search.is_enough());
+  phases.begin("fixed-interface modes");
+  return search.modes();
 }
 
 /// Rubin's basis, and for MacNeal the mass that is not the projected one.
@@ -59,14 +57,13 @@ Basis basis_of_free_modes(const FactoredBody& body, const ReductionOptions& opti
                           .K_blocks = body.K_blocks,
                           .M_blocks = body.M_blocks,
                           .K_ss = body.K_ss};
-  const FreeInterfaceModes free = in_phase(phases, "free-interface modes", [&] {
-    return free_interface_modes(whole, basis.Q.Psi, options.basis);
-  });
-  basis.Q.modes = in_phase(phases, "residual flexibility",
-                           [&] { return rubin_modes(whole, basis.Q.Psi, free); });
+  phases.begin("free-interface modes");
+  const FreeInterfaceModes free = free_interface_modes(whole, basis.Q.Psi, options.basis);
+  phases.begin("residual flexibility");
+  basis.Q.modes = rubin_modes(whole, basis.Q.Psi, free);
   if (options.basis.method == Method::macneal) {
-    basis.mass = in_phase(phases, "mass of the modes",
-                          [&] { return macneal_mass(basis.Q, body.M_blocks, free); });
+    phases.begin("mass of the modes");
+    basis.mass = macneal_mass(basis.Q, body.M_blocks, free);
   }
   return basis;
 }
@@ -90,9 +87,8 @@ Basis make_basis(const FactoredBody& body, const ReductionOptions& options, cons
     basis.Q.Psi = constraint_modes_of(body, phases);
     basis.Q.modes = modes_to_tolerance(body, basis.Q.Psi, options, support, phases);
   } else {  // the modes first: the subspace of the eigen-solver is as large as the constraint modes
-    basis.Q.modes = in_phase(phases, "fixed-interface modes", [&] {
-      return fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted, body.require_memory);
-    });
+    phases.begin("fixed-interface modes");
+    basis.Q.modes = fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted, body.require_memory);
     basis.Q.Psi = constraint_modes_of(body, phases);
   }
   return basis;

@@ -5,6 +5,8 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// Places of global DOFs among the masters or slaves of this rank.
@@ -44,8 +46,8 @@ PetscInt masters_before(IS masters)
 
 }  // namespace
 
-linear::SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
-                               const std::vector<PetscInt>& dofs)
+MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
+                    const std::vector<PetscInt>& dofs)
 {
   const linear::LocalRows Psi(Q_CB.Psi);
   const std::optional<linear::LocalRows> Phi =
@@ -54,9 +56,9 @@ linear::SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition
   const LocalPlaces slaves(rows_of.slaves);
   const PetscInt first_master = masters_before(rows_of.masters);
   const PetscInt n_m = Psi.n_cols();
-  linear::SmallMatrix rows(static_cast<PetscInt>(dofs.size()), n_m + Q_CB.n_modes());
+  MatrixXd rows = MatrixXd::Zero(std::ssize(dofs), n_m + Q_CB.n_modes());
   std::vector<std::pair<PetscInt, PetscInt>> own;  // row here and row among this rank's slaves
-  for (PetscInt i = 0; i < rows.n_rows; ++i) {
+  for (PetscInt i = 0; i < rows.rows(); ++i) {
     if (const auto m = masters.find(dofs[i])) rows(i, first_master + *m) = 1.0;
     if (const auto s = slaves.find(dofs[i])) own.emplace_back(i, *s);
   }
@@ -66,7 +68,7 @@ linear::SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition
   for (PetscInt j = 0; j < Q_CB.n_modes(); ++j) {
     for (const auto& [i, s] : own) rows(i, n_m + j) = (*Phi)(s, j);
   }
-  linear::sum_over_ranks(rows, petsc::communicator(Q_CB.Psi));
+  linear::sum_over_ranks(linear::values_of(rows), petsc::communicator(Q_CB.Psi));
   return rows;
 }
 

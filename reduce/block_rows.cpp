@@ -4,6 +4,8 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// The rows of a set that this rank holds, counted from the first row of X.
@@ -48,10 +50,10 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like)
   return X_s;
 }
 
-linear::SmallMatrix master_rows(Mat X, const DofPartition& dofs)
+MatrixXd master_rows(Mat X, const DofPartition& dofs)
 {
   const OwnRows masters(X, dofs.masters);
-  linear::SmallMatrix X_m(masters.n_all, linear::LocalRows(X).n_cols());
+  MatrixXd X_m = MatrixXd::Zero(masters.n_all, linear::LocalRows(X).n_cols());
   {
     const linear::LocalRows x(X);
     for (PetscInt j = 0; j < x.n_cols(); ++j) {
@@ -60,11 +62,11 @@ linear::SmallMatrix master_rows(Mat X, const DofPartition& dofs)
       }
     }
   }
-  linear::sum_over_ranks(X_m, petsc::communicator(X));
+  linear::sum_over_ranks(linear::values_of(X_m), petsc::communicator(X));
   return X_m;
 }
 
-void set_rows(Mat X, const DofPartition& dofs, const linear::SmallMatrix& X_m, Mat X_s)
+void set_rows(Mat X, const DofPartition& dofs, const MatrixXd& X_m, Mat X_s)
 {
   const OwnRows masters(X, dofs.masters), slaves(X, dofs.slaves);
   const linear::LocalRows x_s(X_s);

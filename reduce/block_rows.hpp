@@ -12,9 +12,9 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like);
 
 /// The rows of a dense X at the masters, on every rank.
 /// @note   Collective.
-linear::SmallMatrix master_rows(Mat X, const DofPartition& dofs);
+Eigen::MatrixXd master_rows(Mat X, const DofPartition& dofs);
 
 /// Writes X_m and X_s to the rows of X.
-void set_rows(Mat X, const DofPartition& dofs, const linear::SmallMatrix& X_m, Mat X_s);
+void set_rows(Mat X, const DofPartition& dofs, const Eigen::MatrixXd& X_m, Mat X_s);
 
 }  // namespace chladni::reduce

@@ -11,6 +11,8 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 void broadcast(std::vector<double>& values, MPI_Comm comm)
@@ -50,10 +52,9 @@ SupportedModes modes_everywhere(const Support& support, const ReducedModel& mode
   modes.n_free_zero = numbers[2];
   broadcast(modes.pairs.lambda, comm);
   if (petsc::rank(comm) != 0) {
-    modes.pairs.X =
-        linear::SmallMatrix(model.K.n_rows, static_cast<PetscInt>(modes.pairs.lambda.size()));
+    modes.pairs.X = MatrixXd(model.K.rows(), std::ssize(modes.pairs.lambda));
   }
-  linear::broadcast_numbers(modes.pairs.X.values, comm);
+  linear::broadcast_numbers(linear::values_of(modes.pairs.X), comm);
   return modes;
 }
 
@@ -81,10 +82,7 @@ ReducedPairs leading_pairs(const SupportedModes& modes, const SpectrumRange& ran
       static_cast<PetscInt>(std::ranges::upper_bound(lambda, range.lambda_max) - lambda.begin());
   const auto k =
       std::min(std::clamp<PetscInt>(n_below, 1, range.most), static_cast<PetscInt>(lambda.size()));
-  ReducedPairs pairs{.X = {modes.pairs.X.n_rows, k},
-                     .lambda = {lambda.begin(), lambda.begin() + k}};
-  std::copy_n(modes.pairs.X.values.begin(), pairs.X.values.size(), pairs.X.values.begin());
-  return pairs;
+  return {.X = modes.pairs.X.leftCols(k), .lambda = {lambda.begin(), lambda.begin() + k}};
 }
 
 Certified estimated(const Reduced& reduced, const ReductionOptions& options, const Support& support,

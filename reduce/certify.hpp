@@ -56,7 +56,7 @@ struct Reduced {
 struct Certified {
   Certificate certificate;
   SupportedModes modes;
-  linear::SmallMatrix residuals{0, 0};  ///< `ErrorEstimates::inner_products`; empty but for bounds
+  Eigen::MatrixXd residuals = {};  ///< `ErrorEstimates::inner_products`; empty but for bounds
 };
 
 /// The error estimates of the modes of a range.

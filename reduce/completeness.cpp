@@ -12,11 +12,13 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// Upper bounds of the eigenvalues of K^-1 M above alpha, the first one of Ritz value `first`,
 /// descending; what rounding may have taken off is in them.
-std::vector<double> upper_bounds(const std::vector<double>& lambda, const linear::SmallMatrix& H,
+std::vector<double> upper_bounds(const std::vector<double>& lambda, const MatrixXd& H,
                                  std::size_t first, double alpha)
 {
   constexpr double units = 16.0 * std::numeric_limits<double>::epsilon();
@@ -24,7 +26,7 @@ std::vector<double> upper_bounds(const std::vector<double>& lambda, const linear
   const auto at = [first](PetscInt i) { return first + static_cast<std::size_t>(i); };
   std::vector<double> root;  // of theta - alpha
   for (PetscInt i = 0; i < n; ++i) root.push_back(std::sqrt(1.0 / lambda[at(i)] - alpha));
-  linear::SmallMatrix A(n, n);
+  MatrixXd A(n, n);
   double largest = 0.0;
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) {
@@ -110,8 +112,8 @@ EigenvalueCount count_near(const ReducedSpectrum& ritz, double sigma,
 
 }  // namespace
 
-std::vector<double> error_bounds(const std::vector<double>& lambda,
-                                 const linear::SmallMatrix& residuals, double sigma)
+std::vector<double> error_bounds(const std::vector<double>& lambda, const MatrixXd& residuals,
+                                 double sigma)
 {
   constexpr double reach = 1e3;  // low values would bury far higher ones in round-off
   std::vector<double> bounds;
@@ -131,7 +133,7 @@ namespace {
 std::vector<double> bounds_below(const ReducedSpectrum& ritz, double sigma)
 {
   const std::ptrdiff_t n = n_below(ritz.lambda, sigma);
-  if (n > ritz.residuals.n_rows) return {};
+  if (n > ritz.residuals.rows()) return {};
   std::vector<double> bounds =
       error_bounds({ritz.lambda.begin(), ritz.lambda.begin() + n}, ritz.residuals, sigma);
   linear::broadcast_numbers(bounds, ritz.comm);  // they decide what is done next
@@ -151,7 +153,7 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
                                       const std::function<int(double sigma)>& eigenvalues_below)
 {
   constexpr double half_a_pair_gap = 1e-4;  // of omega^2
-  ReducedSpectrum modes{.lambda = {}, .residuals = {0, 0}, .n_zero = 0, .comm = PETSC_COMM_SELF};
+  ReducedSpectrum modes{.lambda = {}, .residuals = {}, .n_zero = 0, .comm = PETSC_COMM_SELF};
   for (const double omega_k : omega) modes.lambda.push_back(omega_k * omega_k);
   return count_near(modes, modes.lambda.back() * (1.0 + half_a_pair_gap), eigenvalues_below);
 }
@@ -160,8 +162,9 @@ Completeness count_modes(ReducedSpectrum ritz,
                          const std::function<int(double sigma)>& eigenvalues_below)
 {
   Completeness result;
-  linear::broadcast_numbers(ritz.residuals.values, ritz.comm);  // they decide what is counted
-  const auto k = static_cast<std::size_t>(ritz.residuals.n_rows);
+  linear::broadcast_numbers(linear::values_of(ritz.residuals),
+                            ritz.comm);  // they decide what is counted
+  const auto k = static_cast<std::size_t>(ritz.residuals.rows());
   if (k == 0) return result;
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };
   result.range = count(shift_above(ritz.lambda, k));

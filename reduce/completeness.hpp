@@ -20,10 +20,10 @@ struct EigenvalueCount {
 
 /// The eigenvalues of the reduced pencil under some support.
 struct ReducedSpectrum {
-  std::vector<double> lambda;     ///< all positive ones, ascending; rad^2/s^2
-  linear::SmallMatrix residuals;  ///< [k x k] of the first k, `ErrorEstimates::inner_products`
-  int n_zero;                     ///< zero eigenvalues before them
-  MPI_Comm comm;                  ///< ranks that count together; the first one decides
+  std::vector<double> lambda;  ///< all positive ones, ascending; rad^2/s^2
+  Eigen::MatrixXd residuals;   ///< [k x k] of the first k, `ErrorEstimates::inner_products`
+  int n_zero;                  ///< zero eigenvalues before them
+  MPI_Comm comm;               ///< ranks that count together; the first one decides
 };
 
 /// What a count of eigenvalues certifies.
@@ -62,6 +62,6 @@ Completeness count_modes(ReducedSpectrum ritz,
 /// Source: Lehmann, Z. angew. Math. Mech. 29 (1949) 341; Temple, Proc. R. Soc. Lond. A 119 (1928)
 /// 276.
 std::vector<double> error_bounds(const std::vector<double>& lambda,
-                                 const linear::SmallMatrix& residuals, double sigma);
+                                 const Eigen::MatrixXd& residuals, double sigma);
 
 }  // namespace chladni::reduce

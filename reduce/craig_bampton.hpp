@@ -19,17 +19,16 @@ struct CraigBamptonBasis {
 
 /// Static condensation to the masters.
 struct GuyanStiffness {
-  linear::SmallMatrix K;  ///< K_G [n_m x n_m]
-  linear::SmallMatrix R;  ///< [n_m x r] independent motions of the masters with K_G R = 0
+  Eigen::MatrixXd K;  ///< K_G [n_m x n_m]
+  Eigen::MatrixXd R;  ///< [n_m x r] independent motions of the masters with K_G R = 0
 };
 
 /// The reduced system in (u_m, q), the same on every rank; masters in the order of the partition.
 struct ReducedModel {
-  linear::SmallMatrix K, M;  ///< [n_m + n_CB squared]
+  Eigen::MatrixXd K, M;  ///< [n_m + n_CB squared]
   PetscInt n_masters;
   std::vector<double> omega;  ///< [n_CB] rad/s of the fixed-interface modes
-  linear::SmallMatrix R = {0,
-                           0};  ///< [n_m x r] of the motions that K does not resist, at the masters
+  Eigen::MatrixXd R = {};     ///< [n_m x r] of the motions that K does not resist, at the masters
 };
 
 /// K_r = diag(K_mm + K_ms Psi, diag(omega^2)),
@@ -42,19 +41,19 @@ ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Block
 /// Q_CB^T A Q_CB of any matrix, symmetric or not: of dampers, of Coriolis forces.
 /// @return [n_m + n_CB squared], on every rank
 /// @note   Collective.
-linear::SmallMatrix project_form(const CraigBamptonBasis& Q_CB, const Blocks& A);
+Eigen::MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A);
 
 /// Q_CB^T V of a few dense columns with the rows of K.
 /// @return [n_m + n_CB x k], on every rank
 /// @note   Collective.
-linear::SmallMatrix project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V);
+Eigen::MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V);
 
 /// Rows of Q_CB.
 /// @param dofs     global DOFs of K, the same list on every rank.
 /// @param rows_of  the partition that the basis belongs to.
 /// @return [n_dofs x (n_m + n_CB)], on every rank.
 /// @note   Collective.
-linear::SmallMatrix basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
-                               const std::vector<PetscInt>& dofs);
+Eigen::MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
+                           const std::vector<PetscInt>& dofs);
 
 }  // namespace chladni::reduce

@@ -10,17 +10,19 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
-petsc::Matrix zero_block(Mat like, PetscInt n_columns)
+petsc::Matrix zero_block(Mat like, Eigen::Index n_columns)
 {
   PetscInt n_local = 0;
   PetscInt n = 0;
   petsc::check(MatGetLocalSize(like, &n_local, nullptr));
   petsc::check(MatGetSize(like, &n, nullptr));
   petsc::Matrix block;
-  petsc::check(MatCreateDense(petsc::communicator(like), n_local, PETSC_DECIDE, n, n_columns,
-                              nullptr, block.put()));
+  petsc::check(MatCreateDense(petsc::communicator(like), n_local, PETSC_DECIDE, n,
+                              static_cast<PetscInt>(n_columns), nullptr, block.put()));
   return block;
 }
 
@@ -34,18 +36,17 @@ struct Residuals {
 
 /// u^T A u of each column of u = (u_s, x_m).
 /// @param A_u_s  A_ss u_s
-std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s,
-                                    const linear::SmallMatrix& x_m)
+std::vector<double> quadratic_forms(const Blocks& A, Mat A_u_s, Mat u_s, const MatrixXd& x_m)
 {
   const std::vector<double> ss = linear::column_products(u_s, A_u_s);
-  const linear::SmallMatrix sm = linear::inner_product_sparse(u_s, A.sm);
-  const linear::SmallMatrix mm = linear::replicate(A.mm);
+  const MatrixXd sm = linear::inner_product_sparse(u_s, A.sm);
+  const MatrixXd mm = linear::replicate(A.mm);
   std::vector<double> forms;
-  for (PetscInt k = 0; k < x_m.n_cols; ++k) {
+  for (PetscInt k = 0; k < x_m.cols(); ++k) {
     double form = ss[k];
-    for (PetscInt j = 0; j < x_m.n_rows; ++j) {
+    for (PetscInt j = 0; j < x_m.rows(); ++j) {
       double row = 2.0 * sm(k, j);
-      for (PetscInt i = 0; i < x_m.n_rows; ++i) row += x_m(i, k) * mm(i, j);
+      for (PetscInt i = 0; i < x_m.rows(); ++i) row += x_m(i, k) * mm(i, j);
       form += row * x_m(j, k);
     }
     forms.push_back(form);
@@ -73,10 +74,10 @@ void add_form_of_diagonal(Mat A, const Value& X, std::vector<double>& sums)
   petsc::check(VecRestoreArrayRead(diagonal, &A_jj));
 }
 
-std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const linear::SmallMatrix& x_m)
+std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const MatrixXd& x_m)
 {
   const MPI_Comm comm = petsc::communicator(A.ss);
-  std::vector<double> sums(x_m.n_cols, 0.0);
+  std::vector<double> sums(x_m.cols(), 0.0);
   add_form_of_diagonal(A.ss, linear::LocalRows(u_s), sums);
   PetscInt first = 0;
   petsc::check(MatGetOwnershipRange(A.mm, &first, nullptr));
@@ -94,14 +95,13 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
   const auto& [K_ss, Q_CB, K, M] = system;
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
-  const linear::SmallMatrix x_m = linear::row_range(pairs.X, 0, n_m);
-  const linear::SmallMatrix x_q = linear::row_range(pairs.X, n_m, pairs.X.n_rows);
-  petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.n_cols);  // Phi x_q
+  const MatrixXd x_m = pairs.X.topRows(n_m), x_q = pairs.X.bottomRows(pairs.X.rows() - n_m);
+  petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.cols());  // Phi x_q
   if (Q_CB.modes) linear::add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
-  petsc::Matrix r = linear::uninitialized_dense(K.ss, pairs.X.n_cols);
+  petsc::Matrix r = linear::uninitialized_dense(K.ss, pairs.X.cols());
   linear::SparseProduct(K.ss).apply(elastic, r);
   linear::add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
-  petsc::Matrix product = linear::uninitialized_dense(K.ss, pairs.X.n_cols);
+  petsc::Matrix product = linear::uninitialized_dense(K.ss, pairs.X.cols());
   linear::SparseProduct(K.ss).apply(elastic, product);
   std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
   linear::SparseProduct(M.ss).apply(elastic, product);
@@ -112,8 +112,8 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
     inertia_of_diagonal[k] /= inertia[k];
   }
   linear::add_sparse_product(M.sm, x_m, product);
-  linear::SmallMatrix minus_lambda(pairs.X.n_cols, pairs.X.n_cols);
-  for (PetscInt i = 0; i < minus_lambda.n_rows; ++i) minus_lambda(i, i) = -pairs.lambda[i];
+  MatrixXd minus_lambda = MatrixXd::Zero(pairs.X.cols(), pairs.X.cols());
+  for (PetscInt i = 0; i < minus_lambda.rows(); ++i) minus_lambda(i, i) = -pairs.lambda[i];
   linear::add_product(1.0, product, minus_lambda, r);
   return {.r_s = std::move(r),
           .energy_of_diagonal = form_of_diagonal(K, elastic, x_m),
@@ -123,32 +123,27 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
 
 ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
 {
-  ReducedPairs some{.X = {pairs.X.n_rows, last - first}, .lambda = {}};
-  const auto column = [&](PetscInt j) {
-    return pairs.X.values.begin() + std::size_t(j) * pairs.X.n_rows;
-  };
-  std::copy(column(first), column(last), some.X.values.begin());
-  some.lambda.assign(pairs.lambda.begin() + first, pairs.lambda.begin() + last);
-  return some;
+  return {.X = pairs.X.middleCols(first, last - first),
+          .lambda = {pairs.lambda.begin() + first, pairs.lambda.begin() + last}};
 }
 
 /// Those of the newest block with itself and all before.
 void add_inner_products(const std::vector<petsc::Matrix>& solved, Mat r_s,
-                        const std::vector<double>& lambda, linear::SmallMatrix& H)
+                        const std::vector<double>& lambda, MatrixXd& H)
 {
   PetscInt last = 0;
   for (const petsc::Matrix& z : solved) last += linear::LocalRows(z).n_cols();
   const PetscInt newest = last - linear::LocalRows(r_s).n_cols();
   PetscInt first = 0;
   for (const petsc::Matrix& z : solved) {
-    const linear::SmallMatrix z_r = linear::inner_product(z, r_s);
-    for (PetscInt j = 0; j < z_r.n_cols; ++j) {
-      for (PetscInt i = 0; i < z_r.n_rows; ++i) {
+    const MatrixXd z_r = linear::inner_product(z, r_s);
+    for (PetscInt j = 0; j < z_r.cols(); ++j) {
+      for (PetscInt i = 0; i < z_r.rows(); ++i) {
         const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
         H(first + i, newest + j) = H(newest + j, first + i) = z_r(i, j) / scale;
       }
     }
-    first += z_r.n_rows;
+    first += static_cast<PetscInt>(z_r.rows());
   }
 }
 
@@ -162,7 +157,7 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
   const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
   ErrorEstimates estimates;
   const bool with_inner_products = purpose == Purpose::bounds;
-  if (with_inner_products) estimates.inner_products = linear::SmallMatrix(n_pairs, n_pairs);
+  if (with_inner_products) estimates.inner_products = MatrixXd::Zero(n_pairs, n_pairs);
   std::vector<petsc::Matrix> solved;  // K_ss^-1 r of the pairs so far
   for (PetscInt first = 0; first < n_pairs; first += most) {
     linear::report_progress(double(first) / n_pairs);
@@ -170,7 +165,7 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
     const Residuals of = residuals(system, some);
     if (!with_inner_products) solved.clear();
     const petsc::Matrix& z =
-        solved.emplace_back(linear::uninitialized_dense(system.K.ss, some.X.n_cols));
+        solved.emplace_back(linear::uninitialized_dense(system.K.ss, some.X.cols()));
     petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
     const std::vector<double> r_z = linear::column_products(of.r_s, z);
     for (std::size_t i = 0; i < r_z.size(); ++i) {

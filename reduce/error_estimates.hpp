@@ -6,7 +6,7 @@ namespace chladni::reduce {
 
 /// Eigenpairs of the reduced pencil under some support, in the coordinates of ReducedModel.
 struct ReducedPairs {
-  linear::SmallMatrix X;       ///< [n_m + n_CB x k], X^T M_r X = I; the same on every rank
+  Eigen::MatrixXd X;           ///< [n_m + n_CB x k], X^T M_r X = I; the same on every rank
   std::vector<double> lambda;  ///< [k] rad^2/s^2, positive
 };
 
@@ -29,7 +29,7 @@ struct ErrorEstimates {
   std::vector<double> rounding;
   /// [k x k] r_i^T K_ss^-1 r_j / sqrt(lambda_i lambda_j), with eta^2 on its diagonal; empty but for
   /// Purpose::bounds.
-  linear::SmallMatrix inner_products = {0, 0};
+  Eigen::MatrixXd inner_products = {};
 };
 
 /// What errors are computed for.

@@ -13,13 +13,15 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// The inverse of K_G on the complement of its r motions without energy, in units that its diagonal
 /// gives; all else is as wrong as any, since the forces have no share of it.
-linear::SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
+MatrixXd pseudo_inverse(const GuyanStiffness& K_G)
 {
-  const PetscInt n = K_G.K.n_rows, r = K_G.R.n_cols;
+  const Eigen::Index n = K_G.K.rows(), r = K_G.R.cols();
   double largest = 0.0;
   for (PetscInt i = 0; i < n; ++i) largest = std::max(largest, K_G.K(i, i));
   std::vector<double> scale;
@@ -27,40 +29,40 @@ linear::SmallMatrix pseudo_inverse(const GuyanStiffness& K_G)
     const double k = K_G.K(i, i) > 0.0 ? K_G.K(i, i) : largest;
     scale.push_back(k > 0.0 ? 1.0 / std::sqrt(k) : 1.0);
   }
-  linear::SmallMatrix scaled = K_G.K;
+  MatrixXd scaled = K_G.K;
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
   }
   const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(scaled));
-  linear::SmallMatrix V(n, n - r);  // of the others, times lambda^(-1/2)
-  for (PetscInt k = r; k < n; ++k) {
+  MatrixXd V = MatrixXd::Zero(n, n - r);  // of the others, times lambda^(-1/2)
+  for (Eigen::Index k = r; k < n; ++k) {
     for (PetscInt i = 0; i < n; ++i) {
       V(i, k - r) = scale[i] * eigen.vectors(i, k) / std::sqrt(eigen.values[k]);
     }
   }
-  return linear::product(V, linear::transposed(V));
+  return linear::product(V, V.transpose());
 }
 
-double form(const linear::SmallMatrix& G, const linear::SmallMatrix& S, PetscInt i, PetscInt j)
+double form(const MatrixXd& G, const MatrixXd& S, PetscInt i, PetscInt j)
 {
   double sum = 0.0;
-  for (PetscInt b = 0; b < G.n_cols; ++b) {
-    for (PetscInt a = 0; a < G.n_rows; ++a) sum += S(a, i) * G(a, b) * S(b, j);
+  for (PetscInt b = 0; b < G.cols(); ++b) {
+    for (PetscInt a = 0; a < G.rows(); ++a) sum += S(a, i) * G(a, b) * S(b, j);
   }
   return sum;
 }
 
 /// The combinations S of motions with the mass matrix G that make S^T G S = I.
-linear::SmallMatrix orthonormal_in(const linear::SmallMatrix& G)
+MatrixXd orthonormal_in(const MatrixXd& G)
 {
   constexpr double no_mass = 1e-14;  // of that of the motion before the others are taken out
-  linear::SmallMatrix S(G.n_rows, G.n_cols);
-  for (PetscInt j = 0; j < G.n_cols; ++j) {
+  MatrixXd S = MatrixXd::Zero(G.rows(), G.cols());
+  for (PetscInt j = 0; j < G.cols(); ++j) {
     S(j, j) = 1.0;
     for (int pass = 0; pass < 2; ++pass) {
       for (PetscInt k = 0; k < j; ++k) {
         const double share = form(G, S, k, j);
-        for (PetscInt i = 0; i < G.n_rows; ++i) S(i, j) -= share * S(i, k);
+        for (PetscInt i = 0; i < G.rows(); ++i) S(i, j) -= share * S(i, k);
       }
     }
     const double mass = form(G, S, j, j);
@@ -69,7 +71,7 @@ linear::SmallMatrix orthonormal_in(const linear::SmallMatrix& G)
           "free-interface modes: a rigid-body motion has no mass; has every part of the body a "
           "density?");
     }
-    for (PetscInt i = 0; i < G.n_rows; ++i) S(i, j) /= std::sqrt(mass);
+    for (PetscInt i = 0; i < G.rows(); ++i) S(i, j) /= std::sqrt(mass);
   }
   return S;
 }
@@ -82,14 +84,14 @@ petsc::Matrix times(Mat A, Mat X)
 }
 
 /// Rigid motions of all DOFs, R^T M R = I.
-petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const linear::SmallMatrix& R_m)
+petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const MatrixXd& R_m)
 {
-  const petsc::Matrix R_s = linear::uninitialized_dense(Psi, R_m.n_cols);
+  const petsc::Matrix R_s = linear::uninitialized_dense(Psi, R_m.cols());
   petsc::check(MatZeroEntries(R_s));
   linear::add_product(1.0, Psi, R_m, R_s);
-  const petsc::Matrix R = linear::uninitialized_dense(body.K, R_m.n_cols);
+  const petsc::Matrix R = linear::uninitialized_dense(body.K, R_m.cols());
   set_rows(R, body.dofs, R_m, R_s);
-  petsc::Matrix normal = linear::uninitialized_dense(body.K, R_m.n_cols);
+  petsc::Matrix normal = linear::uninitialized_dense(body.K, R_m.cols());
   petsc::check(MatZeroEntries(normal));
   linear::add_product(1.0, R, orthonormal_in(linear::inner_product(R, times(body.M, R))), normal);
   return normal;
@@ -102,7 +104,7 @@ struct FreeFlexibility::Parts {
   Mat Psi;
   Mat R;
   petsc::Matrix MR;
-  linear::SmallMatrix K_G_inverse;
+  MatrixXd K_G_inverse;
 
   /// U = A F.
   void apply(Mat F, Mat U) const
@@ -114,12 +116,8 @@ struct FreeFlexibility::Parts {
     const petsc::Matrix u_s =
         linear::uninitialized_dense(body.K_blocks.ss, linear::LocalRows(f_s).n_cols());
     petsc::check(MatMatSolve(body.K_ss.factor(), f_s, u_s));
-    linear::SmallMatrix f_m = master_rows(f, body.dofs);
-    const linear::SmallMatrix held = linear::inner_product_sparse(u_s, body.K_blocks.sm);
-    for (PetscInt j = 0; j < f_m.n_cols; ++j) {
-      for (PetscInt i = 0; i < f_m.n_rows; ++i) f_m(i, j) -= held(j, i);
-    }
-    const linear::SmallMatrix u_m = linear::product(K_G_inverse, f_m);
+    const MatrixXd held = linear::inner_product_sparse(u_s, body.K_blocks.sm);
+    const MatrixXd u_m = linear::product(K_G_inverse, master_rows(f, body.dofs) - held.transpose());
     linear::add_product(1.0, Psi, u_m, u_s);
     set_rows(U, body.dofs, u_m, u_s);
     linear::add_product(-1.0, R, linear::inner_product(MR, U), U);

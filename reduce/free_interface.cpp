@@ -15,6 +15,8 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// Of the modes: their rows stand in the reduced matrices, so that no run may differ from another
@@ -96,7 +98,7 @@ petsc::Matrix beside(Mat R, Mat X, PetscInt k)
 }
 
 /// T^T A T
-linear::SmallMatrix gram(Mat T, Mat A)
+MatrixXd gram(Mat T, Mat A)
 {
   const petsc::Matrix AT = linear::uninitialized_dense(A, linear::LocalRows(T).n_cols());
   linear::SparseProduct(A).apply(T, AT);
@@ -104,10 +106,10 @@ linear::SmallMatrix gram(Mat T, Mat A)
 }
 
 /// The lengths of columns, from their Gram matrix; 1 where there is none.
-std::vector<double> lengths(const linear::SmallMatrix& G)
+std::vector<double> lengths(const MatrixXd& G)
 {
   std::vector<double> lengths;
-  for (PetscInt i = 0; i < G.n_rows; ++i) {
+  for (PetscInt i = 0; i < G.rows(); ++i) {
     lengths.push_back(G(i, i) > 0.0 ? std::sqrt(G(i, i)) : 1.0);
   }
   return lengths;
@@ -123,14 +125,14 @@ petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
   petsc::Matrix Q;
   for (int pass = 0; pass < 2; ++pass) {
     const Mat from = pass == 0 ? T : Mat(Q);
-    const linear::SmallMatrix G = gram(from, K);
+    const MatrixXd G = gram(from, K);
     std::vector<double> units = lengths(G);
     for (std::size_t i = 0; i < units.size() && pass == 0; ++i) {
       units[i] = std::max(units[i], round_off / dependent * sizes[i]);
     }
     const linear::Orthonormalisation o =
         linear::orthonormalisation(G, units, dependent, petsc::communicator(K));
-    petsc::Matrix orthonormal = linear::uninitialized_dense(K, o.to_Q.n_cols);
+    petsc::Matrix orthonormal = linear::uninitialized_dense(K, o.to_Q.cols());
     petsc::check(MatZeroEntries(orthonormal));
     linear::add_product(1.0, from, o.to_Q, orthonormal);
     Q = std::move(orthonormal);
@@ -147,15 +149,15 @@ FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const Wh
       linear::symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
   const auto n = static_cast<PetscInt>(ritz.values.size());
   FixedInterfaceModes modes;
-  linear::SmallMatrix V(n, n);
+  MatrixXd V = MatrixXd::Zero(n, n);
   for (PetscInt k = 0; k < n; ++k) {
     const PetscInt at = n - 1 - k;
     if (!(ritz.values[at] > 0.0)) break;  // shapes without mass
     for (PetscInt i = 0; i < n; ++i) V(i, k) = ritz.vectors(i, at) / std::sqrt(ritz.values[at]);
     modes.omega.push_back(1.0 / std::sqrt(ritz.values[at]));
   }
-  V = linear::column_range(V, 0, static_cast<PetscInt>(modes.omega.size()));
-  modes.Phi = linear::uninitialized_dense(body.K_blocks.ss, V.n_cols);
+  V = V.leftCols(std::ssize(modes.omega)).eval();
+  modes.Phi = linear::uninitialized_dense(body.K_blocks.ss, V.cols());
   petsc::check(MatZeroEntries(modes.Phi));
   linear::add_product(1.0, Q, V, modes.Phi);
   return modes;
@@ -186,7 +188,7 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
   std::vector<double> sizes = lengths(gram(T, body.K_blocks.ss));  // before the difference
   linear::add_product(-1.0, Psi, free.X_m, T);
   if (free.n_rigid > 0) {
-    const linear::SmallMatrix R_m = linear::column_range(free.X_m, 0, free.n_rigid);
+    const MatrixXd R_m = free.X_m.leftCols(free.n_rigid);
     const linear::ColumnRange inertia(T, 0, free.n_rigid);
     const petsc::Matrix R_s = linear::uninitialized_dense(body.K_blocks.ss, free.n_rigid);
     petsc::check(
@@ -200,30 +202,22 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
   return ritz_modes(T, sizes, body);
 }
 
-linear::SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
-                                 const FreeInterfaceModes& free)
+MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M, const FreeInterfaceModes& free)
 {
-  const PetscInt n_m = free.X_m.n_rows, n = n_m + Q.n_modes();
   // Z of the masters: X_s^T (M_ss Psi + M_sm) + X_m^T (M_ms Psi + M_mm)
-  const linear::SmallMatrix at_slaves = inertial_coupling(free.X_s, Q.Psi, M);
-  linear::SmallMatrix M_mm = linear::replicate(M.mm);
-  const linear::SmallMatrix Psi_M_sm = linear::inner_product_sparse(Q.Psi, M.sm);
-  for (PetscInt j = 0; j < n_m; ++j) {
-    for (PetscInt i = 0; i < n_m; ++i) M_mm(i, j) += Psi_M_sm(j, i);
-  }
-  const linear::SmallMatrix at_masters = linear::product(linear::transposed(free.X_m), M_mm);
+  const MatrixXd at_slaves = inertial_coupling(free.X_s, Q.Psi, M);
+  const MatrixXd M_of_masters =
+      linear::replicate(M.mm) + linear::inner_product_sparse(Q.Psi, M.sm).transpose();
+  const MatrixXd at_masters = linear::product(free.X_m.transpose(), M_of_masters);
   // and of the modes: (M_ss X_s + M_sm X_m)^T Phi
   petsc::Matrix momentum = linear::uninitialized_dense(M.ss, free.n_modes());
   linear::SparseProduct(M.ss).apply(free.X_s, momentum);
   linear::add_sparse_product(M.sm, free.X_m, momentum);
-  const linear::SmallMatrix of_modes = linear::inner_product(momentum, Q.modes->Phi);
-  linear::SmallMatrix Z(free.n_modes(), n);
-  for (PetscInt k = 0; k < Z.n_rows; ++k) {
-    for (PetscInt j = 0; j < n; ++j) {
-      Z(k, j) = j < n_m ? at_slaves(k, j) + at_masters(k, j) : of_modes(k, j - n_m);
-    }
-  }
-  return linear::product(linear::transposed(Z), Z);
+  const MatrixXd of_modes = linear::inner_product(momentum, Q.modes->Phi);
+  MatrixXd Z(free.n_modes(), at_masters.cols() + of_modes.cols());
+  Z.leftCols(at_masters.cols()) = at_slaves + at_masters;
+  Z.rightCols(of_modes.cols()) = of_modes;
+  return linear::product(Z.transpose(), Z);
 }
 
 }  // namespace chladni::reduce

@@ -17,7 +17,7 @@ struct WholeSystem {
 /// The lowest modes X of the body without any support, X^T M X = I, rigid-body motions first.
 struct FreeInterfaceModes {
   petsc::Matrix X_s;          ///< [n_s x k] dense
-  linear::SmallMatrix X_m;    ///< [n_m x k], on every rank
+  Eigen::MatrixXd X_m;        ///< [n_m x k], on every rank
   std::vector<double> omega;  ///< [k] rad/s; 0 for the rigid-body motions
   PetscInt n_rigid;
 
@@ -42,7 +42,7 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
 /// MacNeal's mass on Rubin's basis: that of the free modes alone, M_r = Z^T Z with Z = X^T M Q;
 /// residual flexibility is massless. No Galerkin projection: frequencies may be too low.
 /// Source: MacNeal, Computers & Structures 1 (1971) 581.
-linear::SmallMatrix macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
-                                 const FreeInterfaceModes& free);
+Eigen::MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M,
+                             const FreeInterfaceModes& free);
 
 }  // namespace chladni::reduce

@@ -1,7 +1,5 @@
 #include "reduce/full_responses.hpp"
 
-#include <petscblaslapack.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +9,8 @@
 #include "linear/lanczos/block_basis.hpp"
 
 namespace chladni::reduce {
+
+using Eigen::MatrixXd;
 
 namespace {
 
@@ -66,21 +66,7 @@ petsc::Matrix beyond_constraint_modes(const CraigBamptonBasis& Q_CB, const DofPa
   petsc::Matrix V_m, V_s;
   petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
   petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
-  const linear::SmallMatrix at_masters = linear::replicate(V_m);
-  const linear::LocalRows Psi(Q_CB.Psi);
-  const PetscBLASInt m = Psi.n_rows(), n = at_masters.n_cols, k = at_masters.n_rows,
-                     lda = Psi.leading_dimension();
-  const PetscScalar minus_one = -1.0, one = 1.0;
-  PetscInt ld = 0;
-  PetscScalar* rows = nullptr;
-  petsc::check(MatDenseGetLDA(V_s, &ld));
-  petsc::check(MatDenseGetArray(V_s, &rows));
-  const PetscBLASInt ldc = ld;
-  if (m > 0) {
-    BLASgemm_("N", "N", &m, &n, &k, &minus_one, Psi.values(), &lda, at_masters.values.data(), &k,
-              &one, rows, &ldc);
-  }
-  petsc::check(MatDenseRestoreArray(V_s, &rows));
+  linear::add_product(-1.0, Q_CB.Psi, linear::replicate(V_m), V_s);
   return V_s;
 }
 
@@ -89,13 +75,13 @@ void normalise(Mat X, Mat M)
 {
   const petsc::Matrix M_X = linear::uninitialized_dense(M, linear::LocalRows(X).n_cols());
   linear::SparseProduct(M).apply(X, M_X);
-  const linear::SmallMatrix G = linear::inner_product(X, M_X);
+  const MatrixXd G = linear::inner_product(X, M_X);
   PetscInt ld = 0, n_rows = 0;
   PetscScalar* rows = nullptr;
   petsc::check(MatGetLocalSize(X, &n_rows, nullptr));
   petsc::check(MatDenseGetLDA(X, &ld));
   petsc::check(MatDenseGetArray(X, &rows));
-  for (PetscInt j = 0; j < G.n_cols; ++j) {
+  for (PetscInt j = 0; j < G.cols(); ++j) {
     const double scale = G(j, j) > 0.0 ? 1.0 / std::sqrt(G(j, j)) : 0.0;
     for (PetscInt i = 0; i < n_rows; ++i) rows[i + std::size_t(j) * ld] *= scale;
   }
@@ -122,13 +108,13 @@ petsc::Matrix side_by_side(Mat A, Mat B, Mat rows_of)
 
 /// How many of the new directions are more than what round-off left of vectors of unit length;
 /// they come by falling length.
-PetscInt genuine_directions(const linear::SmallMatrix& R)
+PetscInt genuine_directions(const MatrixXd& R)
 {
   constexpr double round_off = 1e-9;
   PetscInt n = 0;
-  for (; n < R.n_rows; ++n) {
+  for (; n < R.rows(); ++n) {
     double squared = 0.0;
-    for (PetscInt j = 0; j < R.n_cols; ++j) squared += R(n, j) * R(n, j);
+    for (PetscInt j = 0; j < R.cols(); ++j) squared += R(n, j) * R(n, j);
     if (squared < round_off * round_off) break;
   }
   return n;
@@ -148,7 +134,7 @@ Ritz ritz_of(linear::BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
   linear::SparseProduct(K).apply(Q, K_Q);
   linear::SymmetricEigen ritz =
       linear::symmetric_eigen(linear::inner_product(Q, K_Q), petsc::communicator(K));
-  linear::SmallMatrix S(basis.n_columns(), n);
+  MatrixXd S = MatrixXd::Zero(basis.n_columns(), n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < n; ++i) S(n_before + i, j) = ritz.vectors(i, j);
   }

@@ -10,17 +10,20 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 constexpr PetscInt block_columns = 64;  // of the solves: bounds the memory
 
 /// B_j = M_ss (Psi - Phi P)_j + M_sm,j of columns first .. last - 1.
-petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi,
-                               const linear::SmallMatrix& P, PetscInt first)
+petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi, const MatrixXd& P,
+                               PetscInt first)
 {
-  petsc::Matrix shape, B = linear::uninitialized_dense(system.M.ss, P.n_cols);
-  petsc::check(MatDuplicate(linear::ColumnRange(system.Psi, first, first + P.n_cols),
-                            MAT_COPY_VALUES, shape.put()));
+  const PetscInt last = first + static_cast<PetscInt>(P.cols());
+  petsc::Matrix shape, B = linear::uninitialized_dense(system.M.ss, P.cols());
+  petsc::check(
+      MatDuplicate(linear::ColumnRange(system.Psi, first, last), MAT_COPY_VALUES, shape.put()));
   linear::add_product(-1.0, Phi, P, shape);
   linear::SparseProduct(system.M.ss).apply(shape, B);
   PetscInt first_row = 0;
@@ -29,7 +32,7 @@ petsc::Matrix deflated_inertia(const GrowingModel::System& system, Mat Phi,
   petsc::check(MatDenseGetArray(B, &values));
   const PetscInt n_local = linear::LocalRows(shape).n_rows();
   linear::for_local_entries(system.M.sm, [&](PetscInt row, PetscInt column, double value) {
-    if (column < first || column >= first + P.n_cols) return;
+    if (column < first || column >= last) return;
     values[row - first_row + std::size_t(column - first) * n_local] += value;
   });
   petsc::check(MatDenseRestoreArray(B, &values));
@@ -42,30 +45,28 @@ GrowingModel::GrowingModel(const System& system)
     : system_(system),
       K_G_(guyan_stiffness(system.Psi, system.K)),
       M_G_(guyan_mass(system.Psi, system.M)),
-      P_(0, M_G_.n_rows),
-      G_(0, 0)
+      P_(0, M_G_.rows())
 {}
 
 /// G = (Psi - Phi P)^T M_ss Z + M_ms Z with Z = K_ss^-1 (M_ss (Psi - Phi P) + M_sm): symmetric, its
 /// upper triangle is computed.
 void GrowingModel::start_errors(Mat Phi)
 {
-  const PetscInt n_m = M_G_.n_rows;
-  n_first_ = P_.n_rows;
-  G_ = linear::SmallMatrix(n_m, n_m);
+  const auto n_m = static_cast<PetscInt>(M_G_.rows());
+  n_first_ = static_cast<PetscInt>(P_.rows());
+  G_ = MatrixXd::Zero(n_m, n_m);
   for (PetscInt first = 0; first < n_m; first += block_columns) {
     linear::report_progress(double(first) / n_m);
     const PetscInt last = std::min(first + block_columns, n_m);
-    const linear::SmallMatrix P = linear::column_range(P_, first, last);
+    const MatrixXd P = P_.middleCols(first, last - first);
     const petsc::Matrix B = deflated_inertia(system_, Phi, P, first);
     const petsc::Matrix Z = linear::uninitialized_dense(system_.M.ss, last - first);
     petsc::check(MatMatSolve(system_.K_ss.factor(), B, Z));
     const petsc::Matrix MZ = linear::uninitialized_dense(system_.M.ss, last - first);
     linear::SparseProduct(system_.M.ss).apply(Z, MZ);
-    const linear::SmallMatrix Psi_MZ =
-        linear::inner_product(linear::ColumnRange(system_.Psi, 0, last), MZ);
-    const linear::SmallMatrix Phi_MZ = linear::inner_product(Phi, MZ);
-    const linear::SmallMatrix Z_M_sm = linear::inner_product_sparse(Z, system_.M.sm);
+    const MatrixXd Psi_MZ = linear::inner_product(linear::ColumnRange(system_.Psi, 0, last), MZ);
+    const MatrixXd Phi_MZ = linear::inner_product(Phi, MZ);
+    const MatrixXd Z_M_sm = linear::inner_product_sparse(Z, system_.M.sm);
     for (PetscInt j = first; j < last; ++j) {
       for (PetscInt i = 0; i <= j; ++i) {
         double deflation = 0.0;
@@ -90,14 +91,14 @@ ReducedModel GrowingModel::model(PetscInt n) const
 }
 
 /// G_n
-linear::SmallMatrix GrowingModel::G(PetscInt n) const
+MatrixXd GrowingModel::G(PetscInt n) const
 {
-  linear::SmallMatrix G_n = G_;
+  MatrixXd G_n = G_;
   const double sign = n > n_first_ ? -1.0 : 1.0;
   for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
     const double factor = sign / (omega_[k] * omega_[k]);
-    for (PetscInt j = 0; j < G_n.n_cols; ++j) {
-      for (PetscInt i = 0; i < G_n.n_rows; ++i) G_n(i, j) += factor * P_(k, i) * P_(k, j);
+    for (PetscInt j = 0; j < G_n.cols(); ++j) {
+      for (PetscInt i = 0; i < G_n.rows(); ++i) G_n(i, j) += factor * P_(k, i) * P_(k, j);
     }
   }
   return G_n;
@@ -106,19 +107,17 @@ linear::SmallMatrix GrowingModel::G(PetscInt n) const
 ReducedModel GrowingModel::heavier_model(PetscInt n, double sigma, double lambda_left_out) const
 {
   ReducedModel heavier = model(n);
-  const linear::SmallMatrix G_n = G(n);
+  const MatrixXd G_n = G(n);
   const double factor = sigma / (1.0 - sigma / lambda_left_out);
-  for (PetscInt j = 0; j < G_n.n_cols; ++j) {
-    for (PetscInt i = 0; i < G_n.n_rows; ++i) heavier.M(i, j) += factor * G_n(i, j);
-  }
+  heavier.M.topLeftCorner(G_n.rows(), G_n.cols()) += factor * G_n;
   return heavier;
 }
 
 std::vector<double> GrowingModel::error_estimates(const ReducedPairs& pairs, PetscInt n) const
 {
-  const PetscInt n_m = M_G_.n_rows;
+  const Eigen::Index n_m = M_G_.rows();
   std::vector<double> eta2;
-  for (PetscInt j = 0; j < pairs.X.n_cols; ++j) {
+  for (PetscInt j = 0; j < pairs.X.cols(); ++j) {
     double sum = 0.0;
     for (PetscInt c = 0; c < n_m; ++c) {
       for (PetscInt r = 0; r < n_m; ++r) sum += pairs.X(r, j) * G_(r, c) * pairs.X(c, j);

@@ -45,14 +45,14 @@ class GrowingModel {
 
  private:
   void start_errors(Mat Phi);
-  linear::SmallMatrix G(PetscInt n) const;
+  Eigen::MatrixXd G(PetscInt n) const;
 
   System system_;
   GuyanStiffness K_G_;
-  linear::SmallMatrix M_G_;
-  linear::SmallMatrix P_;  ///< [n_modes x n_m]
-  linear::SmallMatrix G_;  ///< G_n of the modes that came first
-  PetscInt n_first_ = 0;   ///< how many these are
+  Eigen::MatrixXd M_G_;
+  Eigen::MatrixXd P_;     ///< [n_modes x n_m]
+  Eigen::MatrixXd G_;     ///< G_n of the modes that came first
+  PetscInt n_first_ = 0;  ///< how many these are
   std::vector<double> omega_;
 };
 

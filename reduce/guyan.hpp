@@ -13,14 +13,14 @@ namespace chladni::reduce {
 GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K);
 
 /// M_G = M_mm + M_ms Psi + Psi^T (M_sm + M_ss Psi), symmetric to the last bit.
-linear::SmallMatrix guyan_mass(Mat Psi, const Blocks& M);
+Eigen::MatrixXd guyan_mass(Mat Psi, const Blocks& M);
 
 /// P = Phi^T (M_ss Psi + M_sm), [columns of Phi x n_m].
-linear::SmallMatrix inertial_coupling(Mat Phi, Mat Psi, const Blocks& M);
+Eigen::MatrixXd inertial_coupling(Mat Phi, Mat Psi, const Blocks& M);
 
 /// K_r = diag(K_G, diag(omega^2)), M_r = [M_G, P^T; P, I].
 /// @param P  rows of all modes of `omega`, or more
-ReducedModel join(const GuyanStiffness& K_G, const linear::SmallMatrix& M_G,
-                  const linear::SmallMatrix& P, std::vector<double> omega);
+ReducedModel join(const GuyanStiffness& K_G, const Eigen::MatrixXd& M_G, const Eigen::MatrixXd& P,
+                  std::vector<double> omega);
 
 }  // namespace chladni::reduce

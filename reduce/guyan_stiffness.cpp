@@ -9,6 +9,8 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -17,10 +19,10 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // above the round-off of K_G where K_G itself is nothing else.
 
 /// K_mm + K_ms Psi, symmetric to the last bit.
-linear::SmallMatrix condensed(linear::SmallMatrix K_mm, Mat Psi, const Blocks& K)
+MatrixXd condensed(MatrixXd K_mm, Mat Psi, const Blocks& K)
 {
-  const linear::SmallMatrix Psi_K_sm = linear::inner_product_sparse(Psi, K.sm);
-  for (PetscInt j = 0; j < K_mm.n_cols; ++j) {
+  const MatrixXd Psi_K_sm = linear::inner_product_sparse(Psi, K.sm);
+  for (PetscInt j = 0; j < K_mm.cols(); ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       const double mean = 0.5 * (K_mm(i, j) + K_mm(j, i) + Psi_K_sm(i, j) + Psi_K_sm(j, i));
       K_mm(i, j) = K_mm(j, i) = mean;
@@ -30,39 +32,28 @@ linear::SmallMatrix condensed(linear::SmallMatrix K_mm, Mat Psi, const Blocks& K
 }
 
 /// sqrt(K_ii), of the largest one for rows without a diagonal.
-std::vector<double> row_scales(const linear::SmallMatrix& K_mm)
+std::vector<double> row_scales(const MatrixXd& K_mm)
 {
   double largest = 0.0;
-  for (PetscInt i = 0; i < K_mm.n_rows; ++i) largest = std::max(largest, K_mm(i, i));
+  for (PetscInt i = 0; i < K_mm.rows(); ++i) largest = std::max(largest, K_mm(i, i));
   if (largest == 0.0) largest = 1.0;
   std::vector<double> scales;
-  for (PetscInt i = 0; i < K_mm.n_rows; ++i) {
+  for (PetscInt i = 0; i < K_mm.rows(); ++i) {
     scales.push_back(std::sqrt(K_mm(i, i) > 0.0 ? K_mm(i, i) : largest));
   }
   return scales;
 }
 
-/// The values of the first rank on all ranks, in pieces: an MPI count is an int.
-void broadcast(std::vector<double>& values, MPI_Comm comm)
-{
-  constexpr std::size_t piece = std::size_t(1) << 28;
-  for (std::size_t at = 0; at < values.size(); at += piece) {
-    MPI_Bcast(values.data() + at, static_cast<int>(std::min(piece, values.size() - at)), MPI_DOUBLE,
-              0, comm);
-  }
-}
-
 /// Eigenpairs of K_G scaled, those of the first rank on all ranks.
-linear::SymmetricEigen energies_of(linear::SmallMatrix K_G, const std::vector<double>& scales,
-                                   MPI_Comm comm)
+linear::SymmetricEigen energies_of(MatrixXd K_G, const std::vector<double>& scales, MPI_Comm comm)
 {
-  for (PetscInt j = 0; j < K_G.n_cols; ++j) {
-    for (PetscInt i = 0; i < K_G.n_rows; ++i) K_G(i, j) /= scales[i] * scales[j];
+  for (PetscInt j = 0; j < K_G.cols(); ++j) {
+    for (PetscInt i = 0; i < K_G.rows(); ++i) K_G(i, j) /= scales[i] * scales[j];
   }
-  linear::SymmetricEigen eigen{.values = std::vector<double>(K_G.n_rows), .vectors = K_G};
+  linear::SymmetricEigen eigen{.values = std::vector<double>(K_G.rows()), .vectors = K_G};
   if (petsc::rank(comm) == 0) eigen = linear::symmetric_eigen(std::move(K_G));
-  broadcast(eigen.values, comm);
-  broadcast(eigen.vectors.values, comm);
+  linear::broadcast_numbers(eigen.values, comm);
+  linear::broadcast_numbers(linear::values_of(eigen.vectors), comm);
   return eigen;
 }
 
@@ -78,13 +69,12 @@ PetscInt n_candidates(const std::vector<double>& energies)
 }
 
 /// u^T diag(K) u of the first k eigenvectors, u = [u_m; Psi u_m].
-linear::SmallMatrix energies_of_rows(const linear::SymmetricEigen& eigen,
-                                     const std::vector<double>& scales, PetscInt k, Mat Psi,
-                                     Mat K_ss)
+MatrixXd energies_of_rows(const linear::SymmetricEigen& eigen, const std::vector<double>& scales,
+                          PetscInt k, Mat Psi, Mat K_ss)
 {
-  linear::SmallMatrix Z(eigen.vectors.n_rows, k);
+  MatrixXd Z = MatrixXd::Zero(eigen.vectors.rows(), k);
   for (PetscInt j = 0; j < k; ++j) {
-    for (PetscInt i = 0; i < Z.n_rows; ++i) Z(i, j) = eigen.vectors(i, j) / scales[i];
+    for (PetscInt i = 0; i < Z.rows(); ++i) Z(i, j) = eigen.vectors(i, j) / scales[i];
   }
   const petsc::Matrix U = linear::uninitialized_dense(Psi, k);
   petsc::check(MatZeroEntries(U));
@@ -94,58 +84,58 @@ linear::SmallMatrix energies_of_rows(const linear::SymmetricEigen& eigen,
   petsc::check(MatGetDiagonal(K_ss, d));
   petsc::check(VecSqrtAbs(d));
   petsc::check(MatDiagonalScale(U, d, nullptr));
-  linear::SmallMatrix N = linear::inner_product(U, U);
+  MatrixXd N = linear::inner_product(U, U);
   for (PetscInt j = 0; j < k; ++j) N(j, j) += 1.0;  // of the masters
   return N;
 }
 
 /// S N^(-1/2) with the eigenvectors S of N, which is at least I.
-linear::SmallMatrix inverse_root(const linear::SmallMatrix& N)
+MatrixXd inverse_root(const MatrixXd& N)
 {
   linear::SymmetricEigen eigen = linear::symmetric_eigen(N);
-  for (PetscInt j = 0; j < N.n_cols; ++j) {
-    for (PetscInt i = 0; i < N.n_rows; ++i) eigen.vectors(i, j) /= std::sqrt(eigen.values[j]);
+  for (PetscInt j = 0; j < N.cols(); ++j) {
+    for (PetscInt i = 0; i < N.rows(); ++i) eigen.vectors(i, j) /= std::sqrt(eigen.values[j]);
   }
   return eigen.vectors;
 }
 
 /// Columns made orthonormal one after the other.
-void orthonormalize(linear::SmallMatrix& Y)
+void orthonormalize(MatrixXd& Y)
 {
-  for (PetscInt j = 0; j < Y.n_cols; ++j) {
+  for (PetscInt j = 0; j < Y.cols(); ++j) {
     double* column = &Y(0, j);
     for (PetscInt pass = 0; pass < 2; ++pass) {
       for (PetscInt k = 0; k < j; ++k) {
         double dot = 0.0;
-        for (PetscInt i = 0; i < Y.n_rows; ++i) dot += Y(i, k) * column[i];
-        for (PetscInt i = 0; i < Y.n_rows; ++i) column[i] -= dot * Y(i, k);
+        for (PetscInt i = 0; i < Y.rows(); ++i) dot += Y(i, k) * column[i];
+        for (PetscInt i = 0; i < Y.rows(); ++i) column[i] -= dot * Y(i, k);
       }
       double norm = 0.0;
-      for (PetscInt i = 0; i < Y.n_rows; ++i) norm += column[i] * column[i];
-      for (PetscInt i = 0; i < Y.n_rows; ++i) column[i] /= std::sqrt(norm);
+      for (PetscInt i = 0; i < Y.rows(); ++i) norm += column[i] * column[i];
+      for (PetscInt i = 0; i < Y.rows(); ++i) column[i] /= std::sqrt(norm);
     }
   }
 }
 
 /// Combinations of the first eigenvectors, first those that K does not resist, all orthonormal.
 struct Combinations {
-  linear::SmallMatrix Y;
+  MatrixXd Y;
   PetscInt n_unresisted;
   double least;  ///< energy over that of the rows
 };
 
-Combinations combinations(const std::vector<double>& energies, const linear::SmallMatrix& N)
+Combinations combinations(const std::vector<double>& energies, const MatrixXd& N)
 {
-  const linear::SmallMatrix S = inverse_root(N);
-  linear::SmallMatrix C(N.n_rows, N.n_rows);
-  for (PetscInt j = 0; j < C.n_cols; ++j) {
-    for (PetscInt i = 0; i < C.n_rows; ++i) {
-      for (PetscInt k = 0; k < C.n_rows; ++k) C(i, j) += S(k, i) * energies[k] * S(k, j);
+  const MatrixXd S = inverse_root(N);
+  MatrixXd C = MatrixXd::Zero(N.rows(), N.rows());
+  for (PetscInt j = 0; j < C.cols(); ++j) {
+    for (PetscInt i = 0; i < C.rows(); ++i) {
+      for (PetscInt k = 0; k < C.rows(); ++k) C(i, j) += S(k, i) * energies[k] * S(k, j);
     }
   }
   const linear::SymmetricEigen share = linear::symmetric_eigen(std::move(C));
-  Combinations found{.Y = {N.n_rows, N.n_rows}, .n_unresisted = 0, .least = share.values.front()};
-  found.Y = linear::product(S, share.vectors);
+  Combinations found{
+      .Y = linear::product(S, share.vectors), .n_unresisted = 0, .least = share.values.front()};
   orthonormalize(found.Y);
   // Twice eps at most on solids and plates from 300 to 15000 DOFs. Negative energies tell how exact
   // K is, in files with few digits less than the machine.
@@ -156,12 +146,12 @@ Combinations combinations(const std::vector<double>& energies, const linear::Sma
 }
 
 /// Those of the first rank on all ranks, that none decides otherwise.
-Combinations combinations_everywhere(const std::vector<double>& energies,
-                                     const linear::SmallMatrix& N, MPI_Comm comm)
+Combinations combinations_everywhere(const std::vector<double>& energies, const MatrixXd& N,
+                                     MPI_Comm comm)
 {
   Combinations found{.Y = N, .n_unresisted = 0, .least = 0.0};
   if (petsc::rank(comm) == 0) found = combinations(energies, N);
-  broadcast(found.Y.values, comm);
+  linear::broadcast_numbers(linear::values_of(found.Y), comm);
   MPI_Bcast(&found.n_unresisted, 1, MPIU_INT, 0, comm);
   MPI_Bcast(&found.least, 1, MPI_DOUBLE, 0, comm);
   return found;
@@ -169,13 +159,14 @@ Combinations combinations_everywhere(const std::vector<double>& energies,
 
 /// (I - U U^T) A (I - U U^T) of the scaled A = K_G and orthonormal U, symmetric to the last bit and
 /// without scales; rows that hold round-off alone are zero.
-linear::SmallMatrix without_motions(const linear::SmallMatrix& K_G, const linear::SmallMatrix& U,
-                                    const std::vector<double>& scales)
+MatrixXd without_motions(const MatrixXd& K_G, const MatrixXd& U, const std::vector<double>& scales)
 {
   constexpr double round_off = 64.0 * eps;
-  const PetscInt n = U.n_rows, r = U.n_cols;
-  linear::SmallMatrix AU(n, r), half(r, r);  // half of U^T A U
-  const auto scaled = [&](PetscInt i, PetscInt j) { return K_G(i, j) / (scales[i] * scales[j]); };
+  const Eigen::Index n = U.rows(), r = U.cols();
+  MatrixXd AU = MatrixXd::Zero(n, r), half = MatrixXd::Zero(r, r);  // half of U^T A U
+  const auto scaled = [&](Eigen::Index i, Eigen::Index j) {
+    return K_G(i, j) / (scales[i] * scales[j]);
+  };
   for (PetscInt k = 0; k < r; ++k) {
     for (PetscInt j = 0; j < n; ++j) {
       for (PetscInt i = 0; i < n; ++i) AU(i, k) += scaled(i, j) * U(j, k);
@@ -184,8 +175,8 @@ linear::SmallMatrix without_motions(const linear::SmallMatrix& K_G, const linear
       for (PetscInt i = 0; i < n; ++i) half(l, k) += 0.5 * U(i, l) * AU(i, k);
     }
   }
-  const linear::SmallMatrix share = linear::product(U, half);
-  linear::SmallMatrix K(n, n);
+  const MatrixXd share = linear::product(U, half);
+  MatrixXd K = MatrixXd::Zero(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       double value = scaled(i, j);
@@ -195,7 +186,7 @@ linear::SmallMatrix without_motions(const linear::SmallMatrix& K_G, const linear
       K(i, j) = value;
     }
   }
-  const auto is_zero = [&](PetscInt i) { return r == n || K(i, i) < round_off; };
+  const auto is_zero = [&](Eigen::Index i) { return r == n || K(i, i) < round_off; };
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       const bool vanishes = is_zero(i) || is_zero(j);
@@ -221,26 +212,22 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
 {
   constexpr double indefinite = -1e-8;
   const MPI_Comm comm = petsc::communicator(Psi);
-  const linear::SmallMatrix K_mm = linear::replicate(K.mm);
+  const MatrixXd K_mm = linear::replicate(K.mm);
   const std::vector<double> scales = row_scales(K_mm);
-  GuyanStiffness guyan{.K = condensed(K_mm, Psi, K), .R = {0, 0}};
+  GuyanStiffness guyan{.K = condensed(K_mm, Psi, K), .R = MatrixXd(K_mm.rows(), 0)};
   const linear::SymmetricEigen eigen = energies_of(guyan.K, scales, comm);
   const PetscInt k = n_candidates(eigen.values);
-  const linear::SmallMatrix N = energies_of_rows(eigen, scales, k, Psi, K.ss);
+  const MatrixXd N = energies_of_rows(eigen, scales, k, Psi, K.ss);
   const Combinations found = combinations_everywhere(eigen.values, N, comm);
   if (found.least < indefinite) refuse_indefinite(found.least);
-  if (found.n_unresisted == 0) {
-    guyan.R = linear::SmallMatrix(guyan.K.n_rows, 0);
-    return guyan;
-  }
-  const linear::SmallMatrix U =
-      linear::product(linear::column_range(eigen.vectors, 0, found.Y.n_rows),
-                      linear::column_range(found.Y, 0, found.n_unresisted));
+  if (found.n_unresisted == 0) return guyan;
+  const MatrixXd U =
+      linear::product(eigen.vectors.leftCols(found.Y.rows()), found.Y.leftCols(found.n_unresisted));
   guyan.K = without_motions(guyan.K, U, scales);
-  broadcast(guyan.K.values, comm);
+  linear::broadcast_numbers(linear::values_of(guyan.K), comm);
   guyan.R = U;
-  for (PetscInt j = 0; j < U.n_cols; ++j) {
-    for (PetscInt i = 0; i < U.n_rows; ++i) guyan.R(i, j) /= scales[i];
+  for (PetscInt j = 0; j < U.cols(); ++j) {
+    for (PetscInt i = 0; i < U.rows(); ++i) guyan.R(i, j) /= scales[i];
   }
   return guyan;
 }

@@ -12,15 +12,10 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-MatrixXd as_eigen(const linear::SmallMatrix& A)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
-}
-
 /// M_r-orthonormal motions that K_r does not resist.
-MatrixXd zero_energy_motions(const ReducedModel& model, const MatrixXd& M)
+MatrixXd zero_energy_motions(const ReducedModel& model)
 {
-  const MatrixXd R = as_eigen(model.R);
+  const MatrixXd &R = model.R, &M = model.M;
   const Index n_m = R.rows(), r = R.cols();
   if (r == 0) return MatrixXd(M.rows(), 0);
   const Eigen::LLT<MatrixXd> mass(MatrixXd(R.transpose() * M.topLeftCorner(n_m, n_m) * R));
@@ -82,30 +77,26 @@ HeldMasters::HeldMasters(const std::vector<PetscInt>& masters, std::vector<Petsc
 
 SupportedModes HeldMasters::modes(const ReducedModel& model, const SpectrumRange& /*wanted*/) const
 {
-  const MatrixXd K = as_eigen(model.K), M = as_eigen(model.M);
-  refuse_indefinite_mass(M);
-  const MatrixXd R = zero_energy_motions(model, M), R_free = at_rest(R, rows_);
-  const std::vector<int> free = all_but(rows_, M.rows());
+  refuse_indefinite_mass(model.M);
+  const MatrixXd R = zero_energy_motions(model), R_free = at_rest(R, rows_);
+  const std::vector<int> free = all_but(rows_, model.M.rows());
   constexpr double three_digits = 1e-3;  // of a mass: the certificate tells of the others
-  const linear::Eigenmodes found =
-      linear::eigenmodes(K(free, free), M(free, free), R_free(free, every), three_digits);
+  const linear::Eigenmodes found = linear::eigenmodes(model.K(free, free), model.M(free, free),
+                                                      R_free(free, every), three_digits);
   SupportedModes modes{.are_all = true,
                        .n_zero = static_cast<int>(R_free.cols()),
                        .n_free_zero = static_cast<int>(R.cols())};
   modes.pairs.lambda.assign(found.lambda.begin(), found.lambda.end());
-  modes.pairs.X = linear::SmallMatrix(model.K.n_rows, static_cast<PetscInt>(found.lambda.size()));
-  for (Index j = 0; j < found.X.cols(); ++j) {
-    for (Index i = 0; i < found.X.rows(); ++i)
-      modes.pairs.X(free[static_cast<std::size_t>(i)], static_cast<PetscInt>(j)) = found.X(i, j);
-  }
+  modes.pairs.X = MatrixXd::Zero(model.K.rows(), found.X.cols());
+  modes.pairs.X(free, every) = found.X;
   return modes;
 }
 
 double HeldMasters::zero_energy(const ReducedModel& model, const SupportedModes& modes) const
 {
-  const MatrixXd R = zero_energy_motions(model, as_eigen(model.M));
+  const MatrixXd R = zero_energy_motions(model);
   if (R.cols() == 0 || modes.pairs.lambda.empty()) return 0.0;
-  const MatrixXd energy = R.transpose() * as_eigen(model.K) * R;
+  const MatrixXd energy = R.transpose() * model.K * R;
   return energy.diagonal().cwiseAbs().maxCoeff() / modes.pairs.lambda.front();
 }
 

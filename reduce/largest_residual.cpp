@@ -7,13 +7,15 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 /// Squares of the lengths of K phi - lambda M phi and of lambda M phi, column by column.
-linear::SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
+MatrixXd squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
 {
   const linear::LocalRows k(K_Phi), m(M_Phi);
-  linear::SmallMatrix sums(2, k.n_cols());
+  MatrixXd sums = MatrixXd::Zero(2, k.n_cols());
   for (PetscInt j = 0; j < k.n_cols(); ++j) {
     const double lambda = omega[j] * omega[j];
     for (PetscInt i = 0; i < k.n_rows(); ++i) {
@@ -23,7 +25,7 @@ linear::SmallMatrix squared_lengths(Mat K_Phi, Mat M_Phi, const double* omega)
       sums(1, j) += inertia * inertia;
     }
   }
-  linear::sum_over_ranks(sums, petsc::communicator(K_Phi));
+  linear::sum_over_ranks(linear::values_of(sums), petsc::communicator(K_Phi));
   return sums;
 }
 
@@ -41,8 +43,8 @@ double largest_residual(const FixedInterfaceModes& modes, Mat K_ss, Mat M_ss)
     const petsc::Matrix M_Phi = linear::uninitialized_dense(K_ss, last - first);
     K.apply(linear::ColumnRange(modes.Phi, first, last), K_Phi);
     M.apply(linear::ColumnRange(modes.Phi, first, last), M_Phi);
-    const linear::SmallMatrix lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
-    for (PetscInt j = 0; j < lengths.n_cols; ++j) {
+    const MatrixXd lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
+    for (PetscInt j = 0; j < lengths.cols(); ++j) {
       largest = std::max(largest, std::sqrt(lengths(0, j) / lengths(1, j)));
     }
   }

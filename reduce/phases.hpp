@@ -12,19 +12,25 @@ class PhaseListener {
   virtual ~PhaseListener() = default;
   PhaseListener(const PhaseListener&) = delete;
   PhaseListener& operator=(const PhaseListener&) = delete;
-  virtual void begin(const std::string& /*phase*/) {}
-  /// Not after a phase that an exception has ended.
-  virtual void end() {}
-};
 
-/// What work() returns, as a phase of its own.
-template <typename Work>
-auto in_phase(PhaseListener& listener, const std::string& name, const Work& work)
-{
-  listener.begin(name);
-  auto result = work();
-  listener.end();
-  return result;
-}
+  /// What follows is a phase of this name; the phase before it ends here.
+  void begin(const std::string& phase)
+  {
+    end();
+    begun(phase);
+    is_under_way_ = true;
+  }
+  /// The last phase ends. A phase that an exception leaves does not end.
+  void end()
+  {
+    if (std::exchange(is_under_way_, false)) ended();
+  }
+
+ private:
+  virtual void begun(const std::string& /*phase*/) {}
+  virtual void ended() {}
+
+  bool is_under_way_ = false;
+};
 
 }  // namespace chladni::reduce

@@ -6,14 +6,14 @@
 
 namespace chladni::reduce {
 
+using Eigen::MatrixXd;
+
 namespace {
 
-void add_block(linear::SmallMatrix& A, PetscInt first_row, PetscInt first_column,
-               const linear::SmallMatrix& block)
+void add_block(MatrixXd& A, Eigen::Index first_row, Eigen::Index first_column,
+               const MatrixXd& block)
 {
-  for (PetscInt j = 0; j < block.n_cols; ++j) {
-    for (PetscInt i = 0; i < block.n_rows; ++i) A(first_row + i, first_column + j) += block(i, j);
-  }
+  A.block(first_row, first_column, block.rows(), block.cols()) += block;
 }
 
 /// A dense basis of the slaves and its first coordinate.
@@ -67,7 +67,7 @@ petsc::Matrix take_rows(Mat X, const std::vector<PetscInt>& rows)
 
 /// Adds X^T A_ss X. What has displacements in one direction alone leaves most rows empty: these do
 /// not take part in the products of dense matrices, where the time goes.
-void add_slaves(linear::SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_ss)
+void add_slaves(MatrixXd& A_r, const std::vector<Columns>& X, Mat A_ss)
 {
   const linear::SparseProduct product(A_ss);
   const std::vector<PetscInt> rows = rows_with_entries(A_ss);
@@ -90,35 +90,33 @@ void add_slaves(linear::SmallMatrix& A_r, const std::vector<Columns>& X, Mat A_s
 }  // namespace
 
 /// With Q_CB = [I 0; X], X = [Psi Phi]: A_r = A_mm + A_ms X + X^T A_sm + X^T A_ss X.
-linear::SmallMatrix project_form(const CraigBamptonBasis& Q_CB, const Blocks& A)
+MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A)
 {
-  const linear::SmallMatrix A_mm = linear::replicate(A.mm);
-  const PetscInt n_m = A_mm.n_rows;
+  const MatrixXd A_mm = linear::replicate(A.mm);
+  const auto n_m = static_cast<PetscInt>(A_mm.rows());
   std::vector<Columns> X{{Q_CB.Psi, 0}};
   if (Q_CB.modes) X.push_back({Q_CB.modes->Phi, n_m});
-  linear::SmallMatrix A_r(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
+  MatrixXd A_r = MatrixXd::Zero(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
   add_block(A_r, 0, 0, A_mm);
   petsc::Matrix A_ms_T;  // that its product with X is one with sparse columns
   petsc::check(MatTranspose(A.ms, MAT_INITIAL_MATRIX, A_ms_T.put()));
   for (const Columns& part : X) {
     add_block(A_r, part.first, 0, linear::inner_product_sparse(part.X, A.sm));
-    add_block(A_r, 0, part.first, linear::transposed(linear::inner_product_sparse(part.X, A_ms_T)));
+    add_block(A_r, 0, part.first, linear::inner_product_sparse(part.X, A_ms_T).transpose());
   }
   add_slaves(A_r, X, A.ss);
   return A_r;
 }
 
-linear::SmallMatrix project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)
+MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)
 {
   petsc::Matrix V_m, V_s;
   petsc::check(MatCreateSubMatrix(V, dofs.masters, nullptr, MAT_INITIAL_MATRIX, V_m.put()));
   petsc::check(MatCreateSubMatrix(V, dofs.slaves, nullptr, MAT_INITIAL_MATRIX, V_s.put()));
-  const linear::SmallMatrix V_mm = linear::replicate(V_m);
-  linear::SmallMatrix V_r(V_mm.n_rows + Q_CB.n_modes(), V_mm.n_cols);
-  add_block(V_r, 0, 0, V_mm);
-  add_block(V_r, 0, 0, linear::inner_product(Q_CB.Psi, V_s));
-  if (Q_CB.modes) add_block(V_r, V_mm.n_rows, 0, linear::inner_product(Q_CB.modes->Phi, V_s));
-  return V_r;
+  const MatrixXd V_mm = linear::replicate(V_m);
+  const MatrixXd Psi_V = linear::inner_product(Q_CB.Psi, V_s);
+  if (!Q_CB.modes) return V_mm + Psi_V;
+  return linear::stacked(V_mm + Psi_V, linear::inner_product(Q_CB.modes->Phi, V_s));
 }
 
 }  // namespace chladni::reduce

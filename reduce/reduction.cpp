@@ -42,31 +42,19 @@ linear::Factorization factorized(const Body& body, Mat K_ss, const DofPartition&
   }
 }
 
-ReducedModel projected(const CraigBamptonBasis& Q_CB, const FactoredBody& body,
-                       PhaseListener& phases)
-{
-  return in_phase(phases, "projection",
-                  [&] { return project(Q_CB, body.K_blocks, body.M_blocks); });
-}
-
 }  // namespace
 
 FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases)
 {
-  struct Parted {
-    DofPartition dofs;
-    Blocks K, M;
-  };
-  Parted parted = in_phase(phases, "partition", [&] {
-    DofPartition dofs = partition(body.K, own_masters(body.K, body.masters));
-    Blocks K = split(body.K, dofs), M = split(body.M, dofs);
-    return Parted{std::move(dofs), std::move(K), std::move(M)};
-  });
+  phases.begin("partition");
+  DofPartition dofs = partition(body.K, own_masters(body.K, body.masters));
+  Blocks K = split(body.K, dofs), M = split(body.M, dofs);
+  phases.begin("factorization");
+  const MemoryForecast memory(body, K.ss, options);
   linear::SolverOptions solver = options.solver;
-  const MemoryForecast memory(body, parted.K.ss, options);
   solver.factor = memory.at_first(solver.factor);
-  linear::Factorization K_ss = in_phase(
-      phases, "factorization", [&] { return factorized(body, parted.K.ss, parted.dofs, solver); });
+  linear::Factorization K_ss = factorized(body, K.ss, dofs, solver);
+  phases.end();
   const auto require_memory = [memory, factor = K_ss.factor()](PetscInt n_modes) {
     memory.require(factor, n_modes);
   };
@@ -74,9 +62,9 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
           .M = std::move(body.M),
           .masters = std::move(body.masters),
           .R = std::move(body.R),
-          .dofs = std::move(parted.dofs),
-          .K_blocks = std::move(parted.K),
-          .M_blocks = std::move(parted.M),
+          .dofs = std::move(dofs),
+          .K_blocks = std::move(K),
+          .M_blocks = std::move(M),
           .K_ss = std::move(K_ss),
           .require_memory = require_memory};
 }
@@ -91,34 +79,37 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
     linear::give_back_freed();  // the basis does not come from the heap
   }
   Basis basis = make_basis(body, options, support, phases);
-  ReducedModel model = in_phase(phases, "projection",
-                                [&] { return project(basis.Q, body.K_blocks, body.M_blocks); });
+  phases.begin("projection");
+  ReducedModel model = project(basis.Q, body.K_blocks, body.M_blocks);
   if (basis.mass) model.M = *basis.mass;
   const Reduced reduced{.body = body, .Q_CB = basis.Q, .model = model, .is_projected = !basis.mass};
   const bool counts = count.is_possible() && count.is_due(basis.Q.n_modes());
-  Certified certified = in_phase(phases, "error estimates", [&] {
-    return estimated(reduced, options, support, counts ? Purpose::bounds : Purpose::estimates);
-  });
-  Certificate& certificate = certified.certificate;
-  certificate.condition =
-      in_phase(phases, "condition", [&] { return linear::condition_estimate(body.K_ss); });
-  certificate.count_share = count.share(basis.Q.n_modes());
-  Certificate complete =
-      counts ? in_phase(phases, "count of eigenvalues",
-                        [&] { return counted(std::move(certified), reduced, options, support); })
-             : std::move(certificate);
-  return {
-      .Q_CB = std::move(basis.Q), .model = std::move(model), .certificate = std::move(complete)};
+  phases.begin("error estimates");
+  Certified certified =
+      estimated(reduced, options, support, counts ? Purpose::bounds : Purpose::estimates);
+  phases.begin("condition");
+  certified.certificate.condition = linear::condition_estimate(body.K_ss);
+  certified.certificate.count_share = count.share(basis.Q.n_modes());
+  if (counts) {
+    phases.begin("count of eigenvalues");
+    certified.certificate = counted(std::move(certified), reduced, options, support);
+  }
+  phases.end();
+  return {.Q_CB = std::move(basis.Q),
+          .model = std::move(model),
+          .certificate = std::move(certified.certificate)};
 }
 
 Reduction with_responses(Reduction reduction, const FactoredBody& body,
                          const std::vector<HarmonicLoads>& loads, PhaseListener& phases)
 {
-  reduction.Q_CB.modes = in_phase(phases, "responses of the whole model", [&] {
-    const petsc::Matrix V = full_responses(body.K, body.M, loads, body.K_ss.options().petsc);
-    return enrich(reduction.Q_CB, body.dofs, {body.K_blocks.ss, body.M_blocks.ss}, V).modes;
-  });
-  reduction.model = projected(reduction.Q_CB, body, phases);
+  phases.begin("responses of the whole model");
+  reduction.Q_CB.modes = enrich(reduction.Q_CB, body.dofs, {body.K_blocks.ss, body.M_blocks.ss},
+                                full_responses(body.K, body.M, loads, body.K_ss.options().petsc))
+                             .modes;
+  phases.begin("projection");
+  reduction.model = project(reduction.Q_CB, body.K_blocks, body.M_blocks);
+  phases.end();
   return reduction;
 }
 

@@ -16,10 +16,10 @@ struct SpectrumRange {
 
 /// Elastic modes of a reduced model under a support.
 struct SupportedModes {
-  ReducedPairs pairs{.X = {0, 0}, .lambda = {}};  ///< as wanted or more, ascending
-  bool are_all = false;                           ///< that there are
-  int n_zero = 0;                                 ///< zero-energy motions that the support leaves
-  int n_free_zero = 0;                            ///< and without any support
+  ReducedPairs pairs{.X = {}, .lambda = {}};  ///< as wanted or more, ascending
+  bool are_all = false;                       ///< that there are
+  int n_zero = 0;                             ///< zero-energy motions that the support leaves
+  int n_free_zero = 0;                        ///< and without any support
 };
 
 /// What holds the body whose frequencies a reduction certifies: some of the masters.

@@ -22,17 +22,12 @@ mbs_export::ModeCount as_mode_count(const reduce::EigenvalueCount& count)
 
 }  // namespace
 
-MatrixXd in_order(const linear::SmallMatrix& A, const std::vector<int>& places)
-{
-  return Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols)(places, places);
-}
-
 mbs_export::ReducedSystem with_model(mbs_export::ReducedSystem described,
                                      const reduce::ReducedModel& model,
                                      const std::vector<int>& places)
 {
-  described.K = in_order(model.K, places);
-  described.M = in_order(model.M, places);
+  described.K = model.K(places, places);
+  described.M = model.M(places, places);
   described.fixed_interface_frequencies = as_vector(model.omega);
   if (described.ring_motion) {  // what modes add to it follows with the rows of the basis
     const MatrixXd& F = described.ring_motion->shapes;

@@ -10,13 +10,10 @@
 /// From a reduction, which knows DOFs, to the system that is written, which knows nodes.
 namespace chladni::reduce_export {
 
-/// Rows and columns of a matrix of the model in the order of the caller.
-/// @param places  `reduce::coordinate_places`
-Eigen::MatrixXd in_order(const linear::SmallMatrix& A, const std::vector<int>& places);
-
 /// `described` with K, M and the frequencies of a model.
 /// @param described  title, nodes, sets and masters, in the order of `reduce::Body::masters`; of a
 ///                   ring motion the shapes
+/// @param places  `reduce::coordinate_places`
 mbs_export::ReducedSystem with_model(mbs_export::ReducedSystem described,
                                      const reduce::ReducedModel& model,
                                      const std::vector<int>& places);

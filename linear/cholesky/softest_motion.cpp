@@ -73,7 +73,7 @@ SoftestMotion softest_motion(Mat factor, Mat A)
   SparseProduct(A).apply(Z, AZ);
   petsc::check(MatCopy(Z, DZ, SAME_NONZERO_PATTERN));
   petsc::check(MatDiagonalScale(DZ, d, nullptr));
-  const SmallMatrix Z_AZ = inner_product(Z, AZ), Z_DZ = inner_product(Z, DZ);
+  const Eigen::MatrixXd Z_AZ = inner_product(Z, AZ), Z_DZ = inner_product(Z, DZ);
   SoftestMotion softest{.stiffness = std::numeric_limits<double>::infinity(), .row = 0};
   for (PetscInt j = 0; j < n_vectors; ++j) {
     const double stiffness = std::abs(Z_AZ(j, j)) / Z_DZ(j, j);

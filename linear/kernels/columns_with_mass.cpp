@@ -36,9 +36,9 @@ petsc::Matrix columns_with_mass(Mat X, Mat MX, Mat M)
   for (std::size_t k = 0; k < mass.size(); ++k) {
     if (mass[k] > round_off * terms[k]) with_mass.push_back(static_cast<PetscInt>(k));
   }
-  SmallMatrix S(static_cast<PetscInt>(mass.size()), static_cast<PetscInt>(with_mass.size()));
-  for (PetscInt j = 0; j < S.n_cols; ++j) S(with_mass[j], j) = 1.0;
-  petsc::Matrix chosen = uninitialized_dense(X, S.n_cols);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(std::ssize(mass), std::ssize(with_mass));
+  for (PetscInt j = 0; j < S.cols(); ++j) S(with_mass[j], j) = 1.0;
+  petsc::Matrix chosen = uninitialized_dense(X, S.cols());
   petsc::check(MatZeroEntries(chosen));
   add_product(1.0, X, S, chosen);
   return chosen;

@@ -7,6 +7,8 @@
 
 namespace chladni::linear {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 PetscInt first_row(Mat A)
@@ -58,26 +60,26 @@ LocalRows::~LocalRows()
   MatDenseRestoreArrayRead(dense_, &values_);
 }
 
-petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns)
+petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns)
 {
   PetscInt n_local = 0, n = 0;
   petsc::check(MatGetLocalSize(A, &n_local, nullptr));
   petsc::check(MatGetSize(A, &n, nullptr));
   petsc::Matrix dense;
   PetscScalar placeholder = 0.0;  // keeps PETSc from allocating
-  petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n, n_columns,
-                              &placeholder, dense.put()));
+  petsc::check(MatCreateDense(petsc::communicator(A), n_local, PETSC_DECIDE, n,
+                              static_cast<PetscInt>(n_columns), &placeholder, dense.put()));
   PetscScalar* values = nullptr;
   petsc::check(PetscMalloc1(std::max<std::size_t>(std::size_t(n_local) * n_columns, 1), &values));
   petsc::check(MatDenseReplaceArray(dense, values));  // which owns them now
   return dense;
 }
 
-SmallMatrix inner_product(Mat X, Mat Y)
+MatrixXd inner_product(Mat X, Mat Y)
 {
   const LocalRows x(X);
   const LocalRows y(Y);
-  SmallMatrix product(x.n_cols(), y.n_cols());
+  MatrixXd product = MatrixXd::Zero(x.n_cols(), y.n_cols());
   const PetscBLASInt m = x.n_cols();
   const PetscBLASInt n = y.n_cols();
   const PetscBLASInt k = x.n_rows();
@@ -86,10 +88,10 @@ SmallMatrix inner_product(Mat X, Mat Y)
   const PetscScalar one = 1.0;
   const PetscScalar zero = 0.0;
   if (k > 0) {
-    BLASgemm_("T", "N", &m, &n, &k, &one, x.values(), &ldx, y.values(), &ldy, &zero,
-              product.values.data(), &m);
+    BLASgemm_("T", "N", &m, &n, &k, &one, x.values(), &ldx, y.values(), &ldy, &zero, product.data(),
+              &m);
   }
-  sum_over_ranks(product, petsc::communicator(X));
+  sum_over_ranks(values_of(product), petsc::communicator(X));
   return product;
 }
 
@@ -106,7 +108,7 @@ std::vector<double> column_products(Mat X, Mat Y)
   return products;
 }
 
-void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)
+void add_product(double alpha, Mat X, const MatrixXd& S, Mat Y)
 {
   const LocalRows x(X);
   PetscScalar* y = nullptr;
@@ -114,18 +116,18 @@ void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y)
   petsc::check(MatDenseGetLDA(Y, &ldy));
   petsc::check(MatDenseGetArray(Y, &y));
   const PetscBLASInt m = x.n_rows();
-  const PetscBLASInt n = S.n_cols;
-  const PetscBLASInt k = S.n_rows;
+  const auto n = static_cast<PetscBLASInt>(S.cols());
+  const auto k = static_cast<PetscBLASInt>(S.rows());
   const PetscBLASInt ldx = x.leading_dimension();
   const PetscBLASInt ld = ldy;
   const PetscScalar one = 1.0;
   if (m > 0 && n > 0 && k > 0) {
-    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.values.data(), &k, &one, y, &ld);
+    BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.data(), &k, &one, y, &ld);
   }
   petsc::check(MatDenseRestoreArray(Y, &y));
 }
 
-void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
+void add_sparse_product(Mat A, const MatrixXd& S, Mat Y)
 {
   PetscInt first = 0;
   PetscInt ld = 0;
@@ -134,18 +136,18 @@ void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y)
   petsc::check(MatDenseGetLDA(Y, &ld));
   petsc::check(MatDenseGetArray(Y, &y));
   for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
-    for (PetscInt j = 0; j < S.n_cols; ++j) {
+    for (PetscInt j = 0; j < S.cols(); ++j) {
       y[row - first + std::size_t(j) * ld] += value * S(column, j);
     }
   });
   petsc::check(MatDenseRestoreArray(Y, &y));
 }
 
-SmallMatrix inner_product_sparse(Mat X, Mat A)
+MatrixXd inner_product_sparse(Mat X, Mat A)
 {
   PetscInt n_cols = 0;
   petsc::check(MatGetSize(A, nullptr, &n_cols));
-  SmallMatrix product(LocalRows(X).n_cols(), n_cols);
+  MatrixXd product = MatrixXd::Zero(LocalRows(X).n_cols(), n_cols);
   {
     const LocalRows x(X);
     const PetscInt first = first_row(A);
@@ -153,19 +155,19 @@ SmallMatrix inner_product_sparse(Mat X, Mat A)
       for (PetscInt i = 0; i < x.n_cols(); ++i) product(i, column) += x(row - first, i) * value;
     });
   }
-  sum_over_ranks(product, petsc::communicator(X));
+  sum_over_ranks(values_of(product), petsc::communicator(X));
   return product;
 }
 
-SmallMatrix replicate(Mat A)
+MatrixXd replicate(Mat A)
 {
   PetscInt n_rows = 0;
   PetscInt n_cols = 0;
   petsc::check(MatGetSize(A, &n_rows, &n_cols));
-  SmallMatrix dense(n_rows, n_cols);
+  MatrixXd dense = MatrixXd::Zero(n_rows, n_cols);
   for_local_entries(
       A, [&](PetscInt row, PetscInt column, double value) { dense(row, column) = value; });
-  sum_over_ranks(dense, petsc::communicator(A));
+  sum_over_ranks(values_of(dense), petsc::communicator(A));
   return dense;
 }
 

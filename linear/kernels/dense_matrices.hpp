@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -7,25 +8,15 @@
 
 namespace chladni::linear {
 
-/// A small dense matrix, the same on every rank; column-major.
-struct SmallMatrix {
-  PetscInt n_rows = 0, n_cols = 0;
-  std::vector<double> values;
-
-  SmallMatrix(PetscInt rows, PetscInt cols)
-      : n_rows(rows), n_cols(cols), values(std::size_t(rows) * cols, 0.0)
-  {}
-  double& operator()(PetscInt i, PetscInt j) { return values[i + std::size_t(j) * n_rows]; }
-  double operator()(PetscInt i, PetscInt j) const { return values[i + std::size_t(j) * n_rows]; }
-};
+/// The values of a small matrix, which is the same on every rank.
+inline std::span<double> values_of(Eigen::MatrixXd& A)
+{
+  return {A.data(), static_cast<std::size_t>(A.size())};
+}
 
 /// Any number of values <- their sums over all ranks, on every rank.
 /// @note   Collective.
 void sum_over_ranks(std::span<double> values, MPI_Comm comm);
-inline void sum_over_ranks(SmallMatrix& A, MPI_Comm comm)
-{
-  sum_over_ranks(std::span(A.values), comm);
-}
 
 /// Any number of values <- those of rank 0.
 /// @note   Collective.
@@ -76,7 +67,7 @@ void for_local_entries(Mat A, const Visit& visit)
 /// A dense matrix with the rows of A, its values not set: PETSc would zero them, which touches the
 /// memory once more than needed.
 /// @note   Collective.
-petsc::Matrix uninitialized_dense(Mat A, PetscInt n_columns);
+petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns);
 
 /// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
 class ColumnRange {
@@ -97,25 +88,25 @@ class ColumnRange {
 
 /// X^T Y of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.
-SmallMatrix inner_product(Mat X, Mat Y);
+Eigen::MatrixXd inner_product(Mat X, Mat Y);
 
 /// x_k^T y_k of the columns of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.
 std::vector<double> column_products(Mat X, Mat Y);
 
 /// Y <- Y + alpha X S for dense distributed X, Y and a small S.
-void add_product(double alpha, Mat X, const SmallMatrix& S, Mat Y);
+void add_product(double alpha, Mat X, const Eigen::MatrixXd& S, Mat Y);
 
 /// Y <- Y + A S for a sparse A [n x few columns] and a small S.
-void add_sparse_product(Mat A, const SmallMatrix& S, Mat Y);
+void add_sparse_product(Mat A, const Eigen::MatrixXd& S, Mat Y);
 
 /// X^T A for a dense X and a sparse A [n x few columns] with equally distributed rows, on every
 /// rank.
 /// @note   Collective.
-SmallMatrix inner_product_sparse(Mat X, Mat A);
+Eigen::MatrixXd inner_product_sparse(Mat X, Mat A);
 
 /// A small distributed sparse matrix as dense one on every rank.
 /// @note   Collective.
-SmallMatrix replicate(Mat A);
+Eigen::MatrixXd replicate(Mat A);
 
 }  // namespace chladni::linear

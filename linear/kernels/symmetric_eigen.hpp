@@ -12,14 +12,14 @@ namespace chladni::linear {
 /// large ones is rotated away first.
 struct SymmetricEigen {
   std::vector<double> values;
-  SmallMatrix vectors;
+  Eigen::MatrixXd vectors;
 };
-SymmetricEigen symmetric_eigen(SmallMatrix A);
+SymmetricEigen symmetric_eigen(Eigen::MatrixXd A);
 
 /// The same, computed by the first rank and told to the others: what ranks decide by eigenvalues
 /// that each computed for itself may differ by round-off, and then they wait for each other.
 /// @param A  of one size on all ranks
 /// @note   Collective.
-SymmetricEigen symmetric_eigen(SmallMatrix A, MPI_Comm comm);
+SymmetricEigen symmetric_eigen(Eigen::MatrixXd A, MPI_Comm comm);
 
 }  // namespace chladni::linear

@@ -7,6 +7,8 @@
 
 namespace chladni::linear {
 
+using Eigen::MatrixXd;
+
 namespace {
 
 constexpr PetscInt chunk_rows = 256;  // with eight columns half of a first-level cache
@@ -43,10 +45,10 @@ PetscInt tiled_columns(const LongColumns& X)
 
 }  // namespace
 
-SmallMatrix tall_inner_product(const LongColumns& X, const LongColumns& Y)
+MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
 {
   const TileKernels& kernels = tile_kernels();
-  SmallMatrix product(X.n_columns, Y.n_columns);
+  MatrixXd product = MatrixXd::Zero(X.n_columns, Y.n_columns);
   const AlignedNumbers rows = aligned_numbers(std::size_t(chunk_rows) * panel_width);
   const AlignedNumbers sums = aligned_numbers(std::size_t(X.n_columns) * panel_width);
   for (PetscInt j = 0; j < Y.n_columns; j += panel_width) {
@@ -75,15 +77,15 @@ SmallMatrix tall_inner_product(const LongColumns& X, const LongColumns& Y)
   return product;
 }
 
-void subtract_tall_product(const LongColumns& X, const SmallMatrix& S, double* Y,
+void subtract_tall_product(const LongColumns& X, const MatrixXd& S, double* Y,
                            std::ptrdiff_t leading_dimension)
 {
   const TileKernels& kernels = tile_kernels();
   const AlignedNumbers rows = aligned_numbers(std::size_t(chunk_rows) * panel_width);
   const AlignedNumbers factors = aligned_numbers(std::size_t(X.n_columns) * panel_width);
-  for (PetscInt j = 0; j < S.n_cols; j += panel_width) {
-    const PetscInt width = std::min<PetscInt>(panel_width, S.n_cols - j);
-    pack(S.values.data() + std::size_t(j) * S.n_rows, S.n_rows, S.n_rows, width, factors.get());
+  for (PetscInt j = 0; j < S.cols(); j += panel_width) {
+    const PetscInt width = static_cast<PetscInt>(std::min<Eigen::Index>(panel_width, S.cols() - j));
+    pack(S.data() + j * S.rows(), S.rows(), static_cast<PetscInt>(S.rows()), width, factors.get());
     for_chunks(X.n_rows, [&](PetscInt first, PetscInt n) {
       double* y = Y + first + j * leading_dimension;
       pack(y, leading_dimension, n, width, rows.get());

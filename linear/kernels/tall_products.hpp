@@ -14,10 +14,10 @@ struct LongColumns {
 
 /// X^T Y of this rank for many long columns X and few Y: X is read once for eight columns of Y and
 /// not packed, as a general matrix product would.
-SmallMatrix tall_inner_product(const LongColumns& X, const LongColumns& Y);
+Eigen::MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y);
 
 /// Y <- Y - X S for few long columns Y.
-void subtract_tall_product(const LongColumns& X, const SmallMatrix& S, double* Y,
+void subtract_tall_product(const LongColumns& X, const Eigen::MatrixXd& S, double* Y,
                            std::ptrdiff_t leading_dimension);
 
 }  // namespace chladni::linear

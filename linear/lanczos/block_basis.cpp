@@ -50,7 +50,7 @@ void BlockBasis::reserve(PetscInt capacity)
   capacity_ = capacity;
 }
 
-petsc::Matrix BlockBasis::new_block(PetscInt n_columns) const
+petsc::Matrix BlockBasis::new_block(Eigen::Index n_columns) const
 {
   return uninitialized_dense(M_, n_columns);
 }
@@ -81,31 +81,32 @@ void BlockBasis::unite_newest(PetscInt n)
   newest_M_ = times_mass(columns(n_columns_ - n, n));
 }
 
-void BlockBasis::compress(const SmallMatrix& S, PetscInt n_first)
+void BlockBasis::compress(const Eigen::MatrixXd& S, PetscInt n_first)
 {
   constexpr PetscInt piece = 512;  // rows at a time, in place
   std::vector<double> rows(std::size_t(piece) * n_first);
+  const auto n_kept = static_cast<PetscInt>(S.cols());
   for (PetscInt at = 0; at < n_local_; at += piece) {
     const PetscInt n = std::min(piece, n_local_ - at);
     for (PetscInt j = 0; j < n_first; ++j) {
       std::copy_n(values_.get() + at + std::size_t(j) * n_local_, n,
                   rows.data() + std::size_t(j) * n);
     }
-    const PetscBLASInt m = n, columns = S.n_cols, k = n_first, ld = n_local_;
+    const PetscBLASInt m = n, columns = n_kept, k = n_first, ld = n_local_;
     const PetscScalar one = 1.0, zero = 0.0;
-    BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.values.data(), &k, &zero,
+    BLASgemm_("N", "N", &m, &columns, &k, &one, rows.data(), &m, S.data(), &k, &zero,
               values_.get() + at, &ld);
   }
   const PetscInt n_behind = n_columns_ - n_first;
   std::copy_n(values_.get() + std::size_t(n_first) * n_local_, std::size_t(n_behind) * n_local_,
-              values_.get() + std::size_t(S.n_cols) * n_local_);
-  n_columns_ = S.n_cols + n_behind;
+              values_.get() + std::size_t(n_kept) * n_local_);
+  n_columns_ = n_kept + n_behind;
   second_last_M_ = {};
 }
 
-petsc::Matrix BlockBasis::combine(const SmallMatrix& S) const
+petsc::Matrix BlockBasis::combine(const Eigen::MatrixXd& S) const
 {
-  petsc::Matrix X = new_block(S.n_cols);
+  petsc::Matrix X = new_block(S.cols());
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X, &values));
   add_product(1.0, values_.get(), n_local_, S, 0.0, values);

@@ -26,7 +26,7 @@ class BlockBasis {
   void reserve(PetscInt capacity);
 
   /// An empty dense matrix with the rows of the basis.
-  petsc::Matrix new_block(PetscInt n_columns) const;
+  petsc::Matrix new_block(Eigen::Index n_columns) const;
   /// Columns of the basis without a copy; valid until the next append or compress.
   petsc::Matrix columns(PetscInt first, PetscInt n_columns);
   /// M X
@@ -35,8 +35,8 @@ class BlockBasis {
   /// block = V coefficients + Q R, with Q orthonormal and orthogonal to V; Q joins the basis.
   /// Directions that are dependent to round-off are left out: Q may have fewer columns or none.
   struct Appended {
-    SmallMatrix coefficients;  ///< [n_columns before x columns of block]
-    SmallMatrix R;             ///< [columns of Q x columns of block]
+    Eigen::MatrixXd coefficients;  ///< [n_columns before x columns of block]
+    Eigen::MatrixXd R;             ///< [columns of Q x columns of block]
     /// [columns of block] length in M of what the directions left out had of each column.
     std::vector<double> left_out;
   };
@@ -53,17 +53,17 @@ class BlockBasis {
   void truncate(PetscInt n);
 
   /// Replaces the first `n_first` columns V by V S; the columns behind them follow.
-  void compress(const SmallMatrix& S, PetscInt n_first);
+  void compress(const Eigen::MatrixXd& S, PetscInt n_first);
 
   /// V S of all columns.
-  petsc::Matrix combine(const SmallMatrix& S) const;
+  petsc::Matrix combine(const Eigen::MatrixXd& S) const;
 
  private:
-  SmallMatrix project_out_newest(Mat block, Mat M_block);
-  SmallMatrix project_out(Mat block, Mat M_block);
+  Eigen::MatrixXd project_out_newest(Mat block, Mat M_block);
+  Eigen::MatrixXd project_out(Mat block, Mat M_block);
   /// How a block has joined the basis: as Appended, with all that was left out of it.
   struct Joined {
-    SmallMatrix coefficients, R, left_out;
+    Eigen::MatrixXd coefficients, R, left_out;
   };
   /// Columns by the digits that M times them has: six, or fewer, of which some have two.
   struct Chosen {
@@ -71,10 +71,10 @@ class BlockBasis {
   };
   Chosen by_digits_of_mass(PetscInt n);
   void clean(Joined& joined);
-  Joined join(Mat block, Mat M_block, const SmallMatrix& G, const std::vector<double>& sizes);
-  Appended look_again(Mat block, Mat M_block, const Joined& first, SmallMatrix h,
+  Joined join(Mat block, Mat M_block, const Eigen::MatrixXd& G, const std::vector<double>& sizes);
+  Appended look_again(Mat block, Mat M_block, const Joined& first, Eigen::MatrixXd h,
                       const std::vector<double>& lengths);
-  void store(Mat X, Mat MX, const SmallMatrix& to_Q);
+  void store(Mat X, Mat MX, const Eigen::MatrixXd& to_Q);
 
   Mat M_;
   SparseProduct product_with_M_;

@@ -8,35 +8,26 @@
 
 #include "linear/kernels/columns_with_mass.hpp"
 #include "linear/kernels/random_block.hpp"
+#include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::linear {
+
+using Eigen::MatrixXd;
 
 namespace {
 
 /// T bordered by the coefficients of a new block; symmetric by taking means.
-SmallMatrix bordered(const SmallMatrix& T, const SmallMatrix& coefficients)
+MatrixXd bordered(const MatrixXd& T, const MatrixXd& coefficients)
 {
-  const PetscInt n_old = T.n_rows, n = coefficients.n_rows;
-  SmallMatrix result(n, n);
-  for (PetscInt j = 0; j < n_old; ++j) {
-    for (PetscInt i = 0; i < n_old; ++i) result(i, j) = T(i, j);
-  }
-  for (PetscInt j = n_old; j < n; ++j) {
-    for (PetscInt i = 0; i < n; ++i) {
+  const Eigen::Index n_old = T.rows(), n = coefficients.rows();
+  MatrixXd result(n, n);
+  result.topLeftCorner(n_old, n_old) = T;
+  for (Eigen::Index j = n_old; j < n; ++j) {
+    for (Eigen::Index i = 0; i < n; ++i) {
       const double here = coefficients(i, j - n_old);
       const double there = i >= n_old ? coefficients(j, i - n_old) : here;
       result(i, j) = result(j, i) = 0.5 * (here + there);
     }
-  }
-  return result;
-}
-
-/// R and zero rows for directions that do not come from the recurrence.
-SmallMatrix with_zero_rows(const SmallMatrix& R, PetscInt n_more)
-{
-  SmallMatrix result(R.n_rows + n_more, R.n_cols);
-  for (PetscInt j = 0; j < R.n_cols; ++j) {
-    for (PetscInt i = 0; i < R.n_rows; ++i) result(i, j) = R(i, j);
   }
   return result;
 }
@@ -63,7 +54,7 @@ petsc::Matrix BlockIteration::random_directions(PetscInt n)
   n_random_ += n;
   if (basis_.n_columns() == 0) return Z;  // the operator takes it as it is
   const PetscInt n_before = basis_.n_columns();
-  const PetscInt n_new = basis_.append(Z).R.n_rows;
+  const auto n_new = static_cast<PetscInt>(basis_.append(Z).R.rows());
   petsc::Matrix found = basis_.new_block(0);
   if (n_new > 0)
     found = columns_with_mass(basis_.columns(n_before, n_new), basis_.newest_times_mass(), M_);
@@ -82,7 +73,7 @@ PetscInt BlockIteration::append_random(PetscInt n, const BlockOperator& op)
     petsc::Matrix block = basis_.new_block(n_columns_of(Z));
     op(Z, basis_.times_mass(Z), block);
     // An operator may map to zero what is not in the basis.
-    if (basis_.append(block).R.n_rows == 0 && basis_.append(Z).R.n_rows == 0) break;
+    if (basis_.append(block).R.rows() == 0 && basis_.append(Z).R.rows() == 0) break;
   }
   note_lost(op);
   return basis_.n_columns() - n_before;
@@ -145,10 +136,11 @@ void BlockIteration::step(const BlockOperator& op)
   T_ = bordered(T_, appended.coefficients);
   left_out_.insert(left_out_.end(), appended.left_out.begin(), appended.left_out.end());
   R_ = appended.R;
-  if (R_.n_rows == block_size_) return;
-  const PetscInt n_random = append_random(block_size_ - R_.n_rows, op);
-  R_ = with_zero_rows(R_, n_random);
-  basis_.unite_newest(R_.n_rows);
+  if (R_.rows() == block_size_) return;
+  const auto n_genuine = static_cast<PetscInt>(R_.rows());
+  const PetscInt n_random = append_random(block_size_ - n_genuine, op);
+  R_ = stacked(R_, MatrixXd::Zero(n_random, R_.cols()));  // these come from no recurrence
+  basis_.unite_newest(n_genuine + n_random);
 }
 
 void BlockIteration::order_ritz_values(const Order& before)
@@ -177,10 +169,10 @@ double BlockIteration::left_out(PetscInt i) const
 double BlockIteration::residual(PetscInt i) const
 {
   double sum = std::pow(left_out(i), 2);
-  for (PetscInt a = 0; a < R_.n_rows; ++a) {
+  for (PetscInt a = 0; a < R_.rows(); ++a) {
     double component = 0.0;
-    for (PetscInt c = 0; c < R_.n_cols; ++c) {
-      component += R_(a, c) * ritz_.vectors(n_old_ - R_.n_cols + c, order_[i]);
+    for (PetscInt c = 0; c < R_.cols(); ++c) {
+      component += R_(a, c) * ritz_.vectors(n_old_ - R_.cols() + c, order_[i]);
     }
     sum += component * component;
   }
@@ -207,21 +199,20 @@ Copies BlockIteration::copies_among_first(PetscInt n, double tolerance) const
 void BlockIteration::take_ritz_values(PetscInt n)
 {
   std::vector<double> thetas, left;
-  SmallMatrix T(n, n), unit(n, n), R(R_.n_rows, n);
+  MatrixXd T = MatrixXd::Zero(n, n), R = MatrixXd::Zero(R_.rows(), n);
   for (PetscInt k = 0; k < n; ++k) {
     thetas.push_back(theta(k));
     left.push_back(left_out(k));
     T(k, k) = theta(k);
-    unit(k, k) = 1.0;
-    for (PetscInt c = 0; c < R_.n_cols; ++c) {
-      const double s = ritz_.vectors(n_old_ - R_.n_cols + c, order_[k]);
-      for (PetscInt a = 0; a < R_.n_rows; ++a) R(a, k) += R_(a, c) * s;
+    for (PetscInt c = 0; c < R_.cols(); ++c) {
+      const double s = ritz_.vectors(n_old_ - R_.cols() + c, order_[k]);
+      for (PetscInt a = 0; a < R_.rows(); ++a) R(a, k) += R_(a, c) * s;
     }
   }
   T_ = std::move(T);
   R_ = std::move(R);
   left_out_ = std::move(left);
-  ritz_ = {.values = std::move(thetas), .vectors = std::move(unit)};
+  ritz_ = {.values = std::move(thetas), .vectors = MatrixXd::Identity(n, n)};
   order_.resize(n);
   std::iota(order_.begin(), order_.end(), 0);
   n_old_ = n;
@@ -254,7 +245,7 @@ void BlockIteration::begin_anew(PetscInt n, PetscInt width, const BlockOperator&
   forgotten_from_ = PETSC_MAX_INT;
   block_size_ = width;
   sequence_.n_sources = append_random(width, op);
-  R_ = SmallMatrix(sequence_.n_sources, 0);
+  R_ = MatrixXd(sequence_.n_sources, 0);
   basis_.unite_newest(sequence_.n_sources);
 }
 

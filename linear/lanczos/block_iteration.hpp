@@ -77,9 +77,9 @@ class BlockIteration {
 
  private:
   /// Coefficients of Ritz vectors first .. last - 1 in (V, Q).
-  SmallMatrix ritz_coefficients(PetscInt first, PetscInt last) const;
+  Eigen::MatrixXd ritz_coefficients(PetscInt first, PetscInt last) const;
   /// The same of Op x / theta where F is zero.
-  SmallMatrix purified_coefficients(PetscInt first, PetscInt last) const;
+  Eigen::MatrixXd purified_coefficients(PetscInt first, PetscInt last) const;
   petsc::Matrix applied_vectors(PetscInt first, PetscInt last, const BlockOperator& op) const;
   /// || F s || of Ritz pair i, or more.
   double left_out(PetscInt i) const;
@@ -93,10 +93,10 @@ class BlockIteration {
   PetscInt block_size_;
   BlockBasis basis_;              ///< V and, behind it, the newest block Q
   PetscInt n_old_ = 0;            ///< columns of V
-  SmallMatrix T_{0, 0};           ///< [n_old x n_old]
-  SmallMatrix R_{0, 0};           ///< [columns of Q x columns of the last block of V]
+  Eigen::MatrixXd T_;             ///< [n_old x n_old]
+  Eigen::MatrixXd R_;             ///< [columns of Q x columns of the last block of V]
   std::vector<double> left_out_;  ///< [n_old] lengths of the columns of F
-  SymmetricEigen ritz_{{}, {0, 0}};
+  SymmetricEigen ritz_;
   std::vector<PetscInt> order_;
   PetscInt n_random_ = 0;  ///< random vectors made so far
   KrylovSequence sequence_;

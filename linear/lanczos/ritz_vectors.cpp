@@ -2,18 +2,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/eigen_every.hpp"
 #include "linear/kernels/columns_with_mass.hpp"
 #include "linear/lanczos/block_iteration.hpp"
 
 namespace chladni::linear {
 
-SmallMatrix BlockIteration::ritz_coefficients(PetscInt first, PetscInt last) const
+using Eigen::MatrixXd;
+
+MatrixXd BlockIteration::ritz_coefficients(PetscInt first, PetscInt last) const
 {
-  SmallMatrix S(n_old_, last - first);
-  for (PetscInt k = 0; k < S.n_cols; ++k) {
-    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[first + k]);
-  }
-  return S;
+  return ritz_.vectors(every, std::span(order_).subspan(first, last - first));
 }
 
 petsc::Matrix BlockIteration::ritz_vectors(PetscInt n) const
@@ -21,21 +20,21 @@ petsc::Matrix BlockIteration::ritz_vectors(PetscInt n) const
   return basis_.combine(ritz_coefficients(0, n));
 }
 
-SmallMatrix BlockIteration::purified_coefficients(PetscInt first, PetscInt last) const
+MatrixXd BlockIteration::purified_coefficients(PetscInt first, PetscInt last) const
 {
-  SmallMatrix S(basis_.n_columns(), last - first);
-  for (PetscInt k = 0; k < S.n_cols; ++k) {
-    const PetscInt ritz = first + k;
-    for (PetscInt i = 0; i < n_old_; ++i) S(i, k) = ritz_.vectors(i, order_[ritz]);
+  MatrixXd S = MatrixXd::Zero(basis_.n_columns(), last - first);
+  for (PetscInt k = 0; k < S.cols(); ++k) {
+    const auto ritz = static_cast<PetscInt>(first + k);
+    S.col(k).head(n_old_) = ritz_.vectors.col(order_[ritz]);
     for (PetscInt a = 0; a < basis_.n_columns() - n_old_; ++a) {
-      for (PetscInt c = 0; c < R_.n_cols; ++c) {
+      for (PetscInt c = 0; c < R_.cols(); ++c) {
         S(n_old_ + a, k) +=
-            R_(a, c) * ritz_.vectors(n_old_ - R_.n_cols + c, order_[ritz]) / theta(ritz);
+            R_(a, c) * ritz_.vectors(n_old_ - R_.cols() + c, order_[ritz]) / theta(ritz);
       }
     }
     double norm = 0.0;  // in the M-orthonormal basis
-    for (PetscInt i = 0; i < S.n_rows; ++i) norm += S(i, k) * S(i, k);
-    for (PetscInt i = 0; i < S.n_rows; ++i) S(i, k) /= std::sqrt(norm);
+    for (PetscInt i = 0; i < S.rows(); ++i) norm += S(i, k) * S(i, k);
+    S.col(k) /= std::sqrt(norm);
   }
   return S;
 }
@@ -63,7 +62,7 @@ petsc::Matrix BlockIteration::applied_vectors(PetscInt first, PetscInt last,
       const ColumnRange some(X, at, end);
       op(some, basis_.times_mass(some), target);
     }
-    SmallMatrix C = inner_product(X, basis_.times_mass(target));
+    MatrixXd C = inner_product(X, basis_.times_mass(target));
     for (PetscInt k = at; k < end; ++k) {
       for (PetscInt i = 0; i < last; ++i) {
         if (std::abs(theta(i)) <= std::abs(theta(k))) C(i, k - at) = 0.0;

@@ -7,27 +7,10 @@
 #include <span>
 #include <string_view>
 
+#include "report/page/base64.hpp"
+
 namespace chladni::report {
 namespace {
-
-/// RFC 4648.
-std::string base64(std::span<const unsigned char> bytes)
-{
-  constexpr std::string_view letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * ((bytes.size() + 2) / 3));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = bytes[i] << 16U;
-    if (i + 1 < bytes.size()) three |= bytes[i + 1] << 8U;
-    if (i + 2 < bytes.size()) three |= bytes[i + 2];
-    text += letters[three >> 18U];
-    text += letters[(three >> 12U) & 63U];
-    text += i + 1 < bytes.size() ? letters[(three >> 6U) & 63U] : '=';
-    text += i + 2 < bytes.size() ? letters[three & 63U] : '=';
-  }
-  return text;
-}
 
 /// The number of bytes as UInt64, then the values.
 template <typename T>
@@ -37,7 +20,7 @@ std::string encoded(const T* values, std::size_t n)
   std::vector<unsigned char> bytes(sizeof(n_bytes) + n_bytes);
   std::memcpy(bytes.data(), &n_bytes, sizeof(n_bytes));
   if (n > 0) std::memcpy(bytes.data() + sizeof(n_bytes), values, n_bytes);
-  return base64(bytes);
+  return base64(std::as_bytes(std::span(bytes)));
 }
 
 /// As the value of an attribute: names come from mesh files, too.

@@ -109,12 +109,12 @@ double translation_error(const Chain& chain, const std::vector<PetscInt>& master
   const Reduction r(pencil(chain), masters);
   std::vector<PetscInt> all(chain.size());
   std::iota(all.begin(), all.end(), 0);
-  const linear::SmallMatrix Q =
+  const Eigen::MatrixXd Q =
       basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all);
   double worst = 0.0;
-  for (PetscInt i = 0; i < Q.n_rows; ++i) {
+  for (PetscInt i = 0; i < Q.rows(); ++i) {
     double sum = 0.0;
-    for (PetscInt j = 0; j < Q.n_cols; ++j) sum += Q(i, j);
+    for (PetscInt j = 0; j < Q.cols(); ++j) sum += Q(i, j);
     worst = std::max(worst, std::abs(sum - 1.0));
   }
   return worst;
@@ -132,10 +132,10 @@ double orthonormality_error(const FixedInterfaceModes& modes, Mat M_ss)
 {
   petsc::Matrix M_Phi;
   petsc::check(MatMatMult(M_ss, modes.Phi, MAT_INITIAL_MATRIX, petsc::automatic, M_Phi.put()));
-  const linear::SmallMatrix I = linear::inner_product(modes.Phi, M_Phi);
+  const Eigen::MatrixXd I = linear::inner_product(modes.Phi, M_Phi);
   double worst = 0.0;
-  for (PetscInt i = 0; i < I.n_rows; ++i)
-    for (PetscInt j = 0; j < I.n_cols; ++j)
+  for (PetscInt i = 0; i < I.rows(); ++i)
+    for (PetscInt j = 0; j < I.cols(); ++j)
       worst = std::max(worst, std::abs(I(i, j) - (i == j ? 1.0 : 0.0)));
   return worst;
 }
@@ -152,7 +152,7 @@ double error_over_bound_in_a_cluster()
 {
   const double theta[] = {1.0, 1.0 / 1.0001, 0.1};
   std::vector<double> lambda;
-  linear::SmallMatrix residuals(2, 2);
+  Eigen::MatrixXd residuals = Eigen::MatrixXd::Zero(2, 2);
   for (int i = 0; i < 2; ++i) {
     const double c = std::cos(0.02), s = std::sin(0.02);
     const double rho = theta[i] * c * c + theta[2] * s * s;

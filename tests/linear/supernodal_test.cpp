@@ -347,7 +347,7 @@ TEST_P(TallProducts, AreThoseOfDenseAlgebra)
   const int n_rows = 600;  // two chunks and a piece
   const MatrixXd V = random_matrix(n_rows, n_basis), Y = random_matrix(n_rows, n_block);
   const LongColumns basis{V.data(), n_rows, n_rows, n_basis};
-  const SmallMatrix h = tall_inner_product(basis, {Y.data(), n_rows, n_rows, n_block});
+  const Eigen::MatrixXd h = tall_inner_product(basis, {Y.data(), n_rows, n_rows, n_block});
   const MatrixXd expected = V.transpose() * Y;
   for (int j = 0; j < n_block; ++j) {
     for (int i = 0; i < n_basis; ++i) EXPECT_NEAR(h(i, j), expected(i, j), 1e-12);

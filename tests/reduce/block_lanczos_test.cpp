@@ -79,7 +79,7 @@ TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
     ASSERT_EQ(lanczos.n_pairs(), 20);
     for (int i = 0; i < 20; ++i) EXPECT_NEAR(lanczos.lambda(i) / exact(i + 1, 200), 1.0, 1e-11);
     const petsc::Matrix X = lanczos.vectors(3, 15);
-    const linear::SmallMatrix I = linear::inner_product(X, X);  // M = I
+    const Eigen::MatrixXd I = linear::inner_product(X, X);  // M = I
     for (PetscInt i = 0; i < 12; ++i) {
       for (PetscInt j = 0; j < 12; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
     }
@@ -91,9 +91,9 @@ TEST(BlockLanczos, HasOrthonormalVectors)
   const FixedChain c(200);
   const linear::Factorization factor(c.K.ss);
   const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20});
-  const linear::SmallMatrix I = linear::inner_product(pairs.X, pairs.X);  // M = I
-  for (PetscInt i = 0; i < I.n_rows; ++i) {
-    for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
+  const Eigen::MatrixXd I = linear::inner_product(pairs.X, pairs.X);  // M = I
+  for (PetscInt i = 0; i < I.rows(); ++i) {
+    for (PetscInt j = 0; j < I.cols(); ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
   }
 }
 
@@ -127,7 +127,7 @@ TEST(BlockBasis, LeavesOutADependentDirection)
     petsc::check(MatSetValue(block, i, 2, 2.0 * i - 3.0, INSERT_VALUES));  // of the first two
   }
   linear::testing::finish(block);
-  EXPECT_EQ(basis.append(block).R.n_rows, 2);
+  EXPECT_EQ(basis.append(block).R.rows(), 2);
   EXPECT_EQ(basis.n_columns(), 2);
 }
 

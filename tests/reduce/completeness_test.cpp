@@ -67,10 +67,10 @@ struct TwoByTwo {
 };
 
 /// [1 x 1], or diagonal.
-linear::SmallMatrix diagonal(const std::vector<double>& values)
+Eigen::MatrixXd diagonal(const std::vector<double>& values)
 {
   const auto k = static_cast<PetscInt>(values.size());
-  linear::SmallMatrix A(k, k);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(k, k);
   for (PetscInt i = 0; i < k; ++i) A(i, i) = values[static_cast<std::size_t>(i)];
   return A;
 }
@@ -93,19 +93,16 @@ struct Leaning {
 Leaning leaning(const Eigen::VectorXd& exact, const Eigen::MatrixXd& basis, double sigma)
 {
   using Eigen::MatrixXd;
-  const MatrixXd K = exact.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(basis.transpose() * K * basis,
-                                                                 basis.transpose() * basis);
-  const MatrixXd U = basis * eigen.eigenvectors();
+  const Eigen::MatrixXd K = exact.asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      basis.transpose() * K * basis, basis.transpose() * basis);
+  const Eigen::MatrixXd U = basis * eigen.eigenvectors();
   const Eigen::VectorXd lambda = eigen.eigenvalues();
-  const MatrixXd R = K * U - U * lambda.asDiagonal();
-  const MatrixXd scale = lambda.cwiseSqrt().cwiseInverse().asDiagonal();
-  const MatrixXd K_inverse = exact.cwiseInverse().asDiagonal();
-  const MatrixXd H = scale * R.transpose() * K_inverse * R * scale;
-  const auto k = static_cast<PetscInt>(lambda.size());
-  linear::SmallMatrix residuals(k, k);
-  std::copy_n(H.data(), H.size(), residuals.values.begin());
-  return {exact, lambda, error_bounds({lambda.begin(), lambda.end()}, residuals, sigma)};
+  const Eigen::MatrixXd R = K * U - U * lambda.asDiagonal();
+  const Eigen::MatrixXd scale = lambda.cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd K_inverse = exact.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd H = scale * R.transpose() * K_inverse * R * scale;
+  return {exact, lambda, error_bounds({lambda.begin(), lambda.end()}, H, sigma)};
 }
 
 TEST(ErrorBounds, OfTwoCloseValuesHoldForBoth)
@@ -182,7 +179,7 @@ TEST(CountModes, FindsTheModeThatIsMissing)
   const auto below = [&](double sigma) {
     return static_cast<int>(std::ranges::lower_bound(full, sigma) - full.begin());
   };
-  const linear::SmallMatrix tiny = diagonal(std::vector<double>(5, 1e-8));
+  const Eigen::MatrixXd tiny = diagonal(std::vector<double>(5, 1e-8));
   const auto whole = count_modes({.lambda = {1.0, 2.0, 4.0, 7.0, 11.0},
                                   .residuals = tiny,
                                   .n_zero = 0,

@@ -49,7 +49,7 @@ std::vector<PetscInt> all_dofs()
 TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
 {
   const Reduction r;
-  const linear::SmallMatrix Q =
+  const Eigen::MatrixXd Q =
       basis_rows({.Psi = constraint_modes(r.K_ss, r.K), .modes = {}}, r.dofs, all_dofs());
   for (PetscInt i = 0; i < n; ++i) {
     EXPECT_NEAR(Q(i, 1), double(i) / (n - 1), round_off);
@@ -93,9 +93,9 @@ TEST(FixedInterfaceModes, AreOrthonormalInTheMass)
 {
   const Reduction r;
   const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 9, .cutoff_Hz = {}});
-  const linear::SmallMatrix I = linear::inner_product(modes.Phi, modes.Phi);  // M_ss = I
-  for (PetscInt i = 0; i < I.n_rows; ++i) {
-    for (PetscInt j = 0; j < I.n_cols; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, round_off);
+  const Eigen::MatrixXd I = linear::inner_product(modes.Phi, modes.Phi);  // M_ss = I
+  for (PetscInt i = 0; i < I.rows(); ++i) {
+    for (PetscInt j = 0; j < I.cols(); ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, round_off);
   }
 }
 
@@ -140,17 +140,17 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
   const Reduction r;
   const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
   const ReducedModel reduced = project(Q_CB, r.K, r.M);
-  const linear::SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const Eigen::MatrixXd Q = basis_rows(Q_CB, r.dofs, all_dofs());
   const auto product = [&](Mat A, PetscInt i, PetscInt j) {
-    const linear::SmallMatrix full = linear::replicate(A);
+    const Eigen::MatrixXd full = linear::replicate(A);
     double sum = 0.0;
     for (PetscInt a = 0; a < n; ++a) {
       for (PetscInt b = 0; b < n; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
     }
     return sum;
   };
-  for (PetscInt i = 0; i < reduced.K.n_rows; ++i) {
-    for (PetscInt j = 0; j < reduced.K.n_cols; ++j) {
+  for (PetscInt i = 0; i < reduced.K.rows(); ++i) {
+    for (PetscInt j = 0; j < reduced.K.cols(); ++j) {
       EXPECT_NEAR(reduced.K(i, j), product(r.chain.K, i, j), 1e-10);  // tolerance of the modes
       EXPECT_NEAR(reduced.M(i, j), product(r.chain.M, i, j), 1e-10);
     }
@@ -186,10 +186,10 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   const Reduction r;
   const CraigBamptonBasis Q_CB = craig_bampton(r, 6);
   const petsc::Matrix C = dampers();
-  const linear::SmallMatrix C_r = project_form(Q_CB, split(C, r.dofs));
-  const linear::SmallMatrix Q = basis_rows(Q_CB, r.dofs, all_dofs());
-  const linear::SmallMatrix C_all = linear::replicate(C);
-  ASSERT_EQ(C_r.n_rows, 8);
+  const Eigen::MatrixXd C_r = project_form(Q_CB, split(C, r.dofs));
+  const Eigen::MatrixXd Q = basis_rows(Q_CB, r.dofs, all_dofs());
+  const Eigen::MatrixXd C_all = linear::replicate(C);
+  ASSERT_EQ(C_r.rows(), 8);
   for (PetscInt a = 0; a < 8; ++a) {
     for (PetscInt b = 0; b < 8; ++b) {
       double exact = 0.0;

@@ -24,13 +24,12 @@ constexpr PetscInt n = 60;
 /// The first pairs of a reduced pencil without its first coordinate.
 ReducedPairs lowest(const ReducedModel& model, PetscInt n_pairs)
 {
-  const PetscInt n_r = model.K.n_rows;
-  const auto held = [&](const linear::SmallMatrix& A) {
-    return MatrixXd(
-        Eigen::Map<const MatrixXd>(A.values.data(), n_r, n_r).bottomRightCorner(n_r - 1, n_r - 1));
+  const Eigen::Index n_r = model.K.rows();
+  const auto held = [&](const MatrixXd& A) {
+    return MatrixXd(A.bottomRightCorner(n_r - 1, n_r - 1));
   };
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(held(model.K), held(model.M));
-  ReducedPairs result{.X = {n_r, n_pairs}, .lambda = {}};
+  ReducedPairs result{.X = MatrixXd::Zero(n_r, n_pairs), .lambda = {}};
   for (PetscInt j = 0; j < n_pairs; ++j) {
     result.lambda.push_back(eigen.eigenvalues()[j]);
     for (PetscInt i = 1; i < n_r; ++i) result.X(i, j) = eigen.eigenvectors()(i - 1, j);
@@ -124,11 +123,9 @@ TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
     const HeldChain some(n_modes);
     const ReducedModel expected = project(some.Q_CB, some.K, some.M);
     const ReducedModel model = growing.model(n_modes);
-    for (std::size_t i = 0; i < model.M.values.size(); ++i) {
-      // Signs of modes are free, and with them those of the coupling.
-      EXPECT_NEAR(std::abs(model.M.values[i]), std::abs(expected.M.values[i]), 1e-9);
-      EXPECT_NEAR(model.K.values[i], expected.K.values[i], 1e-9);
-    }
+    // Signs of modes are free, and with them those of the coupling.
+    EXPECT_LT((model.M.cwiseAbs() - expected.M.cwiseAbs()).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((model.K - expected.K).cwiseAbs().maxCoeff(), 1e-9);
     const ReducedPairs pairs = some.pairs();
     const std::vector<double> eta2 = error_estimates(some.system(), pairs).eta2;
     const std::vector<double> grown = growing.error_estimates(pairs, n_modes);
@@ -186,12 +183,9 @@ TEST(ToleranceSearch, LacksNoFrequencyOfTheRange)
   const petsc::Matrix Psi = constraint_modes(K_ss, K);
   const double end = 8.0;  // of the range
   const auto in_range = [&](const ReducedModel& model) {
-    const MatrixXd K_r = MatrixXd::Map(model.K.values.data(), model.K.n_rows, model.K.n_rows);
-    const MatrixXd M_r = MatrixXd::Map(model.M.values.data(), model.M.n_rows, model.M.n_rows);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K_r, M_r);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(model.K, model.M);
     const auto k = (eigen.eigenvalues().array() < 1.5 * end).count();
-    ReducedPairs pairs{.X = {model.K.n_rows, static_cast<PetscInt>(k)}, .lambda = {}};
-    std::copy_n(eigen.eigenvectors().data(), pairs.X.values.size(), pairs.X.values.begin());
+    ReducedPairs pairs{.X = eigen.eigenvectors().leftCols(k), .lambda = {}};
     pairs.lambda.assign(eigen.eigenvalues().begin(), eigen.eigenvalues().begin() + k);
     return pairs;
   };
@@ -232,10 +226,12 @@ TEST(ToleranceSearch, CountsAFrequencyThatTooFewModesPutBeyondTheRange)
   // The fifth frequency lies at the end of the range, and above it as long as modes are missing.
   const HeldChain held(1);
   constexpr double tolerance = 1e-2;
-  ToleranceSearch search(
-      {.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
-      {.tolerance = tolerance, .up_to_Hz = 1.0005 * frequency_Hz(5)},
-      [](const ReducedModel& model) { return lowest(model, std::min(6, model.K.n_rows - 1)); });
+  ToleranceSearch search({.K_ss = held.K_ss, .Psi = held.Q_CB.Psi, .K = held.K, .M = held.M},
+                         {.tolerance = tolerance, .up_to_Hz = 1.0005 * frequency_Hz(5)},
+                         [](const ReducedModel& model) {
+                           return lowest(model,
+                                         std::min(6, static_cast<PetscInt>(model.K.rows()) - 1));
+                         });
   do {
     search.find_modes();
   } while (!search.is_enough());
@@ -249,7 +245,7 @@ TEST(ToleranceSearch, CountsAFrequencyThatTooFewModesPutBeyondTheRange)
 ReducedPairs with_held_masters(const ReducedModel& model)
 {
   const auto n_modes = static_cast<PetscInt>(model.omega.size());
-  ReducedPairs pairs{.X = {model.K.n_rows, n_modes}, .lambda = {}};
+  ReducedPairs pairs{.X = MatrixXd::Zero(model.K.rows(), n_modes), .lambda = {}};
   for (PetscInt k = 0; k < n_modes; ++k) {
     pairs.X(model.n_masters + k, k) = 1.0;
     pairs.lambda.push_back(model.omega[k] * model.omega[k]);

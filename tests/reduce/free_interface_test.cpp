@@ -39,11 +39,6 @@ struct ReducedChain {
   FreeInterfaceModes free = free_interface_modes(body, Q.Psi, {.modes = n_modes});
 };
 
-MatrixXd dense(const linear::SmallMatrix& A)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
-}
-
 /// Eigenvalues of M x = mu (K + M) x as lambda = 1 / mu - 1, ascending; infinite without mass.
 std::vector<double> eigenvalues(const MatrixXd& K, const MatrixXd& M)
 {
@@ -70,8 +65,8 @@ TEST(Rubin, KeepsTheModesThatItIsMadeOf)
   reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Two masters, the modes, and the inertia relief of one rigid motion.
-  ASSERT_EQ(model.K.n_rows, 2 + n_modes + 1);
-  const std::vector<double> lambda = eigenvalues(dense(model.K), dense(model.M));
+  ASSERT_EQ(model.K.rows(), 2 + n_modes + 1);
+  const std::vector<double> lambda = eigenvalues(model.K, model.M);
   EXPECT_NEAR(lambda[0], 0.0, 1e-12);
   for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
 }
@@ -92,7 +87,7 @@ TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
   };
   double before = 0.0;
   for (const double omega2 : {1e-2, 1e-3}) {
-    const MatrixXd D = dense(model.K) - omega2 * dense(model.M);
+    const MatrixXd D = model.K - omega2 * model.M;
     const double error = std::abs(D.partialPivLu().solve(MatrixXd::Identity(D.rows(), 1))(0, 0) -
                                   receptance(omega2));
     // The residual flexibility is exact at 0 and has the right slope: the error goes with omega^4.
@@ -108,11 +103,11 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
   ReducedChain reduced;
   reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
-  const PetscInt n_r = model.K.n_rows;  // the first mass is held
-  const MatrixXd K = dense(model.K).bottomRightCorner(n_r - 1, n_r - 1);
-  const MatrixXd M = dense(model.M).bottomRightCorner(n_r - 1, n_r - 1);
+  const Eigen::Index n_r = model.K.rows();  // the first mass is held
+  const MatrixXd K = model.K.bottomRightCorner(n_r - 1, n_r - 1);
+  const MatrixXd M = model.M.bottomRightCorner(n_r - 1, n_r - 1);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
-  ReducedPairs pairs{.X = {n_r, 4}, .lambda = {}};
+  ReducedPairs pairs{.X = MatrixXd::Zero(n_r, 4), .lambda = {}};
   for (PetscInt j = 0; j < 4; ++j) {
     pairs.lambda.push_back(eigen.eigenvalues()[j]);
     for (PetscInt i = 1; i < n_r; ++i) pairs.X(i, j) = eigen.eigenvectors()(i - 1, j);
@@ -133,8 +128,8 @@ TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
   ReducedChain reduced;
   reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
-  const MatrixXd M = dense(macneal_mass(reduced.Q, reduced.M, reduced.free));
-  const std::vector<double> lambda = eigenvalues(dense(model.K), M);
+  const MatrixXd M = macneal_mass(reduced.Q, reduced.M, reduced.free);
+  const std::vector<double> lambda = eigenvalues(model.K, M);
   for (int k = 1; k <= n_modes; ++k) EXPECT_NEAR(lambda[k] / exact(k), 1.0, 1e-9) << "mode " << k;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> mass(M);
   EXPECT_NEAR(mass.eigenvalues()[1], 0.0, 1e-12);  // 10 coordinates, 8 modes

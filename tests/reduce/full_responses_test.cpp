@@ -33,19 +33,14 @@ struct Reduction {
   }
 };
 
-MatrixXd as_eigen(const linear::SmallMatrix& A)
-{
-  return Eigen::Map<const MatrixXd>(A.values.data(), A.n_rows, A.n_cols);
-}
-
 /// The displacement of every mass when the reduced chain is loaded at its first end.
 MatrixXd response(const CraigBamptonBasis& Q_CB, const Reduction& r, double Omega)
 {
   const ReducedModel reduced = project(Q_CB, r.K, r.M);
-  const MatrixXd D = as_eigen(reduced.K) - Omega * Omega * as_eigen(reduced.M);
+  const MatrixXd D = reduced.K - Omega * Omega * reduced.M;
   std::vector<PetscInt> all(n);
   std::iota(all.begin(), all.end(), 0);
-  const MatrixXd Q = as_eigen(basis_rows(Q_CB, r.dofs, all));
+  const MatrixXd Q = basis_rows(Q_CB, r.dofs, all);
   return Q * D.partialPivLu().solve(MatrixXd(MatrixXd::Identity(D.rows(), 1)));
 }
 
@@ -53,7 +48,7 @@ TEST(FullResponses, SolveTheWholeChain)
 {
   const Reduction r;
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n - 1});
-  const MatrixXd v = as_eigen(linear::replicate(V));
+  const MatrixXd v = linear::replicate(V);
   // u_j of the free chain: (2 - Omega^2) u_j = u_(j-1) + u_(j+1) but for the ends.
   for (PetscInt j = 1; j + 1 < n; ++j) {
     EXPECT_NEAR((2.0 - Omega_0 * Omega_0) * v(j, 0), v(j - 1, 0) + v(j + 1, 0), 1e-12);
@@ -67,7 +62,7 @@ TEST(Enrich, MakesTheReducedResponseExactAtItsFrequency)
   const Reduction r;
   CraigBamptonBasis Q_CB = r.basis(3);
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0});
-  const MatrixXd exact = as_eigen(linear::replicate(V));
+  const MatrixXd exact = linear::replicate(V);
   const MatrixXd before = response(Q_CB, r, Omega_0);
   EXPECT_GT((before - exact).norm(), 1e-5 * exact.norm());  // three modes alone are not enough
   Enrichment enriched = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V);
@@ -85,10 +80,10 @@ TEST(Enrich, KeepsWhatIsKnownOfFixedInterfaceModes)
   Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;
   ASSERT_EQ(Q_CB.n_modes(), 5);
   // K_r and M_r in full, where `project` takes blocks for known.
-  const MatrixXd K = as_eigen(project_form(Q_CB, r.K)), M = as_eigen(project_form(Q_CB, r.M));
+  const MatrixXd K = project_form(Q_CB, r.K), M = project_form(Q_CB, r.M);
   const ReducedModel reduced = project(Q_CB, r.K, r.M);
-  EXPECT_LT((K - as_eigen(reduced.K)).norm(), 1e-11 * K.norm());
-  EXPECT_LT((M - as_eigen(reduced.M)).norm(), 1e-11 * M.norm());
+  EXPECT_LT((K - reduced.K).norm(), 1e-11 * K.norm());
+  EXPECT_LT((M - reduced.M).norm(), 1e-11 * M.norm());
 }
 
 TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
@@ -100,7 +95,7 @@ TEST(Enrich, MakesTheResponseExactAtEachOfSeveralFrequencies)
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, loads);
   Q_CB.modes = enrich(Q_CB, r.dofs, {r.K.ss, r.M.ss}, V).modes;
   ASSERT_EQ(Q_CB.n_modes(), 5);
-  const MatrixXd exact = as_eigen(linear::replicate(V));
+  const MatrixXd exact = linear::replicate(V);
   for (Eigen::Index i = 0; i < 2; ++i) {
     const MatrixXd found = response(Q_CB, r, loads[std::size_t(i)].Omega_0);
     EXPECT_LT((found.col(0) - exact.col(i)).norm(), 1e-10 * exact.col(i).norm()) << i;

@@ -80,21 +80,17 @@ Reduced reduce(const Chain& body, const std::vector<PetscInt>& masters, int n_mo
   const CraigBamptonBasis Q_CB{.Psi = constraint_modes(K_ss, K),
                                .modes = fixed_interface_modes(K_ss, M.ss, {.modes = n_modes})};
   Reduced reduced{.model = project(Q_CB, K, M), .lambda = {}, .eta2 = {}};
-  const PetscInt n = reduced.model.K.n_rows;
-  const auto dense = [n](const linear::SmallMatrix& A) {
-    return MatrixXd(Eigen::Map<const MatrixXd>(A.values.data(), n, n));
-  };
+  const Eigen::Index n = reduced.model.K.rows();
   // M x = mu (K + s M) x, s near the low eigenvalues, keeps these accurate.
   const double s = std::pow(reduced.model.omega[0], 2);
-  const MatrixXd K_r = dense(reduced.model.K), M_r = dense(reduced.model.M);
+  const MatrixXd &K_r = reduced.model.K, &M_r = reduced.model.M;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(M_r, K_r + s * M_r);
-  ReducedPairs pairs{.X = {n, n - n_rigid}, .lambda = {}};
-  for (PetscInt j = 0; j < n; ++j) {
+  ReducedPairs pairs{.X = MatrixXd(n, n - n_rigid), .lambda = {}};
+  for (Eigen::Index j = 0; j < n; ++j) {
     reduced.lambda.push_back(1.0 / eigen.eigenvalues()[n - 1 - j] - s);
     if (j < n_rigid) continue;
     const VectorXd x = eigen.eigenvectors().col(n - 1 - j);
-    const VectorXd normal = x / std::sqrt(x.dot(M_r * x));
-    std::copy(normal.begin(), normal.end(), pairs.X.values.begin() + std::size_t(j - n_rigid) * n);
+    pairs.X.col(j - n_rigid) = x / std::sqrt(x.dot(M_r * x));
     pairs.lambda.push_back(reduced.lambda.back());
   }
   reduced.eta2 = error_estimates({K_ss, Q_CB, K, M}, pairs).eta2;

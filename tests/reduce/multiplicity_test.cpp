@@ -75,9 +75,9 @@ void expect_pairs(Mat K, Mat M, const linear::EigenPairs& pairs, const std::vect
   petsc::Matrix KX, MX;
   petsc::check(MatMatMult(K, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, KX.put()));
   petsc::check(MatMatMult(M, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, MX.put()));
-  const linear::SmallMatrix I = linear::inner_product(pairs.X, MX);
-  for (PetscInt i = 0; i < I.n_rows; ++i) {
-    for (PetscInt j = 0; j < I.n_cols; ++j) ASSERT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
+  const Eigen::MatrixXd I = linear::inner_product(pairs.X, MX);
+  for (PetscInt i = 0; i < I.rows(); ++i) {
+    for (PetscInt j = 0; j < I.cols(); ++j) ASSERT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
   }
   petsc::Vector lambda;
   petsc::check(MatCreateVecs(MX, lambda.put(), nullptr));

@@ -157,8 +157,7 @@ inline linear::testing::Chain euler_beam(int n, PetscInt n_held)
 /// All entries, on every rank.
 inline Eigen::MatrixXd whole(Mat A)
 {
-  const linear::SmallMatrix all = linear::replicate(A);
-  return Eigen::Map<const Eigen::MatrixXd>(all.values.data(), all.n_rows, all.n_cols);
+  return linear::replicate(A);
 }
 
 /// Eigenvalues of K x = lambda M x with M positive definite, ascending, by LAPACK's way.

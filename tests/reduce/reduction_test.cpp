@@ -16,8 +16,10 @@ constexpr PetscInt n = 40;  // masses
 /// Writes down what happens.
 class Diary : public PhaseListener {
  public:
-  void begin(const std::string& name) override { phases.push_back(name); }
   std::vector<std::string> phases;
+
+ private:
+  void begun(const std::string& name) override { phases.push_back(name); }
 };
 
 Body chain_with_masters(std::vector<PetscInt> masters)

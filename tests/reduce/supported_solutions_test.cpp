@@ -78,7 +78,7 @@ TEST(NaturalModes, OfAHeldChainAreZeroAtTheSupportAndNormal)
   const linear::testing::Chain chain = free_chain(n + 1);
   const NaturalModes modes =
       natural_modes(chain.K, chain.M, free_dofs(chain.K, {0}), {.n_modes = 5});
-  const linear::SmallMatrix gram = linear::inner_product(modes.X, modes.X);  // M = I
+  const Eigen::MatrixXd gram = linear::inner_product(modes.X, modes.X);  // M = I
   for (PetscInt i = 0; i < 5; ++i) {
     for (PetscInt j = 0; j < 5; ++j) EXPECT_NEAR(gram(i, j), i == j ? 1.0 : 0.0, 1e-9);
     const double exact =

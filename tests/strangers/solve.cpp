@@ -46,12 +46,6 @@ std::string message_of(PetscErrorCode code)
   return message;
 }
 
-Eigen::MatrixXd everywhere(Mat A)
-{
-  const linear::SmallMatrix B = linear::replicate(A);
-  return Eigen::Map<const Eigen::MatrixXd>(B.values.data(), B.n_rows, B.n_cols);
-}
-
 PetscErrorCode set(CMS cms, const Reduction& how)
 {
   PetscFunctionBegin;
@@ -84,9 +78,9 @@ void read(CMS cms, Answer& answer)
   petsc::check(CMSGetTransformation(cms, &T));
   answer.n_masters = static_cast<int>(n_masters);
   answer.n_modes = static_cast<int>(n_modes);
-  answer.K_r = everywhere(K_r);
-  answer.M_r = everywhere(M_r);
-  answer.T = everywhere(T);
+  answer.K_r = linear::replicate(K_r);
+  answer.M_r = linear::replicate(M_r);
+  answer.T = linear::replicate(T);
   answer.lambda = values(cms, CMSGetFrequencies);
   for (double& f : answer.lambda) f = std::pow(2.0 * std::numbers::pi * f, 2);
   answer.eta2 = values(cms, CMSGetErrors);
