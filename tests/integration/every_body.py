@@ -67,7 +67,8 @@ def check_symmetric(programs):
 
 def check_contact_planes(programs):
     """Each friction ring of a ventilated disc under its own pad: rings in the two plates, planes 4 mm from them. A single ring
-    stands for both where the plates move alike, which vanes see to up to a few kHz."""
+    takes its slope times half the thickness for the motion of the planes along themselves; vanes shear, so that the planes of
+    the two plates move less, and the disc squeals at a higher speed."""
     ring = 'rings = [{ name = "track", radius = 0.13, nodes = 24, z = 0.012 }'
     scene = changed((DATA / "ventilated_disc.toml").read_text(), ("modes = 20\npictures", "modes = 30\npictures"),
                     (ring, ring + ', { name = "inner", radius = 0.13, nodes = 24, z = -0.012 }'),
@@ -80,7 +81,7 @@ def check_contact_planes(programs):
     found, same, plate = (each["critical_speed_rad_s"] for each in (both, planes, one))
     print("critical speed", found, "of two rings,", plate, "of one")
     assert abs(found / same - 1) < 1e-12, (found, same)
-    assert 1e-3 < abs(found / plate - 1) < 0.2, (found, plate)
+    assert found > 1.1 * plate, (found, plate)
 
 
 def check_others(programs):

@@ -55,7 +55,7 @@ TEST(ContactRing, IsOrderedByAngleWhateverTheOrderOfTheSet)
   EXPECT_EQ(rings[0].nodes[0], 0);
 }
 
-TEST(ContactRing, NeedsEqualAnglesOneCircleAndOutOfPlaneDofs)
+TEST(ContactRing, NeedsEqualAnglesOneCircleAndTheDofAlongTheAxis)
 {
   const auto n_rings = [](const ReducedSystem& system) {
     return contact_rings(system, plate_motion(system)).size();
@@ -69,9 +69,19 @@ TEST(ContactRing, NeedsEqualAnglesOneCircleAndOutOfPlaneDofs)
   ReducedSystem tilted = test::wheel();
   tilted.attachment_nodes[3].position.z() += 1e-4;
   EXPECT_EQ(n_rings(tilted), 0u);
+  ReducedSystem flat = test::wheel();
+  std::erase_if(flat.masters, [](const MasterDof& dof) { return dof.component == 2; });
+  EXPECT_EQ(n_rings(flat), 0u);
+}
+
+TEST(ContactRing, HasNoSlopesWhereItsNodesDoNotRotate)
+{
   ReducedSystem translations = test::wheel();
   std::erase_if(translations.masters, [](const MasterDof& dof) { return dof.component == 3; });
-  EXPECT_EQ(n_rings(translations), 0u);
+  const std::vector<ContactRing> rings = contact_rings(translations, plate_motion(translations));
+  ASSERT_EQ(rings.size(), 1u);
+  EXPECT_GT(rings[0].W.norm(), 0.0);
+  EXPECT_EQ(rings[0].W_r.norm() + rings[0].W_t.norm(), 0.0);
 }
 
 TEST(FourierCoefficients, RecoverHarmonicsAndReproduceTheNodes)

@@ -679,7 +679,7 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
       {"element_order", "elementorder",
        "scene.toml:6: mesh.elementorder is not a key here; did you mean element_order? allowed: "
        "edge_row, element_order, element_size, file, generator, inner_radius, outer_radius, "
-       "pattern, rings"},
+       "pattern, rings, sectors"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
        "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, "
