@@ -75,7 +75,7 @@ MatrixXd commuting(const MatrixXd& A, const QuarterTurn& J)
 }
 
 /// Modes in exact pairs, and matrices that commute with J to the last bit.
-void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
+void make_pairs(HarmonicModel& model)
 {
   const HarmonicCoordinates& c = model.coordinates;
   const Index n_m = model.n_masters(), n_modes = model.omega.size();
@@ -83,7 +83,7 @@ void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
   if (c.has_one_phase()) return;
   if (n_modes > 0) {
     const petsc::Matrix MJ =
-        as_matrix(times_quarter_turn(harmonic_form(sector.M, c), c), Symmetry::none);
+        as_matrix(times_quarter_turn(sparse_rows(model.body.M), c), Symmetry::none);
     const MatrixXd form = reduce::project_form(model.basis, reduce::split(MJ, model.body.dofs))(
         model.places, model.places);
     ExactPairs pairs = exact_pairs(model.omega, form.bottomRightCorner(n_modes, n_modes));
@@ -161,7 +161,7 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                                                                                    model.places);
   }
   phases.begin("pairs");
-  make_pairs(model, sector);
+  make_pairs(model);
   phases.end();
   if (beyond) leave_out_modes(model);
   return model;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "cyclic/harmonic_coordinates.hpp"
 #include "reduce/reduction.hpp"
@@ -22,7 +24,6 @@ struct HarmonicModel {
   Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
   Eigen::VectorXd omega;    ///< [n_modes] rad/s
   reduce::Certificate certificate;
-  /// Q: the coordinates that each row of the model is the amplitude of, [n x n_masters + n_modes].
   reduce::FactoredBody body;
   reduce::CraigBamptonBasis basis;
   std::vector<int> places;  ///< `reduce::coordinate_places`
