@@ -68,10 +68,11 @@ void add_loads(const ReducedSystem& system, const InterfaceModes& wanted, int co
 Loads loads_of(const scene::Scene& scene, const ReducedSystem& system)
 {
   const mbs_export::HeldDofs held = mbs_export::held_dofs(system, scene.body.fixed);
-  if (!held.are_masters())
+  if (!held.are_masters()) {
     throw Error(
         "interface_modes: with space = \"full\" nodes of a ring of harmonics cannot be held; use "
         "space = \"reduced\"");
+  }
   Loads loads;
   for (const InterfaceModes& wanted : scene.body.interface_modes) {
     if (wanted.space != InterfaceModes::Space::full) continue;

@@ -11,15 +11,13 @@ MatrixXd node_rows(const std::vector<int>& nodes, const plate::DofMap& dofs, con
 {
   const int n_c = dofs.n_components();
   std::vector<int> numbers;  // on which the nodes depend, each once
-  for (const int node : nodes) {
+  for (const int node : nodes)
     for (const plate::MotionTerm& term : dofs.motion(node)) numbers.push_back(term.number);
-  }
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<int> wanted;
-  for (const int number : numbers) {
+  for (const int number : numbers)
     for (int c = 0; c < n_c; ++c) wanted.push_back(n_c * number + c);
-  }
   const MatrixXd known = rows_of(wanted);
   MatrixXd rows = MatrixXd::Zero(6 * std::ssize(nodes), known.cols());
   for (Index k = 0; k < std::ssize(nodes); ++k) {

@@ -15,9 +15,8 @@ SceneSupport::SceneSupport(mbs_export::ReducedSystem described,
 std::vector<PetscInt> SceneSupport::held() const
 {
   std::vector<PetscInt> held;
-  for (const int row : mbs_export::held_dofs(described_, fixed_).rows) {
+  for (const int row : mbs_export::held_dofs(described_, fixed_).rows)
     held.push_back(masters_[static_cast<std::size_t>(row)]);
-  }
   return held;
 }
 

@@ -68,15 +68,11 @@ void drop_silent_kinds(ResultantModes& forces)
   const Index n = std::ssize(forces.kinds);
   const Index n_points = forces.positions.rows();
   std::vector<Index> kept;
-  for (Index kind = 0; kind < n; ++kind) {
-    if (!forces.S(Eigen::seqN(kind, n_points, n), every).isZero(0.0)) {
-      kept.push_back(kind);
-    }
-  }
+  for (Index kind = 0; kind < n; ++kind)
+    if (!forces.S(Eigen::seqN(kind, n_points, n), every).isZero(0.0)) kept.push_back(kind);
   std::vector<Index> rows;
-  for (Index point = 0; point < n_points; ++point) {
+  for (Index point = 0; point < n_points; ++point)
     for (const Index kind : kept) rows.push_back(n * point + kind);
-  }
   ResultantModes all = forces;
   forces.kinds.clear();
   forces.units.clear();

@@ -56,10 +56,9 @@ void refuse_unsupported(const scene::Scene& scene)
     refuse("averaging couplings are not available for one sector");
   if (!scene.resultants.groups.empty())
     refuse("section forces (reduce.resultants) are not available for one sector");
-  for (const auto& interface : scene.body.interface_modes) {
+  for (const auto& interface : scene.body.interface_modes)
     if (interface.space == mbs_export::InterfaceModes::Space::full)
       refuse("interface modes with space = \"full\" are not available for one sector");
-  }
 }
 
 bool is_same_across(const std::array<double, 6>& values)

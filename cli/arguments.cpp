@@ -35,9 +35,8 @@ std::vector<std::string> known_words(const CLI::App& app)
 {
   std::vector<std::string> words;
   for (const CLI::App* part : app.get_subcommands({})) words.push_back(part->get_name());
-  for (const CLI::App* part : app.get_subcommands()) {
+  for (const CLI::App* part : app.get_subcommands())
     for (const CLI::Option* option : part->get_options()) words.push_back(option->get_name());
-  }
   return words;
 }
 

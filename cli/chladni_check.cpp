@@ -41,21 +41,23 @@ std::string number(double x)
 report::TextTable table_of(const std::vector<Check>& checks)
 {
   report::TextTable table{.header = {"check", "verdict", "value", "limit"}, .rows = {}};
-  for (const Check& check : checks)
+  for (const Check& check : checks) {
     table.rows.push_back(
         {check.name, name_of(check.verdict), number(check.value), number(check.limit)});
+  }
   return table;
 }
 
 void write_json(const std::string& file, const std::string& json, const std::vector<Check>& checks)
 {
   std::vector<report::Json> list;
-  for (const Check& check : checks)
+  for (const Check& check : checks) {
     list.push_back(report::Json::object({{"check", check.name},
                                          {"verdict", name_of(check.verdict)},
                                          {"value", check.value},
                                          {"limit", check.limit},
                                          {"meaning", check.meaning}}));
+  }
   write_summary({.scene = file, .output = {}, .json = json},
                 {{"file", file},
                  {"verdict", name_of(mbs_export::worst(checks))},

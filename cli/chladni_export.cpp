@@ -45,9 +45,10 @@ Source source_of(const ExportArguments& arguments)
   }
   scene::Scene scene = scene::read_meshed_scene(given);
   const path file = path(arguments.from) / (scene.name + ".reduced.h5");
-  if (!std::filesystem::exists(file))
+  if (!std::filesystem::exists(file)) {
     throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
                             file.string(), arguments.source, arguments.from));
+  }
   path stem = scene.name;
   return {.scene = std::move(scene), .reduced_file = file, .stem = stem};
 }
@@ -90,9 +91,10 @@ std::vector<std::string> export_superelement(const ExportArguments& arguments, c
 formats::FloatingBody floating_body_of(const ExportArguments& arguments, const Source& source,
                                        const mbs_export::ReducedSystem& reduced)
 {
-  if (!source.scene)
+  if (!source.scene) {
     throw Error(fmt::format("{}: {} needs the supports and modes of [body]; give the scene",
                             arguments.source, arguments.format));
+  }
   return formats::floating_body(reduced, source.scene->body);
 }
 

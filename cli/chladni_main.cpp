@@ -104,10 +104,11 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
-  for (const char* meshes : {"mesh", "static", "modes", "reduce", "run"})
+  for (const char* meshes : {"mesh", "static", "modes", "reduce", "run"}) {
     app.get_subcommand(meshes)->add_flag(
         "--trust-mesh", arguments.trusts_mesh,
         "the mesh file is your own: a .geo may run programs and write files, and take its time");
+  }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
@@ -136,17 +137,17 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
 
 void perform(const CLI::App& app, const chladni::cli::ChladniArguments& arguments)
 {
-  for (const Subcommand& subcommand : on_scenes) {
+  for (const Subcommand& subcommand : on_scenes)
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
-  }
   if (app.got_subcommand("export")) return chladni::cli::export_command(arguments);
   if (app.got_subcommand("report"))
     return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });
   if (app.got_subcommand("seal"))
     return chladni::cases::on_first_rank([&] { chladni::cli::seal(arguments.seal); });
-  if (app.got_subcommand("scene-reference"))
+  if (app.got_subcommand("scene-reference")) {
     return chladni::cases::on_first_rank(
         [] { fmt::print("{}", chladni::scene::scene_reference()); });
+  }
   if (app.got_subcommand("check")) return chladni::cli::check_command(arguments);
   chladni::cli::info_command(arguments);
 }

@@ -20,9 +20,8 @@ namespace {
 Eigen::VectorXd angular_frequencies(const std::vector<double>& lambda, int n_rigid)
 {
   Eigen::VectorXd omega = Eigen::VectorXd::Zero(std::ssize(lambda));
-  for (Eigen::Index i = n_rigid; i < omega.size(); ++i) {
+  for (Eigen::Index i = n_rigid; i < omega.size(); ++i)
     omega[i] = std::sqrt(std::max(lambda[static_cast<std::size_t>(i)], 0.0));
-  }
   return omega;
 }
 

@@ -65,15 +65,14 @@ std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
   const auto add = [&](const std::vector<report::Stage>& more) {
     stages.insert(stages.end(), more.begin(), more.end());
   };
-  if (wanted.method == reduce::Method::guyan) {
+  if (wanted.method == reduce::Method::guyan)
     add({constraint});
-  } else if (wanted.method != reduce::Method::craig_bampton) {
+  else if (wanted.method != reduce::Method::craig_bampton)
     add({constraint, {"free-interface modes", 25.0}, {"residual flexibility", 5.0}});
-  } else if (wanted.tolerance) {
+  else if (wanted.tolerance)
     add({constraint, {"fixed-interface modes", 40.0, Times::unknown}});
-  } else {
+  else
     add({{"fixed-interface modes", 20.0}, constraint});
-  }
   add({{"projection", 6.0},
        {"error estimates", 8.0},
        {"condition", 1.0},

@@ -137,11 +137,12 @@ std::string fish(const CLI::App& app)
   for (const CLI::App* part : subcommands(app)) {
     text += fmt::format("complete -c {} -n __fish_use_subcommand -f -a {} -d {}\n", name,
                         part->get_name(), in_single_quotes(part->get_description()));
-    for (const CLI::Option* option : options(*part))
+    for (const CLI::Option* option : options(*part)) {
       text += fmt::format("complete -c {} -n '__fish_seen_subcommand_from {}' -l {}{} -d {}\n",
                           name, part->get_name(), option->get_lnames().front(),
                           takes_value(*option) ? " -r" : "",
                           in_single_quotes(option->get_description()));
+    }
   }
   return text;
 }
@@ -212,13 +213,12 @@ void declare_self_description(CLI::App& app, SelfDescription& arguments)
 
 bool describe_itself(const CLI::App& app, const SelfDescription& arguments)
 {
-  if (app.got_subcommand("completion")) {
+  if (app.got_subcommand("completion"))
     fmt::print("{}", completion_script(app, arguments.shell));
-  } else if (app.got_subcommand("manual")) {
+  else if (app.got_subcommand("manual"))
     fmt::print("{}", manual_page(app));
-  } else {
+  else
     return false;
-  }
   return true;
 }
 

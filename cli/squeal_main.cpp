@@ -82,17 +82,16 @@ int main(int argc, char** argv)
   chladni::files::leave_nothing_to_exit();
   chladni::files::remove_unfinished_files_on_signals();
   try {
-    if (app.got_subcommand("run")) {
+    if (app.got_subcommand("run"))
       chladni::cli::run_squeal(arguments.run);
-    } else if (app.got_subcommand("report")) {
+    else if (app.got_subcommand("report"))
       chladni::report::write_report(arguments.report);
-    } else if (app.got_subcommand("seal")) {
+    else if (app.got_subcommand("seal"))
       chladni::cli::seal(arguments.seal);
-    } else if (app.got_subcommand("scene-reference")) {
+    else if (app.got_subcommand("scene-reference"))
       fmt::print("{}", chladni::scene::scene_reference());
-    } else if (!chladni::cli::describe_itself(app, arguments.self)) {
+    else if (!chladni::cli::describe_itself(app, arguments.self))
       fmt::print("{}", chladni::report::describe_file(arguments.info_file));
-    }
     chladni::report::finish_printing();
     return chladni::cli::exit_ok;
   } catch (const std::exception& error) {

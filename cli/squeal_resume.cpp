@@ -23,15 +23,17 @@ void require_same(const path& file, const squeal::RunOrigin& then, const squeal:
 {
   const std::vector<std::string> changed =
       scene::changed_keys(then.provenance.scene, now.provenance.scene, scene::Step::squeal);
-  if (!changed.empty())
+  if (!changed.empty()) {
     throw Error(fmt::format(
         "{}: cannot be resumed, since the scene has changed: {}; --overwrite begins anew",
         file.string(), fmt::join(changed, ", ")));
-  if (then.inputs != now.inputs)
+  }
+  if (then.inputs != now.inputs) {
     throw Error(
         fmt::format("{}: cannot be resumed: it was made from {}, and this run has {}; "
                     "--overwrite begins anew",
                     file.string(), then.inputs, now.inputs));
+  }
 }
 
 /// The origin of the state that was left behind.
@@ -63,17 +65,19 @@ squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& or
   if (exists(left.results)) {
     const files::Reader reader(left.results.string());
     begin = squeal::read_results(reader);
-    if (!begin.missing.empty())
+    if (!begin.missing.empty()) {
       require_same(left.results, {mbs_export::file_parts::read_provenance(reader), begin.inputs},
                    origin);
+    }
   }
   const bool has_checkpoint = exists(left.checkpoint);
   if (has_checkpoint) require_same(left.checkpoint, read_state(checkpoint), origin);
-  if (!has_checkpoint && begin.missing.empty())
+  if (!has_checkpoint && begin.missing.empty()) {
     throw Error(fmt::format(
         "--resume: no run was interrupted here: there is neither {} nor an unfinished {}; run "
         "without --resume",
         left.checkpoint.string(), left.results.string()));
+  }
   return begin.missing.empty() ? squeal::SquealResults{} : begin;
 }
 

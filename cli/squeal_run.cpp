@@ -144,11 +144,12 @@ const squeal::StudyOptions& study_of(const scene::Scene& scene)
 /// @throws chladni::Error when there is a state, and nobody has said that it may go.
 void forget(const Files& files, const SceneArguments& arguments)
 {
-  if (exists(files.checkpoint) && !arguments.overwrite)
+  if (exists(files.checkpoint) && !arguments.overwrite) {
     throw Error(
         fmt::format("{}: the state of a run that was interrupted; --resume goes on from it, "
                     "--overwrite begins anew",
                     files.checkpoint.string()));
+  }
   std::error_code ignored;
   std::filesystem::remove(files.checkpoint, ignored);
   std::filesystem::remove(files.spool, ignored);
@@ -264,9 +265,10 @@ void run_squeal(const RunArguments& arguments)
   if (sound && sound->full_scale())
     fmt::print("wrote {}, full scale {:.6g} m/s\n", files.sound.string(), *sound->full_scale());
   if (!arguments.scene.json.empty()) write_json(arguments.scene.json, results, cost);
-  if (!checkpoint.failure().empty())
+  if (!checkpoint.failure().empty()) {
     fmt::print(stderr, "note: a state could not be written: {}\n",
                report::printable(checkpoint.failure()));
+  }
   if (results.failure) throw Error(*results.failure);
   checkpoint.remove();
   if (sound) sound->remove();

@@ -43,9 +43,10 @@ inline std::string decimal_comma_in(const std::string& formula)
     if (c == ')' && !is_call.empty()) is_call.pop_back();
     if (c == ',' && (is_call.empty() || !is_call.back()))
       return "the comma does not part a function's arguments; write a decimal point, as in 0.02";
-    if (c == ',' && is_whole_before(formula, i) && is_whole_after(formula, i))
+    if (c == ',' && is_whole_before(formula, i) && is_whole_after(formula, i)) {
       return "the comma between two digits may be a decimal one; write a decimal point, as in "
              "0.02, or a blank after the comma, as in max(1, 2)";
+    }
     const bool is_exponent = i > 2 && (before == '-' || before == '+') &&
                              (formula[i - 2] == 'e' || formula[i - 2] == 'E') &&
                              (is_digit(formula[i - 3]) || formula[i - 3] == '.');

@@ -152,10 +152,11 @@ void filter_system_calls()
   const bool is_filtered = native_architecture != 0 &&
                            prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
                            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-  if (!is_filtered)
+  if (!is_filtered) {
     throw Error(
         fmt::format("this system cannot keep a process from starting programs (seccomp: {})",
                     std::strerror(errno)));
+  }
 }
 
 std::optional<Offence> offence_of(int exit_code)

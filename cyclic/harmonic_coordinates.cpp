@@ -51,9 +51,8 @@ class Builder {
       is_done_[static_cast<std::size_t>(pair[1])] = true;
     }
     std::vector<int> first(static_cast<std::size_t>(sector_.n_blocks), -1);
-    for (int block = 0; block < sector_.n_blocks; ++block) {
+    for (int block = 0; block < sector_.n_blocks; ++block)
       if (!is_done_[static_cast<std::size_t>(block)]) first[std::size_t(block)] = add_own(block);
-    }
     for (const auto& [low, high] : followers) add_follower(first[std::size_t(low)], high);
     HarmonicCoordinates c{.order = order_,
                           .count = sector_.count,

@@ -91,9 +91,8 @@ void make_pairs(HarmonicModel& model)
     model.omega = std::move(pairs.omega);
   }
   const QuarterTurn J = quarter_turn(c, model.omega.size());
-  for (MatrixXd* A : {&model.K, &model.M, &model.C}) {
+  for (MatrixXd* A : {&model.K, &model.M, &model.C})
     if (A->size() > 0) *A = commuting(in_pairs(*A, n_m, model.W), J);
-  }
 }
 
 /// Fixed-interface modes below a frequency: a few at a time, since a harmonic has few.
@@ -158,7 +157,7 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
     const petsc::Matrix C =
         as_matrix(harmonic_form(sector.C, model.coordinates), Symmetry::symmetric);
     model.C = reduce::project_form(model.basis, reduce::split(C, model.body.dofs))(model.places,
-                                                                                    model.places);
+                                                                                   model.places);
   }
   phases.begin("pairs");
   make_pairs(model);
@@ -192,8 +191,7 @@ SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs
     row = std::ssize(wanted);
     wanted.push_back(coordinate);
   }
-  const MatrixXd Q =
-      reduce::basis_rows(model.basis, model.body.dofs, wanted)(every, model.places);
+  const MatrixXd Q = reduce::basis_rows(model.basis, model.body.dofs, wanted)(every, model.places);
   const Index n_m = model.n_masters(), n = n_m + model.W.cols();
   MatrixXd rows(Q.rows(), n);
   rows << Q.leftCols(n_m), Q.rightCols(model.W.rows()) * model.W;

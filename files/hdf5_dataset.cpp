@@ -129,18 +129,20 @@ Dataset open_dataset(const Source& source, const std::string& name, const Expect
   if (!id.valid()) reader.fail(name, "is not a readable dataset");
   const Handle type{H5Dget_type(id.get()), H5Tclose};
   const H5T_class_t found = H5Tget_class(type.get());
-  if (found != expected.type)
+  if (found != expected.type) {
     reader.fail(name,
                 fmt::format("holds {}, expected {}", class_name(found), class_name(expected.type)));
+  }
   std::optional<Handle> held = memory_type(id.get());
   if (!held) reader.fail(name, "holds text of variable length, expected fixed length");
   const Handle creation{H5Dget_create_plist(id.get()), H5Pclose};
   require_own_values(source, name, creation.get());
   const auto shape = plausible_shape(id.get(), creation.get(), source.size);
   if (!shape) reader.fail(name, "claims more values than the file can hold");
-  if (!matches(*shape, expected.shape))
+  if (!matches(*shape, expected.shape)) {
     reader.fail(
         name, fmt::format("has shape {}, expected {}", describe(*shape), describe(expected.shape)));
+  }
   Dataset dataset{std::move(id), *shape, std::move(*held)};
   take_memory(source, name, dataset);
   return dataset;

@@ -27,9 +27,10 @@ std::vector<double> read_reals(const Source& source, const std::string& name,
 {
   const auto values = values_of<double>(source, name, dataset);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
+    if (!std::isfinite(values[i])) {
       source.reader.fail(name, fmt::format("value {} of {} is {}, expected finite numbers", i + 1,
                                            values.size(), values[i]));
+    }
   return values;
 }
 
@@ -110,9 +111,10 @@ void Reader::expect_format(const std::string& format, std::int64_t version) cons
   const std::string found = text_attribute("/", "format");
   if (found != format) fail("/", fmt::format("has format '{}', expected '{}'", found, format));
   const std::int64_t number = integer_attribute("/", "version");
-  if (number != version)
+  if (number != version) {
     fail("/", fmt::format("has version {} of format '{}'; this program reads version {}", number,
                           format, version));
+  }
 }
 
 Eigen::MatrixXd Reader::matrix(const std::string& name, Shape shape) const

@@ -23,9 +23,10 @@ void synchronise_folder_of(const std::string& path)
   if (descriptor < 0) return;
   const bool is_broken = fsync(descriptor) != 0 && errno == EIO;
   close(descriptor);
-  if (is_broken)
+  if (is_broken) {
     throw Error(fmt::format("{}: is written, but its folder cannot be flushed to disk ({})", path,
                             std::strerror(EIO)));
+  }
 }
 
 }  // namespace

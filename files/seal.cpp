@@ -97,11 +97,12 @@ std::string read_detached(const std::string& path)
   regular_file_size(beside);
   std::ifstream file(beside, std::ios::binary);
   const std::string text = beginning(file);
-  if (!text.starts_with(seal_begins))
+  if (!text.starts_with(seal_begins)) {
     throw Error(
         fmt::format("{}: is no seal of Chladni, or damaged; `chladni seal --detach {}` makes it "
                     "anew, and without it the file is read like others'",
                     beside, path));
+  }
   return text;
 }
 
@@ -112,9 +113,10 @@ bool check_detached_seal(const std::string& path)
   const std::string seal = read_detached(path);
   if (seal.empty()) return false;
   const std::uint64_t length = std::filesystem::file_size(path);
-  if (length != sealed_length(seal))
+  if (length != sealed_length(seal)) {
     refuse(path, SealPlace::beside,
            fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
+  }
   std::ifstream file(path, std::ios::binary);
   if (seal != detached_text(length, digest_of(file)))
     refuse(path, SealPlace::beside, "its bytes are not those that were sealed");
@@ -182,14 +184,16 @@ bool check_seal(const std::string& path)
   if (!file) throw Error(fmt::format("{}: no such file, or not readable", path));
   const std::string seal = beginning(file);
   if (seal.starts_with(hdf5_begins)) return check_detached_seal(path);
-  if (!seal.starts_with(seal_begins))
+  if (!seal.starts_with(seal_begins)) {
     throw Error(fmt::format(
         "{}: is neither an HDF5 file nor one that Chladni sealed, or its beginning is damaged",
         path));
+  }
   const std::uint64_t length = std::filesystem::file_size(path);
-  if (length != sealed_length(seal))
+  if (length != sealed_length(seal)) {
     refuse(path, SealPlace::inside,
            fmt::format("it has {} bytes and had {}", length, sealed_length(seal)));
+  }
   if (seal != seal_text(length, digest_of(file)))
     refuse(path, SealPlace::inside, "its bytes are not those that were sealed");
   return true;

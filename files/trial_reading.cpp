@@ -213,9 +213,10 @@ std::optional<std::string> refusal_of_trial(const std::string& path, const Trial
   const int why = errno;
   close(ends[1]);
   const std::string verdict = all_of(ends[0]);
-  if (child < 0)
+  if (child < 0) {
     throw Error(fmt::format("{}: cannot be tried by a process of its own before it is read: {}",
                             path, std::strerror(why)));
+  }
   const std::string end = describe_end(child, limits);
   if (verdict == "+") return std::nullopt;
   return verdict.starts_with('-') ? verdict.substr(1) : end;

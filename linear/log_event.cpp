@@ -20,9 +20,8 @@ void register_events()
   PetscClassId class_id = 0;
   petsc::check(PetscClassIdRegister("Component mode synthesis", &class_id));
   events.emplace();
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i)
     petsc::check(PetscLogEventRegister(names[i], class_id, &(*events)[i]));
-  }
   petsc::check(PetscRegisterFinalize([]() -> PetscErrorCode {
     events.reset();
     return 0;

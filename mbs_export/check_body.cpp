@@ -161,11 +161,12 @@ void add_rings(std::vector<Check>& checks, const ModalBody& body)
   for (const ContactRing& ring : body.rings) {
     const auto same = std::ranges::find(rings, ring.name, &ContactRing::name);
     double error = 1.0;
-    if (same != rings.end() && same->nodes == ring.nodes)
+    if (same != rings.end() && same->nodes == ring.nodes) {
       error = std::max({std::abs(same->radius / ring.radius - 1.0),
                         std::abs(same->height - ring.height) / ring.radius,
                         difference(same->angles, ring.angles), difference(same->W, ring.W),
                         difference(same->W_r, ring.W_r), difference(same->W_t, ring.W_t)});
+    }
     checks.push_back(bounded("ring " + ring.name, error, 1e-9,
                              "against positions and modes of its attachment nodes"));
     checks.push_back(check_slopes(ring));
@@ -183,9 +184,10 @@ std::vector<Check> check_body(const ModalBody& body)
   add_supports(checks, body);
   add_inertia(checks, body);
   add_damping(checks, body);
-  if (body.mass_integrals)
+  if (body.mass_integrals) {
     checks.push_back(check_parts::check_mass_integrals(
         *body.mass_integrals, MatrixXd::Identity(body.n_modes(), body.n_modes())));
+  }
   add_rings(checks, body);
   return checks;
 }

@@ -26,17 +26,19 @@ std::vector<char> chosen(const Eigen::VectorXd& omega, const KeptModes& keep)
   const Index n = omega.size();
   std::vector<char> is_kept(static_cast<std::size_t>(n), !keep.list);
   if (keep.count) {
-    if (*keep.count < 0 || *keep.count > n)
+    if (*keep.count < 0 || *keep.count > n) {
       throw BodyOptionError(
           "keep.modes", fmt::format("{} modes asked for, the held body has {}", *keep.count, n));
+    }
     std::fill(is_kept.begin() + *keep.count, is_kept.end(), false);
   } else if (keep.up_to_Hz) {
     for (Index i = 0; i < n; ++i) is_kept[i] = hertz(omega[i]) <= *keep.up_to_Hz;
   } else if (keep.list) {
     for (const int number : *keep.list) {
-      if (number < 1 || number > n)
+      if (number < 1 || number > n) {
         throw BodyOptionError("keep.list",
                               fmt::format("mode {} asked for, the modes are 1 to {}", number, n));
+      }
       is_kept[number - 1] = true;
     }
   }
@@ -70,9 +72,11 @@ std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega)
 
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
 {
-  if (int(keep.count.has_value()) + int(keep.up_to_Hz.has_value()) + int(keep.list.has_value()) > 1)
+  if (int(keep.count.has_value()) + int(keep.up_to_Hz.has_value()) + int(keep.list.has_value()) >
+      1) {
     throw BodyOptionError("keep",
                           "give only one of a number of modes, a highest frequency, and a list");
+  }
   const std::vector<char> asked = chosen(omega, keep);
   ModeSelection selection{.kept = {}, .neglected = {}, .n_partners = 0};
   for (const auto [first, end] : mode_clusters(omega)) {
@@ -81,10 +85,11 @@ ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep)
     for (int i = first; i < end; ++i)
       (n_asked > 0 ? selection.kept : selection.neglected).push_back(i);
   }
-  if (selection.kept.empty())
+  if (selection.kept.empty()) {
     throw BodyOptionError(
         "keep", fmt::format("no mode is left; the lowest of {} has {:.6g} Hz", omega.size(),
                             omega.size() > 0 ? hertz(omega[0]) : 0.0));
+  }
   return selection;
 }
 

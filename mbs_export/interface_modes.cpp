@@ -29,12 +29,13 @@ MatrixXd response_modes(const VectorXd& omega_n, const MatrixXd& g, double Omega
 {
   const VectorXd gap = omega_n.array().square() - Omega_0 * Omega_0;
   for (Index i = 0; i < gap.size(); ++i)
-    if (std::abs(gap[i]) <= closest_gap * omega_n[i] * omega_n[i])
+    if (std::abs(gap[i]) <= closest_gap * omega_n[i] * omega_n[i]) {
       throw BodyOptionError(
           "interface_modes",
           fmt::format("omega0 = {:.9g} rad/s is the frequency of a neglected mode; take "
                       "omega0 = {:.6g}",
                       Omega_0, other_frequency(omega_n, i)));
+    }
   return gap.cwiseInverse().asDiagonal() * g;
 }
 

@@ -39,9 +39,10 @@ struct Pattern {
 std::vector<SetLoad> loads_of(const std::vector<InterfaceModes>& wanted)
 {
   std::vector<SetLoad> loads;
-  for (const InterfaceModes& one : wanted)
+  for (const InterfaceModes& one : wanted) {
     loads.push_back({one.at, one.components,
                      one.kind == InterfaceModes::Kind::irm ? std::optional(0.0) : one.omega0});
+  }
   return loads;
 }
 
@@ -54,10 +55,11 @@ std::vector<int> free_components(const ReducedSystem& reduced, const HeldDofs& h
            std::ranges::find(held.dofs, 6 * node + component) == held.dofs.end();
   };
   std::vector<int> components;
-  for (int component = 0; component < 6; ++component)
+  for (int component = 0; component < 6; ++component) {
     if (!set.nodes.empty() &&
         std::ranges::all_of(set.nodes, [&](int node) { return is_free(node, component); }))
       components.push_back(component);
+  }
   return components;
 }
 
@@ -173,10 +175,11 @@ int loaded_dof(const ReducedSystem& reduced, const HeldDofs& held, MasterDof loa
 {
   const int dof = attachment_dof(reduced, loaded.node, loaded.component);
   const auto found = std::ranges::find(held.dofs, dof);
-  if (found != held.dofs.end())
+  if (found != held.dofs.end()) {
     throw BodyOptionError("interface_modes",
                           fmt::format("{} is held; a load there moves nothing",
                                       held.names[std::size_t(found - held.dofs.begin())]));
+  }
   refuse_drilling_load(reduced, loaded.node, loaded.component);
   return dof;
 }
@@ -197,15 +200,17 @@ LoadedDofs loaded_dofs(const ReducedSystem& reduced, const HeldDofs& held,
     for (const int component : load.components)
       loads.names.push_back(fmt::format("{}.{}", load.set, component_name(component)));
   }
-  if (loads.dofs.empty())
+  if (loads.dofs.empty()) {
     throw BodyOptionError("keep.tolerance",
                           "a tolerance is about loads, and every attachment DOF is held");
-  if (loads.dofs.size() > most_loads)
+  }
+  if (loads.dofs.size() > most_loads) {
     throw BodyOptionError(
         "keep.tolerance",
         fmt::format("{} loaded DOFs are more than the {} that a tolerance can compare; "
                     "name those that matter by interface_modes",
                     loads.dofs.size(), most_loads));
+  }
   for (const Pattern& pattern : patterns)
     loads.groups.push_back(group_of(pattern, Index(loads.dofs.size())));
   return loads;

@@ -89,9 +89,10 @@ Choice choose_by_hand(const HeldModes& modes, const BodyOptions& options)
 
 Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
 {
-  if (options.keep.count || options.keep.up_to_Hz || options.keep.list)
+  if (options.keep.count || options.keep.up_to_Hz || options.keep.list) {
     throw BodyOptionError("keep",
                           "a tolerance chooses the modes itself; give nothing else with it");
+  }
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
   const MatrixXd B = modes.U(loads.dofs, every).transpose();
   ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
@@ -117,10 +118,11 @@ BodyModes merge(const HeldModes& modes, const ModeSelection& selection, const In
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](int i) { return omega[i]; });
   BodyModes body{.omega = omega(order), .kinds = {}, .T = T(every, order)};
-  for (const int i : order)
+  for (const int i : order) {
     body.kinds.push_back(i >= n_kept         ? ModeKind::interface
                          : omega[i] == 0.0 ? ModeKind::rigid
                                              : ModeKind::constrained);
+  }
   return body;
 }
 
@@ -135,17 +137,19 @@ MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
     case Damping::Type::rayleigh:
       return VectorXd(damping.alpha + damping.beta * modes.omega.array().square()).asDiagonal();
     case Damping::Type::matrix:
-      if (reduced.C.size() == 0)
+      if (reduced.C.size() == 0) {
         throw BodyOptionError("damping.type",
                               "'matrix' needs a reduced damping matrix, and this system has none");
+      }
       return modes.T.transpose() * reduced.C * modes.T;
     case Damping::Type::modal:
       break;
   }
-  if (damping.ratios.size() != 1 && Index(damping.ratios.size()) != n)
+  if (damping.ratios.size() != 1 && Index(damping.ratios.size()) != n) {
     throw BodyOptionError("damping.ratio",
                           fmt::format("{} ratios for {} modes; give one for all or one for each",
                                       damping.ratios.size(), n));
+  }
   const VectorXd zeta = damping.ratios.size() == 1
                             ? VectorXd(VectorXd::Constant(n, damping.ratios[0]))
                             : VectorXd(Eigen::Map<const VectorXd>(damping.ratios.data(), n));

@@ -110,20 +110,22 @@ namespace {
 
 ModeShift shift_by(const FreeModes& modes, const HeldDofs& held, const std::vector<int>& dependent)
 {
-  if (dependent.size() != held.dofs.size())
+  if (dependent.size() != held.dofs.size()) {
     throw Error(fmt::format("mode shifting: {} dependent modes for {} held displacements",
                             dependent.size(), held.dofs.size()));
+  }
   const MatrixXd Q_held = held.displacements(modes.Q_e);
   const std::vector<int> independent = complement(dependent, modes.omega.size());
   const MatrixXd Q_dd = Q_held(every, dependent);
   const double directions = condition(rows_of_unit_length(Q_dd));
-  if (!(directions <= largest_condition))
+  if (!(directions <= largest_condition)) {
     throw BodyOptionError(
         "fixed",
         fmt::format(
             "mode shifting: cond(Q_dd) = {:.1e} with the dependent modes {}, so {} cannot be held; "
             "choose other dependent modes or fix fewer displacements",
             directions, fmt::join(dependent, ", "), dependent_names(Q_dd, held)));
+  }
 
   // q_d = G q_i,  K_c = G^T Lambda_d G + Lambda_i,  M_c = G^T G + I
   const VectorXd lambda = modes.omega.cwiseAbs2();
@@ -156,11 +158,12 @@ void refuse_cancellation(const ModeShift& shift, const FreeModes& modes)
   const double stiffest = (G.cwiseAbs2().transpose() * lambda).maxCoeff();
   const double softest = modes.omega[modes.n_rigid] * modes.omega[modes.n_rigid];
   const double lost = std::numeric_limits<double>::epsilon() * stiffest / softest;
-  if (lost > largest_rounding)
+  if (lost > largest_rounding) {
     throw Error(fmt::format(
         "mode shifting: with the dependent modes {} the lowest eigenvalues are rounded by {:.0e}; "
         "choose dependent modes of lower frequency",
         fmt::join(shift.dependent, ", "), lost));
+  }
 }
 
 }  // namespace
@@ -172,11 +175,12 @@ ModeShift shift_modes(const FreeModes& modes, const HeldDofs& held)
   const bool complete = Index(dependent.size()) == Q_held.rows();
   if (!complete || condition(rows_of_unit_length(Q_held(every, dependent))) > largest_condition) {
     dependent = independent_columns(Q_held * preference(modes).asDiagonal(), 1e-14);
-    if (dependent.size() < held.dofs.size())
+    if (dependent.size() < held.dofs.size()) {
       throw BodyOptionError("fixed", fmt::format("mode shifting: the modes cannot hold {} apart "
                                                  "from the other held displacements; fix "
                                                  "fewer, or reduce with more masters or modes",
                                                  dependent_names(Q_held, held)));
+    }
   }
   std::ranges::sort(dependent);
   return shift_by(modes, held, dependent);

@@ -28,10 +28,11 @@ MatrixXd rigid_basis(const ReducedSystem& reduced)
   if (qr.rank() == 0) return MatrixXd(R.rows(), 0);
   const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
   const Eigen::LLT<MatrixXd> MR(MatrixXd(basis.transpose() * reduced.M * basis));
-  if (MR.info() != Eigen::Success)
+  if (MR.info() != Eigen::Success) {
     throw Error(
         "orthogonalize: the mass matrix gives a rigid-body motion no mass; has every material "
         "a density, and is M_r symmetric?");
+  }
   return MR.matrixL().solve(basis.transpose()).transpose();
 }
 

@@ -84,10 +84,11 @@ VectorXd frequency_grid(const ReferenceResponse& reference, double Omega_max)
 {
   // A free body answers static loads with infinite motion; its range begins above zero.
   double lowest = reference.omega[0] == 0.0 ? 1e-2 * Omega_max : 0.0;
-  if (!reference.resonances.empty())
+  if (!reference.resonances.empty()) {
     lowest = std::min(
         lowest,
         0.1 * reference.omega[reference.clusters[std::size_t(reference.resonances[0])].first]);
+  }
   std::vector<double> knots{lowest}, grid{lowest, Omega_max};
   for (const int c : reference.resonances)
     knots.push_back(reference.omega[reference.clusters[std::size_t(c)].first]);

@@ -103,10 +103,11 @@ const LoadGroup* largest_missing_group(const TrialBasis& basis, std::span<const 
 bool meets_neglected_mode(const ReferenceResponse& reference, const TrialBasis& basis,
                           double Omega_0)
 {
-  for (Index k = 0; k < reference.omega.size(); ++k)
+  for (Index k = 0; k < reference.omega.size(); ++k) {
     if (!basis.is_kept[std::size_t(k)] &&
         std::abs(reference.omega[k] - Omega_0) <= 1e-6 * reference.omega[k])
       return true;
+  }
   return false;
 }
 

@@ -21,9 +21,8 @@ std::vector<Circle> add_circles(const AnnulusOptions& o)
 {
   const double h = o.element_size;
   std::vector<Circle> circles{add_circle({.radius = o.inner_radius}, h)};
-  for (const RingOptions& ring : o.rings) {
+  for (const RingOptions& ring : o.rings)
     circles.push_back(add_circle({.radius = ring.radius, .n_arcs = ring.nodes}, h));
-  }
   circles.push_back(add_circle({.radius = o.outer_radius}, h));
   if (o.edge_row) {
     const Circle inner = circles.front();

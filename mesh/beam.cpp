@@ -105,9 +105,8 @@ Mesh beam(const BeamMeshOptions& options)
   mesh.groups = {line,
                  {.name = "start", .dimension = 0, .nodes = {0}},
                  {.name = "end", .dimension = 0, .nodes = {mesh.n_nodes() - 1}}};
-  for (const BeamPoint& point : options.points) {
+  for (const BeamPoint& point : options.points)
     mesh.groups.push_back({.name = point.name, .dimension = 0, .nodes = {node_at(point, nodes)}});
-  }
   return mesh;
 }
 

@@ -70,9 +70,8 @@ std::vector<int> add_rows(const Circle& first, const Circle& last, double size)
   const int n_across = std::max(1, static_cast<int>(std::lround(width / size)));
   const std::size_t n = first.arcs.size();
   std::vector<int> spokes;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i)
     spokes.push_back(add_line(first.points[i], last.points[i], n_across));
-  }
   std::vector<int> surfaces;
   for (std::size_t i = 0; i < n; ++i) {
     const int loop =

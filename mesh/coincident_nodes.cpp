@@ -78,9 +78,8 @@ void check_no_collapse(const Mesh& mesh, double tolerance)
 /// Nodes to which others were merged take over their elements and groups.
 void replace_nodes(Mesh& mesh, const std::vector<int>& by)
 {
-  for (ElementBlock& block : mesh.blocks) {
+  for (ElementBlock& block : mesh.blocks)
     for (int& node : block.nodes) node = by[node];
-  }
   for (Group& group : mesh.groups) {
     for (int& node : group.nodes) node = by[node];
     std::ranges::sort(group.nodes);
@@ -117,9 +116,8 @@ std::vector<std::array<int, 2>> coincident_nodes(const Mesh& mesh, double tolera
     }
   }
   std::vector<std::array<int, 2>> pairs;
-  for (int i = 0; i < mesh.n_nodes(); ++i) {
+  for (int i = 0; i < mesh.n_nodes(); ++i)
     if (first_of_heap(i) != i) pairs.push_back({first_of_heap(i), i});
-  }
   return pairs;
 }
 

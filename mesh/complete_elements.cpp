@@ -52,9 +52,7 @@ Vector inside_cubic_triangle(const Mesh& mesh, const ElementBlock& block, int el
 
 Vector inner_position(const Mesh& mesh, const ElementBlock& block, int element, int place)
 {
-  if (block.shape == Shape::quadrilateral) {
-    return inside_quadrilateral(mesh, block, element, place);
-  }
+  if (block.shape == Shape::quadrilateral) return inside_quadrilateral(mesh, block, element, place);
   if (block.order == 3) return inside_cubic_triangle(mesh, block, element);
   throw Error(
       fmt::format("element {} is a triangle of order {} without inner nodes; set "
@@ -76,9 +74,8 @@ void add_inner_nodes(Mesh& mesh)
       const auto place = static_cast<int>(k % block.nodes_per_element);
       const Vector x = inner_position(mesh, block, element, place);
       block.nodes[k] = mesh.n_nodes();
-      if (block.group[element] >= 0) {
+      if (block.group[element] >= 0)
         mesh.groups[block.group[element]].nodes.push_back(mesh.n_nodes());
-      }
       mesh.node_numbers.push_back(++number);
       mesh.positions.push_back(x);
     }

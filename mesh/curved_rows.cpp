@@ -71,9 +71,8 @@ void bend_triangles(Mesh& mesh, std::span<const CurvedRow> rows)
 {
   for (const ElementBlock& block : mesh.blocks) {
     if (block.shape != Shape::triangle || block.order < 2) continue;
-    for (int e = 0; e < block.n_elements(); ++e) {
+    for (int e = 0; e < block.n_elements(); ++e)
       for (const CurvedRow& row : rows) bend(mesh, block, e, row);
-    }
   }
 }
 

@@ -93,18 +93,16 @@ std::vector<Entity> find_entities(const EntityGroup& group)
   std::vector<Entity> found;
   for (const std::string& name : group.entities) {
     const std::size_t before = found.size();
-    for (const Entity& entity : all) {
+    for (const Entity& entity : all)
       if (entity_name(entity) == name || has_label(entity, name)) found.push_back(entity);
-    }
     if (found.size() > before) continue;
     std::ranges::reverse(all);  // surfaces first
     throw Error(fmt::format("group \"{}\": there is no entity \"{}\"; there are: {}", group.name,
                             name, list(all)));
   }
   const auto other = [&](const Entity& e) { return e.first != found.front().first; };
-  if (std::ranges::any_of(found, other)) {
+  if (std::ranges::any_of(found, other))
     throw Error(fmt::format("group \"{}\" mixes points, curves and surfaces", group.name));
-  }
   return found;
 }
 

@@ -139,9 +139,8 @@ class PatchInRows {
         along_[k][i] = add_curve(points_[k][i], points_[k][i + 1], Direction::path, i);
       }
     }
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) model.surfaces.push_back(add_surface(i, j));
-    }
     const auto all = [](const std::array<int, 3>& of) {
       return std::vector<int>(of.begin(), of.end());
     };

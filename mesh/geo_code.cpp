@@ -117,9 +117,8 @@ bool sets_algorithm_8_of_a_surface(const std::vector<std::string>& statements)
 std::string acting_command(const std::vector<std::string>& statements)
 {
   for (const char* command :
-       {"SystemCall", "NonBlockingSystemCall", "OnelabRun", "Save", "CreateDir"}) {
+       {"SystemCall", "NonBlockingSystemCall", "OnelabRun", "Save", "CreateDir"})
     if (has_word(statements, command)) return command;
-  }
   return any_of(statements, prints_into_a_file) ? "Printf(...) > FILE" : "";
 }
 

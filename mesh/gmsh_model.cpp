@@ -153,9 +153,8 @@ GroupOfEntity read_groups(Mesh& mesh, const NodeIndex& index,
       if (dim == 2 || is_line_group) {
         std::vector<int> entities;
         gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
-        for (const int e : entities) {
+        for (const int e : entities)
           group_of_entity.emplace(std::pair{dim, e}, static_cast<int>(mesh.groups.size()));
-        }
       }
       mesh.groups.push_back(std::move(group));
     }
@@ -192,9 +191,8 @@ void read_elements(Mesh& mesh, const NodeIndex& index, std::pair<int, int> entit
     for (std::size_t e = 0; e < numbers[t].size(); ++e) {
       block.numbers.push_back(static_cast<std::int64_t>(numbers[t][e]));
       block.group.push_back(group);
-      for (const int k : type.lattice) {
+      for (const int k : type.lattice)
         block.nodes.push_back(k < 0 ? -1 : index.at(nodes[t][e * type.n_nodes + k]));
-      }
     }
   }
 }
@@ -227,9 +225,7 @@ std::size_t n_elements(int dimension)
 void note_what_is_left_out(Mesh& mesh)
 {
   const std::size_t n_solids = n_elements(3);
-  if (n_solids > 0) {
-    mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
-  }
+  if (n_solids > 0) mesh.notes.push_back(fmt::format("{} solid elements are left out", n_solids));
   const auto empty = [](const Group& group) { return group.nodes.empty(); };
   for (const Group& group : mesh.groups) {
     if (!empty(group)) continue;
@@ -246,9 +242,7 @@ Mesh current_model(const std::vector<std::string>& line_groups)
   std::vector<std::pair<int, int>> surfaces;
   gmsh::model::getEntities(surfaces, 2);
   for (const auto& surface : surfaces) group_of_entity.emplace(surface, -1);  // in no group
-  for (const auto& [entity, group] : group_of_entity) {
-    read_elements(mesh, index, entity, group);
-  }
+  for (const auto& [entity, group] : group_of_entity) read_elements(mesh, index, entity, group);
   if (mesh.blocks.empty()) refuse_wrong_dimension();
   add_inner_nodes(mesh);
   drop_unused_nodes(mesh);

@@ -41,9 +41,8 @@ std::vector<Circle> disc_circles(const HatDiscOptions& o, const Circle& seat)
     const Circle inner = circles.back();
     circles.push_back(add_circle({.radius = o.inner_radius + *o.edge_row}, inner));
   }
-  for (const RingOptions& ring : o.rings) {
+  for (const RingOptions& ring : o.rings)
     circles.push_back(add_circle({.radius = ring.radius, .n_arcs = ring.nodes}, h));
-  }
   std::ranges::sort(circles, {}, &Circle::radius);
   return circles;
 }
@@ -173,9 +172,8 @@ void check_rings(const HatDiscOptions& o)
 void check_bolts(const HatDiscOptions& o)
 {
   if (!o.bolts) return;
-  if (o.pattern == Pattern::structured) {
+  if (o.pattern == Pattern::structured)
     throw Error("hat_disc: bolts need pattern = \"unstructured\" or \"triangles\"");
-  }
   const double c = o.bolts->circle_radius;
   const double r = o.bolts->hole_radius + o.edge_row.value_or(0.0);
   check_ascending({{"0", 0.0}, {"bolts.hole_radius", o.bolts->hole_radius}});

@@ -18,9 +18,8 @@ class Fnv1a {
   template <typename T>
   void add(std::span<const T> values)
   {
-    for (const std::byte b : std::as_bytes(values)) {
+    for (const std::byte b : std::as_bytes(values))
       state_ = (state_ ^ std::to_integer<std::uint64_t>(b)) * 1099511628211ULL;
-    }
   }
   std::uint64_t value() const { return state_; }
 
@@ -43,9 +42,8 @@ const Group& find_group(const Mesh& mesh, const std::string& name)
 void drop_unused_nodes(Mesh& mesh)
 {
   std::vector<int> renumbered(mesh.positions.size(), -1);
-  for (const ElementBlock& block : mesh.blocks) {
+  for (const ElementBlock& block : mesh.blocks)
     for (const int node : block.nodes) renumbered[node] = 0;
-  }
   int n = 0;
   for (std::size_t i = 0; i < renumbered.size(); ++i) {
     if (renumbered[i] < 0) continue;
@@ -55,9 +53,8 @@ void drop_unused_nodes(Mesh& mesh)
   }
   mesh.positions.resize(n);
   mesh.node_numbers.resize(n);
-  for (ElementBlock& block : mesh.blocks) {
+  for (ElementBlock& block : mesh.blocks)
     for (int& node : block.nodes) node = renumbered[node];
-  }
   for (Group& group : mesh.groups) {
     for (int& node : group.nodes) node = renumbered[node];
     std::erase(group.nodes, -1);

@@ -84,9 +84,10 @@ void check_nodes(const Mesh& mesh)
   require(mesh.positions.size() < std::size_t(1) << 31, "more nodes than can be counted");
   require(std::ranges::all_of(mesh.node_numbers, [](std::int64_t number) { return number > 0; }),
           "a node whose number is not positive");
-  for (const auto& x : mesh.positions)
+  for (const auto& x : mesh.positions) {
     require(std::ranges::all_of(x, [](double c) { return std::isfinite(c); }),
             "a node whose coordinates are not finite");
+  }
 }
 
 /// Indices from `first` up to the number of things that they count.

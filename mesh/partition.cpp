@@ -44,9 +44,8 @@ std::vector<idx_t> element_parts(const Mesh& mesh, int n_parts)
 {
   CornerLists lists = corner_lists(mesh);
   auto n_elements = static_cast<idx_t>(lists.start.size() - 1);
-  if (n_elements < n_parts) {
+  if (n_elements < n_parts)
     throw Error(fmt::format("the mesh has {} elements, too few for {} ranks", n_elements, n_parts));
-  }
   std::vector<idx_t> parts(n_elements, 0);
   if (n_parts == 1) return parts;
   auto n_nodes = static_cast<idx_t>(mesh.n_nodes());
@@ -71,11 +70,9 @@ std::vector<int> node_owners(const Mesh& mesh, int n_parts)
   std::vector<int> owners(mesh.n_nodes(), n_parts - 1);
   std::size_t element = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e, ++element) {
-      for (const int node : block.element_nodes(e)) {
+    for (int e = 0; e < block.n_elements(); ++e, ++element)
+      for (const int node : block.element_nodes(e))
         owners[node] = std::min(owners[node], static_cast<int>(parts[element]));
-      }
-    }
   }
   return owners;
 }

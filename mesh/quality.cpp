@@ -94,9 +94,8 @@ std::vector<AreaVector> area_vectors(const Mesh& mesh, const ElementBlock& block
 double scaled_jacobian(const std::vector<AreaVector>& vectors, Shape shape)
 {
   Vector sum{};
-  for (const AreaVector& v : vectors) {
+  for (const AreaVector& v : vectors)
     for (std::size_t c = 0; c < 3; ++c) sum[c] += v.n[c];
-  }
   const double best = shape == Shape::triangle ? std::sqrt(3.0) / 2.0 : 1.0;
   double least = std::numeric_limits<double>::infinity();
   for (const AreaVector& v : vectors) {

@@ -55,9 +55,8 @@ class Complaints {
     constexpr std::string_view error = "Error: ";
     std::vector<std::string> lines;
     gmsh::logger::get(lines);
-    for (const std::string& line : lines) {
+    for (const std::string& line : lines)
       if (line.starts_with(error)) throw Error("Gmsh: " + line.substr(error.size()));
-    }
   }
 };
 
@@ -94,9 +93,8 @@ Mesh read_here(const MeshOptions& options, const std::function<void()>& before_r
   Mesh mesh = mesh_with_gmsh(build, order, options.line_groups);
   mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
   const double metres = format == Format::step ? 1e-3 : options.length_unit;
-  for (auto& x : mesh.positions) {
+  for (auto& x : mesh.positions)
     for (double& coordinate : x) coordinate *= metres;
-  }
   return mesh;
 }
 

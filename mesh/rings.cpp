@@ -39,9 +39,8 @@ void check_only_one(const Mesh& mesh, const RingOptions& ring, const Nearest& fo
   const auto& x = mesh.positions[found.node];
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     const auto& p = mesh.positions[i];
-    if (i == found.node || std::hypot(p[0] - x[0], p[1] - x[1]) > found.distance + tolerance) {
+    if (i == found.node || std::hypot(p[0] - x[0], p[1] - x[1]) > found.distance + tolerance)
       continue;
-    }
     throw Error(fmt::format(
         "ring \"{}\": nodes {} and {} both stand on its circle, at z = {:.6g} and {:.6g} m; say "
         "which with z = ... in the ring",

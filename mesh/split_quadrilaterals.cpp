@@ -131,9 +131,8 @@ void split_block(Mesh& mesh, std::size_t b)
 Mesh split_flat_corners(Mesh mesh)
 {
   const std::size_t n_blocks = mesh.blocks.size();
-  for (std::size_t b = 0; b < n_blocks; ++b) {
+  for (std::size_t b = 0; b < n_blocks; ++b)
     if (mesh.blocks[b].shape == Shape::quadrilateral) split_block(mesh, b);
-  }
   std::erase_if(mesh.blocks, [](const ElementBlock& block) { return block.numbers.empty(); });
   return mesh;
 }

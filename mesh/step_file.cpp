@@ -82,10 +82,11 @@ void set_sizes(double element_size)
 {
   constexpr double most_across = 1e4;
   const double least = size_of_body() / most_across;
-  if (element_size < least)
+  if (element_size < least) {
     throw Error(fmt::format(
         "mesh.element_size = {} m is too small for a body of {:.3g} m; take {:.1g} m or more",
         element_size, most_across * least, least));
+  }
   gmsh::option::setNumber("Mesh.MeshSizeMax", element_size / mm);
   gmsh::option::setNumber("Mesh.MeshSizeMin", 0.02 * element_size / mm);
   // A cubic edge of 90 degrees folds its element over.

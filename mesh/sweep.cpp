@@ -73,9 +73,8 @@ void add_profile(Swept& swept, const Path& path, const Profile& profile)
   std::ranges::sort(first_nodes);
   first_nodes.erase(std::unique(first_nodes.begin(), first_nodes.end()), first_nodes.end());
   Group surface{.name = profile.group, .dimension = 2, .nodes = {}};
-  for (const int first : first_nodes) {
+  for (const int first : first_nodes)
     for (int k = 0; k < swept.n_columns; ++k) surface.nodes.push_back(first + k);
-  }
   swept.mesh.groups.push_back(std::move(surface));
 }
 
@@ -107,9 +106,8 @@ void add_row_group(Swept& swept, const Station& station, const std::string& name
 void add_column_group(Swept& swept, int k, const std::string& name)
 {
   Group column{.name = name, .dimension = 1, .nodes = {}};
-  for (int node = k; node < swept.mesh.n_nodes(); node += swept.n_columns) {
+  for (int node = k; node < swept.mesh.n_nodes(); node += swept.n_columns)
     column.nodes.push_back(node);
-  }
   swept.mesh.groups.push_back(std::move(column));
 }
 

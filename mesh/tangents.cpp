@@ -18,9 +18,8 @@ ValueSlope times(const ValueSlope& a, const ValueSlope& b)
 ValueSlope lagrange(int p, int k, double x)
 {
   ValueSlope product{1.0, 0.0};
-  for (int m = 0; m <= p; ++m) {
+  for (int m = 0; m <= p; ++m)
     if (m != k) product = times(product, {(p * x - m) / (k - m), double(p) / (k - m)});
-  }
   return product;
 }
 
@@ -28,9 +27,8 @@ ValueSlope lagrange(int p, int k, double x)
 ValueSlope below(int p, int k, double x)
 {
   ValueSlope product{1.0, 0.0};
-  for (int m = 0; m < k; ++m) {
+  for (int m = 0; m < k; ++m)
     product = times(product, {(p * x - m) / (m + 1), double(p) / (m + 1)});
-  }
   return product;
 }
 
@@ -56,9 +54,8 @@ NodeDerivatives of_quadrilateral(int p)
 std::vector<std::array<int, 2>> triangle_lattice(int p)
 {
   std::vector<std::array<int, 2>> lattice;
-  for (int row = 0; row <= p; ++row) {
+  for (int row = 0; row <= p; ++row)
     for (int column = 0; column <= p - row; ++column) lattice.push_back({column, row});
-  }
   return lattice;
 }
 

@@ -63,17 +63,16 @@ Scan scan(Mat A, const char* name)
   linear::for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
     result.row_sums[row - first] += std::abs(value);
     if (result.complaint) return;
-    if (!std::isfinite(value)) {
+    if (!std::isfinite(value))
       result.complaint = fmt::format(
           "CMSSetOperators: {}[{}, {}] = {} is not finite; look at what "
           "assembled it",
           name, row, column, value);
-    } else if (row == column && value < 0.0) {
+    else if (row == column && value < 0.0)
       result.complaint = fmt::format(
           "CMSSetOperators: {}[{}, {}] = {:g} is negative, so {} is "
           "indefinite; K and M must be positive semidefinite",
           name, row, column, value, name);
-    }
   });
   return result;
 }

@@ -49,9 +49,8 @@ PetscErrorCode CMSInitializePackage()
   if (CMS_CLASSID != 0) PetscFunctionReturn(0);
   PetscCall(EPSInitializePackage());
   PetscCall(PetscClassIdRegister("Component Mode Synthesis", &CMS_CLASSID));
-  for (const NamedEvent& named : named_events) {
+  for (const NamedEvent& named : named_events)
     PetscCall(PetscLogEventRegister(named.name, CMS_CLASSID, &(events.*named.event)));
-  }
   PetscCall(PetscLogStageRegister("CMS set-up", &events.stage_set_up));
   PetscCall(PetscLogStageRegister("CMS solve", &events.stage_solve));
   PetscCall(PetscRegisterFinalize(forget_package));

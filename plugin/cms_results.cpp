@@ -25,11 +25,9 @@ petsc::Matrix distributed(const Eigen::MatrixXd& A, const std::vector<int>& plac
   petsc::check(MatGetOwnershipRange(B, &first, &last));
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(B, &values));
-  for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt i = first; i < last; ++i) {
+  for (PetscInt j = 0; j < n; ++j)
+    for (PetscInt i = first; i < last; ++i)
       values[i - first + std::size_t(j) * (last - first)] = A(places[i], places[j]);
-    }
-  }
   petsc::check(MatDenseRestoreArrayWrite(B, &values));
   petsc::check(MatSetOption(B, MAT_SYMMETRIC, PETSC_TRUE));
   return B;
@@ -84,9 +82,8 @@ petsc::Matrix whole_transformation(const reduce::FactoredBody& body,
   petsc::check(MatDenseGetArray(T, &values));
   for (std::size_t j = 0; j < places.size(); ++j) {
     PetscScalar* column = values + j * n_local;
-    for (std::size_t m = 0; m < masters.size(); ++m) {
+    for (std::size_t m = 0; m < masters.size(); ++m)
       column[masters[m] - first] = places[j] == first_master + static_cast<int>(m) ? 1.0 : 0.0;
-    }
     for (std::size_t s = 0; s < slaves.size(); ++s) {
       const auto row = static_cast<PetscInt>(s);
       column[slaves[s] - first] =
@@ -120,11 +117,9 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
       dense_rows(comm, static_cast<PetscInt>(own.size()), static_cast<PetscInt>(places.size()));
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArray(T, &values));
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    for (std::size_t i = 0; i < own.size(); ++i) {
+  for (std::size_t j = 0; j < places.size(); ++j)
+    for (std::size_t i = 0; i < own.size(); ++i)
       values[i + j * own.size()] = rows(first + static_cast<PetscInt>(i), places[j]);
-    }
-  }
   petsc::check(MatDenseRestoreArray(T, &values));
   return T;
 }

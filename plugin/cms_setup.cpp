@@ -39,9 +39,8 @@ std::vector<PetscInt> checked_ascending(std::vector<PetscInt> masters, PetscInt 
                             masters.front() < 0 ? masters.front() : masters.back(), n - 1));
   }
   const auto twin = std::ranges::adjacent_find(masters);
-  if (twin != masters.end()) {
+  if (twin != masters.end())
     throw Error(fmt::format("CMSSetInterface: master {} is given twice", *twin));
-  }
   return masters;
 }
 

@@ -43,12 +43,9 @@ void view_modes(const Result& result, PetscViewer viewer)
                                  : fmt::format("{:>16}", "-");
     print(viewer, fmt::format("{:6} {:16.8g} {}{}", i + 1, result.f_Hz[i], eta2, bound));
   }
-  if (n > most_lines) {
-    print(viewer, fmt::format("  ... {} more", n - most_lines));
-  }
-  if (!certificate.eta2.empty()) {
+  if (n > most_lines) print(viewer, fmt::format("  ... {} more", n - most_lines));
+  if (!certificate.eta2.empty())
     print(viewer, fmt::format("  largest eta^2 {:.2e}", std::ranges::max(certificate.eta2)));
-  }
 }
 
 /// Modes beyond the number asked for belong to the last one: a frequency that a disc has twice is
@@ -93,11 +90,10 @@ void view_state(CMS cms, PetscViewer viewer)
     chladni::petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
     print(viewer, fmt::format("rows: {}, masters: {}", n, in.set_up->body.masters.size()));
   }
-  if (in.result) {
+  if (in.result)
     view_result(*in.result, in.settings.options.basis, viewer);
-  } else {
+  else
     print(viewer, "not solved yet");
-  }
 }
 
 PetscErrorCode view_ascii(CMS cms, PetscViewer viewer)

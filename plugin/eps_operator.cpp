@@ -80,9 +80,7 @@ bool inverts(EPS eps)
 
 linear::BlockOperator operator_of(EPS eps)
 {
-  if (!inverts(eps)) {
-    return [eps](Mat Q, Mat, Mat Y) { apply_by_columns(eps->st, Q, Y); };
-  }
+  if (!inverts(eps)) return [eps](Mat Q, Mat, Mat Y) { apply_by_columns(eps->st, Q, Y); };
   check_factor(eps);
   return [eps](Mat, Mat BQ, Mat Y) { petsc::check(STMatMatSolve(eps->st, BQ, Y)); };
 }

@@ -62,12 +62,10 @@ MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
     if (const auto m = masters.find(dofs[i])) rows(i, first_master + *m) = 1.0;
     if (const auto s = slaves.find(dofs[i])) own.emplace_back(i, *s);
   }
-  for (PetscInt j = 0; j < n_m; ++j) {
+  for (PetscInt j = 0; j < n_m; ++j)
     for (const auto& [i, s] : own) rows(i, j) = Psi(s, j);
-  }
-  for (PetscInt j = 0; j < Q_CB.n_modes(); ++j) {
+  for (PetscInt j = 0; j < Q_CB.n_modes(); ++j)
     for (const auto& [i, s] : own) rows(i, n_m + j) = (*Phi)(s, j);
-  }
   linear::sum_over_ranks(linear::values_of(rows), petsc::communicator(Q_CB.Psi));
   return rows;
 }

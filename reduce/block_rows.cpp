@@ -41,11 +41,9 @@ petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like)
   petsc::Matrix X_s = linear::uninitialized_dense(like, x.n_cols());
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(X_s, &values));
-  for (PetscInt j = 0; j < x.n_cols(); ++j) {
-    for (PetscInt i = 0; i < slaves.size(); ++i) {
+  for (PetscInt j = 0; j < x.n_cols(); ++j)
+    for (PetscInt i = 0; i < slaves.size(); ++i)
       values[i + std::size_t(j) * slaves.size()] = x(slaves.rows[i], j);
-    }
-  }
   petsc::check(MatDenseRestoreArrayWrite(X_s, &values));
   return X_s;
 }
@@ -56,11 +54,9 @@ MatrixXd master_rows(Mat X, const DofPartition& dofs)
   MatrixXd X_m = MatrixXd::Zero(masters.n_all, linear::LocalRows(X).n_cols());
   {
     const linear::LocalRows x(X);
-    for (PetscInt j = 0; j < x.n_cols(); ++j) {
-      for (PetscInt i = 0; i < masters.size(); ++i) {
+    for (PetscInt j = 0; j < x.n_cols(); ++j)
+      for (PetscInt i = 0; i < masters.size(); ++i)
         X_m(masters.before + i, j) = x(masters.rows[i], j);
-      }
-    }
   }
   linear::sum_over_ranks(linear::values_of(X_m), petsc::communicator(X));
   return X_m;
@@ -77,9 +73,8 @@ void set_rows(Mat X, const DofPartition& dofs, const MatrixXd& X_m, Mat X_s)
   for (PetscInt j = 0; j < x_s.n_cols(); ++j) {
     PetscScalar* column = values + std::size_t(j) * ld;
     for (PetscInt i = 0; i < slaves.size(); ++i) column[slaves.rows[i]] = x_s(i, j);
-    for (PetscInt i = 0; i < masters.size(); ++i) {
+    for (PetscInt i = 0; i < masters.size(); ++i)
       column[masters.rows[i]] = X_m(masters.before + i, j);
-    }
   }
   petsc::check(MatDenseRestoreArray(X, &values));
 }

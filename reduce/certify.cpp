@@ -51,9 +51,8 @@ SupportedModes modes_everywhere(const Support& support, const ReducedModel& mode
   modes.n_zero = numbers[1];
   modes.n_free_zero = numbers[2];
   broadcast(modes.pairs.lambda, comm);
-  if (petsc::rank(comm) != 0) {
+  if (petsc::rank(comm) != 0)
     modes.pairs.X = MatrixXd(model.K.rows(), std::ssize(modes.pairs.lambda));
-  }
   linear::broadcast_numbers(linear::values_of(modes.pairs.X), comm);
   return modes;
 }
@@ -64,9 +63,8 @@ SpectrumRange certified_range(const ReduceOptions& options, const ReducedModel& 
   // Copies of the last eigenvalue belong to the range whatever round-off makes of them.
   constexpr double same_value = 1.0 + 1e-9;
   const auto up_to = [](double omega) { return omega * omega * same_value; };
-  if (options.tolerance) {  // which holds for all of them
+  if (options.tolerance)  // which holds for all of them
     return {.lambda_max = up_to(2.0 * std::numbers::pi * options.tolerance->up_to_Hz)};
-  }
   if (options.certified_up_to_Hz) {
     return {.lambda_max = up_to(2.0 * std::numbers::pi * *options.certified_up_to_Hz),
             .most = most};

@@ -120,9 +120,8 @@ std::vector<double> error_bounds(const std::vector<double>& lambda, const Matrix
   while (bounds.size() < lambda.size()) {
     const std::size_t first = bounds.size();
     const std::vector<double> upper = upper_bounds(lambda, residuals, first, 1.0 / sigma);
-    for (std::size_t i = first; i < lambda.size() && lambda[i] <= reach * lambda[first]; ++i) {
+    for (std::size_t i = first; i < lambda.size() && lambda[i] <= reach * lambda[first]; ++i)
       bounds.push_back(std::max(0.0, upper[i - first] * lambda[i] - 1.0));
-    }
   }
   return bounds;
 }
@@ -169,9 +168,8 @@ Completeness count_modes(ReducedSpectrum ritz,
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };
   result.range = count(shift_above(ritz.lambda, k));
   EigenvalueCount last = result.range;
-  for (std::size_t end = k; last.missing() != 0 && end >= 4; end /= 2) {
+  for (std::size_t end = k; last.missing() != 0 && end >= 4; end /= 2)
     last = count(shift_in_gap(ritz, end / 2, end));
-  }
   if (last.missing() != 0) return result;
   result.complete = last;
   result.bounds = bounds_below(ritz, last.sigma);
@@ -181,9 +179,8 @@ Completeness count_modes(ReducedSpectrum ritz,
     const EigenvalueCount lower = count(shift_in_gap(ritz, end / 2, end));
     if (lower.missing() != 0 || lower.sigma >= last.sigma) continue;
     const std::vector<double> bounds = bounds_below(ritz, lower.sigma);
-    for (std::size_t i = 0; i < bounds.size() && i < result.bounds.size(); ++i) {
+    for (std::size_t i = 0; i < bounds.size() && i < result.bounds.size(); ++i)
       result.bounds[i] = std::min(result.bounds[i], bounds[i]);
-    }
   }
   return result;
 }

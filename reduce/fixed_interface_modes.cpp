@@ -57,9 +57,7 @@ FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat
 {
   ModeSearch search(K_ss, M_ss, require_memory);
   if (wanted.modes) return modes_by_number(search, *wanted.modes);
-  if (wanted.cutoff_Hz) {
-    return modes_below(search, 2.0 * std::numbers::pi * *wanted.cutoff_Hz);
-  }
+  if (wanted.cutoff_Hz) return modes_below(search, 2.0 * std::numbers::pi * *wanted.cutoff_Hz);
   throw Error("fixed_interface_modes: give the number of modes or cutoff_Hz");
 }
 

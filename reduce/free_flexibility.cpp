@@ -30,25 +30,21 @@ MatrixXd pseudo_inverse(const GuyanStiffness& K_G)
     scale.push_back(k > 0.0 ? 1.0 / std::sqrt(k) : 1.0);
   }
   MatrixXd scaled = K_G.K;
-  for (PetscInt j = 0; j < n; ++j) {
+  for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
-  }
   const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(scaled));
   MatrixXd V = MatrixXd::Zero(n, n - r);  // of the others, times lambda^(-1/2)
-  for (Eigen::Index k = r; k < n; ++k) {
-    for (PetscInt i = 0; i < n; ++i) {
+  for (Eigen::Index k = r; k < n; ++k)
+    for (PetscInt i = 0; i < n; ++i)
       V(i, k - r) = scale[i] * eigen.vectors(i, k) / std::sqrt(eigen.values[k]);
-    }
-  }
   return linear::product(V, V.transpose());
 }
 
 double form(const MatrixXd& G, const MatrixXd& S, PetscInt i, PetscInt j)
 {
   double sum = 0.0;
-  for (PetscInt b = 0; b < G.cols(); ++b) {
+  for (PetscInt b = 0; b < G.cols(); ++b)
     for (PetscInt a = 0; a < G.rows(); ++a) sum += S(a, i) * G(a, b) * S(b, j);
-  }
   return sum;
 }
 

@@ -66,9 +66,8 @@ linear::EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility&
     for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) pairs.lambda.push_back(lanczos.lambda(i));
     const PetscInt n_found = lanczos.n_pairs(), n_taken = n_wanted(wanted, pairs.lambda);
     const bool are_all = n_found < n_asked;
-    if (are_all && !(wanted.modes && n_taken <= n_found)) {
+    if (are_all && !(wanted.modes && n_taken <= n_found))
       lanczos.require_resolved(wanted.modes ? linear::all_of_them : lambda_max(wanted));
-    }
     if (n_taken > n_found) {
       throw Error(
           fmt::format("free_interface_modes: {} of {} elastic modes found; there are no more",
@@ -87,9 +86,7 @@ petsc::Matrix beside(Mat R, Mat X, PetscInt k)
 {
   const PetscInt r = linear::LocalRows(R).n_cols();
   petsc::Matrix both = linear::uninitialized_dense(R, r + k);
-  if (r > 0) {
-    petsc::check(MatCopy(R, linear::ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
-  }
+  if (r > 0) petsc::check(MatCopy(R, linear::ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
   if (k > 0) {
     petsc::check(MatCopy(linear::ColumnRange(X, 0, k), linear::ColumnRange(both, r, r + k),
                          SAME_NONZERO_PATTERN));
@@ -109,9 +106,8 @@ MatrixXd gram(Mat T, Mat A)
 std::vector<double> lengths(const MatrixXd& G)
 {
   std::vector<double> lengths;
-  for (PetscInt i = 0; i < G.rows(); ++i) {
+  for (PetscInt i = 0; i < G.rows(); ++i)
     lengths.push_back(G(i, i) > 0.0 ? std::sqrt(G(i, i)) : 1.0);
-  }
   return lengths;
 }
 
@@ -127,9 +123,8 @@ petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
     const Mat from = pass == 0 ? T : Mat(Q);
     const MatrixXd G = gram(from, K);
     std::vector<double> units = lengths(G);
-    for (std::size_t i = 0; i < units.size() && pass == 0; ++i) {
+    for (std::size_t i = 0; i < units.size() && pass == 0; ++i)
       units[i] = std::max(units[i], round_off / dependent * sizes[i]);
-    }
     const linear::Orthonormalisation o =
         linear::orthonormalisation(G, units, dependent, petsc::communicator(K));
     petsc::Matrix orthonormal = linear::uninitialized_dense(K, o.to_Q.cols());

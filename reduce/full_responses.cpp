@@ -135,9 +135,8 @@ Ritz ritz_of(linear::BlockBasis& basis, PetscInt n_before, PetscInt n, Mat K)
   linear::SymmetricEigen ritz =
       linear::symmetric_eigen(linear::inner_product(Q, K_Q), petsc::communicator(K));
   MatrixXd S = MatrixXd::Zero(basis.n_columns(), n);
-  for (PetscInt j = 0; j < n; ++j) {
+  for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) S(n_before + i, j) = ritz.vectors(i, j);
-  }
   return {.X = basis.combine(S), .lambda = std::move(ritz.values)};
 }
 

@@ -97,9 +97,8 @@ MatrixXd GrowingModel::G(PetscInt n) const
   const double sign = n > n_first_ ? -1.0 : 1.0;
   for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
     const double factor = sign / (omega_[k] * omega_[k]);
-    for (PetscInt j = 0; j < G_n.cols(); ++j) {
+    for (PetscInt j = 0; j < G_n.cols(); ++j)
       for (PetscInt i = 0; i < G_n.rows(); ++i) G_n(i, j) += factor * P_(k, i) * P_(k, j);
-    }
   }
   return G_n;
 }
@@ -119,9 +118,8 @@ std::vector<double> GrowingModel::error_estimates(const ReducedPairs& pairs, Pet
   std::vector<double> eta2;
   for (PetscInt j = 0; j < pairs.X.cols(); ++j) {
     double sum = 0.0;
-    for (PetscInt c = 0; c < n_m; ++c) {
+    for (PetscInt c = 0; c < n_m; ++c)
       for (PetscInt r = 0; r < n_m; ++r) sum += pairs.X(r, j) * G_(r, c) * pairs.X(c, j);
-    }
     for (PetscInt k = std::min(n, n_first_); k < std::max(n, n_first_); ++k) {
       double P_x = 0.0;
       for (PetscInt i = 0; i < n_m; ++i) P_x += P_(k, i) * pairs.X(i, j);

@@ -38,18 +38,16 @@ std::vector<double> row_scales(const MatrixXd& K_mm)
   for (PetscInt i = 0; i < K_mm.rows(); ++i) largest = std::max(largest, K_mm(i, i));
   if (largest == 0.0) largest = 1.0;
   std::vector<double> scales;
-  for (PetscInt i = 0; i < K_mm.rows(); ++i) {
+  for (PetscInt i = 0; i < K_mm.rows(); ++i)
     scales.push_back(std::sqrt(K_mm(i, i) > 0.0 ? K_mm(i, i) : largest));
-  }
   return scales;
 }
 
 /// Eigenpairs of K_G scaled, those of the first rank on all ranks.
 linear::SymmetricEigen energies_of(MatrixXd K_G, const std::vector<double>& scales, MPI_Comm comm)
 {
-  for (PetscInt j = 0; j < K_G.cols(); ++j) {
+  for (PetscInt j = 0; j < K_G.cols(); ++j)
     for (PetscInt i = 0; i < K_G.rows(); ++i) K_G(i, j) /= scales[i] * scales[j];
-  }
   linear::SymmetricEigen eigen{.values = std::vector<double>(K_G.rows()), .vectors = K_G};
   if (petsc::rank(comm) == 0) eigen = linear::symmetric_eigen(std::move(K_G));
   linear::broadcast_numbers(eigen.values, comm);
@@ -73,9 +71,8 @@ MatrixXd energies_of_rows(const linear::SymmetricEigen& eigen, const std::vector
                           PetscInt k, Mat Psi, Mat K_ss)
 {
   MatrixXd Z = MatrixXd::Zero(eigen.vectors.rows(), k);
-  for (PetscInt j = 0; j < k; ++j) {
+  for (PetscInt j = 0; j < k; ++j)
     for (PetscInt i = 0; i < Z.rows(); ++i) Z(i, j) = eigen.vectors(i, j) / scales[i];
-  }
   const petsc::Matrix U = linear::uninitialized_dense(Psi, k);
   petsc::check(MatZeroEntries(U));
   linear::add_product(1.0, Psi, Z, U);
@@ -93,9 +90,8 @@ MatrixXd energies_of_rows(const linear::SymmetricEigen& eigen, const std::vector
 MatrixXd inverse_root(const MatrixXd& N)
 {
   linear::SymmetricEigen eigen = linear::symmetric_eigen(N);
-  for (PetscInt j = 0; j < N.cols(); ++j) {
+  for (PetscInt j = 0; j < N.cols(); ++j)
     for (PetscInt i = 0; i < N.rows(); ++i) eigen.vectors(i, j) /= std::sqrt(eigen.values[j]);
-  }
   return eigen.vectors;
 }
 
@@ -129,9 +125,8 @@ Combinations combinations(const std::vector<double>& energies, const MatrixXd& N
   const MatrixXd S = inverse_root(N);
   MatrixXd C = MatrixXd::Zero(N.rows(), N.rows());
   for (PetscInt j = 0; j < C.cols(); ++j) {
-    for (PetscInt i = 0; i < C.rows(); ++i) {
+    for (PetscInt i = 0; i < C.rows(); ++i)
       for (PetscInt k = 0; k < C.rows(); ++k) C(i, j) += S(k, i) * energies[k] * S(k, j);
-    }
   }
   const linear::SymmetricEigen share = linear::symmetric_eigen(std::move(C));
   Combinations found{
@@ -168,21 +163,18 @@ MatrixXd without_motions(const MatrixXd& K_G, const MatrixXd& U, const std::vect
     return K_G(i, j) / (scales[i] * scales[j]);
   };
   for (PetscInt k = 0; k < r; ++k) {
-    for (PetscInt j = 0; j < n; ++j) {
+    for (PetscInt j = 0; j < n; ++j)
       for (PetscInt i = 0; i < n; ++i) AU(i, k) += scaled(i, j) * U(j, k);
-    }
-    for (PetscInt l = 0; l < r; ++l) {
+    for (PetscInt l = 0; l < r; ++l)
       for (PetscInt i = 0; i < n; ++i) half(l, k) += 0.5 * U(i, l) * AU(i, k);
-    }
   }
   const MatrixXd share = linear::product(U, half);
   MatrixXd K = MatrixXd::Zero(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
       double value = scaled(i, j);
-      for (PetscInt k = 0; k < r; ++k) {
+      for (PetscInt k = 0; k < r; ++k)
         value -= (AU(i, k) - share(i, k)) * U(j, k) + U(i, k) * (AU(j, k) - share(j, k));
-      }
       K(i, j) = value;
     }
   }
@@ -226,9 +218,8 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
   guyan.K = without_motions(guyan.K, U, scales);
   linear::broadcast_numbers(linear::values_of(guyan.K), comm);
   guyan.R = U;
-  for (PetscInt j = 0; j < U.cols(); ++j) {
+  for (PetscInt j = 0; j < U.cols(); ++j)
     for (PetscInt i = 0; i < U.rows(); ++i) guyan.R(i, j) /= scales[i];
-  }
   return guyan;
 }
 

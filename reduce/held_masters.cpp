@@ -19,9 +19,8 @@ MatrixXd zero_energy_motions(const ReducedModel& model)
   const Index n_m = R.rows(), r = R.cols();
   if (r == 0) return MatrixXd(M.rows(), 0);
   const Eigen::LLT<MatrixXd> mass(MatrixXd(R.transpose() * M.topLeftCorner(n_m, n_m) * R));
-  if (mass.info() != Eigen::Success) {
+  if (mass.info() != Eigen::Success)
     throw Error("a motion has neither stiffness nor mass; the pencil (K, M) is singular");
-  }
   MatrixXd Z = MatrixXd::Zero(M.rows(), r);
   Z.topRows(n_m) = mass.matrixL().solve(R.transpose()).transpose();
   return Z;
@@ -53,9 +52,8 @@ MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
 std::vector<int> all_but(const std::vector<int>& rows, Index n)
 {
   std::vector<int> others;
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i)
     if (!std::ranges::binary_search(rows, i)) others.push_back(i);
-  }
   return others;
 }
 

@@ -44,9 +44,8 @@ double largest_residual(const FixedInterfaceModes& modes, Mat K_ss, Mat M_ss)
     K.apply(linear::ColumnRange(modes.Phi, first, last), K_Phi);
     M.apply(linear::ColumnRange(modes.Phi, first, last), M_Phi);
     const MatrixXd lengths = squared_lengths(K_Phi, M_Phi, modes.omega.data() + first);
-    for (PetscInt j = 0; j < lengths.cols(); ++j) {
+    for (PetscInt j = 0; j < lengths.cols(); ++j)
       largest = std::max(largest, std::sqrt(lengths(0, j) / lengths(1, j)));
-    }
   }
   return largest;
 }

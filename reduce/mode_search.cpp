@@ -97,9 +97,8 @@ ModeSearch::ModeSearch(const linear::Factorization& K_ss, Mat M_ss, MemoryCheck 
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
   const linear::LanczosOptions& options = K_ss.options().lanczos;
-  if (options.solver == linear::ModeSolver::block_lanczos) {
+  if (options.solver == linear::ModeSolver::block_lanczos)
     lanczos_.emplace(K_ss.factor(), M_ss, block_options(options));
-  }
 }
 
 void ModeSearch::find_by_krylov_schur(PetscInt n)
@@ -118,9 +117,8 @@ void ModeSearch::find_all(PetscInt n)
   if (lanczos_) {
     lanczos_->converge(n);
     omega_.clear();
-    for (PetscInt i = 0; i < lanczos_->n_pairs(); ++i) {
+    for (PetscInt i = 0; i < lanczos_->n_pairs(); ++i)
       omega_.push_back(angular_frequency(lanczos_->lambda(i)));
-    }
   } else {
     find_by_krylov_schur(n);
   }

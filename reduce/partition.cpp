@@ -45,9 +45,8 @@ void keep_block_size(Mat K, IS slaves)
   petsc::check(MatGetBlockSize(K, &block_size));
   const std::vector<PetscInt> s = sorted_indices(slaves);
   int whole = s.size() % block_size == 0 ? 1 : 0;
-  for (std::size_t i = 0; whole == 1 && i < s.size(); i += block_size) {
+  for (std::size_t i = 0; whole == 1 && i < s.size(); i += block_size)
     if (s[i] % block_size != 0 || s[i + block_size - 1] != s[i] + block_size - 1) whole = 0;
-  }
   MPI_Allreduce(MPI_IN_PLACE, &whole, 1, MPI_INT, MPI_MIN, petsc::communicator(K));
   if (whole == 1) petsc::check(ISSetBlockSize(slaves, block_size));
 }

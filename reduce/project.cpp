@@ -16,9 +16,8 @@ constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough 
 template <typename Work>
 void for_column_blocks(PetscInt n_columns, const Work& work)
 {
-  for (PetscInt first = 0; first < n_columns; first += block_columns) {
+  for (PetscInt first = 0; first < n_columns; first += block_columns)
     work(first, std::min(first + block_columns, n_columns));
-  }
 }
 
 PetscInt n_columns(Mat A)

@@ -56,9 +56,10 @@ petsc::Matrix take_rows(Mat X, const std::vector<PetscInt>& rows)
   petsc::check(MatDenseGetArrayRead(X, &from));
   petsc::check(MatDenseGetArrayWrite(taken, &to));
   for (PetscInt j = 0; j < n_columns; ++j) {
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       to[std::ptrdiff_t(j) * lda_taken + std::ptrdiff_t(i)] =
           from[std::ptrdiff_t(j) * lda + rows[i]];
+    }
   }
   petsc::check(MatDenseRestoreArrayWrite(taken, &to));
   petsc::check(MatDenseRestoreArrayRead(X, &from));

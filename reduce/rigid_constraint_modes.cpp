@@ -21,22 +21,18 @@ MatrixXd inverse_root(MatrixXd A, MPI_Comm comm)
 {
   constexpr double singular = 1e-12;
   std::vector<double> unit;
-  for (PetscInt i = 0; i < A.rows(); ++i) {
+  for (PetscInt i = 0; i < A.rows(); ++i)
     unit.push_back(A(i, i) > 0.0 ? 1.0 / std::sqrt(A(i, i)) : 0.0);
-  }
-  for (PetscInt j = 0; j < A.cols(); ++j) {
+  for (PetscInt j = 0; j < A.cols(); ++j)
     for (PetscInt i = 0; i < A.rows(); ++i) A(i, j) *= unit[i] * unit[j];
-  }
   const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(A), comm);
   const auto n = static_cast<PetscInt>(eigen.values.size());
   const auto first = static_cast<PetscInt>(std::ranges::upper_bound(eigen.values, singular) -
                                            eigen.values.begin());
   MatrixXd root = MatrixXd::Zero(n, n - first);
-  for (PetscInt j = first; j < n; ++j) {
-    for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt j = first; j < n; ++j)
+    for (PetscInt i = 0; i < n; ++i)
       root(i, j - first) = unit[i] * eigen.vectors(i, j) / std::sqrt(eigen.values[j]);
-    }
-  }
   return root;
 }
 
@@ -74,9 +70,8 @@ MatrixXd unresisted(const MatrixXd& R_m, Mat R_s, const Blocks& K)
 MatrixXd weighted_inverse(const MatrixXd& R_m, const MatrixXd& K_mm, MPI_Comm comm)
 {
   MatrixXd WR = R_m;
-  for (PetscInt j = 0; j < WR.cols(); ++j) {
+  for (PetscInt j = 0; j < WR.cols(); ++j)
     for (PetscInt i = 0; i < WR.rows(); ++i) WR(i, j) *= std::max(K_mm(i, i), 0.0);
-  }
   const MatrixXd root = inverse_root(linear::product(R_m.transpose(), WR), comm);
   return linear::product(linear::product(root, root.transpose()), WR.transpose());
 }

@@ -42,9 +42,8 @@ double least_diagonal_ratio(Mat K, Mat M)
   petsc::check(VecGetArrayRead(k, &k_values));
   petsc::check(VecGetArrayRead(m, &m_values));
   double least = std::numeric_limits<double>::max();
-  for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt i = 0; i < n; ++i)
     if (m_values[i] > 0.0 && k_values[i] > 0.0) least = std::min(least, k_values[i] / m_values[i]);
-  }
   petsc::check(VecRestoreArrayRead(k, &k_values));
   petsc::check(VecRestoreArrayRead(m, &m_values));
   MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, petsc::communicator(K));
@@ -141,11 +140,9 @@ petsc::Matrix expand(Mat X, const FreeDofs& free, Mat K, PetscInt n)
   PetscScalar* values = nullptr;
   petsc::check(MatDenseGetArrayWrite(all, &values));
   std::fill_n(values, std::size_t(n_local) * n, 0.0);
-  for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt i = 0; i < n_free; ++i) {
+  for (PetscInt j = 0; j < n; ++j)
+    for (PetscInt i = 0; i < n_free; ++i)
       values[rows[i] - first + std::size_t(j) * n_local] = from(i, j);
-    }
-  }
   petsc::check(MatDenseRestoreArrayWrite(all, &values));
   petsc::check(ISRestoreIndices(free.indices, &rows));
   petsc::check(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
@@ -162,9 +159,8 @@ FreeDofs free_dofs(Mat K, const std::vector<int>& held)
   petsc::check(MatGetSize(K, &n, nullptr));
   if (std::ssize(held) >= n) throw Error("free_dofs: the supports hold all DOFs; nothing can move");
   std::vector<PetscInt> own;
-  for (PetscInt i = first; i < last; ++i) {
+  for (PetscInt i = first; i < last; ++i)
     if (!std::ranges::binary_search(held, i)) own.push_back(i);
-  }
   FreeDofs free;
   petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(own.size()),
                                own.data(), PETSC_COPY_VALUES, free.indices.put()));

@@ -15,9 +15,8 @@ constexpr double same_value = 1e-8;  // of frequencies of converged modes
 /// Whether `before` are the first values of `now`: a partner that a search finds late shifts them.
 bool begins_with(const std::vector<double>& now, const std::vector<double>& before)
 {
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::size_t i = 0; i < before.size(); ++i)
     if (std::abs(now[i] - before[i]) > same_value * before[i]) return false;
-  }
   return true;
 }
 
@@ -38,9 +37,8 @@ PetscInt ToleranceSearch::n_complete() const
   const std::vector<double>& omega = search_.omega();
   const auto n_all = static_cast<PetscInt>(omega.size());
   if (search_.has_all()) return n_all;
-  for (PetscInt n = n_all - 1; n > 0; --n) {
+  for (PetscInt n = n_all - 1; n > 0; --n)
     if (omega[n] - omega[n - 1] > pair_gap * omega[n]) return n;
-  }
   return n_all;
 }
 

@@ -56,26 +56,22 @@ TextTable quality_table(const mbs_export::Certificate& certificate)
   table.rows.push_back(
       {"largest estimated error of a frequency",
        fmt::format("{:.2e}", mbs_export::estimated_errors(certificate).maxCoeff())});
-  if (const auto limit = limit_by_rounding(certificate)) {
+  if (const auto limit = limit_by_rounding(certificate))
     table.rows.push_back({"limited by rounding to about", fmt::format("{:.0e}", *limit)});
-  }
   table.rows.push_back(
       {"zero-energy modes of the free body", fmt::format("{}", certificate.n_rigid)});
   if (certificate.n_rigid > 0) {
     table.rows.push_back({"their energy over the first elastic omega^2",
                           fmt::format("{:.1e}", certificate.rigid_residual)});
   }
-  if (certificate.condition > 0.0) {
+  if (certificate.condition > 0.0)
     table.rows.push_back({"condition of K_ss", fmt::format("{:.1e}", certificate.condition)});
-  }
   add_count(table, "fixed-interface modes", certificate.fixed_interface);
   add_count(table, "modes", certificate.range);
-  if (certificate.complete.up_to != certificate.range.up_to) {
+  if (certificate.complete.up_to != certificate.range.up_to)
     add_count(table, "modes", certificate.complete);
-  }
-  if (certificate.range.up_to == 0.0) {
+  if (certificate.range.up_to == 0.0)
     table.rows.push_back({"completeness", completeness_unchecked(certificate)});
-  }
   return table;
 }
 

@@ -57,12 +57,10 @@ void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch)
   }
   if (!branch.note.empty()) table.rows.push_back({"limit cycles over speed", branch.note, ""});
   if (branch.points.empty()) return;
-  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()}) {
+  for (const squeal::BranchPoint& end : {branch.points.front(), branch.points.back()})
     add(table, "pad velocity at " + spoken(end.speed), end.pad_velocity, "m/s");
-  }
-  for (const squeal::BranchPoint& fold : branch.folds) {
+  for (const squeal::BranchPoint& fold : branch.folds)
     add(table, "fold of the limit cycle at", fold.speed, "rad/s");
-  }
   if (branch.lost_below) add(table, "limit cycle lost below", *branch.lost_below, "rad/s");
   if (branch.lost_above) add(table, "limit cycle lost above", *branch.lost_above, "rad/s");
 }

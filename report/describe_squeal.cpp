@@ -156,9 +156,10 @@ void add_rotation_stability(TextTable& table, const squeal::RotationStability& s
   } else {
     const std::string why = none_because(squeal::stability_of(stability), "speeds");
     table.rows.push_back({"critical speed (rotation)", why, ""});
-    if (stability.growth.minCoeff() > 0.0)
+    if (stability.growth.minCoeff() > 0.0) {
       add(table, "least growth rate over the speeds (rotation)", stability.growth.minCoeff(),
           "1/s");
+    }
   }
   add_rotation_method(table, stability);
 }
@@ -184,13 +185,12 @@ void add_sensitivity(TextTable& table, const squeal::ModeSensitivity& sensitivit
   for (const squeal::ModeInfluence& mode : sensitivity.influences) {
     const std::string name =
         fmt::format("{:.1f} Hz, {} nodal diameters", mode.frequency_Hz, mode.nodal_diameters);
-    if (!mode.growth_without) {
+    if (!mode.growth_without)
       add(table, "critical mode: " + name, 100.0 * mode.participation, "% of its energy");
-    } else if (mode.critical_speed_without) {
+    else if (mode.critical_speed_without)
       add(table, "critical speed without " + name, *mode.critical_speed_without, "rad/s");
-    } else {
+    else
       add(table, "growth without " + name, *mode.growth_without, "1/s");
-    }
   }
 }
 
@@ -230,9 +230,8 @@ TextTable describe(const squeal::SquealResults& results)
 {
   TextTable table = quantities();
   add_missing(table, results);
-  if (results.eigenvalues) {
+  if (results.eigenvalues)
     add_count(table, "speeds with eigenvalues", results.eigenvalues->speeds.size());
-  }
   add_critical_speed(table, results);
   for (const squeal::CriticalValue& value : results.critical_values) add_critical(table, value);
   if (results.stability_table) add_unstable_modes(table, *results.stability_table);
@@ -240,9 +239,7 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.rotation_stability)
     add_rotation_stability(table, *results.rotation_stability, results.wheel_radius);
   if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
-  for (const squeal::Growth& growth : results.growth) {
-    add_growth(table, growth);
-  }
+  for (const squeal::Growth& growth : results.growth) add_growth(table, growth);
   if (results.transient) add_transient(table, *results.transient);
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
   if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);

@@ -24,9 +24,10 @@ constexpr double least_share = 0.05;
 /// "unstable at all speeds" or "unstable from 13.4 to 62.8 rad/s".
 std::string where(const StabilityTable& table, const StabilityBranch& branch)
 {
-  if (is_always_unstable(table, branch))
+  if (is_always_unstable(table, branch)) {
     return "unstable at all " +
            (table.parameter == "speed" ? "speeds" : table.parameter + " values");
+  }
   const std::string unit = squeal::unit_of(table.parameter);
   std::vector<std::string> intervals;
   for (const squeal::UnstableInterval& interval : branch.unstable)
@@ -124,12 +125,13 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
 Json stability_table_json(const StabilityTable& stability)
 {
   std::vector<Json> families, branches;
-  for (const squeal::ModeFamily& family : stability.families)
+  for (const squeal::ModeFamily& family : stability.families) {
     families.push_back(Json::object(
         {{"nodal_diameters", family.nodal_diameters},
          {"frequency_Hz", family.frequency_Hz},
          {"nodal_circles", family.nodal_circles ? Json(*family.nodal_circles) : Json()},
          {"in_plane", family.in_plane ? Json(*family.in_plane) : Json()}}));
+  }
   for (const StabilityBranch& branch : stability.branches)
     branches.push_back(branch_json(stability, branch));
   const auto& band = stability.band;

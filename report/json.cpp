@@ -42,9 +42,8 @@ Json Json::array(const std::vector<Json>& elements)
 {
   Json json;
   json.text_ = "[";
-  for (const Json& element : elements) {
+  for (const Json& element : elements)
     json.text_ += (json.text_.size() > 1 ? ", " : "") + element.text_;
-  }
   json.text_ += "]";
   return json;
 }
@@ -53,9 +52,8 @@ Json Json::object(const std::vector<Member>& members)
 {
   Json json;
   json.text_ = "{";
-  for (const auto& [name, value] : members) {
+  for (const auto& [name, value] : members)
     json.text_ += (json.text_.size() > 1 ? ", " : "") + in_quotes(name) + ": " + value.text_;
-  }
   json.text_ += "}";
   return json;
 }

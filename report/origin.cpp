@@ -117,9 +117,10 @@ void require_of_scene(const scene::Scene& scene, const Read& read, Stale stale)
   if (verdict.changes.empty()) return;
   const std::string what = fmt::format("{} was made before these changes of {}: {}",
                                        read.file.string(), scene.path, list_of(verdict.changes));
-  if (stale == Stale::refuse)
+  if (stale == Stale::refuse) {
     throw Error(fmt::format("{}; make it anew by {}, or take it as it is with --stale", what,
                             verdict.remedy));
+  }
   fmt::print(stderr, "{}\n", printable(what));
 }
 

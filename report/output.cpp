@@ -15,8 +15,8 @@ namespace {
 /// Cells may hold UTF-8; a continuation byte takes no column.
 std::size_t width(std::string_view text)
 {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
 }
 
 std::vector<std::size_t> column_widths(const TextTable& table)
@@ -33,9 +33,8 @@ std::string format_row(const std::vector<std::string>& cells,
                        const std::vector<std::size_t>& widths)
 {
   std::string line = cells[0] + std::string(widths[0] - width(cells[0]), ' ');
-  for (std::size_t j = 1; j < cells.size(); ++j) {
+  for (std::size_t j = 1; j < cells.size(); ++j)
     line += std::string(2 + widths[j] - width(cells[j]), ' ') + cells[j];
-  }
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }

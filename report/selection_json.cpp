@@ -8,11 +8,12 @@ namespace {
 Json steps_json(const std::vector<mbs_export::SelectionStep>& steps)
 {
   std::vector<Json> list;
-  for (const mbs_export::SelectionStep& step : steps)
+  for (const mbs_export::SelectionStep& step : steps) {
     list.push_back(Json::object({{"added", step.added},
                                  {"modes", step.n_modes},
                                  {"interface_modes", step.n_interface},
                                  {"error", step.error}}));
+  }
   return Json::array(list);
 }
 

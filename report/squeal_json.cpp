@@ -17,9 +17,8 @@ Json eigenvalues_json(const squeal::EigenvalueMap& map)
   std::vector<Json> speeds;
   for (Eigen::Index i = 0; i < map.speeds.size(); ++i) {
     std::vector<Json> lambda;
-    for (const std::complex<double>& value : map.lambda.row(i)) {
+    for (const std::complex<double>& value : map.lambda.row(i))
       lambda.push_back(Json::array({value.real(), value.imag()}));
-    }
     speeds.push_back(
         Json::object({{"speed_rad_s", map.speeds[i]}, {"lambda", Json::array(lambda)}}));
   }
@@ -53,9 +52,8 @@ Json limit_cycle_json(const squeal::LimitCycle& cycle)
 Json direct_json(const squeal::DirectLimitCycle& cycle)
 {
   std::vector<Json> multipliers;
-  for (const std::complex<double>& value : cycle.multipliers) {
+  for (const std::complex<double>& value : cycle.multipliers)
     multipliers.push_back(Json::array({value.real(), value.imag()}));
-  }
   return Json::object({{"speed_rad_s", cycle.speed},
                        {"frequency_Hz", cycle.frequency_Hz},
                        {"pad_velocity_m_s", cycle.pad_velocity},
@@ -222,9 +220,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   std::vector<Json::Member> members{
       {"missing", Json::array({results.missing.begin(), results.missing.end()})},
       {"failure", results.failure ? Json(*results.failure) : Json()}};
-  if (results.eigenvalues) {
+  if (results.eigenvalues)
     members.emplace_back("eigenvalues", eigenvalues_json(*results.eigenvalues));
-  }
   if (results.searched_critical_speed) {
     const auto& critical = results.critical_speed;
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
@@ -237,16 +234,13 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   }
   if (results.stability_table)
     members.emplace_back("stability_table", stability_table_json(*results.stability_table));
-  if (results.rotation_stability) {
+  if (results.rotation_stability)
     members.emplace_back("rotation_stability", rotation_json(*results.rotation_stability));
-  }
-  if (!results.critical_values.empty()) {
+  if (!results.critical_values.empty())
     members.emplace_back("critical_values", critical_values_json(results.critical_values));
-  }
   if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
-  if (results.mode_sensitivity) {
+  if (results.mode_sensitivity)
     members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
-  }
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;
@@ -255,12 +249,10 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const std::string& warning = results.transient->warning;
     members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));
   }
-  if (results.limit_cycle) {
+  if (results.limit_cycle)
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
-  }
-  if (results.limit_cycle_direct) {
+  if (results.limit_cycle_direct)
     members.emplace_back("limit_cycle_direct", direct_json(*results.limit_cycle_direct));
-  }
   if (results.limit_cycle_branch) {
     members.emplace_back("limit_cycle_branch", branch_json(*results.limit_cycle_branch));
     members.emplace_back("limit_cycle_branch_origin", origin_json(*results.limit_cycle_branch));

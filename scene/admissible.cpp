@@ -40,9 +40,8 @@ std::string requirement(const Admissible& admissible, std::string_view kind)
   if (admissible.at_most < admissible.below) add_bound("<=", admissible.at_most);
 
   std::string text{kind};
-  if (!bounds.empty()) {
+  if (!bounds.empty())
     text += fmt::format("{}{}", text.empty() ? "" : " ", fmt::join(bounds, " and "));
-  }
   if (text.empty()) text = "finite";
   if (!admissible.unit.empty()) text += fmt::format(" ({})", admissible.unit);
   return text;

@@ -30,9 +30,10 @@ std::string text_of(const toml::node& value)
 void collect(const toml::node& node, const std::string& path, Values& values)
 {
   if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, value] : *table)
+    for (const auto& [key, value] : *table) {
       collect(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()),
               values);
+    }
   } else if (const toml::array* list = node.as_array()) {
     for (std::size_t i = 0; i < list->size(); ++i)
       collect(*list->get(i), list->size() == 1 ? path : fmt::format("{}[{}]", path, i + 1), values);
@@ -102,9 +103,8 @@ Values values_of(Step step, const toml::table& scene)
 {
   Values all, some;
   collect(scene, "", all);
-  for (const auto& [key, value] : all) {
+  for (const auto& [key, value] : all)
     if (is_of(step, key, all)) some.emplace(key, value);
-  }
   return some;
 }
 
@@ -122,16 +122,14 @@ std::vector<std::string> changed_keys(const std::string& then, const std::string
   std::vector<std::string> changes;
   for (const auto& [key, value] : new_values) {
     const auto old = old_values.find(key);
-    if (old == old_values.end()) {
+    if (old == old_values.end())
       changes.push_back(fmt::format("{} = {} (was not there)", key, value));
-    } else if (old->second != value) {
+    else if (old->second != value)
       changes.push_back(fmt::format("{} = {} (was {})", key, value, old->second));
-    }
   }
-  for (const auto& [key, value] : old_values) {
+  for (const auto& [key, value] : old_values)
     if (!new_values.contains(key))
       changes.push_back(fmt::format("{} is gone (was {})", key, value));
-  }
   return changes;
 }
 

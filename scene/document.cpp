@@ -87,9 +87,8 @@ std::vector<std::string> Table::texts(std::string_view key) const
 std::string_view Table::only_one_of(std::initializer_list<std::string_view> keys) const
 {
   std::vector<std::string_view> present;
-  for (const std::string_view key : keys) {
+  for (const std::string_view key : keys)
     if (has(key)) present.push_back(key);
-  }
   if (present.size() == 1) return present.front();
   const std::string wanted = fmt::format("give exactly one of {}", fmt::join(keys, ", "));
   if (present.size() > 1) refuse(present[1], wanted);
@@ -144,9 +143,8 @@ void Table::refuse_element(std::string_view key, std::size_t i, std::string_view
 void Table::refuse_unknown_keys() const
 {
   std::string message;
-  for (const auto& [line, text] : node_->unknown_keys()) {
+  for (const auto& [line, text] : node_->unknown_keys())
     message += (message.empty() ? "" : "\n") + text;
-  }
   if (!message.empty()) throw Error(message);
 }
 

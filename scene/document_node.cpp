@@ -49,9 +49,8 @@ Table::Node::MessagesByLine Table::Node::unknown_keys() const
 std::shared_ptr<Table::Node> Table::Node::open(const toml::table& inner, std::string_view key,
                                                std::string inner_path)
 {
-  for (const auto& node : opened) {
+  for (const auto& node : opened)
     if (node->table == &inner) return node;
-  }
   return opened.emplace_back(std::make_shared<Node>(
       Node{whole, file, std::move(inner_path), row_of(key), &inner, {}, {}}));
 }

@@ -50,9 +50,8 @@ struct Table::Node {
   std::vector<std::string> keys_not_asked() const
   {
     std::vector<std::string> keys;
-    for (const auto& [key, value] : *table) {
+    for (const auto& [key, value] : *table)
       if (!asked.contains(key.str())) keys.emplace_back(key.str());
-    }
     return keys;
   }
   toml::source_index line_of_key(std::string_view key) const

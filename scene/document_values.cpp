@@ -14,7 +14,7 @@ std::string value_text(const toml::node& value)
   std::ostringstream stream;
   stream << toml::toml_formatter(value);
   std::string text = stream.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::ranges::replace(text, '\n', ' ');
   return text.size() <= 60 ? text : text.substr(0, 60) + " ...";
 }
 

@@ -96,9 +96,8 @@ std::string table_text(std::string_view heading, Rows rows)
 const Key* find_key(std::string_view path)
 {
   for (const Rows rows : all_rows()) {
-    for (const Key& key : rows) {
+    for (const Key& key : rows)
       if (matches(key.path, path)) return &key;
-    }
   }
   return nullptr;
 }

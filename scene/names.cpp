@@ -29,15 +29,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
 
 bool contains(const std::vector<std::string>& names, std::string_view name)
 {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 std::string quoted_list(const std::vector<std::string>& names)
 {
   std::string text;
-  for (const std::string& name : names) {
+  for (const std::string& name : names)
     text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
-  }
   return text.empty() ? "(none)" : text;
 }
 

@@ -19,13 +19,11 @@ std::size_t behind_quoted(std::string_view text, std::size_t at)
   const std::string_view three = text.substr(at, 3);
   const bool is_long = three == std::string(3, quote);
   std::size_t i = at + (is_long ? 3 : 1);
-  for (; i < text.size(); ++i) {
-    if (text[i] == '\\' && quote == '"') {
+  for (; i < text.size(); ++i)
+    if (text[i] == '\\' && quote == '"')
       ++i;
-    } else if (is_long ? text.substr(i, 3) == three : text[i] == quote || text[i] == '\n') {
+    else if (is_long ? text.substr(i, 3) == three : text[i] == quote || text[i] == '\n')
       return i + (is_long ? 3 : 1);
-    }
-  }
   return text.size();
 }
 
@@ -42,9 +40,10 @@ toml::table parse_values(std::string_view text, const std::string& file)
       i = next;
       continue;
     }
-    if (c == '.' && ++parts > key_parts_max)
+    if (c == '.' && ++parts > key_parts_max) {
       throw Error(fmt::format("{}:{}: a key of more than {} parts; a scene has none so deep", file,
                               line, key_parts_max));
+    }
     if (std::string_view("=,{}[]\n").find(c) != std::string_view::npos) parts = 1;
     line += c == '\n' ? 1 : 0;
     ++i;

@@ -18,12 +18,10 @@ void check_fixed(const Table& body, std::size_t i, const std::vector<std::string
   if (contains(interface_nodes, name)) return;
   const std::size_t dot = name.rfind('.');
   const std::string set = name.substr(0, dot);
-  if (!contains(interface_nodes, set)) {
+  if (!contains(interface_nodes, set))
     body.refuse_element("fixed", i, no_such_name("interface node", set, interface_nodes));
-  }
-  if (!contains(component_names, name.substr(dot + 1))) {
+  if (!contains(component_names, name.substr(dot + 1)))
     body.refuse_element("fixed", i, "the component must be one of " + quoted_list(component_names));
-  }
 }
 
 std::vector<std::string> read_fixed(const Table& body,
@@ -60,9 +58,8 @@ std::optional<double> read_omega0(const Table& mode, InterfaceModes::Kind kind)
   }
   if (!mode.has("omega0")) return std::nullopt;
   if (mode.is_number("omega0")) return mode.number("omega0");
-  if (mode.text("omega0") != "auto") {
+  if (mode.text("omega0") != "auto")
     mode.refuse("omega0", "must be \"auto\" or a number > 0 (rad/s)");
-  }
   return std::nullopt;
 }
 
@@ -91,9 +88,8 @@ InterfaceModes read_interface_mode(const Table& mode, const Scene& scene)
   const auto kind = mode.choice<InterfaceModes::Kind>(
       "kind", {{"irm", InterfaceModes::Kind::irm}, {"frm", InterfaceModes::Kind::frm}});
   const std::string at = mode.text("at");
-  if (!contains(scene.interface_nodes, at)) {
+  if (!contains(scene.interface_nodes, at))
     mode.refuse("at", no_such_name("interface node", at, scene.interface_nodes));
-  }
   return {.kind = kind,
           .at = at,
           .components = read_component_list(mode, "dofs"),
@@ -138,11 +134,8 @@ std::array<double, 6> read_by_component(const Table& table, std::string_view key
 {
   const Table values = table.table(key);
   std::array<double, 6> by_component{};
-  for (std::size_t c = 0; c < component_names.size(); ++c) {
-    if (values.has(component_names[c])) {
-      by_component[c] = values.number(component_names[c]);
-    }
-  }
+  for (std::size_t c = 0; c < component_names.size(); ++c)
+    if (values.has(component_names[c])) by_component[c] = values.number(component_names[c]);
   return by_component;
 }
 
@@ -152,14 +145,12 @@ std::vector<int> read_component_list(const Table& table, std::string_view key)
   if (names.empty()) table.refuse(key, "must name a component: " + quoted_list(component_names));
   std::vector<int> components;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto found = std::find(component_names.begin(), component_names.end(), names[i]);
-    if (found == component_names.end()) {
+    const auto found = std::ranges::find(component_names, names[i]);
+    if (found == component_names.end())
       table.refuse_element(key, i, "must be one of " + quoted_list(component_names));
-    }
     const int component = static_cast<int>(found - component_names.begin());
-    if (std::find(components.begin(), components.end(), component) != components.end()) {
+    if (std::ranges::find(components, component) != components.end())
       table.refuse_element(key, i, "is named twice");
-    }
     components.push_back(component);
   }
   return components;
@@ -169,10 +160,9 @@ std::vector<int> read_mode_list(const Table& table, std::string_view key)
 {
   const std::vector<int> modes = table.integers(key);
   if (modes.empty()) table.refuse(key, "must name at least one mode, counted from 1");
-  for (std::size_t i = 1; i < modes.size(); ++i) {
+  for (std::size_t i = 1; i < modes.size(); ++i)
     if (modes[i] <= modes[i - 1])
       table.refuse_element(key, i, "modes must ascend, each named once");
-  }
   return modes;
 }
 
@@ -183,11 +173,9 @@ mbs_export::BodyOptions read_body(const Table& root, const Scene& scene)
   mbs_export::BodyOptions options;
   options.fixed = read_fixed(body, scene.interface_nodes);
   options.keep = read_kept_modes(body);
-  if (body.has("interface_modes")) {
-    for (const Table& mode : body.tables("interface_modes")) {
+  if (body.has("interface_modes"))
+    for (const Table& mode : body.tables("interface_modes"))
       options.interface_modes.push_back(read_interface_mode(mode, scene));
-    }
-  }
   options.damping = read_damping(body);
   return options;
 }

@@ -75,9 +75,8 @@ mesh::AnnulusOptions read_annulus(const Table& mesh)
 std::optional<mesh::BoltOptions> read_bolts(const Table& mesh, const mesh::HatDiscOptions& hat)
 {
   if (!mesh.has("bolts")) return std::nullopt;
-  if (hat.pattern == mesh::Pattern::structured) {
+  if (hat.pattern == mesh::Pattern::structured)
     mesh.refuse("bolts", "holes need pattern = \"unstructured\" or \"triangles\"");
-  }
   const Table bolts = mesh.table("bolts");
   return mesh::BoltOptions{
       .count = bolts.integer("count"),
@@ -101,9 +100,8 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
   hat.top_radius = or_wall("top_radius", {.above = 0.0, .unit = "m"});
   hat.hub_radius = mesh.number("hub_radius", {.above = 0.0, .below = hat.top_radius, .unit = "m"});
   hat.height = mesh.number("height");
-  if (mesh.has("foot")) {
+  if (mesh.has("foot"))
     hat.foot = mesh.number("foot", {.at_least = 0.0, .below = hat.height, .unit = "m"});
-  }
   const double width = hat.outer_radius - hat.wall_radius;
   hat.element_size =
       read_element_size(mesh, width, area_of_ring(hat.wall_radius, hat.outer_radius));
@@ -127,9 +125,7 @@ mesh::PadOptions read_pad(const Table& mesh)
   pad.inner_radius = mesh.number("inner_radius");
   pad.outer_radius = read_outer_radius(mesh, pad.inner_radius);
   pad.angle = degree * mesh.number("angle_deg");
-  if (mesh.has("centre_deg")) {
-    pad.centre_angle = degree * mesh.number("centre_deg");
-  }
+  if (mesh.has("centre_deg")) pad.centre_angle = degree * mesh.number("centre_deg");
   const double length = 0.5 * (pad.inner_radius + pad.outer_radius) * pad.angle;
   const double width = std::min(pad.outer_radius - pad.inner_radius, length);
   pad.element_size = read_element_size(mesh, width, length * (pad.outer_radius - pad.inner_radius));
@@ -163,9 +159,8 @@ std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
     const bool is_end = std::abs(table.number("distance") - length) < digits * length;
     points.push_back({.name = table.text("name"),
                       .distance = is_end ? length : table.number("distance", distances)});
-    if (!taken.insert(points.back().name).second) {
+    if (!taken.insert(points.back().name).second)
       table.refuse("name", "is the name of another point or group of the mesh");
-    }
   }
   return points;
 }
@@ -199,9 +194,8 @@ std::vector<std::string> hat_disc_groups(const mesh::HatDiscOptions& hat)
   std::vector<std::string> names{"disc", "wall", "flange", "outer_edge", "wall_seat", "hub_edge"};
   if (hat.inner_radius < hat.wall_radius) names.emplace_back("inner_edge");
   if (hat.foot > 0.0) names.emplace_back("wall_foot");
-  for (int i = 1; hat.bolts && i <= hat.bolts->count; ++i) {
+  for (int i = 1; hat.bolts && i <= hat.bolts->count; ++i)
     names.push_back("bolt_" + std::to_string(i));
-  }
   if (hat.bolts) names.emplace_back("bolt_edges");
   return names;
 }

@@ -12,9 +12,8 @@ std::vector<std::string> named_sets(const Scene& scene)
 {
   std::vector<std::string> names = group_names(scene);
   if (names.empty()) return names;
-  for (const plate::Coupling& coupling : scene.couplings) {
+  for (const plate::Coupling& coupling : scene.couplings)
     if (!coupling.name.empty()) names.push_back(coupling.name);
-  }
   return names;
 }
 
@@ -22,9 +21,8 @@ std::string read_set(const Table& table, const Scene& scene)
 {
   const std::string name = table.text("group");
   const std::vector<std::string> names = named_sets(scene);
-  if (!names.empty() && !contains(names, name)) {
+  if (!names.empty() && !contains(names, name))
     table.refuse("group", no_such_name("group, ring or coupling", name, names));
-  }
   return name;
 }
 
@@ -90,9 +88,8 @@ std::vector<plate::Support> read_supports(const Table& root, const Scene& scene)
 {
   std::vector<plate::Support> supports;
   if (!root.has("support")) return supports;
-  for (const Table& table : root.tables("support")) {
+  for (const Table& table : root.tables("support"))
     supports.push_back({.group = read_set(table, scene), .components = components_of(table)});
-  }
   return supports;
 }
 

@@ -23,9 +23,8 @@ std::string read_file_name(const Table& mesh, const std::string& scene_path)
 {
   const std::filesystem::path file = mesh.text("file");
   const std::string extension = file.extension().string();
-  if (!contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+  if (!contains({".msh", ".geo", ".step", ".stp"}, extension))
     mesh.refuse("file", "must be a .msh, .geo or .step file");
-  }
   return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();
 }
 
@@ -64,9 +63,8 @@ std::vector<mesh::EntityGroup> read_entity_groups(const Table& mesh)
   const Table table = mesh.table("groups");
   for (const std::string& name : table.names()) {
     groups.push_back({.name = name, .entities = table.texts(name)});
-    if (groups.back().entities.empty()) {
+    if (groups.back().entities.empty())
       table.refuse(name, "must name entities, such as \"surface_1\"");
-    }
   }
   return groups;
 }
@@ -102,9 +100,7 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   options.sectors = read_sectors(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
-  if (mesh.has("merge_tolerance")) {
-    options.merge_tolerance = mesh.number("merge_tolerance");
-  }
+  if (mesh.has("merge_tolerance")) options.merge_tolerance = mesh.number("merge_tolerance");
   std::vector<std::string> taken;
   for (const mesh::EntityGroup& group : options.groups) taken.push_back(group.name);
   options.rings = read_rings(mesh, taken, {.above = 0.0, .unit = "m"});
@@ -132,12 +128,10 @@ std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<s
   if (!mesh.has("rings")) return rings;
   for (const Table& table : mesh.tables("rings")) {
     const mesh::RingOptions ring = read_ring(table, radii);
-    if (!names.insert(ring.name).second) {
+    if (!names.insert(ring.name).second)
       table.refuse("name", "is the name of another ring or group of the mesh");
-    }
-    if (!circles.insert({ring.radius, ring.z}).second) {
+    if (!circles.insert({ring.radius, ring.z}).second)
       table.refuse("radius", "is the radius of another ring");
-    }
     rings.push_back(ring);
   }
   return rings;

@@ -58,9 +58,8 @@ std::optional<squeal::Caliper> read_caliper(const Table& pad,
                                             const std::optional<squeal::PadBody>& body)
 {
   if (!pad.has("caliper")) return std::nullopt;
-  if (!body || !body->axial) {
+  if (!body || !body->axial)
     pad.refuse("caliper", "carries the pads by their axial suspension: give body.axial");
-  }
   const Table table = pad.table("caliper");
   return squeal::Caliper{.mass = table.number("mass"), .axial = read_suspension(table, "N/m")};
 }
@@ -79,9 +78,8 @@ void read_grid_rings(squeal::PadGrid& grid, const Table& table, RingsOf of)
   std::vector<std::string> sorted = grid.rings;
   sorted.insert(sorted.end(), grid.opposite_rings.begin(), grid.opposite_rings.end());
   std::ranges::sort(sorted);
-  if (std::ranges::adjacent_find(sorted) != sorted.end()) {
+  if (std::ranges::adjacent_find(sorted) != sorted.end())
     table.refuse("rings", "must not name a ring twice");
-  }
 }
 
 std::optional<squeal::PadGrid> read_grid(const Table& pad, RingsOf of)
@@ -100,10 +98,11 @@ constexpr std::size_t pads_max = 1000, contacts_max = 10000;
 std::size_t contacts_of(const std::vector<squeal::PadPair>& pads)
 {
   std::size_t n = 0;
-  for (const squeal::PadPair& pad : pads)
+  for (const squeal::PadPair& pad : pads) {
     n += pad.grid ? static_cast<std::size_t>(pad.grid->points) *
                         std::max<std::size_t>(1, pad.grid->rings.size())
                   : 1;
+  }
   return n;
 }
 
@@ -127,16 +126,18 @@ std::vector<squeal::PadPair> read_pads(const Table& squeal)
 {
   const std::vector<Table> tables = squeal.tables("pads");
   if (tables.empty()) squeal.refuse("pads", "must hold at least one pad pair");
-  if (tables.size() > pads_max)
+  if (tables.size() > pads_max) {
     squeal.refuse("pads",
                   fmt::format("are {} pad pairs; there may be {}", tables.size(), pads_max));
+  }
   std::vector<squeal::PadPair> pads;
   const RingsOf of = squeal.is_table("ring") ? RingsOf::each_plane : RingsOf::both_planes;
   for (const Table& pad : tables) pads.push_back(read_pad(pad, of));
   const std::size_t n_contacts = contacts_of(pads);
-  if (n_contacts > contacts_max)
+  if (n_contacts > contacts_max) {
     squeal.refuse("pads", fmt::format("have {} contact points in all; there may be {}", n_contacts,
                                       contacts_max));
+  }
   return pads;
 }
 

@@ -20,9 +20,7 @@ std::map<std::string, plate::Material> read_materials(const Table& root)
 {
   const Table table = root.table("material");
   std::map<std::string, plate::Material> materials;
-  for (const std::string& name : table.names()) {
-    materials[name] = read_material(table.table(name));
-  }
+  for (const std::string& name : table.names()) materials[name] = read_material(table.table(name));
   return materials;
 }
 
@@ -30,9 +28,8 @@ std::map<std::string, plate::Material> read_materials(const Table& root)
 std::string read_group(const Table& table, const std::vector<std::string>& groups)
 {
   const std::string group = table.text("group");
-  if (!groups.empty() && !contains(groups, group)) {
+  if (!groups.empty() && !contains(groups, group))
     table.refuse("group", no_such_name("group", group, groups));
-  }
   return group;
 }
 
@@ -64,9 +61,8 @@ plate::Profile read_profile(const Table& section, std::string_view key)
                                                       {"radius", Coordinate::radius}});
   const std::vector<double> at = table.numbers("at");
   if (at.size() < 2) table.refuse("at", "must hold at least two places");
-  for (std::size_t i = 1; i < at.size(); ++i) {
+  for (std::size_t i = 1; i < at.size(); ++i)
     if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
-  }
   const std::vector<double> values = table.numbers("values");
   if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
   return {over, at, values};
@@ -84,9 +80,8 @@ plate::Coupling read_coupling(const Table& table, const std::vector<std::string>
     return coupling;
   }
   coupling.to = table.text("to");
-  if (!groups.empty() && !contains(groups, coupling.to)) {
+  if (!groups.empty() && !contains(groups, coupling.to))
     table.refuse("to", no_such_name("group", coupling.to, groups));
-  }
   if (coupling.to == coupling.group) table.refuse("to", "must be another group");
   return coupling;
 }
@@ -96,20 +91,17 @@ enum class SectionKind { shell, beam };
 /// A generated mesh has either surfaces or lines; a file shows when it is read.
 void check_kind(const Table& section, SectionKind kind, const mesh::MeshOptions& mesh)
 {
-  if (mesh.beam && kind != SectionKind::beam) {
+  if (mesh.beam && kind != SectionKind::beam)
     section.refuse("type", "the generator \"beam\" makes lines; use \"beam\"");
-  }
-  if (!mesh.beam && !mesh.file && kind != SectionKind::shell) {
+  if (!mesh.beam && !mesh.file && kind != SectionKind::shell)
     section.refuse("type", "this generator makes surfaces; use \"shell\"");
-  }
 }
 
 double read_shear_factor(const Table& section, std::string_view key, plate::BeamTheory theory)
 {
   if (!section.has(key)) return 5.0 / 6.0;
-  if (theory == plate::BeamTheory::bernoulli_euler) {
+  if (theory == plate::BeamTheory::bernoulli_euler)
     section.refuse(key, "a beam of Bernoulli and Euler is rigid in shear; take this key out");
-  }
   return section.number(key);
 }
 
@@ -117,9 +109,8 @@ std::optional<std::array<double, 3>> read_orientation(const Table& section)
 {
   if (!section.has("orientation")) return std::nullopt;
   const std::array<double, 3> v = read_vector(section, "orientation");
-  if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
+  if (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)
     section.refuse("orientation", "must not be zero; it points towards the z axis of the section");
-  }
   return v;
 }
 
@@ -156,9 +147,8 @@ plate::BeamSection read_beam_section(const Table& section, const std::string& gr
 void check_coupling_name(const Table& coupling, const std::set<std::string>& taken)
 {
   const std::string name = coupling.text("name");
-  if (taken.contains(name)) {
+  if (taken.contains(name))
     coupling.refuse("name", "is the name of another coupling, ring or group");
-  }
 }
 
 }  // namespace
@@ -167,7 +157,7 @@ std::vector<int> read_model_components(const Table& root)
 {
   if (!root.has("model")) return {0, 1, 2, 3, 4, 5};
   std::vector<int> components = read_component_list(root.table("model"), "dofs");
-  std::sort(components.begin(), components.end());
+  std::ranges::sort(components);
   return components;
 }
 

@@ -9,9 +9,8 @@ std::string read_place(const Table& table, std::string_view key, const Scene& sc
   const std::string name = table.text(key);
   std::vector<std::string> names = group_names(scene);
   if (names.empty()) return name;
-  for (const plate::Coupling& coupling : scene.couplings) {
+  for (const plate::Coupling& coupling : scene.couplings)
     if (!coupling.name.empty()) names.push_back(coupling.name);
-  }
   if (!contains(names, name)) table.refuse(key, no_such_name("group or coupling", name, names));
   return name;
 }
@@ -20,11 +19,10 @@ std::string read_place(const Table& table, std::string_view key, const Scene& sc
 std::array<double, 6> read_inertia(const Table& mass)
 {
   const std::vector<double> values = mass.numbers("inertia");
-  if (values.size() != 3 && values.size() != 6) {
+  if (values.size() != 3 && values.size() != 6)
     mass.refuse("inertia", "must be three moments [xx, yy, zz] or six [xx, yy, zz, xy, xz, yz]");
-  }
   std::array<double, 6> inertia{};
-  std::copy(values.begin(), values.end(), inertia.begin());
+  std::ranges::copy(values, inertia.begin());
   const auto [xx, yy, zz, xy, xz, yz] = inertia;
   const double minor = xx * yy - xy * xy;
   const double det = zz * minor - xx * yz * yz - yy * xz * xz + 2.0 * xy * xz * yz;
@@ -67,9 +65,8 @@ std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene)
       spring.to = read_place(table, "to", scene);
       if (*spring.to == spring.at) table.refuse("to", "is the place where the spring begins");
     }
-    if (!table.has("stiffness") && !table.has("damping")) {
+    if (!table.has("stiffness") && !table.has("damping"))
       table.refuse("at", "the spring needs `stiffness` or `damping`, like { z = 1e6 }");
-    }
     if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
     if (table.has("damping")) spring.damping = read_by_component(table, "damping");
     springs.push_back(spring);

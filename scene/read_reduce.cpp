@@ -11,17 +11,13 @@ namespace {
 std::vector<std::string> attachable_names(const Scene& scene)
 {
   std::vector<std::string> names = ring_names(scene.mesh);
-  for (const plate::Coupling& coupling : scene.couplings) {
+  for (const plate::Coupling& coupling : scene.couplings)
     if (!coupling.name.empty()) names.push_back(coupling.name);
-  }
-  for (const std::string& group : group_names(scene)) {
-    if (!contains(names, group) && !contains(surface_groups(scene.mesh), group)) {
+  for (const std::string& group : group_names(scene))
+    if (!contains(names, group) && !contains(surface_groups(scene.mesh), group))
       names.push_back(group);
-    }
-  }
-  for (const plate::Coupling& coupling : scene.couplings) {
+  for (const plate::Coupling& coupling : scene.couplings)
     if (coupling.kind != plate::CouplingKind::averaging) std::erase(names, coupling.group);
-  }
   return names;
 }
 
@@ -29,9 +25,8 @@ void check_interface_node(const Table& interface, std::size_t i, const Scene& sc
 {
   const std::vector<std::string> nodes = interface.texts("nodes");
   const std::string& name = nodes[i];
-  if (std::find(nodes.begin(), nodes.begin() + i, name) != nodes.begin() + i) {
+  if (std::find(nodes.begin(), nodes.begin() + i, name) != nodes.begin() + i)
     interface.refuse_element("nodes", i, "is named twice");
-  }
   for (const plate::Coupling& coupling : scene.couplings) {
     if (coupling.group != name || coupling.kind == plate::CouplingKind::averaging) continue;
     const bool link = coupling.kind == plate::CouplingKind::link;
@@ -71,12 +66,10 @@ std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const S
   if (!interface.has("rings")) return rings;
   for (const Table& ring : interface.tables("rings")) {
     plate::RingHarmonics wanted{.ring = ring.text("name"), .up_to = ring.integer("harmonics")};
-    if (!contains(scene.interface_nodes, wanted.ring)) {
+    if (!contains(scene.interface_nodes, wanted.ring))
       ring.refuse("name", no_such_name("interface node", wanted.ring, scene.interface_nodes));
-    }
-    if (std::ranges::find(rings, wanted.ring, &plate::RingHarmonics::ring) != rings.end()) {
+    if (std::ranges::find(rings, wanted.ring, &plate::RingHarmonics::ring) != rings.end())
       ring.refuse("name", "is given twice");
-    }
     const auto& made = rings_of(scene.mesh);
     const auto known = std::ranges::find(made, wanted.ring, &mesh::RingOptions::name);
     if (known != made.end() && 2 * wanted.up_to > known->nodes) {
@@ -98,10 +91,9 @@ reduce::ReduceOptions read_reduce(const Table& root)
                                               {"rubin", reduce::Method::rubin},
                                               {"macneal", reduce::Method::macneal}});
   if (options.method == reduce::Method::guyan) {
-    for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"}) {
+    for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"})
       if (table.has(key))
         table.refuse(key, "Guyan has no fixed-interface modes; take this key out");
-    }
     return options;
   }
   const std::string_view criterion = table.only_one_of({"modes", "cutoff_Hz", "tolerance"});
@@ -110,9 +102,8 @@ reduce::ReduceOptions read_reduce(const Table& root)
   } else if (criterion == "cutoff_Hz") {
     options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
-    if (options.method != reduce::Method::craig_bampton) {
+    if (options.method != reduce::Method::craig_bampton)
       table.refuse("tolerance", "needs method \"craig-bampton\"; give modes or cutoff_Hz");
-    }
     options.tolerance = {.tolerance = table.number("tolerance"),
                          .up_to_Hz = table.number("up_to_Hz")};
   }
@@ -128,12 +119,10 @@ ResultantChoice read_resultants(const Table& root, const Scene& scene)
   for (const plate::BeamSection& beam : scene.beams) known.push_back(beam.group);
   for (const plate::ShellSection& shell : scene.sections) known.push_back(shell.group);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (!contains(known, groups[i])) {
+    if (!contains(known, groups[i]))
       table.refuse_element("resultants", i, no_such_name("group of elements", groups[i], known));
-    }
-    if (std::find(groups.begin(), groups.begin() + i, groups[i]) != groups.begin() + i) {
+    if (std::find(groups.begin(), groups.begin() + i, groups[i]) != groups.begin() + i)
       table.refuse_element("resultants", i, "is named twice");
-    }
   }
   ResultantChoice choice{.groups = std::move(groups), .elements = {}};
   if (table.has("resultant_elements")) {

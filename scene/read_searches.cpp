@@ -111,11 +111,10 @@ std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
                                .to = speeds.to,
                                .count = speeds.count,
                                .band = read_band(table)};
-  if (search.over) {
+  if (search.over)
     search.speed = table.number("speed_rad_s");
-  } else if (table.has("speed_rad_s")) {
+  else if (table.has("speed_rad_s"))
     table.refuse("speed_rad_s", "is that of a table over another parameter; leave it out");
-  }
   if (!search.over && !table.has("from") && !table.has("to") && !table.has("count")) return search;
   search.from = search.over ? read_from(table, *search.over) : table.number("from", {.above = 0.0});
   search.to = table.number("to", {.above = search.from, .unit = "from"});

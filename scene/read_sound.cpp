@@ -94,7 +94,7 @@ std::vector<sound::Microphone> read_microphones(const Table& sound)
     const auto x = read_vector(table, "position");
     microphones.push_back({table.text("name"), {x[0], x[1], x[2]}});
     const auto same = [&](const auto& other) { return other.name == microphones.back().name; };
-    if (std::count_if(microphones.begin(), microphones.end(), same) > 1)
+    if (std::ranges::count_if(microphones, same) > 1)
       table.refuse("name", "is the name of another microphone, too");
   }
   return microphones;

@@ -14,9 +14,8 @@ void check_ring(const Table& table, std::string_view key, const std::string& rin
 {
   const std::vector<std::string> rings = ring_names(scene.mesh);
   if (!contains(rings, ring)) table.refuse(key, no_such_name("ring", ring, rings));
-  if (!contains(scene.interface_nodes, ring)) {
+  if (!contains(scene.interface_nodes, ring))
     table.refuse(key, "must stand in interface.nodes too, or the body does not have it");
-  }
 }
 
 /// ring = "track", or { inboard = "track_in", outboard = "track_out" }: the second ring is empty
@@ -29,9 +28,10 @@ std::pair<std::string, std::string> read_rings(const Table& squeal, const Scene&
   }
   const Table ring = squeal.table("ring");
   for (const char* key : {"inboard", "outboard"}) check_ring(ring, key, ring.text(key), scene);
-  if (ring.text("inboard") == ring.text("outboard"))
+  if (ring.text("inboard") == ring.text("outboard")) {
     ring.refuse("outboard",
                 "must be another ring than inboard; one ring for both planes is ring = \"NAME\"");
+  }
   return {ring.text("inboard"), ring.text("outboard")};
 }
 

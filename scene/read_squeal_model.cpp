@@ -23,9 +23,8 @@ Drive read_drive(const Table& table, const squeal::FrictionLaw& friction)
   if (!table.has("drive")) return Drive::speed;
   const auto drive =
       table.choice<Drive>("drive", {{"speed", Drive::speed}, {"moment", Drive::moment}});
-  if (drive == Drive::moment && (friction.rise > 0.0 || friction.regularisation > 0.0)) {
+  if (drive == Drive::moment && (friction.rise > 0.0 || friction.regularisation > 0.0))
     table.refuse("drive", "the constant moment 2 mu r_0 N_0 needs a constant friction coefficient");
-  }
   return drive;
 }
 
@@ -97,11 +96,10 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
   if (choice == ModelChoice::flexible_disc) return std::nullopt;
   const Table squeal = root.table("squeal");
   squeal::ModelOptions options{};
-  if (choice == ModelChoice::rigid_disc) {
+  if (choice == ModelChoice::rigid_disc)
     options.model = read_rigid_disc(squeal);
-  } else {
+  else
     options.model = read_oscillator(squeal);
-  }
   options.study = read_study(squeal, StudyOf::model);
   const std::optional<squeal::TransientCase>& transient = options.study.transient;
   if (transient && (transient->integrator != squeal::IntegratorKind::automatic ||

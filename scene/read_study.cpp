@@ -14,9 +14,8 @@ using squeal::IntegratorKind;
 std::vector<std::string> names_of_analyses(StudyOf of)
 {
   std::vector<std::string> names;
-  for (const squeal::Analysis& analysis : squeal::analyses) {
+  for (const squeal::Analysis& analysis : squeal::analyses)
     if (of == StudyOf::body || !analysis.needs_body) names.emplace_back(analysis.name);
-  }
   return names;
 }
 
@@ -35,23 +34,19 @@ void check_needs(const Table& squeal, const std::vector<std::string>& asked)
                                 analysis.name, analysis.key, analysis.otherwise));
     }
   }
-  if (squeal.has("wav") && !squeal.has("transient")) {
+  if (squeal.has("wav") && !squeal.has("transient"))
     squeal.refuse("wav", "needs the key transient");
-  }
 }
 
 /// squeal.analyses, each of which must be one of `known` and have the key that it needs.
 std::vector<std::string> read_analyses(const Table& squeal, const std::vector<std::string>& known)
 {
   std::vector<std::string> analyses = squeal.texts("analyses");
-  if (analyses.empty()) {
+  if (analyses.empty())
     squeal.refuse("analyses", "must name at least one of " + quoted_list(known));
-  }
-  for (std::size_t i = 0; i < analyses.size(); ++i) {
-    if (!contains(known, analyses[i])) {
+  for (std::size_t i = 0; i < analyses.size(); ++i)
+    if (!contains(known, analyses[i]))
       squeal.refuse_element("analyses", i, "must be one of " + quoted_list(known));
-    }
-  }
   check_needs(squeal, analyses);
   return analyses;
 }
@@ -106,9 +101,7 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
       .speed = table.number("speed_rad_s"),
       .duration = table.number("duration_s"),
       .initial_pad_displacement = table.number("initial_pad_displacement")};
-  if (table.has("steps_per_period")) {
-    transient.steps_per_period = table.integer("steps_per_period");
-  }
+  if (table.has("steps_per_period")) transient.steps_per_period = table.integer("steps_per_period");
   if (table.has("integrator")) {
     transient.integrator = table.choice<IntegratorKind>(
         "integrator", {{"auto", IntegratorKind::automatic},
@@ -117,12 +110,9 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
                        {"dormand-prince", IntegratorKind::dormand_prince},
                        {"generalised-alpha", IntegratorKind::generalised_alpha}});
   }
-  if (table.has("growth_error_1_s")) {
-    transient.growth_error = table.number("growth_error_1_s");
-  }
-  if (table.has("speed_program")) {
+  if (table.has("growth_error_1_s")) transient.growth_error = table.number("growth_error_1_s");
+  if (table.has("speed_program"))
     transient.speed_program = read_speed_program(table, transient.speed);
-  }
   return transient;
 }
 

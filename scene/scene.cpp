@@ -23,9 +23,8 @@ std::string read_name(const Table& root)
   if (!root.has("name")) return "disc";
   const std::string name = root.text("name");
   const std::string allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  if (name.find_first_not_of(allowed) != std::string::npos) {
+  if (name.find_first_not_of(allowed) != std::string::npos)
     root.refuse("name", "names files: only letters, digits, _ and -");
-  }
   return name;
 }
 
@@ -93,9 +92,8 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     return spring.damping != std::array<double, 6>{};
   };
   const bool said = root.has("body") && root.table("body").has("damping");
-  if (!said && std::any_of(scene.springs.begin(), scene.springs.end(), damps)) {
+  if (!said && std::ranges::any_of(scene.springs, damps))
     scene.body.damping.type = mbs_export::Damping::Type::matrix;
-  }
   root.refuse_unknown_keys();
   scene.notes = root.notes();
   return scene;
@@ -151,10 +149,11 @@ void refuse_other_files(const std::string& path)
     refuse("holds results, and a scene file (TOML) is asked for; `info` tells what is in it");
   if (contains({".msh", ".geo", ".step", ".stp"}, extension))
     refuse("is a mesh, and a scene file (TOML) is asked for, which names it as `file` of [mesh]");
-  if (contains({".bdf", ".nas", ".dat", ".inp", ".unv", ".vtk"}, extension))
+  if (contains({".bdf", ".nas", ".dat", ".inp", ".unv", ".vtk"}, extension)) {
     refuse(
         "is a mesh of another program; make a .msh of it (`gmsh FILE -save -o mesh.msh`), and "
         "name that as `file` of [mesh] in a scene");
+  }
 }
 
 }  // namespace

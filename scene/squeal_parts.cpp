@@ -16,9 +16,7 @@ squeal::FrictionLaw read_friction(const Table& squeal)
     law.rise = table.number("static", {.at_least = law.kinetic, .unit = "kinetic"}) - law.kinetic;
     law.decay_speed = table.number("decay_speed");
   }
-  if (table.has("regularisation")) {
-    law.regularisation = table.number("regularisation");
-  }
+  if (table.has("regularisation")) law.regularisation = table.number("regularisation");
   return law;
 }
 
@@ -33,9 +31,7 @@ squeal::ContactLaw read_contact(const Table& squeal)
 squeal::PadSpring read_pad_spring(const Table& pad)
 {
   squeal::PadSpring spring{.linear = pad.number("stiffness")};
-  if (pad.has("cubic_stiffness")) {
-    spring.cubic = pad.number("cubic_stiffness");
-  }
+  if (pad.has("cubic_stiffness")) spring.cubic = pad.number("cubic_stiffness");
   return spring;
 }
 

@@ -51,10 +51,11 @@ double longest_edge(const AirMesh& mesh)
   double longest = 0.0;
   for (int e = 0; e < mesh.n_elements(); ++e)
     for (int i = 0; i <= mesh.dimension(); ++i)  // Gmsh lists the corners first
-      for (int j = 0; j < i; ++j)
+      for (int j = 0; j < i; ++j) {
         longest = std::max(longest, (mesh.positions.row(mesh.elements(e, i)) -
                                      mesh.positions.row(mesh.elements(e, j)))
                                         .norm());
+      }
   return longest;
 }
 

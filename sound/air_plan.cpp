@@ -54,10 +54,11 @@ void check_inner_radius(const AirMeshOptions& mesh, const Ball& body)
 bool is_meridian(const Outline& outline, Method method)
 {
   if (method == Method::automatic) return outline.axisymmetric();
-  if (method == Method::fourier && !outline.axisymmetric())
+  if (method == Method::fourier && !outline.axisymmetric()) {
     throw Error(
         "sound: method = \"fourier\" needs an axisymmetric outline, but this one has holes; take "
         "\"tetrahedra\" or \"auto\"");
+  }
   return method == Method::fourier;
 }
 

@@ -138,11 +138,10 @@ MatrixXcd pressure_at(const Field& field, const MatrixX3d& x)
   MatrixXcd p(x.rows(), field.n_fields());
   for (Index i = 0; i < x.rows(); ++i) {
     const Vector3d at = x.row(i).transpose();
-    if ((at - Vector3d(0.0, 0.0, field.mesh->centre)).norm() > field.mesh->inner_radius) {
+    if ((at - Vector3d(0.0, 0.0, field.mesh->centre)).norm() > field.mesh->inner_radius)
       p.row(i) = kirchhoff_pressure(field, at.transpose());
-    } else {
+    else
       p.row(i) = locator.value(at, field.p);
-    }
   }
   return p;
 }

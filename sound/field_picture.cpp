@@ -134,7 +134,7 @@ Triangles inner_triangles(const AirMesh& mesh)
   }
   Triangles triangles{
       mesh.positions(rows.nodes, every), rows.nodes, {static_cast<Index>(corners.size()) / 3, 3}};
-  std::copy(corners.begin(), corners.end(), triangles.corners.data());
+  std::ranges::copy(corners, triangles.corners.data());
   return triangles;
 }
 

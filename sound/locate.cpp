@@ -47,11 +47,10 @@ Eigen::RowVectorXcd Locator::value(const Eigen::Vector3d& x, const Eigen::Matrix
   const bool mirrored = mesh_->half_space && x[2] < 0.0;
   const double z = mirrored ? -x[2] : x[2];
   RowVectorXd at(mesh_->dimension());
-  if (mesh_->dimension() == 2) {
+  if (mesh_->dimension() == 2)
     at << x.head<2>().norm(), z;
-  } else {
+  else
     at << x[0], x[1], z;
-  }
   for (int e = 0; e < mesh_->n_elements(); ++e) {
     if ((at.array() < low_.row(e).array()).any() || (at.array() > high_.row(e).array()).any())
       continue;

@@ -64,11 +64,10 @@ Ball enclosing_ball(const Outline& outline)
   // The radius is convex over z: search by thirds.
   while (high - low > 1e-12 * radius_about(outline, high)) {
     const double third = (high - low) / 3.0;
-    if (radius_about(outline, low + third) < radius_about(outline, high - third)) {
+    if (radius_about(outline, low + third) < radius_about(outline, high - third))
       high -= third;
-    } else {
+    else
       low += third;
-    }
   }
   const double z = 0.5 * (low + high);
   return {.z = std::abs(z) < placement * radius_about(outline, 0.0) ? 0.0 : z,

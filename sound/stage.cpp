@@ -46,11 +46,12 @@ std::vector<int> harmonics_of(const squeal::Disc& disc)
 Vibration vibration_in(const squeal::SquealResults& results, CycleChoice choice)
 {
   const auto fundamental = [](const auto& cycle) {
-    if (cycle.amplitude.size() == 0)
+    if (cycle.amplitude.size() == 0) {
       throw Error(
           "sound: the limit cycle has no amplitudes in the standing frame, because its disc is not "
           "axisymmetric: such a disc sounds at more frequencies than one; what each of its modes "
           "radiates is found with --radiation");
+    }
     Vibration v{.speed = cycle.speed,
                 .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,
                 .modes = {},
@@ -74,10 +75,11 @@ constexpr double largest_ratio = 10.0;
 
 void check_modes(const Vibration& vibration, const squeal::Disc& disc)
 {
-  if (vibration.modes != modes_of(disc))
+  if (vibration.modes != modes_of(disc)) {
     throw Error(
         "sound: the limit cycle consists of other modes than use_modes of [squeal] says now; run "
         "`squeal run` again");
+  }
   const double highest = disc.omega.maxCoeff();
   if (vibration.omega > 0.0 && vibration.omega <= largest_ratio * highest) return;
   throw Error(fmt::format(

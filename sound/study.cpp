@@ -69,11 +69,12 @@ SoundResults with_radiation_of(const Setting& setting, const Stage& stage, doubl
                        .heard = {},
                        .directivity = {},
                        .loudness = {}};
-  if (results.inner_nodes > 0)
+  if (results.inner_nodes > 0) {
     results.notes.push_back(
         fmt::format("{} of the {} nodes of the body lie between its middle lines, as vanes do, and "
                     "are taken to be silent",
                     results.inner_nodes, setting.body.picture.positions.rows()));
+  }
   listener.progress("radiation", 0.0);
   const squeal::FlexibleDisc flexible(stage.disc, setting.squeal);
   const double squeal_omega =

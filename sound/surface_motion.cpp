@@ -131,10 +131,11 @@ SurfaceMotion::SurfaceMotion(const mbs_export::ModalBody& body, const ThickBody&
     : harmonics_(harmonics), mid_(thick.lines), hub_radius_(smallest_radius(thick.lines))
 {
   const mbs_export::Picture& picture = body.picture;
-  if (picture.positions.rows() == 0)
+  if (picture.positions.rows() == 0) {
     throw Error(
         "sound: the body has no displacements of its surface; set pictures = \"vertices\" or "
         "\"all\" in [reduce] and make it again");
+  }
   const auto [samples, inner] = samples_of(picture, mid_);
   inner_nodes_ = inner;
   const auto n_modes = static_cast<Index>(modes.size());

@@ -44,9 +44,8 @@ Equations number_equations(const mesh::Mesh& plate, Formulation formulation)
   Equations equations{.of_node = std::vector<int>(plate.n_nodes(), -1)};
   for (const mesh::ElementBlock& block : plate.blocks) {
     const std::vector<int> places = lattice_places(block, formulation);
-    for (int e = 0; e < block.n_elements(); ++e) {
+    for (int e = 0; e < block.n_elements(); ++e)
       for (const int k : places) equations.of_node[block.element_nodes(e)[k]] = 0;
-    }
   }
   for (const int node : mesh::find_group(plate, "inner_edge").nodes) equations.of_node[node] = -1;
   for (int& first : equations.of_node) {
@@ -96,9 +95,8 @@ Triplets assemble(const mesh::Mesh& plate, Formulation formulation,
     for (int e = 0; e < block.n_elements(); ++e) {
       const plate::ShellNodes nodes = plate::shell_nodes(plate, block, e, normals, section);
       std::vector<int> first_equations;
-      for (const int k : places) {
+      for (const int k : places)
         first_equations.push_back(equations.of_node[block.element_nodes(e)[k]]);
-      }
       add_element(entries,
                   formulation == Formulation::serendipity
                       ? serendipity_matrices(block.shape, selected(nodes, places), section.material)

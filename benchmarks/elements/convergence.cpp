@@ -55,9 +55,7 @@ double edge_row(double ratio, int n_r)
 mesh::Mesh make_mesh(const char* kind, double ratio, int order, int n_r)
 {
   const double row = edge_row(ratio, n_r);
-  if (kind[0] == 's') {
-    return polar_grid({r_i, r_a, order, row > 0.0 ? n_r + 2 : n_r, row});
-  }
+  if (kind[0] == 's') return polar_grid({r_i, r_a, order, row > 0.0 ? n_r + 2 : n_r, row});
   mesh::AnnulusOptions options{.inner_radius = r_i,
                                .outer_radius = r_a,
                                .element_size = (r_a - r_i) / n_r,

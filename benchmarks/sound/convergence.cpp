@@ -107,11 +107,10 @@ Disc disc(int order, double size, double edge, int dimension)
   Exterior exterior(mesh, testing::squeal_wave(), {.alpha = order == 2 ? 5.0 : 10.0});
   BodySurface meridian = exterior.surface();
   Eigen::MatrixXcd v_n;
-  if (dimension == 2) {
+  if (dimension == 2)
     v_n = testing::disc_velocity(meridian, 1.0);
-  } else {
+  else
     v_n = testing::disc_velocity_in_space(meridian);
-  }
   Field field = solve(exterior, v_n);
   const double solved = cpu_s();
   return {{.table = dimension == 2 ? "disc, plane" : "disc, space",

@@ -137,11 +137,12 @@ std::string hard_cases_json(bool smallest)
        {slow_growth(smallest), split_pairs(), low_speeds(), cycles(smallest), stiff_pads(smallest)})
     rows.insert(rows.end(), part.begin(), part.end());
   std::string text = "[";
-  for (const Row& row : rows)
+  for (const Row& row : rows) {
     text += fmt::format(
         "{}\n  {{\"case\": \"{}\", \"setting\": \"{}\", \"result\": \"{}\", \"reference\": "
         "\"{}\"}}",
         text.size() > 1 ? "," : "", row.name, row.setting, row.result, row.reference);
+  }
   return text + "]";
 }
 

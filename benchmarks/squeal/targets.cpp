@@ -108,10 +108,11 @@ std::vector<Target> measured_targets(bool smallest)
 std::string json_of(const std::vector<Target>& targets)
 {
   std::string text = "[";
-  for (const Target& target : targets)
+  for (const Target& target : targets) {
     text += fmt::format(
         "{}\n  {{\"name\": \"{}\", \"unit\": \"{}\", \"measured\": {:.4g}, \"target\": {:g}}}",
         text.size() > 1 ? "," : "", target.name, target.unit, target.measured, target.limit);
+  }
   return text + "]";
 }
 

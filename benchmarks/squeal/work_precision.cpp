@@ -157,12 +157,13 @@ std::string json_of(const Case& study, const std::string& error, const std::vect
   std::string text = fmt::format(
       "{{\"name\": \"{}\", \"modes\": {}, \"duration_s\": {}, \"error\": \"{}\", \"points\": [",
       study.name, study.disc.n_modes(), study.duration, error);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
     text += fmt::format(
         "{}\n  {{\"integrator\": \"{}\", \"setting\": {:g}, \"error\": {:.3e}, \"time\": {:.3e}, "
         "\"evaluations\": {:.4e}}}",
         i == 0 ? "" : ",", points[i].integrator, points[i].setting, points[i].error, points[i].time,
         points[i].evaluations);
+  }
   return text + "]}";
 }
 
@@ -196,9 +197,10 @@ std::string discrete_json(const Disc& disc, IntegratorKind kind)
   std::string text = fmt::format("{{\"modes\": {}, \"integrator\": \"{}\", \"points\": [",
                                  disc.n_modes(), name_of(kind));
   const InertialDisc inertial = inertial_disc(disc);
-  for (const int steps : {10, 20, 40, 80, 160, 320})
+  for (const int steps : {10, 20, 40, 80, 160, 320}) {
     text += fmt::format("{}[{}, {:.3e}]", steps == 10 ? "" : ", ", steps,
                         growth_error_of(kind, inertial, reference_options(), 4.28 * pi, steps));
+  }
   return text + "]}";
 }
 
@@ -216,9 +218,10 @@ int main(int argc, char** argv)
                       unilateral = reference_options(ContactLaw::unilateral);
   const double squeal = 1.0 / 1750.0;
   const std::vector<Target> targets = measured_targets(smallest);
-  for (const Target& target : targets)
+  for (const Target& target : targets) {
     fmt::print("{}: {:.3g} {} (target {:g})\n", target.name, target.measured, target.unit,
                target.limit);
+  }
   std::ofstream file(argv[argc - 1]);
   file << "{\"targets\": " << json_of(targets) << ",\n\"discrete\": [\n"
        << discrete_json(pair, IntegratorKind::splitting) << ",\n"

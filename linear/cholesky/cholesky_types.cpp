@@ -48,9 +48,8 @@ PetscErrorCode destroy(Mat F)
   PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), "MatFactorGetSolverType_C",
                                        nullptr));
   for (const char* method :
-       {"MatMumpsGetInfog_C", "MatMumpsGetIcntl_C", "MatMumpsSetIcntl_C", "MatMumpsSetCntl_C"}) {
+       {"MatMumpsGetInfog_C", "MatMumpsGetIcntl_C", "MatMumpsSetIcntl_C", "MatMumpsSetCntl_C"})
     PetscCall(PetscObjectComposeFunction(reinterpret_cast<PetscObject>(F), method, nullptr));
-  }
   return 0;
 }
 

@@ -47,9 +47,8 @@ double inverse_norm(const Factorization& A)
     double largest = 0.0;
     petsc::check(VecMax(z, &steepest, &largest));
     petsc::check(VecSet(x, 0.0));
-    if (petsc::rank(petsc::communicator(x)) == 0) {
+    if (petsc::rank(petsc::communicator(x)) == 0)
       petsc::check(VecSetValue(x, steepest, 1.0, INSERT_VALUES));
-    }
     petsc::check(VecAssemblyBegin(x));
     petsc::check(VecAssemblyEnd(x));
   }

@@ -99,9 +99,8 @@ constexpr idx_t dense_degree = 100;
 bool is_permutation_of_all(std::vector<idx_t> places)
 {
   std::ranges::sort(places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i)
     if (std::cmp_not_equal(places[i], i)) return false;
-  }
   return true;
 }
 

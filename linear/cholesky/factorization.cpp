@@ -78,9 +78,8 @@ void check_definite(Mat factor, Mat A, const FactorOptions& options)
   MatFactorError error = MAT_FACTOR_NOERROR;
   petsc::check(MatFactorGetError(factor, &error));
   check_memory(factor, error, options);
-  if (const PetscInt n = n_negative_pivots(factor); n > 0) {
+  if (const PetscInt n = n_negative_pivots(factor); n > 0)
     refuse(fmt::format("{} negative pivots", n), row_of_free_motion(A));
-  }
   if (error != MAT_FACTOR_NOERROR) refuse("zero pivot", row_of_free_motion(A));
   const SoftestMotion softest = softest_motion(factor, A);
   constexpr double round_off = 32.0 * std::numeric_limits<double>::epsilon();

@@ -44,9 +44,8 @@ void set_own_mumps_controls(Mat factor, const OptionSource& source)
 void set_default_mumps_controls(Mat factor)
 {
   constexpr PetscInt nowhere = -1;
-  for (const PetscInt stream : {1, 2, 3}) {  // errors, diagnostics, statistics
+  for (const PetscInt stream : {1, 2, 3})  // errors, diagnostics, statistics
     petsc::check(MatMumpsSetIcntl(factor, stream, nowhere));
-  }
   petsc::check(MatMumpsSetIcntl(factor, 4, 0));    // level
   petsc::check(MatMumpsSetIcntl(factor, 27, 64));  // columns at a time
 }
@@ -78,9 +77,8 @@ Mat set_up_factor(PC pc, const OptionSource& source)
   petsc::check(MatFactorGetSolverType(factor, &package));
   const bool by_petsc = std::string_view(package) == MATSOLVERMUMPS;
   if (by_petsc) set_default_mumps_controls(factor);
-  if (source.database && (by_petsc || std::string_view(package) == mumps_metis)) {
+  if (source.database && (by_petsc || std::string_view(package) == mumps_metis))
     set_own_mumps_controls(factor, source);
-  }
   return factor;
 }
 

@@ -147,9 +147,8 @@ MatFactorError MumpsFactor::error() const
   const int code = info(1);
   if (code >= 0) return MAT_FACTOR_NOERROR;
   if (code == -10 || code == -6 || code == -40) return MAT_FACTOR_NUMERIC_ZEROPIVOT;
-  if (code == -7 || code == -8 || code == -9 || code == -11 || code == -13 || code == -19) {
+  if (code == -7 || code == -8 || code == -9 || code == -11 || code == -13 || code == -19)
     return MAT_FACTOR_OUTMEMORY;
-  }
   return MAT_FACTOR_OTHER;
 }
 

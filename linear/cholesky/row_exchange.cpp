@@ -15,7 +15,7 @@ RowExchange plan_exchange(const std::vector<int>& rows, const std::vector<PetscI
                    .receive_counts = std::vector<int>(n_ranks),
                    .receive_rows = {}};
   const auto owner = [&](int row) {
-    return std::upper_bound(first_rows.begin(), first_rows.end(), row - 1) - first_rows.begin() - 1;
+    return std::ranges::upper_bound(first_rows, row - 1) - first_rows.begin() - 1;
   };
   for (const int row : rows) ++plan.send_counts[owner(row)];
   const std::vector<int> send_at = offsets(plan.send_counts);

@@ -27,11 +27,9 @@ void fill(Mat Z)
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(Z, &first, &last));
   petsc::check(MatDenseGetArrayWrite(Z, &values));
-  for (PetscInt j = 0; j < n_vectors; ++j) {
-    for (PetscInt i = first; i < last; ++i) {
+  for (PetscInt j = 0; j < n_vectors; ++j)
+    for (PetscInt i = first; i < last; ++i)
       values[i - first + std::size_t(j) * (last - first)] = std::sin(1.0 + (j + 1.3) * i) + 0.5;
-    }
-  }
   petsc::check(MatDenseRestoreArrayWrite(Z, &values));
 }
 

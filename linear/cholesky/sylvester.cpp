@@ -17,9 +17,8 @@ petsc::IndexSet free_rows(Mat K, std::vector<PetscInt> held)
   petsc::check(MatGetOwnershipRange(K, &first, &last));
   std::ranges::sort(held);
   std::vector<PetscInt> rows;
-  for (PetscInt i = first; i < last; ++i) {
+  for (PetscInt i = first; i < last; ++i)
     if (!std::ranges::binary_search(held, i)) rows.push_back(i);
-  }
   petsc::IndexSet set;
   petsc::check(ISCreateGeneral(petsc::communicator(K), static_cast<PetscInt>(rows.size()),
                                rows.data(), PETSC_COPY_VALUES, set.put()));

@@ -35,12 +35,13 @@ Eigen::LLT<MatrixXd> deflated_factor(const MatrixXd& K, const MatrixXd& M, const
   const MatrixXd MR = M * R;
   const MatrixXd K_d = without_zero_energy(K, MR, R);
   Eigen::LLT<MatrixXd> B(MatrixXd(K_d + deflation_shift(K_d, M) * MR * MR.transpose()));
-  if (B.info() != Eigen::Success)
+  if (B.info() != Eigen::Success) {
     throw Error(
         "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"
         " is the structure in one piece, without mechanisms, and no attachment node so close to "
         "another"
         " that round-off is all there is between them?");
+  }
   return B;
 }
 

@@ -20,10 +20,9 @@ Adjacency transposed(const Adjacency& graph)
   for (const int v : graph.neighbours) ++result.starts[v + 1];
   std::inclusive_scan(result.starts.begin(), result.starts.end(), result.starts.begin());
   std::vector<int> next(result.starts.begin(), result.starts.end() - 1);
-  for (int v = 0; v < n; ++v) {
+  for (int v = 0; v < n; ++v)
     for (int k = graph.starts[v]; k < graph.starts[v + 1]; ++k)
       result.neighbours[next[graph.neighbours[k]]++] = v;
-  }
   return result;
 }
 
@@ -35,9 +34,8 @@ void for_missing(const Adjacency& graph, const Visit& visit)
   std::vector<int> seen_by(graph.n_vertices(), -1);
   for (int v = 0; v < graph.n_vertices(); ++v) {
     for (int k = graph.starts[v]; k < graph.starts[v + 1]; ++k) seen_by[graph.neighbours[k]] = v;
-    for (int k = back.starts[v]; k < back.starts[v + 1]; ++k) {
+    for (int k = back.starts[v]; k < back.starts[v + 1]; ++k)
       if (seen_by[back.neighbours[k]] != v) visit(v, back.neighbours[k]);
-    }
   }
 }
 

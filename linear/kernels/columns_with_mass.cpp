@@ -33,9 +33,8 @@ petsc::Matrix columns_with_mass(Mat X, Mat MX, Mat M)
   const std::vector<double> mass = column_products(X, MX);
   const std::vector<double> terms = diagonal_terms(X, M);
   std::vector<PetscInt> with_mass;
-  for (std::size_t k = 0; k < mass.size(); ++k) {
+  for (std::size_t k = 0; k < mass.size(); ++k)
     if (mass[k] > round_off * terms[k]) with_mass.push_back(static_cast<PetscInt>(k));
-  }
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(std::ssize(mass), std::ssize(with_mass));
   for (PetscInt j = 0; j < S.cols(); ++j) S(with_mass[j], j) = 1.0;
   petsc::Matrix chosen = uninitialized_dense(X, S.cols());

@@ -121,9 +121,8 @@ void add_product(double alpha, Mat X, const MatrixXd& S, Mat Y)
   const PetscBLASInt ldx = x.leading_dimension();
   const PetscBLASInt ld = ldy;
   const PetscScalar one = 1.0;
-  if (m > 0 && n > 0 && k > 0) {
+  if (m > 0 && n > 0 && k > 0)
     BLASgemm_("N", "N", &m, &n, &k, &alpha, x.values(), &ldx, S.data(), &k, &one, y, &ld);
-  }
   petsc::check(MatDenseRestoreArray(Y, &y));
 }
 
@@ -136,9 +135,8 @@ void add_sparse_product(Mat A, const MatrixXd& S, Mat Y)
   petsc::check(MatDenseGetLDA(Y, &ld));
   petsc::check(MatDenseGetArray(Y, &y));
   for_local_entries(A, [&](PetscInt row, PetscInt column, double value) {
-    for (PetscInt j = 0; j < S.cols(); ++j) {
+    for (PetscInt j = 0; j < S.cols(); ++j)
       y[row - first + std::size_t(j) * ld] += value * S(column, j);
-    }
   });
   petsc::check(MatDenseRestoreArray(Y, &y));
 }

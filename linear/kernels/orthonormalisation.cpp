@@ -14,9 +14,8 @@ using Eigen::MatrixXd;
 MatrixXd scaled(const MatrixXd& G, const std::vector<double>& sizes)
 {
   MatrixXd S = G;
-  for (PetscInt j = 0; j < G.cols(); ++j) {
+  for (PetscInt j = 0; j < G.cols(); ++j)
     for (PetscInt i = 0; i < G.rows(); ++i) S(i, j) /= sizes[i] * sizes[j];
-  }
   return S;
 }
 

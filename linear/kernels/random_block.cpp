@@ -25,11 +25,9 @@ void fill_with_random_numbers(Mat block, PetscInt first_number)
   petsc::check(MatGetLocalSize(block, &n_local, nullptr));
   petsc::check(MatGetSize(block, nullptr, &n_columns));
   petsc::check(MatDenseGetArrayWrite(block, &values));
-  for (PetscInt j = 0; j < n_columns; ++j) {
-    for (PetscInt i = 0; i < n_local; ++i) {
+  for (PetscInt j = 0; j < n_columns; ++j)
+    for (PetscInt i = 0; i < n_local; ++i)
       values[i + std::size_t(j) * n_local] = random_number(first + i, first_number + j);
-    }
-  }
   petsc::check(MatDenseRestoreArrayWrite(block, &values));
 }
 

@@ -77,10 +77,9 @@ void pack(const double* X, PetscInt ldx, PetscInt n_rows, PetscInt n, PetscInt w
 void unpack(const double* panel, PetscInt width, PetscInt n_rows, PetscInt n, double* Y,
             PetscInt ldy)
 {
-  for (PetscInt i = 0; i < n_rows; ++i) {
+  for (PetscInt i = 0; i < n_rows; ++i)
     for (PetscInt c = 0; c < n; ++c)
       Y[i + std::size_t(c) * ldy] = panel[std::size_t(i) * width + c];
-  }
 }
 
 }  // namespace

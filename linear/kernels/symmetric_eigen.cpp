@@ -49,9 +49,8 @@ struct Grading {
 double largest_entry(const MatrixXd& A, const std::vector<PetscInt>& rows)
 {
   double largest = 0.0;
-  for (const PetscInt j : rows) {
+  for (const PetscInt j : rows)
     for (const PetscInt i : rows) largest = std::max(largest, std::abs(A(i, j)));
-  }
   return largest;
 }
 

@@ -24,9 +24,8 @@ void pack(const double* columns, std::ptrdiff_t ld, PetscInt n, PetscInt n_colum
 
 void unpack(const double* rows, PetscInt n, PetscInt n_columns, double* columns, std::ptrdiff_t ld)
 {
-  for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt i = 0; i < n; ++i)
     for (PetscInt c = 0; c < n_columns; ++c) columns[i + c * ld] = rows[i * panel_width + c];
-  }
 }
 
 /// work(first row, number of rows) of each chunk.
@@ -63,16 +62,14 @@ MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y)
       for (PetscInt c = tiled_columns(X); c < X.n_columns; ++c) {
         const double* x = X.values + first + c * X.leading_dimension;
         double* sum = sums.get() + std::size_t(c) * panel_width;
-        for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt i = 0; i < n; ++i)
           for (PetscInt k = 0; k < panel_width; ++k)
             sum[k] -= x[i] * rows.get()[i * panel_width + k];
-        }
       }
     });
-    for (PetscInt k = 0; k < width; ++k) {
+    for (PetscInt k = 0; k < width; ++k)
       for (PetscInt i = 0; i < X.n_columns; ++i)
         product(i, j + k) = -sums.get()[std::size_t(i) * panel_width + k];
-    }
   }
   return product;
 }
@@ -97,10 +94,9 @@ void subtract_tall_product(const LongColumns& X, const MatrixXd& S, double* Y,
       for (PetscInt c = tiled_columns(X); c < X.n_columns; ++c) {
         const double* x = X.values + first + c * X.leading_dimension;
         const double* factor = factors.get() + std::size_t(c) * panel_width;
-        for (PetscInt i = 0; i < n; ++i) {
+        for (PetscInt i = 0; i < n; ++i)
           for (PetscInt k = 0; k < panel_width; ++k)
             rows.get()[i * panel_width + k] -= x[i] * factor[k];
-        }
       }
       unpack(rows.get(), n, width, y, leading_dimension);
     });

@@ -27,10 +27,9 @@ template <typename Strides>
 void subtract_any(const double* tile, Strides strides, int n_columns, const double* X, double* Y)
 {
   for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
-    for (int r = 0; r < tile_rows; ++r) {
+    for (int r = 0; r < tile_rows; ++r)
       for (int k = 0; k < panel_width; ++k)
         Y[r * panel_width + k] -= tile[r * strides.row()] * X[k];
-    }
   }
 }
 
@@ -39,10 +38,9 @@ void subtract_any_transposed(const double* tile, Strides strides, int n_columns,
                              double* X)
 {
   for (int c = 0; c < n_columns; ++c, tile += strides.column(), X += panel_width) {
-    for (int r = 0; r < tile_rows; ++r) {
+    for (int r = 0; r < tile_rows; ++r)
       for (int k = 0; k < panel_width; ++k)
         X[k] -= tile[r * strides.row()] * Y[r * panel_width + k];
-    }
   }
 }
 
@@ -70,9 +68,8 @@ void solve(const double* L, double* Y)
 {
   for (int i = 0; i < tile_rows; ++i) {
     double* y = Y + i * panel_width;
-    for (int j = 0; j < i; ++j) {
+    for (int j = 0; j < i; ++j)
       for (int k = 0; k < panel_width; ++k) y[k] -= L[i * tile_rows + j] * Y[j * panel_width + k];
-    }
   }
 }
 
@@ -80,9 +77,8 @@ void solve_transposed(const double* L, double* Y)
 {
   for (int i = tile_rows - 1; i >= 0; --i) {
     const double* y = Y + i * panel_width;
-    for (int j = 0; j < i; ++j) {
+    for (int j = 0; j < i; ++j)
       for (int k = 0; k < panel_width; ++k) Y[j * panel_width + k] -= L[i * tile_rows + j] * y[k];
-    }
   }
 }
 

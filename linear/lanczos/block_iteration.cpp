@@ -88,9 +88,8 @@ void BlockIteration::note_lost(const BlockOperator& op)
     op(X, basis_.times_mass(X), Y);
     std::vector<double> squares = column_products(Y, basis_.times_mass(Y));
     broadcast_numbers(squares, basis_.comm());
-    for (const double square : squares) {
+    for (const double square : squares)
       lost_theta_ = std::max(lost_theta_, std::sqrt(std::max(square, 0.0)));
-    }
   }
 }
 
@@ -99,9 +98,8 @@ void BlockIteration::start(const BlockOperator& op)
   block_size_ = std::min(block_size_, basis_.n_rows());
   append_random(block_size_ - basis_.n_columns(), op);
   sequence_.n_sources = basis_.n_columns();
-  if (basis_.n_columns() == 0) {
+  if (basis_.n_columns() == 0)
     throw Error("block Lanczos: the start vectors have no mass; is the mass matrix zero?");
-  }
   basis_.unite_newest(basis_.n_columns());
 }
 
@@ -160,9 +158,8 @@ void BlockIteration::order_ritz_values(const Order& before)
 double BlockIteration::left_out(PetscInt i) const
 {
   double sum = 0.0;
-  for (PetscInt k = 0; k < n_old_; ++k) {
+  for (PetscInt k = 0; k < n_old_; ++k)
     sum += std::pow(left_out_[k] * ritz_.vectors(k, order_[i]), 2);
-  }
   return std::sqrt(sum);
 }
 
@@ -171,9 +168,8 @@ double BlockIteration::residual(PetscInt i) const
   double sum = std::pow(left_out(i), 2);
   for (PetscInt a = 0; a < R_.rows(); ++a) {
     double component = 0.0;
-    for (PetscInt c = 0; c < R_.cols(); ++c) {
+    for (PetscInt c = 0; c < R_.cols(); ++c)
       component += R_(a, c) * ritz_.vectors(n_old_ - R_.cols() + c, order_[i]);
-    }
     sum += component * component;
   }
   return std::sqrt(sum);

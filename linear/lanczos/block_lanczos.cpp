@@ -31,9 +31,8 @@ PetscInt capacity(PetscInt n_pairs, PetscInt n_rows, const BlockLanczosOptions& 
 double excess(const RitzValues& pairs, PetscInt n, double tolerance)
 {
   double largest = 0.0;
-  for (PetscInt i = 0; i < n; ++i) {
+  for (PetscInt i = 0; i < n; ++i)
     largest = std::max(largest, pairs.residual[i] / (tolerance * std::abs(pairs.theta[i])));
-  }
   return largest;
 }
 
@@ -117,9 +116,8 @@ bool BlockLanczos::has_ended(const RitzValues& pairs, PetscInt n_pairs)
   const PetscInt n_first = n_converged_first(pairs, options_.tolerance);
   if (n_first >= n_pairs) return true;
   double theta = iteration_.lost_theta();
-  for (std::size_t i = n_first; i < pairs.theta.size(); ++i) {
+  for (std::size_t i = n_first; i < pairs.theta.size(); ++i)
     theta = std::max(theta, pairs.theta[i] + pairs.residual[i]);
-  }
   note_unresolved(theta);
   if (unresolved_from_ == all_of_them || n_first <= n_kept_before_) return true;
   n_kept_before_ = n_first;

@@ -64,9 +64,8 @@ petsc::Matrix BlockIteration::applied_vectors(PetscInt first, PetscInt last,
     }
     MatrixXd C = inner_product(X, basis_.times_mass(target));
     for (PetscInt k = at; k < end; ++k) {
-      for (PetscInt i = 0; i < last; ++i) {
+      for (PetscInt i = 0; i < last; ++i)
         if (std::abs(theta(i)) <= std::abs(theta(k))) C(i, k - at) = 0.0;
-      }
     }
     add_product(-1.0, X, C, target);
     normalise_columns(target, basis_.times_mass(target));

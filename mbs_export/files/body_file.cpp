@@ -97,7 +97,7 @@ ContactRing read_ring(const files::Reader& file, const std::string& name, Index 
   ring.W_r = read_quantity(file, group + "radial_slope", ring.angles, n_modes);
   ring.W_t = read_quantity(file, group + "circumferential_slope", ring.angles, n_modes);
   if (ring.radius <= 0.0) file.fail(group + "radius", "is not positive");
-  if (n < 3 || !std::is_sorted(ring.angles.begin(), ring.angles.end()))
+  if (n < 3 || !std::ranges::is_sorted(ring.angles))
     file.fail(group + "angles", "expected three or more angles in ascending order");
   return ring;
 }
@@ -146,7 +146,7 @@ void check_row_order(const files::Reader& file, Index n_nodes)
 VectorXd read_frequencies(const files::Reader& file, const std::string& name)
 {
   VectorXd omega = file.vector(name);
-  if ((omega.size() > 0 && omega[0] < 0.0) || !std::is_sorted(omega.begin(), omega.end()))
+  if ((omega.size() > 0 && omega[0] < 0.0) || !std::ranges::is_sorted(omega))
     file.fail(name, "expected frequencies of zero or more in ascending order");
   return omega;
 }
@@ -156,9 +156,10 @@ std::vector<ModeKind> read_kinds(const files::Reader& file, Index n_modes)
   std::vector<ModeKind> kinds;
   for (const std::string& name : file.texts("modes/kinds")) {
     const auto found = std::ranges::find(kind_names, name);
-    if (found == kind_names.end())
+    if (found == kind_names.end()) {
       file.fail("modes/kinds",
                 fmt::format("has '{}', expected {}", name, fmt::join(kind_names, ", ")));
+    }
     kinds.push_back(static_cast<ModeKind>(found - kind_names.begin()));
   }
   if (Index(kinds.size()) != n_modes)

@@ -36,9 +36,8 @@ void read_counts(const files::Reader& file, Certificate& certificate)
   constexpr Eigen::Index many = std::numeric_limits<int>::max();
   const auto expected = file_parts::read_indices(file, "certificate/counts/expected", many, n);
   const auto found = file_parts::read_indices(file, "certificate/counts/found", many, n);
-  for (std::size_t i = 0; i < counts.size(); ++i) {
+  for (std::size_t i = 0; i < counts.size(); ++i)
     certificate.*counts[i] = {up_to[Eigen::Index(i)], expected[i], found[i]};
-  }
 }
 
 }  // namespace
@@ -61,9 +60,8 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
   }
   file.write("certificate/rigid_modes", std::int64_t{certificate.n_rigid}, "1");
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
-  if (certificate.condition > 0.0) {
+  if (certificate.condition > 0.0)
     file.write("certificate/condition_K_ss", certificate.condition, "1");
-  }
   if (certificate.range.up_to == 0.0) return;
   file.write("certificate/bounds", certificate.bounds, "1");
   write_counts(file, certificate);
@@ -84,9 +82,8 @@ Certificate read_certificate(const files::Reader& file)
     certificate.n_rigid = file_parts::read_count(file, "certificate/rigid_modes");
     certificate.rigid_residual = file.real("certificate/rigid_residual");
   }
-  if (file.contains("certificate/condition_K_ss")) {
+  if (file.contains("certificate/condition_K_ss"))
     certificate.condition = file.real("certificate/condition_K_ss");
-  }
   if (!file.contains("certificate/counts")) return certificate;
   certificate.bounds = file.vector("certificate/bounds");
   if (certificate.bounds.size() > certificate.eta2.size()) {

@@ -40,9 +40,10 @@ Attachment read_attachment(const files::Reader& file)
   const Eigen::MatrixXd axes = file.contains("attachment/drilling_axes")
                                    ? file.matrix("attachment/drilling_axes", {n, 3})
                                    : Eigen::MatrixXd::Zero(n, 3);
-  for (Index i = 0; i < n; ++i)
+  for (Index i = 0; i < n; ++i) {
     attachment.nodes.push_back(
         {numbers[static_cast<std::size_t>(i)], positions.row(i), axes.row(i)});
+  }
   std::set<std::string> names;
   for (const std::string& name : file.texts("attachment/set_names")) {
     if (!names.insert(name).second) file.fail("attachment/set_names", "names '" + name + "' twice");
@@ -72,9 +73,10 @@ Picture read_picture(const files::Reader& file, Index n_columns)
   const files::IntegerMatrix cells = file.integer_matrix("picture/cells", {files::any, 4});
   if (cells.size() > 0 && (cells.minCoeff() < 0 || cells.maxCoeff() >= n))
     file.fail("picture/cells", fmt::format("has a corner outside 0 .. {}", n - 1));
-  for (Index i = 0; i < cells.rows(); ++i)
+  for (Index i = 0; i < cells.rows(); ++i) {
     picture.cells.push_back(
         {int(cells(i, 0)), int(cells(i, 1)), int(cells(i, 2)), int(cells(i, 3))});
+  }
   picture.transformation = file.matrix("picture/displacements", {3 * n, n_columns});
   return picture;
 }
@@ -101,9 +103,10 @@ int read_count(const files::Reader& file, const std::string& name)
 
 const std::string& link_name(const std::string& name)
 {
-  if (name.empty() || name == "." || name.find('/') != std::string::npos)
+  if (name.empty() || name == "." || name.find('/') != std::string::npos) {
     throw Error(
         fmt::format("'{}' cannot name a set in a file; use letters, digits, _ and -", name));
+  }
   return name;
 }
 

@@ -24,9 +24,10 @@ void require_symmetric(const files::Reader& file, const std::string& name, const
   const double floor = A.size() > 0 ? 1e-14 * A.cwiseAbs().maxCoeff() : 0.0;
   for (Index j = 0; j < A.cols(); ++j)
     for (Index i = 0; i < j; ++i)
-      if (std::abs(A(i, j) - A(j, i)) > 1e-8 * scale[i] * scale[j] + floor)
+      if (std::abs(A(i, j) - A(j, i)) > 1e-8 * scale[i] * scale[j] + floor) {
         file.fail(name, fmt::format("is not symmetric: [{}, {}] = {} but [{}, {}] = {}", i, j,
                                     A(i, j), j, i, A(j, i)));
+      }
 }
 
 MatrixXd read_symmetric(const files::Reader& file, const std::string& name, Index n)
@@ -47,9 +48,10 @@ std::vector<MasterDof> read_node_masters(const files::Reader& file, Index n_node
   std::vector<MasterDof> masters;
   std::set<std::pair<int, int>> seen;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!seen.insert({nodes[i], components[i]}).second)
+    if (!seen.insert({nodes[i], components[i]}).second) {
       file.fail("masters",
                 fmt::format("has component {} of node {} twice", components[i], nodes[i]));
+    }
     masters.push_back({nodes[i], components[i]});
   }
   return masters;

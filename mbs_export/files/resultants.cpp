@@ -43,9 +43,10 @@ ResultantModes read_one(const files::Reader& file, const std::string& name, Inde
                             .S = {}};
   const Index n_kinds = Index(resultants.kinds.size());
   if (n_kinds == 0) file.fail(group + "kinds", "names no kind");
-  if (Index(resultants.units.size()) != n_kinds)
+  if (Index(resultants.units.size()) != n_kinds) {
     file.fail(group + "units",
               fmt::format("has {} values for {} kinds", resultants.units.size(), n_kinds));
+  }
   resultants.positions = file.matrix(group + "positions", {files::any, 3});
   const Index n_points = resultants.positions.rows();
   resultants.elements = file.integers(group + "elements", n_points);

@@ -30,9 +30,10 @@ std::vector<int> read_kinds(const files::Reader& file)
   std::vector<int> kinds;
   for (const std::string& name : file.texts("masters/kind")) {
     const auto found = std::ranges::find(kind_names, name);
-    if (found == kind_names.end())
+    if (found == kind_names.end()) {
       file.fail("masters/kind",
                 fmt::format("has '{}', expected {}", name, fmt::join(kind_names, ", ")));
+    }
     kinds.push_back(static_cast<int>(found - kind_names.begin()));
   }
   return kinds;
@@ -45,12 +46,13 @@ std::vector<std::int64_t> read_places(const files::Reader& file, const std::stri
   std::vector<std::int64_t> places = file.integers(name, Index(is_there.size()));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const bool is_good = is_there[i] != 0 ? places[i] >= 0 && places[i] < limit : places[i] == -1;
-    if (!is_good)
+    if (!is_good) {
       file.fail(name, is_there[i] != 0
                           ? fmt::format("has the index {}, expected 0 .. {}", places[i], limit - 1)
                           : fmt::format("has {} for a master of another kind, "
                                         "expected -1",
                                         places[i]));
+    }
   }
   return places;
 }
@@ -100,10 +102,11 @@ std::vector<MasterDof> read_ring_masters(const files::Reader& file, Index n_node
     if (!seen.emplace(kinds[i], nodes[i], rings[i], orders[i], components[i]).second)
       file.fail("masters", fmt::format("number {} stands there twice", i));
     MasterDof dof{.node = static_cast<int>(nodes[i]), .component = components[i]};
-    if (kinds[i] > 0)
+    if (kinds[i] > 0) {
       dof.harmonic = {.set = static_cast<int>(rings[i]),
                       .order = static_cast<int>(orders[i]),
                       .is_sine = kinds[i] == 2};
+    }
     masters.push_back(dof);
   }
   return masters;
@@ -116,9 +119,10 @@ std::optional<RingMotion> read_ring_motion(const files::Reader& file, files::Sha
                     .displacements = file.matrix("attachment/displacements", {shape.rows, n})};
   const Eigen::MatrixXd gram = motion.shapes.transpose() * motion.shapes;
   const double error = (gram - Eigen::MatrixXd::Identity(shape.cols, shape.cols)).norm();
-  if (!(error <= 1e-8))
+  if (!(error <= 1e-8)) {
     file.fail("masters/shapes",
               fmt::format("has columns that are not orthonormal ({:.1e})", error));
+  }
   return motion;
 }
 

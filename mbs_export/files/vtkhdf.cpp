@@ -60,9 +60,10 @@ void write_vtkhdf(files::Writer& file, const ModalBody& body)
   file.write("VTKHDF/Offsets", std::span<const std::int64_t>(cells.offsets), "1");
   file.write("VTKHDF/Types", std::span<const std::uint8_t>(cells.types), "1");
   file.link("VTKHDF/Points", "/picture/positions");
-  for (Index j = 0; j < body.n_modes(); ++j)
+  for (Index j = 0; j < body.n_modes(); ++j) {
     file.view_column("VTKHDF/PointData/" + mode_name(body, j),
                      {"/picture/displacements", 3 * n, body.n_modes(), j});
+  }
 }
 
 }  // namespace chladni::mbs_export

@@ -167,11 +167,12 @@ void write_exudyn(const std::string& path, const FloatingBody& floating)
   const ModalBody& body = floating.body;
   const Index n = body.n_modes();
   if (n == 0) throw ExportError("body.keep", "Exudyn: the body has no elastic mode");
-  if (!body.mass_integrals)
+  if (!body.mass_integrals) {
     throw ExportError(
         "reduce.mass_integrals",
         "Exudyn: the reduced system has no mass integrals; reduce the scene again, without "
         "mass_integrals = false in [reduce]");
+  }
   const Nodes nodes = all_nodes(body);
   constexpr Index n_rotation = 4, n_rigid = 7;  // Euler parameters
   Dictionary dictionary(path);

@@ -82,11 +82,12 @@ void require_rigid_motions(const ReducedSystem& reduced, int n_rigid)
 {
   if (n_rigid == 6) return;
   // K_r is a difference of large numbers.
-  if (resists_rigid_motion(reduced, reduced.K, 1e-8))
+  if (resists_rigid_motion(reduced, reduced.K, 1e-8)) {
     throw ExportError(
         "spring.stiffness",
         "a spring to the ground holds the body, but a floating frame needs a free one; put the "
         "spring into the model of the other program and take it out of the scene");
+  }
   throw ExportError(
       "interface.nodes",
       fmt::format("the interface nodes show {} of the 6 rigid-body motions; a floating frame needs "

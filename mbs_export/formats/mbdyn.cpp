@@ -22,9 +22,10 @@ std::string rows(const MatrixXd& A)
 {
   std::string text;
   for (Index i = 0; i < A.rows(); ++i)
-    for (Index j = 0; j < A.cols(); ++j)
+    for (Index j = 0; j < A.cols(); ++j) {
       fmt::format_to(std::back_inserter(text), "{:24.16e}{}", A(i, j),
                      j + 1 == A.cols() ? "\n" : "");
+    }
   return text;
 }
 
@@ -133,11 +134,12 @@ std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
 {
   const ModalBody& body = floating.body;
   if (body.n_modes() == 0) throw ExportError("body.keep", "MBDyn: the body has no elastic mode");
-  if (version == MbdynVersion::v1_7 && coupling(floating) > 1e-6)
+  if (version == MbdynVersion::v1_7 && coupling(floating) > 1e-6) {
     throw ExportError(
         "body.fixed",
         "MBDyn 1.7 cannot read how the modes of a held body move its centre of mass; leave the "
         "body free (fixed = []), whose modes need no such coupling, or write for mbdyn-develop");
+  }
   std::string text =
       header(body, version) + node_groups(body) + mode_group(body) + matrix_groups(body);
   if (version == MbdynVersion::develop) text += invariant_groups(floating);

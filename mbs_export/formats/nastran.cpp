@@ -127,11 +127,12 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
 
 void require_writable(const ReducedSystem& reduced)
 {
-  if (reduced.ring_motion)
+  if (reduced.ring_motion) {
     throw ExportError(
         "interface.rings",
         "Nastran: its grids have displacements as coordinates, not harmonics of a ring; take the "
         "rings out of interface.rings and reduce again");
+  }
   if (reduced.C.size() > 0 && check_parts::asymmetry(reduced.C) > 1e-8)
     throw Error("Nastran: the damping matrix is not symmetric; B2GG and BAA must be");
 }

@@ -10,9 +10,10 @@ namespace chladni::mbs_export::formats {
 
 std::vector<int> unique_node_numbers(const std::vector<AttachmentNode>& nodes, int largest)
 {
-  if (nodes.size() > static_cast<std::size_t>(largest))
+  if (nodes.size() > static_cast<std::size_t>(largest)) {
     throw Error(fmt::format("this format has numbers for {} nodes, and the body has {}", largest,
                             nodes.size()));
+  }
   std::vector<int> numbers;
   std::set<std::int64_t> taken;
   for (const AttachmentNode& node : nodes) {

@@ -207,9 +207,10 @@ void add_reference(SidText& sid, const ModalBody& body)
   sid.line("refmod");
   sid.line(fmt::format("    mass            = {}", number(body.mass)));
   sid.line(fmt::format("    nelastq         = {:5}", body.n_modes()));
-  for (Index j = 0; j < body.n_modes(); ++j)
+  for (Index j = 0; j < body.n_modes(); ++j) {
     sid.line(fmt::format("    ielastq ({:5}) = Mode {:5} : {:14.6f} Hz", j + 1, j + 1,
                          body.omega[j] / (2.0 * std::numbers::pi)));
+  }
   sid.line("end refmod");
 }
 
@@ -220,11 +221,12 @@ std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
   const ModalBody& body = floating.body;
   const Index n = body.n_modes();
   if (n == 0) throw ExportError("body.keep", "SID_FEM: the body has no elastic mode");
-  if (!body.mass_integrals)
+  if (!body.mass_integrals) {
     throw ExportError(
         "reduce.mass_integrals",
         "SID_FEM: the reduced system has no mass integrals; reduce the scene again, without "
         "mass_integrals = false in [reduce]");
+  }
   const MassIntegrals& integrals = *body.mass_integrals;
   SidText sid(n, options.dialect);
   sid.line("new modal   =");

@@ -41,9 +41,8 @@ class Neighbours {
 MatrixXd only_components(const MatrixXd& A_e, const DofMap& dofs)
 {
   std::vector<Index> kept;
-  for (Index node = 0; node < A_e.rows(); node += 6) {
+  for (Index node = 0; node < A_e.rows(); node += 6)
     for (const int c : dofs.components()) kept.push_back(node + c);
-  }
   return A_e(kept, kept);
 }
 

@@ -12,9 +12,8 @@ using Scatter = petsc::Owned<VecScatter, VecScatterDestroy>;
 std::vector<PetscInt> nodes_of_others(const BlockPattern& pattern)
 {
   std::vector<PetscInt> nodes;
-  for (const PetscInt node : pattern.column) {
+  for (const PetscInt node : pattern.column)
     if (node < pattern.first || node >= pattern.first + pattern.n_rows()) nodes.push_back(node);
-  }
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

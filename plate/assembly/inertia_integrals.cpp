@@ -72,9 +72,8 @@ MatrixXd element_moments(const MassPoints& points)
   for (Index l = 0; l < 3; ++l) {
     const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
     moments.col(l) = N_l.transpose() * points.dm;
-    for (Index k = 0; k < 3; ++k) {
+    for (Index k = 0; k < 3; ++k)
       moments.col(3 + 3 * k + l) = N_l.transpose() * points.dm.cwiseProduct(points.x.col(k));
-    }
   }
   return moments;
 }

@@ -86,9 +86,8 @@ void add_load(const mesh::Mesh& mesh, const EdgeLoad& load, Forces& forces)
     throw Error(fmt::format(
         "line load on \"{}\": no edge of an element has all its nodes in this group", load.group));
   }
-  for (const auto& [node, share] : shares) {
+  for (const auto& [node, share] : shares)
     forces.add_force(node, share * vector_of(load.line_force));
-  }
 }
 
 /// f_i = int N_i p (a_1 x a_2) d xi d eta over one element.
@@ -122,9 +121,8 @@ void add_load(const mesh::Mesh& mesh, const PressureLoad& load, Forces& forces)
       ++n_elements;
     }
   }
-  if (n_elements == 0) {
+  if (n_elements == 0)
     throw Error(fmt::format("pressure on \"{}\": the group has no shell elements", load.group));
-  }
 }
 
 /// The acceleration as the motion of every node.

@@ -82,11 +82,9 @@ MatrixXd node_motions(const DofMap& dofs, Vec q)
   const Eigen::VectorXd all = replicate(q);
   MatrixXd motions = MatrixXd::Zero(dofs.n_nodes(), 6);
   for (int node = 0; node < dofs.n_nodes(); ++node) {
-    for (const MotionTerm& term : dofs.motion(node)) {
-      for (const int c : dofs.components()) {
+    for (const MotionTerm& term : dofs.motion(node))
+      for (const int c : dofs.components())
         motions.row(node) += all[*dofs.dof_of_number(term.number, c)] * term.T.col(c).transpose();
-      }
-    }
   }
   return motions;
 }
@@ -96,9 +94,8 @@ MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residua
   const Eigen::VectorXd all = replicate(residual);
   MatrixXd forces = MatrixXd::Zero(dofs.n_active(), 6);
   const int n = dofs.n_components();
-  for (const int dof : held) {
+  for (const int dof : held)
     forces(dof / n, dofs.components()[static_cast<std::size_t>(dof % n)]) = all[dof];
-  }
   return forces;
 }
 

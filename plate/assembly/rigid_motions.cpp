@@ -35,9 +35,7 @@ petsc::Matrix rigid_motions(const System& system)
     for (const int c : dofs.components()) {
       const int row = *dofs.dof(node, c);
       if (row < first || row >= last) continue;
-      for (int k = 0; k < 6; ++k) {
-        petsc::check(MatSetValue(R, row, k, motion(c, k), INSERT_VALUES));
-      }
+      for (int k = 0; k < 6; ++k) petsc::check(MatSetValue(R, row, k, motion(c, k), INSERT_VALUES));
     }
   }
   petsc::check(MatAssemblyBegin(R, MAT_FINAL_ASSEMBLY));

@@ -48,9 +48,8 @@ Blocks mean_motion(const NodeMotions& motions, const std::map<int, double>& shar
     of_node.topLeftCorner<3, 3>() = w * Matrix3d::Identity();
     of_node.bottomLeftCorner<3, 3>() =
         w * J_inverse * cross_matrix(motions.position(node) - centre);
-    for (const MotionTerm& term : motions.motion(node)) {
+    for (const MotionTerm& term : motions.motion(node))
       A.try_emplace(term.number, Matrix6d::Zero()).first->second += to_reference * of_node * term.T;
-    }
   }
   return A;
 }
@@ -119,9 +118,8 @@ CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivo
     motion.dof[component] = -1;
     for (const auto& [other, block] : A) {
       Eigen::Matrix<double, 1, 6> row = -pivots.inverse.row(k) * block;
-      for (int l = 0; l < 6; ++l) {  // where pivots stood there is now the reference node
+      for (int l = 0; l < 6; ++l)  // where pivots stood there is now the reference node
         if (pivots.dof[l] / 6 == other) row[pivots.dof[l] % 6] = pivots.inverse(k, l);
-      }
       T.try_emplace(other, Matrix6d::Zero()).first->second.row(component) = row;
     }
   }
@@ -132,9 +130,8 @@ CombinedMotion pivot_node_motion(int number, const Blocks& A, const Pivots& pivo
 double size_of(const NodeMotions& motions, const std::vector<int>& nodes, int reference)
 {
   double size = 0.0;
-  for (const int node : nodes) {
+  for (const int node : nodes)
     size = std::max(size, (motions.position(node) - motions.position(reference)).norm());
-  }
   return size > 0.0 ? size : 1.0;
 }
 
@@ -171,11 +168,10 @@ std::vector<MotionTerm> NodeMotions::motion(int node) const
   const int end = is_dependent(node) ? reference(node) : node;
   const auto it = combined.find(end);
   std::vector<MotionTerm> terms;
-  if (it != combined.end()) {
+  if (it != combined.end())
     terms = it->second.terms;
-  } else {
+  else
     terms.push_back({.number = number(end), .T = Matrix6d::Identity()});
-  }
   if (end == node) return terms;
   const Matrix6d T = rigid_arm(arm(node));
   for (MotionTerm& term : terms) term.T = T * term.T;
@@ -194,9 +190,8 @@ NodeMotions average_motions(const mesh::Mesh& mesh, std::span<const Coupling> co
   NodeMotions motions{std::move(nodes), {}};
   std::map<int, int> claimed;
   std::vector<int> node_of(motions.n_active(), -1);
-  for (int node = 0; node < motions.n_nodes(); ++node) {
+  for (int node = 0; node < motions.n_nodes(); ++node)
     if (motions.number(node) >= 0) node_of[motions.number(node)] = node;
-  }
   for (int i = 0; i < std::ssize(couplings); ++i) {
     if (couplings[i].kind != CouplingKind::averaging) continue;
     const std::vector<int>& group = mesh::find_group(mesh, couplings[i].group).nodes;

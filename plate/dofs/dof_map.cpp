@@ -18,9 +18,8 @@ void check_components(const Kinematics& kinematics)
     throw Error(fmt::format("ring \"{}\": harmonics need all six DOFs of each node",
                             kinematics.rings.front().ring));
   }
-  if (std::ranges::count(kinematics.couplings, CouplingKind::averaging, &Coupling::kind) == 0) {
+  if (std::ranges::count(kinematics.couplings, CouplingKind::averaging, &Coupling::kind) == 0)
     return;
-  }
   throw Error(
       "an averaging coupling needs all six DOFs of each node; use a rigid one, or all six DOFs");
 }

@@ -34,9 +34,8 @@ std::vector<bool> have_other_stiffness(const mesh::Mesh& mesh, const DofMap& dof
     if (dofs.is_dependent(node)) have[node] = have[dofs.reference(node)] = true;
     if (node >= dofs.n_mesh_nodes() || !dofs.is_plain(node)) have[node] = true;
   }
-  for (const HarmonicRing& ring : dofs.harmonic_rings()) {
+  for (const HarmonicRing& ring : dofs.harmonic_rings())
     for (const int node : ring.nodes) have[node] = false;  // combined, but of shells alone
-  }
   return have;
 }
 

@@ -25,9 +25,8 @@ bool closes_around_axis(const mesh::Mesh& mesh, const mesh::Group& group)
 std::array<double, 3> centre(const mesh::Mesh& mesh, const mesh::Group& group)
 {
   std::array<double, 3> sum{};
-  for (const int node : group.nodes) {
+  for (const int node : group.nodes)
     for (std::size_t c = 0; c < 3; ++c) sum[c] += mesh.positions[node][c];
-  }
   for (double& s : sum) s /= static_cast<double>(group.nodes.size());
   if (closes_around_axis(mesh, group)) return {0.0, 0.0, sum[2]};
   return sum;
@@ -85,9 +84,8 @@ void Following::check(const Coupling& coupling) const
 {
   for (const std::string& group : {coupling.group, coupling.to}) {
     if (group.empty()) continue;
-    if (mesh::find_group(mesh_, group).nodes.empty()) {
+    if (mesh::find_group(mesh_, group).nodes.empty())
       throw Error(fmt::format("{}: group \"{}\" has no nodes", describe(coupling), group));
-    }
   }
   if (coupling.kind == CouplingKind::link) return;
   const bool used =
@@ -149,9 +147,8 @@ void Following::add(int index)
   if (coupling.kind == CouplingKind::link) return add_link(index);
   const int reference = add_reference_node(coupling);
   if (coupling.kind == CouplingKind::averaging) return;
-  for (const int node : mesh::find_group(mesh_, coupling.group).nodes) {
+  for (const int node : mesh::find_group(mesh_, coupling.group).nodes)
     follow(node, reference, index);
-  }
 }
 
 /// A rigid body on a rigid body is one on the last of the chain.

@@ -77,9 +77,8 @@ Parts connected_parts(const mesh::Mesh& mesh, const DofMap& dofs,
   for (const mesh::ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
       const int first = number_of(dofs, block.element_nodes(e)[0]);
-      for (const int node : block.element_nodes(e)) {
+      for (const int node : block.element_nodes(e))
         for (const MotionTerm& term : dofs.motion(node)) connection.join(first, term.number);
-      }
     }
   }
   Parts parts{.of_number = numbered(connection, dofs.n_active()), .body = {}, .place = {}};
@@ -123,9 +122,8 @@ std::vector<Extent> extents(const DofMap& dofs, const Parts& parts)
   for_nodes([](Extent& extent, const Vector3d& x) {
     extent.length += (x - extent.centre).norm() / extent.n_nodes;
   });
-  for (Extent& extent : extents) {
+  for (Extent& extent : extents)
     if (!(extent.length > 0.0)) extent.length = 1.0;  // a single node
-  }
   for (const int body : parts.body) ++extents[body].n_parts;
   return extents;
 }
@@ -147,9 +145,8 @@ class Resistance {
   Resistance(const DofMap& dofs, const Parts& parts, const std::vector<Extent>& extents)
       : dofs_(dofs), parts_(parts), extents_(extents)
   {
-    for (const Extent& extent : extents) {
+    for (const Extent& extent : extents)
       gram_.push_back(MatrixXd::Zero(6 * extent.n_parts, 6 * extent.n_parts));
-    }
   }
 
   /// This component of the node does not move, but for a rotation about the axis.
@@ -158,9 +155,8 @@ class Resistance {
     const Vector3d x = dofs_.position(node);
     const Extent& extent = extents_[body_of(node)];
     RowVector6d motion = rigid_row(x, extent, component);
-    for (int k = 0; component >= 3 && k < 3; ++k) {
+    for (int k = 0; component >= 3 && k < 3; ++k)
       motion -= axis[component - 3] * axis[k] * rigid_row(x, extent, 3 + k);
-    }
     resist({&node, 1}, motion);
   }
   /// A spring resists the motion against the ground or of both nodes, seen at the middle.
@@ -168,9 +164,8 @@ class Resistance {
   {
     const int a = spring.nodes.front(), b = spring.nodes.back();
     const Vector3d middle = 0.5 * (dofs_.position(a) + dofs_.position(b));
-    for (const int component : spring.components) {
+    for (const int component : spring.components)
       resist(spring.nodes, rigid_row(middle, extents_[body_of(a)], component));
-    }
   }
   const std::vector<MatrixXd>& gram() const { return gram_; }
 
@@ -204,9 +199,8 @@ void hold_supports(const DofMap& dofs, const Restraints& restraints, Resistance&
     for (int component = 0; component < 6; ++component) {
       const auto dof = dofs.dof(node, component);
       const bool has_component = std::ranges::binary_search(dofs.components(), component);
-      if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component) {
+      if (dof ? std::ranges::binary_search(held, *dof) : dofs.is_plain(node) && !has_component)
         resistance.hold(node, component, dof ? axis : Vector3d::Zero());
-      }
     }
   }
 }
@@ -216,9 +210,8 @@ MatrixXd null_space(const MatrixXd& G)
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(G);
   Index n = 0;
   while (n < G.rows() &&
-         eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace())) {
+         eigen.eigenvalues()[n] < same_motion * same_motion * std::max(1.0, G.trace()))
     ++n;
-  }
   return eigen.eigenvectors().leftCols(n);
 }
 
@@ -267,9 +260,8 @@ std::string describe_motions(const FreePart& part)
     // A motion of all pieces alike, if all of it lies in the space of the free ones.
     Eigen::VectorXd alike = Eigen::VectorXd::Zero(part.motions.rows());
     alike(Eigen::seq(c, last, 6)).setConstant(std::sqrt(6.0 / double(alike.size())));
-    if ((alike.transpose() * part.motions).norm() > 1.0 - same_motion) {
+    if ((alike.transpose() * part.motions).norm() > 1.0 - same_motion)
       pure.emplace_back(names[static_cast<std::size_t>(c)]);
-    }
   }
   const auto n = part.motions.cols();
   return fmt::format("{} way{}{}", n, n == 1 ? "" : "s",
@@ -280,9 +272,8 @@ void check_stiffness_of_all_nodes(const mesh::Mesh& mesh, const DofMap& dofs)
 {
   std::vector<bool> touched(dofs.n_active(), false);
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    for (const int node : block.nodes) {
+    for (const int node : block.nodes)
       for (const MotionTerm& term : dofs.motion(node)) touched[term.number] = true;
-    }
   }
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     if (dofs.number(node) < 0 || touched[dofs.number(node)]) continue;

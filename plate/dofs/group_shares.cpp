@@ -38,9 +38,8 @@ Eigen::VectorXd shares_of_element(const mesh::Mesh& mesh, const mesh::ElementBlo
   const NodeVectors a_1 = basis.N_xi * x;
   const NodeVectors a_2 = basis.N_eta * x;
   Eigen::VectorXd areas(points.size());
-  for (Eigen::Index q = 0; q < points.size(); ++q) {
+  for (Eigen::Index q = 0; q < points.size(); ++q)
     areas[q] = points.weight[q] * a_1.row(q).cross(a_2.row(q)).norm();
-  }
   return basis.N.transpose() * areas;
 }
 
@@ -53,9 +52,8 @@ std::map<int, double> surface_shares(const mesh::Mesh& mesh, const mesh::Group& 
     for (int e = 0; e < block.n_elements(); ++e) {
       if (block.group[e] != index) continue;
       const Eigen::VectorXd of_element = shares_of_element(mesh, block, e);
-      for (Eigen::Index i = 0; i < of_element.size(); ++i) {
+      for (Eigen::Index i = 0; i < of_element.size(); ++i)
         shares[block.element_nodes(e)[i]] += of_element[i];
-      }
     }
   }
   return shares;
@@ -68,9 +66,8 @@ std::map<int, double> edge_shares(const mesh::Mesh& mesh, const std::string& gro
   std::map<int, double> shares;
   for (const std::vector<int>& edge : mesh::edges_in(mesh, mesh::find_group(mesh, group))) {
     const Eigen::VectorXd of_edge = shares_of_edge(mesh, edge);
-    for (std::size_t i = 0; i < edge.size(); ++i) {
+    for (std::size_t i = 0; i < edge.size(); ++i)
       shares[edge[i]] += of_edge[static_cast<Eigen::Index>(i)];
-    }
   }
   return shares;
 }

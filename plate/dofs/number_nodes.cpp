@@ -39,9 +39,8 @@ NumberedNodes number_nodes(CoupledNodes coupled, std::span<const Coupling> coupl
   int next = 0;
   for (int rank = 0; rank < n_ranks; ++rank) {
     nodes.first_numbers.push_back(next);
-    for (std::size_t node = 0; node < ranks.size(); ++node) {
+    for (std::size_t node = 0; node < ranks.size(); ++node)
       if (ranks[node] == rank) nodes.numbers[node] = next++;
-    }
   }
   nodes.first_numbers.push_back(next);
   return nodes;

@@ -56,9 +56,8 @@ std::vector<int> nodes_between(const mesh::Mesh& mesh, const DofMap& dofs, const
 {
   const int a = only_node(mesh, dofs, spring.at);
   const int b = only_node(mesh, dofs, *spring.to);
-  if (a == b) {
+  if (a == b)
     throw Error(fmt::format("spring at \"{}\": leads to the node where it begins", spring.at));
-  }
   return {a, b};
 }
 
@@ -79,17 +78,15 @@ std::vector<PlacedSpring> place_springs(const mesh::Mesh& mesh, const DofMap& do
   std::vector<PlacedSpring> placed;
   for (const Spring& spring : springs) {
     std::vector<int> components;
-    for (int c = 0; c < 6; ++c) {
+    for (int c = 0; c < 6; ++c)
       if (spring.stiffness[static_cast<std::size_t>(c)] != 0.0) components.push_back(c);
-    }
     if (components.empty()) continue;
     if (spring.to) {
       placed.push_back({nodes_between(mesh, dofs, spring), components});
       continue;
     }
-    for (const int node : nodes_at(mesh, dofs, "spring at", spring.at)) {
+    for (const int node : nodes_at(mesh, dofs, "spring at", spring.at))
       placed.push_back({{node}, components});
-    }
   }
   return placed;
 }
@@ -122,11 +119,9 @@ std::vector<PointElement> point_elements(const mesh::Mesh& mesh, const Structure
 {
   refuse_drilling(mesh, dofs, structure);
   std::vector<PointElement> elements;
-  for (const PointMass& mass : structure.masses) {
-    for (const int node : nodes_at(mesh, dofs, "mass at", mass.at)) {
+  for (const PointMass& mass : structure.masses)
+    for (const int node : nodes_at(mesh, dofs, "mass at", mass.at))
       elements.push_back({.nodes = {node}, .K = {}, .M = point_mass_matrix(mass), .C = {}});
-    }
-  }
   for (const Spring& spring : structure.springs) {
     if (spring.to) {
       elements.push_back(spring_between(mesh, dofs, spring));

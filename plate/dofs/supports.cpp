@@ -26,9 +26,8 @@ std::vector<int> held_dofs(const mesh::Mesh& mesh, const DofMap& dofs,
   std::vector<int> held;
   for (const Support& support : supports) {
     const std::vector<int> nodes = dofs.named_nodes(mesh, support.group);
-    if (nodes.empty()) {
+    if (nodes.empty())
       throw Error(fmt::format("support of \"{}\": the group has no nodes", support.group));
-    }
     for (const int node : nodes) {
       for (const int component : support.components) {
         const auto dof = dofs.dof(node, component);

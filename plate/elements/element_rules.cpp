@@ -40,9 +40,8 @@ double thickness_blend(mesh::Shape shape, int order, const ShellNodes& nodes, do
                                          ? std::vector<Index>{0, order, last}
                                          : std::vector<Index>{0, order, last, last - order};
   double sum = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
     sum += (nodes.x.row(corners[i]) - nodes.x.row(corners[(i + 1) % corners.size()])).squaredNorm();
-  }
   const double thickness_squared = 4.0 * nodes.D.rowwise().squaredNorm().mean();
   return thickness_squared / (thickness_squared + c * 0.25 * sum);
 }

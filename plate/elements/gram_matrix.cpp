@@ -23,13 +23,11 @@ void upper_gram(const double* __restrict R, Index n_rows, Index n, double* __res
       std::array<std::array<double, n_b>, n_a> sum{};
       for (Index k = 0; k < n_rows; ++k) {
         const double* row = R + k * n;
-        for (Index a = 0; a < n_a; ++a) {
+        for (Index a = 0; a < n_a; ++a)
           for (Index b = 0; b < n_b; ++b) sum[a][b] += row[i + a] * row[j + b];
-        }
       }
-      for (Index a = 0; a < n_a; ++a) {
+      for (Index a = 0; a < n_a; ++a)
         for (Index b = 0; b < n_b; ++b) K[(i + a) * n + j + b] = sum[a][b];
-      }
     }
   }
 }

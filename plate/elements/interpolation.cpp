@@ -30,9 +30,8 @@ MatrixXd lagrange_derivative(const VectorXd& nodes, const VectorXd& x)
       for (Eigen::Index k = 0; k < n; ++k) {
         if (k == i) continue;
         double term = 1.0 / (nodes[i] - nodes[k]);
-        for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index j = 0; j < n; ++j)
           if (j != i && j != k) term *= (x[q] - nodes[j]) / (nodes[i] - nodes[j]);
-        }
         dL(q, i) += term;
       }
     }
@@ -141,9 +140,8 @@ VectorXd gauss_lobatto(int n)
   if (n == 2) return x;
   // The inner points are the zeros of P'_(n-1), a Jacobi polynomial with alpha = beta = 1.
   VectorXd off_diagonal(n - 3);
-  for (int k = 1; k < n - 2; ++k) {
+  for (int k = 1; k < n - 2; ++k)
     off_diagonal[k - 1] = std::sqrt(k * (k + 2.0) / ((2.0 * k + 1.0) * (2.0 * k + 3.0)));
-  }
   x.segment(1, n - 2) = jacobi_matrix(off_diagonal).eigenvalues();
   return x;
 }
@@ -152,9 +150,8 @@ MatrixXd lagrange(const VectorXd& nodes, const VectorXd& x)
 {
   MatrixXd L = MatrixXd::Ones(x.size(), nodes.size());
   for (Eigen::Index i = 0; i < nodes.size(); ++i) {
-    for (Eigen::Index k = 0; k < nodes.size(); ++k) {
+    for (Eigen::Index k = 0; k < nodes.size(); ++k)
       if (k != i) L.col(i).array() *= (x.array() - nodes[k]) / (nodes[i] - nodes[k]);
-    }
   }
   return L;
 }
@@ -189,11 +186,9 @@ MatrixXd monomials(int degree, const Points& points)
 {
   MatrixXd V(points.size(), (degree + 1) * (degree + 2) / 2);
   int k = 0;
-  for (int total = 0; total <= degree; ++total) {
-    for (int j = 0; j <= total; ++j, ++k) {
+  for (int total = 0; total <= degree; ++total)
+    for (int j = 0; j <= total; ++j, ++k)
       V.col(k) = points.xi.array().pow(total - j) * points.eta.array().pow(j);
-    }
-  }
   return V;
 }
 

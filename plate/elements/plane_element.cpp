@@ -221,9 +221,8 @@ MatrixXd plane_mass(int order, const PlaneShell& shell, double density)
   const MatrixXd N_N = basis.N.transpose() * weight.asDiagonal() * basis.N;
   const double t = shell.thickness;
   MatrixXd M = MatrixXd::Zero(6 * shell.x.rows(), 6 * shell.x.rows());
-  for (const int c : {0, 1, 2, 3, 4}) {
+  for (const int c : {0, 1, 2, 3, 4})
     scatter<1>(N_N, c < 3 ? t : t * t * t / 12.0, {{{c, 1.0}}}, M);
-  }
   return M;
 }
 
@@ -231,11 +230,9 @@ MatrixXd plane_mass(int order, const PlaneShell& shell, double density)
 void turn(MatrixXd& A, const Matrix3d& Q)
 {
   if (Q.isIdentity(0.0)) return;
-  for (Index j = 0; j < A.cols(); j += 3) {
-    for (Index i = 0; i < A.rows(); i += 3) {
+  for (Index j = 0; j < A.cols(); j += 3)
+    for (Index i = 0; i < A.rows(); i += 3)
       A.block<3, 3>(i, j) = Q.transpose() * A.block<3, 3>(i, j).eval() * Q;
-    }
-  }
 }
 
 }  // namespace

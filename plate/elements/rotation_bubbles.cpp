@@ -44,9 +44,8 @@ BubbleSolution solve_bubbles(const MatrixXd& K, const ShellNodes& nodes)
 {
   const Index n = 6 * nodes.x.rows();
   BubbleSolution bubbles;
-  for (Index dof = n; dof < K.rows(); ++dof) {
+  for (Index dof = n; dof < K.rows(); ++dof)
     if (dof % 6 >= 3) bubbles.rotations.push_back(dof);
-  }
   MatrixXd K_bb = K(bubbles.rotations, bubbles.rotations);
   const Eigen::Vector3d d = nodes.D.colwise().mean().transpose().normalized();
   const double held = K_bb.trace();

@@ -144,9 +144,8 @@ ElementMatrices shell_matrices(mesh::Shape shape, int order, const ShellNodes& n
 {
   check_element_exists(shape, order);
   if (shape == mesh::Shape::quadrilateral && order > 1) {
-    if (const auto plane = in_its_plane(nodes)) {
+    if (const auto plane = in_its_plane(nodes))
       return plane_matrices(order, *plane, material, share_of_reduced_integration(order, nodes));
-    }
   }
   const Rule& rule = rules_of(shape, order).full;
   const MatrixXd K =

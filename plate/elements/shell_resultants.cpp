@@ -54,11 +54,9 @@ MatrixXd tensor_interpolation(const VectorXd& from, const Points& to)
   const MatrixXd along_eta = lagrange(from, to.eta);
   const Index n = from.size();
   MatrixXd weights(to.size(), n * n);
-  for (Index q = 0; q < to.size(); ++q) {
-    for (Index j = 0; j < n; ++j) {
+  for (Index q = 0; q < to.size(); ++q)
+    for (Index j = 0; j < n; ++j)
       weights.row(q).segment(j * n, n) = along_eta(q, j) * along_xi.row(q);
-    }
-  }
   return weights;
 }
 
@@ -189,9 +187,8 @@ Points lattice_points(Shape shape, int order)
 {
   const VectorXd line = VectorXd::LinSpaced(order + 1, 0.0, 1.0);
   const Points square = tensor_points(line, line);
-  if (shape == Shape::quadrilateral) {
+  if (shape == Shape::quadrilateral)
     return tensor_points(2.0 * line.array() - 1.0, 2.0 * line.array() - 1.0);
-  }
   const Index n = (order + 1) * (order + 2) / 2;
   Points points{.xi = VectorXd(n), .eta = VectorXd(n), .weight = VectorXd::Ones(n)};
   Index k = 0;
@@ -244,9 +241,7 @@ ShellResultants shell_resultants(Shape shape, int order, const ShellNodes& nodes
 MatrixXd extrapolation_to_nodes(Shape shape, int order)
 {
   const Points nodes = lattice_points(shape, order);
-  if (shape == Shape::quadrilateral) {
-    return tensor_interpolation(gauss_legendre(order).x, nodes);
-  }
+  if (shape == Shape::quadrilateral) return tensor_interpolation(gauss_legendre(order).x, nodes);
   return polynomial_fit(order - 1, resultant_points(shape, order), nodes);
 }
 

@@ -55,9 +55,8 @@ using FiveRows = Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor>;
 FiveRows strain_rows(const CovariantStrains& s, Index q, double zeta)
 {
   FiveRows rows(5, s.m[0].cols());
-  for (int r = 0; r < 3; ++r) {
+  for (int r = 0; r < 3; ++r)
     rows.row(r) = s.m[r].row(q) + zeta * s.b[r].row(q) + zeta * zeta * s.c[r].row(q);
-  }
   for (int r = 0; r < 2; ++r) rows.row(3 + r) = s.g0[r].row(q) + zeta * s.g1[r].row(q);
   return rows;
 }

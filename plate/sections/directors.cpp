@@ -118,9 +118,8 @@ NodeVectors smooth_normals(const mesh::Mesh& mesh)
       const NodeVectors normals = element_normals(at_nodes, element_positions(mesh, block, e));
       for (Index i = 0; i < normals.rows(); ++i) {
         const int node = block.element_nodes(e)[i];
-        if (!(std::abs(mean.row(node).dot(normals.row(i))) > smooth_cosine)) {
+        if (!(std::abs(mean.row(node).dot(normals.row(i))) > smooth_cosine))
           smooth.row(node).setZero();
-        }
       }
     }
   }

@@ -62,9 +62,8 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
             fmt::format("element {} has no section: name its physical group in a [[section]]",
                         block.numbers[e]));
       }
-      if (kind_of(block) == Kind::beam) {
+      if (kind_of(block) == Kind::beam)
         check_axes(element_positions(mesh, block, e), structure.beams[section]);
-      }
     }
   }
   return map;
@@ -75,9 +74,8 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
 {
   const int index = index_of_section(context.sections, block, element);
   const NodeVectors x = element_positions(mesh, block, element);
-  if (kind_of(block) == Kind::beam) {
+  if (kind_of(block) == Kind::beam)
     return {.matrices = beam_matrices(x, context.structure.beams[index]), .arms = {}};
-  }
   const ShellSection& section = context.structure.shells[index];
   const ShellNodes shell = shell_nodes(mesh, block, element, context.normals, section);
   PlacedMatrices placed{

@@ -18,11 +18,10 @@ Difference difference(const AirMesh& mesh, const Wave& wave, const Eigen::Vector
   Difference d;
   for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    if (mesh.dimension() == 2) {
+    if (mesh.dimension() == 2)
       x << mesh.positions(i, 0), 0.0, mesh.positions(i, 1);
-    } else {
+    else
       x = mesh.positions.row(i).transpose();
-    }
     if (x.norm() > mesh.inner_radius) continue;
     const Complex q = pressure(exact, wave, x);
     d.largest = std::max(d.largest, std::abs(p[i] - q));

@@ -84,10 +84,9 @@ void Drawer::add_cell(std::array<Place, 4> corners, int group, mesh::Shape shape
 {
   if (drawing_.detail == Detail::clusters) {
     std::vector<Place> round;
-    for (const Place corner : corners) {
+    for (const Place corner : corners)
       if (round.empty() || (round.back() != corner && round.front() != corner))
         round.push_back(corner);
-    }
     if (round.size() < (shape == mesh::Shape::line ? 2U : 3U)) return;
     round.resize(4, round.back());
     std::ranges::copy(round, corners.begin());

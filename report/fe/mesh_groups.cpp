@@ -16,9 +16,8 @@ std::vector<GroupKind> kinds_by_elements(const mesh::Mesh& mesh)
   std::vector<GroupKind> kinds(mesh.groups.size(), GroupKind::points);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const bool is_line = block.shape == mesh::Shape::line;
-    for (const int group : block.group) {
+    for (const int group : block.group)
       if (group >= 0) kinds[group] = is_line ? GroupKind::lines : GroupKind::surface;
-    }
   }
   return kinds;
 }
@@ -90,9 +89,8 @@ std::vector<GroupParts> group_parts(const mesh::Mesh& mesh)
 {
   const std::vector<GroupKind> kinds = kinds_by_elements(mesh);
   std::vector<GroupParts> parts;
-  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g)
     parts.push_back(parts_of(mesh, mesh.groups[g], kinds[g]));
-  }
   return parts;
 }
 

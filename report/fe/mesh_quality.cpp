@@ -46,7 +46,7 @@ Statistics statistics(const std::vector<mesh::ElementQuality>& elements, const M
                .greatest = greatest,
                .counts = std::vector<int>(measure.edges.size() + 1, 0)};
   for (const double x : values) {
-    const auto bin = std::upper_bound(measure.edges.begin(), measure.edges.end(), x);
+    const auto bin = std::ranges::upper_bound(measure.edges, x);
     ++s.counts[bin - measure.edges.begin()];
   }
   return s;

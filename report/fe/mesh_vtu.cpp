@@ -45,9 +45,8 @@ void add_edge(Cells& cells, const std::vector<int>& edge, int group)
 /// What elements alone do not show of a group.
 void add_parts(Cells& cells, const GroupParts& parts, int group)
 {
-  if (parts.kind == GroupKind::curve) {
+  if (parts.kind == GroupKind::curve)
     for (const std::vector<int>& edge : parts.edges) add_edge(cells, edge, group);
-  }
   for (const int node : parts.points) {
     cells.grid.connectivity.push_back(node);
     add_cell(cells, vtu_vertex, group, 0);
@@ -84,10 +83,9 @@ std::string mesh_vtu(const mesh::Mesh& mesh, const std::vector<GroupParts>& part
   }
   cells.grid.of_points = {column("node", mesh.node_numbers)};
   cells.grid.of_cells = {column("element", cells.element), column("group", cells.group)};
-  if (cells.group.size() * mesh.groups.size() <= most_marks) {
+  if (cells.group.size() * mesh.groups.size() <= most_marks)
     for (std::size_t g = 0; g < mesh.groups.size(); ++g)
       cells.grid.marks_of_cells.push_back(marks_of_group(mesh, cells, g));
-  }
   return vtu_text(cells.grid);
 }
 

@@ -213,9 +213,8 @@ std::vector<Json::Member> sound_json(const sound::SoundResults& results)
                                        {"with_radiation", brake_json(results.feedback->with)}}));
   }
   if (!results.loudness.empty()) members.emplace_back("loudness", loudness_json(results.loudness));
-  if (!results.notes.empty()) {
+  if (!results.notes.empty())
     members.emplace_back("notes", Json::array({results.notes.begin(), results.notes.end()}));
-  }
   return members;
 }
 

@@ -76,9 +76,8 @@ std::vector<int> quadrilateral_order(int p)
   for (int j = 1; j < p; ++j) order.push_back(place(p, j));
   for (int i = 1; i < p; ++i) order.push_back(place(i, p));
   for (int j = 1; j < p; ++j) order.push_back(place(0, j));
-  for (int j = 1; j < p; ++j) {
+  for (int j = 1; j < p; ++j)
     for (int i = 1; i < p; ++i) order.push_back(place(i, j));
-  }
   return order;
 }
 

@@ -35,9 +35,8 @@ class Points {
 void add_cell(VtuGrid& grid, Points& points, const mesh::ElementBlock& block, int element)
 {
   const std::span<const int> nodes = block.element_nodes(element);
-  for (const int place : vtu_node_order(block.shape, block.order)) {
+  for (const int place : vtu_node_order(block.shape, block.order))
     grid.connectivity.push_back(points.point(nodes[place], block.group[element]));
-  }
   grid.offsets.push_back(static_cast<int>(grid.connectivity.size()));
   grid.types.push_back(vtu_cell_type(block.shape, block.order));
 }
@@ -87,9 +86,8 @@ SceneGrid scene_grid(const mesh::Mesh& mesh, std::span<const plate::ShellSection
 {
   SceneGrid result;
   Points points;
-  for (const mesh::ElementBlock& block : mesh.blocks) {
+  for (const mesh::ElementBlock& block : mesh.blocks)
     for (int e = 0; e < block.n_elements(); ++e) add_cell(result.grid, points, block, e);
-  }
   result.grid.points.resize(static_cast<Index>(points.nodes.size()), 3);
   for (std::size_t i = 0; i < points.nodes.size(); ++i) {
     const auto& x = mesh.positions[points.nodes[i]];

@@ -157,9 +157,10 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
 Json growth_json(const std::vector<squeal::Growth>& growths)
 {
   std::vector<Json> points;
-  for (const squeal::Growth& growth : growths)
+  for (const squeal::Growth& growth : growths) {
     points.push_back(Json::object(
         {{"speed", rounded(growth.speed)}, {"rate", rounded(squeal::told_rate(growth))}}));
+  }
   return Json::array(points);
 }
 
@@ -257,9 +258,10 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
         Json::object({{"speed", rounded(results.critical_speed->speed)},
                       {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)}}));
   }
-  if (results.speed_stability)
+  if (results.speed_stability) {
     members.emplace_back("stability",
                          squeal::name_of(squeal::stability_of(*results.speed_stability)));
+  }
   if (results.stability_table)
     members.emplace_back("unstable_modes", unstable_modes_json(*results.stability_table));
   if (results.map) members.emplace_back("map", map_json(*results.map));

@@ -23,11 +23,12 @@ Eigen::MatrixXd point_compliance(const RingCompliance& rings, const PadSystem& p
     for (Eigen::Index j = 0; j < n; j += per_ring) {
       const double turn = pads.points[static_cast<std::size_t>(i / m)].angle -
                           pads.points[static_cast<std::size_t>(j / m)].angle;
-      for (std::size_t d = 0; d < rings.C.size(); ++d)
+      for (std::size_t d = 0; d < rings.C.size(); ++d) {
         G.block(i, j, per_ring, per_ring) +=
             (std::polar(1.0, double(d) * turn) *
              rings.C[d].block(per_ring * ring_of(i), per_ring * ring_of(j), per_ring, per_ring))
                 .real();
+      }
     }
   return G;
 }

@@ -51,10 +51,11 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
   numbers.reserve(modes.size());
   for (const int i : modes) numbers.push_back(all.mode_numbers[static_cast<std::size_t>(i)]);
   std::vector<DiscRing> rings;
-  for (const DiscRing& ring : all.rings)
+  for (const DiscRing& ring : all.rings) {
     rings.push_back({ring.name, ring.radius, columns(ring.W, modes), columns(ring.W_r, modes),
                      columns(ring.W_t, modes), ring.n_nodes, columns(ring.V_r, modes),
                      columns(ring.V_t, modes), ring.height});
+  }
   return {.rings = rings,
           .mode_numbers = numbers,
           .omega = all.omega(modes),
@@ -84,16 +85,18 @@ Disc make_disc(const ModalBody& body, const std::string& ring, const ModeChoice&
 std::vector<std::string> notes_of(const Disc& disc)
 {
   std::vector<std::string> notes;
-  if (!disc.compliance.empty())
+  if (!disc.compliance.empty()) {
     notes.push_back(fmt::format(
         "{} of the body's modes, from {:.5g} Hz on, follow the pads without inertia "
         "(quasi_static_above_Hz)",
         disc.compliance.mode_numbers.size(), disc.compliance.lowest_omega / (2.0 * pi)));
-  if (!disc.still.empty())
+  }
+  if (!disc.still.empty()) {
     notes.push_back(fmt::format(
         "{} of the body's modes do not move the ring{} and take no part: {}", disc.still.size(),
         disc.rings.front().V_r.cosine.size() > 0 ? "" : " along the axis",
         fmt::join(disc.still, ", ")));
+  }
   return notes;
 }
 
@@ -126,11 +129,12 @@ std::vector<RingPlace> ring_places(const Disc& disc)
 Disc make_disc(const ModalBody& body, const RingChoice& rings, const ModeChoice& choice)
 {
   const Disc all = disc_of_all_modes(body, rings);
-  if (!(ring_harmonics(all.rings).squares_by_harmonic().maxCoeff() > 0.0))
+  if (!(ring_harmonics(all.rings).squares_by_harmonic().maxCoeff() > 0.0)) {
     throw Error(
         fmt::format("ring '{}': no mode of the body moves it{}; it is held, or the body has no "
                     "bending modes",
                     fmt::join(rings.names, "', '"), rings.in_plane ? "" : " along the axis"));
+  }
   const ModeParts parts = mode_parts(all, body, choice);
   Disc disc = with_modes(all, parts.dynamic);
   disc.range = range_of(body);

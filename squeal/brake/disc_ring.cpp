@@ -24,13 +24,15 @@ constexpr double same_height = 1e-6;
 void check_ring(const ModalBody& body, const ContactRing& ring)
 {
   const auto n = static_cast<Eigen::Index>(ring.angles.size());
-  if (n < 3 || !(ring.radius > 0.0))
+  if (n < 3 || !(ring.radius > 0.0)) {
     throw Error(fmt::format("ring '{}': {} nodes at radius {} m; it needs 3 nodes and a radius > 0",
                             ring.name, n, ring.radius));
+  }
   for (const Eigen::MatrixXd* values : {&ring.W, &ring.W_r, &ring.W_t})
-    if (values->rows() != n || values->cols() != body.n_modes())
+    if (values->rows() != n || values->cols() != body.n_modes()) {
       throw Error(fmt::format("ring '{}': shapes are [{} x {}], expected [{} x {}]", ring.name,
                               values->rows(), values->cols(), n, body.n_modes()));
+    }
 }
 
 bool rotates(const ContactRing& ring)
@@ -62,13 +64,14 @@ InPlane in_plane(const ModalBody& body, const ContactRing& ring)
     V.circumferential.row(i) = c * u.row(1) - s * u.row(0);
     norm += u.squaredNorm();
   }
-  if (!(norm > 0.0))
+  if (!(norm > 0.0)) {
     throw Error(fmt::format(
         "ring '{}': the body has no displacements of its nodes in the plane, which friction works "
         "on at contact planes of their own; reduce it with x and y of these nodes among the "
         "coordinates (interface.nodes = [\"{}\", ...] takes all DOFs), or give `ring` one ring in "
         "the middle surface and leave contact_planes out",
         ring.name, ring.name));
+  }
   return V;
 }
 
@@ -99,11 +102,12 @@ std::vector<const ContactRing*> rings_beside(const ModalBody& body, const Contac
     const ContactRing& beside = mbs_export::find_ring(body, name);
     check_ring(body, beside);
     if (name == ring.name || !at_height_of(beside, ring)) continue;
-    if (beside.angles.size() != ring.angles.size())
+    if (beside.angles.size() != ring.angles.size()) {
       throw Error(fmt::format(
           "[squeal] slopes_from: ring \"{}\" has {} nodes, but \"{}\" beside it has {}; radial "
           "slopes are taken from rings with as many nodes",
           name, beside.angles.size(), ring.name, ring.angles.size()));
+    }
     rings.push_back(&beside);
   }
   return rings;
@@ -120,11 +124,12 @@ Harmonics across_rings(const std::vector<const ContactRing*>& rings)
     double weight = 1.0 / (rings[j]->radius - r);
     for (std::size_t m = 1; m < rings.size(); ++m)
       if (m != j) weight *= (r - rings[m]->radius) / (rings[j]->radius - rings[m]->radius);
-    if (!std::isfinite(weight))
+    if (!std::isfinite(weight)) {
       throw Error(
           fmt::format("[squeal] slopes_from: two rings have the radius {:.6g} m at one "
                       "height; name rings of different radii",
                       rings[j]->radius));
+    }
     add(slope, weight, harmonics_of(rings[j]->angles, rings[j]->W));
     own -= weight;
   }
@@ -174,11 +179,12 @@ Harmonics harmonics_of(const Eigen::VectorXd& angles, const Eigen::MatrixXd& val
 {
   const Eigen::Index n = angles.size();
   for (Eigen::Index j = 0; j < n; ++j)
-    if (!(std::abs(angles[j] - angles[0] - 2.0 * pi * double(j) / double(n)) < angle_limit))
+    if (!(std::abs(angles[j] - angles[0] - 2.0 * pi * double(j) / double(n)) < angle_limit)) {
       throw Error(
           fmt::format("ring node {} of {} is at {:.6f} rad: the nodes of a contact ring must "
                       "be equally spaced, in the order of their angles",
                       j + 1, n, angles[j]));
+    }
   Harmonics f{Eigen::MatrixXd(n / 2 + 1, values.cols()), Eigen::MatrixXd(n / 2 + 1, values.cols())};
   for (Eigen::Index k = 0; k <= n / 2; ++k) {
     // Through harmonic n / 2 only one function can be told: cos(k (theta - theta_0)).

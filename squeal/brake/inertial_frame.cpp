@@ -164,8 +164,7 @@ double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
 /// with more than 2 n_max + 1 angles.
 Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::MatrixXd& C)
 {
-  const int n_max =
-      *std::max_element(inertial.nodal_diameters.begin(), inertial.nodal_diameters.end());
+  const int n_max = *std::ranges::max_element(inertial.nodal_diameters);
   const int n_angles = 2 * n_max + 2;
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(C.rows(), C.cols());
   for (int k = 0; k < n_angles; ++k) {
@@ -200,9 +199,10 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
         fmt::format("its mode shapes on the ring differ from pure harmonics by {:.2g} "
                     "(allowed: {})",
                     inertial.largest_impurity, impurity_limit)};
-  if (!(inertial.largest_split < split_limit))
+  if (!(inertial.largest_split < split_limit)) {
     return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
                                  inertial.largest_split, split_limit)};
+  }
   const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
   inertial.C = averaged_over_angles(inertial, C);
   inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
@@ -219,13 +219,14 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
 InertialDisc inertial_disc(const Disc& disc)
 {
   auto outcome = try_inertial_disc(disc);
-  if (const auto* complaint = std::get_if<Complaint>(&outcome))
+  if (const auto* complaint = std::get_if<Complaint>(&outcome)) {
     throw Error(
         fmt::format("the disc is not axisymmetric: {}. Eigenvalues, critical values and limit "
                     "cycles need an axisymmetric disc and both modes of each pair; the analyses "
                     "\"stability\", \"critical-speed\", \"rotation-stability\", \"growth\" and "
                     "\"transient\" do not",
                     complaint->text));
+  }
   return std::get<InertialDisc>(std::move(outcome));
 }
 

@@ -56,11 +56,12 @@ std::vector<int> modes_with_nodal_diameters(const Disc& disc, int n)
   std::vector<int> modes;
   for (const int i : moving_modes(disc))
     if (diameters[i] == n && modes.size() < wanted) modes.push_back(i);
-  if (modes.size() < wanted)
+  if (modes.size() < wanted) {
     throw Error(
         fmt::format("use_modes: the body has {} of the {} modes with {} nodal diameters; "
                     "keep more modes, or choose others",
                     modes.size(), wanted, n));
+  }
   return modes;
 }
 
@@ -69,15 +70,16 @@ std::vector<int> listed_modes(const Disc& disc, const std::vector<int>& numbers)
   const std::vector<int> moving = moving_modes(disc);
   std::vector<int> modes;
   for (const int number : numbers) {
-    if (number < 1 || number > disc.n_modes())
+    if (number < 1 || number > disc.n_modes()) {
       throw Error(fmt::format("use_modes: there is no mode {}; the body has modes 1 to {}", number,
                               disc.n_modes()));
-    if (std::find(moving.begin(), moving.end(), number - 1) == moving.end())
+    }
+    if (std::ranges::find(moving, number - 1) == moving.end())
       throw Error(fmt::format("use_modes: mode {} does not move the ring along the axis", number));
     modes.push_back(number - 1);
   }
-  std::sort(modes.begin(), modes.end());
-  if (modes.empty() || std::adjacent_find(modes.begin(), modes.end()) != modes.end())
+  std::ranges::sort(modes);
+  if (modes.empty() || std::ranges::adjacent_find(modes) != modes.end())
     throw Error("use_modes: the list is empty or names a mode twice");
   return modes;
 }
@@ -99,22 +101,24 @@ ModeParts parts_of_all(const Disc& disc, const ModalBody& body, const ModeChoice
     (may && disc.omega[i] > limit ? parts.quasi_static : parts.dynamic).push_back(i);
   }
   parts.still = still_modes(disc);
-  if (parts.dynamic.empty())
+  if (parts.dynamic.empty()) {
     throw Error(
         fmt::format("quasi_static_above_Hz: {:.6g} Hz leaves no mode with inertia; the lowest mode "
                     "that moves the ring has {:.6g} Hz",
                     limit / (2.0 * pi), disc.omega[parts.quasi_static.front()] / (2.0 * pi)));
+  }
   return parts;
 }
 
 void check_elastic(const ModalBody& body, const std::vector<int>& modes)
 {
   for (const int i : modes) {
-    if (kind_of(body, i) == ModeKind::rigid || !(body.omega[i] > rigid_limit))
+    if (kind_of(body, i) == ModeKind::rigid || !(body.omega[i] > rigid_limit)) {
       throw Error(
           fmt::format("mode {} is a rigid-body motion ({:.3g} Hz): hold the disc, e.g. "
                       "fixed = [\"hub\"] in [body], or choose other modes",
                       i + 1, body.omega[i] / (2.0 * pi)));
+    }
   }
 }
 

@@ -113,10 +113,11 @@ void check(const PadPair& pad, std::size_t i)
 {
   if (pad.body && freedoms(*pad.body).empty())
     throw Error(fmt::format("[squeal] pads[{}].body: it has no suspension and so cannot move", i));
-  if (pad.caliper && !(pad.body && pad.body->axial))
+  if (pad.caliper && !(pad.body && pad.body->axial)) {
     throw Error(fmt::format(
         "[squeal] pads[{}].caliper: it carries pads by their axial suspension; give body.axial",
         i));
+  }
 }
 
 /// The points of pad `i` of the scene, on one ring after the other.

@@ -115,9 +115,10 @@ PairVector<Scalar> pair_forces(const PadContact& pad, const PairMotion<Scalar>& 
     F.template segment<face_rows>(face_rows) =
         face_forces(pad.faces[1], m.lower, lo, at_rest[1], -1.0);
   }
-  if (has_plates(rows))
+  if (has_plates(rows)) {
     F.template tail<plate_rows>() << -up.f_r, at_rest[0].f_t - up.f_t, up.S - at_rest[0].S, -lo.f_r,
         at_rest[1].f_t - lo.f_t, at_rest[1].S - lo.S;
+  }
   return F;
 }
 

@@ -28,7 +28,7 @@ Disc with_radiation(Disc disc, const Radiation& radiation)
   const auto& numbers = radiation.mode_numbers;
   for (Eigen::Index i = 0; i < disc.n_modes(); ++i) {
     const int number = disc.mode_numbers[static_cast<std::size_t>(i)];
-    const auto found = std::find(numbers.begin(), numbers.end(), number);
+    const auto found = std::ranges::find(numbers, number);
     const auto at = static_cast<Eigen::Index>(found - numbers.begin());
     if (found == numbers.end() ||
         std::abs(radiation.omega[at] - disc.omega[i]) > same_frequency * disc.omega[i]) {

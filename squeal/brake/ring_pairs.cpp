@@ -31,12 +31,13 @@ RingPair pair_of(const SquealOptions& options, const std::vector<RingPlace>& rin
     return {.rings = {a, b}, .faces = faces_of_plate(options.thickness, rings[a].radius)};
   if (rings[a].height < rings[b].height) std::swap(a, b);
   const RingPlace &upper = rings[a], &lower = rings[b];
-  if (a != b && upper.height - lower.height <= placement * upper.radius)
+  if (a != b && upper.height - lower.height <= placement * upper.radius) {
     throw Error(
         fmt::format("[squeal] ring: \"{}\" and \"{}\" both lie at z = {:.6g} m; inboard and "
                     "outboard need rings "
                     "at two heights, or one ring for both: ring = \"{}\"",
                     upper.name, lower.name, upper.height, upper.name));
+  }
   const auto [bottom, top] = plane_heights(options, lower.height, upper.height);
   const double half = 0.5 * (top - bottom);
   return {.rings = {a, b},
@@ -47,9 +48,10 @@ RingPair pair_of(const SquealOptions& options, const std::vector<RingPlace>& rin
 std::size_t index_of(const std::vector<RingPlace>& rings, const std::string& name, std::size_t pad)
 {
   const auto at = std::ranges::find(rings, name, &RingPlace::name);
-  if (at == rings.end())
+  if (at == rings.end()) {
     throw Error(
         fmt::format("[squeal] pads[{}].grid.rings: the disc has no ring \"{}\"", pad, name));
+  }
   return static_cast<std::size_t>(at - rings.begin());
 }
 

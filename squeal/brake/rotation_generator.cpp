@@ -111,9 +111,10 @@ RingHarmonics ring_harmonics(const std::vector<DiscRing>& rings)
   Eigen::Index column = 0;
   for (const DiscRing& ring : rings)
     for (const auto& [f, scale] : functions_of(ring)) {
-      for (Eigen::Index d = 0; d < ring.n_whole_harmonics(); ++d)
+      for (Eigen::Index d = 0; d < ring.n_whole_harmonics(); ++d) {
         all.c[static_cast<std::size_t>(d)].col(column) =
             scale * (f->cosine.row(d) - Complex(0.0, 1.0) * f->sine.row(d)).transpose();
+      }
       ++column;
     }
   return all;

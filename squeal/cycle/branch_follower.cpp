@@ -112,7 +112,7 @@ void BranchFollower::add_speeds(const ArcPoint& a, const ArcPoint& b, LimitCycle
                                           : speed > a.speed && speed <= b.speed;
     if (passed) between.push_back(speed);
   }
-  if (b.speed < a.speed) std::reverse(between.begin(), between.end());
+  if (b.speed < a.speed) std::ranges::reverse(between);
   for (const double speed : between) {
     const double s = (speed - a.speed) / (b.speed - a.speed);
     add({a.at.x + s * (b.at.x - a.at.x), a.at.period + s * (b.at.period - a.at.period)}, speed,

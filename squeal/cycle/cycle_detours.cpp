@@ -105,9 +105,10 @@ Detour cycle_by_continuation(const Brake& brake, double speed)
     }
     point = next;
     length = std::min(1.5 * length, length_max);
-    if (point->at.x.norm() < smallest)
+    if (point->at.x.norm() < smallest) {
       return {{},
               fmt::format("the branch from {} ends at rest at {:.6g} rad/s", from, point->speed)};
+    }
     if (point->speed < lowest_speed * speed || point->speed > highest_speed * speed)
       return {{}, fmt::format("the branch from {} leads to {:.6g} rad/s", from, point->speed)};
   }
@@ -129,9 +130,10 @@ Detour cycle_by_transient(const Brake& brake, double speed)
     last = return_of(*motion, x, period);
     if (!(last.distance <= comes_back)) continue;
     auto cycle = limit_cycle_near(brake, speed, last.start);
-    if (cycle)
+    if (cycle) {
       return {std::move(cycle),
               fmt::format("after a transient of {:.0f} periods", i * periods_per_chunk)};
+    }
   }
   return {
       {},

@@ -51,8 +51,7 @@ double amplitude(const std::vector<double>& t, const std::vector<double>& x)
 /// Half the distance of the highest and the lowest refined peak.
 double half_travel(const History& tail)
 {
-  const auto [low, high] =
-      std::minmax_element(tail.pad_displacement.begin(), tail.pad_displacement.end());
+  const auto [low, high] = std::ranges::minmax_element(tail.pad_displacement);
   const double middle = 0.5 * (*low + *high);
   std::vector<double> x = tail.pad_displacement;
   for (double& value : x) value -= middle;
@@ -98,14 +97,15 @@ LimitCycle limit_cycle(const Transient& run)
 {
   if (!run.finished) throw Error(fmt::format("limit cycle: {}", divergence_of(run)));
   const std::vector<double> zeros = rising_zeros(run.tail);
-  if (zeros.size() < 10 || run.envelope.t.size() < 20)
+  if (zeros.size() < 10 || run.envelope.t.size() < 20) {
     throw Error(
         "limit cycle: the transient is too short to measure it; simulate at least 100 "
         "periods");
+  }
   const double frequency = 1.0 / mean_period(zeros);
   const double velocity = amplitude(run.tail.t, run.tail.pad_velocity);
   const double drift = relative_drift(run.envelope);
-  const auto [N_low, N_high] = std::minmax_element(run.tail.N_up.begin(), run.tail.N_up.end());
+  const auto [N_low, N_high] = std::ranges::minmax_element(run.tail.N_up);
   LimitCycle cycle{.speed = run.speed,
                    .frequency_Hz = frequency,
                    .pad_velocity = velocity,

@@ -31,8 +31,8 @@ LimitCycleBranch branch_through(const BranchFollower& follower, const DirectLimi
                                 const SpeedRange& range, const Progress& progress)
 {
   LimitCycleBranch branch = follower.from_cycle(start, -1.0, progress);
-  std::reverse(branch.points.begin(), branch.points.end());
-  std::reverse(branch.folds.begin(), branch.folds.end());
+  std::ranges::reverse(branch.points);
+  std::ranges::reverse(branch.folds);
   branch.points.push_back(point_of(start));
   if (start.speed < range.to) append(branch, follower.from_cycle(start, 1.0, progress));
   return branch;
@@ -71,11 +71,12 @@ std::string note_of(const LimitCycleBranch& branch, const std::optional<Stabilit
   const std::string begins = fmt::format("begins with the limit cycle at {:.6g} rad/s", speed);
   if (!limit)
     return "sliding is unstable at all of the speeds, no Hopf point: the branch " + begins;
-  if (!branch.origin)
+  if (!branch.origin) {
     return fmt::format(
         "no small cycle was found at the limit of stability, {:.6g} rad/s: the "
         "branch {}",
         limit->value, begins);
+  }
   return fmt::format(
       "the branch from the Hopf point does not reach {0:.6g} rad/s within the "
       "speeds: a second part goes through the limit cycle at {0:.6g} rad/s",

@@ -49,11 +49,12 @@ DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
   const std::unique_ptr<AutonomousMotion> motion = brake.motion(speed);
   const Eigen::MatrixXd A = brake.state_matrix(speed);
   const double growth = least_stable_eigenvalue(A).real();
-  if (!(growth > 0.0))
+  if (!(growth > 0.0)) {
     throw Error(
         fmt::format("limit cycle: the sliding disc is stable at {:.6g} rad/s (largest growth rate "
                     "{:.3g} 1/s); a limit cycle grows from an unstable one",
                     speed, growth));
+  }
   for (const CycleGuess& start : cycle_guesses(*motion, A, brake.rest_compression())) {
     if (auto cycle = cycle_of(brake, *motion, orbit_from(*motion, start.cycle), speed)) {
       cycle->way = "from the eigenvector";

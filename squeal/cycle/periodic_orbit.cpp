@@ -106,9 +106,10 @@ Flow flow_with(AutonomousMotion& motion, const CycleStart& start, double toleran
     const std::vector<double> next = sides_of(motion);
     set_sides(motion, sides);
     const double end = std::min(step.end, start.period);
-    if (end > step.begin)
+    if (end > step.begin) {
       result.derivative =
           derivative_over(motion, orbit, {step.begin, end}, exponentials) * result.derivative;
+    }
     result.end = orbit.at(end);
     set_sides(motion, next);
     sides = next;

@@ -118,11 +118,12 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
 {
   if (parameter.name == "friction.static") {
     FrictionLaw& law = options.friction;
-    if (value < law.kinetic)
+    if (value < law.kinetic) {
       throw Error(
           fmt::format("[squeal] friction.static = {:.6g} is below friction.kinetic = {:.6g}; "
                       "begin the range there",
                       value, law.kinetic));
+    }
     set_parameter(law.rise > 0.0 ? &law.rise : nullptr, parameter, value - law.kinetic);
     return options;
   }

@@ -208,8 +208,7 @@ Eigen::MatrixXd first_order(const RigidMatrices& matrices)
 Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices)
 {
   Eigen::Vector4cd lambda = first_order(matrices).eigenvalues();
-  std::sort(lambda.begin(), lambda.end(),
-            [](const auto& x, const auto& y) { return x.imag() < y.imag(); });
+  std::ranges::sort(lambda, [](const auto& x, const auto& y) { return x.imag() < y.imag(); });
   return lambda.tail<2>();
 }
 

@@ -162,10 +162,11 @@ std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value
 
 std::unique_ptr<AutonomousMotion> RigidDiscBrake::motion(double speed) const
 {
-  if (study_.equations == RigidEquations::linear)
+  if (study_.equations == RigidEquations::linear) {
     throw Error(
         "limit cycle: the linearised equations of the rigid disc have none; take equations = "
         "\"nonlinear\"");
+  }
   return std::make_unique<ModelMotion<RigidEquationsAt>>(
       RigidEquationsAt{study_.disc, study_.drive, speed},
       ModelMotion<RigidEquationsAt>::Properties{.size = size(),

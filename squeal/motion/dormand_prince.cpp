@@ -174,9 +174,10 @@ void DormandPrince::extend()
   dense_.col(0) = end_ - begin_;
   dense_.col(1) = step_ * K_.col(0) - dense_.col(0);
   dense_.col(2) = 2.0 * dense_.col(0) - step_ * (K_.col(12) + K_.col(0));
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     dense_.col(3 + i).noalias() = step_ * (K_ * Eigen::Map<const Eigen::Matrix<double, 16, 1>>(
                                                     dop853_d[static_cast<std::size_t>(i)].data()));
+  }
   extended_ = true;
 }
 

@@ -131,9 +131,10 @@ void write_branch(Writer& file, const LimitCycleBranch& branch)
   write_optional(file, "limit_cycle_branch/lost_below", branch.lost_below, "rad/s");
   write_optional(file, "limit_cycle_branch/lost_above", branch.lost_above, "rad/s");
   if (!branch.note.empty()) file.write("limit_cycle_branch/note", branch.note);
-  if (branch.second_part)
+  if (branch.second_part) {
     file.write("limit_cycle_branch/second_part", static_cast<std::int64_t>(*branch.second_part),
                "1");
+  }
   if (!branch.origin) return;
   file.write("limit_cycle_branch/origin/speed", branch.origin->speed, "rad/s");
   file.write("limit_cycle_branch/origin/frequency", branch.origin->frequency_Hz, "Hz");

@@ -26,7 +26,7 @@ std::vector<double> read_times(const files::Reader& file, const std::string& nam
                                Eigen::Index size)
 {
   const Eigen::VectorXd t = file.vector(name, size);
-  if (!std::is_sorted(t.begin(), t.end())) file.fail(name, "expected times in ascending order");
+  if (!std::ranges::is_sorted(t)) file.fail(name, "expected times in ascending order");
   return {t.begin(), t.end()};
 }
 

@@ -35,11 +35,12 @@ std::optional<int> nodal_circles(const StabilityTable& table, const StabilityBra
 {
   const std::optional<int> diameters = nodal_diameters(table, branch);
   std::optional<std::size_t> largest;
-  for (std::size_t i = 0; i < table.families.size(); ++i)
+  for (std::size_t i = 0; i < table.families.size(); ++i) {
     if (table.families[i].nodal_diameters == diameters &&
         (!largest || branch.shares[static_cast<Eigen::Index>(i)] >
                          branch.shares[static_cast<Eigen::Index>(*largest)]))
       largest = i;
+  }
   return largest ? table.families[*largest].nodal_circles : std::nullopt;
 }
 
@@ -57,9 +58,10 @@ std::optional<double> in_plane_share(const StabilityTable& table, const Stabilit
 std::string summary(const StabilityTable& table)
 {
   const auto n = std::ranges::count_if(table.branches, &StabilityBranch::is_unstable);
-  if (n == 0)
+  if (n == 0) {
     return fmt::format("no mode is unstable at any {} of the range",
                        table.parameter == "speed" ? "speed" : table.parameter + " value");
+  }
   return fmt::format("{} of {} modes {} unstable somewhere", n, table.branches.size(),
                      n == 1 ? "is" : "are");
 }

@@ -163,12 +163,13 @@ std::vector<StabilityBranch> read_branches(const Reader& file, Index n_values, I
   const Eigen::VectorXd pads =
       has_shares ? file.vector("stability/pads", m) : Eigen::VectorXd(Eigen::VectorXd::Zero(m));
   const std::complex<double> i(0.0, 1.0);
-  for (Index j = 0; j < m; ++j)
+  for (Index j = 0; j < m; ++j) {
     branches.push_back({.lambda = (growth.row(j) + i * omega.row(j)).transpose(),
                         .unstable = {},
                         .worst = worst[static_cast<std::size_t>(j)],
                         .shares = shares.row(j).transpose(),
                         .pads = pads[j]});
+  }
   read_intervals_of_branches(file, branches);
   read_works(file, branches);
   return branches;
@@ -182,9 +183,10 @@ void write_stability_table(Writer& file, const StabilityTable& table)
   file.write("stability/parameter", table.parameter);
   file.write("stability/values", table.values, unit);
   write_optional(file, "stability/speed", table.speed, "rad/s");
-  if (table.band)
+  if (table.band) {
     file.write("stability/band",
                Eigen::VectorXd(Eigen::Vector2d(table.band->from_Hz, table.band->to_Hz)), "Hz");
+  }
   if (!table.method.empty()) file.write("stability/method", table.method);
   if (table.is_by_hill()) file.write("stability/error", table.error, "1/s");
   write_participation(file, table);

@@ -60,9 +60,10 @@ Band read_band(const Reader& file)
 {
   if (!file.contains("transient/history/sampling")) return {};
   const std::string sampling = file.text("transient/history/sampling");
-  if (sampling != whole && sampling != band_limited)
+  if (sampling != whole && sampling != band_limited) {
     file.fail("transient/history/sampling",
               fmt::format("is \"{}\"; expected \"{}\" or \"{}\"", sampling, whole, band_limited));
+  }
   return {sampling == whole ? Sampling::whole : Sampling::band_limited,
           file.real("transient/history/rate"), file.real("transient/history/band")};
 }
@@ -86,9 +87,10 @@ constexpr std::array<WindowSeries, 7> window_series = {{
 void write_windows(Writer& file, const Windows& windows)
 {
   file.write("transient/windows/t", windows.t, "s");
-  for (const WindowSeries& series : window_series)
+  for (const WindowSeries& series : window_series) {
     file.write(fmt::format("transient/windows/{}", series.name), windows.*series.values,
                series.unit);
+  }
 }
 
 Windows read_windows(const Reader& file)
@@ -96,9 +98,10 @@ Windows read_windows(const Reader& file)
   Windows windows;
   if (!file.contains("transient/windows/t")) return windows;
   windows.t = read_times(file, "transient/windows/t");
-  for (const WindowSeries& series : window_series)
+  for (const WindowSeries& series : window_series) {
     windows.*series.values = read_series(file, fmt::format("transient/windows/{}", series.name),
                                          static_cast<Eigen::Index>(windows.t.size()));
+  }
   return windows;
 }
 

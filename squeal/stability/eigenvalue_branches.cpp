@@ -22,7 +22,7 @@ Eigen::VectorXcd oscillating_eigenvalues(const Eigen::MatrixXd& A)
     throw Error("eigenvalues of the sliding disc: the QR iteration did not converge");
   const Eigen::VectorXcd& lambda = solver.eigenvalues();
   std::vector<Complex> sorted(lambda.begin(), lambda.end());
-  std::sort(sorted.begin(), sorted.end(), [](const Complex& x, const Complex& y) {
+  std::ranges::sort(sorted, [](const Complex& x, const Complex& y) {
     return x.imag() != y.imag() ? x.imag() > y.imag() : x.real() > y.real();
   });
   return Eigen::Map<const Eigen::VectorXcd>(sorted.data(), lambda.size() / 2);

@@ -74,10 +74,11 @@ Eigen::VectorXcd determinants(const PoleSum& sum, const Eigen::VectorXcd& z)
   Eigen::VectorXcd det(n);
   Eigen::MatrixXcd N(r, r);
   for (Index i = 0; i < n; ++i) {
-    for (Index e = 0; e < size; ++e)
+    for (Index e = 0; e < size; ++e) {
       N.reshaped()[e] =
           (e % (r + 1) == 0 ? 1.0 : 0.0) -
           (z[i] * Complex(S(e, i), S(e, n + i)) + Complex(S(size + e, i), S(size + e, n + i)));
+    }
     det[i] = determinant(N);
   }
   return det;

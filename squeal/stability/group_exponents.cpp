@@ -119,7 +119,7 @@ class Orbit {
     const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver{Eigen::MatrixXcd(product)};
     std::vector<Index> order(static_cast<std::size_t>(g_));
     std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::ranges::sort(order, [&](Index a, Index b) {
       return std::abs(solver.eigenvalues()[a]) > std::abs(solver.eigenvalues()[b]);
     });
     Square<G> Q = solver.eigenvectors()(every, order);

@@ -71,13 +71,12 @@ class Reduction {
         n_steps_ > 0 && (F_ - F_before_).cwiseAbs2().maxCoeff() < F_error * F_error;
     F_before_ = F_;
     c_ = c;
-    if (settled) {
+    if (settled)
       outcome_ = group_or_link();
-    } else if (++n_steps_ == n_iterations_max) {
+    else if (++n_steps_ == n_iterations_max)
       outcome_ = worst(c_);
-    } else {
+    else
       X_ = samples_of(std::move(c));
-    }
   }
 
  private:

@@ -41,8 +41,7 @@ HillExponents exponents_of(const std::vector<NearGroup>& groups, const TurningMo
     result.error = std::max({result.error, group.error, found.error});
     result.coupled = std::max(result.coupled, found.lambda.size());
   }
-  std::sort(all.begin(), all.end(),
-            [](const auto& a, const auto& b) { return a.real() > b.real(); });
+  std::ranges::sort(all, [](const auto& a, const auto& b) { return a.real() > b.real(); });
   result.lambda = Eigen::Map<Eigen::VectorXcd>(all.data(), static_cast<Eigen::Index>(all.size()));
   result.error = std::max(result.error, std::abs(trace));
   return result;

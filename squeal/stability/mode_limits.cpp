@@ -81,9 +81,10 @@ StabilityPoint limit_within(const StateMatrixOf& A, const Bracket& wide, Index j
                                         : 0.0;
     const ModeSample there = mode_sample_between(A, near.stable, near.unstable, t);
     const std::complex<double> i_omega(0.0, newton->omega);
-    if (std::abs(there.lambda[j] - i_omega) < same_frequency * std::abs(newton->omega))
+    if (std::abs(there.lambda[j] - i_omega) < same_frequency * std::abs(newton->omega)) {
       return {newton->value, 0.0, std::abs(newton->omega) / (2.0 * std::numbers::pi),
               newton->n_newton_steps};
+    }
   }
   StabilityPoint limit = halved(A, near, j, halvings_max).unstable.point(j);
   limit.growth = 0.0;

@@ -35,7 +35,7 @@ std::vector<Family> families_by_frequency(const InertialDisc& disc)
   std::vector<Family> families;
   for (Eigen::Index i = 0; i < disc.n_modes(); i += families.back().size)
     families.push_back({i, disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 ? 2 : 1});
-  std::sort(families.begin(), families.end(), [&](const Family& a, const Family& b) {
+  std::ranges::sort(families, [&](const Family& a, const Family& b) {
     return disc.omega[a.first] < disc.omega[b.first];
   });
   return families;
@@ -184,11 +184,12 @@ ModeSensitivity mode_sensitivity(const InertialDisc& disc, const SquealOptions& 
   const StabilityProfile profile =
       stability_over_speed(matrices_of(disc, options), options.study.speeds);
   const auto critical = critical_speed(profile);
-  if (!critical)
+  if (!critical) {
     throw Error(
         fmt::format("mode sensitivity: there is no critical speed within [squeal] speeds, {:.6g} "
                     "to {:.6g} rad/s (stability: {}); take another range",
                     profile.from.value, profile.to.value, name_of(stability_of(profile))));
+  }
   const Complex lambda(0.0, 2.0 * pi * critical->frequency_Hz);
   const std::vector<Family> families = families_by_frequency(disc);
   const CriticalOscillation oscillation{

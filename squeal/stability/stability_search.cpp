@@ -54,13 +54,12 @@ std::optional<StabilitySample> beyond_maximum(const StateMatrixOf& A, Triple t,
     if (left.unstable != unstable) return left;
     StabilitySample right = sample_between(A, t.middle, t.high, 0.5);
     if (right.unstable != unstable) return right;
-    if (height(left) > height(t.middle) && height(left) >= height(right)) {
+    if (height(left) > height(t.middle) && height(left) >= height(right))
       t = {std::move(t.low), std::move(left), std::move(t.middle)};
-    } else if (height(right) > height(t.middle)) {
+    else if (height(right) > height(t.middle))
       t = {std::move(t.middle), std::move(right), std::move(t.high)};
-    } else {
+    else
       t = {std::move(left), std::move(t.middle), std::move(right)};
-    }
   }
   return std::nullopt;
 }
@@ -150,9 +149,9 @@ std::vector<StabilitySample> all_samples(const StateMatrixOf& A, const SearchRan
     if (!samples[i].unstable && !samples[i + 1].unstable)
       add(at_crossings(A, samples[i], samples[i + 1]));
   std::move(more.begin(), more.end(), std::back_inserter(samples));
-  std::stable_sort(
-      samples.begin(), samples.end(),
-      [](const StabilitySample& x, const StabilitySample& y) { return x.value < y.value; });
+  std::ranges::stable_sort(samples, [](const StabilitySample& x, const StabilitySample& y) {
+    return x.value < y.value;
+  });
   return samples;
 }
 

@@ -63,8 +63,8 @@ std::vector<Candidate> candidates(const Disc& disc)
       if (!(svd.singularValues()[1] > phase_limit * svd.singularValues()[0])) continue;
       all.push_back({gap, n_i, {i, j}, svd.matrixV() * svd.matrixU().transpose()});
     }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
+  std::ranges::stable_sort(all,
+                           [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
   return all;
 }
 
@@ -115,13 +115,13 @@ int highest_harmonic(const Disc& disc, const TurningCoordinates& coordinates)
     for (const auto& [f, scale] : functions_of(ring)) {
       const double limit =
           rounding * std::max(f->cosine.cwiseAbs().maxCoeff(), f->sine.cwiseAbs().maxCoeff());
-      for (Eigen::Index k = 0; k < f->cosine.rows(); ++k)
+      for (Eigen::Index k = 0; k < f->cosine.rows(); ++k) {
         if (std::max(f->cosine.row(k).cwiseAbs().maxCoeff(), f->sine.row(k).cwiseAbs().maxCoeff()) >
             limit)
           highest = std::max(highest, static_cast<int>(k));
+      }
     }
-  const int d =
-      coordinates.d.empty() ? 0 : *std::max_element(coordinates.d.begin(), coordinates.d.end());
+  const int d = coordinates.d.empty() ? 0 : *std::ranges::max_element(coordinates.d);
   return highest + d;
 }
 

@@ -61,8 +61,8 @@ std::vector<Harmonic> large_harmonics(const AngleHarmonics& c, double budget, do
   std::vector<Harmonic> all;
   for (Index k = 1; k < c.cols() / 2; ++k)
     all.push_back({static_cast<int>(k), 2.0 * c.col(k).norm()});
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Harmonic& a, const Harmonic& b) { return a.norm > b.norm; });
+  std::ranges::stable_sort(all,
+                           [](const Harmonic& a, const Harmonic& b) { return a.norm > b.norm; });
   while (!all.empty() && left + all.back().norm <= budget) {
     left += all.back().norm;
     all.pop_back();

@@ -94,9 +94,10 @@ const ModeSample& add_worst(StabilityBranch& branch, const std::vector<ModeSampl
   const Eigen::VectorXd p = worst.X.col(j).tail(worst.X.rows() / 2).cwiseAbs2();
   const auto families = families_of(body->inertial());
   branch.shares.resize(std::ssize(families));
-  for (std::size_t i = 0; i < families.size(); ++i)
+  for (std::size_t i = 0; i < families.size(); ++i) {
     branch.shares[static_cast<Index>(i)] =
         p.segment(families[i].first, families[i].size).sum() / p.sum();
+  }
   branch.pads = p.tail(p.size() - body->inertial().n_modes()).sum() / p.sum();
   return worst;
 }

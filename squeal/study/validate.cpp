@@ -20,7 +20,7 @@ namespace {
 
 bool asks_for(const StudyOptions& study, std::string_view analysis)
 {
-  return std::find(study.analyses.begin(), study.analyses.end(), analysis) != study.analyses.end();
+  return std::ranges::find(study.analyses, analysis) != study.analyses.end();
 }
 
 /// Whether an analysis that is asked for needs this key of [squeal].
@@ -74,9 +74,10 @@ void validate_pads(const SquealOptions& options)
     require_not_negative(pad.damping, fmt::format("pads[{}].damping", i));
     require_positive(pad.preload, fmt::format("pads[{}].preload", i));
     require_not_negative(pad.cubic_stiffness, fmt::format("pads[{}].cubic_stiffness", i));
-    if (pad.grid && pad.grid->points < 1)
+    if (pad.grid && pad.grid->points < 1) {
       throw Error(fmt::format("[squeal] pads[{}].grid.points = {}; it must be 1 or more", i,
                               pad.grid->points));
+    }
   }
 }
 
@@ -84,38 +85,42 @@ void validate_modes(const ModeChoice& modes)
 {
   if (modes.nodal_diameters && modes.list)
     throw Error("[squeal] use_modes: either nodal diameters or a list, not both");
-  if (modes.nodal_diameters && *modes.nodal_diameters < 0)
+  if (modes.nodal_diameters && *modes.nodal_diameters < 0) {
     throw Error(fmt::format("[squeal] use_modes: {} nodal diameters; it must be 0 or more",
                             *modes.nodal_diameters));
+  }
 }
 
 void validate_speeds(const SpeedRange& speeds)
 {
   require_positive(speeds.from, "speeds.from_rad_s");
   require_positive(speeds.to, "speeds.to_rad_s");
-  if (speeds.to < speeds.from)
+  if (speeds.to < speeds.from) {
     throw Error(fmt::format("[squeal] speeds: to_rad_s = {} is below from_rad_s = {}", speeds.to,
                             speeds.from));
+  }
   if (speeds.count < 1)
     throw Error(fmt::format("[squeal] speeds.count = {}; it must be 1 or more", speeds.count));
 }
 
 void validate_transient(const StudyOptions& study)
 {
-  if (!study.transient)
+  if (!study.transient) {
     throw Error(
         "[squeal] analyses: \"transient\", \"limit-cycle\" and \"spectrum\" need `transient = { "
         "... }`");
+  }
   require_positive(study.transient->speed, "transient.speed_rad_s");
   require_positive(study.transient->duration, "transient.duration_s");
   require_positive(study.transient->initial_pad_displacement, "transient.initial_pad_displacement");
   require_positive(study.transient->growth_error, "transient.growth_error");
   const std::optional<int>& steps = study.transient->steps_per_period;
-  if (steps && *steps < steps_per_period_min)
+  if (steps && *steps < steps_per_period_min) {
     throw Error(fmt::format(
         "[squeal] transient.steps_per_period = {}; it must be {} or more to resolve the highest "
         "mode",
         *steps, steps_per_period_min));
+  }
 }
 
 void validate_growth(const StudyOptions& study)
@@ -128,41 +133,46 @@ void validate_growth(const StudyOptions& study)
 
 void validate_direct(const StudyOptions& study)
 {
-  if (!study.limit_cycle_direct)
+  if (!study.limit_cycle_direct) {
     throw Error(
         "[squeal] analyses: \"limit-cycle-direct\" needs `limit_cycle_direct = { speed_rad_s = ... "
         "}`");
+  }
   require_positive(study.limit_cycle_direct->speed, "limit_cycle_direct.speed_rad_s");
 }
 
 void validate_map(const StudyOptions& study)
 {
-  if (!study.map)
+  if (!study.map) {
     throw Error(
         "[squeal] analyses: \"stability-map\" needs `map = { parameter = ..., from = ..., to = "
         "..., "
         "count = ... }`");
+  }
   require_value_of(study.map->parameter, study.map->from, "map.from");
-  if (!(study.map->to >= study.map->from) || !std::isfinite(study.map->to))
+  if (!(study.map->to >= study.map->from) || !std::isfinite(study.map->to)) {
     throw Error(fmt::format("[squeal] map.to = {}; it must be at least from = {}", study.map->to,
                             study.map->from));
+  }
   if (study.map->count < 1)
     throw Error(fmt::format("[squeal] map.count = {}; it must be 1 or more", study.map->count));
 }
 
 void validate_critical(const StudyOptions& study)
 {
-  if (study.critical.empty())
+  if (study.critical.empty()) {
     throw Error(
         "[squeal] analyses: \"critical-values\" needs `critical = [{ parameter = ..., from = ..., "
         "to "
         "= ..., speed_rad_s = ... }]`");
+  }
   for (const CriticalCase& search : study.critical) {
     require_positive(search.from, "critical.from");
     require_positive(search.speed, "critical.speed_rad_s");
-    if (!(search.to > search.from) || !std::isfinite(search.to))
+    if (!(search.to > search.from) || !std::isfinite(search.to)) {
       throw Error(fmt::format("[squeal] critical.to = {}; it must be above from = {}", search.to,
                               search.from));
+    }
   }
 }
 
@@ -176,29 +186,33 @@ void validate_stability(const StudyOptions& study)
   else
     require_positive(search.from, key + ".from");
   if (search.over) require_positive(search.speed, "stability.speed_rad_s");
-  if (!(search.to > search.from) || !std::isfinite(search.to))
+  if (!(search.to > search.from) || !std::isfinite(search.to)) {
     throw Error(
         fmt::format("[squeal] {}: to = {} must be above from = {}; \"stability\" follows "
                     "modes over a range",
                     key, search.to, search.from));
-  if (search.count < 2)
+  }
+  if (search.count < 2) {
     throw Error(fmt::format("[squeal] {}.count = {}; it must be 2 or more for \"stability\"", key,
                             search.count));
+  }
   if (!search.band) return;
   require_not_negative(search.band->from_Hz, "stability.band_Hz");
-  if (!(search.band->to_Hz > search.band->from_Hz) || !std::isfinite(search.band->to_Hz))
+  if (!(search.band->to_Hz > search.band->from_Hz) || !std::isfinite(search.band->to_Hz)) {
     throw Error(
         fmt::format("[squeal] stability.band_Hz = [{}, {}]; its end must be above its begin",
                     search.band->from_Hz, search.band->to_Hz));
+  }
 }
 
 void validate_sound(const StudyOptions& study)
 {
   if (!study.sound) return;
   const int rate = study.sound->rate_Hz;
-  if (rate < 8000 || rate > 192000)
+  if (rate < 8000 || rate > 192000) {
     throw Error(
         fmt::format("[squeal] wav.rate_Hz = {}; it must be 8000 to 192000, e.g. 48000", rate));
+  }
 }
 
 void validate_analyses(const StudyOptions& study)
@@ -215,9 +229,10 @@ void validate_analyses(const StudyOptions& study)
 void validate_brake(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
-  if (options.planes && options.planes->heights)
+  if (options.planes && options.planes->heights) {
     require_positive((*options.planes->heights)[1] - (*options.planes->heights)[0],
                      "contact_planes: the second minus the first");
+  }
   require_not_negative(options.friction.kinetic, "friction");
   require_not_negative(options.friction.rise, "friction.static minus friction.kinetic");
   require_positive(options.friction.decay_speed, "friction.decay_speed");
@@ -234,11 +249,12 @@ void validate(const Brake& brake, const StudyOptions& study)
   if (body) validate_brake(body->options());
   validate_analyses(study);
   for (const Analysis& analysis : analyses)
-    if (!body && analysis.needs_body && asks_for(study, analysis.name))
+    if (!body && analysis.needs_body && asks_for(study, analysis.name)) {
       throw Error(
           fmt::format("[squeal] analyses: \"{}\" needs a disc with a modal body; leave it out, or "
                       "take model = \"flexible disc\"",
                       analysis.name));
+    }
   // The map is one over the speeds too.
   if (needs(study, "speeds") || needs(study, "map")) validate_speeds(study.speeds);
   if (needs(study, "transient")) validate_transient(study);

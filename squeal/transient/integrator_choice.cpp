@@ -157,25 +157,30 @@ bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
 IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& inertial,
                           const SquealOptions& options, const TransientCase& run)
 {
-  if (!run.speed_program.empty())
+  if (!run.speed_program.empty()) {
     return {IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
             0.0, "it follows a speed program"};
-  if (is_stiff(disc, options, run.speed))
+  }
+  if (is_stiff(disc, options, run.speed)) {
     return {IntegratorKind::generalised_alpha, 0, 0.0,
             "the pads damp faster than the highest mode oscillates"};
-  if (sticks(disc, inertial, options, run))
+  }
+  if (sticks(disc, inertial, options, run)) {
     return {IntegratorKind::generalised_alpha, 0, 0.0,
             "pads may stick to the disc, and friction then damps faster than the highest mode "
             "oscillates"};
-  if (inertial)
+  }
+  if (inertial) {
     return {IntegratorKind::exponential, 0, 0.0,
             "the disc is axisymmetric, so that small motions can be exact"};
+  }
   const int steps = steps_for(IntegratorKind::splitting, inertial, options, run);
-  if (steps <= splitting_steps_max)
+  if (steps <= splitting_steps_max) {
     return {IntegratorKind::splitting, steps, 0.0,
             fmt::format("{} steps for a period of the highest mode keep the growth rates to {:g} "
                         "1/s",
                         steps, run.growth_error)};
+  }
   return {IntegratorKind::dormand_prince, 0, 0.0,
           fmt::format("splitting would take {} steps for a period of the highest mode to keep the "
                       "growth rates to {:g} 1/s",
@@ -226,10 +231,11 @@ double growth_error_of(IntegratorKind kind, const InertialDisc& disc, const Sque
 IntegratorChoice choose_integrator(const Disc& disc, const std::optional<InertialDisc>& inertial,
                                    const SquealOptions& options, const TransientCase& run)
 {
-  if (run.integrator == IntegratorKind::exponential && !inertial)
+  if (run.integrator == IntegratorKind::exponential && !inertial) {
     throw Error(
         "transient: the integrator \"exponential\" needs an axisymmetric disc with both modes of "
         "each pair; take \"auto\" or \"splitting\"");
+  }
   if (!run.speed_program.empty() && run.integrator != IntegratorKind::automatic &&
       run.integrator != IntegratorKind::splitting)
     throw Error(

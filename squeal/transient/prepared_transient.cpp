@@ -19,12 +19,13 @@ namespace {
 
 void check_speed_program(const FrictionLaw& friction, const TransientCase& run)
 {
-  const bool stops = std::any_of(run.speed_program.begin(), run.speed_program.end(),
-                                 [](const SpeedPoint& point) { return !(point.speed > 0.0); });
-  if (stops && !(friction.regularisation > 0.0))
+  const bool stops = std::ranges::any_of(
+      run.speed_program, [](const SpeedPoint& point) { return !(point.speed > 0.0); });
+  if (stops && !(friction.regularisation > 0.0)) {
     throw Error(
         "transient: the speed program comes to rest, where friction has no direction; give "
         "friction a regularisation, e.g. friction = { kinetic = 0.6, regularisation = 1e-3 }");
+  }
 }
 
 /// Samples of one period of the highest mode.
@@ -93,9 +94,10 @@ PreparedTransient prepared_lumped(const LumpedBrake& brake, const TransientCase&
     throw Error(
         "transient: a model without a body has the integrator \"dormand-prince\" alone; leave "
         "integrator out");
-  if (!run.speed_program.empty())
+  if (!run.speed_program.empty()) {
     throw Error(
         "transient: a model without a body turns at a constant speed; leave speed_program out");
+  }
   const RecordingPlan plan = recording_plan(run, frequencies_of(brake, run.speed),
                                             run.steps_per_period.value_or(lumped_steps_per_period));
   return {.plan = plan,

@@ -47,9 +47,10 @@ Spectrum::Peak refined(const Eigen::VectorXd& amplitude, Eigen::Index k, double 
 
 Spectrum spectrum(std::span<const double> x, double step)
 {
-  if (x.size() < samples_min)
+  if (x.size() < samples_min) {
     throw Error(
         fmt::format("spectrum: {} samples are too few; simulate at least 100 periods", x.size()));
+  }
   const std::size_t n = quick_length(x.size());
   std::vector<double> windowed(x.end() - static_cast<std::ptrdiff_t>(n), x.end());
   double mean = 0.0;
@@ -71,8 +72,8 @@ Spectrum spectrum(std::span<const double> x, double step)
   for (Eigen::Index k = 1; k + 1 < n_lines; ++k)
     if (a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] > smallest_peak * a.maxCoeff())
       result.peaks.push_back(refined(a, k, line_Hz));
-  std::sort(result.peaks.begin(), result.peaks.end(),
-            [](const auto& p, const auto& q) { return p.amplitude > q.amplitude; });
+  std::ranges::sort(result.peaks,
+                    [](const auto& p, const auto& q) { return p.amplitude > q.amplitude; });
   if (result.peaks.size() > peaks_max) result.peaks.resize(peaks_max);
   return result;
 }

@@ -61,7 +61,7 @@ bool is_bounded(const PadState<double>& pad)
 
 bool is_bounded(const std::vector<ContactResult<double>>& contacts)
 {
-  return std::all_of(contacts.begin(), contacts.end(), [](const ContactResult<double>& pair) {
+  return std::ranges::all_of(contacts, [](const ContactResult<double>& pair) {
     return is_bounded(pair.upper) && is_bounded(pair.lower);
   });
 }

@@ -38,21 +38,24 @@ std::int64_t parts_of(std::int64_t n_steps, std::int64_t n_parts)
 
 void check_transient(const TransientCase& run, double omega_highest)
 {
-  if (!(run.speed > 0.0))
+  if (!(run.speed > 0.0)) {
     throw Error(
         fmt::format("transient: speed_rad_s = {}; it must be > 0, since friction at rest has "
                     "no direction",
                     run.speed));
+  }
   if (!(run.duration > 0.0))
     throw Error(fmt::format("transient: duration_s = {}; it must be > 0", run.duration));
-  if (!(run.initial_pad_displacement > 0.0))
+  if (!(run.initial_pad_displacement > 0.0)) {
     throw Error(fmt::format("transient: initial_pad_displacement = {}; it must be > 0",
                             run.initial_pad_displacement));
-  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min)
+  }
+  if (run.steps_per_period && *run.steps_per_period < steps_per_period_min) {
     throw Error(fmt::format(
         "transient: {} steps per period do not resolve the highest mode ({:.0f} Hz); take at least "
         "{}, better leave steps_per_period out",
         *run.steps_per_period, omega_highest / (2.0 * pi), steps_per_period_min));
+  }
 }
 
 RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& omega, int samples)
@@ -60,9 +63,10 @@ RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& ome
   check_transient(run, omega.highest);
   const double step = 2.0 * pi / (omega.highest * samples);
   const double n_steps = std::ceil(run.duration / step);
-  if (!(n_steps < steps_max))
+  if (!(n_steps < steps_max)) {
     throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
                             n_steps, steps_max));
+  }
   const double steps_of_period = 2.0 * pi / (omega.lowest * step);
   const auto n = static_cast<std::int64_t>(n_steps);
   const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);
@@ -89,12 +93,13 @@ double required_growth_rate(const Transient& run, double duration, double omega_
 {
   if (run.growth_rate) return *run.growth_rate;
   const double least = 200.0 * pi / omega_lowest;
-  if (duration >= least)
+  if (duration >= least) {
     throw Error(
         fmt::format("growth: at {} rad/s the motion is small for too short a time to measure a "
                     "growth rate; the "
                     "analysis \"eigenvalues\" tells it",
                     run.speed));
+  }
   throw Error(
       fmt::format("growth: {} s at {} rad/s are too short for a growth rate; simulate at "
                   "least {:.2g} s",

@@ -13,11 +13,12 @@ ModalState start_in_first_pair(const InertialDisc& disc, const TransientCase& ru
   const Eigen::VectorXd& U = disc.rings.front().U;
   const double still = 1e-3 * U.cwiseAbs().maxCoeff();
   Eigen::Index first = 0;
-  for (Eigen::Index i = 1; i < disc.n_modes(); ++i)
+  for (Eigen::Index i = 1; i < disc.n_modes(); ++i) {
     if (disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 && std::abs(U[i]) > still &&
         (disc.nodal_diameters[static_cast<std::size_t>(first)] == 0 ||
          std::abs(U[first]) <= still || disc.omega[i] < disc.omega[first]))
       first = i;
+  }
   const bool pair = disc.nodal_diameters[static_cast<std::size_t>(first)] > 0;
   a.segment(first, pair ? 2 : 1).setConstant(run.initial_pad_displacement / U[first]);
   const Eigen::VectorXd at_pad = turned(disc, a, angle);

@@ -145,10 +145,9 @@ class AdaptiveSteps final : public ModalSteps {
   std::vector<ContactEvent> events() const override
   {
     std::vector<ContactEvent> events;
-    if constexpr (requires { method_.events(); }) {
+    if constexpr (requires { method_.events(); })
       for (const SwitchEvent& event : method_.events())
         events.push_back({event.t, motion_.pad_of(event.i), event.side > 0.0});
-    }
     return events;
   }
   std::int64_t n_events() const override { return method_.cost().n_events; }

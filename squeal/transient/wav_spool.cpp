@@ -53,9 +53,10 @@ void WavSpool::open_with(std::int64_t n)
   const auto size = n * static_cast<std::int64_t>(sizeof(float));
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) fail();
-  if (!S_ISREG(status.st_mode) || status.st_size < size)
+  if (!S_ISREG(status.st_mode) || status.st_size < size) {
     throw Error(fmt::format("{}: lacks samples of the sound; begin anew without --resume",
                             spool_.string()));
+  }
   if (ftruncate(descriptor_, size) != 0 || lseek(descriptor_, 0, SEEK_END) < 0) fail();
 }
 

@@ -58,7 +58,7 @@ TEST(ReadBodyExample, ReadsWhatIsWritten)
   EXPECT_NE(ending.out.find("wheel: 1.7 kg"), std::string::npos) << ending.out;
   EXPECT_NE(ending.out.find("ring track, radius 0.1 m"), std::string::npos) << ending.out;
   const std::string example = read_text(CHLADNI_SOURCE_DIR "/examples/read_body.py");
-  EXPECT_LE(std::count(example.begin(), example.end(), '\n'), 20);
+  EXPECT_LE(std::ranges::count(example, '\n'), 20);
 }
 
 TEST(ChladniExport, WritesTheFilesOfNastran)
@@ -133,7 +133,7 @@ std::string scene_with(const std::string& more)
 
 std::string line_of_last(const std::string& text)
 {
-  return std::to_string(std::count(text.begin(), text.end(), '\n'));
+  return std::to_string(std::ranges::count(text, '\n'));
 }
 
 TEST(ChladniExport, NamesTheDamperToTheGroundThatAFormatCannotHold)

@@ -29,9 +29,8 @@ Eigen::MatrixXd rigid_motions()
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(6 * n_nodes, 6);
   for (int node = 0; node < n_nodes; ++node) {
     R.block(6 * node, 0, 6, 6).setIdentity();
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
       R.block(6 * node, 3 + axis, 3, 1) = Eigen::Vector3d::Unit(axis).cross(position(node));
-    }
   }
   return R;
 }
@@ -119,7 +118,7 @@ TEST(ChladniProgram, RefusesAFreeDiscThatIsToSqueal)
     EXPECT_EQ(ending.exit_code, 1);
     EXPECT_NE(ending.err.find("[squeal] needs a body that is held"), std::string::npos)
         << ending.err;
-    EXPECT_EQ(std::count(ending.err.begin(), ending.err.end(), '\n'), 1);
+    EXPECT_EQ(std::ranges::count(ending.err, '\n'), 1);
     EXPECT_EQ(folder.n_files(), 2u);
   }
 }

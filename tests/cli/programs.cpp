@@ -58,9 +58,8 @@ std::string replaced(const std::string& text, const std::string& old_part,
                      const std::string& new_part)
 {
   const std::size_t at = text.find(old_part);
-  if (at == std::string::npos || text.find(old_part, at + 1) != std::string::npos) {
+  if (at == std::string::npos || text.find(old_part, at + 1) != std::string::npos)
     throw std::runtime_error("must stand once in the text: " + old_part);
-  }
   return text.substr(0, at) + new_part + text.substr(at + old_part.size());
 }
 

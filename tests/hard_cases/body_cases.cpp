@@ -29,7 +29,7 @@ double held_beam_error(const std::vector<std::string>& fixed, int n)
   const HeldDofs held = held_dofs(beam, fixed);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < beam.K.rows(); ++i)
-    if (std::find(held.rows.begin(), held.rows.end(), i) == held.rows.end()) kept.push_back(i);
+    if (std::ranges::find(held.rows, i) == held.rows.end()) kept.push_back(i);
   const MatrixXd K = beam.K(kept, kept), M = beam.M(kept, kept);
   const VectorXd lambda =
       Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
@@ -97,7 +97,7 @@ double invariance_of_dependent_modes()
   const ConstrainedModes by_shift = constrained_modes(shift);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < wheel.K.rows(); ++i)
-    if (std::find(held.rows.begin(), held.rows.end(), i) == held.rows.end()) kept.push_back(i);
+    if (std::ranges::find(held.rows, i) == held.rows.end()) kept.push_back(i);
   const VectorXd lambda = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
                               wheel.K(kept, kept), wheel.M(kept, kept), Eigen::EigenvaluesOnly)
                               .eigenvalues();

@@ -50,7 +50,8 @@ double power_of_friction_through_zero()
   SquealOptions options = reference_options();
   options.friction.rise = 0.3;
   options.friction.regularisation = 1e-3;
-  const PadContact pad = pad_contact(options, options.pads[0], ring_radius);
+  const PadContact pad =
+      pad_contact(options, options.pads[0], faces_of_plate(options.thickness, ring_radius));
   double largest = -1e300;
   for (int i = -200; i <= 200; ++i) {
     const double speed = 1e-4 * i * std::abs(i);

@@ -192,9 +192,10 @@ double error_with_masses_off_the_centre()
       reduce::natural_modes(system.K, system.M, reduce::free_dofs(system.K, held), {.n_modes = 6});
   const std::vector<double> published_Hz{1.723, 1.727, 7.413, 9.972, 18.155, 26.957};
   double worst = 0.0;
-  for (std::size_t i = 0; i < published_Hz.size(); ++i)
+  for (std::size_t i = 0; i < published_Hz.size(); ++i) {
     worst = std::max(worst, relative_error(std::sqrt(modes.lambda[i]) / (2.0 * std::numbers::pi),
                                            published_Hz[i]));
+  }
   return worst;
 }
 

@@ -49,11 +49,9 @@ petsc::Matrix columns(Mat A, PetscInt n_columns)
   petsc::Matrix X = uninitialized_dense(A, n_columns);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
-  for (PetscInt i = first; i < last; ++i) {
-    for (PetscInt j = 0; j < n_columns; ++j) {
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < n_columns; ++j)
       petsc::check(MatSetValue(X, i, j, 1.0 / (1.0 + i + 3.0 * j), INSERT_VALUES));
-    }
-  }
   finish(X);
   return X;
 }

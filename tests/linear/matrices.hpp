@@ -19,9 +19,8 @@ inline petsc::Matrix matrix(PetscInt n, PetscInt width, const std::function<Row(
                             width, nullptr, A.put()));
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(A, &first, &last));
-  for (PetscInt i = first; i < last; ++i) {
+  for (PetscInt i = first; i < last; ++i)
     for (const auto& [j, value] : row(i)) petsc::check(MatSetValue(A, i, j, value, INSERT_VALUES));
-  }
   finish(A);
   petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   return A;

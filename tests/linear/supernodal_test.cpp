@@ -30,9 +30,8 @@ struct Grid {
 void dissect(int x0, int x1, int y0, int y1, int side, std::vector<int>& order)
 {
   if (x1 - x0 < 3 && y1 - y0 < 3) {
-    for (int y = y0; y < y1; ++y) {
+    for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) order.push_back(y * side + x);
-    }
     return;
   }
   if (x1 - x0 >= y1 - y0) {
@@ -58,18 +57,16 @@ Grid grid(int side, int rows_per_node)
     const int x = node % side, y = node / side;
     for (int r = 0; r < rows_per_node; ++r) made.graph.vertex_of_row.push_back(node);
     for (int j = std::max(y - 1, 0); j <= std::min(y + 1, side - 1); ++j) {
-      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, side - 1); ++i) {
+      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, side - 1); ++i)
         if (j * side + i != node) made.graph.edges.neighbours.push_back(j * side + i);
-      }
     }
     made.graph.edges.starts.push_back(static_cast<int>(made.graph.edges.neighbours.size()));
   }
   std::vector<int> order;
   dissect(0, side, 0, side, side, order);
-  for (int k = 0; k < std::ssize(order); ++k) {
+  for (int k = 0; k < std::ssize(order); ++k)
     for (int r = 0; r < rows_per_node; ++r)
       made.places[order[k] * rows_per_node + r] = k * rows_per_node + r + 1;
-  }
   return made;
 }
 
@@ -199,9 +196,8 @@ TEST(ShareSubtrees, GivesWholeSubtreesToTheRanksAndShortensTheLongestPath)
     const double whole = std::accumulate(entries.begin(), entries.end(), common);
     const double path = std::ranges::max(entries) + common;
     EXPECT_LE(path, path_before) << n_ranks << " ranks";
-    if (n_ranks <= 4) {  // on so small a plate; more ranks do more and more in common
-      EXPECT_LT(path, 1.45 * whole / n_ranks) << n_ranks << " ranks";
-    }
+    // On so small a plate more ranks do more and more in common.
+    EXPECT_LT(path, n_ranks <= 4 ? 1.45 * whole / n_ranks : whole) << n_ranks << " ranks";
     path_before = path;
   }
 }
@@ -240,9 +236,8 @@ TEST_P(Front, IsEliminatedAsTheDenseMatrixIs)
   const MatrixXd whole = L * d.asDiagonal() * L.transpose();
   EXPECT_LT((whole - A).leftCols(w).norm(), round_off);
   const MatrixXd left = A.bottomRightCorner(m, m) - whole.bottomRightCorner(m, m);
-  for (int j = 0; j < m; ++j) {
+  for (int j = 0; j < m; ++j)
     for (int i = j; i < m; ++i) EXPECT_NEAR(rest(i, j), left(i, j), round_off);
-  }
 }
 
 TEST_P(Front, CountsNegativePivotsAndStopsAtNone)
@@ -280,9 +275,8 @@ TEST_P(Front, SolvesWithItsTiles)
   };
   const MatrixXd B = random_matrix(n_rows, n_panels * panel_width);
   const auto fill = [&] {
-    for (int j = 0; j < B.cols(); ++j) {
+    for (int j = 0; j < B.cols(); ++j)
       for (int i = 0; i < n_rows; ++i) entry(i, j) = B(i, j);
-    }
   };
   const MatrixXd unit = MatrixXd(L.topRows(w).triangularView<Eigen::UnitLower>());
   MatrixXd forward = B, backward = B;
@@ -295,9 +289,8 @@ TEST_P(Front, SolvesWithItsTiles)
   backward.middleRows(3, w) = unit.transpose().triangularView<Eigen::UnitUpper>().solve(pulled);
   const auto compare = [&](const MatrixXd& expected) {
     const double round_off = 1e-14 * expected.norm();
-    for (int j = 0; j < B.cols(); ++j) {
+    for (int j = 0; j < B.cols(); ++j)
       for (int i = 0; i < n_rows; ++i) EXPECT_NEAR(entry(i, j), expected(i, j), round_off);
-    }
   };
   fill();
   solve_forward(tiled, panels);
@@ -349,9 +342,8 @@ TEST_P(TallProducts, AreThoseOfDenseAlgebra)
   const LongColumns basis{V.data(), n_rows, n_rows, n_basis};
   const Eigen::MatrixXd h = tall_inner_product(basis, {Y.data(), n_rows, n_rows, n_block});
   const MatrixXd expected = V.transpose() * Y;
-  for (int j = 0; j < n_block; ++j) {
+  for (int j = 0; j < n_block; ++j)
     for (int i = 0; i < n_basis; ++i) EXPECT_NEAR(h(i, j), expected(i, j), 1e-12);
-  }
   MatrixXd left = Y;
   subtract_tall_product(basis, h, left.data(), n_rows);
   EXPECT_LT((left - (Y - V * expected)).norm(), 1e-11);

@@ -23,9 +23,8 @@ void expect_the_modes_of_a_mode_shift(const ReducedSystem& reduced,
   EXPECT_EQ(held.n_rigid, shifted.n_rigid);
   EXPECT_EQ(held.n_free_rigid, free.n_rigid);
   ASSERT_EQ(held.omega.size(), shifted.omega.size() - shifted.n_rigid);
-  for (Eigen::Index i = 0; i < held.omega.size(); ++i) {
+  for (Eigen::Index i = 0; i < held.omega.size(); ++i)
     EXPECT_NEAR(held.omega[i] / shifted.omega[shifted.n_rigid + i], 1.0, 1e-9) << i;
-  }
   const MatrixXd I = MatrixXd::Identity(held.X.cols(), held.X.cols());
   EXPECT_LT((held.X.transpose() * reduced.M * held.X - I).norm(), 1e-11);
   EXPECT_EQ(held_dofs(reduced, fixed).displacements(held.X).norm(), 0.0);
@@ -34,13 +33,11 @@ void expect_the_modes_of_a_mode_shift(const ReducedSystem& reduced,
 TEST(HeldModes, AreThoseOfAModeShift)
 {
   for (const std::vector<std::string>& fixed :
-       {std::vector<std::string>{}, {"hub"}, {"hub.z"}, {"rim.z"}, {"hub", "rim.z"}}) {
+       {std::vector<std::string>{}, {"hub"}, {"hub.z"}, {"rim.z"}, {"hub", "rim.z"}})
     expect_the_modes_of_a_mode_shift(test::wheel(), fixed);
-  }
   for (const std::vector<std::string>& fixed :
-       {std::vector<std::string>{}, {"A"}, {"A.z", "C.z"}, {"B.ry"}}) {
+       {std::vector<std::string>{}, {"A"}, {"A.z", "C.z"}, {"B.ry"}})
     expect_the_modes_of_a_mode_shift(test::reduced_beam(60, 8), fixed);
-  }
 }
 
 TEST(HeldModes, HaveTheResidualOfTheFreeRigidMotions)

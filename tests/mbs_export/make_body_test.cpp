@@ -141,10 +141,11 @@ TEST(MakeBody, WithSeveralFrequencyResponseModesIsExactAtEachOfTheirFrequencies)
   }
   const ModalBody body = make_body(test::regression_beam(), options);
   ASSERT_EQ(body.n_modes(), 2 + 3);
-  for (const double Omega_0 : frequencies)
+  for (const double Omega_0 : frequencies) {
     EXPECT_NEAR(receptance(body, theta_B, theta_B, Omega_0) /
                     receptance(complete, theta_B, theta_B, Omega_0),
                 1.0, 1e-10);
+  }
 }
 
 TEST(MakeBody, TellsThatAHubLeavesTheDiscFree)

@@ -43,9 +43,10 @@ TEST(GyroscopicMatrix, TurnsTheImpulseOfARigidMotion)
   const MatrixXd G = R.transpose() * gyroscopic_matrix(*wheel.mass_integrals, axis) * R;
   const double mass = wheel.mass_integrals->mass;
   for (Index i = 0; i < 3; ++i)
-    for (Index j = 0; j < 3; ++j)
+    for (Index j = 0; j < 3; ++j) {
       EXPECT_NEAR(G(i, j), 2.0 * mass * Vector3d::Unit(i).dot(axis.cross(Vector3d::Unit(j))),
                   1e-14);
+    }
   // Rotations about x and y, spin about z: 2 int (e_x x X) . (e_z x (e_y x X)) = -2 int z^2 dm
   const MatrixXd G_z =
       R.transpose() * gyroscopic_matrix(*wheel.mass_integrals, Vector3d::UnitZ()) * R;

@@ -52,9 +52,10 @@ ReducedSystem harmonic_wheel(Index up_to)
   F << F_all.leftCols(6 * n_kept), F_all.rightCols(6);
   system.masters.clear();
   for (int k = 0; k < n_kept; ++k)
-    for (int c = 0; c < 6; ++c)
+    for (int c = 0; c < 6; ++c) {
       system.masters.push_back(
           {-1, c, RingHarmonic{.set = 0, .order = (k + 1) / 2, .is_sine = k > 0 && k % 2 == 0}});
+    }
   for (int c = 0; c < 6; ++c) system.masters.push_back({int(n_rim), c});
   system.K = F.transpose() * system.K * F;
   system.M = F.transpose() * system.M * F;
@@ -88,9 +89,8 @@ TEST(RingMotion, OfAllHarmonicsIsTheWheel)
 TEST(RingMotion, KeepsRigidBodyMotionsWithTheFirstHarmonic)
 {
   const ReducedSystem wheel = harmonic_wheel(1);
-  for (const Check& check : check_reduced(wheel)) {
+  for (const Check& check : check_reduced(wheel))
     EXPECT_EQ(check.verdict, Verdict::pass) << check.name << check.value;
-  }
   EXPECT_EQ(orthogonalize(wheel).n_rigid, 6);
   const RigidInertia exact = rigid_inertia(test::wheel()), found = rigid_inertia(wheel);
   EXPECT_NEAR(found.mass, exact.mass, 1e-12);

@@ -75,11 +75,12 @@ double largest_error(const ModalBody& body, const ModalBody& complete, const std
     const MatrixXcd difference = receptances(body, rows, Omega) - H;
     for (Index j = 0; j < H.cols(); ++j) {
       double squares = 0.0;
-      for (Index k = 0; k < B.cols(); ++k)
+      for (Index k = 0; k < B.cols(); ++k) {
         squares +=
             B.col(k).squaredNorm() * B(j, k) * B(j, k) /
             std::norm(std::complex<double>(1.0, 0.02) * complete.omega[k] * complete.omega[k] -
                       Omega * Omega);
+      }
       largest = std::max(largest,
                          difference.col(j).norm() / std::max(H.col(j).norm(), std::sqrt(squares)));
     }

@@ -109,11 +109,9 @@ TEST_P(EdgeRows, StandAlongTheArcsOfAPad)
   EXPECT_NEAR(boundary_length(mesh), 0.25 + 2 * 0.05, 1e-3);
   std::set<double> radii;
   for (const ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
-      for (const int node : testing::corners(block, e)) {
+    for (int e = 0; e < block.n_elements(); ++e)
+      for (const int node : testing::corners(block, e))
         radii.insert(std::round(1e9 * radius(mesh, node)));
-      }
-    }
   }
   EXPECT_EQ(*std::next(radii.begin()), 104e6);  // nm
   EXPECT_EQ(*std::next(radii.rbegin()), 146e6);

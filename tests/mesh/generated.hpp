@@ -64,9 +64,8 @@ inline void expect_ring(const Mesh& mesh, const RingOptions& ring)
 
 inline void expect_radius(const Mesh& mesh, const std::string& group, double expected)
 {
-  for (const int node : find_group(mesh, group).nodes) {
+  for (const int node : find_group(mesh, group).nodes)
     EXPECT_NEAR(radius(mesh, node), expected, 1e-12) << group;  // round-off of Gmsh's arcs
-  }
 }
 
 /// Directed edges between corners, of all elements.
@@ -76,9 +75,8 @@ inline std::map<std::pair<int, int>, int> directed_edges(const Mesh& mesh)
   for (const ElementBlock& block : mesh.blocks) {
     for (int e = 0; e < block.n_elements(); ++e) {
       const std::vector<int> corners = testing::corners(block, e);
-      for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t i = 0; i < corners.size(); ++i)
         ++edges[{corners[i], corners[(i + 1) % corners.size()]}];
-      }
     }
   }
   return edges;
@@ -103,9 +101,8 @@ inline double area(const Mesh& mesh, const std::string& group)
 {
   double sum = 0.0;
   for (const ElementBlock& block : mesh.blocks) {
-    for (int e = 0; e < block.n_elements(); ++e) {
+    for (int e = 0; e < block.n_elements(); ++e)
       if (mesh.groups[block.group[e]].name == group) sum += corner_area_3d(mesh, block, e);
-    }
   }
   return sum;
 }

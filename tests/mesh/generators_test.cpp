@@ -44,9 +44,8 @@ TEST_P(Generated, HatDiscHasItsThreeSurfacesAndItsCircles)
                                 {"outer_edge", 0.16},
                                 {"wall_seat", 0.08},
                                 {"wall_foot", 0.08},
-                                {"hub_edge", 0.03}}) {
+                                {"hub_edge", 0.03}})
     expect_radius(mesh, name, r);
-  }
   EXPECT_EQ(find_group(mesh, "wall_foot").nodes.size(), find_group(mesh, "wall_seat").nodes.size());
   const double disc = pi * (0.16 * 0.16 - 0.07 * 0.07);
   EXPECT_NEAR(area(mesh, "disc"), disc, area_of_chords * disc);
@@ -102,11 +101,9 @@ TEST_P(Generated, PadIsASectorWithItsEdgesAndCorners)
   expect_radius(mesh, "inner_edge", 0.10);
   expect_radius(mesh, "outer_edge", 0.15);
   for (const auto& [name, angle] :
-       {std::pair{"first_edge", pi / 2.0 - 0.5}, {"last_edge", pi / 2.0 + 0.5}}) {
-    for (const int node : find_group(mesh, name).nodes) {
+       {std::pair{"first_edge", pi / 2.0 - 0.5}, {"last_edge", pi / 2.0 + 0.5}})
+    for (const int node : find_group(mesh, name).nodes)
       EXPECT_NEAR(std::atan2(mesh.positions[node][1], mesh.positions[node][0]), angle, 1e-12);
-    }
-  }
   EXPECT_EQ(find_group(mesh, "corners").nodes.size(), 4u);
   const double exact = 0.5 * (0.15 * 0.15 - 0.10 * 0.10);
   EXPECT_NEAR(area(mesh, "pad"), exact, area_of_chords * exact);
@@ -123,9 +120,8 @@ TEST_P(Generated, RectangleFillsItsSides)
   expect_shapes(mesh);
   EXPECT_NEAR(area(mesh, "plate"), 0.06, 1e-12);  // straight edges: round-off
   EXPECT_NEAR(boundary_length(mesh), 1.0, 1e-12);
-  for (const int node : find_group(mesh, "right").nodes) {
+  for (const int node : find_group(mesh, "right").nodes)
     EXPECT_NEAR(mesh.positions[node][0], 0.3, 1e-15);
-  }
   for (const int node : find_group(mesh, "bottom").nodes) EXPECT_EQ(mesh.positions[node][1], 0.0);
   EXPECT_EQ(find_group(mesh, "corners").nodes.size(), 4u);
   EXPECT_EQ(find_group(mesh, "top").nodes.size(), 6u * order() + 1u);

@@ -47,9 +47,8 @@ inline void expect_words(const std::string& text, const std::vector<std::string>
 inline double area(const Mesh& mesh)
 {
   double sum = 0.0;
-  for (const ElementBlock& block : mesh.blocks) {
+  for (const ElementBlock& block : mesh.blocks)
     for (int e = 0; e < block.n_elements(); ++e) sum += corner_area_3d(mesh, block, e);
-  }
   return sum;
 }
 

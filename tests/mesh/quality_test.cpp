@@ -31,9 +31,8 @@ Mesh element(const std::vector<Vector>& corners, int p)
           triangle ? std::vector{1 - r - s, r, s}
                    : std::vector{(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
       Vector x{};
-      for (std::size_t k = 0; k < N.size(); ++k) {
+      for (std::size_t k = 0; k < N.size(); ++k)
         for (std::size_t c = 0; c < 3; ++c) x[c] += N[k] * corners[k][c];
-      }
       block.nodes.push_back(mesh.n_nodes());
       mesh.positions.push_back(x);
       mesh.node_numbers.push_back(mesh.n_nodes());
@@ -98,9 +97,8 @@ TEST_P(QualityOfOrder, IsNotPositiveWhereTheElementIsFoldedOrFlat)
   const ElementQuality flat = of({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5, 0}, {0, 1, 0}});
   EXPECT_NEAR(flat.scaled_jacobian, 0.0, 1e-12);
   const ElementQuality collapsed = of({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  for (const ElementQuality& q : {folded, flat, collapsed}) {
+  for (const ElementQuality& q : {folded, flat, collapsed})
     EXPECT_EQ(unusable({q}), std::vector<std::int64_t>{7});
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, QualityOfOrder, ::testing::Values(1, 2, 3, 4));

@@ -15,9 +15,8 @@ Mesh flat_quadrilateral(int flat)
   std::array<std::array<double, 2>, 4> corners{{{0, 0}, {2, 0}, {0, 2}, {2, 2}}};
   const std::array<int, 2> neighbours =
       flat == 0 || flat == 3 ? std::array{1, 2} : std::array{0, 3};
-  for (std::size_t c = 0; c < 2; ++c) {
+  for (std::size_t c = 0; c < 2; ++c)
     corners[flat][c] = 0.5 * (corners[neighbours[0]][c] + corners[neighbours[1]][c]);
-  }
   Mesh mesh;
   ElementBlock block{.shape = Shape::quadrilateral,
                      .order = 2,

@@ -24,9 +24,8 @@ inline double corner_area_3d(const Mesh& mesh, const ElementBlock& block, int e)
   for (std::size_t i = 0; i < around.size(); ++i) {
     const auto& a = mesh.positions[around[i]];
     const auto& b = mesh.positions[around[(i + 1) % around.size()]];
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < 3; ++c)
       twice[c] += a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-    }
   }
   return 0.5 * std::hypot(twice[0], twice[1], twice[2]);
 }

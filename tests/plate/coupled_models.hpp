@@ -59,9 +59,8 @@ inline std::string error_of(const mesh::Mesh& mesh, const std::vector<Coupling>&
 
 inline void expect_words(const std::string& message, const std::vector<std::string>& words)
 {
-  for (const std::string& word : words) {
+  for (const std::string& word : words)
     EXPECT_NE(message.find(word), std::string::npos) << word << " is not in: " << message;
-  }
 }
 
 /// A vector of random entries, the same on each number of ranks.

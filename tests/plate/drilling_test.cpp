@@ -85,9 +85,8 @@ TEST(DrillingAxes, EndWhereTheNodesHaveNoSuchRotation)
 TEST(DrillingAxes, EndWhereTheShellIsFolded)
 {
   mesh::Mesh mesh = plate();  // what lies beyond its middle is turned up
-  for (auto& x : mesh.positions) {
+  for (auto& x : mesh.positions)
     if (x[0] > 1.0) x = {1.0, x[1], x[0] - 1.0};
-  }
   const Eigen::MatrixX3d axes = drilling_axes(mesh, map_of(mesh, {}));
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     const bool is_at_fold = mesh.positions[node][0] == 1.0 && mesh.positions[node][2] == 0.0;
@@ -102,9 +101,8 @@ TEST(DrillingAxes, EndWhereOtherNodesFollow)
   const Eigen::MatrixX3d axes = drilling_axes(mesh, dofs);
   ASSERT_EQ(axes.rows(), dofs.n_nodes());
   EXPECT_TRUE(axes.row(*dofs.reference_node("foot")).isZero(0.0));
-  for (const int node : mesh::find_group(mesh, "left").nodes) {
+  for (const int node : mesh::find_group(mesh, "left").nodes)
     EXPECT_TRUE(axes.row(node).isZero(0.0));
-  }
 }
 
 TEST(Drilling, IsNoPlaceForInertia)

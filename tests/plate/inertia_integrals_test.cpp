@@ -89,9 +89,10 @@ TEST(DisplacementProducts, OfEqualDirectionsSumToTheMassMatrix)
   const MassModel model = disc.model();
   petsc::Matrix difference;
   petsc::check(MatDuplicate(disc.system.M, MAT_COPY_VALUES, difference.put()));
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     petsc::check(
         MatAXPY(difference, -1.0, displacement_product(model, k, k), DIFFERENT_NONZERO_PATTERN));
+  }
   double norm = 0.0, M_norm = 0.0;
   petsc::check(MatNorm(difference, NORM_FROBENIUS, &norm));
   petsc::check(MatNorm(disc.system.M, NORM_FROBENIUS, &M_norm));

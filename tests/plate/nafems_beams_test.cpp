@@ -31,9 +31,8 @@ NodeVectors ten_metres(Index n_elements)
 VectorXd frequencies(const ElementMatrices& beam, const std::vector<Index>& held, Index n_wanted)
 {
   std::vector<Index> free;
-  for (Index i = 0; i < beam.K.rows(); ++i) {
+  for (Index i = 0; i < beam.K.rows(); ++i)
     if (std::ranges::find(held, i) == held.end()) free.push_back(i);
-  }
   // 1 / omega^2 of M - K, since K has the larger numbers.
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(beam.M(free, free),
                                                                   beam.K(free, free));
@@ -42,9 +41,8 @@ VectorXd frequencies(const ElementMatrices& beam, const std::vector<Index>& held
 
 void expect_each(const VectorXd& f_Hz, const std::vector<double>& targets, double within)
 {
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (std::size_t i = 0; i < targets.size(); ++i)
     EXPECT_NEAR(f_Hz[static_cast<Index>(i)] / targets[i], 1.0, within) << "mode " << i + 1;
-  }
 }
 
 // FV4: a rod of 0.5 m diameter with 10 t and 1 t on rigid arms of 2 m to both sides of its tip.

@@ -37,9 +37,8 @@ TEST(PointMass, WithAnOffsetIsTheRigidBodyAtItsCentre)
   const Eigen::Matrix<double, 6, 6> M = point_mass_matrix(mass);
   // The motion of the centre for unit motions of the node.
   Eigen::Matrix<double, 6, 6> T = Eigen::Matrix<double, 6, 6>::Identity();
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     T.block<3, 1>(0, 3 + k) = Vector3d::Unit(k).cross(Vector3d(0.4, -0.5, 0.6));
-  }
   Eigen::Matrix<double, 6, 6> at_centre = Eigen::Matrix<double, 6, 6>::Zero();
   at_centre.topLeftCorner<3, 3>().diagonal().setConstant(2.0);
   at_centre.bottomRightCorner<3, 3>() << 3, 0.1, 0.2, 0.1, 4, -0.3, 0.2, -0.3, 5;

@@ -131,9 +131,8 @@ petsc::Vector solve(const System& system, Vec f, const std::vector<int>& held)
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(K, &first, &last));
   std::vector<PetscInt> own;
-  for (const int dof : held) {
+  for (const int dof : held)
     if (dof >= first && dof < last) own.push_back(dof);
-  }
   petsc::check(MatZeroRowsColumns(K, static_cast<PetscInt>(own.size()), own.data(), 1e10, u, f));
   petsc::LinearSolver solver;
   petsc::check(KSPCreate(PETSC_COMM_WORLD, solver.put()));
@@ -155,12 +154,10 @@ ShellResultants under_pressure(const Plate& plate)
                make_dof_map(plate.mesh, {}, mesh::node_owners(plate.mesh, n_ranks), n_ranks),
                PETSC_COMM_WORLD);
   std::vector<Support> supports{{.group = "plate", .components = {0, 1, 5}}};  // no membrane
-  for (const char* edge : {"left", "right"}) {
+  for (const char* edge : {"left", "right"})
     supports.push_back({.group = edge, .components = {2, 3}});
-  }
-  for (const char* edge : {"bottom", "top"}) {
+  for (const char* edge : {"bottom", "top"})
     supports.push_back({.group = edge, .components = {2, 4}});
-  }
   const petsc::Vector f = load_vector(
       plate.mesh, system, std::vector<Load>{PressureLoad{.group = "plate", .pressure = p_0}});
   const petsc::Vector u = solve(system, f, held_dofs(plate.mesh, system.dofs, supports));

@@ -123,11 +123,9 @@ TEST(Offset, MovesTheMassWithTheMidSurface)
   double exact = 0.0;  // Gauss with 3 points: degree 5 in x, 2 in y
   const std::array<double, 3> g{-std::sqrt(0.6), 0.0, std::sqrt(0.6)};
   const std::array<double, 3> w{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
       exact += 0.5 * w[i] * w[j] * integrand(1.0 + g[i], 0.5 + 0.5 * g[j]);
-    }
-  }
   // The directors are normal to the mesh, the faces of the mid-surface are inclined by 0.05.
   EXPECT_NEAR(rotation_energy(system, system.M) / exact, 1.0, 1e-12);
 }

@@ -198,9 +198,7 @@ VectorXd area_load(const ShellModel& model, const Vector3d& q)
     const NodeVectors a_1 = basis.N_xi * x, a_2 = basis.N_eta * x;
     for (Index k = 0; k < points.size(); ++k) {
       const double dA = a_1.row(k).cross(a_2.row(k)).norm() * points.weight[k];
-      for (Index i = 0; i < x.rows(); ++i) {
-        load.segment<3>(6 * nodes[i]) += basis.N(k, i) * dA * q;
-      }
+      for (Index i = 0; i < x.rows(); ++i) load.segment<3>(6 * nodes[i]) += basis.N(k, i) * dA * q;
     }
   }
   return load;
@@ -210,9 +208,8 @@ VectorXd edge_load(const ShellModel& model, const Grid& grid, const Where& where
                    const Vector3d& force)
 {
   std::vector<int> line;
-  for (int node = 0; node < model.mesh.n_nodes(); ++node) {
+  for (int node = 0; node < model.mesh.n_nodes(); ++node)
     if (where(model.uv[node])) line.push_back(node);
-  }
   std::ranges::sort(line, {}, [&](int node) { return model.uv[node].sum(); });
   // Newton-Cotes weights of orders 1 to 4: the integrals of the equidistant shape functions.
   const std::array<std::vector<double>, 4> weights{
@@ -223,11 +220,9 @@ VectorXd edge_load(const ShellModel& model, const Grid& grid, const Where& where
   const std::vector<double>& w = weights[grid.order - 1];
   const Index n_edges = (std::ssize(line) - 1) / grid.order;
   VectorXd load = VectorXd::Zero(model.n_dofs());
-  for (Index e = 0; e < n_edges; ++e) {
-    for (int k = 0; k <= grid.order; ++k) {
+  for (Index e = 0; e < n_edges; ++e)
+    for (int k = 0; k <= grid.order; ++k)
       load.segment<3>(6 * line[e * grid.order + k]) += w[k] / double(n_edges) * force;
-    }
-  }
   return load;
 }
 
@@ -270,9 +265,8 @@ VectorXd frequencies(const ShellModel& model, const std::vector<Index>& free, in
     X.array().rowwise() /= (X.array() * (M * X).array()).colwise().sum().sqrt();
     const double change = (next - lambda).cwiseAbs().maxCoeff();
     lambda = next;
-    if (change < 1e-11 * (lambda.cwiseAbs().maxCoeff() + shift)) {
+    if (change < 1e-11 * (lambda.cwiseAbs().maxCoeff() + shift))
       return lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-    }
   }
   throw Error("the subspace iteration of the test did not converge");
 }

@@ -35,9 +35,8 @@ inline mesh::Mesh rectangle(const Rectangle& r)
       if (i == n_i - 1 && j == n_j - 1) groups["corner"].push_back(node);
     }
   }
-  for (auto& [name, nodes] : groups) {
+  for (auto& [name, nodes] : groups)
     mesh.groups.push_back({.name = name, .dimension = name == "plate" ? 2 : 1, .nodes = nodes});
-  }
   const auto plate = static_cast<int>(&mesh::find_group(mesh, "plate") - mesh.groups.data());
   mesh::ElementBlock block{.shape = mesh::Shape::quadrilateral,
                            .order = p,
@@ -48,11 +47,9 @@ inline mesh::Mesh rectangle(const Rectangle& r)
   for (int e = 0; e < r.n_x * r.n_y; ++e) {
     block.numbers.push_back(e + 1);
     block.group.push_back(plate);
-    for (int j = 0; j <= p; ++j) {
-      for (int i = 0; i <= p; ++i) {
+    for (int j = 0; j <= p; ++j)
+      for (int i = 0; i <= p; ++i)
         block.nodes.push_back((p * (e / r.n_x) + j) * n_i + p * (e % r.n_x) + i);
-      }
-    }
   }
   mesh.blocks.push_back(block);
   return mesh;

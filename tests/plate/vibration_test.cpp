@@ -81,9 +81,8 @@ TEST_P(Vibration, FreeThinSquarePlate)  // FV12: 1.622 2.360 2.922 4.233 4.233 7
   // Rigid: round-off of the largest eigenvalue, which is no less than any K_ii / M_ii.
   const auto dofs = free_dofs(plate, {bending});
   double largest = 0.0;
-  for (const Eigen::Index i : dofs) {
+  for (const Eigen::Index i : dofs)
     largest = std::max(largest, plate.K.coeff(i, i) / plate.M.coeff(i, i));
-  }
   const double omega = 2.0 * std::numbers::pi * f.head(3).maxCoeff();
   EXPECT_LT(omega * omega, std::numeric_limits<double>::epsilon() * largest);
   expect(f.tail(7), {1.61839, 2.35922, 2.92177, 4.18197, 4.18197, 7.35316, 7.35316},

@@ -78,10 +78,9 @@ class Options {
   ~Options()
   {
     std::istringstream words(text_);
-    for (std::string word; words >> word;) {
+    for (std::string word; words >> word;)
       if (word.starts_with("-cms_") || word.find("_cms_") != std::string::npos)
         PetscOptionsClearValue(nullptr, word.c_str());
-    }
   }
   Options(const Options&) = delete;
   Options& operator=(const Options&) = delete;
@@ -117,11 +116,9 @@ TEST(CMS, GivesTheTransformationThatItProjectsWith)
     petsc::check(MatMatMult(A, T, MAT_INITIAL_MATRIX, petsc::automatic, AT.put()));
     const Eigen::MatrixXd projected = linear::inner_product(T, AT),
                           reduced = linear::replicate(A_r);
-    for (PetscInt i = 0; i < reduced.rows(); ++i) {
-      for (PetscInt j = 0; j < reduced.cols(); ++j) {
+    for (PetscInt i = 0; i < reduced.rows(); ++i)
+      for (PetscInt j = 0; j < reduced.cols(); ++j)
         EXPECT_NEAR(projected(i, j), reduced(i, j), 1e-10);  // tolerance of the modes
-      }
-    }
   };
   expect_projection(solver.chain.K, K_r);
   expect_projection(solver.chain.M, M_r);
@@ -142,9 +139,8 @@ TEST(CMS, KeepsTheOrderOfTheInterfaceWhicheverRankGivesIt)
   petsc::check(CMSGetTransformation(solver.cms, &T));
   const Eigen::MatrixXd rows = linear::replicate(T);
   ASSERT_EQ(rows.rows(), 3);
-  for (PetscInt i = 0; i < 3; ++i) {
+  for (PetscInt i = 0; i < 3; ++i)
     for (PetscInt j = 0; j < rows.cols(); ++j) EXPECT_EQ(rows(i, j), i == j ? 1.0 : 0.0);
-  }
   Mat K_r = nullptr;
   petsc::check(CMSGetReducedOperators(solver.cms, &K_r, nullptr, nullptr));
   const Eigen::MatrixXd K = linear::replicate(K_r);
@@ -556,9 +552,8 @@ TEST(CMS, TakesTheVariantsOfAij)
   for (const char* type : {MATAIJPERM, MATAIJSELL, MATBAIJ}) {
     const std::vector<double> found = frequencies_by(type);
     ASSERT_EQ(found.size(), plain.size()) << type;
-    for (std::size_t i = 0; i < plain.size(); ++i) {
+    for (std::size_t i = 0; i < plain.size(); ++i)
       EXPECT_NEAR(found[i], plain[i], 1e-12 * plain[i]) << type;  // round-off
-    }
   }
 }
 

@@ -52,9 +52,8 @@ std::vector<double> exact_frequencies(const Chain& pencil, int n_zero)
 {
   std::vector<double> f_Hz;
   const Eigen::VectorXd lambda = testing::exact_eigenvalues(pencil);
-  for (Eigen::Index i = n_zero; i < lambda.size(); ++i) {
+  for (Eigen::Index i = n_zero; i < lambda.size(); ++i)
     f_Hz.push_back(std::sqrt(lambda[i]) / (2.0 * std::numbers::pi));
-  }
   return f_Hz;
 }
 
@@ -87,9 +86,8 @@ std::vector<PetscInt> isostatic_masters(const std::array<int, 3>& n)
 std::vector<PetscInt> three_points(const std::array<int, 3>& n)
 {
   std::vector<PetscInt> masters;
-  for (const auto& at : {std::array{0, 0, 0}, std::array{n[0], 1, 0}, std::array{1, n[1], n[2]}}) {
+  for (const auto& at : {std::array{0, 0, 0}, std::array{n[0], 1, 0}, std::array{1, n[1], n[2]}})
     for (PetscInt c = 0; c < 3; ++c) masters.push_back(3 * node(n, at) + c);
-  }
   return masters;
 }
 
@@ -174,11 +172,8 @@ TEST(FreeBody, IsNoneOnSoftSprings)
   constexpr double spring = 100.0;  // N/m under a body with entries of 1e10: 1e-11 of all rows
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(body.pencil.K, &first, &last));
-  for (const PetscInt i : masters) {
-    if (i >= first && i < last) {
-      petsc::check(MatSetValue(body.pencil.K, i, i, spring, ADD_VALUES));
-    }
-  }
+  for (const PetscInt i : masters)
+    if (i >= first && i < last) petsc::check(MatSetValue(body.pencil.K, i, i, spring, ADD_VALUES));
   linear::testing::finish(body.pencil.K);
   const Found found = solve(body.pencil, {CMSGUYAN, masters, 0});
   EXPECT_EQ(found.n_zero, 0);

@@ -80,9 +80,8 @@ TEST(BlockLanczos, GoesOnWhereItStoppedWhenMoreAreAsked)
     for (int i = 0; i < 20; ++i) EXPECT_NEAR(lanczos.lambda(i) / exact(i + 1, 200), 1.0, 1e-11);
     const petsc::Matrix X = lanczos.vectors(3, 15);
     const Eigen::MatrixXd I = linear::inner_product(X, X);  // M = I
-    for (PetscInt i = 0; i < 12; ++i) {
+    for (PetscInt i = 0; i < 12; ++i)
       for (PetscInt j = 0; j < 12; ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
-    }
   }
 }
 
@@ -92,9 +91,8 @@ TEST(BlockLanczos, HasOrthonormalVectors)
   const linear::Factorization factor(c.K.ss);
   const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), c.M.ss, {.n_pairs = 20});
   const Eigen::MatrixXd I = linear::inner_product(pairs.X, pairs.X);  // M = I
-  for (PetscInt i = 0; i < I.rows(); ++i) {
+  for (PetscInt i = 0; i < I.rows(); ++i)
     for (PetscInt j = 0; j < I.cols(); ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
-  }
 }
 
 TEST(BlockLanczos, ExhaustsASmallProblem)

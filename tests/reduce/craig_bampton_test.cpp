@@ -62,9 +62,8 @@ TEST(FixedInterfaceModes, HaveTheFrequenciesOfTheChainBetweenFixedEnds)
   const Reduction r;
   const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
   ASSERT_EQ(modes.omega.size(), 7u);
-  for (int k = 1; k <= 7; ++k) {
+  for (int k = 1; k <= 7; ++k)
     EXPECT_NEAR(modes.omega[k - 1], fixed_chain_frequency(k), 1e-10);  // tolerance of the solver
-  }
 }
 
 TEST(FixedInterfaceModes, AreTheSameByKrylovSchur)
@@ -75,9 +74,8 @@ TEST(FixedInterfaceModes, AreTheSameByKrylovSchur)
       linear::factorize(r.K.ss, {.lanczos = {.solver = linear::ModeSolver::krylov_schur}});
   const auto single = fixed_interface_modes(K_ss, r.M.ss, {.modes = 7, .cutoff_Hz = {}});
   ASSERT_EQ(single.omega.size(), 7u);
-  for (int k = 0; k < 7; ++k) {
+  for (int k = 0; k < 7; ++k)
     EXPECT_NEAR(single.omega[k], blocks.omega[k], 1e-11);  // both to round-off of cond(K) eps
-  }
 }
 
 TEST(FixedInterfaceModes, BelowACutoffAreAllThereAre)
@@ -94,9 +92,8 @@ TEST(FixedInterfaceModes, AreOrthonormalInTheMass)
   const Reduction r;
   const auto modes = fixed_interface_modes(r.K_ss, r.M.ss, {.modes = 9, .cutoff_Hz = {}});
   const Eigen::MatrixXd I = linear::inner_product(modes.Phi, modes.Phi);  // M_ss = I
-  for (PetscInt i = 0; i < I.rows(); ++i) {
+  for (PetscInt i = 0; i < I.rows(); ++i)
     for (PetscInt j = 0; j < I.cols(); ++j) EXPECT_NEAR(I(i, j), i == j ? 1.0 : 0.0, round_off);
-  }
 }
 
 TEST(FixedInterfaceModes, RefuseMoreModesThanExist)
@@ -144,9 +141,8 @@ TEST(Project, KeepsTheBlocksThatMultiplicationWouldGive)
   const auto product = [&](Mat A, PetscInt i, PetscInt j) {
     const Eigen::MatrixXd full = linear::replicate(A);
     double sum = 0.0;
-    for (PetscInt a = 0; a < n; ++a) {
+    for (PetscInt a = 0; a < n; ++a)
       for (PetscInt b = 0; b < n; ++b) sum += Q(a, i) * full(a, b) * Q(b, j);
-    }
     return sum;
   };
   for (PetscInt i = 0; i < reduced.K.rows(); ++i) {
@@ -193,9 +189,8 @@ TEST(ProjectDamping, IsTheTripleProductWithTheBasis)
   for (PetscInt a = 0; a < 8; ++a) {
     for (PetscInt b = 0; b < 8; ++b) {
       double exact = 0.0;
-      for (PetscInt i = 0; i < n; ++i) {
+      for (PetscInt i = 0; i < n; ++i)
         for (PetscInt j = 0; j < n; ++j) exact += Q(i, a) * C_all(i, j) * Q(j, b);
-      }
       EXPECT_NEAR(C_r(a, b), exact, round_off);
     }
   }

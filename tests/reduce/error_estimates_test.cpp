@@ -95,9 +95,8 @@ TEST(ErrorEstimates, EncloseAnEigenvalueOfTheFullChain)
     const std::vector<double> eta2 = error_estimates(held.system(), pairs).eta2;
     for (std::size_t i = 0; i < eta2.size(); ++i) {
       double nearest = 1.0;
-      for (int k = 1; k < n; ++k) {
+      for (int k = 1; k < n; ++k)
         nearest = std::min(nearest, std::abs(pairs.lambda[i] / exact(k) - 1.0));
-      }
       // Round-off of an exact pair: cond(K) eps.
       EXPECT_LE(nearest, std::sqrt(eta2[i]) + 1e-11) << n_modes << " modes, pair " << i + 1;
     }
@@ -129,9 +128,8 @@ TEST(GrowingModel, HasTheErrorsOfEveryNumberOfModes)
     const ReducedPairs pairs = some.pairs();
     const std::vector<double> eta2 = error_estimates(some.system(), pairs).eta2;
     const std::vector<double> grown = growing.error_estimates(pairs, n_modes);
-    for (std::size_t i = 0; i < eta2.size(); ++i) {
+    for (std::size_t i = 0; i < eta2.size(); ++i)
       EXPECT_NEAR(grown[i], eta2[i], 1e-9 * eta2[i] + 1e-12) << n_modes << " modes, pair " << i + 1;
-    }
   }
 }
 

@@ -54,9 +54,8 @@ TEST(FreeInterfaceModes, BeginWithTheRigidMotion)
   EXPECT_EQ(reduced.free.n_rigid, 1);
   ASSERT_EQ(reduced.free.n_modes(), 1 + n_modes);
   EXPECT_EQ(reduced.free.omega[0], 0.0);
-  for (int k = 1; k <= n_modes; ++k) {
+  for (int k = 1; k <= n_modes; ++k)
     EXPECT_NEAR(std::pow(reduced.free.omega[k], 2) / exact(k), 1.0, 1e-9);
-  }
 }
 
 TEST(Rubin, KeepsTheModesThatItIsMadeOf)

@@ -50,9 +50,8 @@ TEST(FullResponses, SolveTheWholeChain)
   const petsc::Matrix V = full_responses(r.chain.K, r.chain.M, Omega_0, {0, n - 1});
   const MatrixXd v = linear::replicate(V);
   // u_j of the free chain: (2 - Omega^2) u_j = u_(j-1) + u_(j+1) but for the ends.
-  for (PetscInt j = 1; j + 1 < n; ++j) {
+  for (PetscInt j = 1; j + 1 < n; ++j)
     EXPECT_NEAR((2.0 - Omega_0 * Omega_0) * v(j, 0), v(j - 1, 0) + v(j + 1, 0), 1e-12);
-  }
   EXPECT_NEAR((1.0 - Omega_0 * Omega_0) * v(0, 0) - v(1, 0), 1.0, 1e-12);
   EXPECT_NEAR(v(n - 1, 0), v(0, 1), 1e-12);  // reciprocity
 }

@@ -152,9 +152,8 @@ TEST(HardCase, ANodeWithoutMassFollowsItsNeighbours)
       20, [](PetscInt i) { return i == 9 ? 0.5 : 1.0; }, unit);
   const Reduced a = reduce(with_it, {0, 20}, 18, 1), b = reduce(without, {0, 19}, 18, 1);
   ASSERT_EQ(a.lambda.size(), b.lambda.size());
-  for (std::size_t i = 1; i < a.lambda.size(); ++i) {
+  for (std::size_t i = 1; i < a.lambda.size(); ++i)
     EXPECT_NEAR(a.lambda[i] / b.lambda[i], 1.0, 1e-10) << "mode " << i;
-  }
   EXPECT_NE(complaint(with_it, {0, 20}, 19).find("M_ss has no more"), std::string::npos);
 }
 
@@ -177,9 +176,8 @@ TEST(HardCase, AlmostAllDofsAreMasters)
 {
   const auto unit = [](PetscInt) { return 1.0; };
   std::vector<PetscInt> masters;
-  for (PetscInt i = 0; i < 1200; ++i) {
+  for (PetscInt i = 0; i < 1200; ++i)
     if (i % 6 != 3) masters.push_back(i);
-  }
   ASSERT_EQ(masters.size(), 1000u);
   const Chain body = chain(1200, unit, unit);
   const DofPartition rows = partition(body.K, master_set(body.K, masters));

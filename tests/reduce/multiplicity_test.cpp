@@ -69,16 +69,14 @@ void expect_pairs(Mat K, Mat M, const linear::EigenPairs& pairs, const std::vect
                   double allowed = 1e-11)
 {
   ASSERT_GE(pairs.lambda.size(), exact.size());
-  for (std::size_t i = 0; i < exact.size(); ++i) {
+  for (std::size_t i = 0; i < exact.size(); ++i)
     ASSERT_NEAR(pairs.lambda[i], exact[i], allowed * exact[i]) << "pair " << i + 1;
-  }
   petsc::Matrix KX, MX;
   petsc::check(MatMatMult(K, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, KX.put()));
   petsc::check(MatMatMult(M, pairs.X, MAT_INITIAL_MATRIX, petsc::automatic, MX.put()));
   const Eigen::MatrixXd I = linear::inner_product(pairs.X, MX);
-  for (PetscInt i = 0; i < I.rows(); ++i) {
+  for (PetscInt i = 0; i < I.rows(); ++i)
     for (PetscInt j = 0; j < I.cols(); ++j) ASSERT_NEAR(I(i, j), i == j ? 1.0 : 0.0, 1e-12);
-  }
   petsc::Vector lambda;
   petsc::check(MatCreateVecs(MX, lambda.put(), nullptr));
   PetscInt first = 0, last = 0;
@@ -223,13 +221,11 @@ TEST(Multiplicity, OfZeroedRowsIsTheirNumber)
     return row;
   });
   std::vector<double> exact(n_supports, 1.0);
-  for (PetscInt k = 1; k <= n - n_supports; ++k) {
+  for (PetscInt k = 1; k <= n - n_supports; ++k)
     exact.push_back(4e4 * std::pow(std::sin(0.5 * k * std::numbers::pi / (n - n_supports + 1)), 2));
-  }
   std::ranges::sort(exact);
-  for (const PetscInt n_wanted : {30, 90}) {
+  for (const PetscInt n_wanted : {30, 90})
     expect_lowest(K, identity(n), {exact.begin(), exact.begin() + n_wanted});
-  }
 }
 
 TEST(Multiplicity, OfOneDoesNotHideBehindAMassOf1e12)
@@ -264,9 +260,8 @@ TEST(Multiplicity, EndsWithTheRankOfAConsistentMass)
     return std::vector{std::pair{i, own}, std::pair{partner, c * s}};
   });
   std::vector<double> exact;
-  for (PetscInt i = 0; i < n; i += 2) {
+  for (PetscInt i = 0; i < n; i += 2)
     exact.push_back(1.0 / (c * c / (1.0 + 0.37 * i) + s * s / (1.0 + 0.37 * (i + 1))));
-  }
   const linear::Factorization factor(K);
   const linear::EigenPairs pairs = linear::block_lanczos(factor.factor(), M, {.n_pairs = n});
   EXPECT_EQ(pairs.lambda.size(), exact.size());

@@ -98,21 +98,17 @@ inline Body solid_block(const std::array<int, 3>& n, const std::array<double, 3>
   const auto node = [&](int i, int j, int k) { return i + (n[0] + 1) * (j + (n[1] + 1) * k); };
   Body block;
   for (int k = 0; k <= n[2]; ++k) {
-    for (int j = 0; j <= n[1]; ++j) {
-      for (int i = 0; i <= n[0]; ++i) {
+    for (int j = 0; j <= n[1]; ++j)
+      for (int i = 0; i <= n[0]; ++i)
         block.positions.push_back({i * size[0] / n[0], j * size[1] / n[1], k * size[2] / n[2]});
-      }
-    }
   }
   std::vector<ElementPencil> elements;
   for (int e = 0; e < n[0] * n[1] * n[2]; ++e) {
     const int i = e % n[0], j = e / n[0] % n[1], k = e / n[0] / n[1];
     elements.push_back(one);
-    for (int a = 0; a < 8; ++a) {
-      for (int c = 0; c < 3; ++c) {
+    for (int a = 0; a < 8; ++a)
+      for (int c = 0; c < 3; ++c)
         elements.back().dofs.push_back(3 * node(i + (a & 1), j + (a >> 1 & 1), k + (a >> 2)) + c);
-      }
-    }
   }
   block.pencil = assemble(static_cast<PetscInt>(3 * block.positions.size()), elements);
   return block;

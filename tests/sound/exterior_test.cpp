@@ -187,10 +187,11 @@ TEST_F(ThickDisc, SoundsAsTheReference)
       {0.4, 0.3, 58.945364422226156},  {0.5, 0.5, 39.25217704805253},
       {0.1, 0.5, 2.4038461131345383},  {0.5, 0.05, 12.624993094319326}};
   const Eigen::MatrixXcd p = pressure_at(field_, positions(reference));
-  for (std::size_t i = 0; i < reference.size(); ++i)
+  for (std::size_t i = 0; i < reference.size(); ++i) {
     EXPECT_NEAR(std::abs(p(Eigen::Index(i))), reference[i].p,
                 std::max(2e-4 * reference[i].p, 2e-4 * 39.3))
         << i;
+  }
 }
 
 TEST_F(ThickDisc, RadiatesThePowerThatArrivesFarAway)

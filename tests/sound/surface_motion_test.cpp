@@ -68,11 +68,10 @@ TEST(SurfaceMotion, OfTheClosedHubIsZero)
   const SurfaceMotion motion(testing::thesis_body(), thick, {0, 1}, {3});
   const BodySurface surface = surface_of(thick.outline, true);
   const Eigen::MatrixXd w = motion.on_meridian(surface, 0, Parity::cosine);
-  for (Eigen::Index i = 0; i < w.rows(); ++i) {
+  for (Eigen::Index i = 0; i < w.rows(); ++i)
     if (surface.x(i, 0) < testing::hub_radius) {
       EXPECT_EQ(w(i, 0), 0.0);
     }
-  }
 }
 
 TEST(SurfaceMotion, FindsNothingInOtherHarmonics)

@@ -77,9 +77,10 @@ TEST(DormandPrince, KeepsItsToleranceBetweenTheStepsToo)
     const Eigen::Vector2d start(2.0, 0.0);
     DormandPrince integrator(motion, 0.0, start, {tolerance, 10.0, 0.1});
     double largest = 0.0;
-    for (double t = 0.05; t < 40.0; t += 0.0517)
+    for (double t = 0.05; t < 40.0; t += 0.0517) {
       largest =
           std::max(largest, std::abs(pendulum_energy(integrator.at(t)) - pendulum_energy(start)));
+    }
     EXPECT_LT(largest, 100.0 * tolerance) << tolerance;
     EXPECT_GT(integrator.cost().n_steps, 5);
   }

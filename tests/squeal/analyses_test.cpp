@@ -234,9 +234,10 @@ TEST(Run, HandsOverWhatItHasBeforeEachAnalysisAndGoesOnFromThere)
   EXPECT_TRUE(whole.missing.empty());
   ASSERT_EQ(seen.size(), 4u);
   const std::vector<std::string> all{"eigenvalues", "critical-speed", "transient", "limit-cycle"};
-  for (std::size_t i = 0; i < seen.size(); ++i)
+  for (std::size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(seen[i].missing,
               std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(i), all.end()));
+  }
   EXPECT_TRUE(seen[2].critical_speed);
   EXPECT_FALSE(seen[2].transient);
   // Of the unfinished results it keeps what is there, marked here; the limit cycle needs more of

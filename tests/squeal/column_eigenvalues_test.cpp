@@ -111,13 +111,14 @@ TEST(ColumnEigenvalues, WithPadsThatHaveAMassAreThoseOfTheQrIteration)
 TEST(ColumnEigenvalues, WithModesWithoutInertiaAreThoseOfTheQrIteration)
 {
   std::vector<PlatePair> pairs = kirchhoff_modes();
-  for (int n = 0; n < 8; ++n)
+  for (int n = 0; n < 8; ++n) {
     pairs.push_back({.n = n,
                      .f_Hz = 60e3 + 12e3 * n,
                      .mass = 0.1 / 9.0,
                      .U = 0.5 + 0.1 * n,
                      .U_r = 9.0 - 3.0 * n,
                      .U_t = n * 4.1});
+  }
   mbs_export::ModalBody body = analytic_body(pairs);
   for (std::size_t i = 35; i < body.kinds.size(); ++i)
     body.kinds[i] = mbs_export::ModeKind::interface;
@@ -188,9 +189,10 @@ MatrixXd crossing(Index i, double step, double coupling)
 TEST(ColumnEigenvalues, WhereBranchesCrossAreThoseOfTheQrIteration)
 {
   for (const double step : {0.0, 0.05, -0.05})
-    for (const double coupling : {0.0, 1e3, 1e5, -1e3, -1e5})
+    for (const double coupling : {0.0, 1e3, 1e5, -1e3, -1e5}) {
       EXPECT_GE(expect_as_qr([&](Index i) { return crossing(i, step, coupling); }, 30).by_discs,
                 26);
+    }
 }
 
 TEST(ColumnEigenvalues, AfterAJumpOfTheParameterAreThoseOfTheQrIteration)

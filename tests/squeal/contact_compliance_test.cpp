@@ -20,13 +20,14 @@ using namespace test;
 mbs_export::ModalBody augmented_body(double scale)
 {
   std::vector<PlatePair> pairs{kirchhoff_3()};
-  for (int n = 0; n < 8; ++n)
+  for (int n = 0; n < 8; ++n) {
     pairs.push_back({.n = n,
                      .f_Hz = scale * (20e3 + 4e3 * n),
                      .mass = 0.1 / (scale * scale),
                      .U = 0.5 + 0.1 * n,
                      .U_r = 9.0 - 3.0 * n,
                      .U_t = n * 4.1});
+  }
   mbs_export::ModalBody body = analytic_body(pairs);
   for (std::size_t i = 2; i < body.kinds.size(); ++i)
     body.kinds[i] = mbs_export::ModeKind::interface;
@@ -170,9 +171,10 @@ TEST(ContactCompliance, StandsInSeriesWithPadsThatLetGo)
     const Disc high = make_disc(augmented_body(1.0), "track",
                                 {.list = {{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}}});
     Eigen::VectorXd q = Eigen::VectorXd::Zero(high.n_modes());
-    for (std::size_t i = 0; i < at.size(); ++i)
+    for (std::size_t i = 0; i < at.size(); ++i) {
       q += high.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
            (matrix_of(shapes_at(high, pads.points[i].angle)) * force(i, at[i]));
+    }
     for (std::size_t i = 0; i < at.size(); ++i) {
       const Eigen::Vector3d y = matrix_of(shapes_at(high, pads.points[i].angle)).transpose() * q;
       EXPECT_LT((at[i].g - before[i].g - y).norm(), 1e-9 * y.norm()) << size;

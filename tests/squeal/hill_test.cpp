@@ -111,9 +111,10 @@ TEST(Hill, SolvesTheLadderOfItsEquations)
   std::vector<Eigen::MatrixXcd> A(static_cast<std::size_t>(2 * K + 1),
                                   Eigen::MatrixXcd::Zero(m, m));
   for (int s = 0; s < N; ++s)
-    for (int k = -K; k <= K; ++k)
+    for (int k = -K; k <= K; ++k) {
       A[static_cast<std::size_t>(k + K)] +=
           std::polar(1.0 / N, -2.0 * pi * k * s / N) * brake.at(2.0 * pi * s / (6.0 * N));
+    }
   Eigen::MatrixXcd ladder = Eigen::MatrixXcd::Zero(m * (2 * K + 1), m * (2 * K + 1));
   for (int k = -K; k <= K; ++k)
     for (int j = std::max(-K, k - K); j <= std::min(K, k + K); ++j) {

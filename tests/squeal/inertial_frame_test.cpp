@@ -178,10 +178,11 @@ TEST(InertialDisc, FindsThePairsOfAMeshThatSplitsAndMixesThem)
   const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
   EXPECT_LT(disc.largest_impurity, 1e-3);
   EXPECT_GT(disc.largest_split, 1e-4);
-  for (Eigen::Index i = 0; i < 4; ++i)
+  for (Eigen::Index i = 0; i < 4; ++i) {
     EXPECT_NEAR(disc.omega[i],
                 2.0 * pi * (disc.nodal_diameters[std::size_t(i)] == 3 ? three : four).f_Hz,
                 2e-3 * disc.omega[i]);
+  }
 }
 
 TEST(InertialDisc, LeavesModesInThePlaneAndTheUnpairedHarmonicOut)

@@ -104,9 +104,10 @@ TEST(LimitCycle, TurnsWithTheEigenvectors)
     return std::abs(
         (shapes_at(of, phi).W.cast<std::complex<double>>().transpose() * motion.amplitude)[0]);
   };
-  for (const double phi : {0.0, 0.3, 0.7})
+  for (const double phi : {0.0, 0.3, 0.7}) {
     EXPECT_NEAR(modulus_at(disc, other, phi),
                 modulus_at(disc_of({kirchhoff_3(1672.13)}), cycle, phi), 1e-9);
+  }
 }
 
 TEST(LimitCycle, SaysWhenItHasNotSettled)

@@ -310,7 +310,7 @@ TEST(Pads, AtDifferentAnglesAddTheirForces)
   options.pads[1].angle = pi / 6.0;
   const Eigen::MatrixXd A = state_matrix(disc, options, 1e-6);
   Eigen::VectorXd omega = A.eigenvalues().imag();
-  std::sort(omega.begin(), omega.end());
+  std::ranges::sort(omega);
   EXPECT_NEAR(omega[3] - omega[2], 0.0, 1e-4);
   EXPECT_GT(omega[3], disc.omega[0] + 50.0);
 }

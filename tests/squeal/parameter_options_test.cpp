@@ -114,9 +114,10 @@ TEST(Parameters, HaveATableOfAllModes)
       const auto exact =
           oscillating_eigenvalues(brake.with({name}, table.values[i])->state_matrix(20.0));
       ASSERT_EQ(exact.size(), std::ssize(table.branches));
-      for (const StabilityBranch& branch : table.branches)
+      for (const StabilityBranch& branch : table.branches) {
         EXPECT_LT((exact.array() - branch.lambda[i]).abs().minCoeff(),
                   1e-9 * std::abs(branch.lambda[i]));
+      }
     }
   }
 }

@@ -88,13 +88,14 @@ TEST(PeriodWork, IsThatOnTheModesWithInertia)
 {
   // The others yield to the pads and hold no energy.
   std::vector<PlatePair> pairs{kirchhoff_3()};
-  for (int n = 0; n < 5; ++n)
+  for (int n = 0; n < 5; ++n) {
     pairs.push_back({.n = n,
                      .f_Hz = 2e4,
                      .mass = 0.1,
                      .U = 0.5 + 0.1 * n,
                      .U_r = 9.0 - 3.0 * n,
                      .U_t = n * 4.1});
+  }
   mbs_export::ModalBody body = analytic_body(pairs);
   for (std::size_t i = 2; i < body.kinds.size(); ++i)
     body.kinds[i] = mbs_export::ModeKind::interface;
@@ -104,9 +105,10 @@ TEST(PeriodWork, IsThatOnTheModesWithInertia)
   ASSERT_FALSE(brake.disc().compliance.empty());
   const auto rows = unstable_ones(unstable_modes(brake, over_speeds(1.0, 20.0, 20)));
   ASSERT_FALSE(rows.empty());
-  for (const StabilityBranch& row : rows)
+  for (const StabilityBranch& row : rows) {
     EXPECT_NEAR(sum_of(row.work.value()), 2.0 * row.worst.growth / row.worst.frequency_Hz,
                 1e-6 * std::abs(row.work->friction));
+  }
 }
 
 }  // namespace

@@ -75,10 +75,11 @@ std::vector<double> decimated_sine(const Decimation& decimation, int n, double f
 {
   Decimator decimator(decimation, 1);
   std::vector<double> out;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     if (const auto x =
             decimator.add(Eigen::VectorXd::Constant(1, std::sin(2.0 * pi * frequency * i))))
       out.push_back((*x)[0]);
+  }
   for (const auto& x : decimator.finish()) out.push_back(x[0]);
   return out;
 }

@@ -39,10 +39,11 @@ TEST(RotationStability, OfASplitPairIsThatOfTheReference)
 {
   // SQUEAL reference values with four digits: growth at 6 pi over the split of the pair, in Hz.
   const double references[][2] = {{0.0, 2.689}, {1.0, 2.681}, {3.0, 2.619}, {10.0, 2.265}};
-  for (const auto& [split_Hz, growth] : references)
+  for (const auto& [split_Hz, growth] : references) {
     EXPECT_NEAR(rotation_growth(split_disc(split_Hz), reference_options(), 6.0 * pi).growth, growth,
                 1e-3)
         << split_Hz;
+  }
 }
 
 TEST(RotationStability, IsWhatATransientDoes)

@@ -74,7 +74,7 @@ TEST(StateMatrix, SplitsTheFrequenciesOfAFreeRotatingDiscByNTimesTheSpeed)
   const double omega = 2.0 * pi * kirchhoff_2().f_Hz;
   std::vector<double> im(4);
   for (int i = 0; i < 4; ++i) im[static_cast<std::size_t>(i)] = lambda[i].imag();
-  std::sort(im.begin(), im.end());
+  std::ranges::sort(im);
   EXPECT_NEAR(im[2], omega - 60.0, 1e-9);  // rounding of 5e3
   EXPECT_NEAR(im[3], omega + 60.0, 1e-9);
   EXPECT_LT(lambda.real().cwiseAbs().maxCoeff(), 1e-10);
@@ -241,10 +241,11 @@ TEST(Eigenvalues, AreFollowedThroughACrossing)
   ASSERT_EQ(map.lambda.rows(), 113);
   ASSERT_EQ(map.lambda.cols(), 35);
   double bend = 0.0;
-  for (Eigen::Index i = 2; i < 113; ++i)
+  for (Eigen::Index i = 2; i < 113; ++i) {
     bend = std::max(bend, (map.lambda.row(i) - 2.0 * map.lambda.row(i - 1) + map.lambda.row(i - 2))
                               .cwiseAbs()
                               .maxCoeff());
+  }
   EXPECT_LT(bend, 0.1);
   EXPECT_NEAR(map.lambda.row(60).real().maxCoeff(),
               least_stable_eigenvalue(state_matrix(disc, options, map.speeds[60])).real(), 1e-8);

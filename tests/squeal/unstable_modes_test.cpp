@@ -175,10 +175,11 @@ TEST(UnstableModes, KeepTheirShapesWhereFrequenciesCross)
       return sample.X.col(j).tail(n).cwiseAbs2() / sample.X.col(j).tail(n).squaredNorm();
     };
     EXPECT_LT((shares(samples.front()) - shares(samples.back())).norm(), 0.05) << j;
-    for (Eigen::Index k = 0; k < j; ++k)
+    for (Eigen::Index k = 0; k < j; ++k) {
       crossings += (samples.front().lambda[j] - samples.front().lambda[k]).imag() *
                        (samples.back().lambda[j] - samples.back().lambda[k]).imag() <
                    0.0;
+    }
   }
   EXPECT_GT(crossings, 0);
 }

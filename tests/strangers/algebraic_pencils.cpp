@@ -40,9 +40,8 @@ Pencil hypercube(const std::string& name, int dimension, double s)
 {
   std::vector<std::pair<int, int>> edges;
   for (int i = 0; i < 1 << dimension; ++i) {
-    for (int bit = 0; bit < dimension; ++bit) {
+    for (int bit = 0; bit < dimension; ++bit)
       if ((i & 1 << bit) == 0) edges.emplace_back(i, i | 1 << bit);
-    }
   }
   return laplacian(name, 1 << dimension, edges, s);
 }
@@ -50,9 +49,8 @@ Pencil hypercube(const std::string& name, int dimension, double s)
 Pencil complete(const std::string& name, int n, double s)
 {
   std::vector<std::pair<int, int>> edges;
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) edges.emplace_back(i, j);
-  }
   return laplacian(name, n, edges, s);
 }
 
@@ -84,9 +82,8 @@ Pencil power_network()
   std::mt19937 random(494);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
   Pencil network{.name = "PowerNetwork", .n = n, .masters = {0, 7, 150, 299}};
-  for (int i = 1; i < n; ++i) {
+  for (int i = 1; i < n; ++i)
     add_spring(network.K, i, static_cast<int>(uniform() * i), std::pow(10.0, 4.0 * uniform()));
-  }
   for (int i = 0; i < n / 2; ++i) {
     const int a = static_cast<int>(uniform() * n), b = static_cast<int>(uniform() * n);
     if (a != b) add_spring(network.K, a, b, std::pow(10.0, 4.0 * uniform()));
@@ -163,9 +160,8 @@ template <class Value>
 Pencil classical(const std::string& name, int n, const Value& value)
 {
   Pencil pencil{.name = name, .n = n, .masters = {0}};
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) pencil.K.push_back({i, j, value(i, j)});
-  }
   add_identity(pencil.M, n);
   return pencil;
 }
@@ -277,9 +273,8 @@ std::vector<Pencil> refused_pencils()
 std::vector<Pencil> all_pencils()
 {
   std::vector<Pencil> all = mechanical_pencils();
-  for (const auto& more : {algebraic_pencils(), refused_pencils()}) {
+  for (const auto& more : {algebraic_pencils(), refused_pencils()})
     all.insert(all.end(), more.begin(), more.end());
-  }
   return all;
 }
 

@@ -65,11 +65,9 @@ void add_line(MatrixXd& A, int c, double diagonal, double other)
 void add_bending(MatrixXd& A, const MatrixXd& B, int u, int r, double slope)
 {
   const std::array<int, 4> at{u, r, u + 6, r + 6};
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
       A(at[i], at[j]) += B(i, j) * (i % 2 == 1 ? slope : 1.0) * (j % 2 == 1 ? slope : 1.0);
-    }
-  }
 }
 
 /// Rows: the axes of a rod, the first along it.

@@ -50,9 +50,8 @@ void check_number_of_modes(const Reference& exact, const Reduction& how, const A
   if (!is(how, CMSCRAIGBAMPTON)) return;
   const CountBelow below = count_below(exact.held, squared_omega(how.cutoff_Hz));
   const int least = how.modes > 0 ? how.modes : how.cutoff_Hz > 0.0 ? below.surely : 0;
-  if (answer.n_modes < least) {
+  if (answer.n_modes < least)
     failures.push_back({"too-few-modes", fmt::format("{} of {}", answer.n_modes, least)});
-  }
 }
 
 /// The lowest fixed-interface modes, each as often as it is there.
@@ -60,9 +59,8 @@ void check_modes(const Reference& exact, const Answer& answer, Failures& failure
 {
   constexpr double accuracy = 1e-8;  // of lambda; modes converge to 1e-7 in the vector
   std::vector<double> lambda;
-  for (int k = 0; k < answer.n_modes; ++k) {
+  for (int k = 0; k < answer.n_modes; ++k)
     lambda.push_back(answer.K_r(answer.n_masters + k, answer.n_masters + k));
-  }
   std::ranges::sort(lambda);
   if (lambda.size() > exact.held.lambda.size()) {
     failures.push_back(
@@ -181,9 +179,8 @@ void check_count(const char* what, const CMSCount& count, const Spectrum& spectr
   if (count.upto == 0.0) return;
   const CountBelow below = count_below(spectrum, squared_omega(count.upto));
   if (count.missing >= 0 && count.missing == count.expected - count.found &&
-      count.expected >= below.surely && count.expected <= below.perhaps) {
+      count.expected >= below.surely && count.expected <= below.perhaps)
     return;
-  }
   failures.push_back(
       {"count", fmt::format("{}: {} expected, {} found, {} missing below {:.12g}; "
                             "there are {} to {}",
@@ -218,9 +215,8 @@ void check_free_modes(const Reference& exact, const Reduction& how, const Answer
   constexpr double accuracy = 1e-8;
   const auto n_rigid = static_cast<std::size_t>(exact.pencil.n_rigid);
   for (std::size_t i = 0; i < static_cast<std::size_t>(how.modes); ++i) {
-    if (i >= answer.lambda.size()) {  // the list may end at the last mode that is certified
+    if (i >= answer.lambda.size())  // the list may end at the last mode that is certified
       return;
-    }
     const double lambda = exact.whole.lambda[n_rigid + i];
     const double allowed = accuracy * lambda + rounding_of_solver(exact.whole, n_rigid + i) +
                            answer.rounding_of(i) * lambda;
@@ -272,9 +268,8 @@ Failures check(const Reference& exact, int n, double target, const Eigenpairs& p
   constexpr double of_residual = 1e-8;
   if (pairs.code) return {{"refused", pairs.message}};
   Failures failures;
-  if (std::ssize(pairs.lambda) < n) {
+  if (std::ssize(pairs.lambda) < n)
     failures.push_back({"not-converged", fmt::format("{} of {}", pairs.lambda.size(), n)});
-  }
   const double worst = pairs.residual.empty() ? 0.0 : std::ranges::max(pairs.residual);
   if (!(worst <= of_residual)) failures.push_back({"residual", fmt::format("{:.1e}", worst)});
   std::vector<std::size_t> order(exact.whole.lambda.size());

@@ -99,18 +99,16 @@ Spectrum spectrum(const MatrixXd& K, const MatrixXd& M, int n_rigid)
 {
   Spectrum found = K.rows() <= most_in_long_double ? best_spectrum<Dense>(K, M, n_rigid)
                                                    : best_spectrum<MatrixXd>(K, M, n_rigid);
-  for (int i = 0; i < std::min<int>(n_rigid, static_cast<int>(found.lambda.size())); ++i) {
+  for (int i = 0; i < std::min<int>(n_rigid, static_cast<int>(found.lambda.size())); ++i)
     found.lambda[i] = 0.0;
-  }
   return found;
 }
 
 Spectrum held_spectrum(const MatrixXd& K, const MatrixXd& M, const std::vector<int>& masters)
 {
   std::vector<int> slaves;
-  for (int i = 0; i < K.rows(); ++i) {
+  for (int i = 0; i < K.rows(); ++i)
     if (std::ranges::find(masters, i) == masters.end()) slaves.push_back(i);
-  }
   return spectrum(K(slaves, slaves), M(slaves, slaves), 0);
 }
 

@@ -97,9 +97,8 @@ Pencil tower(const std::string& name)
   std::vector<Vector3d> points;
   std::vector<Rod> rods;
   for (int level = 0; level < 3; ++level) {
-    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.1}, {1.1, 0.9}, {0.05, 1.0}}) {
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.1}, {1.1, 0.9}, {0.05, 1.0}})
       points.emplace_back(x, y, 1.2 * level);
-    }
     for (int i = 0; i < 4; ++i) {
       rods.push_back({4 * level + i, 4 * level + (i + 1) % 4});
       if (level == 0) continue;
@@ -115,12 +114,10 @@ Pencil frame_with_lumped_masses()
 {
   const Pencil whole = tower("");
   Pencil held{.name = "FrameOf48WithLumpedMasses", .n = whole.n - 24};
-  for (const Entry& k : whole.K) {
+  for (const Entry& k : whole.K)
     if (k.row >= 24 && k.column >= 24) held.K.push_back({k.row - 24, k.column - 24, k.value});
-  }
-  for (int i = 0; i < held.n; ++i) {
+  for (int i = 0; i < held.n; ++i)
     if (i % 6 < 3) add_diagonal(held.M, i, 10.0);
-  }
   held.masters = {24, 25, 26, 36, 37, 38};
   return held;
 }
@@ -196,12 +193,10 @@ Pencil block_with_unit_rows()
   Pencil whole = block("BlockWithUnitRows", n, Vector3d(0.1, 0.12, 0.13), steel);
   const auto held = [&](int row) { return row / 3 % (n.x + 1) == 0 || row == whole.n - 1; };
   Pencil pencil{.name = whole.name, .n = whole.n};
-  for (const Entry& k : whole.K) {
+  for (const Entry& k : whole.K)
     if (!held(k.row) && !held(k.column)) pencil.K.push_back(k);
-  }
-  for (int i = 0; i < pencil.n; ++i) {
+  for (int i = 0; i < pencil.n; ++i)
     if (held(i)) add_diagonal(pencil.K, i, 1.0);
-  }
   add_identity(pencil.M, pencil.n);
   append_node(pencil.masters, node(n, n.x, 2, 2));
   return pencil;
@@ -213,13 +208,11 @@ Pencil held_block()
   const Pencil whole = block("HeldBlock", n, Vector3d::Constant(0.1), steel);
   std::vector<int> row(whole.n, -1);
   Pencil pencil{.name = whole.name};
-  for (int i = 0; i < whole.n; ++i) {
+  for (int i = 0; i < whole.n; ++i)
     if (i / 3 % (n.x + 1) != 0) row[i] = pencil.n++;
-  }
   const auto keep = [&](const std::vector<Entry>& from, std::vector<Entry>& to) {
-    for (const Entry& a : from) {
+    for (const Entry& a : from)
       if (row[a.row] >= 0 && row[a.column] >= 0) to.push_back({row[a.row], row[a.column], a.value});
-    }
   };
   keep(whole.K, pencil.K);
   keep(whole.M, pencil.M);
@@ -274,15 +267,13 @@ Pencil chain(const std::string& name, const std::vector<double>& mass,
              const std::vector<Link>& springs)
 {
   Pencil pencil{.name = name, .n = static_cast<int>(mass.size())};
-  for (const Link& spring : springs) {
+  for (const Link& spring : springs)
     if (spring.j < 0)
       add_diagonal(pencil.K, spring.i, spring.k);
     else
       add_spring(pencil.K, spring.i, spring.j, spring.k);
-  }
-  for (int i = 0; i < pencil.n; ++i) {
+  for (int i = 0; i < pencil.n; ++i)
     if (mass[i] != 0.0) add_diagonal(pencil.M, i, mass[i]);
-  }
   return pencil;
 }
 

@@ -153,9 +153,8 @@ std::string fill_by_springs(Dice& dice, Pencil& pencil)
   if (pencil.n_rigid == 0) add_diagonal(pencil.K, dice.integer(0, pencil.n - 1), 1.0);
   const double without_mass = dice.chance(0.4) ? dice.uniform(0.0, 0.6) : 0.0;
   add_diagonal(pencil.M, 0, 1.0);
-  for (int i = 1; i < pencil.n; ++i) {
+  for (int i = 1; i < pencil.n; ++i)
     if (!dice.chance(without_mass)) add_diagonal(pencil.M, i, dice.spread(1.0, heaviest));
-  }
   return fmt::format("springs to {:.1e}, masses to {:.1e}, {:.0f} % massless", stiffest, heaviest,
                      100.0 * without_mass);
 }
@@ -193,9 +192,8 @@ void draw_masters(Dice& dice, Pencil& pencil, bool with_hub)
   const int most = std::max(pencil.n_rigid + 1, pencil.n / 3);
   const int n_m = std::max({1, pencil.n_rigid, dice.chance(0.3) ? 1 : dice.integer(1, most)});
   pencil.masters.assign(rows.begin(), rows.begin() + n_m);
-  if (with_hub && std::ranges::find(pencil.masters, 0) == pencil.masters.end()) {
+  if (with_hub && std::ranges::find(pencil.masters, 0) == pencil.masters.end())
     pencil.masters.front() = 0;
-  }
 }
 
 /// Whether the slaves can move with all masters held, or nearly so: then any method may refuse.
@@ -203,10 +201,9 @@ bool moves_when_held(const Reference& exact)
 {
   constexpr double nearly = 1e-9;  // of a matrix with unit diagonal
   std::vector<int> slaves;
-  for (int i = 0; i < exact.pencil.n; ++i) {
+  for (int i = 0; i < exact.pencil.n; ++i)
     if (std::ranges::find(exact.pencil.masters, i) == exact.pencil.masters.end())
       slaves.push_back(i);
-  }
   const MatrixXd K_ss = exact.K(slaves, slaves);
   if (!(K_ss.diagonal().minCoeff() > 0.0)) return true;
   const VectorXd scale = K_ss.diagonal().cwiseSqrt().cwiseInverse();
@@ -243,9 +240,8 @@ Reduction draw_reduction(Dice& dice, const Reference& exact)
 std::string words_of(const Reduction& how)
 {
   if (how.cutoff_Hz > 0.0) return fmt::format("all modes below {:.6g} Hz", how.cutoff_Hz);
-  if (how.tolerance > 0.0) {
+  if (how.tolerance > 0.0)
     return fmt::format("tolerance {:.1e} up to {:.6g} Hz", how.tolerance, how.up_to_Hz);
-  }
   return fmt::format("{} with {} modes", how.type, how.modes);
 }
 

@@ -96,13 +96,11 @@ Reduction told(Reduction how)
   std::array<char, 32> type{};
   std::string_view(how.type).copy(type.data(), type.size() - 1);
   MPI_Bcast(type.data(), static_cast<int>(type.size()), MPI_CHAR, 0, PETSC_COMM_WORLD);
-  for (const char* known : {CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL}) {
+  for (const char* known : {CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL})
     if (std::string_view(type.data()) == known) how.type = known;
-  }
   MPI_Bcast(&how.modes, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  for (double* value : {&how.cutoff_Hz, &how.tolerance, &how.up_to_Hz}) {
+  for (double* value : {&how.cutoff_Hz, &how.tolerance, &how.up_to_Hz})
     MPI_Bcast(value, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
-  }
   return how;
 }
 
@@ -181,9 +179,8 @@ std::string unlisted(const std::string& words, const std::string& listed)
 {
   std::istringstream all(words);
   std::string others;
-  for (std::string word; all >> word;) {
+  for (std::string word; all >> word;)
     if ((" " + listed + " ").find(" " + word + " ") == std::string::npos) others += word + " ";
-  }
   return others;
 }
 
@@ -204,9 +201,8 @@ TEST_P(Stranger, HoldsAgainstDenseMatrices)
       << name << " " << way << " on " << ranks << " ranks\n"
       << text;
   if (std::getenv("STRANGERS_LIST") != nullptr && petsc::rank(PETSC_COMM_WORLD) == 0) {
-    for (const std::string& property : properties) {
+    for (const std::string& property : properties)
       std::printf("KNOWN %s %s %s %d\n", name.c_str(), way.c_str(), property.c_str(), ranks);
-    }
     if (!text.empty())
       std::printf("FIGURES %s %s %d\n%s", name.c_str(), way.c_str(), ranks, text.c_str());
   }

@@ -2,7 +2,8 @@
 
 usage: layout.py [--check] SOURCE...    mends them in place; --check names those that it would change
 
-- A body of one line has no braces, and neither has a loop around it; a body that is wrapped has them.
+- A body of one line has no braces, and neither has a loop around it; a body that is wrapped has them, and an `if` around
+  a macro of GoogleTest, which may hold an `else` of its own.
 - An algorithm takes a range: std::ranges::sort(x), not std::sort(x.begin(), x.end()).
 """
 import re
@@ -17,6 +18,7 @@ ALGORITHMS = ("adjacent_find|all_of|any_of|binary_search|copy|copy_if|count|coun
               "is_sorted|lower_bound|max_element|min_element|minmax_element|none_of|replace|reverse|sort|stable_sort|"
               "transform|upper_bound")
 PAIR = re.compile(rf"\bstd::({ALGORITHMS})\(\s*([\w.]+)\.begin\(\),\s*\2\.end\(\)")
+MACRO = re.compile(r"\s+(?:EXPECT|ASSERT)_[A-Z_]+\(.*")
 CONTROL = re.compile(r"\s*(?:for|if|while)\b.*\)$")
 
 
@@ -46,12 +48,30 @@ def braces_around_wrapped_bodies(text):
     return "\n".join(lines)
 
 
+def braces_around_macros(text):
+    lines = text.split("\n")
+    for i in reversed(range(len(lines) - 1)):
+        condition = re.match(r"\s*if \(", lines[i]) and MACRO.search(lines[i])
+        if condition:
+            lines[i:i + 1] = [lines[i][:condition.start()], lines[i][condition.start():].lstrip()]
+        elif not (re.match(r"\s*if \(", lines[i]) and CONTROL.match(lines[i].split("  //")[0]) and
+                  MACRO.match(" " + lines[i + 1])):
+            continue
+        end = i + 1
+        while not lines[end].split("  //")[0].endswith(";"):
+            end += 1
+        head, comment, note = lines[i].partition("  //")
+        lines[i] = head + " {" + comment + note
+        lines.insert(end + 1, "}")
+    return "\n".join(lines)
+
+
 def laid_out(path, without_braces):
     """The text of a source and what it should be."""
     text = path.read_text(encoding="utf-8")
     ranged = PAIR.sub(lambda m: f"std::ranges::{m[1]}({m[2]}", text)
     bare = formatted(formatted(ranged, path, without_braces), path, ROOT / ".clang-format")
-    return text, formatted(braces_around_wrapped_bodies(bare), path, ROOT / ".clang-format")
+    return text, formatted(braces_around_macros(braces_around_wrapped_bodies(bare)), path, ROOT / ".clang-format")
 
 
 def main(arguments):

@@ -163,9 +163,8 @@ AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& p
   }
   for (int s = 0; s < std::ssize(order); ++s) {
     for (const int child : supernodes.children(order[s])) tree.parent[number[child]] = s;
-    for (const int v : supernodes[order[s]].below) {
+    for (const int v : supernodes[order[s]].below)
       for (const int r : rows[v]) tree.below_rows.push_back(tree.position[r]);
-    }
     std::sort(tree.below_rows.begin() + std::ptrdiff_t(tree.below_starts.back()),
               tree.below_rows.end());
     tree.below_starts.push_back(tree.below_rows.size());

@@ -14,9 +14,8 @@ Fronts::Fronts(const AssemblyTree& tree, const MatrixRows& A)
       place_below_(tree.row.size()),
       left_over_(tree.n_supernodes())
 {
-  for (int s = 0; s < tree.n_supernodes(); ++s) {
+  for (int s = 0; s < tree.n_supernodes(); ++s)
     if (tree.parent[s] != -1) children_[tree.parent[s]].push_back(s);
-  }
 }
 
 double* Fronts::left_over(int s)

@@ -5,9 +5,8 @@ namespace chladni::linear {
 GatheredRows::GatheredRows(Mat A, const std::vector<char>& is_needed)
 {
   std::vector<PetscInt> rows;
-  for (std::size_t row = 0; row < is_needed.size(); ++row) {
+  for (std::size_t row = 0; row < is_needed.size(); ++row)
     if (is_needed[row] != 0) rows.push_back(static_cast<PetscInt>(row));
-  }
   matrix_ = A;
   if (petsc::size(petsc::communicator(A)) > 1) {
     petsc::IndexSet needed, all;

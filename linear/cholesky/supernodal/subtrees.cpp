@@ -66,9 +66,8 @@ std::vector<int> share_subtrees(const AssemblyTree& tree, int n_ranks)
     roots.erase(roots.begin());
     roots.insert(roots.end(), children[split].begin(), children[split].end());
   }
-  for (int s = n - 1; s >= 0; --s) {  // from the roots of subtrees down
+  for (int s = n - 1; s >= 0; --s)  // from the roots of subtrees down
     if (tree.parent[s] != -1 && best[tree.parent[s]] != all_ranks) best[s] = best[tree.parent[s]];
-  }
   return best;
 }
 

@@ -221,9 +221,8 @@ Panels SupernodalFactor::panels(int n_columns)
 /// X <- A^-1 X; forward only where right-hand sides are not zero.
 void SupernodalFactor::sweep(Panels X, const std::vector<char>& is_active) const
 {
-  for (const int s : own_) {
+  for (const int s : own_)
     if (is_active[s] != 0) solve_forward(tiles(s), X);
-  }
   const auto n_common = std::size_t(n_slots_ - n_own_slots_) * panel_width;
   for (int p = 0; p < X.n_panels && n_common > 0; ++p) {
     double* common = X.values + p * X.stride + std::size_t(n_own_slots_) * panel_width;
@@ -264,9 +263,8 @@ std::vector<char> SupernodalFactor::take(const SparseColumns& B, int first, Pane
       is_active[behind - tree_.first_column.begin() - 1] = 1;
     }
   }
-  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+  for (int s = 0; s < tree_.n_supernodes(); ++s)
     if (is_active[s] != 0 && tree_.parent[s] != -1) is_active[tree_.parent[s]] = 1;
-  }
   return is_active;
 }
 

@@ -121,7 +121,7 @@ FemFile read_fem(const std::string& text, MbdynVersion version)
     if (!line.starts_with(start)) continue;
     const int number = std::stoi(line.substr(start.size()));
     EXPECT_TRUE(number == 1 || !seen.empty());
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), number), 0) << number << " already parsed";
+    EXPECT_EQ(std::ranges::count(seen, number), 0) << number << " already parsed";
     EXPECT_LE(number, version == MbdynVersion::v1_7 ? 13 : 18);
     seen.push_back(number);
     read_group(file, fem, number);
@@ -150,9 +150,10 @@ TEST(MbdynFem, ReturnsEveryDigitOfABody)
   EXPECT_EQ(fem.labels.back(), "-1");
   for (Index node = 0; node < fem.n_nodes; ++node)
     EXPECT_EQ(Vector3d(fem.positions.col(node)), body.attachment_nodes[std::size_t(node)].position);
-  for (Index j = 0; j < fem.n_modes; ++j)
+  for (Index j = 0; j < fem.n_modes; ++j) {
     EXPECT_EQ(Eigen::VectorXd(fem.modes[std::size_t(j)].reshaped()),
               Eigen::VectorXd(body.attachment_modes.col(j)));
+  }
   EXPECT_EQ(fem.M, MatrixXd(MatrixXd::Identity(fem.n_modes, fem.n_modes)));
   EXPECT_EQ(fem.K, MatrixXd(body.omega.cwiseAbs2().asDiagonal()));
   EXPECT_EQ(fem.C, body.C);

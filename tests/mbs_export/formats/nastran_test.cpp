@@ -285,7 +285,7 @@ TEST(NastranSuperelement, WritesThePairsOfScalarPointsOut)
 {
   const std::string assembly = nastran_superelement(test::two_nodes(), 100).assembly;
   const std::vector<std::string> pairs = fields_of(assembly, "SECONCT");
-  EXPECT_EQ(std::count(pairs.begin(), pairs.end(), "THRU"), 0);
+  EXPECT_EQ(std::ranges::count(pairs, "THRU"), 0);
   EXPECT_EQ((std::vector<std::string>{pairs.end() - 4, pairs.end()}),
             (std::vector<std::string>{"9", "9", "10", "10"}));
 }

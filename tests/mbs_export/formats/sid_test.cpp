@@ -66,7 +66,7 @@ double real(std::string text)
 {
   EXPECT_EQ(text.find('E'), std::string::npos);
   EXPECT_LE(text.find('D'), 19u);  // characters of the mantissa that EMBSlib's reader holds
-  std::replace(text.begin(), text.end(), 'D', 'E');
+  std::ranges::replace(text, 'D', 'E');
   return std::stod(text);
 }
 

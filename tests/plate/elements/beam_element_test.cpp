@@ -54,9 +54,8 @@ NodeVectors line(const RowVector3d& a, const RowVector3d& b, Index n_elements)
 ElementMatrices held(const ElementMatrices& free, const std::vector<Index>& held_dofs)
 {
   std::vector<Index> rest;
-  for (Index i = 0; i < free.K.rows(); ++i) {
+  for (Index i = 0; i < free.K.rows(); ++i)
     if (std::ranges::find(held_dofs, i) == held_dofs.end()) rest.push_back(i);
-  }
   return {.K = free.K(rest, rest), .M = free.M(rest, rest)};
 }
 
@@ -125,9 +124,8 @@ TEST_P(BeamElement, BendsTwistsAndStretchesExactlyUnderTipLoads)
       L * L * L / (3.0 * E * s.I_y) + shear_z, L / (G * s.J), L / (E * s.I_y), L / (E * s.I_z);
   exact(1, 5) = exact(5, 1) = L * L / (2.0 * E * s.I_z);   // theta_z = v'
   exact(2, 4) = exact(4, 2) = -L * L / (2.0 * E * s.I_y);  // theta_y = -w'
-  for (const Index n_elements : {1, 3}) {
+  for (const Index n_elements : {1, 3})
     EXPECT_LT((tip_flexibility(s, L, n_elements) - exact).norm(), 1e-12 * exact.norm());
-  }
 }
 
 TEST_P(BeamElement, HasTheMassAndInertiaOfAStraightBar)

@@ -36,9 +36,8 @@ struct Allowed {
 
   double of(const ElementUnderTest& element) const
   {
-    if (element.shape == mesh::Shape::triangle) {
+    if (element.shape == mesh::Shape::triangle)
       return element.order == 1 ? linear_triangle : triangle;
-    }
     return element.order == 1 ? linear_quadrilateral : quadrilateral;
   }
 };

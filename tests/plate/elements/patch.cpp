@@ -76,11 +76,9 @@ Patch make_patch(Shape shape, int order)
     for (Index k = 0; k < P.rows(); ++k) shell.x.row(k).head<2>() = patch.positions[nodes[k]];
     shell.D.col(2).setConstant(patch_thickness / 2);
     const MatrixXd K_e = shell_matrices(shape, order, shell, steel_like).K;
-    for (Index a = 0; a < P.rows(); ++a) {
-      for (Index b = 0; b < P.rows(); ++b) {
+    for (Index a = 0; a < P.rows(); ++a)
+      for (Index b = 0; b < P.rows(); ++b)
         patch.K.block<6, 6>(6 * nodes[a], 6 * nodes[b]) += K_e.block<6, 6>(6 * a, 6 * b);
-      }
-    }
   }
   return patch;
 }

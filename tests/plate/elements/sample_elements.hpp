@@ -52,9 +52,8 @@ inline Eigen::MatrixXd rigid_motions(const NodeVectors& x)
     const Eigen::Vector3d r = x.row(i);
     R.block<3, 3>(6 * i, 0).setIdentity();
     R.block<3, 3>(6 * i + 3, 3).setIdentity();
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
       R.block<3, 1>(6 * i, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(r);
-    }
   }
   return R;
 }

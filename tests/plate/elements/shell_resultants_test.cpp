@@ -39,9 +39,8 @@ using Field = std::function<Eigen::Matrix<double, 6, 1>(double x, double y)>;
 VectorXd sampled(const ShellNodes& nodes, const Field& field)
 {
   VectorXd u_e(6 * nodes.x.rows());
-  for (Index i = 0; i < nodes.x.rows(); ++i) {
+  for (Index i = 0; i < nodes.x.rows(); ++i)
     u_e.segment<6>(6 * i) = field(nodes.x(i, 0), nodes.x(i, 1));
-  }
   return u_e;
 }
 
