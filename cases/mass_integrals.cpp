@@ -2,6 +2,7 @@
 
 #include "common/eigen_every.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
+#include "reduce/project_form.hpp"
 
 namespace chladni::cases {
 

@@ -20,6 +20,8 @@
 #include "linear/cholesky/cholesky_types.hpp"
 #include "mesh/partition.hpp"
 #include "plate/assembly/rigid_motions.hpp"
+#include "reduce/basis_rows.hpp"
+#include "reduce/project_form.hpp"
 #include "reduce_export/reduced_system.hpp"
 #include "report/version.hpp"
 

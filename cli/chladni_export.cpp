@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "cases/export_limits.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
-#include "cli/export_limits.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/body_option_error.hpp"
@@ -136,7 +136,7 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
 {
   const mbs_export::Damping damping =
       source.scene ? source.scene->body.damping : mbs_export::Damping{};
-  std::vector<std::string> notes = damping_left_out(arguments.format, damping, 0);
+  std::vector<std::string> notes = cases::damping_left_out(arguments.format, damping, 0);
   if (arguments.format == "nastran-op4")
     return {export_superelement(arguments, source, reduced), std::move(notes)};
   const path file = target_of(arguments, source, ".dmig");
@@ -148,9 +148,9 @@ Exported export_as(const ExportArguments& arguments, const Source& source)
   const mbs_export::ReducedSystem reduced = read_reduced_of(arguments, source);
   if (arguments.format.starts_with("nastran")) return export_reduced(arguments, source, reduced);
   const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
-  return {
-      {export_floating_body(arguments, source, floating)},
-      damping_left_out(arguments.format, source.scene->body.damping, floating.body.n_free_rigid)};
+  return {{export_floating_body(arguments, source, floating)},
+          cases::damping_left_out(arguments.format, source.scene->body.damping,
+                                  floating.body.n_free_rigid)};
 }
 
 /// What the scene asks for in vain is told with its place there.
@@ -162,7 +162,7 @@ Exported export_of(const ExportArguments& arguments)
   } catch (const mbs_export::BodyOptionError& error) {
     scene::refuse_key(*source.scene, "body." + error.key(), error.why());
   } catch (const formats::ExportError& error) {
-    if (source.scene) refuse_export(*source.scene, error);
+    if (source.scene) cases::refuse_export(*source.scene, error);
     throw Error(fmt::format("{}: {}", arguments.source, error.why()));
   }
 }

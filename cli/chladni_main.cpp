@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,14 +11,14 @@
 
 #include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
-#include "cli/blas_kernels.hpp"
-#include "cli/blas_memory.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"
 #include "files/hdf5.hpp"
 #include "files/unfinished_file.hpp"
+#include "linear/blas_kernels.hpp"
+#include "linear/blas_memory.hpp"
 #include "linear/read_solver_options.hpp"
 #include "report/output.hpp"
 #include "report/progress.hpp"
@@ -178,12 +179,21 @@ int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments argum
   }
 }
 
+void end_where_addresses_lack()
+{
+  const std::string lacking = chladni::linear::lacking_addresses();
+  if (lacking.empty()) return;
+  fmt::print(stderr, "{}\n", lacking);
+  std::fflush(nullptr);
+  _exit(cli::exit_failed);
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  chladni::cli::restart_with_fitting_blas_kernels(argv);
-  chladni::cli::check_address_limit();
+  chladni::linear::restart_with_fitting_blas_kernels(argv);
+  end_where_addresses_lack();
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));
   chladni::cli::ChladniArguments arguments;

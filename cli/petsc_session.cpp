@@ -5,9 +5,9 @@
 
 #include <cstdlib>
 
-#include "cli/blas_kernels.hpp"
 #include "common/all_ranks.hpp"
 #include "common/petsc.hpp"
+#include "linear/blas_kernels.hpp"
 
 namespace chladni::cli {
 
@@ -36,7 +36,7 @@ PetscSession::PetscSession(const std::vector<std::string>& options)
   char** argv = pointers.data();
   petsc::check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
   petsc::check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-  share_processors();
+  linear::share_processors();
 }
 
 PetscSession::~PetscSession()

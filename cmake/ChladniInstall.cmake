@@ -105,10 +105,12 @@ set(fe_headers
     plate/assembly/loads.hpp
     plate/assembly/recovery.hpp
     plate/assembly/rigid_motions.hpp
+    reduce/project_form.hpp
     reduce/reduction.hpp
     reduce/held_masters.hpp
     reduce/craig_bampton.hpp
-    reduce/guyan.hpp
+    reduce/basis_rows.hpp
+    reduce/guyan_stiffness.hpp
     reduce/free_interface.hpp
     reduce/error_estimates.hpp
     reduce/completeness.hpp

@@ -7,7 +7,9 @@
 #include "common/eigen_every.hpp"
 #include "cyclic/exact_pairs.hpp"
 #include "cyclic/sparse_rows.hpp"
+#include "reduce/basis_rows.hpp"
 #include "reduce/held_masters.hpp"
+#include "reduce/project_form.hpp"
 
 namespace chladni::cyclic {
 

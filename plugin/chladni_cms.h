@@ -110,7 +110,8 @@ PETSC_EXTERN PetscErrorCode CMSGetTransformation(CMS cms, Mat* T);
 /* Elastic modes of the reduced model with free masters, ascending, f in Hz, up to the highest
    fixed-interface mode, at most 100; of Guyan the lowest 20. Arrays are owned by the object. */
 PETSC_EXTERN PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt* n, const PetscReal* f[]);
-/* eta^2 of the same modes: estimated relative error of lambda; half of it for f. */
+/* eta^2 of the same modes: estimated relative error of lambda; half of it for f. MacNeal's method has
+   no such estimate: n is 0, and there is nothing to read. */
 PETSC_EXTERN PetscErrorCode CMSGetErrors(CMS cms, PetscInt* n, const PetscReal* eta2[]);
 /* What rounding may have done to lambda of the same modes, relative; beyond what eta^2 tells. */
 PETSC_EXTERN PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal* rounding[]);

@@ -5,6 +5,8 @@
 #include "common/petsc_compat.hpp"
 #include "plugin/cms_impl.hpp"
 #include "plugin/guard.hpp"
+#include "reduce/basis_rows.hpp"
+#include "reduce/project_form.hpp"
 
 namespace chladni::plugin {
 

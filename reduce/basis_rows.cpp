@@ -1,7 +1,7 @@
+#include "reduce/basis_rows.hpp"
+
 #include <algorithm>
 #include <optional>
-
-#include "reduce/craig_bampton.hpp"
 
 namespace chladni::reduce {
 

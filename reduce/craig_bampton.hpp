@@ -5,7 +5,7 @@
 #include "linear/kernels/dense_matrices.hpp"
 #include "reduce/constraint_modes.hpp"
 #include "reduce/fixed_interface_modes.hpp"
-#include "reduce/partition.hpp"
+#include "reduce/guyan_stiffness.hpp"
 
 namespace chladni::reduce {
 
@@ -15,12 +15,6 @@ struct CraigBamptonBasis {
   std::optional<FixedInterfaceModes> modes;  ///< Phi [n_s x n_CB] dense
 
   PetscInt n_modes() const { return modes ? static_cast<PetscInt>(modes->omega.size()) : 0; }
-};
-
-/// Static condensation to the masters.
-struct GuyanStiffness {
-  Eigen::MatrixXd K;  ///< K_G [n_m x n_m]
-  Eigen::MatrixXd R;  ///< [n_m x r] independent motions of the masters with K_G R = 0
 };
 
 /// The reduced system in (u_m, q), the same on every rank; masters in the order of the partition.
@@ -38,22 +32,17 @@ struct ReducedModel {
 /// @note   Collective.
 ReducedModel project(const CraigBamptonBasis& Q_CB, const Blocks& K, const Blocks& M);
 
-/// Q_CB^T A Q_CB of any matrix, symmetric or not: of dampers, of Coriolis forces.
-/// @return [n_m + n_CB squared], on every rank
+/// M_G = M_mm + M_ms Psi + Psi^T (M_sm + M_ss Psi), symmetric to the last bit.
 /// @note   Collective.
-Eigen::MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A);
+Eigen::MatrixXd guyan_mass(Mat Psi, const Blocks& M);
 
-/// Q_CB^T V of a few dense columns with the rows of K.
-/// @return [n_m + n_CB x k], on every rank
+/// P = Phi^T (M_ss Psi + M_sm), [columns of Phi x n_m].
 /// @note   Collective.
-Eigen::MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V);
+Eigen::MatrixXd inertial_coupling(Mat Phi, Mat Psi, const Blocks& M);
 
-/// Rows of Q_CB.
-/// @param dofs     global DOFs of K, the same list on every rank.
-/// @param rows_of  the partition that the basis belongs to.
-/// @return [n_dofs x (n_m + n_CB)], on every rank.
-/// @note   Collective.
-Eigen::MatrixXd basis_rows(const CraigBamptonBasis& Q_CB, const DofPartition& rows_of,
-                           const std::vector<PetscInt>& dofs);
+/// K_r = diag(K_G, diag(omega^2)), M_r = [M_G, P^T; P, I].
+/// @param P  rows of all modes of `omega`, or more
+ReducedModel join(const GuyanStiffness& K_G, const Eigen::MatrixXd& M_G, const Eigen::MatrixXd& P,
+                  std::vector<double> omega);
 
 }  // namespace chladni::reduce

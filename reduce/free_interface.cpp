@@ -11,7 +11,7 @@
 #include "linear/lanczos/block_lanczos.hpp"
 #include "reduce/block_rows.hpp"
 #include "reduce/free_flexibility.hpp"
-#include "reduce/guyan.hpp"
+#include "reduce/guyan_stiffness.hpp"
 
 namespace chladni::reduce {
 

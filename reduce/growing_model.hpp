@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "reduce/craig_bampton.hpp"
 #include "reduce/error_estimates.hpp"
-#include "reduce/guyan.hpp"
 
 namespace chladni::reduce {
 

@@ -1,4 +1,4 @@
-#include "reduce/guyan.hpp"
+#include "reduce/guyan_stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>

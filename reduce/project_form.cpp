@@ -1,8 +1,9 @@
+#include "reduce/project_form.hpp"
+
 #include <algorithm>
 
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
-#include "reduce/craig_bampton.hpp"
 
 namespace chladni::reduce {
 

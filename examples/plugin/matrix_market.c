@@ -130,7 +130,7 @@ int main(int argc, char **argv)
   Mat              K, M, C;
   IS               masters;
   CMS              cms;
-  PetscInt         n;
+  PetscInt         n, n_errors;
   const PetscReal *f, *eta2;
 
   PetscFunctionBeginUser;
@@ -147,9 +147,11 @@ int main(int argc, char **argv)
   PetscCall(CMSSolve(cms));
 
   PetscCall(CMSGetFrequencies(cms, &n, &f));
-  PetscCall(CMSGetErrors(cms, NULL, &eta2));
+  PetscCall(CMSGetErrors(cms, &n_errors, &eta2));
   for (PetscInt i = 0; i < n; i++) {
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4d %.12e Hz  eta^2 %.2e\n", (int)i + 1, (double)f[i], (double)eta2[i]));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4d %.12e Hz", (int)i + 1, (double)f[i]));
+    if (i < n_errors) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  eta^2 %.2e", (double)eta2[i]));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   }
   PetscCall(CMSDestroy(&cms));
   PetscCall(ISDestroy(&masters));

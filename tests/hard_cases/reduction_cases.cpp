@@ -8,6 +8,7 @@
 #include "common/petsc_compat.hpp"
 #include "hard_case.hpp"
 #include "linear/cholesky/sylvester.hpp"
+#include "reduce/basis_rows.hpp"
 #include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"
 #include "reduce/partition.hpp"

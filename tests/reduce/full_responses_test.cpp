@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 #include <numeric>
 
+#include "reduce/basis_rows.hpp"
 #include "reduce/partition.hpp"
+#include "reduce/project_form.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {

@@ -8,7 +8,7 @@
 #include "scene/scene.hpp"
 
 /// What `chladni export` says of a scene that the other program's format cannot hold.
-namespace chladni::cli {
+namespace chladni::cases {
 
 /// Refuses an export with the place in the scene that asks for what the format cannot hold; of
 /// springs and dampers those to the ground.
@@ -21,4 +21,4 @@ namespace chladni::cli {
 std::vector<std::string> damping_left_out(const std::string& format,
                                           const mbs_export::Damping& damping, int n_free_rigid);
 
-}  // namespace chladni::cli
+}  // namespace chladni::cases

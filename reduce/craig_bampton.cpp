@@ -1,8 +1,9 @@
+#include "reduce/craig_bampton.hpp"
+
 #include <algorithm>
 
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
-#include "reduce/guyan.hpp"
 
 namespace chladni::reduce {
 

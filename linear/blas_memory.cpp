@@ -1,18 +1,14 @@
-#include "cli/blas_memory.hpp"
+#include "linear/blas_memory.hpp"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
-
-#include "cli/arguments.hpp"
 
 // OpenBLAS' own; its headers are not needed for them.
 extern "C" int openblas_get_num_threads();  // NOLINT(readability-identifier-naming)
@@ -20,7 +16,7 @@ extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const 
                        const double* alpha, const double* a, const int* lda, const double* beta,
                        double* c, const int* ldc);  // NOLINT(readability-identifier-naming)
 
-namespace chladni::cli {
+namespace chladni::linear {
 namespace {
 
 constexpr std::size_t MiB = 1 << 20;
@@ -62,21 +58,21 @@ void take_own_buffer()
 
 }  // namespace
 
-void check_address_limit()
+std::string lacking_addresses()
 {
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
   const std::size_t n_threads = std::max(1, openblas_get_num_threads());
   const std::size_t lacking = n_threads - std::min(n_threads, n_buffers_there());
-  if (fits(lacking * buffer + start_of_mpi)) return take_own_buffer();
-  fmt::print(
-      stderr,
+  if (fits(lacking * buffer + start_of_mpi)) {
+    take_own_buffer();
+    return {};
+  }
+  return fmt::format(
       "the limit of this shell (ulimit -v, {} MiB of addresses) is too low to begin with: "
       "{} of {} threads of OpenBLAS lack {} MiB each, MPI and PETSc need {} MiB; raise it, or "
-      "set OPENBLAS_NUM_THREADS=1\n",
+      "set OPENBLAS_NUM_THREADS=1",
       limit.rlim_cur / MiB, lacking, n_threads, buffer / MiB, start_of_mpi / MiB);
-  std::fflush(nullptr);
-  _exit(exit_failed);  // at exit, OpenBLAS waits for threads that do not end
 }
 
-}  // namespace chladni::cli
+}  // namespace chladni::linear

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace chladni::cli {
+namespace chladni::linear {
 
 /// OpenBLAS 0.3.21 takes its slowest kernels (SSE3) on processors younger than itself, which costs
 /// a third of a reduction. Where that happens, starts this program anew with OPENBLAS_CORETYPE set
@@ -13,4 +13,4 @@ void restart_with_fitting_blas_kernels(char** argv);
 /// @note   Collective on all ranks.
 void share_processors();
 
-}  // namespace chladni::cli
+}  // namespace chladni::linear

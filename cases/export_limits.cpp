@@ -1,4 +1,4 @@
-#include "cli/export_limits.hpp"
+#include "cases/export_limits.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "common/error.hpp"
 #include "plate/plate_options.hpp"
 
-namespace chladni::cli {
+namespace chladni::cases {
 namespace {
 
 using mbs_export::Damping;
@@ -86,4 +86,4 @@ std::vector<std::string> damping_left_out(const std::string& format, const Dampi
   return {};
 }
 
-}  // namespace chladni::cli
+}  // namespace chladni::cases

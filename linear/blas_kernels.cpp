@@ -1,4 +1,4 @@
-#include "cli/blas_kernels.hpp"
+#include "linear/blas_kernels.hpp"
 
 #include <mpi.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 extern "C" char* openblas_get_corename();       // NOLINT(readability-identifier-naming)
 extern "C" void openblas_set_num_threads(int);  // NOLINT(readability-identifier-naming)
 
-namespace chladni::cli {
+namespace chladni::linear {
 namespace {
 
 /// The best kernels of OpenBLAS for this processor among those that matter, or none.
@@ -62,4 +62,4 @@ void share_processors()
   openblas_set_num_threads(std::max(1, n_processors / n_ranks));
 }
 
-}  // namespace chladni::cli
+}  // namespace chladni::linear

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "reduce/craig_bampton.hpp"
+
+namespace chladni::reduce {
+
+/// Q_CB^T A Q_CB of any matrix, symmetric or not: of dampers, of Coriolis forces.
+/// @return [n_m + n_CB squared], on every rank
+/// @note   Collective.
+Eigen::MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A);
+
+/// Q_CB^T V of a few dense columns with the rows of K.
+/// @return [n_m + n_CB x k], on every rank
+/// @note   Collective.
+Eigen::MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V);
+
+}  // namespace chladni::reduce
