@@ -59,7 +59,7 @@ void transfer_part(auto& archive, auto& part, auto& omega)
   archive(part.n_coordinates);
   archive(part.masters);
   for (auto* A : {&part.K, &part.M, &part.C, &omega, &part.interface.x, &part.interface.y,
-                  &part.picture.x, &part.picture.y})
+                  &part.picture.x, &part.picture.y, &part.sector.x, &part.sector.y})
     transfer(archive, *A);
   transfer_certificate(archive, part.certificate);
   archive(part.factor_entries);

@@ -16,31 +16,6 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-/// Where the rows of each part stand in the whole: its masters, then its modes among all by
-/// frequency.
-std::vector<std::vector<Index>> places_of(const std::vector<HarmonicPart>& parts, Index n_masters)
-{
-  struct Mode {
-    double omega;
-    std::size_t part;
-    Index row;
-  };
-  std::vector<Mode> modes;
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (Index k = 0; k < parts[p].omega.size(); ++k) modes.push_back({parts[p].omega[k], p, k});
-  std::ranges::stable_sort(modes, {}, &Mode::omega);
-  std::vector<std::vector<Index>> places;
-  for (const HarmonicPart& part : parts) {
-    places.emplace_back(part.masters.begin(), part.masters.end());
-    places.back().resize(part.masters.size() + std::size_t(part.omega.size()));
-  }
-  for (Index i = 0; i < std::ssize(modes); ++i) {
-    const Mode& mode = modes[std::size_t(i)];
-    places[mode.part][parts[mode.part].masters.size() + std::size_t(mode.row)] = n_masters + i;
-  }
-  return places;
-}
-
 /// The motion of sector j, cos(j mu) x - sin(j mu) y, turned with it; `rows` vectors of three.
 MatrixXd turned_motion(const cyclic::SectorMotion& motion, int order, int sector, int count)
 {
@@ -176,6 +151,29 @@ mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts
 }
 
 }  // namespace
+
+std::vector<std::vector<Index>> places_of(const std::vector<HarmonicPart>& parts, Index n_masters)
+{
+  struct Mode {
+    double omega;
+    std::size_t part;
+    Index row;
+  };
+  std::vector<Mode> modes;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (Index k = 0; k < parts[p].omega.size(); ++k) modes.push_back({parts[p].omega[k], p, k});
+  std::ranges::stable_sort(modes, {}, &Mode::omega);
+  std::vector<std::vector<Index>> places;
+  for (const HarmonicPart& part : parts) {
+    places.emplace_back(part.masters.begin(), part.masters.end());
+    places.back().resize(part.masters.size() + std::size_t(part.omega.size()));
+  }
+  for (Index i = 0; i < std::ssize(modes); ++i) {
+    const Mode& mode = modes[std::size_t(i)];
+    places[mode.part][parts[mode.part].masters.size() + std::size_t(mode.row)] = n_masters + i;
+  }
+  return places;
+}
 
 mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const SectorModel& model,
                                    const std::vector<HarmonicPart>& parts,

@@ -17,6 +17,7 @@ struct HarmonicPart {
   reduce::Certificate certificate;
   cyclic::SectorMotion interface;  ///< rows: six components of each interface node of the sector
   cyclic::SectorMotion picture;    ///< rows: x, y, z of each node of the sector's picture
+  cyclic::SectorMotion sector;     ///< rows: all DOFs of the sector; empty where not wanted
   double factor_entries = 0.0;
   double factor_s = 0.0;
   double modes_residual = 0.0;
@@ -25,6 +26,11 @@ struct HarmonicPart {
 /// The parts of all ranks, by order, on the first rank; none on the others.
 /// @note   Collective on all ranks.
 std::vector<HarmonicPart> gathered(const std::vector<HarmonicPart>& own);
+
+/// Where the rows of each part stand in the whole: its masters, then its modes among all by
+/// frequency.
+std::vector<std::vector<Eigen::Index>> places_of(const std::vector<HarmonicPart>& parts,
+                                                 Eigen::Index n_masters);
 
 /// The whole body from all harmonics.
 /// @param whole       `described_whole`

@@ -1,17 +1,20 @@
 #include "cases/reduce_sectors.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
+#include "cases/harmonic_options.hpp"
 #include "cases/harmonic_part.hpp"
 #include "cases/ranks.hpp"
+#include "cases/sector_integrals.hpp"
 #include "common/all_ranks.hpp"
 #include "common/error.hpp"
+#include "cyclic/mirror.hpp"
 #include "cyclic/sparse_rows.hpp"
 #include "linear/progress.hpp"
 #include "reduce_export/reduced_system.hpp"
@@ -44,13 +47,6 @@ class FactorTime : public reduce::PhaseListener {
   double seconds_ = 0.0;
 };
 
-std::vector<int> own_harmonics(int count)
-{
-  std::vector<int> orders;
-  for (int n = rank(); n < cyclic::n_harmonics(count); n += n_ranks()) orders.push_back(n);
-  return orders;
-}
-
 cyclic::SectorMatrices matrices_of(const SectorModel& model)
 {
   return {
@@ -59,75 +55,14 @@ cyclic::SectorMatrices matrices_of(const SectorModel& model)
       .C = model.system.C != nullptr ? cyclic::sparse_rows(model.system.C) : cyclic::SparseRows()};
 }
 
-/// All ranks' numbers in one list.
-std::vector<double> joined(const std::vector<double>& own)
+std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
+                                        const cyclic::SectorMatrices& matrices)
 {
-  const auto n = static_cast<int>(own.size());
-  const auto ranks = static_cast<std::size_t>(n_ranks());
-  std::vector<int> sizes(ranks), starts(ranks, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, PETSC_COMM_WORLD);
-  for (std::size_t r = 1; r < sizes.size(); ++r) starts[r] = starts[r - 1] + sizes[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
-  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE,
-                 PETSC_COMM_WORLD);
-  return all;
-}
-
-/// The frequency below which the whole body has so many fixed-interface modes, Hz, both of a pair
-/// with it.
-double frequency_of_modes(int n_modes, const SectorModel& model,
-                          const cyclic::SectorMatrices& matrices,
-                          const reduce::ReductionOptions& options)
-{
-  const int count = model.dofs.count;
-  const std::vector<int> orders = own_harmonics(count);
-  int asked = 2 + 4 * n_modes / cyclic::n_harmonics(count);
-  std::vector<std::vector<double>> omega(orders.size());
-  for (;;) {
-    std::vector<double> own, last;
-    on_all_ranks(PETSC_COMM_WORLD, [&] {
-      for (std::size_t i = 0; i < orders.size(); ++i) {
-        if (std::ssize(omega[i]) < asked) {
-          omega[i] = cyclic::lowest_held_frequencies(
-              matrices, cyclic::harmonic_coordinates(model.dofs, orders[i]), asked, options);
-        }
-        own.insert(own.end(), omega[i].begin(), omega[i].end());
-        last.push_back(omega[i].back());
-      }
-      return 0;
-    });
-    std::vector<double> all = joined(own);
-    const std::vector<double> ends = joined(last);
-    std::ranges::sort(all);
-    if (std::ssize(all) >= n_modes) {
-      constexpr double both = 1.0 + 1e-6;
-      const double wanted = all[std::size_t(n_modes - 1)] * both;
-      if (std::ranges::all_of(ends, [&](double end) { return end > wanted; }))
-        return wanted / (2.0 * std::numbers::pi);
-    }
-    asked *= 2;
-  }
-}
-
-reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
-                                          const cyclic::SectorMatrices& matrices,
-                                          const linear::SolverOptions& solver)
-{
-  reduce::ReductionOptions options{.basis = scene.reduce,
-                                   .solver = solver,
-                                   .count = scene.sylvester,
-                                   .keeps_matrices = true,
-                                   .later = {}};
-  const bool is_known = scene.reduce.method == reduce::Method::craig_bampton ||
-                        scene.reduce.method == reduce::Method::guyan;
-  if (!is_known)
-    throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
-  if (scene.reduce.modes) {
-    options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
-    options.basis.modes.reset();
-  }
-  if (options.basis.cutoff_Hz) options.basis.certified_up_to_Hz = options.basis.cutoff_Hz;
-  return options;
+  const plate::DofMap& dofs = model.system.dofs;
+  Eigen::MatrixX3d positions(model.dofs.n_blocks, 3);
+  for (int node = 0; node < dofs.n_nodes(); ++node)
+    if (!dofs.is_dependent(node)) positions.row(dofs.number(node)) = dofs.position(node);
+  return cyclic::find_mirror(model.dofs, positions, {&matrices.K, &matrices.M, &matrices.C});
 }
 
 /// Six rows for each interface node: components that the model does not have are at rest.
@@ -182,7 +117,8 @@ cyclic::SectorMotion picture_motion(const cyclic::HarmonicModel& harmonic, const
 }
 
 HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& model,
-                     const mbs_export::ReducedSystem& whole, const PictureNodes& chosen)
+                     const mbs_export::ReducedSystem& whole, const PictureNodes& chosen,
+                     bool with_sector)
 {
   HarmonicPart part{.order = harmonic.coordinates.order,
                     .n_coordinates = harmonic.coordinates.n(),
@@ -193,7 +129,13 @@ HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& m
                     .omega = harmonic.omega,
                     .certificate = harmonic.certificate,
                     .interface = interface_motion(harmonic, model),
-                    .picture = picture_motion(harmonic, model, chosen.nodes)};
+                    .picture = picture_motion(harmonic, model, chosen.nodes),
+                    .sector = {}};
+  if (with_sector) {
+    std::vector<int> all(std::size_t(model.dofs.n_dofs()));
+    std::iota(all.begin(), all.end(), 0);
+    part.sector = cyclic::sector_motion(harmonic, all);
+  }
   for (const cyclic::Master& master : harmonic.coordinates.masters)
     part.masters.push_back(master_index(whole, model, master));
   part.factor_entries = linear::factor_size(harmonic.body.K_ss.factor()).entries;
@@ -210,7 +152,7 @@ std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
                                             const reduce::ReductionOptions& options,
                                             const mbs_export::ReducedSystem& whole,
                                             const SectorSupport& support,
-                                            const PictureNodes& chosen)
+                                            const PictureNodes& chosen, bool with_sector)
 {
   return on_all_ranks(PETSC_COMM_WORLD, [&] {
     std::vector<HarmonicPart> parts;
@@ -220,7 +162,7 @@ std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
         const cyclic::HarmonicModel harmonic =
             cyclic::reduce_harmonic(matrices, cyclic::harmonic_coordinates(model.dofs, order),
                                     options, support.is_held, phases);
-        parts.push_back(part_of(harmonic, model, whole, chosen));
+        parts.push_back(part_of(harmonic, model, whole, chosen, with_sector));
       } catch (const Error& error) {
         throw Error(
             fmt::format("harmonic {} of {} sectors: {}", order, model.dofs.count, error.what()));
@@ -237,28 +179,24 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
                              const linear::SolverOptions& solver, Phases& phases)
 {
   phases.begin("assembly");
-  const SectorModel model =
+  SectorModel model =
       on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_model(scene, std::move(mesh)); });
   const mbs_export::ReducedSystem described = described_whole(scene, model);
   const SectorSupport support = sector_support(scene, model);
   const cyclic::SectorMatrices matrices = matrices_of(model);
+  model.dofs.mirror = mirror_of(model, matrices);
   phases.begin("choice of modes");
   const reduce::ReductionOptions options = harmonic_options(scene, model, matrices, solver);
   const PictureNodes chosen = picture_nodes(model.mesh, scene.pictures);
   phases.begin("harmonics");
   const std::vector<HarmonicPart> own =
-      reduced_harmonics(model, matrices, options, described, support, chosen);
+      reduced_harmonics(model, matrices, options, described, support, chosen, scene.mass_integrals);
   phases.begin("whole body");
   const std::vector<HarmonicPart> parts = gathered(own);
   phases.end();
   ReduceSummary summary{};
   summary.n_masters = static_cast<int>(described.masters.size());
   if (rank() == 0) {
-    if (scene.mass_integrals) {
-      fmt::print(stderr,
-                 "note: sectors: mass integrals are not available for one sector; the body has no "
-                 "Coriolis and centrifugal forces of its deformation\n");
-    }
     double lambda_max = std::numeric_limits<double>::infinity();
     if (options.basis.certified_up_to_Hz)
       lambda_max = std::pow(2.0 * std::numbers::pi * *options.basis.certified_up_to_Hz, 2);
@@ -266,6 +204,10 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
       lambda_max = std::pow(2.0 * std::numbers::pi * options.basis.tolerance->up_to_Hz, 2);
     const Index n_m = described.n_masters();
     summary.reduced = unfolded(described, model, parts, support.names, lambda_max);
+    if (scene.mass_integrals) {
+      summary.reduced.mass_integrals =
+          sector_integrals(scene, model, parts, summary.reduced.M, n_m);
+    }
     if (!chosen.nodes.empty())
       summary.reduced.picture = unfolded_picture(chosen, model, parts, n_m);
   }

@@ -270,6 +270,7 @@ SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
   plate::DofMap dofs = plate::make_dof_map(
       mesh, {.couplings = scene.couplings, .components = scene.components, .rings = {}}, owners, 1);
   SectorModel model{.mesh = std::move(mesh),
+                    .masses = {},
                     .system = {.K = {}, .M = {}, .C = {}, .dofs = dofs},
                     .dofs = {},
                     .interface = {}};
@@ -277,6 +278,7 @@ SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
   plate::Structure structure = structure_of(scene);
   structure.masses = points.masses;
   structure.springs = points.springs;
+  model.masses = points.masses;
   model.system = plate::assemble(model.mesh, structure, std::move(dofs), PETSC_COMM_SELF);
   model.dofs = {.count = model.mesh.sectors.count,
                 .n_blocks = model.system.dofs.n_active(),

@@ -30,7 +30,8 @@ struct SectorInterface {
 
 struct SectorModel {
   mesh::Mesh mesh;
-  plate::System system;  ///< of one rank
+  std::vector<plate::PointMass> masses;  ///< lumped, of the sector: its share of those on the axis
+  plate::System system;                  ///< of one rank
   cyclic::SectorDofs dofs;
   SectorInterface interface;
 };

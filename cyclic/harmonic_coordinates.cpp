@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cyclic/mirror.hpp"
+
 namespace chladni::cyclic {
 
 namespace {
@@ -61,7 +63,9 @@ class Builder {
                           .Y = rows_of(y_),
                           .masters = std::move(masters_),
                           .partner = std::move(partner_),
-                          .sign = std::move(sign_)};
+                          .sign = std::move(sign_),
+                          .origins = std::move(origins_)};
+    if (sector_.mirror && !one_phase_) c.symmetric = symmetric_motions(c, sector_);
     return c;
   }
 
@@ -75,8 +79,9 @@ class Builder {
     return it == sector_.components.end() ? -1 : static_cast<int>(it - sector_.components.begin());
   }
 
-  int new_coordinate()
+  int new_coordinate(const CoordinateOrigin& origin)
   {
+    origins_.push_back(origin);
     partner_.push_back(-1);
     sign_.push_back(0.0);
     return static_cast<int>(partner_.size()) - 1;
@@ -101,10 +106,16 @@ class Builder {
   {
     const int first = static_cast<int>(partner_.size());
     const int n = n_components();
-    for (int i = 0; i < n; ++i) put(x_, block, i, new_coordinate(), 1.0);
+    const auto new_one = [&](int i, bool of_y) {
+      return new_coordinate({.block = block,
+                             .place = 0,
+                             .component = sector_.components[std::size_t(i)],
+                             .of_y = of_y});
+    };
+    for (int i = 0; i < n; ++i) put(x_, block, i, new_one(i, false), 1.0);
     if (one_phase_) return first;
     for (int i = 0; i < n; ++i) {
-      put(y_, block, i, new_coordinate(), 1.0);
+      put(y_, block, i, new_one(i, true), 1.0);
       pair(first + i, first + n + i, 1.0);  // x' = -y, y' = x
     }
     return first;
@@ -144,7 +155,8 @@ class Builder {
       const int i = place_of(component);
       const bool is_along = component % 3 == 2;
       if (i < 0 || order_ != (is_along ? 0 : 1)) continue;
-      const int coordinate = new_coordinate();
+      const int coordinate =
+          new_coordinate({.block = block, .place = 0, .component = component, .of_y = false});
       masters_.push_back(
           {.ring = -1, .place = index, .component = component, .coordinate = coordinate});
       put(x_, block, i, coordinate, 1.0);
@@ -173,12 +185,12 @@ class Builder {
       if (!belongs(order_of(place), sense)) continue;
       const int first = static_cast<int>(partner_.size());
       for (int j = 0; j < n_components(); ++j) {
-        const int coordinate = new_coordinate();
+        const int component = sector_.components[std::size_t(j)];
+        const int coordinate =
+            new_coordinate({.block = -1, .place = place, .component = component, .of_y = false});
         if (order_of(place) <= ring.up_to) {
-          masters_.push_back({.ring = index,
-                              .place = place,
-                              .component = sector_.components[std::size_t(j)],
-                              .coordinate = coordinate});
+          masters_.push_back(
+              {.ring = index, .place = place, .component = component, .coordinate = coordinate});
         }
         // c_cos' = sense c_sin, c_sin' = -sense c_cos
         if (is_sine(place) && !one_phase_) pair(coordinate - n_components(), coordinate, -sense);
@@ -223,6 +235,7 @@ class Builder {
   std::vector<Master> masters_;
   std::vector<int> partner_;
   std::vector<double> sign_;
+  std::vector<CoordinateOrigin> origins_;
 };
 
 }  // namespace
@@ -237,7 +250,7 @@ SparseRows harmonic_form(const SparseRows& A, const HarmonicCoordinates& c)
   constexpr double round_off = 1e-14;
   const SparseRows AX = A * c.X;
   SparseRows sum = SparseRows(c.X.transpose()) * AX;
-  if (!c.has_one_phase()) {
+  if (c.Y.nonZeros() > 0) {
     const SparseRows AY = A * c.Y;
     sum += SparseRows(SparseRows(c.Y.transpose()) * AY);
   }

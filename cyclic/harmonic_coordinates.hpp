@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct Master {
   int coordinate;  ///< row of the harmonic's matrices
 };
 
+/// What a coordinate moves.
+struct CoordinateOrigin {
+  int block;      ///< of the node whose component it is; -1 for a harmonic of a ring
+  int place;      ///< of that harmonic
+  int component;  ///< 0 .. 5
+  bool of_y;      ///< of a node: in y
+};
+
 /// The motions of the whole body that belong to one harmonic, in real coordinates c. Sector j moves
 /// as R^j (cos(j mu) x - sin(j mu) y) with x = X c, y = Y c and R the turn by one sector, so that
 ///   u^T K u = c^T [weight (X^T K_1 X + Y^T K_1 Y)] c
@@ -34,9 +43,16 @@ struct HarmonicCoordinates {
   /// `sign[i]` c[`partner[i]`]. It leaves the energies as they are: each eigenvalue is double.
   std::vector<int> partner;
   std::vector<double> sign;
+  std::vector<CoordinateOrigin> origins;
+  SparseRows symmetric = {};  ///< `symmetric_motions` where there are a mirror and two phases
 
   int n() const { return static_cast<int>(X.cols()); }
   bool has_one_phase() const { return cyclic::has_one_phase(order, count); }
+};
+
+/// How the sector's DOFs move, in the two phases of HarmonicCoordinates.
+struct SectorMotion {
+  Eigen::MatrixXd x, y;  ///< [n_dofs x n]
 };
 
 /// Source: Thomas, Int. J. Numer. Methods Eng. 14 (1979) 81.

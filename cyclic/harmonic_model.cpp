@@ -7,6 +7,7 @@
 #include "common/eigen_every.hpp"
 #include "cyclic/exact_pairs.hpp"
 #include "cyclic/sparse_rows.hpp"
+#include "cyclic/symmetric_half.hpp"
 #include "reduce/basis_rows.hpp"
 #include "reduce/held_masters.hpp"
 #include "reduce/project_form.hpp"
@@ -76,9 +77,25 @@ MatrixXd commuting(const MatrixXd& A, const QuarterTurn& J)
   return 0.5 * sum;
 }
 
+/// The whole harmonic of its symmetric half.
+void unfold(HarmonicModel& model)
+{
+  const MasterHalves masters = master_halves(model.coordinates, *model.half);
+  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+    if (A->size() > 0) *A = unfolded_form(*A, masters);
+  const Index n = model.omega.size();
+  model.W = MatrixXd::Identity(n, n);
+  model.omega = model.omega.transpose().replicate<2, 1>().reshaped().eval();
+  model.certificate = unfolded_certificate(model.certificate);
+  const QuarterTurn J = quarter_turn(model.coordinates, model.omega.size());
+  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+    if (A->size() > 0) *A = commuting(*A, J);
+}
+
 /// Modes in exact pairs, and matrices that commute with J to the last bit.
 void make_pairs(HarmonicModel& model)
 {
+  if (model.half) return unfold(model);
   const HarmonicCoordinates& c = model.coordinates;
   const Index n_m = model.n_masters(), n_modes = model.omega.size();
   model.W = MatrixXd::Identity(n_modes, n_modes);
@@ -95,21 +112,6 @@ void make_pairs(HarmonicModel& model)
   const QuarterTurn J = quarter_turn(c, model.omega.size());
   for (MatrixXd* A : {&model.K, &model.M, &model.C})
     if (A->size() > 0) *A = commuting(in_pairs(*A, n_m, model.W), J);
-}
-
-/// Fixed-interface modes below a frequency: a few at a time, since a harmonic has few.
-int modes_below(double cutoff_Hz, const reduce::FactoredBody& body)
-{
-  const double cutoff = 2.0 * std::numbers::pi * cutoff_Hz;
-  PetscInt n_slaves = 0;
-  petsc::check(MatGetSize(body.K_blocks.ss, &n_slaves, nullptr));
-  for (int asked = 4;; asked *= 2) {
-    const int most = std::min(asked, static_cast<int>(n_slaves));
-    const std::vector<double> omega =
-        reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss, {.modes = most}).omega;
-    if (omega.back() >= cutoff || std::ssize(omega) >= n_slaves)
-      return static_cast<int>(std::ranges::lower_bound(omega, cutoff) - omega.begin());
-  }
 }
 
 /// Modes that only the certificate needed: it says that the harmonic has nothing below them.
@@ -129,19 +131,18 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                               reduce::PhaseListener& phases)
 {
   phases.begin("harmonic matrices");
-  reduce::Body whole = body_of(sector, coordinates);
+  std::optional<HarmonicCoordinates> half;
+  if (coordinates.symmetric.size() > 0) half = symmetric_half(coordinates);
+  const HarmonicCoordinates& solved = half ? *half : coordinates;
+  reduce::Body whole = body_of(sector, solved);
   std::vector<PetscInt> held;
-  for (const Master& master : coordinates.masters)
+  for (const Master& master : solved.masters)
     if (is_held(master)) held.push_back(master.coordinate);
   const reduce::HeldMasters support(whole.masters, std::move(held));
   reduce::FactoredBody body = reduce::factored(std::move(whole), options, phases);
-  const int n_below = options.basis.cutoff_Hz ? modes_below(*options.basis.cutoff_Hz, body) : -1;
-  const bool beyond = n_below == 0;
   reduce::ReductionOptions chosen = options;
-  if (n_below >= 0) {
-    chosen.basis.cutoff_Hz.reset();
-    chosen.basis.modes = std::max(n_below, 1);
-  }
+  chosen.basis.at_least = 1;  // of which the certificate learns that there are none below
+  chosen.basis.expected = 4;  // a harmonic has few
   reduce::Reduction reduction = reduce::reduction(body, chosen, support, phases);
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   HarmonicModel model{.coordinates = std::move(coordinates),
@@ -151,20 +152,22 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                       .omega = Eigen::Map<const VectorXd>(reduction.model.omega.data(),
                                                           std::ssize(reduction.model.omega)),
                       .certificate = std::move(reduction.certificate),
+                      .half = std::move(half),
                       .body = std::move(body),
                       .basis = std::move(reduction.Q_CB),
                       .places = std::move(places),
                       .W = {}};
   if (sector.C.size() > 0) {
-    const petsc::Matrix C =
-        as_matrix(harmonic_form(sector.C, model.coordinates), Symmetry::symmetric);
+    const petsc::Matrix C = as_matrix(harmonic_form(sector.C, model.solved()), Symmetry::symmetric);
     model.C = reduce::project_form(model.basis, reduce::split(C, model.body.dofs))(model.places,
                                                                                    model.places);
   }
   phases.begin("pairs");
   make_pairs(model);
   phases.end();
-  if (beyond) leave_out_modes(model);
+  const double cutoff = 2.0 * std::numbers::pi * options.basis.cutoff_Hz.value_or(0.0);
+  if (options.basis.cutoff_Hz && model.omega.size() > 0 && model.omega[0] >= cutoff)
+    leave_out_modes(model);
   return model;
 }
 
@@ -172,17 +175,28 @@ std::vector<double> lowest_held_frequencies(const SectorMatrices& sector,
                                             const HarmonicCoordinates& coordinates, int count,
                                             const reduce::ReductionOptions& options)
 {
-  reduce::PhaseListener silent;
-  const reduce::FactoredBody body = reduce::factored(body_of(sector, coordinates), options, silent);
+  const bool is_half = coordinates.symmetric.size() > 0;
+  const reduce::FactoredBody body = [&] {
+    reduce::PhaseListener silent;
+    return reduce::factored(body_of(sector, is_half ? symmetric_half(coordinates) : coordinates),
+                            options, silent);
+  }();
   PetscInt n_slaves = 0;
   petsc::check(MatGetSize(body.K_blocks.ss, &n_slaves, nullptr));
-  reduce::ReduceOptions wanted{.modes = std::min(count, static_cast<int>(n_slaves))};
-  return reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted).omega;
+  const int n = is_half ? (count + 1) / 2 : count;
+  std::vector<double> omega =
+      reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss,
+                                    {.modes = std::min(n, static_cast<int>(n_slaves))})
+          .omega;
+  if (!is_half) return omega;
+  std::vector<double> pairs;
+  for (const double value : omega) pairs.insert(pairs.end(), 2, value);
+  return pairs;
 }
 
 SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs)
 {
-  const HarmonicCoordinates& c = model.coordinates;
+  const HarmonicCoordinates& c = model.solved();
   std::map<int, Index> row_of;
   for (const int dof : dofs) {
     for (const SparseRows* T : {&c.X, &c.Y})
@@ -194,7 +208,7 @@ SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs
     wanted.push_back(coordinate);
   }
   const MatrixXd Q = reduce::basis_rows(model.basis, model.body.dofs, wanted)(every, model.places);
-  const Index n_m = model.n_masters(), n = n_m + model.W.cols();
+  const Index n_m = std::ssize(c.masters), n = n_m + model.W.cols();
   MatrixXd rows(Q.rows(), n);
   rows << Q.leftCols(n_m), Q.rightCols(model.W.rows()) * model.W;
   SectorMotion motion{.x = MatrixXd::Zero(std::ssize(dofs), n),
@@ -206,7 +220,8 @@ SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs
     for (SparseRows::InnerIterator it(c.Y, dof); it; ++it)
       motion.y.row(i) += it.value() * rows.row(row_of.at(int(it.index())));
   }
-  return motion;
+  if (!model.half) return motion;
+  return unfolded_motion(motion, master_halves(model.coordinates, c));
 }
 
 }  // namespace chladni::cyclic

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,17 +25,15 @@ struct HarmonicModel {
   Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
   Eigen::VectorXd omega;    ///< [n_modes] rad/s
   reduce::Certificate certificate;
+  /// What was factored: the symmetric half, where the sector has a mirror.
+  std::optional<HarmonicCoordinates> half;
   reduce::FactoredBody body;
   reduce::CraigBamptonBasis basis;
   std::vector<int> places;  ///< `reduce::coordinate_places`
-  Eigen::MatrixXd W;        ///< of the modes, `ExactPairs`
+  Eigen::MatrixXd W;        ///< of the modes, `ExactPairs`; of a half one column for each pair
 
   Eigen::Index n_masters() const { return std::ssize(coordinates.masters); }
-};
-
-/// How the sector's DOFs move, in the two phases of HarmonicCoordinates.
-struct SectorMotion {
-  Eigen::MatrixXd x, y;  ///< [n_dofs x n_masters + n_modes]
+  const HarmonicCoordinates& solved() const { return half ? *half : coordinates; }
 };
 
 /// Reduces one harmonic by the methods of `reduce::reduction`, with masters as its masters.

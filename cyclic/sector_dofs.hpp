@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 /// Bodies of equal sectors about the z axis, of which one has been assembled.
@@ -15,6 +16,12 @@ struct Ring {
   int up_to;                   ///< highest harmonic that is a master
 };
 
+/// A plane through the axis at which the sector is its own image.
+struct Mirror {
+  double angle;            ///< of the plane, rad
+  std::vector<int> image;  ///< [n_blocks] the block at each block's mirrored place
+};
+
 /// The DOFs of the assembled sector: blocks of `components`, a block for each node that has DOFs.
 struct SectorDofs {
   int count;  ///< of sectors, at least 3
@@ -23,6 +30,7 @@ struct SectorDofs {
   std::vector<std::array<int, 2>> edges;  ///< blocks of the cut edges: a turn takes [0] to [1]
   std::vector<int> axis;                  ///< blocks of nodes on the axis; all are masters
   std::vector<Ring> rings;
+  std::optional<Mirror> mirror = {};  ///< `find_mirror`
 
   int n_dofs() const { return n_blocks * static_cast<int>(components.size()); }
 };

@@ -25,14 +25,15 @@ FixedInterfaceModes modes_by_number(ModeSearch& search, PetscInt n_modes)
   return search.leading(search.complete_cluster(n_modes));
 }
 
-FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
+FixedInterfaceModes modes_below(ModeSearch& search, const ReduceOptions& wanted)
 {
+  const double omega_cutoff = 2.0 * std::numbers::pi * *wanted.cutoff_Hz;
   const std::vector<double>& omega = search.omega();
   PetscInt n_asked = 0;
   PetscInt n_found = 0;
   do {  // half as many more, until one is above or there are no others
     n_found = static_cast<PetscInt>(omega.size());
-    n_asked = std::max<PetscInt>(32, n_found + n_found / 2);
+    n_asked = std::max<PetscInt>(wanted.expected, n_found + n_found / 2);
     search.find(n_asked);
     if (omega.empty()) {
       search.require_resolved(linear::all_of_them);
@@ -40,8 +41,10 @@ FixedInterfaceModes modes_below(ModeSearch& search, double omega_cutoff)
     }
   } while (omega.back() < omega_cutoff && std::ssize(omega) > n_found);
   search.require_resolved(std::pow(omega_cutoff, 2));
-  const auto n =
+  const auto n_below =
       static_cast<PetscInt>(std::ranges::lower_bound(omega, omega_cutoff) - omega.begin());
+  const auto n_there = static_cast<PetscInt>(omega.size());
+  const PetscInt n = std::max(n_below, std::min<PetscInt>(wanted.at_least, n_there));
   if (n > 0) return search.leading(search.complete_cluster(n));
   throw Error(fmt::format(
       "fixed_interface_modes: no mode below {:.6g} Hz (the first is at {:.6g} Hz); raise "
@@ -57,7 +60,7 @@ FixedInterfaceModes fixed_interface_modes(const linear::Factorization& K_ss, Mat
 {
   ModeSearch search(K_ss, M_ss, require_memory);
   if (wanted.modes) return modes_by_number(search, *wanted.modes);
-  if (wanted.cutoff_Hz) return modes_below(search, 2.0 * std::numbers::pi * *wanted.cutoff_Hz);
+  if (wanted.cutoff_Hz) return modes_below(search, wanted);
   throw Error("fixed_interface_modes: give the number of modes or cutoff_Hz");
 }
 

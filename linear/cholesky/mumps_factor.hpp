@@ -1,15 +1,30 @@
 #pragma once
 
 #include <dmumps_c.h>
+#include <petsc/private/petscimpl.h>
 
 #include <string>
 #include <vector>
 
 #include "linear/cholesky/cholesky_factor.hpp"
 #include "linear/cholesky/row_exchange.hpp"
-#include "linear/kernels/matrix_state.hpp"
 
 namespace chladni::linear {
+
+/// Which matrix with which values.
+struct MatrixState {
+  PetscObjectId id = 0;
+  PetscObjectState state = 0;
+  bool operator==(const MatrixState&) const = default;
+};
+
+inline MatrixState state_of(Mat A)
+{
+  MatrixState now;
+  petsc::check(PetscObjectGetId(reinterpret_cast<PetscObject>(A), &now.id));
+  petsc::check(PetscObjectStateGet(reinterpret_cast<PetscObject>(A), &now.state));
+  return now;
+}
 
 /// What is known of a matrix.
 enum class Definiteness { positive, unknown };

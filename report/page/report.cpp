@@ -22,6 +22,7 @@
 #include "report/page/numbers.hpp"
 #include "report/page/page.hpp"
 #include "report/page/shapes.hpp"
+#include "report/page/squeal_motions.hpp"
 #include "report/page/squeal_results.hpp"
 #include "report/version.hpp"
 #include "scene/scene.hpp"

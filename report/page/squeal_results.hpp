@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "report/json.hpp"
-#include "report/page/shapes.hpp"
 #include "squeal/results/results.hpp"
 
 namespace chladni::report {
@@ -12,11 +11,5 @@ namespace chladni::report {
 /// map, envelope, forces, orbit, limit cycles, spectrum, growth. What was not asked for is absent.
 /// Long histories are thinned to the smallest and largest values of windows.
 std::vector<Json::Member> squeal_members(const squeal::SquealResults& results);
-
-/// The motions that a study found: the limit cycle, and the least stable oscillation.
-/// @param mode_numbers  1-based numbers in the body of the modes that the study used
-/// @param n_modes       of the body
-std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
-                                   const std::vector<int>& mode_numbers, Eigen::Index n_modes);
 
 }  // namespace chladni::report

@@ -2,6 +2,7 @@
 
 #include "report/describe.hpp"
 #include "report/output.hpp"
+#include "report/page/squeal_motions.hpp"
 #include "report/page/squeal_results.hpp"
 #include "squeal/brake/radiation.hpp"
 #include "squeal/results/result_file.hpp"

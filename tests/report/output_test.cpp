@@ -7,7 +7,7 @@
 
 #include "common/error.hpp"
 #include "report/json.hpp"
-#include "report/page/squeal_results.hpp"
+#include "report/page/squeal_motions.hpp"
 #include "report/timing.hpp"
 
 namespace chladni::report {

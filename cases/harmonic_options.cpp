@@ -1,0 +1,96 @@
+#include "cases/harmonic_options.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "cases/ranks.hpp"
+#include "common/all_ranks.hpp"
+#include "common/error.hpp"
+
+namespace chladni::cases {
+
+namespace {
+
+/// All ranks' numbers in one list.
+std::vector<double> joined(const std::vector<double>& own)
+{
+  const auto n = static_cast<int>(own.size());
+  const auto ranks = static_cast<std::size_t>(n_ranks());
+  std::vector<int> sizes(ranks), starts(ranks, 0);
+  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  for (std::size_t r = 1; r < sizes.size(); ++r) starts[r] = starts[r - 1] + sizes[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
+  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE,
+                 PETSC_COMM_WORLD);
+  return all;
+}
+
+/// The frequency below which the whole body has so many fixed-interface modes, Hz, both of a pair
+/// with it.
+double frequency_of_modes(int n_modes, const SectorModel& model,
+                          const cyclic::SectorMatrices& matrices,
+                          const reduce::ReductionOptions& options)
+{
+  const int count = model.dofs.count;
+  const std::vector<int> orders = own_harmonics(count);
+  int asked = 2 + 4 * n_modes / cyclic::n_harmonics(count);
+  std::vector<std::vector<double>> omega(orders.size());
+  for (;;) {
+    std::vector<double> own, last;
+    on_all_ranks(PETSC_COMM_WORLD, [&] {
+      for (std::size_t i = 0; i < orders.size(); ++i) {
+        if (std::ssize(omega[i]) < asked) {
+          omega[i] = cyclic::lowest_held_frequencies(
+              matrices, cyclic::harmonic_coordinates(model.dofs, orders[i]), asked, options);
+        }
+        own.insert(own.end(), omega[i].begin(), omega[i].end());
+        last.push_back(omega[i].back());
+      }
+      return 0;
+    });
+    std::vector<double> all = joined(own);
+    const std::vector<double> ends = joined(last);
+    std::ranges::sort(all);
+    if (std::ssize(all) >= n_modes) {
+      constexpr double both = 1.0 + 1e-6;
+      const double wanted = all[std::size_t(n_modes - 1)] * both;
+      if (std::ranges::all_of(ends, [&](double end) { return end > wanted; }))
+        return wanted / (2.0 * std::numbers::pi);
+    }
+    asked *= 2;
+  }
+}
+
+}  // namespace
+
+std::vector<int> own_harmonics(int count)
+{
+  std::vector<int> orders;
+  for (int n = rank(); n < cyclic::n_harmonics(count); n += n_ranks()) orders.push_back(n);
+  return orders;
+}
+
+reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
+                                          const cyclic::SectorMatrices& matrices,
+                                          const linear::SolverOptions& solver)
+{
+  reduce::ReductionOptions options{.basis = scene.reduce,
+                                   .solver = solver,
+                                   .count = scene.sylvester,
+                                   .keeps_matrices = true,
+                                   .later = {}};
+  const bool is_known = scene.reduce.method == reduce::Method::craig_bampton ||
+                        scene.reduce.method == reduce::Method::guyan;
+  if (!is_known)
+    throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
+  if (scene.reduce.modes) {
+    options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
+    options.basis.modes.reset();
+  }
+  if (options.basis.cutoff_Hz) options.basis.certified_up_to_Hz = options.basis.cutoff_Hz;
+  return options;
+}
+
+}  // namespace chladni::cases

@@ -1,0 +1,162 @@
+#include "cyclic/mirror.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+#include "cyclic/symmetric_half.hpp"
+
+namespace chladni::cyclic {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr int count = 6;
+constexpr double step = 2.0 * std::numbers::pi / count, first = 0.2;
+
+/// A sector of eight nodes: two of a ring at the cut edges and one between, two at the cut edges,
+/// two inside that are each other's image, and one on the axis.
+struct MirroredSector {
+  SectorDofs dofs{.count = count,
+                  .n_blocks = 8,
+                  .components = {0, 1, 2, 3, 4, 5},
+                  .edges = {{{0, 1}}, {{3, 4}}},
+                  .axis = {7},
+                  .rings = {}};
+  Eigen::MatrixX3d positions = Eigen::MatrixX3d::Zero(8, 3);
+  MatrixXd K;
+
+  explicit MirroredSector(unsigned seed)
+  {
+    std::srand(seed);
+    place(0, 1.0, first, 0.0);
+    place(1, 1.0, first + step, 0.0);
+    place(2, 1.0, first + 0.5 * step, 0.0);
+    place(3, 2.0, first, 0.3);
+    place(4, 2.0, first + step, 0.3);
+    place(5, 1.5, first + 0.3 * step, 0.1);
+    place(6, 1.5, first + 0.7 * step, 0.1);
+    dofs.rings.push_back({.blocks = {0, 1, 2},
+                          .angles = {first, first + step, first + 0.5 * step},
+                          .n_nodes = 2 * count,
+                          .first_angle = first,
+                          .up_to = count});
+    const MatrixXd A = MatrixXd::Random(48, 48), S = mirror();
+    const MatrixXd any = A * A.transpose() + MatrixXd::Identity(48, 48);
+    K = 0.5 * (any + S * any * S.transpose());
+  }
+
+  void place(int block, double r, double angle, double z)
+  {
+    positions.row(block) << r * std::cos(angle), r * std::sin(angle), z;
+  }
+
+  static MatrixXd mirror()
+  {
+    const double angle = first + 0.5 * step;
+    const Eigen::Vector3d normal(-std::sin(angle), std::cos(angle), 0.0);
+    const Eigen::Matrix3d Q = Eigen::Matrix3d::Identity() - 2.0 * normal * normal.transpose();
+    MatrixXd S = MatrixXd::Zero(48, 48);
+    const int image[] = {1, 0, 2, 4, 3, 6, 5, 7};
+    for (int block = 0; block < 8; ++block) {
+      S.block<3, 3>(6 * block, 6 * image[block]) = Q;
+      S.block<3, 3>(6 * block + 3, 6 * image[block] + 3) = -Q;
+    }
+    return S;
+  }
+
+  SparseRows form() const
+  {
+    SparseRows rows = K.sparseView(0.0, 0.0);
+    rows.makeCompressed();
+    return rows;
+  }
+};
+
+VectorXd eigenvalues(const MatrixXd& A)
+{
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+TEST(Mirror, IsFoundWherePositionsAndMatricesHaveIt)
+{
+  const MirroredSector sector(3);
+  const SparseRows K = sector.form();
+  const auto mirror = find_mirror(sector.dofs, sector.positions, {&K});
+  ASSERT_TRUE(mirror);
+  EXPECT_NEAR(mirror->angle, first + 0.5 * step, 1e-14);
+  EXPECT_EQ(mirror->image, (std::vector<int>{1, 0, 2, 4, 3, 6, 5, 7}));
+}
+
+TEST(Mirror, IsNotSeenWhereOneEntryOrOnePositionDiffers)
+{
+  const MirroredSector sector(3);
+  MirroredSector stiffer = sector, moved = sector, curved = sector;
+  stiffer.K(30, 30) *= 1.0 + 1e-7;
+  const SparseRows K = sector.form(), other = stiffer.form();
+  EXPECT_FALSE(find_mirror(sector.dofs, sector.positions, {&K, &other}));
+  moved.positions(5, 2) += 1e-4;
+  EXPECT_FALSE(find_mirror(moved.dofs, moved.positions, {&K}));
+  curved.place(3, 2.0, first + 0.05, 0.3);  // a cut that is not straight
+  curved.place(4, 2.0, first + 0.05 + step, 0.3);
+  EXPECT_FALSE(find_mirror(curved.dofs, curved.positions, {&K}));
+}
+
+TEST(SymmetricMotions, HaveEachEigenvalueOnceOfThoseThatAreDouble)
+{
+  MirroredSector sector(4);
+  const SparseRows K_1 = sector.form();
+  sector.dofs.mirror = find_mirror(sector.dofs, sector.positions, {&K_1});
+  for (const int n : {1, 2}) {
+    const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n);
+    const MatrixXd B(c.symmetric), K(harmonic_form(K_1, c));
+    ASSERT_EQ(2 * B.cols(), c.n()) << n;
+    EXPECT_LT((B.transpose() * B - MatrixXd::Identity(B.cols(), B.cols())).norm(), 1e-14) << n;
+    SparseRows unit(c.n(), c.n());
+    unit.setIdentity();
+    const MatrixXd J(times_quarter_turn(unit, c));
+    EXPECT_LT((B.transpose() * K * J * B).norm(), 1e-13 * K.norm()) << n;
+    const VectorXd once = eigenvalues(B.transpose() * K * B), all = eigenvalues(K);
+    for (Index k = 0; k < once.size(); ++k) {
+      EXPECT_NEAR(once[k], all[2 * k], 1e-12 * all[2 * k]) << n;
+      EXPECT_NEAR(once[k], all[2 * k + 1], 1e-12 * all[2 * k]) << n;
+    }
+  }
+}
+
+TEST(SymmetricHalf, UnfoldsToTheMastersOfTheWholeHarmonic)
+{
+  MirroredSector sector(5);
+  const SparseRows K_1 = sector.form();
+  sector.dofs.mirror = find_mirror(sector.dofs, sector.positions, {&K_1});
+  for (const int n : {1, 2}) {
+    const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, n), half = symmetric_half(c);
+    ASSERT_EQ(2 * half.masters.size(), c.masters.size()) << n;
+    std::vector<int> whole_rows, half_rows;
+    for (const Master& master : c.masters) whole_rows.push_back(master.coordinate);
+    for (const Master& master : half.masters) half_rows.push_back(master.coordinate);
+    const MatrixXd K = MatrixXd(harmonic_form(K_1, c))(whole_rows, whole_rows);
+    const MatrixXd K_half = MatrixXd(harmonic_form(K_1, half))(half_rows, half_rows);
+    EXPECT_LT((unfolded_form(K_half, master_halves(c, half)) - K).norm(), 1e-14 * K.norm()) << n;
+  }
+}
+
+TEST(SymmetricHalf, MovesTheSectorAsTheWholeHarmonicDoes)
+{
+  MirroredSector sector(6);
+  const SparseRows K_1 = sector.form();
+  sector.dofs.mirror = find_mirror(sector.dofs, sector.positions, {&K_1});
+  const HarmonicCoordinates c = harmonic_coordinates(sector.dofs, 2), half = symmetric_half(c);
+  std::vector<int> whole_rows, half_rows;
+  for (const Master& master : c.masters) whole_rows.push_back(master.coordinate);
+  for (const Master& master : half.masters) half_rows.push_back(master.coordinate);
+  const SectorMotion motion = unfolded_motion(
+      {.x = MatrixXd(half.X)(Eigen::all, half_rows), .y = MatrixXd(half.Y)(Eigen::all, half_rows)},
+      master_halves(c, half));
+  EXPECT_LT((motion.x - MatrixXd(c.X)(Eigen::all, whole_rows)).norm(), 1e-14);
+  EXPECT_LT((motion.y - MatrixXd(c.Y)(Eigen::all, whole_rows)).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace chladni::cyclic
