@@ -205,12 +205,6 @@ void add_ring(const scene::Scene& scene, SectorModel& model, const std::string& 
                     "only; give fewer, or more nodes to the ring",
                     name, ring.up_to, ring.n_nodes, ring.n_nodes / 2));
   }
-  if (ring.up_to < model.mesh.sectors.count / 2) {
-    throw Error(fmt::format(
-        "ring \"{}\": harmonics = {}, but each of the harmonics 0 to {} of {} sectors needs one; "
-        "give at least that many",
-        name, ring.up_to, model.mesh.sectors.count / 2, model.mesh.sectors.count));
-  }
   model.dofs.rings.push_back(std::move(ring));
   model.interface.ring_names.push_back(name);
   model.interface.nodes.insert(model.interface.nodes.end(), own.begin(), own.end());

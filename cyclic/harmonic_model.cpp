@@ -22,7 +22,8 @@ reduce::Body body_of(const SectorMatrices& sector, const HarmonicCoordinates& c)
 {
   reduce::Body body{.K = as_matrix(harmonic_form(sector.K, c), Symmetry::symmetric),
                     .M = as_matrix(harmonic_form(sector.M, c), Symmetry::symmetric),
-                    .masters = {}};
+                    .masters = {},
+                    .may_lack_masters = true};
   for (const Master& master : c.masters) body.masters.push_back(master.coordinate);
   return body;
 }

@@ -207,6 +207,7 @@ GuyanStiffness guyan_stiffness(Mat Psi, const Blocks& K)
   const MatrixXd K_mm = linear::replicate(K.mm);
   const std::vector<double> scales = row_scales(K_mm);
   GuyanStiffness guyan{.K = condensed(K_mm, Psi, K), .R = MatrixXd(K_mm.rows(), 0)};
+  if (K_mm.size() == 0) return guyan;
   const linear::SymmetricEigen eigen = energies_of(guyan.K, scales, comm);
   const PetscInt k = n_candidates(eigen.values);
   const MatrixXd N = energies_of_rows(eigen, scales, k, Psi, K.ss);

@@ -53,7 +53,7 @@ void keep_block_size(Mat K, IS slaves)
 
 }  // namespace
 
-DofPartition partition(Mat K, IS masters)
+DofPartition partition(Mat K, IS masters, PetscInt least)
 {
   const MPI_Comm comm = petsc::communicator(K);
   PetscInt first = 0;
@@ -71,7 +71,7 @@ DofPartition partition(Mat K, IS masters)
                     "owns it) and {} are given twice",
                     total[0], n - 1, total[1]));
   }
-  if (total[2] == 0 || total[2] >= n) {
+  if (total[2] < least || total[2] >= n) {
     throw Error(
         fmt::format("partition: {} masters of {} DOFs; give at least one and leave at least "
                     "one slave",

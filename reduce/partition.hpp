@@ -16,10 +16,11 @@ struct Blocks {
 
 /// Slaves are all DOFs of `K` that are not masters.
 /// @param masters  global indices, each on the rank that owns it (in any order).
+/// @param least    masters that there must be: 0 where modes alone are wanted
 /// @note   Collective on the communicator of `K`.
-/// @throws chladni::Error when there is no master or no slave, or a master is out of range or
-/// double.
-DofPartition partition(Mat K, IS masters);
+/// @throws chladni::Error when there are fewer masters, or no slave, or a master is out of range or
+///         double.
+DofPartition partition(Mat K, IS masters, PetscInt least = 1);
 
 /// The global DOF of a row of the blocks ss, on every rank.
 /// @note   Collective.

@@ -47,7 +47,8 @@ linear::Factorization factorized(const Body& body, Mat K_ss, const DofPartition&
 FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases)
 {
   phases.begin("partition");
-  DofPartition dofs = partition(body.K, own_masters(body.K, body.masters));
+  DofPartition dofs =
+      partition(body.K, own_masters(body.K, body.masters), body.may_lack_masters ? 0 : 1);
   Blocks K = split(body.K, dofs), M = split(body.M, dofs);
   phases.begin("factorization");
   const MemoryForecast memory(body, K.ss, options);

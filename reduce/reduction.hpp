@@ -24,6 +24,7 @@ struct Body {
   petsc::Matrix R = {};           ///< [n x r] dense, rigid-body motions of the geometry, or none
   /// "node 17 (0.1, 0.2, 0), z" of a global DOF, for messages; on every rank
   std::function<std::string(PetscInt)> name_of_dof = {};
+  bool may_lack_masters = false;  ///< its modes alone are a reduced model
 };
 
 /// The memory in which the caller works afterwards, beside Psi and Phi.

@@ -25,6 +25,7 @@ TEST(Partition, RefusesNoMastersAndNoSlavesOnAllRanks)
 {
   const linear::testing::Chain chain = free_chain(6);
   EXPECT_THROW(partition(chain.K, master_set(chain.K, {})), Error);
+  EXPECT_NO_THROW(partition(chain.K, master_set(chain.K, {}), 0));
   EXPECT_THROW(partition(chain.K, master_set(chain.K, {0, 1, 2, 3, 4, 5})), Error);
 }
 
