@@ -72,6 +72,12 @@ std::vector<int> own_harmonics(int count)
   return orders;
 }
 
+void check_method(reduce::Method method)
+{
+  if (method == reduce::Method::craig_bampton || method == reduce::Method::guyan) return;
+  throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
+}
+
 reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
                                           const cyclic::SectorMatrices& matrices,
                                           const linear::SolverOptions& solver)
@@ -81,10 +87,7 @@ reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const Secto
                                    .count = scene.sylvester,
                                    .keeps_matrices = true,
                                    .later = {}};
-  const bool is_known = scene.reduce.method == reduce::Method::craig_bampton ||
-                        scene.reduce.method == reduce::Method::guyan;
-  if (!is_known)
-    throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
+  check_method(scene.reduce.method);
   if (scene.reduce.modes) {
     options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
     options.basis.modes.reset();

@@ -10,6 +10,9 @@ namespace chladni::cases {
 /// The harmonics that this rank reduces.
 std::vector<int> own_harmonics(int count);
 
+/// @throws chladni::Error for a method that harmonics do not know.
+void check_method(reduce::Method method);
+
 /// How each harmonic is reduced: a number of modes of the whole body becomes the frequency below
 /// which it has them.
 /// @note   Collective on all ranks.

@@ -9,6 +9,7 @@
 #include "cases/mass_integrals.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/picture.hpp"
+#include "cases/possible_sector.hpp"
 #include "cases/ranks.hpp"
 #include "cases/reduce_sectors.hpp"
 #include "cases/reduce_steps.hpp"
@@ -260,6 +261,7 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
   Phases phases(progress);
   phases.begin("mesh");
   mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  if (std::optional<mesh::Mesh> sector = possible_sector(scene, mesh)) mesh = std::move(*sector);
   if (mesh.sectors.count > 1) {
     const mbs_export::Provenance from = provenance(scene, solvers, mesh);
     ReduceSummary summary = reduce_sectors(scene, std::move(mesh), solvers.options, phases);

@@ -13,6 +13,7 @@
 #include "files/text_file.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/repetition.hpp"
 #include "report/fe/mesh_groups.hpp"
 #include "report/fe/mesh_page.hpp"
 #include "report/fe/mesh_quality.hpp"
@@ -105,6 +106,19 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
                     report::mesh_page(subject.title, mesh, parts, mesh_table(mesh)) + mark);
 }
 
+/// A body that repeats costs less than it seems.
+void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
+{
+  if (subject.mesh.finds_sectors || mesh.sectors.count > 1) return;
+  const int count = mesh::n_repetitions(mesh);
+  if (count < 3) return;
+  fmt::print(
+      "note: the body repeats {} times about the z axis: mesh.sectors = \"auto\" reduces it from "
+      "one "
+      "sector, at a fraction of the cost\n",
+      count);
+}
+
 void mesh_and_print(const ChladniArguments& all)
 {
   const SceneArguments& arguments = all.scene;
@@ -132,6 +146,7 @@ void mesh_and_print(const ChladniArguments& all)
              report::format_table(mesh_table(mesh)), text,
              report::format_table(report::cost_table(cost)));
   for (const std::string& note : mesh.notes) fmt::print("note: {}\n", report::printable(note));
+  tell_of_sectors(subject, mesh);
   write_summary(arguments, summary, cost);
   fmt::print("\nwrote {}\nwrote {}\n", files.vtu.string(), files.page.string());
   if (choice.quality) mesh::check_usable(mesh, arguments.scene);

@@ -137,6 +137,7 @@ struct MeshOptions {
   std::vector<RingOptions> rings = {};        ///< nodes must lie there; a .step gets them
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
   int sectors = 1;                            ///< equal ones, of which the file holds one
+  bool finds_sectors = false;                 ///< a body that repeats is reduced from one sector
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
   Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "mesh/node_grid.hpp"
 
 namespace chladni::mesh {
 
@@ -62,48 +63,6 @@ double distance_to(const Mesh& mesh, const Segment& segment, const Point& x)
   return distance(x,
                   {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
 }
-
-/// Finds nodes by place, in cells as wide as the tolerance.
-class NodeGrid {
- public:
-  NodeGrid(const Mesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance)
-  {
-    for (int i = 0; i < mesh.n_nodes(); ++i) cells_[cell(mesh.positions[i])].push_back(i);
-  }
-
-  /// The nearest node within the tolerance; -1 where none is.
-  int near(const Point& x) const
-  {
-    const Cell home = cell(x);
-    int nearest = -1;
-    double least = tolerance_;
-    for (int i = 0; i < 27; ++i) {
-      const auto found =
-          cells_.find({home[0] + i % 3 - 1, home[1] + i / 3 % 3 - 1, home[2] + i / 9 - 1});
-      if (found == cells_.end()) continue;
-      for (const int node : found->second) {
-        const double d = distance(mesh_.positions[node], x);
-        if (d > least) continue;
-        least = d;
-        nearest = node;
-      }
-    }
-    return nearest;
-  }
-
- private:
-  using Cell = std::array<std::int64_t, 3>;
-  Cell cell(const Point& x) const
-  {
-    return {std::int64_t(std::floor(x[0] / tolerance_)),
-            std::int64_t(std::floor(x[1] / tolerance_)),
-            std::int64_t(std::floor(x[2] / tolerance_))};
-  }
-
-  const Mesh& mesh_;
-  double tolerance_;
-  std::map<Cell, std::vector<int>> cells_;
-};
 
 std::string place(const Mesh& mesh, int node)
 {
@@ -201,7 +160,7 @@ void find_sector_edges(Mesh& mesh, int count)
   if (count == 1) return;
   const std::vector<Segment> segments = boundary(mesh);
   const double radius = outer_radius(mesh);
-  const NodeGrid grid(mesh, std::min(of_side * shortest(mesh, segments), radius));
+  const NodeGrid grid(mesh.positions, std::min(of_side * shortest(mesh, segments), radius));
   std::vector<bool> is_low(std::size_t(mesh.n_nodes()), false);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     if (is_on_axis(mesh.positions[node], radius)) continue;

@@ -61,8 +61,9 @@ mesh::AnnulusOptions read_annulus(const Table& mesh)
       read_element_size(mesh, width, area_of_ring(annulus.inner_radius, annulus.outer_radius));
   if (mesh.has("element_order")) annulus.element_order = read_element_order(mesh);
   annulus.sectors = read_sectors(mesh);
-  annulus.pattern = read_pattern(
-      mesh, annulus.sectors > 1 ? mesh::Pattern::structured : mesh::Pattern::unstructured);
+  annulus.pattern =
+      read_pattern(mesh, annulus.sectors > 1 || finds_sectors(mesh) ? mesh::Pattern::structured
+                                                                    : mesh::Pattern::unstructured);
   refuse_free_pattern(mesh, annulus.sectors, annulus.pattern);
   annulus.edge_row = read_edge_row(mesh, width);
   annulus.rings = read_rings(mesh, generated_groups({.annulus = annulus}),
@@ -207,8 +208,16 @@ mesh::MeshOptions read_generator(const Table& mesh)
   using Read = void (*)(const Table&, mesh::MeshOptions&);
   const Read read = mesh.choice<Read>(
       "generator",
-      {{"annulus", [](const Table& t, mesh::MeshOptions& o) { o.annulus = read_annulus(t); }},
-       {"hat_disc", [](const Table& t, mesh::MeshOptions& o) { o.hat_disc = read_hat_disc(t); }},
+      {{"annulus",
+        [](const Table& t, mesh::MeshOptions& o) {
+          o.annulus = read_annulus(t);
+          o.finds_sectors = finds_sectors(t);
+        }},
+       {"hat_disc",
+        [](const Table& t, mesh::MeshOptions& o) {
+          o.hat_disc = read_hat_disc(t);
+          o.finds_sectors = finds_sectors(t);
+        }},
        {"pad", [](const Table& t, mesh::MeshOptions& o) { o.pad = read_pad(t); }},
        {"rectangle", [](const Table& t, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t); }},
        {"beam", [](const Table& t, mesh::MeshOptions& o) { o.beam = read_beam(t); }}});

@@ -99,6 +99,7 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
   if (mesh.has("length_unit")) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   options.sectors = read_sectors(mesh);
+  options.finds_sectors = finds_sectors(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
   if (mesh.has("merge_tolerance")) options.merge_tolerance = mesh.number("merge_tolerance");
   std::vector<std::string> taken;
@@ -111,7 +112,14 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
 
 int read_sectors(const Table& mesh)
 {
-  return mesh.has("sectors") ? mesh.integer("sectors") : 1;
+  return mesh.has("sectors") && !finds_sectors(mesh) ? mesh.integer("sectors") : 1;
+}
+
+bool finds_sectors(const Table& mesh)
+{
+  if (!mesh.has("sectors") || !mesh.is_text("sectors")) return false;
+  if (mesh.text("sectors") == "auto") return true;
+  mesh.refuse("sectors", "must be an integer or \"auto\"");
 }
 
 int read_element_order(const Table& mesh)

@@ -14,8 +14,10 @@ mesh::MeshOptions read_generator(const Table& mesh);
 /// The groups that a generator makes besides its rings; empty for a file.
 std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh);
 
-/// Equal sectors of the body, 1 without the key.
+/// Equal sectors of the body, 1 without the key or where they are to be found.
 int read_sectors(const Table& mesh);
+/// sectors = "auto"
+bool finds_sectors(const Table& mesh);
 
 int read_element_order(const Table& mesh);
 

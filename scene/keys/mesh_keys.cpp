@@ -74,8 +74,8 @@ constexpr Key mesh_rows[] = {
     {"mesh.sectors",
      integer,
      "1",
-     "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed; "
-     "[sectors](sectors.md)",
+     "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed; \"auto\": "
+     "as many as the mesh of the whole body has; [sectors](sectors.md)",
      {.at_least = 3, .at_most = 1e4}},
     {"mesh.rings", tables, "none", "circles with nodes exactly on them"},
     {"mesh.rings.name", text, "required", "by which the scene speaks of it"},
