@@ -158,7 +158,7 @@ int report_failure(const std::exception& error)
 {
   // A failure is the same on all ranks as a rule; time for the first one to say it.
   if (chladni::cases::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
-  fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
+  fmt::print(stderr, "{}\n", chladni::report::said(error));
   std::fflush(nullptr);
   if (chladni::cases::n_ranks() > 1) chladni::cli::abort_all_ranks(chladni::cli::exit_failed);
   return chladni::cli::exit_failed;
@@ -218,7 +218,7 @@ int main(int argc, char** argv)
     }
     return perform_with_petsc(app, arguments);
   } catch (const std::exception& error) {  // PETSc did not start
-    fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
+    fmt::print(stderr, "{}\n", chladni::report::said(error));
     return chladni::cli::exit_failed;
   }
 }

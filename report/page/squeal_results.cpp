@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/error.hpp"
+#include "report/page/headline.hpp"
 #include "report/page/numbers.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/results/analysis_file.hpp"
@@ -224,19 +225,6 @@ Eigen::VectorXcd spread(const Eigen::VectorXcd& amplitude, const std::vector<int
   return all;
 }
 
-std::string name_of(const squeal::LimitCycle& cycle)
-{
-  if (!cycle.settled)
-    return fmt::format("End of the transient at {:.5g} rad/s, not settled", cycle.speed);
-  return fmt::format("Limit cycle at {:.5g} rad/s", cycle.speed);
-}
-
-std::string name_of(const squeal::DirectLimitCycle& cycle)
-{
-  return fmt::format("Limit cycle at {:.5g} rad/s{}", cycle.speed,
-                     cycle.stable ? "" : ", not stable");
-}
-
 template <class Cycle>
 void add_cycle(std::vector<Motion>& motions, const std::optional<Cycle>& cycle, Index n_modes)
 {
@@ -254,9 +242,9 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.eigenvalues) members.emplace_back("campbell", campbell_json(*results.eigenvalues));
   if (results.critical_speed) {
     members.emplace_back(
-        "critical",
-        Json::object({{"speed", rounded(results.critical_speed->speed)},
-                      {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)}}));
+        "critical", Json::object({{"speed", rounded(results.critical_speed->speed)},
+                                  {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)},
+                                  {"words", where_it_squeals(results)}}));
   }
   if (results.speed_stability) {
     members.emplace_back("stability",
