@@ -27,9 +27,17 @@ struct ExportArguments {
   bool stale = false;  ///< a reduced file made before a change of the scene is taken as it is
 };
 
+/// What `chladni import` takes.
+struct ImportArguments {
+  std::string deck;         ///< of Nastran or Abaqus
+  std::string length_unit;  ///< what 1 is in it: "mm"
+  std::string output;       ///< the scene to write; empty for stdout
+};
+
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.
 struct QualityChoice {
-  bool quality = false;  ///< report the shapes of the elements
+  bool quality = false;     ///< report the shapes of the elements
+  std::string length_unit;  ///< what 1 is in a deck without a scene
 };
 
 /// What `chladni sound` takes besides.
@@ -48,6 +56,7 @@ struct ChladniArguments {
   SealArguments seal;
   SelfDescription self;
   ExportArguments exported;
+  ImportArguments imported;
   report::ReportArguments report;
   std::vector<std::string> petsc_options;  ///< what stands after `--`
   linear::SolverOptions solver = {};       ///< what it says of the solvers
@@ -85,6 +94,13 @@ void check_command(const ChladniArguments& arguments);
 
 /// Writes a reduced system or a body in the format of another program. Needs no PETSc.
 void export_command(const ChladniArguments& arguments);
+
+/// Writes a scene with the mesh, the sections, materials, couplings and supports of a deck.
+/// @throws chladni::Error naming file, line and card of what is wrong or has no counterpart.
+void import_command(const ChladniArguments& arguments);
+
+/// The metres of a unit of length as scenes and options name it.
+double metres_of(const std::string& length_unit);
 
 /// The values of --format.
 const std::vector<std::string>& export_formats();

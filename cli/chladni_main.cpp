@@ -98,6 +98,25 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5");
 }
 
+void declare_length_unit(CLI::App& app, std::string& unit)
+{
+  app.add_option("--length-unit", unit, "what 1 is in the deck")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+}
+
+void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
+{
+  CLI::App* imported =
+      app.add_subcommand("import", "begins a scene with what a deck of Nastran or Abaqus says");
+  imported->add_option("DECK", arguments.deck, "*.bdf, *.nas, *.dat or *.inp")->required();
+  declare_length_unit(*imported, arguments.length_unit);
+  imported->get_option("--length-unit")->required();
+  imported->add_option("--output", arguments.output, "scene to write; else it is printed")
+      ->type_name("FILE");
+  imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");
+}
+
 void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
@@ -112,7 +131,9 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
-      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo or .step");
+      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step or "
+      "a deck");
+  declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   for (const char* reader : {"body", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag(
@@ -128,6 +149,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
       ->type_name("FILE");
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
   declare_export(app, arguments.exported);
+  declare_import(app, arguments.imported);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
   chladni::cli::declare_self_description(app, arguments.self);
@@ -140,6 +162,7 @@ void perform(const CLI::App& app, const chladni::cli::ChladniArguments& argument
 {
   for (const Subcommand& subcommand : on_scenes)
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
+  if (app.got_subcommand("import")) return chladni::cli::import_command(arguments);
   if (app.got_subcommand("export")) return chladni::cli::export_command(arguments);
   if (app.got_subcommand("report"))
     return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });
@@ -158,7 +181,7 @@ int report_failure(const std::exception& error)
 {
   // A failure is the same on all ranks as a rule; time for the first one to say it.
   if (chladni::cases::rank() != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
-  fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
+  fmt::print(stderr, "{}\n", chladni::report::said(error));
   std::fflush(nullptr);
   if (chladni::cases::n_ranks() > 1) chladni::cli::abort_all_ranks(chladni::cli::exit_failed);
   return chladni::cli::exit_failed;
@@ -218,7 +241,7 @@ int main(int argc, char** argv)
     }
     return perform_with_petsc(app, arguments);
   } catch (const std::exception& error) {  // PETSc did not start
-    fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
+    fmt::print(stderr, "{}\n", chladni::report::said(error));
     return chladni::cli::exit_failed;
   }
 }

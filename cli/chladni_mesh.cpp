@@ -10,7 +10,9 @@
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "cli/writer_mark.hpp"
+#include "common/error.hpp"
 #include "files/text_file.hpp"
+#include "mesh/decks/is_deck.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/repetition.hpp"
@@ -74,11 +76,16 @@ Subject read_subject(const ChladniArguments& arguments)
 {
   const std::string& path = arguments.scene.scene;
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+  const std::string& unit = arguments.mesh.length_unit;
+  const bool is_deck = mesh::is_deck(path);
+  if (is_deck && unit.empty()) throw Error(path + ": a deck tells no unit; say --length-unit mm");
+  if (!is_deck && !unit.empty())
+    throw Error(path + ": --length-unit is for decks without a scene; say length_unit in [mesh]");
+  if (is_deck || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;
     return {.name = std::filesystem::path(path).stem().string(),
             .title = path,
-            .mesh = {.file = path, .trust = trust}};
+            .mesh = {.file = path, .length_unit = is_deck ? metres_of(unit) : 1.0, .trust = trust}};
   }
   const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   return {.name = scene.name, .title = scene.title, .mesh = scene.mesh, .scene = scene};

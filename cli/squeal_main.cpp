@@ -95,7 +95,7 @@ int main(int argc, char** argv)
     chladni::report::finish_printing();
     return chladni::cli::exit_ok;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", chladni::report::printable(error.what()));
+    fmt::print(stderr, "{}\n", chladni::report::said(error));
     return chladni::cli::exit_failed;
   }
 }

@@ -80,8 +80,8 @@ Writer::Writer(std::string target) : replacement_(std::move(target))
   errno = 0;
   file_ = H5Fcreate(replacement_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
   if (file_ < 0) {
-    throw Error(fmt::format("{}: cannot be written ({}); an older file is left as it was", path(),
-                            errno != 0 ? std::strerror(errno) : "libhdf5 does not say why"));
+    const std::string why = errno != 0 ? std::strerror(errno) : "libhdf5 does not say why";
+    throw Error(fmt::format("{}: cannot be written ({}){}", path(), why, older_file_stays(path())));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -66,6 +67,7 @@ OutputLock::OutputLock(const fs::path& target)
     : path_((target.parent_path() / fmt::format(".{}.lock", target.filename().string())).string())
 {
   acquire(target.string());
+  if (is_held_) try_room(target.string());
   unfinished_.emplace(path_);
   if (is_held_) remove_orphans(target);
 }
@@ -93,6 +95,18 @@ void OutputLock::acquire(const std::string& target)
   } while (is_held_ && !has_name(descriptor_, path_));
   if (access(fs::path(target).parent_path().c_str(), W_OK | X_OK) == 0) return;
   const int reason = errno;
+  close(descriptor_);
+  refuse(target, reason);
+}
+
+void OutputLock::try_room(const std::string& target) const
+{
+  constexpr std::array<char, 4096> page{};
+  const ssize_t n = pwrite(descriptor_, page.data(), page.size(), 0);
+  const int reason = n < 0 ? errno : 0;
+  if (n > 0 && ftruncate(descriptor_, 0) != 0) return;  // it is removed soon
+  if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;
+  unlink(path_.c_str());
   close(descriptor_);
   refuse(target, reason);
 }

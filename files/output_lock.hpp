@@ -21,6 +21,8 @@ class OutputLock {
 
  private:
   void acquire(const std::string& target);
+  /// A disk that is full before the work is an error before the work.
+  void try_room(const std::string& target) const;
   /// Temporary files of `target` without a living writer.
   void remove_orphans(const std::filesystem::path& target) const;
 

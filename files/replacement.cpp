@@ -31,6 +31,12 @@ void synchronise_folder_of(const std::string& path)
 
 }  // namespace
 
+std::string older_file_stays(const std::string& path)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) ? "; the older file is left as it was" : "";
+}
+
 Replacement::Replacement(std::string path)
     : path_(std::move(path)),
       lock_(files::lock_output(path_)),
@@ -69,7 +75,7 @@ void Replacement::commit()
 void Replacement::fail() const
 {
   throw Error(fmt::format("{}: cannot be completed ({}){}", path_, std::strerror(errno),
-                          lock_ ? "; an older file is left as it was" : ""));
+                          lock_ ? older_file_stays(path_) : ""));
 }
 
 }  // namespace chladni::files

@@ -10,6 +10,9 @@
 
 namespace chladni::files {
 
+/// "; the older file is left as it was", where there is one, for the words of an error.
+std::string older_file_stays(const std::string& path);
+
 /// A file that is written under a temporary name beside its target and then takes the name of it. A
 /// program that stops before leaves the old file, never half of a new one. The temporary file is a
 /// new one of a name by chance, so that it is neither another process's nor a link that somebody

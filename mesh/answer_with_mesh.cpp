@@ -7,6 +7,7 @@
 #include "common/error.hpp"
 #include "confinement/confine.hpp"
 #include "confinement/errand.hpp"
+#include "mesh/decks/read_deck.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/packed_mesh.hpp"
 
@@ -49,10 +50,17 @@ int answer_with_mesh()
     confinement::Limits limits{};
     unpacker(limits.memory);
     unpacker(limits.seconds);
+    Wanted wanted{};
+    unpacker(wanted);
     const MeshOptions options = unpack_options(unpacker);
-    const Mesh mesh = read_here(options, [&] { confinement::confine(limits); });
+    const auto confine = [&] { confinement::confine(limits); };
     packer(true);
-    pack(packer, mesh);
+    if (wanted == Wanted::mesh) {
+      pack(packer, read_here(options, confine));
+    } else {
+      confine();
+      pack(packer, declarations_here(options));
+    }
   } catch (const Error& error) {
     packer = Packer{};
     packer(false);

@@ -19,8 +19,11 @@ Mesh read_here(const MeshOptions& options, const std::function<void()>& before_r
 /// @throws chladni::Error as read_here, and when that process did not come to its end.
 Mesh read_confined(const MeshOptions& options);
 
-/// What chladni-mesh-reader does: takes the options from stdin and answers with the mesh or with
-/// the message of an error.
+/// What chladni-mesh-reader is asked for.
+enum class Wanted { mesh, declarations };
+
+/// What chladni-mesh-reader does: takes the options from stdin and answers with the mesh, or with
+/// what a deck declares, or with the message of an error.
 /// @return its exit code
 int answer_with_mesh();
 

@@ -60,6 +60,50 @@ void transfer_options(auto& archive, auto& options)
   archive.each(options.line_groups, [](auto& a, auto& name) { a(name); });
 }
 
+void transfer_section(auto& archive, auto& section)
+{
+  archive(section.group);
+  archive(section.material);
+}
+
+void transfer_beam(auto& archive, auto& beam)
+{
+  transfer_section(archive, beam);
+  archive(beam.area);
+  archive(beam.I_y);
+  archive(beam.I_z);
+  archive(beam.J);
+  archive(beam.shear_factor_y);
+  archive(beam.shear_factor_z);
+  archive(beam.orientation);
+}
+
+void transfer_declarations(auto& archive, auto& declared)
+{
+  archive.each(declared.materials, [](auto& a, auto& material) {
+    a(material.name);
+    a(material.young);
+    a(material.poisson);
+    a(material.density);
+  });
+  archive.each(declared.shells, [](auto& a, auto& shell) {
+    transfer_section(a, shell);
+    a(shell.thickness);
+    a(shell.offset);
+  });
+  archive.each(declared.beams, [](auto& a, auto& beam) { transfer_beam(a, beam); });
+  archive.each(declared.couplings, [](auto& a, auto& coupling) {
+    a(coupling.name);
+    a(coupling.group);
+    a(coupling.averages);
+  });
+  archive.each(declared.supports, [](auto& a, auto& support) {
+    a(support.group);
+    a(support.components);
+  });
+  archive.each(declared.notes, [](auto& a, auto& note) { a(note); });
+}
+
 void require(bool holds, const char* what)
 {
   if (!holds) throw Error(fmt::format("the mesh that Gmsh made has {}", what));
@@ -135,6 +179,19 @@ Mesh unpack_mesh(Unpacker& unpacker)
   require(unpacker.at_end(), "more bytes than it says");
   check(mesh);
   return mesh;
+}
+
+void pack(Packer& packer, const Declarations& declared)
+{
+  transfer_declarations(packer, declared);
+}
+
+Declarations unpack_declarations(Unpacker& unpacker)
+{
+  Declarations declared;
+  transfer_declarations(unpacker, declared);
+  require(unpacker.at_end(), "more bytes than it says");
+  return declared;
 }
 
 void pack(Packer& packer, const MeshOptions& options)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/decks/declarations.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_options.hpp"
 #include "mesh/packing.hpp"
@@ -12,6 +13,10 @@ void pack(Packer& packer, const Mesh& mesh);
 /// and numbers fit together.
 /// @throws chladni::Error when they do not.
 Mesh unpack_mesh(Unpacker& unpacker);
+
+/// What a deck says besides its mesh. Whatever the bytes are, a scene checks what becomes of it.
+void pack(Packer& packer, const Declarations& declared);
+Declarations unpack_declarations(Unpacker& unpacker);
 
 /// What is said of a file: all but the generators.
 void pack(Packer& packer, const MeshOptions& options);

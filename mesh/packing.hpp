@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstring>
 #include <optional>
@@ -26,6 +27,9 @@ class Packer {
     (*this)(values.size());
     append(values.data(), values.size() * sizeof(T));
   }
+  template <typename T, std::size_t N>
+  requires std::is_arithmetic_v<T>
+  void operator()(const std::array<T, N>& values) { append(values.data(), sizeof(values)); }
   void operator()(const std::string& text)
   {
     (*this)(text.size());
@@ -80,6 +84,9 @@ class Unpacker {
     values.resize(size(sizeof(T)));
     extract(values.data(), values.size() * sizeof(T));
   }
+  template <typename T, std::size_t N>
+  requires std::is_arithmetic_v<T>
+  void operator()(std::array<T, N>& values) { extract(values.data(), sizeof(values)); }
   void operator()(std::string& text)
   {
     text.resize(size(1));

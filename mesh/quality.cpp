@@ -10,39 +10,19 @@
 
 #include "common/error.hpp"
 #include "mesh/tangents.hpp"
+#include "mesh/vectors.hpp"
 
 namespace chladni::mesh {
 
 namespace {
 
-using Vector = std::array<double, 3>;
 using Corners = std::vector<Vector>;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-Vector minus(const Vector& a, const Vector& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 Vector mean(const Vector& a, const Vector& b)
 {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-}
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double norm(const Vector& a)
-{
-  return std::sqrt(dot(a, a));
-}
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// Between 0 and pi; that of a zero vector is 0.

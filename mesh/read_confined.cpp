@@ -12,6 +12,8 @@
 #include "confinement/confine.hpp"
 #include "confinement/errand.hpp"
 #include "confinement/system_calls.hpp"
+#include "mesh/decks/is_deck.hpp"
+#include "mesh/decks/read_deck.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/packed_mesh.hpp"
 
@@ -41,7 +43,7 @@ fs::path reader_program()
       (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
 }
 
-/// A .msh takes what its size tells; what a .geo or .step makes, nobody knows.
+/// A .msh or a deck takes what its size tells; what a .geo or .step makes, nobody knows.
 confinement::Limits limits_of(const MeshOptions& options)
 {
   std::error_code unknown;
@@ -49,9 +51,9 @@ confinement::Limits limits_of(const MeshOptions& options)
   const std::uint64_t size = unknown ? 0 : found;  // the reader says what is wrong with it
   const std::uint64_t machine =
       std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-  const bool is_msh = fs::path(*options.file).extension() == ".msh";
-  const double usual = is_msh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
-  const std::uint64_t most = is_msh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
+  const bool is_mesh = fs::path(*options.file).extension() == ".msh" || is_deck(*options.file);
+  const double usual = is_mesh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
+  const std::uint64_t most = is_mesh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
   return {.memory = options.most_MiB ? std::uint64_t(*options.most_MiB) * MiB : most,
           .seconds = options.most_seconds.value_or(usual)};
 }
@@ -67,7 +69,9 @@ std::string sentence(Offence offence)
   return fmt::format("it wants to {}, which a mesh file may not; {}", what, remedy);
 }
 
-std::string sentence_on_end(const Outcome& outcome, const confinement::Limits& limits)
+/// @param reader  who reads the file: "Gmsh"
+std::string sentence_on_end(const Outcome& outcome, const confinement::Limits& limits,
+                            const char* reader)
 {
   const bool is_killed = outcome.end == End::killed_by_signal;
   // In the midst of starting a program, signals are held back; then the kernel itself kills.
@@ -77,37 +81,53 @@ std::string sentence_on_end(const Outcome& outcome, const confinement::Limits& l
                                                      : confinement::offence_of(outcome.code);
   if (offence) return sentence(*offence);
   if (outcome.end == End::took_too_long || (is_killed && outcome.code == SIGXCPU))
-    return fmt::format("Gmsh was not done with it after {:g} s; {}", limits.seconds, remedy);
+    return fmt::format("{} was not done with it after {:g} s; {}", reader, limits.seconds, remedy);
   if (outcome.end == End::said_too_much || outcome.code == confinement::exit_out_of_memory)
-    return fmt::format("Gmsh needs more than {} MiB for it; {}", limits.memory / MiB, remedy);
+    return fmt::format("{} needs more than {} MiB for it; {}", reader, limits.memory / MiB, remedy);
   return fmt::format(
-      "Gmsh crashed on it ({}): it is damaged, or meets an error of Gmsh; open it in "
-      "Gmsh itself, or make it anew",
-      is_killed ? strsignal(outcome.code) : fmt::format("exit code {}", outcome.code));
+      "{0} crashed on it ({1}): it is damaged, or meets an error of {0}; open it in "
+      "the program that it is of, or make it anew",
+      reader, is_killed ? strsignal(outcome.code) : fmt::format("exit code {}", outcome.code));
+}
+
+/// What `unpack` makes of the answer of the process that reads the file.
+auto answer_of(const MeshOptions& options, Wanted wanted, auto&& unpack)
+{
+  const confinement::Limits limits = limits_of(options);
+  Packer question;
+  question(limits.memory);
+  question(limits.seconds);
+  question(wanted);
+  pack(question, options);
+  const Outcome outcome = confinement::run({.program = reader_program(),
+                                            .question = question.bytes(),
+                                            .most_seconds = limits.seconds,
+                                            .most_bytes = limits.memory});
+  if (outcome.end != End::exited || outcome.code != 0) {
+    const char* reader = is_deck(*options.file) ? "the reader of decks" : "Gmsh";
+    throw Error(
+        fmt::format("mesh file {}: {}", *options.file, sentence_on_end(outcome, limits, reader)));
+  }
+  Unpacker answer(outcome.answer);
+  bool is_there = false;
+  answer(is_there);
+  if (is_there) return unpack(answer);
+  std::string message;
+  answer(message);
+  throw Error(message);
 }
 
 }  // namespace
 
 Mesh read_confined(const MeshOptions& options)
 {
-  const confinement::Limits limits = limits_of(options);
-  Packer question;
-  question(limits.memory);
-  question(limits.seconds);
-  pack(question, options);
-  const Outcome outcome = confinement::run({.program = reader_program(),
-                                            .question = question.bytes(),
-                                            .most_seconds = limits.seconds,
-                                            .most_bytes = limits.memory});
-  if (outcome.end != End::exited || outcome.code != 0)
-    throw Error(fmt::format("mesh file {}: {}", *options.file, sentence_on_end(outcome, limits)));
-  Unpacker answer(outcome.answer);
-  bool is_mesh = false;
-  answer(is_mesh);
-  if (is_mesh) return unpack_mesh(answer);
-  std::string message;
-  answer(message);
-  throw Error(message);
+  return answer_of(options, Wanted::mesh, unpack_mesh);
+}
+
+Declarations declarations(const MeshOptions& options)
+{
+  if (options.trust == Trust::owner) return declarations_here(options);
+  return answer_of(options, Wanted::declarations, unpack_declarations);
 }
 
 }  // namespace chladni::mesh

@@ -6,6 +6,8 @@
 
 #include "common/error.hpp"
 #include "mesh/check_msh.hpp"
+#include "mesh/decks/is_deck.hpp"
+#include "mesh/decks/read_deck.hpp"
 #include "mesh/gmsh_files.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/mesh_reader.hpp"
@@ -15,19 +17,25 @@ namespace chladni::mesh {
 
 namespace {
 
-enum class Format { msh, geo, step };
+enum class Format { msh, geo, step, deck };
 
 Format format_of(const std::string& file)
 {
   if (!std::filesystem::is_regular_file(file)) {
-    throw Error(
-        fmt::format("mesh file {} does not exist; give the path of a .msh, .geo or .step", file));
+    throw Error(fmt::format(
+        "mesh file {} does not exist; give the path of a .msh, .geo, .step, .bdf, .nas, "
+        ".dat or .inp",
+        file));
   }
+  if (is_deck(file)) return Format::deck;
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension == ".msh") return Format::msh;
   if (extension == ".geo") return Format::geo;
   if (extension == ".step" || extension == ".stp") return Format::step;
-  throw Error(fmt::format("mesh file {}: only .msh, .geo and .step files can be read", file));
+  throw Error(
+      fmt::format("mesh file {}: only .msh, .geo and .step files and decks of Nastran (.bdf, .nas, "
+                  ".dat) and Abaqus (.inp) can be read",
+                  file));
 }
 
 /// Gmsh runs the code of NAME.opt before it is done with NAME.
@@ -78,11 +86,23 @@ std::vector<std::string> open(const MeshOptions& options, Format format)
   return notes;
 }
 
+void scale(Mesh& mesh, double metres)
+{
+  for (auto& x : mesh.positions)
+    for (double& coordinate : x) coordinate *= metres;
+}
+
 }  // namespace
 
 Mesh read_here(const MeshOptions& options, const std::function<void()>& before_reading)
 {
   const Format format = format_of(*options.file);
+  if (format == Format::deck) {
+    before_reading();
+    Mesh mesh = deck_mesh(options);
+    scale(mesh, options.length_unit);
+    return mesh;
+  }
   const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
   std::vector<std::string> notes;
   const auto build = [&] {
@@ -92,9 +112,7 @@ Mesh read_here(const MeshOptions& options, const std::function<void()>& before_r
   };
   Mesh mesh = mesh_with_gmsh(build, order, options.line_groups);
   mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
-  const double metres = format == Format::step ? 1e-3 : options.length_unit;
-  for (auto& x : mesh.positions)
-    for (double& coordinate : x) coordinate *= metres;
+  scale(mesh, format == Format::step ? 1e-3 : options.length_unit);
   return mesh;
 }
 

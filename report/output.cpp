@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <numeric>
+#include <sstream>
 
 #include "common/error.hpp"
 
@@ -19,6 +22,10 @@ std::size_t width(std::string_view text)
       text, [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
 }
 
+/// Of a line that a person reads, and the least that a column is cut down to for it.
+constexpr std::size_t widest_line = 120, narrowest_cut = 30;
+
+/// The widest column gets no more than leaves the line readable.
 std::vector<std::size_t> column_widths(const TextTable& table)
 {
   std::vector<std::size_t> widths;
@@ -26,17 +33,50 @@ std::vector<std::size_t> column_widths(const TextTable& table)
     widths.push_back(width(table.header[j]));
     for (const auto& row : table.rows) widths[j] = std::max(widths[j], width(row[j]));
   }
+  const std::size_t line = std::reduce(widths.begin(), widths.end()) + 2 * (widths.size() - 1);
+  std::size_t& widest = *std::ranges::max_element(widths);
+  if (line > widest_line && widest > narrowest_cut)
+    widest = std::max(narrowest_cut, widest - std::min(widest, line - widest_line));
   return widths;
 }
 
+/// The words of a cell in lines of at most so many columns; a longer word stays whole.
+std::vector<std::string> wrapped(const std::string& cell, std::size_t most)
+{
+  if (width(cell) <= most) return {cell};
+  std::vector<std::string> lines;
+  std::istringstream words(cell);
+  for (std::string word; words >> word;)
+    if (lines.empty() || width(lines.back()) + 1 + width(word) > most)
+      lines.push_back(word);
+    else
+      lines.back() += " " + word;
+  return lines;
+}
+
+/// The lines of a cell that takes several stand flush left.
 std::string format_row(const std::vector<std::string>& cells,
                        const std::vector<std::size_t>& widths)
 {
-  std::string line = cells[0] + std::string(widths[0] - width(cells[0]), ' ');
-  for (std::size_t j = 1; j < cells.size(); ++j)
-    line += std::string(2 + widths[j] - width(cells[j]), ' ') + cells[j];
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line + "\n";
+  std::vector<std::vector<std::string>> columns;
+  std::size_t n_lines = 1;
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    columns.push_back(wrapped(cells[j], widths[j]));
+    n_lines = std::max(n_lines, columns.back().size());
+  }
+  std::string text;
+  for (std::size_t i = 0; i < n_lines; ++i) {
+    std::string line;
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+      const std::string cell = i < columns[j].size() ? columns[j][i] : "";
+      const std::string blanks(widths[j] - std::min(widths[j], width(cell)), ' ');
+      const bool is_left = j == 0 || columns[j].size() > 1;
+      line += (j > 0 ? "  " : "") + (is_left ? cell + blanks : blanks + cell);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -53,6 +93,13 @@ std::string printable(std::string_view text)
     if (is_c1) ++i;
   }
   return shown;
+}
+
+std::string said(const std::exception& error)
+{
+  if (dynamic_cast<const std::bad_alloc*>(&error) == nullptr) return printable(error.what());
+  return "out of memory; take a coarser mesh, fewer modes or fewer points, use more machines, or "
+         "raise the limit of this shell (ulimit -v)";
 }
 
 std::string format_table(const TextTable& table)

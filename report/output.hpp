@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,6 +12,10 @@ namespace chladni::report {
 /// come from files, and must not command a terminal.
 std::string printable(std::string_view text);
 
+/// What went wrong, for a terminal: the error's own words, or a sentence where memory ran out,
+/// which the standard library calls by the name of a type.
+std::string said(const std::exception& error);
+
 /// A table for terminals; every row has as many cells as the header.
 struct TextTable {
   std::vector<std::string> header;
@@ -18,6 +23,7 @@ struct TextTable {
 };
 
 /// Columns two blanks apart, the first flush left, the others flush right; ends with a newline.
+/// Where lines would be longer than 120, the cells of the widest column take several.
 std::string format_table(const TextTable& table);
 
 /// Flushes stdout.

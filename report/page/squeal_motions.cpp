@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "report/page/headline.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 
 namespace chladni::report {
@@ -37,19 +38,6 @@ Eigen::VectorXcd spread(const Eigen::VectorXcd& amplitude, const std::vector<int
   for (std::size_t i = 0; i < mode_numbers.size(); ++i)
     all[mode_numbers[i] - 1] = amplitude[static_cast<Index>(i)];
   return all;
-}
-
-std::string name_of(const squeal::LimitCycle& cycle)
-{
-  if (!cycle.settled)
-    return fmt::format("End of the transient at {:.5g} rad/s, not settled", cycle.speed);
-  return fmt::format("Limit cycle at {:.5g} rad/s", cycle.speed);
-}
-
-std::string name_of(const squeal::DirectLimitCycle& cycle)
-{
-  return fmt::format("Limit cycle at {:.5g} rad/s{}", cycle.speed,
-                     cycle.stable ? "" : ", not stable");
 }
 
 template <class Cycle>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "report/page/headline.hpp"
 #include "report/page/numbers.hpp"
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/stability/stability_search.hpp"
@@ -206,9 +207,9 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.eigenvalues) members.emplace_back("campbell", campbell_json(*results.eigenvalues));
   if (results.critical_speed) {
     members.emplace_back(
-        "critical",
-        Json::object({{"speed", rounded(results.critical_speed->speed)},
-                      {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)}}));
+        "critical", Json::object({{"speed", rounded(results.critical_speed->speed)},
+                                  {"frequency_Hz", rounded(results.critical_speed->frequency_Hz)},
+                                  {"words", where_it_squeals(results)}}));
   }
   if (results.speed_stability) {
     members.emplace_back("stability",

@@ -14,6 +14,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double steps_max = 1e10;
+/// What no brake vibrates with, and the steps that still take little time then.
+constexpr double absurd_Hz = 1e7, bearable_steps = 1e7;
 /// Periods of the lowest mode for one point of the envelope, and in the tail.
 constexpr int periods_per_window = 4;
 constexpr int periods_in_tail = 100;
@@ -32,6 +34,22 @@ constexpr double growth_start = 1e-4;
 std::int64_t parts_of(std::int64_t n_steps, std::int64_t n_parts)
 {
   return (n_steps - 1) / n_parts + 1;
+}
+
+/// Numbers of other units make bodies so stiff or light that their transients hardly end.
+void check_steps(const TransientCase& run, double n_steps, double omega_highest)
+{
+  const double highest_Hz = omega_highest / (2.0 * pi);
+  const bool is_absurd = highest_Hz > absurd_Hz;
+  if (n_steps < (is_absurd ? bearable_steps : steps_max)) return;
+  constexpr double steps_per_hour = 3.6e9;  // of two modes on one core
+  throw Error(
+      fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e}), hours: {:.1g} or more, "
+                  "since the highest mode has {:.2g} Hz; {}",
+                  run.duration, n_steps, is_absurd ? bearable_steps : steps_max,
+                  n_steps / steps_per_hour, highest_Hz,
+                  is_absurd ? "no brake has: is the density in kg/m^3 and Young's modulus in Pa?"
+                            : "simulate less, or keep fewer modes"));
 }
 
 }  // namespace
@@ -63,10 +81,7 @@ RecordingPlan recording_plan(const TransientCase& run, const FrequencyRange& ome
   check_transient(run, omega.highest);
   const double step = 2.0 * pi / (omega.highest * samples);
   const double n_steps = std::ceil(run.duration / step);
-  if (!(n_steps < steps_max)) {
-    throw Error(fmt::format("transient: {} s take {:.1e} steps (allowed: {:.0e})", run.duration,
-                            n_steps, steps_max));
-  }
+  check_steps(run, n_steps, omega.highest);
   const double steps_of_period = 2.0 * pi / (omega.lowest * step);
   const auto n = static_cast<std::int64_t>(n_steps);
   const auto tail = static_cast<std::int64_t>(periods_in_tail * steps_of_period);

@@ -12,7 +12,7 @@ from pathlib import Path
 LIGHT = ("common", "files", "linear/dense")
 LINEAR = ("common", "linear/")
 BODIES = (*LIGHT, "mbs_export/")
-MODELS = ("common", "mesh", "plate/", "reduce", "cyclic", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
+MODELS = ("common", "mesh/", "plate/", "reduce", "cyclic", "reduce_export", "linear/", "files", "mbs_export/", "squeal/", "sound")
 ALLOWED = {
     "common": (),
     "files": ("common",),
@@ -23,7 +23,8 @@ ALLOWED = {
     "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
     "linear/lanczos": ("common", "linear", "linear/kernels"),
     "confinement": ("common",),
-    "mesh": ("common", "confinement"),
+    "mesh": ("common", "confinement", "mesh/decks"),
+    "mesh/decks": ("common", "mesh"),
     "plate": ("common", "mesh"),
     "plate/elements": ("common", "mesh", "plate"),
     "plate/sections": ("common", "mesh", "plate", "plate/elements"),

@@ -70,12 +70,25 @@ def failed(case):
         case.expect("eigenvalues" not in results and "failure" in results, "old results stay without a mark")
 
 
-def full_disk(case):
+def with_room(n_bytes):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (n_bytes, n_bytes))
 
-    case.expect_error(case.run(preexec_fn=limit, restore_signals=False), RESULTS)
+    return {"preexec_fn": limit, "restore_signals": False}
+
+
+def full_disk(case):
+    done = case.run(**with_room(2000))
+    case.expect_error(done, RESULTS)
+    case.expect("older file" not in done.stderr, f"speaks of a file that is not there: {done.stderr}")
+    case.expect(not files(case.out), f"left behind: {files(case.out)}")
+
+
+def full_disk_from_the_start(case):
+    """The work is not done first."""
+    words = (case.chladni, "run", "scene.toml", "--output", "out")
+    case.expect_error(start(*words, cwd=case.folder, timeout=20, **with_room(0)), "is there room?")
     case.expect(not files(case.out), f"left behind: {files(case.out)}")
 
 
@@ -181,7 +194,7 @@ def main(programs):
         (LONG, killed),
     ]
     if (programs / "chladni").exists():
-        cases.append((DISC, kept_reduction))
+        cases += [(DISC, kept_reduction), (DISC, full_disk_from_the_start)]
     return all([passes(programs, scene, check) for scene, check in cases])
 
 

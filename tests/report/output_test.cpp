@@ -1,12 +1,18 @@
 #include "report/output.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <new>
+#include <sstream>
 
 #include "common/error.hpp"
 #include "report/json.hpp"
+#include "report/page/headline.hpp"
 #include "report/page/squeal_motions.hpp"
 #include "report/timing.hpp"
 
@@ -20,6 +26,57 @@ TEST(TextTable, AlignsNumbersRightAndCountsUtf8AsItShows)
             "mode         f\n"
             "1          9.5\n"
             "äöü-7  1672.13\n");
+}
+
+std::size_t longest_line(const std::string& text)
+{
+  std::size_t longest = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+TEST(TextTable, WrapsTheWordsOfALongCell)
+{
+  std::string warning;
+  for (int i = 0; i < 60; ++i) warning += fmt::format("{}word{}", i > 0 ? " " : "", i);
+  const TextTable table{.header = {"quantity", "value", "unit"},
+                        .rows = {{"transient, doubtful", warning, ""}, {"speed", "13.4", "rad/s"}}};
+  const std::string text = format_table(table);
+  EXPECT_LE(longest_line(text), 120U);
+  std::istringstream words(text);
+  const std::vector<std::string> found{std::istream_iterator<std::string>(words), {}};
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(std::ranges::count(found, fmt::format("word{}", i)), 1);
+  const TextTable narrow{.header = {"a", "b"}, .rows = {{"1", std::string(200, 'x')}}};
+  EXPECT_EQ(longest_line(format_table(narrow)), 203U) << "one word is not cut";
+}
+
+TEST(Said, IsASentenceWhereMemoryRanOut)
+{
+  const std::string sentence = said(std::bad_alloc());
+  EXPECT_NE(sentence.find("out of memory"), std::string::npos) << sentence;
+  EXPECT_EQ(said(Error("disc: \x1b")), "disc: ?");
+}
+
+squeal::UnstableInterval unstable_between(double from, double to)
+{
+  return {.from = {.value = from, .growth = 0.0, .frequency_Hz = 1000.0},
+          .to = {.value = to, .growth = 0.0, .frequency_Hz = 1000.0},
+          .worst = {.value = to, .growth = 1.0, .frequency_Hz = 1000.0}};
+}
+
+TEST(Headline, SaysWhereStabilityReturns)
+{
+  squeal::SquealResults results;
+  results.critical_speed = {.speed = 13.4, .frequency_Hz = 1000.0};
+  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s on at 1000 Hz");
+  const squeal::StabilityPoint first{.value = 1.0, .growth = 1.0, .frequency_Hz = 1000.0};
+  const squeal::StabilityPoint last{.value = 60.0, .growth = 1.0, .frequency_Hz = 1000.0};
+  results.speed_stability = {.from = first, .to = last, .unstable = {unstable_between(13.4, 60.0)}};
+  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s on at 1000 Hz");
+  results.speed_stability->unstable = {unstable_between(1.0, 3.0), unstable_between(13.4, 20.0)};
+  EXPECT_EQ(where_it_squeals(results),
+            "squeals from 13.4 to 20 rad/s at 1000 Hz, and in 1 other range(s) of speeds");
 }
 
 TEST(TextTable, CommandsNoTerminal)

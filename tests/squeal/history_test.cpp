@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/motion/speed_program.hpp"
 #include "squeal/transient/recorder.hpp"
@@ -84,6 +85,25 @@ TEST(RecordingPlan, OfALongRunKeepsTheFineWindowsOfItsGrowthAndHasLimits)
   const RecordingPlan low =
       recording_plan(squealing(1e4), {.lowest = 1e-3, .highest = omega.highest}, 20);
   EXPECT_LE(low.n_tail, 300000);
+}
+
+TEST(RecordingPlan, RefusesAFrequencyThatNoBrakeHas)
+{
+  const FrequencyRange gigahertz{.lowest = 2.0 * pi * 1e6, .highest = 2.0 * pi * 1e9};
+  const auto error_of = [](double duration, const FrequencyRange& omega) -> std::string {
+    try {
+      recording_plan(squealing(duration), omega, 20);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string error = error_of(0.1, gigahertz);  // 2e9 steps
+  EXPECT_NE(error.find("is the density in kg/m^3"), std::string::npos) << error;
+  EXPECT_EQ(error_of(1e-4, gigahertz), "") << "a short run of a body of other units";
+  const std::string long_run =
+      error_of(1e8, {.lowest = 2.0 * pi * 10.0, .highest = 2.0 * pi * 1e3});
+  EXPECT_NE(long_run.find("hours: 6e+02 or more"), std::string::npos) << long_run;
 }
 
 TEST(Windows, OfALongRunBecomeLonger)

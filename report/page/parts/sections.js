@@ -243,7 +243,7 @@ function drawPage() {
   const cycle = chosenCycle(page);
   const key = [page.modes && `${page.modes.length} modes`,
                page.groups && `${page.groups.length} groups`,
-               page.critical && `squeals from ${formatted(page.critical.speed)} rad/s on at ${formatted(page.critical.frequency_Hz)} Hz`,
+               page.critical && page.critical.words,
                !page.critical && page.stability && (page.stability === "unstable in the whole range" ? "unstable at all speeds"
                  : `stability over the speed: ${page.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${formatted(cycle.speed)} rad/s` +

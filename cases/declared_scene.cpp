@@ -1,0 +1,108 @@
+#include "cases/declared_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace chladni::cases {
+namespace {
+
+/// A TOML string; quotes and control characters cannot end it.
+std::string quoted(const std::string& text)
+{
+  std::string written = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      written += fmt::format("\\{}", c);
+    else if (code < 0x20 || code == 0x7F)
+      written += fmt::format("\\u{:04x}", code);
+    else
+      written += c;
+  }
+  return written + "\"";
+}
+
+/// The shortest digits that are the number again, as TOML wants them.
+std::string number(double x)
+{
+  const std::string digits = fmt::format("{}", x);
+  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string material(const mesh::DeclaredMaterial& material)
+{
+  return fmt::format("\n[material.{}]\nyoung = {}\npoisson = {}\ndensity = {}\n",
+                     quoted(material.name), number(material.young), number(material.poisson),
+                     number(material.density));
+}
+
+std::string shell(const mesh::DeclaredShell& shell)
+{
+  std::string text =
+      fmt::format("\n[[section]]\ngroup = {}\ntype = \"shell\"\nmaterial = {}\nthickness = {}\n",
+                  quoted(shell.group), quoted(shell.material), number(shell.thickness));
+  if (shell.offset != 0.0) text += fmt::format("offset = {}\n", number(shell.offset));
+  return text;
+}
+
+std::string beam(const mesh::DeclaredBeam& beam)
+{
+  std::string text = fmt::format(
+      "\n[[section]]\ngroup = {}\ntype = \"beam\"\nmaterial = {}\narea = {}\nI_y = {}\nI_z = {}\n"
+      "J = {}\n",
+      quoted(beam.group), quoted(beam.material), number(beam.area), number(beam.I_y),
+      number(beam.I_z), number(beam.J));
+  if (beam.shear_factor_y && beam.shear_factor_z) {
+    text += fmt::format("shear_factor_y = {}\nshear_factor_z = {}\n", number(*beam.shear_factor_y),
+                        number(*beam.shear_factor_z));
+  } else {
+    text += "theory = \"bernoulli-euler\"\n";
+  }
+  if (beam.orientation) {
+    const auto& v = *beam.orientation;
+    text += fmt::format("orientation = [{}, {}, {}]\n", number(v[0]), number(v[1]), number(v[2]));
+  }
+  return text;
+}
+
+std::string coupling(const mesh::DeclaredCoupling& coupling)
+{
+  return fmt::format("\n[[coupling]]\ntype = \"{}\"\nname = {}\ngroup = {}\n",
+                     coupling.averages ? "averaging" : "rigid", quoted(coupling.name),
+                     quoted(coupling.group));
+}
+
+std::string support(const mesh::DeclaredSupport& support)
+{
+  constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  std::string dofs;
+  for (const int component : support.components)
+    dofs += fmt::format("{}\"{}\"", dofs.empty() ? "" : ", ", names[component]);
+  return fmt::format("\n[[support]]\ngroup = {}\ndofs = [{}]\n", quoted(support.group), dofs);
+}
+
+std::string each(const auto& declared, auto&& written)
+{
+  std::string text;
+  for (const auto& one : declared) text += written(one);
+  return text;
+}
+
+}  // namespace
+
+std::string declared_scene(const mesh::Declarations& declared, const DeckScene& scene)
+{
+  std::string text =
+      "# What the deck says besides its mesh; interface and reduction are yours to add.\n";
+  for (const std::string& note : declared.notes) text += "# " + note + "\n";
+  text += fmt::format("name = {}\n\n[mesh]\nfile = {}\nlength_unit = {}\n", quoted(scene.name),
+                      quoted(scene.file), quoted(scene.length_unit));
+  text += each(declared.materials, material) + each(declared.shells, shell) +
+          each(declared.beams, beam) + each(declared.couplings, coupling) +
+          each(declared.supports, support);
+  return text + "\n[modes]\ncount = 10\n";
+}
+
+}  // namespace chladni::cases

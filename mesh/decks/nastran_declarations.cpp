@@ -1,0 +1,291 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "common/error.hpp"
+#include "mesh/decks/holders.hpp"
+#include "mesh/decks/nastran.hpp"
+#include "mesh/vectors.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+std::string material_name(const Card& card, std::size_t i)
+{
+  return fmt::format("mat1_{}", card.integer(i, "MID"));
+}
+
+/// Two of E, G and nu, of which the third follows.
+DeclaredMaterial material(const Card& card, const DeckUnits& units)
+{
+  card.expect_no_more_than(12);
+  const bool has_young = card.has(2), has_shear = card.has(3), has_poisson = card.has(4);
+  if (int(has_young) + int(has_shear) + int(has_poisson) < 2)
+    card.refuse("needs two of E, G and NU");
+  const double given = card.real_or(2, "E", 0.0), G = card.real_or(3, "G", 0.0);
+  const double nu = has_poisson ? card.real(4, "NU") : given / (2.0 * G) - 1.0;
+  const double young = has_young ? given : 2.0 * G * (1.0 + nu);
+  constexpr double digits_of_a_field = 1e-3;
+  if (has_young && has_shear && has_poisson &&
+      std::abs(2.0 * G * (1.0 + nu) - young) > digits_of_a_field * young)
+    card.refuse("G is not E / (2 (1 + NU)); a scene's materials are isotropic");
+  return {.name = material_name(card, 1),
+          .young = young * units.stress(),
+          .poisson = nu,
+          .density = card.real_or(5, "RHO", 0.0) * units.density()};
+}
+
+void expect_no_mass(const Card& card, std::size_t i)
+{
+  if (card.real_or(i, "NSM", 0.0) != 0.0)
+    card.refuse("mass that is not of the material (NSM) has no counterpart in a scene");
+}
+
+/// What cards say of properties and constraints, in SI units.
+class Declarer {
+ public:
+  Declarer(std::span<const Card> cards, const Deck& deck, const DeckUnits& units)
+      : cards_(cards), deck_(deck), units_(units), holders_(deck)
+  {
+    for (const Card& card : cards)
+      if (card.name() == "GRID" && card.has(6)) output_system_[card.integer(1, "ID")] = &card;
+  }
+
+  Declarations declare()
+  {
+    for (const Card& card : cards_) {
+      if (card.name() == "MAT1") all_.materials.push_back(material(card, units_));
+      if (card.name() == "PSHELL") shell(card);
+      if (card.name() == "PBAR") bar(card);
+      if (card.name() == "PBEAM") beam(card);
+      if (card.name() == "RBE2" || card.name() == "RBE3") coupling(card);
+    }
+    supports();
+    for (const DeckGroup& group : deck_.groups) check_has_section(group);
+    return std::move(all_);
+  }
+
+ private:
+  void check_has_section(const DeckGroup& group) const
+  {
+    const bool is_there =
+        std::ranges::find(all_.shells, group.name, &DeclaredShell::group) != all_.shells.end() ||
+        std::ranges::find(all_.beams, group.name, &DeclaredBeam::group) != all_.beams.end();
+    if (group.dimension > 0 && !is_there)
+      throw Error(fmt::format("its elements of {} have no such property", group.name));
+  }
+
+  bool is_used(const std::string& group) const
+  {
+    return std::ranges::find(deck_.groups, group, &DeckGroup::name) != deck_.groups.end();
+  }
+
+  void shell(const Card& card)
+  {
+    const std::string group = fmt::format("pshell_{}", card.integer(1, "PID"));
+    card.expect_no_more_than(10);
+    if (!is_used(group)) return;
+    if (!card.has(4)) card.refuse("has no MID2: a membrane without bending is no shell here");
+    if (card.integer(4, "MID2") != card.integer(2, "MID1"))
+      card.refuse("MID1 and MID2 differ; a scene's section has one material");
+    constexpr double written = 1e-4;  // 5/6 stands there as 0.8333 too
+    if (std::abs(card.real_or(5, "12I/T**3", 1.0) - 1.0) > written)
+      card.refuse("12I/T**3 is not 1; a scene's shells bend as their thickness says");
+    if (card.has(6) && card.integer(6, "MID3") != card.integer(2, "MID1"))
+      card.refuse("MID1 and MID3 differ; a scene's section has one material");
+    if (std::abs(card.real_or(7, "TS/T", 5.0 / 6.0) - 5.0 / 6.0) > written)
+      card.refuse("TS/T is not 5/6, the shear factor of a scene's shells");
+    expect_no_mass(card, 8);
+    if (!card.has(6)) {
+      all_.notes.push_back(
+          fmt::format("PSHELL {} has no MID3, and is rigid in transverse shear there; {} is not",
+                      card.field(1), group));
+    }
+    all_.shells.push_back({.group = group,
+                           .material = material_name(card, 2),
+                           .thickness = card.real(3, "T") * units_.length,
+                           .offset = 0.0});
+  }
+
+  /// @param factor_y, factor_z  of the scene's axes: z is Nastran's y, along its vector
+  void add_beam(const Card& card, const std::string& group, DeclaredBeam beam)
+  {
+    beam.group = group;
+    beam.material = material_name(card, 2);
+    beam.area *= units_.area();
+    for (double* second : {&beam.I_y, &beam.I_z, &beam.J}) *second *= units_.second_moment();
+    const bool is_alike = beam.I_y == beam.I_z && beam.shear_factor_y == beam.shear_factor_z;
+    if (!is_alike) beam.orientation = orientation_of(group);
+    all_.beams.push_back(beam);
+  }
+
+  void bar(const Card& card)
+  {
+    const std::string group = fmt::format("pbar_{}", card.integer(1, "PID"));
+    card.expect_no_more_than(19);
+    if (!is_used(group)) return;
+    expect_no_mass(card, 7);
+    if (card.real_or(19, "I12", 0.0) != 0.0)
+      card.refuse("I12: the axes must be the principal ones");
+    if (card.has(17) != card.has(18)) card.refuse("has one of K1 and K2; a scene has both or none");
+    add_beam(card, group,
+             with_shear(card, {.area = card.real(3, "A"),
+                               .I_y = card.real(4, "I1"),
+                               .I_z = card.real(5, "I2"),
+                               .J = card.real_or(6, "J", 0.0)}));
+  }
+
+  /// K1 belongs to the plane of the vector, which is x-z in a scene.
+  static DeclaredBeam with_shear(const Card& card, DeclaredBeam beam)
+  {
+    if (!card.has(17)) return beam;
+    beam.shear_factor_z = card.real(17, "K1");
+    beam.shear_factor_y = card.real(18, "K2");
+    return beam;
+  }
+
+  void beam(const Card& card)
+  {
+    const std::string group = fmt::format("pbeam_{}", card.integer(1, "PID"));
+    if (!is_used(group)) return;
+    for (const std::size_t i : {9, 17})
+      if (card.field(i) == "YES" || card.field(i) == "YESA" || card.field(i) == "NO")
+        card.refuse("says more than one station; a scene's beams are the same from end to end");
+    for (std::size_t i = 19; i <= card.n_fields(); ++i)
+      if (card.has(i) && card.real(i, "a number") != 0.0)
+        card.refuse(fmt::format("field {} has no counterpart in a scene", i + 1));
+    if (card.real_or(6, "I12", 0.0) != 0.0) card.refuse("I12: the axes must be the principal ones");
+    expect_no_mass(card, 8);
+    DeclaredBeam found = with_shear(card, {.area = card.real(3, "A"),
+                                           .I_y = card.real(4, "I1"),
+                                           .I_z = card.real(5, "I2"),
+                                           .J = card.real_or(7, "J", 0.0)});
+    if (!card.has(17)) found.shear_factor_y = found.shear_factor_z = 1.0;
+    add_beam(card, group, found);
+  }
+
+  /// The vector that all beams of a group share.
+  Vector orientation_of(const std::string& group) const
+  {
+    std::optional<Vector> common;
+    for (const Card& card : cards_) {
+      const bool is_bar = card.name() == "CBAR";
+      if (!is_bar && card.name() != "CBEAM") continue;
+      if (fmt::format("{}_{}", is_bar ? "pbar" : "pbeam",
+                      card.integer_or(2, "PID", card.integer(1, "EID"))) != group)
+        continue;
+      const Vector own = vector_of(card);
+      constexpr double written = 1e-4;
+      if (norm(minus(own, common.value_or(own))) > written) {
+        card.refuse(
+            fmt::format("its vector differs from that of others of {}; give each direction "
+                        "a property of its own",
+                        group));
+      }
+      if (!common) common = own;
+    }
+    return common.value_or(Vector{0.0, 0.0, 1.0});
+  }
+
+  /// Towards Nastran's y axis, of length 1.
+  Vector vector_of(const Card& card) const
+  {
+    const std::int64_t end = card.integer(3, "GA");
+    Vector v = card.vector_or_zero(5, "a component");
+    const bool is_node = !card.has(6) && !card.has(7) && card.has(5) &&
+                         card.field(5).find('.') == std::string_view::npos;
+    if (is_node) {
+      const auto to = deck_.nodes.find(card.integer(5, "G0")), from = deck_.nodes.find(end);
+      if (to == deck_.nodes.end() || from == deck_.nodes.end()) card.refuse("its G0 is not there");
+      v = minus(to->second, from->second);
+    } else if (const auto system = output_system_.find(end);
+               system != output_system_.end() && system->second->integer(6, "CD") != 0) {
+      card.refuse("its vector is in the system CD of its node; only the basic one is known");
+    }
+    if (!(norm(v) > 0.0)) card.refuse("has no vector to orient it");
+    return unit(v);
+  }
+
+  /// What `make` returns; its errors get the card.
+  static auto told(const Card& card, auto&& make)
+  {
+    try {
+      return make();
+    } catch (const Error& error) {
+      card.refuse(error.what());
+    }
+  }
+
+  void coupling(const Card& card)
+  {
+    const RigidElement element = rigid_element(card);
+    const bool averages = card.name() == "RBE3";
+    const std::string group =
+        fmt::format("{}_{}", averages ? "rbe3" : "rbe2", card.integer(1, "EID"));
+    all_.notes.push_back(
+        fmt::format("{} {}: in the scene node {} stands at the centre of the nodes{}", card.name(),
+                    card.field(1), element.reference,
+                    averages ? ", each of which counts as the area that it stands for" : ""));
+    all_.couplings.push_back(
+        {.name = told(card, [&] { return holders_.add_reference(element.reference); }),
+         .group = group,
+         .averages = averages});
+  }
+
+  void support(const Card& card, const std::string& group, const HeldNodes& held)
+  {
+    for (const std::int64_t node : held.nodes) {
+      const auto system = output_system_.find(node);
+      const bool is_turned =
+          system != output_system_.end() && system->second->integer(6, "CD") != 0;
+      if (is_turned && held.components.size() != 6) {
+        card.refuse(
+            fmt::format("holds components of node {} in its system CD; only the basic one "
+                        "is known",
+                        node));
+      }
+    }
+    for (const std::string& holder : told(card, [&] { return holders_.of(group, held.nodes); }))
+      add_support(all_, holder, held.components);
+  }
+
+  void supports()
+  {
+    std::set<std::int64_t> sets;
+    for (const Card& card : cards_) {
+      if (card.name() == "GRID" && card.has(7)) {
+        const HeldNodes held{
+            .set = 0, .components = card.components(7), .nodes = {card.integer(1, "ID")}};
+        support(card, name_of_held_by_grid(held.components), held);
+      }
+      if (card.name() != "SPC" && card.name() != "SPC1") continue;
+      for (const HeldNodes& held : held_nodes(card, deck_)) {
+        sets.insert(held.set);
+        support(card, name_of_held(held.set, held.components), held);
+      }
+      if (sets.size() > 1)
+        card.refuse("is of a second set; leave the one in the deck that the analysis is of");
+    }
+  }
+
+  std::span<const Card> cards_;
+  const Deck& deck_;
+  DeckUnits units_;
+  Holders holders_;
+  std::map<std::int64_t, const Card*> output_system_;  ///< by node, where its CD is given
+  Declarations all_;
+};
+
+}  // namespace
+
+Declarations nastran_declarations(std::span<const Card> cards, const Deck& deck,
+                                  const DeckUnits& units)
+{
+  return Declarer(cards, deck, units).declare();
+}
+
+}  // namespace chladni::mesh

@@ -1,0 +1,189 @@
+// Input files of Abaqus: what is taken over, and the sentences for what is not.
+#include <cmath>
+#include <numbers>
+
+#include "mesh/decks/abaqus.hpp"
+#include "mesh_file_test.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+using testing::area;
+using testing::error_of;
+using testing::expect_words;
+using testing::MeshFile;
+
+Deck deck_of(const std::string& text)
+{
+  return abaqus_deck(abaqus_keywords(text));
+}
+
+Declarations declared_by(const std::string& text, double length_unit)
+{
+  const std::vector<Keyword> keywords = abaqus_keywords(text);
+  return abaqus_declarations(keywords, abaqus_deck(keywords), units_of(length_unit));
+}
+
+std::string error_in(const std::string& text)
+{
+  try {
+    declared_by(text, 1e-3);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string four_nodes = "*Node, nset=All\n1, 0., 0., 0.\n2, 2.\n3, 2., 1.\n4, 0., 1.\n";
+const std::string square = four_nodes + "*Element, type=S4R, elset=Plate\n1, 1, 2, 3, 4\n";
+const std::string steel = "*Material, name=Steel\n*Density\n7.85e-9,\n*Elastic\n210000., 0.3\n";
+const std::string plate = square + steel + "*Shell Section, elset=Plate, material=Steel\n2., 5\n";
+
+TEST(AbaqusDeck, NamesItsGroupsBySetsAndSections)
+{
+  const Mesh mesh =
+      mesh_of(deck_of("*Heading\n** a comment\n" + plate +
+                      "*Nset, nset=Edge\n1, 2\n*Nset, nset=Plate, generate\n1, 3, 2\n"
+                      "*Nset, nset=Both\nEdge, 4\n*Element, type=B31, elset=Rib\n7, 1, 2\n"
+                      "*Elset, elset=Rest,\ninternal\n1\n*Surface, type=node, name=S\nEdge, 1.\n"
+                      "*Boundary\n3, 1, 3\n*Step\n*Whatever\n*End Step\n"),
+              {"RIB"});
+  EXPECT_EQ(find_group(mesh, "PLATE").nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(find_group(mesh, "PLATE").dimension, 2);
+  EXPECT_EQ(find_group(mesh, "PLATE_nodes").nodes, (std::vector<int>{0, 2}));
+  EXPECT_EQ(find_group(mesh, "EDGE").nodes, (std::vector<int>{0, 1}));
+  EXPECT_EQ(find_group(mesh, "BOTH").nodes, (std::vector<int>{0, 1, 3}));
+  EXPECT_EQ(find_group(mesh, "RIB").dimension, 1);
+  EXPECT_EQ(find_group(mesh, "REST").nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(find_group(mesh, "surface_S").nodes, (std::vector<int>{0, 1}));
+  EXPECT_EQ(find_group(mesh, "boundary_3").nodes, (std::vector<int>{2}));
+  ASSERT_FALSE(mesh.notes.empty());
+  EXPECT_NE(mesh.notes[0].find("steps are left out"), std::string::npos);
+}
+
+class AbaqusFile : public MeshFile {};
+
+TEST_F(AbaqusFile, IsReadInItsUnitByAProcessOfItsOwn)
+{
+  const std::string curved = four_nodes + "5, 1.\n6, 2., .5\n7, 1., 1.\n8, 0., .5\n9, 1., .5\n";
+  const std::vector<std::string> elements{"S4R\n1, 1, 2, 3, 4\n", "S3\n1, 1, 2, 3\n2, 1, 3, 4\n",
+                                          "S8R\n1, 1, 2, 3, 4,\n5, 6, 7, 8\n",
+                                          "STRI65\n1, 1, 2, 3, 5, 6, 9\n2, 1, 3, 4, 9, 7, 8\n"};
+  for (const std::string& of_kind : elements) {
+    const std::string file = write("a.inp", curved + "*ELEMENT, TYPE=" + of_kind);
+    const Mesh mesh = generate({.file = file, .length_unit = 1e-3});
+    EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
+  }
+  const Declarations declared = declarations({.file = write("b.inp", plate), .length_unit = 1e-3});
+  EXPECT_EQ(declared.shells.size(), 1U);
+}
+
+TEST_F(AbaqusFile, ErrorsNameFileLineAndKeyword)
+{
+  const std::string file = write("a.inp", square + "*Element, type=C3D8R\n2, 1, 2, 3, 4\n");
+  expect_words(error_of({.file = file}), {"a.inp", "line 8", "*ELEMENT", "C3D8R", "mid-surface"});
+  expect_words(error_of({.file = path("absent.inp")}), {"absent.inp", "does not exist"});
+}
+
+TEST(AbaqusLines, OfThreeNodesAreOfOrderTwo)
+{
+  const Mesh mesh = mesh_of(
+      deck_of("*Node\n1, 0.\n2, 1.\n3, 2.\n*Element, type=B32, elset=Rib\n1, 1, 2, 3\n"), {"RIB"});
+  EXPECT_EQ(mesh.blocks.at(0).order, 2);
+  EXPECT_EQ(mesh.blocks.at(0).nodes, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(AbaqusDeclarations, AreInSI)
+{
+  const Declarations in_mm =
+      declared_by(square + steel +
+                      "*Shell Section, elset=Plate, material=Steel, offset=SPOS\n2., 5\n"
+                      "*Element, type=B31, elset=Rib\n7, 1, 2\n"
+                      "*Beam Section, elset=Rib, material=Steel, section=RECT\n4., 2.\n0., 0., 1.\n"
+                      "*Element, type=B31, elset=Tube\n8, 1, 2\n"
+                      "*Beam Section, elset=Tube, material=Steel, section=PIPE\n5., 1.\n",
+                  1e-3);
+  EXPECT_NEAR(in_mm.materials.at(0).young, 2.1e11, 1.0);
+  EXPECT_NEAR(in_mm.materials.at(0).density, 7850.0, 1e-9);
+  EXPECT_DOUBLE_EQ(in_mm.shells.at(0).thickness, 2e-3);
+  EXPECT_DOUBLE_EQ(in_mm.shells.at(0).offset, -1e-3) << "the nodes are on the positive side";
+  const DeclaredBeam& rib = in_mm.beams.at(0);
+  EXPECT_NEAR(rib.area, 8e-6, 1e-18);
+  EXPECT_NEAR(rib.I_y, 4.0 * 4.0 * 4.0 * 2.0 / 12.0 * 1e-12, 1e-24) << "4 mm along n1, which is z";
+  EXPECT_NEAR(rib.I_z, 4.0 * 2.0 * 2.0 * 2.0 / 12.0 * 1e-12, 1e-24);
+  EXPECT_NEAR(rib.J, 7.32e-12, 0.02e-12);  // Roark: 0.229 a b^3 for sides of 2 : 1
+  const DeclaredBeam& tube = in_mm.beams.at(1);
+  EXPECT_NEAR(tube.J, std::numbers::pi / 2.0 * (625.0 - 256.0) * 1e-12, 1e-22);
+}
+
+TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
+{
+  const std::string coupling =
+      "*Node\n9, 1., .5\n*Nset, nset=Ref\n9\n*Nset, nset=Edge\n1, 2\n"
+      "*Surface, type=NODE, name=S\nEdge\n*Coupling, constraint name=C, ref node=Ref, surface=S\n";
+  const Declarations rigid =
+      declared_by(plate + coupling + "*Kinematic\n1, 6\n*Boundary\nRef, ENCASTRE\n3, 1, 2\n", 1.0);
+  ASSERT_EQ(rigid.couplings.size(), 1U);
+  EXPECT_EQ(rigid.couplings[0].name, "node_9");
+  EXPECT_EQ(rigid.couplings[0].group, "surface_S");
+  EXPECT_FALSE(rigid.couplings[0].averages);
+  ASSERT_EQ(rigid.supports.size(), 2U);
+  EXPECT_EQ(rigid.supports[0].group, "node_9");
+  EXPECT_EQ(rigid.supports[0].components.size(), 6U);
+  EXPECT_EQ(rigid.supports[1].group, "boundary_3");
+  EXPECT_EQ(rigid.supports[1].components, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(declared_by(plate + coupling + "*Distributing\n", 1.0).couplings[0].averages);
+}
+
+struct Refusal {
+  std::string text;
+  std::vector<std::string> words;
+};
+
+class RefusedKeyword : public ::testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedKeyword, IsNamedWithItsLine)
+{
+  const std::string error = error_in(GetParam().text);
+  expect_words(error, GetParam().words);
+  EXPECT_TRUE(error.find("line") != std::string::npos) << error;
+}
+
+const std::vector<Refusal> refusals{
+    {plate + "*Spring, elset=a\n", {"line 15", "*SPRING", "not known"}},
+    {plate + "*Part, name=P\n", {"*PART", "noPartsInputFile"}},
+    {plate + "*Node, system=C\n5, 1.\n", {"*NODE", "SYSTEM"}},
+    {plate + "*Node\n1, 1.\n", {"line 16", "node 1", "twice"}},
+    {plate + "*Node\n5, a\n", {"line 16", "\"A\" is no number"}},
+    {plate + "*Node\n0, 1.\n", {"\"0\" is no number of a node"}},
+    {plate + "*Element, type=S4\n5, 1, 2, 3\n", {"line 16", "4 nodes"}},
+    {plate + "*Element, type=S4\n1, 1, 2, 3, 4\n", {"element 1", "twice"}},
+    {plate + "*Element, type=S9R5\n", {"S9R5", "not known"}},
+    {plate + "*Element, type=S4\n5, 1, 2, 3,\n", {"ends with a comma"}},
+    {plate + "*Element, type=B31, elset=Plate\n5, 1, 2\n", {"PLATE", "shells and beams"}},
+    {plate + "*Nset, nset=N\nAbsent\n", {"line 16", "no set \"ABSENT\""}},
+    {plate + "*Nset, nset=N, generate\n5, 1\n", {"line 16", "no range"}},
+    {plate + "*Boundary\nAbsent, 1\n", {"no node set \"ABSENT\""}},
+    {plate + "*Boundary\n1, 1, 1, 0.5\n", {"line 16", "prescribes"}},
+    {plate + "*Boundary\n1, 5, 9\n", {"no components"}},
+    {plate + "*Boundary, type=velocity\n1, 1\n", {"*BOUNDARY", "TYPE"}},
+    {plate + "*Shell Section, elset=Plate, material=Steel\n2.\n", {"element 1 has two sections"}},
+    {square + steel + "*Shell Section, elset=Plate, material=Steel, composite\n2.\n",
+     {"*SHELL SECTION", "COMPOSITE"}},
+    {square + steel + "*Shell Section, elset=Absent, material=Steel\n2.\n", {"\"ABSENT\""}},
+    {plate + "*Material, name=B\n*Density\n1.,\n", {"*MATERIAL", "no *ELASTIC"}},
+    {plate + "*Material, name=B\n*Elastic, type=LAMINA\n1., .3\n", {"*ELASTIC", "ISOTROPIC"}},
+    {plate + "*Material, name=B\n*Elastic\n1., .3\n2., .3, 100.\n", {"*ELASTIC", "one data line"}},
+    {plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n", {"*PLASTIC", "not known"}},
+    {plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
+             "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Kinematic\n",
+     {"*COUPLING", "node 1 is one of an element"}},
+    {plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
+             "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",
+     {"*BEAM SECTION", "the profile L"}},
+    {"1, 2\n*Node\n", {"line 1", "before the first keyword"}}};
+
+INSTANTIATE_TEST_SUITE_P(Abaqus, RefusedKeyword, ::testing::ValuesIn(refusals));
+
+}  // namespace
+}  // namespace chladni::mesh

@@ -1,0 +1,233 @@
+// Bulk data of Nastran: what is taken over, and the sentences for what is not.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mesh/decks/nastran.hpp"
+#include "mesh_file_test.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+using testing::area;
+using testing::error_of;
+using testing::expect_words;
+using testing::MeshFile;
+
+Deck deck_of(const std::string& text)
+{
+  return nastran_deck(nastran_cards(text));
+}
+
+Declarations declared_by(const std::string& text, double length_unit)
+{
+  const std::vector<Card> cards = nastran_cards(text);
+  return nastran_declarations(cards, nastran_deck(cards), units_of(length_unit));
+}
+
+std::string error_in(const std::string& text)
+{
+  try {
+    declared_by(text, 1e-3);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string four_nodes =
+    "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\n";
+const std::string square = four_nodes + "CQUAD4,1,7,1,2,3,4\n";
+const std::string steel = "MAT1,9,2.1E5,,.3,7.85-9\n";
+const std::string plate = square + steel + "PSHELL,7,9,2.,9,,9\n";
+
+TEST(NastranCards, HaveSmallLargeAndFreeFields)
+{
+  const std::vector<Card> cards = nastran_cards(
+      "SOL 103\nCEND\nBEGIN BULK\n$ a comment\n"
+      "GRID    1       3       1.5+3   -2.5-1  7.D1            $ behind it\n"
+      "GRID*   2               3               .15             2.              *A\n"
+      "*A      1.0E-3\n"
+      "grid, 3,, 1., 2. ,3.\n"
+      "SPC1    6       123456  1       2       3       4       5       6       +S1\n"
+      "+S1     7       8\n"
+      "GRID\t4\t\t1.\t2.\t3.\n"
+      "ENDDATA\nnothing of this is read\n");
+  ASSERT_EQ(cards.size(), 5U);
+  EXPECT_EQ(cards[0].line(), 5);
+  EXPECT_DOUBLE_EQ(cards[0].real(3, "x"), 1500.0);
+  EXPECT_DOUBLE_EQ(cards[0].real(4, "y"), -0.25);
+  EXPECT_DOUBLE_EQ(cards[0].real(5, "z"), 70.0);
+  EXPECT_EQ(cards[1].name(), "GRID");
+  EXPECT_EQ(cards[1].integer(2, "CP"), 3);
+  EXPECT_DOUBLE_EQ(cards[1].real(5, "z"), 1e-3);
+  EXPECT_DOUBLE_EQ(cards[2].real(4, "y"), 2.0);
+  const std::vector<NumberRange> listed = cards[3].ranges(3, "node");
+  ASSERT_EQ(listed.size(), 8U);
+  EXPECT_EQ(listed[7].from, 8);
+  EXPECT_DOUBLE_EQ(cards[4].real(3, "x"), 1.0);
+}
+
+TEST(NastranDeck, HasTheNodesOfARangeThatAreThere)
+{
+  const Deck deck = deck_of(four_nodes + "SET1,5,4,1,THRU,3,1,THRU,2147483647\n,BY,3\n");
+  EXPECT_EQ(deck.groups.at(0).nodes, (std::vector<std::int64_t>{4, 1, 2, 3, 1, 4}));
+}
+
+TEST(NastranDeck, PlacesNodesByCoordinateSystemsThatReferToEachOther)
+{
+  // 2 is turned by 90 degrees about z and stands at (10, 0, 0); 1 is cylindrical in it.
+  const Deck deck = deck_of(
+      "CORD2C,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+      "CORD2R,2,,10.,0.,0.,10.,0.,1.\n,10.,1.,0.\n"
+      "GRID,1,1,3.,90.,5.\nGRID,2,2,3.,0.,0.\n");
+  const auto at = [&](std::int64_t number, double x, double y, double z) {
+    const auto& found = deck.nodes.at(number);
+    EXPECT_NEAR(found[0], x, 1e-14);
+    EXPECT_NEAR(found[1], y, 1e-14);
+    EXPECT_NEAR(found[2], z, 1e-14);
+  };
+  at(1, 7.0, 0.0, 5.0);
+  at(2, 10.0, 3.0, 0.0);
+}
+
+TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
+{
+  const Mesh mesh = mesh_of(
+      deck_of(square + "CTRIA3,2,8,1,2,3\nCBAR,3,5,1,2,0.,0.,1.\nSPC1,6,123,1,THRU,2\n"
+                       "SPC,6,3,3,0.\nSET1,4,4\nRBE2,20,9,123456,2,3\nGRID,9,,0.,0.,0.,,12\n"),
+      {"pbar_5"});
+  EXPECT_EQ(find_group(mesh, "pshell_7").nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(find_group(mesh, "pshell_8").dimension, 2);
+  EXPECT_EQ(find_group(mesh, "pbar_5").dimension, 1);
+  EXPECT_EQ(find_group(mesh, "spc_6_123").nodes, (std::vector<int>{0, 1}));
+  EXPECT_EQ(find_group(mesh, "spc_6_3").nodes, (std::vector<int>{2}));
+  EXPECT_EQ(find_group(mesh, "set_4").nodes, (std::vector<int>{3}));
+  EXPECT_EQ(find_group(mesh, "rbe2_20").nodes, (std::vector<int>{1, 2}));
+  EXPECT_EQ(mesh.blocks.size(), 3U);
+}
+
+/// 2 x 1 by elements of each kind, in mm.
+class NastranFile : public MeshFile {};
+
+TEST_F(NastranFile, IsReadInItsUnitByAProcessOfItsOwn)
+{
+  const std::string curved =
+      four_nodes +
+      "GRID,5,,1.,0.,0.\nGRID,6,,2.,.5,0.\nGRID,7,,1.,1.,0.\nGRID,8,,0.,.5,0.\nGRID,9,,1.,.5,0.\n";
+  const std::vector<std::string> elements{
+      "CQUAD4,1,7,1,2,3,4\n", "CTRIA3,1,7,1,2,3\nCTRIA3,2,7,1,3,4\n",
+      "CQUAD8,1,7,1,2,3,4,5,6\n,7,8\n", "CTRIA6,1,7,1,2,3,5,6,9\nCTRIA6,2,7,1,3,4,9,7,8\n"};
+  for (const std::string& of_kind : elements) {
+    const std::string file = write("a.bdf", curved + of_kind);
+    const Mesh mesh = generate({.file = file, .length_unit = 1e-3});
+    EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
+  }
+  const Declarations declared = declarations({.file = write("b.bdf", plate), .length_unit = 1e-3});
+  EXPECT_EQ(declared.shells.size(), 1U);
+  EXPECT_EQ(declared.materials.size(), 1U);
+}
+
+TEST_F(NastranFile, ErrorsNameFileLineAndCard)
+{
+  const std::string file = write("a.bdf", square + "CHEXA,2,7,1,2,3,4,5,6\n");
+  expect_words(error_of({.file = file}), {"a.bdf", "line 6", "CHEXA 2", "mid-surface"});
+  expect_words(error_of({.file = write("b.bdf", square + "CQUAD4,2,7,1,2,3,44\n")}),
+               {"b.bdf", "element 2", "node 44"});
+  expect_words(error_of({.file = path("absent.bdf")}), {"absent.bdf", "does not exist"});
+  expect_words(error_of({.file = write("c.bdf", "")}), {"c.bdf", "neither shell elements"});
+}
+
+TEST(NastranDeclarations, AreInSI)
+{
+  const Declarations in_mm =
+      declared_by(plate +
+                      "CBAR,30,40,1,2,0.,3.,0.\nPBAR,40,9,100.,833.,900.,1400.\n"
+                      "CBEAM,31,41,1,2,0.,0.,1.\nPBEAM,41,9,100.,833.,900.,,1400.\n",
+                  1e-3);
+  ASSERT_EQ(in_mm.materials.size(), 1U);
+  EXPECT_NEAR(in_mm.materials[0].young, 2.1e11, 1.0);
+  EXPECT_NEAR(in_mm.materials[0].density, 7850.0, 1e-9);
+  EXPECT_DOUBLE_EQ(in_mm.shells.at(0).thickness, 2e-3);
+  const DeclaredBeam& bar = in_mm.beams.at(0);
+  EXPECT_NEAR(bar.area, 1e-4, 1e-19);
+  EXPECT_NEAR(bar.I_y, 833e-12, 1e-24) << "in the plane of the vector, along the scene's z";
+  EXPECT_NEAR(bar.I_z, 900e-12, 1e-24);
+  EXPECT_FALSE(bar.shear_factor_y);
+  EXPECT_EQ(bar.orientation, (std::array<double, 3>{0.0, 1.0, 0.0}));
+  EXPECT_EQ(in_mm.beams.at(1).shear_factor_z, 1.0);
+  // Steel in inches, lbf and seconds.
+  const Declarations in_inches =
+      declared_by(square + "MAT1,9,3.0E7,,.3,7.33E-4\nPSHELL,7,9,.1,9,,9\n", 0.0254);
+  EXPECT_NEAR(in_inches.materials[0].young, 206.8e9, 0.1e9);
+  EXPECT_NEAR(in_inches.materials[0].density, 7833.0, 2.0);
+}
+
+TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
+{
+  const Declarations declared =
+      declared_by(plate + "GRID,9,,1.,.5,0.\nRBE2,20,9,123456,1,2\nSPC1,6,123456,9,3\n", 1e-3);
+  ASSERT_EQ(declared.couplings.size(), 1U);
+  EXPECT_EQ(declared.couplings[0].name, "node_9");
+  EXPECT_EQ(declared.couplings[0].group, "rbe2_20");
+  ASSERT_EQ(declared.supports.size(), 2U);
+  EXPECT_EQ(declared.supports[0].group, "node_9");
+  EXPECT_EQ(declared.supports[1].group, "spc_6_123456");
+}
+
+struct Refusal {
+  std::string text;
+  std::vector<std::string> words;
+};
+
+class RefusedCard : public ::testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedCard, IsNamedWithItsLine)
+{
+  const std::string error = error_in(GetParam().text);
+  expect_words(error, GetParam().words);
+  EXPECT_TRUE(error.find("line") != std::string::npos) << error;
+}
+
+const std::vector<Refusal> refusals{
+    {plate + "CELAS2,5,100.,1,1\n", {"line 8", "CELAS2 5", "not known"}},
+    {plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
+    {plate + "INCLUDE 'more.bdf'\n", {"line 8", "INCLUDE"}},
+    {plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
+    {plate + "GRID,5,3,0.,0.,0.\n", {"GRID 5", "no coordinate system 3"}},
+    {plate + "GRID,5,,a.,0.,0.\n", {"GRID 5", "\"A.\" in field 4"}},
+    {plate + "GRID,-5,,0.,0.,0.\n", {"\"-5\" in field 2"}},
+    {plate + "CORD2R,3,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", {"CORD2R 3", "no coordinate system 4"}},
+    {plate + "CORD2R,3,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", {"CORD2R 3", "refers to itself"}},
+    {plate + "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n", {"CORD2R 3", "on one line"}},
+    {plate + "CQUAD4,1,7,1,2,3,4\n", {"CQUAD4 1", "another element"}},
+    {plate + "CQUAD4,2,7,1,2,3,4,,.5\n", {"CQUAD4 2", "offset"}},
+    {plate + "CQUAD4,2,7,1,2,3,4\n,,,2.\n", {"CQUAD4 2", "thickness of its own"}},
+    {plate + "CQUAD8,2,7,1,2,3,4\n", {"CQUAD8 2", "field 8"}},
+    {plate + "CBAR,2,5,1,2,0.,0.,1.\n,456\n", {"CBAR 2", "released"}},
+    {plate + "SPC1,6,128,1\n", {"SPC1 6", "no components"}},
+    {plate + "SPC,6,1,3,.5\n", {"SPC 6", "prescribes"}},
+    {plate + "SPC1,6,3,1\nSPC1,7,3,2\n", {"SPC1 7", "second set"}},
+    {plate + "SET1,6,9,THRU,5\n", {"SET1 6", "no range"}},
+    {plate + "RBE2,6,9,123,1,2\n", {"RBE2 6", "123456"}},
+    {plate + "RBE2,6,4,123456,1,2\n", {"RBE2 6", "node 4"}},
+    {plate + "RBE3,6,,9,123456,1.,123,1,2\n,2.,123,3\n", {"RBE3 6", "several weights"}},
+    {plate + "PARAM,WTMASS,.00259\n", {"PARAM WTMASS", "densities"}},
+    {square + steel + "PSHELL,7,9,2.\n", {"PSHELL 7", "MID2"}},
+    {square + steel + "PSHELL,7,9,2.,9,.5,9\n", {"PSHELL 7", "12I/T**3"}},
+    {square + steel + "PSHELL,7,9,2.,9,,9,,1.-9\n", {"PSHELL 7", "NSM"}},
+    {square + "MAT1,9,2.1E5,9.E4,.3\nPSHELL,7,9,2.,9\n", {"MAT1 9", "isotropic"}},
+    {plate + "CBAR,3,5,1,2,0.,0.,1.\nCBAR,4,5,2,3,0.,1.,0.\nPBAR,5,9,1.,1.,2.,1.\n",
+     {"CBAR 4", "property of its own"}},
+    {plate + "CBEAM,3,5,1,2,0.,0.,1.\nPBEAM,5,9,1.,1.,2.,,1.\n,0.,0.,0.,0.,0.,0.,0.,0.\n"
+             ",NO,1.,2.,2.,2.\n",
+     {"PBEAM 5", "station"}},
+    {"SPC1,6,3,1,2,3,4,5,6,7\n", {"line 1", "more than 8 fields"}},
+    {"+A,1\n", {"line 1", "continues no entry"}},
+    {"GRID    1               0.      0.      0.                              +A\n+B      2\n",
+     {"line 2", "continuation B", "asks for A"}}};
+
+INSTANTIATE_TEST_SUITE_P(Nastran, RefusedCard, ::testing::ValuesIn(refusals));
+
+}  // namespace
+}  // namespace chladni::mesh
