@@ -11,6 +11,16 @@ find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 
+# For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE.
+if(CHLADNI_PYTHON)
+  find_program(PYTHON_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  find_package(pybind11 2.10 QUIET)
+  if(NOT pybind11_FOUND OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    message(STATUS "No pybind11, or an interpreter without sanitizers: the Python package is left out")
+    set(CHLADNI_PYTHON OFF)
+  endif()
+endif()
+
 if(CHLADNI_FE)
   find_package(MPI REQUIRED COMPONENTS CXX)
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)

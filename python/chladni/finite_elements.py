@@ -1,0 +1,36 @@
+"""From the mesh of a scene to its body, in this process: what needs PETSc, SLEPc and Gmsh."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+try:
+    import petsc4py.PETSc  # noqa: F401  begins PETSc
+    import slepc4py.SLEPc  # noqa: F401  begins SLEPc
+
+    from chladni import _fe
+except ImportError as missing:
+    raise ImportError(
+        f"{missing}; meshes and bodies need python3-petsc4py, python3-slepc4py and a build with PETSc; what was made "
+        "elsewhere can be opened, and squeal takes it as `body`"
+    ) from None
+
+_PACKAGE = Path(__file__).parent
+
+
+def _name_mesh_reader() -> None:
+    """The program that reads mesh files is beside the package, or in the folder of the build that it stands in."""
+    for reader in (_PACKAGE / "chladni-mesh-reader", _PACKAGE.parents[1] / "libexec/chladni/chladni-mesh-reader"):
+        if reader.exists():
+            os.environ.setdefault("CHLADNI_MESH_READER", str(reader))
+
+
+def make_body(scene, folder: str, progress) -> list[str]:
+    """Writes NAME.reduced.h5 and NAME.body.h5 in the folder; collective on all ranks.
+
+    Returns:
+        what is to be told of the body, a line for each note
+    """
+    _name_mesh_reader()
+    return _fe.make_body(scene.text, scene.path, folder, progress)
