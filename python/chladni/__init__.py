@@ -18,10 +18,15 @@ __all__ = ["Array", "CMS", "Error", "File", "Group", "Reduction", "Run", "Scene"
 open = open_file
 
 
+_NEEDS_PETSC = "needs python3-petsc4py, python3-slepc4py and a build with PETSc"
+
+
 def __getattr__(name):
     """What needs PETSc is loaded when it is first asked for."""
     if name in ("CMS", "Reduction", "reduce"):
-        from chladni import reduction
-
+        try:
+            from chladni import reduction
+        except ImportError as missing:
+            raise ImportError(f"{missing}; the reduction {_NEEDS_PETSC}") from None
         return getattr(reduction, name)
     raise AttributeError(f"module 'chladni' has no attribute {name!r}")

@@ -5,16 +5,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-try:
-    import petsc4py.PETSc  # noqa: F401  begins PETSc
-    import slepc4py.SLEPc  # noqa: F401  begins SLEPc
+import petsc4py.PETSc  # noqa: F401  begins PETSc
+import slepc4py.SLEPc  # noqa: F401  begins SLEPc
 
-    from chladni import _fe
-except ImportError as missing:
-    raise ImportError(
-        f"{missing}; meshes and bodies need python3-petsc4py, python3-slepc4py and a build with PETSc; what was made "
-        "elsewhere can be opened, and squeal takes it as `body`"
-    ) from None
+from chladni import _fe
 
 _PACKAGE = Path(__file__).parent
 

@@ -8,13 +8,10 @@ from typing import Any
 
 import numpy as np
 
-try:
-    from petsc4py import PETSc
-    from slepc4py import SLEPc  # noqa: F401  begins SLEPc, which CMS needs
+from petsc4py import PETSc
+from slepc4py import SLEPc  # noqa: F401  begins SLEPc, which CMS needs
 
-    from chladni import _cms
-except ImportError as missing:
-    raise ImportError(f"{missing}; the reduction needs python3-petsc4py, python3-slepc4py and a build with PETSc") from None
+from chladni import _cms
 
 Monitor = Callable[[str, float], object]
 

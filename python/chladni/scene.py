@@ -130,8 +130,13 @@ class Scene:
         """
         folder = _Folder(output)
         if self._scene.needs_body:
-            from chladni import finite_elements
-
+            try:
+                from chladni import finite_elements
+            except ImportError as missing:
+                raise ImportError(
+                    f"{missing}; a mesh needs python3-petsc4py, python3-slepc4py and a build with PETSc; `squeal` takes "
+                    "a `body` that was made elsewhere"
+                ) from None
             finite_elements.make_body(self._scene, folder.path, progress)
         if self._scene.has_squeal:
             self.squeal(output=folder.path, progress=progress)
