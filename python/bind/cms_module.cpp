@@ -115,17 +115,15 @@ void set_geometry(const Cms& cms, const std::vector<PetscInt>& nodes,
   });
 }
 
-Mat matrix(HandleNumber handle)
-{
-  return reinterpret_cast<Mat>(handle);
-}
-
 void declare_input(py::class_<Cms>& type)
 {
   type.def(py::init<HandleNumber>())
       .def("set_operators",
            [](const Cms& cms, HandleNumber K, HandleNumber M, HandleNumber C) {
-             Cms::call([&] { return CMSSetOperators(cms.get(), matrix(K), matrix(M), matrix(C)); });
+             Cms::call([&] {
+               return CMSSetOperators(cms.get(), object_of<Mat>(K), object_of<Mat>(M),
+                                      object_of<Mat>(C));
+             });
            })
       .def("set_interface",
            [](const Cms& cms, const std::vector<PetscInt>& masters) {
@@ -190,7 +188,7 @@ void declare_results(py::class_<Cms>& type)
       .def("quality", &quality)
       .def("view",
            [](const Cms& cms, HandleNumber viewer) {
-             Cms::call([&] { return CMSView(cms.get(), reinterpret_cast<PetscViewer>(viewer)); });
+             Cms::call([&] { return CMSView(cms.get(), object_of<PetscViewer>(viewer)); });
            })
       .def("write", [](const Cms& cms, const std::string& file) {
         Cms::call([&] { return CMSWrite(cms.get(), file.c_str()); });

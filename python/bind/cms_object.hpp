@@ -16,6 +16,12 @@ namespace chladni::python {
 /// An object of PETSc as petsc4py numbers it.
 using HandleNumber = std::uintptr_t;
 
+template <class Object>
+Object object_of(HandleNumber handle)
+{
+  return reinterpret_cast<Object>(handle);  // NOLINT(performance-no-int-to-ptr): it is one
+}
+
 /// While it lives, errors of PETSc are kept as text and not printed.
 class CollectedErrors {
  public:
@@ -52,9 +58,7 @@ class Cms {
  public:
   explicit Cms(HandleNumber of_same_comm)
   {
-    call([&] {
-      return CMSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(of_same_comm)), &cms_);
-    });
+    call([&] { return CMSCreate(PetscObjectComm(object_of<PetscObject>(of_same_comm)), &cms_); });
   }
   /// Not after PETSc has ended, which is when the interpreter ends.
   ~Cms()

@@ -39,7 +39,8 @@ struct BodyFiles {
   path reduced, body;
 };
 
-/// Writes NAME.reduced.h5 and NAME.body.h5 on the first rank.
+/// Writes NAME.reduced.h5 and NAME.body.h5 on the first rank, with the lock of the interpreter: no
+/// other thread reads files meanwhile.
 /// @return what is to be told of the body
 /// @note Collective on all ranks.
 std::vector<std::string> make_body(const scene::Scene& scene, const BodyFiles& files,
@@ -52,9 +53,12 @@ std::vector<std::string> make_body(const scene::Scene& scene, const BodyFiles& f
     for (const path& file : {files.reduced, files.body})
       reserved.push_back(files::lock_output(file));
   });
-  const cases::ReduceSummary summary = cases::reduce_scene(
-      scene, {.text = "", .options = linear::read_solver_options(PETSC_COMM_WORLD)},
-      [&](const std::string& phase, double fraction) { progress.tell(phase, fraction); });
+  const linear::SolverOptions options = linear::read_solver_options(PETSC_COMM_WORLD);
+  const cases::ReduceSummary summary = progress.during([&] {
+    return cases::reduce_scene(
+        scene, {.text = "", .options = options},
+        [&](const std::string& phase, double fraction) { progress.tell(phase, fraction); });
+  });
   std::vector<std::string> notes;
   cases::on_first_rank([&] {
     mbs_export::write_reduced(files.reduced, summary.reduced);
@@ -78,10 +82,8 @@ PYBIND11_MODULE(_fe, module)
     const chladni::scene::Scene scene = chladni::scene::parse_scene(text, name);
     const std::filesystem::path stem = std::filesystem::path(folder) / scene.name;
     Progress progress(std::move(listener));
-    return progress.during([&] {
-      return chladni::python::make_body(
-          scene, {.reduced = stem.string() + ".reduced.h5", .body = stem.string() + ".body.h5"},
-          progress);
-    });
+    return chladni::python::make_body(
+        scene, {.reduced = stem.string() + ".reduced.h5", .body = stem.string() + ".body.h5"},
+        progress);
   });
 }

@@ -92,10 +92,7 @@ py::tuple file_values(const std::string& path)
 {
   const files::Reader file(path);
   const std::string format = file.text_attribute("/", "format");
-  {
-    const py::gil_scoped_release unlocked;
-    check(file, format);
-  }
+  check(file, format);
   py::list values;
   for (const Item& item : files::contents(file))
     if (!is_of_vtk(item))

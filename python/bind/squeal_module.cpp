@@ -34,7 +34,9 @@ struct SquealRun {
   path body;  ///< empty for that of the scene in the folder
 };
 
-/// Performs the analyses of [squeal] and writes NAME.squeal.h5.
+/// Performs the analyses of [squeal] and writes NAME.squeal.h5. The lock of the interpreter is free
+/// during the analyses alone: a file that is read is tried in a forked process first, and there
+/// libhdf5 would wait for ever for what another thread was doing.
 /// @return what is to be told of the brake
 std::vector<std::string> run_squeal(const scene::Scene& scene, const SquealRun& run,
                                     Progress& progress)
@@ -54,7 +56,8 @@ std::vector<std::string> run_squeal(const scene::Scene& scene, const SquealRun& 
   squeal::StudyKeeping keeping;
   keeping.progress = [&](const std::string& phase, double whole) { progress.tell(phase, whole); };
   keeping.sound = sound ? &*sound : nullptr;
-  const squeal::SquealResults results = squeal::run(*brake_case.brake, study, keeping);
+  const squeal::SquealResults results =
+      progress.during([&] { return squeal::run(*brake_case.brake, study, keeping); });
   squeal::write_results(files.results, results, origin.provenance);
   if (sound) sound->remove();
   return brake_case.notes;
@@ -64,6 +67,7 @@ std::vector<std::string> run_squeal(const scene::Scene& scene, const SquealRun& 
 void declare_error(py::module_& module)
 {
   static py::handle type = py::exception<Error>(module, "Error", PyExc_RuntimeError).release();
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): as pybind11 wants it
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -95,19 +99,13 @@ void declare_functions(py::module_& module)
   module.def("run_squeal", [](const scene::Scene& scene, const std::string& folder,
                               const std::string& body, py::object listener) {
     Progress progress(std::move(listener));
-    return progress.during(
-        [&] { return run_squeal(scene, {.folder = folder, .body = body}, progress); });
+    return run_squeal(scene, {.folder = folder, .body = body}, progress);
   });
   module.def("file_values", &file_values);
   module.def("describe",
              [](const std::string& file) { return text_of(report::describe_file(file)); });
   module.def("report_html", [](const scene::Scene& scene, const std::string& folder) {
-    std::string page;
-    {
-      const py::gil_scoped_release unlocked;
-      page = report::report_html({.scene = scene, .folder = folder}, "null");
-    }
-    return text_of(page);
+    return text_of(report::report_html({.scene = scene, .folder = folder}, "null"));
   });
   module.def("scene_reference", &scene::scene_reference);
 }

@@ -4,7 +4,8 @@ import re
 
 # For each format: a pattern of dataset names, the axes, and where the coordinates along some axes stand. A name
 # that is relative stands beside the dataset; one with a leading / counts from the root.
-_OF_RESULTS = [
+_Rows = list[tuple[str, tuple[str, ...], dict[str, str]]]
+_OF_RESULTS: _Rows = [
     (r"eigenvalues/speeds", ("speed",), {}),
     (r"eigenvalues/lambda_(re|im)", ("speed", "eigenvalue"), {"speed": "speeds"}),
     (r"eigenvalues/shapes/\d+/(re|im)", ("coordinate", "eigenvalue"), {}),
@@ -37,7 +38,7 @@ _OF_RESULTS = [
     (r"spectrum/\w+", ("frequency",), {"frequency": "frequency"}),
     (r"missing", ("analysis",), {}),
 ]
-_OF_BODIES = [
+_OF_BODIES: _Rows = [
     (r"attachment/node_numbers", ("node",), {}),
     (r"attachment/(node_positions|drilling_axes)", ("node", "xyz"), {"node": "node_numbers"}),
     (r"attachment/set_names", ("set",), {}),
@@ -74,7 +75,7 @@ _OF_BODIES = [
     (r"rings/[^/]+/\w+_(cosine|sine)", ("harmonic", "mode"), {"mode": "/modes/frequencies"}),
     (r"rings/[^/]+/\w+", ("angle", "mode"), {"angle": "angles", "mode": "/modes/frequencies"}),
 ]
-_OF_REDUCED = [
+_OF_REDUCED: _Rows = [
     (r"matrices/\w+", ("coordinate", "coordinate_2"), {}),
     (r"picture/displacements", ("point_component", "coordinate"), {}),
     (r"resultants/[^/]+/modes", ("point_kind", "coordinate"), {}),
@@ -82,14 +83,14 @@ _OF_REDUCED = [
     (r"mass_integrals/displacement", ("xyz", "coordinate"), {}),
     (r"mass_integrals/position_displacement", ("xyz_xyz", "coordinate"), {}),
 ]
-_OF_MODAL = [
+_OF_MODAL: _Rows = [
     (r"picture/displacements", ("point_component", "mode"), {"mode": "/modes/frequencies"}),
     (r"resultants/[^/]+/modes", ("point_kind", "mode"), {"mode": "/modes/frequencies"}),
     (r"mass_integrals/displacement_\w\w", ("mode", "mode_2"), {}),
     (r"mass_integrals/displacement", ("xyz", "mode"), {"mode": "/modes/frequencies"}),
     (r"mass_integrals/position_displacement", ("xyz_xyz", "mode"), {"mode": "/modes/frequencies"}),
 ]
-_AXES = {
+_AXES: dict[str, _Rows] = {
     "chladni-squeal": _OF_RESULTS,
     "chladni-body": _OF_MODAL + _OF_BODIES,
     "chladni-reduced": _OF_REDUCED + _OF_BODIES,

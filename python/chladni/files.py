@@ -120,6 +120,7 @@ class File(Group):
         format: "chladni-body", "chladni-reduced", "chladni-squeal", "chladni-radiation" or "chladni-sound"
         path: of the file
         units: unit of each number, by the name of its dataset
+        notes: what is to be told of the brake, where it was made by `Scene.squeal`
 
     Pictures of a scene's files stand in `Run`, which Jupyter shows as the page of `squeal report`.
     """
@@ -128,11 +129,21 @@ class File(Group):
         self.path = os.fspath(path)
         self.format, values = _squeal.file_values(self.path)
         self.units = {name: unit for name, unit, _ in values}
+        self.notes: list[str] = []
+        self._description: str | None = None
+        self._folder: Any = None  # keeps a temporary folder alive
         super().__init__(_tree(self.format, values))
 
     def describe(self) -> str:
         """The table that `chladni info` prints."""
-        return _squeal.describe(self.path)
+        if self._description is None:
+            self._description = _squeal.describe(self.path)
+        return self._description
+
+    def __getstate__(self) -> dict[str, Any]:
+        """With its description, since a temporary file is gone where this arrives."""
+        self.describe()
+        return {**self.__dict__, "_folder": None}
 
     def __repr__(self) -> str:
         return f"<{self.format} {self.path}: {', '.join(self)}>"

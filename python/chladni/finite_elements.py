@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
-import petsc4py.PETSc  # noqa: F401  begins PETSc
+from petsc4py import PETSc
 import slepc4py.SLEPc  # noqa: F401  begins SLEPc
 
 from chladni import _fe
@@ -28,3 +29,24 @@ def make_body(scene, folder: str, progress) -> list[str]:
     """
     _name_mesh_reader()
     return _fe.make_body(scene.text, scene.path, folder, progress)
+
+
+def same_on_all_ranks(folder: str) -> str:
+    """The folder of the first rank."""
+    return PETSc.COMM_WORLD.tompi4py().bcast(folder) if PETSc.COMM_WORLD.getSize() > 1 else folder
+
+
+def on_first_rank(work: Callable[[], object]) -> None:
+    """Performs work() on the first rank while the others wait; what it raises is raised on all."""
+    if PETSc.COMM_WORLD.getSize() == 1:
+        work()
+        return
+    ranks, failure = PETSc.COMM_WORLD.tompi4py(), None
+    if ranks.rank == 0:
+        try:
+            work()
+        except Exception as error:
+            failure = error
+    failure = ranks.bcast(failure)
+    if failure is not None:
+        raise failure

@@ -106,8 +106,8 @@ class CMS:
 
     def reduced_operators(self) -> tuple[PETSc.Mat, PETSc.Mat, PETSc.Mat | None]:
         """K_r, M_r and C_r [n_r x n_r], dense and distributed; masters in their order, then the modes."""
-        K, M, C = (None if rows is None else self._dense(rows) for rows in self._cms.reduced_operators())
-        return K, M, C
+        K, M, C = self._cms.reduced_operators()
+        return self._dense(K), self._dense(M), None if C is None else self._dense(C)
 
     def transformation(self) -> PETSc.Mat:
         """T [n x n_r] with K_r = T^T K T: u = T (u_m, q); dense, rows laid out as those of K."""
@@ -222,7 +222,7 @@ def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton
         cms.set_dimensions(modes)
     if cutoff_Hz is not None:
         cms.set_cutoff(cutoff_Hz)
-    if tolerance is not None:
+    if tolerance is not None and up_to_Hz is not None:
         cms.set_tolerance(tolerance, up_to_Hz)
     cms.set_sylvester(count)
     is_first = cms._comm.getRank() == 0
@@ -234,9 +234,9 @@ def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton
 
 
 def _result(cms: CMS, masters: Sequence[int], transformation: bool) -> Reduction:
-    K, M, C = (None if own is None else _all_rows(cms, own) for own in cms._cms.reduced_operators())
+    K, M, C = cms._cms.reduced_operators()
     return Reduction(
-        K=K, M=M, C=C, T=cms._cms.transformation() if transformation else None,
+        K=_all_rows(cms, K), M=_all_rows(cms, M), C=None if C is None else _all_rows(cms, C), T=cms._cms.transformation() if transformation else None,
         masters=np.array(masters, dtype=np.int64), n_modes=cms.dimensions()[1], frequencies=cms.frequencies(),
         eta2=cms.errors(), rounding=cms.rounding(), bounds=cms.error_bounds(), quality=cms.quality(),
     )  # fmt: skip

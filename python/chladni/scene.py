@@ -59,14 +59,13 @@ class Scene:
     path = property(lambda self: self._scene.path, doc="what messages call the scene")
     notes = property(lambda self: self._scene.notes, doc="numbers that look like another unit's, a line for each")
 
-    @property
-    def keys(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """All keys as nested dicts; a copy."""
         return tomllib.loads(self.text)
 
     def __getitem__(self, key: str) -> Any:
         """The value of "squeal.friction", or of "squeal.pads[0].stiffness": lists count from 0."""
-        place: Any = self.keys
+        place: Any = self.to_dict()
         for step in _steps(key):
             try:
                 place = place[step]
@@ -74,12 +73,19 @@ class Scene:
                 raise KeyError(f"{key}: the scene does not say it") from None
         return place
 
+    def __contains__(self, key: str) -> bool:
+        try:
+            self[key]
+        except KeyError:
+            return False
+        return True
+
     def with_keys(self, changes: Mapping[str, Any]) -> Scene:
         """Another scene with these values of keys, checked; None takes a key away.
 
         scene.with_keys({"squeal.friction": 0.4, "squeal.pads[0].stiffness": 5e6})
         """
-        keys = self.keys
+        keys = self.to_dict()
         for key, value in changes.items():
             _set(keys, _steps(key), value)
         changed = Scene.__new__(Scene)
@@ -111,9 +117,11 @@ class Scene:
                 its attribute `results` holds those
         """
         folder = _Folder(output)
-        file = body.path if isinstance(body, File) else os.fspath(body) if body is not None else ""
-        _squeal.run_squeal(self._scene, folder.path, file, progress)
+        if self._scene.needs_body and body is None and output is None:
+            raise _squeal.Error(f"{self.path}: squeal needs a body: give it as `body`, or the folder of the scene as `output`")
+        notes = _squeal.run_squeal(self._scene, folder.path, _path_of(body), progress)
         results = File(os.path.join(folder.path, f"{self.name}.squeal.h5"))
+        results.notes = notes
         results._folder = folder
         if "failure" in results:
             error = _squeal.Error(results["failure"])
@@ -129,18 +137,21 @@ class Scene:
             progress: is called with the name of the phase and its part that is done, 0 to 1
         """
         folder = _Folder(output)
-        if self._scene.needs_body:
-            try:
-                from chladni import finite_elements
-            except ImportError as missing:
-                raise ImportError(
-                    f"{missing}; a mesh needs python3-petsc4py, python3-slepc4py and a build with PETSc; `squeal` takes "
-                    "a `body` that was made elsewhere"
-                ) from None
-            finite_elements.make_body(self._scene, folder.path, progress)
-        if self._scene.has_squeal:
+        if not self._scene.needs_body:
             self.squeal(output=folder.path, progress=progress)
-        return Run(self, folder)
+            return Run(self, folder)
+        try:
+            from chladni import finite_elements
+        except ImportError as missing:
+            raise ImportError(
+                f"{missing}; a mesh needs python3-petsc4py, python3-slepc4py and a build with PETSc; `squeal` takes "
+                "a `body` that was made elsewhere"
+            ) from None
+        run = Run(self, folder, at=finite_elements.same_on_all_ranks(folder.path))
+        run.notes = finite_elements.make_body(self._scene, run.folder, progress)
+        if self._scene.has_squeal:
+            finite_elements.on_first_rank(lambda: self.squeal(output=run.folder, progress=progress))
+        return run
 
     def __reduce__(self):
         return _again, (self.text, self.path)
@@ -157,15 +168,17 @@ class Run:
 
     Attributes:
         scene: the `Scene`
-        folder: path of the folder
+        folder: path of the folder; of the first rank under mpirun
+        notes: what is to be told of the body, a line for each
         reduced, body, squeal: what the files hold, each a `File`; None where there is no such file
     """
 
-    def __init__(self, scene: Scene, folder: str | os.PathLike | _Folder):
+    def __init__(self, scene: Scene, folder: str | os.PathLike | _Folder, at: str | None = None):
         self.scene = scene
         self._folder = folder if isinstance(folder, _Folder) else _Folder(folder)
+        self.folder: str = at or self._folder.path
+        self.notes: list[str] = []
 
-    folder = property(lambda self: self._folder.path)
     reduced = property(lambda self: self._file("reduced"))
     body = property(lambda self: self._file("body"))
     squeal = property(lambda self: self._file("squeal"))
@@ -206,6 +219,11 @@ def _again(text: str, path: str) -> Scene:
     return Scene(text, path=path)
 
 
+def _path_of(body: str | os.PathLike | File | None) -> str:
+    """Of a body; empty for none."""
+    return body.path if isinstance(body, File) else "" if body is None else os.fspath(body)
+
+
 def _steps(key: str) -> list[str | int]:
     """ "squeal.pads[0].stiffness" as ["squeal", "pads", 0, "stiffness"]."""
     steps: list[str | int] = []
@@ -216,6 +234,7 @@ def _steps(key: str) -> list[str | int]:
 
 
 def _set(table: Any, steps: list[str | int], value: Any) -> None:
+    last: Any
     *way, last = steps
     for step, following in zip(way, steps[1:]):
         if isinstance(table, dict) and step not in table and isinstance(following, str):
@@ -249,8 +268,7 @@ def sweep(scene: Scene, variants: Iterable[Mapping[str, Any]], body: str | os.Pa
     Yields:
         the results of each variant; where it failed the `chladni.Error`, which the caller may raise
     """
-    file = body.path if isinstance(body, File) else os.fspath(body) if body is not None else ""
-    jobs = [(scene.with_keys(variant), file) for variant in variants]
+    jobs = [(scene.with_keys(variant), _path_of(body)) for variant in variants]
     n = processes or os.cpu_count() or 1
     with ProcessPoolExecutor(n, mp_context=get_context("forkserver")) as pool:
         yield from pool.map(_squeal_of, jobs, chunksize=max(1, len(jobs) // (8 * n)))

@@ -44,9 +44,9 @@ def _text(text: str) -> str:
 
 def _real(number: float) -> str:
     if math.isfinite(number):
-        text = repr(float(number))
+        text = repr(number)
         return text if set(text) & set(".e") else text + ".0"
-    return str(float(number))
+    return str(number)
 
 
 def _value(value: Any) -> str:
@@ -57,7 +57,7 @@ def _value(value: Any) -> str:
     if isinstance(value, Integral):
         return str(int(value))
     if isinstance(value, Real):
-        return _real(value)
+        return _real(float(value))
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
     try:

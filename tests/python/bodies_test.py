@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import scipy.io
 from disc_scene import disc
 from files_of import arrays_of
 
@@ -67,14 +68,40 @@ class Run(unittest.TestCase):
         self.assertEqual(len(self.scene.run().body.modes.frequencies), 12)
 
 
+class MatFile(unittest.TestCase):
+    def test_holds_the_body(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = disc(title="Scheibe Ä€😀").run(folder)
+            for source, of_source in ((f"{folder}/small.body.h5", []), (f"{folder}/scene.toml", ["--from", folder])):
+                Path(f"{folder}/scene.toml").write_text(run.scene.text)
+                export = [PROGRAMS / "chladni", "export", source, *of_source, "--format", "mat", "--output", f"{folder}/a.mat"]
+                subprocess.run(export, check=True, capture_output=True)
+                body = scipy.io.loadmat(f"{folder}/a.mat", simplify_cells=True)["body"]
+                np.testing.assert_array_equal(body["frequencies"], run.body.modes.frequencies)
+                np.testing.assert_array_equal(body["attachment_displacements"], run.body.modes.attachment_displacements)
+                self.assertEqual(body["title"], "Scheibe Ä€\ufffd")
+                self.assertEqual(list(body["kinds"]), list(run.body.modes.kinds))
+                self.assertEqual(body["fixed"], "hub")
+                self.assertEqual(body["rings"]["name"], "track")
+                np.testing.assert_array_equal(body["rings"]["displacement"], run.body.rings.track.displacement)
+                np.testing.assert_array_equal(body["rings"]["nodes"], run.body.rings.track.nodes.values + 1)
+                self.assertEqual([one["name"] for one in body["sets"]], ["track", "hub"])
+                np.testing.assert_array_equal(body["row_nodes"], run.body.modes.row_nodes.values + 1)
+                np.testing.assert_array_equal(body["node_positions"], run.body.attachment.node_positions)
+                self.assertEqual(body["damping"].size, 0)
+                self.assertEqual(body["mass"], run.body.rigid_body.mass)
+
+
 class Refusal(unittest.TestCase):
     def test_names_what_is_wrong(self):
         with self.assertRaisesRegex(chladni.Error, r"scene:\d+: interface.nodes"):
             disc(interface={"nodes": ["trak", "hub"]})
         with self.assertRaisesRegex(chladni.Error, "body.fixed"):
             disc(body={"fixed": [], "keep": {"modes": 3}}).run()
-        with self.assertRaisesRegex(chladni.Error, "no such file"):
+        with self.assertRaisesRegex(chladni.Error, "squeal needs a body"):
             disc().squeal()
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(chladni.Error, "no such file; make it with"):
+            disc().squeal(output=folder)
 
     def test_of_a_body_of_another_scene(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -90,7 +117,7 @@ Physical Surface("disc") = {1}; Physical Curve("inner_edge") = {4};
 
 class MeshFile(unittest.TestCase):
     def test_is_read_from_the_folder_of_the_scene(self):
-        keys = {**disc().keys, "mesh": {"file": "plate.geo"}, "interface": {"nodes": ["hub"]}, "body": {"fixed": ["hub"]}}
+        keys = {**disc().to_dict(), "mesh": {"file": "plate.geo"}, "interface": {"nodes": ["hub"]}, "body": {"fixed": ["hub"]}}
         del keys["squeal"]
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "plate.geo").write_text(PLATE)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -67,6 +68,16 @@ class File(unittest.TestCase):
         self.assertTrue(os.path.exists(path))
         del results
         self.assertFalse(os.path.exists(path))
+
+
+    def test_is_read_by_several_threads(self):
+        def read_and_write(_):
+            own = SCENE.with_keys({"squeal.analyses": ["critical-speed"]}).squeal()
+            return [chladni.open(self.results.path).critical.speed for _ in range(5)] + [own.critical.speed]
+
+        with ThreadPoolExecutor(4) as pool:
+            found = list(pool.map(read_and_write, range(12)))
+        self.assertEqual(found, 12 * [6 * [self.results.critical.speed]])
 
 
 class Damage(unittest.TestCase):
