@@ -90,7 +90,29 @@ _OF_MODAL: _Rows = [
     (r"mass_integrals/displacement", ("xyz", "mode"), {"mode": "/modes/frequencies"}),
     (r"mass_integrals/position_displacement", ("xyz_xyz", "mode"), {"mode": "/modes/frequencies"}),
 ]
+_OF_SOUND: _Rows = [
+    (r"circumferential_harmonics", ("harmonic",), {}),
+    (r"tones/.*/nodes", ("node", "rz"), {}),
+    (r"tones/.*/triangles", ("triangle", "corner"), {}),
+    (r"tones/.*/(co)?sine_(re|im)", ("node",), {}),
+    (r"microphones/names", ("microphone",), {}),
+    (r"microphones/positions", ("microphone", "xyz"), {"microphone": "names"}),
+    (r"microphones/pressure_(re|im)", ("microphone", "tone"), {"microphone": "names"}),
+    (r"microphones/levels", ("microphone", "level"), {"microphone": "names"}),
+    (r"microphones/around_axis", ("microphone", "extreme"), {"microphone": "names"}),
+    (r"directivity/polar", ("polar",), {}),
+    (r"directivity/azimuth", ("azimuth",), {}),
+    (r"directivity/rms", ("polar", "azimuth"), {"polar": "polar", "azimuth": "azimuth"}),
+    (r"radiation/mode_numbers", ("mode",), {}),
+    (r"radiation/\w+", ("mode",), {"mode": "mode_numbers"}),
+    (r"notes", ("note",), {}),
+    (r"loudness/\w+/levels", ("speed", "microphone"), {"speed": "speeds"}),
+    (r"loudness/\w+/\w+", ("speed",), {"speed": "speeds"}),
+]
+_OF_RADIATION: _Rows = [(r"\w+", ("mode",), {"mode": "mode_numbers"})]
 _AXES: dict[str, _Rows] = {
+    "chladni-sound": _OF_SOUND,
+    "chladni-radiation": _OF_RADIATION,
     "chladni-squeal": _OF_RESULTS,
     "chladni-body": _OF_MODAL + _OF_BODIES,
     "chladni-reduced": _OF_REDUCED + _OF_BODIES,

@@ -44,8 +44,8 @@ class Array:
     def __iter__(self) -> Iterator:
         return iter(self.values)
 
-    def sel(self, **wanted: float):
-        """The values where the coordinates along the named axes are nearest to the wanted ones.
+    def sel(self, **wanted: float | str):
+        """The values where the coordinates along the named axes are nearest to the wanted numbers, or are the wanted texts.
 
         >>> speed = Array(np.array([1.0, 2.0]), "rad/s", ("speed",))
         >>> Array(np.array([[3, 4], [5, 6]]), "1", ("speed", "eigenvalue"), {"speed": speed}).sel(speed=1.9)
@@ -55,8 +55,15 @@ class Array:
         for axis, value in wanted.items():
             if axis not in self.coords:
                 raise KeyError(f"no coordinates along {axis!r}; there are some along {sorted(self.coords)}")
-            index[self.dims.index(axis)] = int(np.abs(self.coords[axis].values - value).argmin())
+            index[self.dims.index(axis)] = self.coords[axis]._place_of(value)
         return self.values[tuple(index)]
+
+    def _place_of(self, value: float | str) -> int:
+        if isinstance(value, str):
+            if value not in self.values:
+                raise KeyError(f"no {value!r} along this axis; there are {list(self.values)}")
+            return list(self.values).index(value)
+        return int(np.abs(self.values - value).argmin())
 
     def __repr__(self) -> str:
         axes = ", ".join(f"{dim}: {n}" for dim, n in zip(self.dims, self.shape))
