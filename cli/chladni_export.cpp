@@ -13,9 +13,11 @@
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/body_option_error.hpp"
+#include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/exudyn.hpp"
+#include "mbs_export/formats/matlab.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
@@ -28,7 +30,7 @@ namespace {
 namespace formats = mbs_export::formats;
 using std::filesystem::path;
 
-/// The scene's supports and modes, or only a reduced file.
+/// The scene's supports and modes, or only a file: a reduced system, or a body for `mat`.
 struct Source {
   std::optional<scene::Scene> scene;
   path reduced_file;
@@ -143,8 +145,19 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
   return {{write(file, formats::nastran_dmig(reduced))}, std::move(notes)};
 }
 
+/// The body in the file, or that of the scene as it is.
+mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& source)
+{
+  if (!source.scene) return mbs_export::read_body(source.reduced_file);
+  return make_body_of(*source.scene, read_reduced_of(arguments, source));
+}
+
 Exported export_as(const ExportArguments& arguments, const Source& source)
 {
+  if (arguments.format == "mat") {
+    const std::string text = formats::matlab_body(body_of(arguments, source));
+    return {{write(target_of(arguments, source, ".mat"), text)}, {}};
+  }
   const mbs_export::ReducedSystem reduced = read_reduced_of(arguments, source);
   if (arguments.format.starts_with("nastran")) return export_reduced(arguments, source, reduced);
   const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
@@ -184,8 +197,8 @@ void export_and_report(const ExportArguments& arguments)
 
 const std::vector<std::string>& export_formats()
 {
-  static const std::vector<std::string> names{"nastran-dmig",  "nastran-op4", "mbdyn",
-                                              "mbdyn-develop", "sid",         "exudyn"};
+  static const std::vector<std::string> names{
+      "nastran-dmig", "nastran-op4", "mbdyn", "mbdyn-develop", "sid", "exudyn", "mat"};
   return names;
 }
 

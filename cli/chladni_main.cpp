@@ -69,7 +69,10 @@ constexpr Subcommand on_scenes[] = {
 void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 {
   CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
-  exported->add_option("SOURCE", arguments.source, "the scene file, or a *.reduced.h5")->required();
+  exported
+      ->add_option("SOURCE", arguments.source,
+                   "the scene file, or a *.reduced.h5 (of mat: a *.body.h5)")
+      ->required();
   exported->add_option("--format", arguments.format, "format of the other program")
       ->required()
       ->check(CLI::IsMember(chladni::cli::export_formats()));
@@ -95,7 +98,8 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
-      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5");
+      "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5\n"
+      "  chladni export out/disc.body.h5 --format mat");
 }
 
 void declare_length_unit(CLI::App& app, std::string& unit)

@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "cases/ranks.hpp"
+#include "cases/scene_body.hpp"
 #include "files/text_file.hpp"
-#include "mbs_export/body_option_error.hpp"
-#include "mbs_export/make_body.hpp"
 #include "report/progress.hpp"
 #include "report/version.hpp"
 
@@ -104,57 +103,12 @@ cases::ReduceProgress line_of_progress(const scene::Scene& scene)
   return progress_bar(stages_of(scene.reduce));
 }
 
-namespace {
-
-/// What [body] asks for in vain is told with its place in the scene.
-mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
-{
-  try {
-    return mbs_export::make_body(reduced, scene.body);
-  } catch (const mbs_export::BodyOptionError& error) {
-    scene::refuse_key(scene, "body." + error.key(), error.why());
-  }
-}
-
-}  // namespace
-
-namespace {
-
-/// Modes beyond the last one that the reduction has an error estimate for are kept where a
-/// frequency asks for them, but told.
-void tell_uncertified(const scene::Scene& scene, const mbs_export::ModalBody& body,
-                      const mbs_export::Certificate& certificate)
-{
-  const Eigen::VectorXd& certified = certificate.frequencies;
-  if (!scene.body.keep.up_to_Hz || certified.size() == 0) return;
-  constexpr double same_mode = 1.0 + 1e-3;
-  const double last = certified[certified.size() - 1];
-  const auto n_beyond = (body.omega.array() > last * same_mode).count();
-  if (n_beyond == 0) return;
-  fmt::print(stderr,
-             "note: body.keep keeps {} modes above {:.6g} Hz, where the error estimates of the "
-             "reduction end; they may be far off\n",
-             n_beyond, last / (2.0 * std::numbers::pi));
-}
-
-}  // namespace
-
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,
                                    const mbs_export::ReducedSystem& reduced)
 {
-  mbs_export::ModalBody body = made_body(scene, reduced);
-  tell_uncertified(scene, body, reduced.certificate);
-  if (scene.squeal && body.n_free_rigid > 0) {
-    scene::refuse_key(
-        scene, "body.fixed",
-        fmt::format("leaves the body free to move as a rigid one in {} ways, but [squeal] "
-                    "needs a body that is held; hold an interface node ({}) with all its "
-                    "DOFs, or take [squeal] out",
-                    body.n_free_rigid, fmt::join(scene.interface_nodes, ", ")));
-  }
-  // That of the body may be younger.
-  body.provenance.reduction_scene = std::exchange(body.provenance.scene, scene.text);
-  return body;
+  cases::SceneBody made = cases::scene_body(scene, reduced);
+  for (const std::string& note : made.notes) fmt::print(stderr, "note: {}\n", note);
+  return std::move(made.body);
 }
 
 report::PhaseTime time_of_all_ranks(const report::PhaseTime& time)

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "files/file_digest.hpp"
 #include "files/hdf5.hpp"
 #include "mbs_export/files/provenance.hpp"
-#include "report/version.hpp"
 #include "scene/changes.hpp"
 #include "squeal/results/result_file.hpp"
 
@@ -48,15 +46,6 @@ squeal::RunOrigin read_state(squeal::Checkpoint& checkpoint)
 }
 
 }  // namespace
-
-std::string inputs_of(const path& body, const path& radiation)
-{
-  std::string inputs = fmt::format("squeal {}", report::version);
-  if (!body.empty()) inputs += fmt::format(", body {}", files::file_digest(body.string()));
-  if (!radiation.empty())
-    inputs += fmt::format(", radiation {}", files::file_digest(radiation.string()));
-  return inputs;
-}
 
 squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& origin,
                              squeal::Checkpoint& checkpoint)

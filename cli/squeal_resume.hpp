@@ -1,17 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "scene/scene.hpp"
 #include "squeal/results/results.hpp"
 #include "squeal/transient/checkpoint.hpp"
 
 namespace chladni::cli {
-
-/// Digests of the files that a run reads, and the version of the program: RunOrigin::inputs.
-/// @param body, radiation  empty for none
-std::string inputs_of(const std::filesystem::path& body, const std::filesystem::path& radiation);
 
 /// Where a run that was interrupted left its results and its state.
 struct LeftBehind {

@@ -11,6 +11,21 @@ find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 
+# For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE. An
+# interpreter without sanitizers loads no module with them.
+if(CHLADNI_PYTHON)
+  find_program(PYTHON_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import sysconfig; print(sysconfig.get_path('include'))"
+                  OUTPUT_VARIABLE python_headers OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(EXISTS ${python_headers}/Python.h AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    find_package(pybind11 2.10 QUIET)
+  endif()
+  if(NOT pybind11_FOUND)
+    message(STATUS "Without the Python package: it needs pybind11-dev and python3-dev, and no sanitizers")
+    set(CHLADNI_PYTHON OFF)
+  endif()
+endif()
+
 if(CHLADNI_FE)
   find_package(MPI REQUIRED COMPONENTS CXX)
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)

@@ -65,6 +65,7 @@ set(light_headers
     mbs_export/files/reduced_file.hpp
     mbs_export/formats/export_error.hpp
     mbs_export/formats/exudyn.hpp
+    mbs_export/formats/matlab.hpp
     mbs_export/formats/mbdyn.hpp
     mbs_export/formats/nastran.hpp
     mbs_export/formats/sid.hpp

@@ -43,16 +43,13 @@ struct Found {
   std::optional<squeal::SquealResults> results;
 };
 
-Found find_files(const ReportArguments& arguments)
+Found find_files(const ReportSource& source)
 {
-  Found found{
-      .scene = scene::read_scene(arguments.scene), .body = {}, .certificate = {}, .results = {}};
-  const auto file = [&](const char* kind) {
-    return path(arguments.output) / (found.scene.name + kind);
-  };
-  const Stale stale = arguments.stale ? Stale::use : Stale::refuse;
+  Found found{.scene = source.scene, .body = {}, .certificate = {}, .results = {}};
+  const auto file = [&](const char* kind) { return source.folder / (found.scene.name + kind); };
   const auto check = [&](const char* kind, Made what, const mbs_export::Provenance& origin) {
-    require_of_scene(found.scene, {.file = file(kind), .what = what, .origin = origin}, stale);
+    require_of_scene(found.scene, {.file = file(kind), .what = what, .origin = origin},
+                     source.stale);
   };
   if (exists(file(".body.h5"))) {
     found.body = mbs_export::read_body(file(".body.h5"));
@@ -71,8 +68,8 @@ Found find_files(const ReportArguments& arguments)
   if (!found.body && !found.results) {
     throw Error(fmt::format(
         "{}: holds neither {} nor {}; make them with `chladni run {} --output {}` and `squeal run`",
-        arguments.output, file(".body.h5").filename().string(),
-        file(".squeal.h5").filename().string(), arguments.scene, arguments.output));
+        source.folder.string(), file(".body.h5").filename().string(),
+        file(".squeal.h5").filename().string(), found.scene.path, source.folder.string()));
   }
   return found;
 }
@@ -185,12 +182,19 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
                   app.get_name()));
 }
 
+std::string report_html(const ReportSource& source, std::string_view benchmark)
+{
+  const Found found = find_files(source);
+  return report_page(found.scene.title, content_of(found), benchmark);
+}
+
 void write_report(const ReportArguments& arguments)
 {
-  const Found found = find_files(arguments);
-  const std::string page =
-      report_page(found.scene.title, content_of(found), read_benchmark(arguments.benchmark));
-  const path file = path(arguments.output) / (found.scene.name + ".report.html");
+  const ReportSource source{.scene = scene::read_scene(arguments.scene),
+                            .folder = arguments.output,
+                            .stale = arguments.stale ? Stale::use : Stale::refuse};
+  const std::string page = report_html(source, read_benchmark(arguments.benchmark));
+  const path file = source.folder / (source.scene.name + ".report.html");
   files::write_text(file, page);
   fmt::print("wrote {}, {:.1f} MB\n", file.string(), static_cast<double>(page.size()) / 1e6);
 }

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
+
+#include "report/origin.hpp"
+#include "scene/scene.hpp"
 
 namespace CLI {
 class App;
@@ -19,9 +24,21 @@ struct ReportArguments {
 /// Declares the subcommand `report` of `app`; the values arrive in `arguments`.
 void declare_report(CLI::App& app, ReportArguments& arguments);
 
-/// Makes one self-contained page, NAME.report.html, of what is in the folder: the body, the
-/// certificate of its reduction and the results of squeal. Needs no PETSc.
+/// Where the files of a scene are.
+struct ReportSource {
+  scene::Scene scene;
+  std::filesystem::path folder;
+  Stale stale = Stale::refuse;
+};
+
+/// One self-contained page of what is in the folder: the body, the certificate of its reduction and
+/// the results of squeal. Needs no PETSc.
+/// @param benchmark  JSON text that the page draws too, or "null"
 /// @throws chladni::Error when there is neither a body nor results, or a file is damaged.
+std::string report_html(const ReportSource& source, std::string_view benchmark);
+
+/// Makes that page, NAME.report.html in the folder.
+/// @throws chladni::Error as report_html, and when the scene or the benchmark cannot be read.
 void write_report(const ReportArguments& arguments);
 
 }  // namespace chladni::report

@@ -1,9 +1,11 @@
 #include "files/hdf5.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "files/hdf5_contents.hpp"
 #include "scratch_folder.hpp"
 
 namespace chladni::files {
@@ -48,6 +50,22 @@ TEST(Hdf5, ReturnsWhatWasWrittenBitByBit)
   EXPECT_EQ(reader.text_attribute("deep/in/groups/A", "unit"), "m");
   EXPECT_TRUE(reader.contains("deep/in"));
   EXPECT_FALSE(reader.contains("deep/out/groups"));
+}
+
+TEST(Hdf5Reader, TellsWhatAFileHoldsWithoutItsViews)
+{
+  const ScratchFolder folder;
+  Writer writer(folder.file("a.h5"));
+  writer.write("deep/A", Eigen::MatrixXd::Ones(3, 2), "m");
+  writer.write("n", std::int64_t{7}, "1");
+  writer.write("texts", std::vector<std::string>{"a", "b"});
+  writer.view_column("shown", {.matrix = "deep/A", .rows = 3, .cols = 2, .column = 1});
+  writer.commit();
+  const Reader reader(folder.file("a.h5"));
+  std::vector<std::string> found;
+  for (const Item& item : contents(reader))
+    found.push_back(fmt::format("{} {} {}", item.name, item.rank, item.unit));
+  EXPECT_EQ(found, (std::vector<std::string>{"deep/A 2 m", "n 0 1", "texts 1 text"}));
 }
 
 TEST(Hdf5Writer, LeavesTheOldFileWhenInterrupted)

@@ -51,7 +51,9 @@ ALLOWED = {
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
-    "cli": (*MODELS, "scene/", "report/", "cases"),
+    "cases/squeal": (*BODIES, "squeal/", "scene/", "report"),
+    "cli": (*MODELS, "scene/", "report/", "cases/"),
+    "python": (*MODELS, "scene/", "report/", "cases/"),
 }
 # The scene knows the options of all libraries: plain structs, which include nothing of theirs.
 OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
@@ -68,6 +70,7 @@ CUTS = {
     "squeal": HEAVY,
     "scene": HEAVY,
     "report": tuple(name for name in HEAVY),
+    "cases/squeal": HEAVY,
     # The sound field needs complex equations and a mesh of the air, not the body's elements.
     "sound": ("common/petsc", "common/all_ranks", "petsc", "slepc", "dmumps"),
 }

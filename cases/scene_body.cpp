@@ -1,0 +1,61 @@
+#include "cases/scene_body.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numbers>
+#include <utility>
+
+#include "mbs_export/body_option_error.hpp"
+#include "mbs_export/make_body.hpp"
+
+namespace chladni::cases {
+namespace {
+
+/// What [body] asks for in vain is told with its place in the scene.
+mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
+{
+  try {
+    return mbs_export::make_body(reduced, scene.body);
+  } catch (const mbs_export::BodyOptionError& error) {
+    scene::refuse_key(scene, "body." + error.key(), error.why());
+  }
+}
+
+/// Modes beyond the last one that the reduction has an error estimate for are kept where a
+/// frequency asks for them, but told.
+std::vector<std::string> notes_of(const scene::Scene& scene, const mbs_export::ModalBody& body,
+                                  const mbs_export::Certificate& certificate)
+{
+  const Eigen::VectorXd& certified = certificate.frequencies;
+  if (!scene.body.keep.up_to_Hz || certified.size() == 0) return {};
+  constexpr double same_mode = 1.0 + 1e-3;
+  const double last = certified[certified.size() - 1];
+  const auto n_beyond = (body.omega.array() > last * same_mode).count();
+  if (n_beyond == 0) return {};
+  return {
+      fmt::format("body.keep keeps {} modes above {:.6g} Hz, where the error estimates of the "
+                  "reduction end; they may be far off",
+                  n_beyond, last / (2.0 * std::numbers::pi))};
+}
+
+}  // namespace
+
+SceneBody scene_body(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced)
+{
+  mbs_export::ModalBody body = made_body(scene, reduced);
+  std::vector<std::string> notes = notes_of(scene, body, reduced.certificate);
+  if (scene.squeal && body.n_free_rigid > 0) {
+    scene::refuse_key(
+        scene, "body.fixed",
+        fmt::format("leaves the body free to move as a rigid one in {} ways, but [squeal] "
+                    "needs a body that is held; hold an interface node ({}) with all its "
+                    "DOFs, or take [squeal] out",
+                    body.n_free_rigid, fmt::join(scene.interface_nodes, ", ")));
+  }
+  // That of the body may be younger.
+  body.provenance.reduction_scene = std::exchange(body.provenance.scene, scene.text);
+  return {.body = std::move(body), .notes = std::move(notes)};
+}
+
+}  // namespace chladni::cases

@@ -1,0 +1,127 @@
+#include "cases/squeal/squeal_case.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/error.hpp"
+#include "files/file_digest.hpp"
+#include "files/hdf5.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/provenance.hpp"
+#include "report/version.hpp"
+#include "squeal/brake/disc.hpp"
+#include "squeal/brake/radiation.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/models/model_brake.hpp"
+
+namespace chladni::cases {
+namespace {
+
+using std::filesystem::path;
+
+squeal::Radiation read_radiation_of(const scene::Scene& scene, const SquealFiles& files,
+                                    StaleChoice stale)
+{
+  const path& file = files.radiation;
+  if (!std::filesystem::exists(file)) {
+    throw Error(
+        fmt::format("{0}: no such file, but squeal.radiation = true needs it; make it with "
+                    "`chladni sound {1} --radiation --output {2}`",
+                    file.string(), scene.path, file.parent_path().string()));
+  }
+  const files::Reader reader(file.string());
+  squeal::Radiation radiation = squeal::read_radiation(reader);
+  if (!stale || !reader.contains("provenance/scene")) return radiation;
+  const auto origin = mbs_export::file_parts::read_provenance(reader);
+  report::require_of_scene(scene, {.file = file, .what = report::Made::radiation, .origin = origin},
+                           *stale);
+  return radiation;
+}
+
+/// Digests of the files that a run reads, and the version of the program: RunOrigin::inputs.
+/// @param body, radiation  empty for none
+std::string inputs_of(const path& body, const path& radiation)
+{
+  std::string inputs = fmt::format("squeal {}", report::version);
+  if (!body.empty()) inputs += fmt::format(", body {}", files::file_digest(body.string()));
+  if (!radiation.empty())
+    inputs += fmt::format(", radiation {}", files::file_digest(radiation.string()));
+  return inputs;
+}
+
+}  // namespace
+
+SquealFiles squeal_files(const scene::Scene& scene, const path& folder, const path& body)
+{
+  const auto with = [&](const char* extension) { return folder / (scene.name + extension); };
+  return {.folder = folder,
+          .body = body.empty() ? with(".body.h5") : body,
+          .radiation = with(".radiation.h5"),
+          .results = with(".squeal.h5"),
+          .sound = with(".wav"),
+          .checkpoint = with(".checkpoint.h5"),
+          .spool = with(".checkpoint.sound")};
+}
+
+void require_study(const scene::Scene& scene)
+{
+  if (!scene.squeal && !scene.squeal_model)
+    throw Error(fmt::format("{}: there is no table [squeal], so nothing to do", scene.path));
+}
+
+std::optional<mbs_export::ModalBody> body_for_squeal(const scene::Scene& scene,
+                                                     const SquealFiles& files, StaleChoice stale)
+{
+  if (scene.squeal_model) return std::nullopt;
+  if (!std::filesystem::exists(files.body)) {
+    throw Error(
+        fmt::format("{}: no such file; make it with `chladni run {} --output {}`, or name "
+                    "another one with --body",
+                    files.body.string(), scene.path, files.folder.string()));
+  }
+  mbs_export::ModalBody body = mbs_export::read_body(files.body);
+  if (stale) {
+    report::require_of_scene(
+        scene, {.file = files.body, .what = report::Made::body, .origin = body.provenance}, *stale);
+  }
+  return body;
+}
+
+SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export::ModalBody>& body,
+                       const SquealFiles& files, StaleChoice stale)
+{
+  if (!body) return {.brake = squeal::model_brake(scene.squeal_model.value()), .notes = {}};
+  const squeal::SquealOptions& options = scene.squeal.value();
+  squeal::Disc disc = squeal::make_disc(*body, squeal::ring_choice(options), options.modes);
+  if (scene.radiation)
+    disc = squeal::with_radiation(std::move(disc), read_radiation_of(scene, files, stale));
+  std::vector<std::string> notes = squeal::notes_of(disc);
+  return {.brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options),
+          .notes = std::move(notes)};
+}
+
+const squeal::StudyOptions& study_of(const scene::Scene& scene)
+{
+  return scene.squeal ? scene.squeal->study : scene.squeal_model.value().study;
+}
+
+squeal::RunOrigin squeal_origin(const scene::Scene& scene,
+                                const std::optional<mbs_export::ModalBody>& body,
+                                const SquealFiles& files, const std::string& scene_file)
+{
+  mbs_export::Provenance origin;
+  origin.ranks = 1;
+  if (body) {
+    origin = body->provenance;
+    origin.body_scene = origin.scene;
+  }
+  origin.scene = scene.text;
+  origin.versions = body ? fmt::format("squeal {}; body: {}", report::version, origin.versions)
+                         : fmt::format("squeal {}", report::version);
+  origin.scene_file = scene_file;
+  return {std::move(origin),
+          inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path())};
+}
+
+}  // namespace chladni::cases

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <chladni_cms.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "common/error.hpp"
+#include "python/bind/interruptible.hpp"
+
+namespace chladni::python {
+
+/// An object of PETSc as petsc4py numbers it.
+using HandleNumber = std::uintptr_t;
+
+template <class Object>
+Object object_of(HandleNumber handle)
+{
+  return reinterpret_cast<Object>(handle);  // NOLINT(performance-no-int-to-ptr): it is one
+}
+
+/// While it lives, errors of PETSc are kept as text and not printed.
+class CollectedErrors {
+ public:
+  CollectedErrors() { PetscPushErrorHandler(&collect, this); }
+  ~CollectedErrors() { PetscPopErrorHandler(); }
+  CollectedErrors(const CollectedErrors&) = delete;
+  CollectedErrors& operator=(const CollectedErrors&) = delete;
+
+  /// @throws chladni::Error with the words of the first error, where there was one.
+  void check(PetscErrorCode code) const
+  {
+    if (code == 0) return;
+    if (code == PETSC_ERR_MEM) throw std::bad_alloc();
+    const char* general = nullptr;
+    if (text_.empty()) PetscErrorMessage(code, &general, nullptr);
+    throw Error(general != nullptr ? general : text_);
+  }
+
+ private:
+  static PetscErrorCode collect(MPI_Comm /*comm*/, int /*line*/, const char* /*function*/,
+                                const char* /*file*/, PetscErrorCode code, PetscErrorType type,
+                                const char* text, void* errors)
+  {
+    auto& kept = static_cast<CollectedErrors*>(errors)->text_;
+    if (type == PETSC_ERROR_INITIAL && text != nullptr) kept = text;
+    return code;
+  }
+
+  std::string text_;
+};
+
+/// A CMS and the Python function that hears of its phases.
+class Cms {
+ public:
+  explicit Cms(HandleNumber of_same_comm)
+  {
+    call([&] { return CMSCreate(PetscObjectComm(object_of<PetscObject>(of_same_comm)), &cms_); });
+  }
+  /// Not after PETSc has ended, which is when the interpreter ends.
+  ~Cms()
+  {
+    PetscBool is_over = PETSC_FALSE;
+    PetscFinalized(&is_over);
+    if (!is_over) CMSDestroy(&cms_);
+  }
+  Cms(const Cms&) = delete;
+  Cms& operator=(const Cms&) = delete;
+
+  CMS get() const { return cms_; }
+
+  /// @throws chladni::Error when the function of the C header says so.
+  template <class Function>
+  static void call(const Function& function)
+  {
+    const CollectedErrors errors;
+    errors.check(function());
+  }
+
+  void solve(pybind11::object listener, PetscErrorCode (*function)(CMS))
+  {
+    Progress progress(std::move(listener));
+    const auto forget = [&] { CMSMonitorSet(cms_, nullptr, nullptr); };
+    try {
+      progress.during([&] {
+        call([&] { return CMSMonitorSet(cms_, &tell, &progress); });
+        call([&] { return function(cms_); });
+      });
+    } catch (...) {
+      forget();
+      throw;
+    }
+    forget();
+  }
+
+ private:
+  static PetscErrorCode tell(CMS /*cms*/, const char phase[], PetscReal seconds, void* progress)
+  {
+    try {
+      static_cast<Progress*>(progress)->tell(phase, seconds);
+      return 0;
+    } catch (...) {  // Progress keeps it
+      return PETSC_ERR_USER;
+    }
+  }
+
+  CMS cms_ = nullptr;
+};
+
+}  // namespace chladni::python

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string_view>
+
+namespace chladni::python {
+
+/// As text of Python; a byte that is no UTF-8, as damaged files have it, becomes U+FFFD.
+inline pybind11::str text_of(std::string_view text)
+{
+  PyObject* const decoded =
+      PyUnicode_DecodeUTF8(text.data(), pybind11::ssize_t(text.size()), "replace");
+  if (decoded == nullptr) throw pybind11::error_already_set();
+  return pybind11::reinterpret_steal<pybind11::str>(decoded);
+}
+
+}  // namespace chladni::python

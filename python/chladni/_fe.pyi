@@ -1,0 +1,3 @@
+from collections.abc import Callable
+
+def make_body(text: str, name: str, folder: str, listener: Callable[[str, float], object] | None) -> list[str]: ...

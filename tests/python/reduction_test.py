@@ -1,0 +1,172 @@
+"""Reductions of matrices of scipy and petsc4py; on several ranks under mpirun. Usage: reduction_test.py"""
+
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse
+from petsc4py import PETSc
+
+import chladni
+
+RANKS = PETSc.COMM_WORLD.getSize()
+N = 400
+
+
+def chain(n=N):
+    """A chain of unequal springs and masses, held nowhere: every shape of it is known to scipy."""
+    k = 1e4 * (1.0 + 0.3 * np.sin(np.arange(n - 1)))
+    ends = np.concatenate([[0.0], k, [0.0]])
+    K = scipy.sparse.diags([-k, ends[:-1] + ends[1:], -k], [-1, 0, 1], format="csr")
+    M = scipy.sparse.diags(1.0 + 0.5 * np.cos(np.arange(n)), format="csr")
+    return K, M
+
+
+def distributed(A):
+    """The same matrix on all ranks."""
+    B = PETSc.Mat().createAIJ(A.shape, nnz=3, comm=PETSc.COMM_WORLD)
+    first, last = B.getOwnershipRange()
+    rows = A[first:last]
+    B.setPreallocationCSR((rows.indptr.astype("i4"), rows.indices.astype("i4"), rows.data))
+    B.assemble()
+    return B
+
+
+K, M = chain()
+MASTERS = [N - 1, 0, 137]
+
+
+class Reduction(unittest.TestCase):
+    def test_is_the_projection_on_its_transformation(self):
+        for method in ("craig-bampton", "guyan", "rubin"):
+            with self.subTest(method):
+                reduced = chladni.reduce(K, M, MASTERS, method=method, **({} if method == "guyan" else {"modes": 12}))
+                scale = abs(reduced.K).max()
+                np.testing.assert_allclose(reduced.T.T @ (K @ reduced.T), reduced.K, atol=1e-10 * scale)
+                np.testing.assert_allclose(reduced.T.T @ (M @ reduced.T), reduced.M, atol=1e-10)
+                np.testing.assert_allclose(reduced.T[MASTERS][:, :3], np.eye(3), atol=1e-12)
+
+    def test_estimates_the_errors_of_its_frequencies(self):
+        reduced = chladni.reduce(K, M, MASTERS, modes=12, count=True)
+        exact = np.sqrt(scipy.linalg.eigh(K.toarray(), M.toarray(), eigvals_only=True)[1:]) / (2 * np.pi)
+        errors = (reduced.frequencies / exact[: len(reduced.frequencies)]) ** 2 - 1
+        self.assertGreater(len(reduced.bounds), 5)
+        self.assertTrue((errors[: len(reduced.bounds)] <= reduced.bounds).all())
+        self.assertLess(np.median(np.abs(np.log(errors / reduced.eta2))), np.log(4.0))
+        self.assertEqual(reduced.quality["n_zero"], 1)
+        self.assertEqual(reduced.quality["model"]["missing"], 0)
+
+    def test_of_petsc_is_that_of_scipy(self):
+        theirs = chladni.reduce(K, M, MASTERS, modes=12)
+        ours = chladni.reduce(distributed(K), distributed(M), MASTERS, modes=12)
+        np.testing.assert_allclose(np.abs(ours.K), np.abs(theirs.K), atol=1e-8 * abs(theirs.K).max())
+        np.testing.assert_allclose(np.abs(ours.M), np.abs(theirs.M), atol=1e-7)
+        first, last = distributed(K).getOwnershipRange()
+        np.testing.assert_allclose(np.abs(ours.T), np.abs(theirs.T[first:last]), atol=1e-7)
+
+    def test_reduces_velocity_forces_and_chosen_rows(self):
+        reduced = chladni.reduce(K, M, MASTERS, C=0.1 * K + 2.0 * M, modes=4, rows=[3, 5])
+        np.testing.assert_allclose(reduced.C, 0.1 * reduced.K + 2.0 * reduced.M, atol=1e-8 * abs(reduced.K).max())
+        self.assertEqual(reduced.T.shape, (2, 7))
+
+    def test_chooses_modes_by_a_tolerance(self):
+        reduced = chladni.reduce(K, M, MASTERS, tolerance=1e-4, up_to_Hz=1.0)
+        self.assertTrue((reduced.eta2[reduced.frequencies < 1.0] / 2 < 1e-4).all())
+        self.assertGreater(chladni.reduce(K, M, MASTERS, cutoff_Hz=4.0).n_modes, 0)
+
+    def test_can_be_pickled(self):
+        reduced = chladni.reduce(K, M, MASTERS, modes=3)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(reduced)).K, reduced.K)
+
+    def test_is_refused_in_words(self):
+        for masters, words, more in (
+            ([0, 0], "master 0 is given twice", {}),
+            ([0, N], f"master {N} is out of range; rows are 0 to {N - 1}", {}),
+            ([], "0 masters of 400 rows", {}),
+            ([0], "Unknown CMS type", {"method": "gauyan"}),
+            ([0], "modes asked of 399 slaves", {"modes": 1000}),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(chladni.Error, words):
+                chladni.reduce(K, M, masters, **more)
+        with self.assertRaisesRegex(chladni.Error, "not symmetric"):
+            chladni.reduce(K + scipy.sparse.eye(N, k=1), M, MASTERS)
+        with self.assertRaisesRegex(chladni.Error, "(?i)size|rows"):
+            chladni.reduce(K, chain(N + 1)[1], MASTERS)
+        for wrong in (np.eye(3), None, K * 1j):
+            with self.assertRaises(TypeError):
+                chladni.reduce(wrong, M, MASTERS)
+        with self.assertRaises(TypeError):
+            chladni.reduce(K, M, [0.5])
+        with self.assertRaises(ValueError):
+            chladni.reduce(K, M, MASTERS, modes=3, cutoff_Hz=1.0)
+        with self.assertRaises(ValueError):
+            chladni.reduce(PETSc.Mat(), M, MASTERS)
+
+    def test_tells_its_monitor_and_ends_with_what_it_raises(self):
+        phases = []
+        chladni.reduce(K, M, MASTERS, modes=3, monitor=lambda phase, seconds: phases.append(phase))
+        self.assertEqual(phases[1], "factorization")
+
+        def refuse(phase, seconds):
+            if phase == "factorization":
+                raise ZeroDivisionError(phase)
+
+        with self.assertRaises(ZeroDivisionError):
+            chladni.reduce(K, M, MASTERS, modes=3, monitor=refuse)
+
+        def interrupt(phase, seconds):
+            signal.raise_signal(signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            chladni.reduce(K, M, MASTERS, modes=3, monitor=interrupt)
+
+
+class Cms(unittest.TestCase):
+    def test_has_the_life_of_the_object_in_c(self):
+        cms = chladni.CMS(distributed(K), distributed(M))
+        with self.assertRaisesRegex(chladni.Error, r"Call CMSSolve\(\) first"):
+            cms.reduced_operators()
+        cms.set_interface(MASTERS if PETSc.COMM_WORLD.getRank() == 0 else [])
+        cms.set_dimensions(5)
+        cms.set_sylvester(True)
+        self.assertEqual(cms.get_type(), "craig-bampton")
+        cms.set_up()
+        self.assertEqual(cms.dimensions()[0], 3)
+        cms.solve()
+        self.assertEqual(cms.dimensions(), (3, 5))
+        T, (K_r, M_r, C_r) = cms.transformation(), cms.reduced_operators()
+        self.assertIsNone(C_r)
+        self.assertEqual(T.getSize(), (N, 8))
+        projected = distributed(K).matMult(T)
+        projected = T.transposeMatMult(projected)
+        projected.axpy(-1.0, K_r)
+        self.assertLess(projected.norm(), 1e-9 * K_r.norm())
+        self.assertEqual(M_r.getSize(), (8, 8))
+        with tempfile.TemporaryDirectory() as folder:
+            path = PETSc.COMM_WORLD.tompi4py().bcast(f"{folder}/a.reduced.h5")
+            cms.write(path)
+            PETSc.COMM_WORLD.barrier()
+            self.assertEqual(chladni.open(path).matrices.stiffness.shape, (8, 8))
+            PETSc.COMM_WORLD.barrier()
+        cms.reset()
+        with self.assertRaises(chladni.Error):
+            cms.frequencies()
+
+    def test_takes_options_of_petsc(self):
+        options = PETSc.Options()
+        options["mine_cms_nmodes"] = 7
+        cms = chladni.CMS(K, M)
+        cms.set_interface(MASTERS)
+        cms.set_options_prefix("mine_")
+        cms.set_from_options()
+        cms.solve()
+        self.assertEqual(cms.dimensions(), (3, 7))
+
+
+if __name__ == "__main__":
+    unittest.main()
