@@ -4,10 +4,17 @@
 
 #include <complex>
 #include <numbers>
+#include <ranges>
 
 #include "report/quantities.hpp"
 
 namespace chladni::report {
+namespace {
+
+/// Of the strongest lines of a spectrum, in a table.
+constexpr int n_lines_told = 5;
+
+}  // namespace
 
 double rpm(double rad_s)
 {
@@ -30,6 +37,27 @@ void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
   add(table, name + "least normal force", cycle.N_min, "N");
   add(table, name + "largest normal force", cycle.N_max, "N");
   if (!cycle.settled) add(table, name + "drift", 100.0 * cycle.drift, "%");
+  if (cycle.amplitude.size() > 0 || cycle.mode_numbers.empty()) return;
+  table.rows.push_back({"end of the transient",
+                        "the disc is not axisymmetric: it ends in no closed orbit, and "
+                        "\"motion-statistics\" tells how it squeals",
+                        ""});
+}
+
+void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics)
+{
+  const std::string name = fmt::format("last {} rotations{}: ", statistics.n_rotations,
+                                       statistics.settled ? "" : ", not settled");
+  add(table, name + "speed", statistics.speed, "rad/s");
+  add(table, name + "effective pad velocity", statistics.rms_velocity, "m/s");
+  add(table, name + "largest pad velocity", statistics.peak_velocity, "m/s");
+  add(table, name + "largest pad displacement", 1e3 * statistics.peak_displacement, "mm");
+  add(table, name + "least normal force", statistics.N_min, "N");
+  add(table, name + "largest normal force", statistics.N_max, "N");
+  add(table, name + "modulation by the rotation", 100.0 * statistics.modulation, "%");
+  if (!statistics.settled) add(table, name + "drift", 100.0 * statistics.drift, "%");
+  for (const auto& line : statistics.lines | std::views::take(n_lines_told))
+    add(table, fmt::format("{}line at {:.6g} Hz", name, line.frequency_Hz), line.amplitude, "m/s");
 }
 
 void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)

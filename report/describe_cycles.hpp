@@ -16,6 +16,7 @@ std::string spoken(double rad_s);
 /// The rows of the limit cycle at the end of a transient, of one that was found directly, and of a
 /// branch of limit cycles.
 void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle);
+void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics);
 void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle);
 void add_branch(TextTable& table, const squeal::LimitCycleBranch& branch);
 

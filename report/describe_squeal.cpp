@@ -241,6 +241,7 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
   for (const squeal::Growth& growth : results.growth) add_growth(table, growth);
   if (results.transient) add_transient(table, *results.transient);
+  if (results.motion_statistics) add_statistics(table, *results.motion_statistics);
   if (results.limit_cycle) add_limit_cycle(table, *results.limit_cycle);
   if (results.limit_cycle_direct) add_direct_limit_cycle(table, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) add_branch(table, *results.limit_cycle_branch);

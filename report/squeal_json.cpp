@@ -49,6 +49,33 @@ Json limit_cycle_json(const squeal::LimitCycle& cycle)
                        {"settled", cycle.settled ? 1 : 0}});
 }
 
+Json statistics_json(const squeal::MotionStatistics& statistics)
+{
+  std::vector<Json> lines, rms;
+  for (const squeal::MotionStatistics::Line& line : statistics.lines) {
+    lines.push_back(Json::object({{"frequency_Hz", line.frequency_Hz},
+                                  {"amplitude_m_s", line.amplitude},
+                                  {"rotations", line.rotations}}));
+  }
+  for (const double value : statistics.rms_over_angle) rms.push_back(value);
+  return Json::object({{"speed_rad_s", statistics.speed},
+                       {"from_s", statistics.from},
+                       {"n_rotations", double(statistics.n_rotations)},
+                       {"band_Hz", statistics.band_Hz},
+                       {"rms_velocity_m_s", statistics.rms_velocity},
+                       {"peak_velocity_m_s", statistics.peak_velocity},
+                       {"rms_displacement_m", statistics.rms_displacement},
+                       {"peak_displacement_m", statistics.peak_displacement},
+                       {"N_min_N", statistics.N_min},
+                       {"N_max_N", statistics.N_max},
+                       {"open", statistics.open},
+                       {"drift", statistics.drift},
+                       {"settled", statistics.settled ? 1 : 0},
+                       {"modulation", statistics.modulation},
+                       {"rms_velocity_over_angle_m_s", Json::array(rms)},
+                       {"lines", Json::array(lines)}});
+}
+
 Json direct_json(const squeal::DirectLimitCycle& cycle)
 {
   std::vector<Json> multipliers;
@@ -249,6 +276,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const std::string& warning = results.transient->warning;
     members.emplace_back("transient_warning", warning.empty() ? Json() : Json(warning));
   }
+  if (results.motion_statistics)
+    members.emplace_back("motion_statistics", statistics_json(*results.motion_statistics));
   if (results.limit_cycle)
     members.emplace_back("limit_cycle", limit_cycle_json(*results.limit_cycle));
   if (results.limit_cycle_direct)

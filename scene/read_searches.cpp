@@ -17,12 +17,13 @@ bool is_of(const squeal::ParameterRow& row, StudyOf of)
 MapParameter read_parameter(const Table& table, std::string_view key, StudyOf of)
 {
   const std::string word = table.text(key);
-  const squeal::ParameterRow* const row = squeal::find_parameter(word);
-  if (row && is_of(*row, of)) return {row->name};
+  const std::optional<MapParameter> parameter = squeal::parameter_of(word);
+  if (parameter && is_of(*squeal::find_parameter(parameter->name), of)) return *parameter;
   std::vector<std::string> names;
   for (const squeal::ParameterRow& known : squeal::parameters)
     if (is_of(known, of)) names.emplace_back(known.name);
-  table.refuse(key, "must be one of " + quoted_list(names));
+  table.refuse(key, "must be one of " + quoted_list(names) +
+                        "; that of one pad alone is called like \"pads[1].stiffness\"");
 }
 
 /// Absent: the speed.

@@ -15,13 +15,14 @@ struct Analysis {
 };
 
 /// All analyses, in the order in which messages and documents list them.
-inline constexpr std::array<Analysis, 13> analyses{{
+inline constexpr std::array<Analysis, 14> analyses{{
     {"eigenvalues", "speeds", "", false},
     {"critical-speed", "speeds", "", false},
     {"stability", "speeds", "", false},
     {"growth", "growth", "", false},
     {"transient", "transient", "", false},
     {"limit-cycle", "transient", "", false},
+    {"motion-statistics", "transient", "", false},
     {"limit-cycle-direct", "limit_cycle_direct", "transient", false},
     {"limit-cycle-branch", "speeds", "", false},
     {"stability-map", "map", "", false},

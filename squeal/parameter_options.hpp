@@ -1,13 +1,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace chladni::squeal {
 
-/// A scalar key of [squeal] that a study may vary, for all pads if it is one of pads.
+/// A scalar key of [squeal] that a study may vary, of all pads or of one if it is one of pads.
 struct MapParameter {
   std::string_view name;  ///< of a row of `parameters`
+  int pad = 0;            ///< number of the pad pair, from 1; 0: all of them
 
   static const MapParameter friction;   ///< mu
   static const MapParameter preload;    ///< N_0 of every pad, N
@@ -41,6 +44,7 @@ inline constexpr std::array parameters = {
     ParameterRow{"friction.static", "1", true},
     ParameterRow{"friction.decay_speed", "m/s"},
     ParameterRow{"friction.regularisation", "m/s", true},
+    ParameterRow{"pads.angle_deg", "degrees", true},
     ParameterRow{"pads.grid.sector_deg", "degrees"},
     ParameterRow{"pads.body.mass", "kg"},
     ParameterRow{"pads.body.height", "m", true},
@@ -82,6 +86,12 @@ constexpr const ParameterRow* find_parameter(std::string_view name)
     if (row.name == name) return &row;
   return nullptr;
 }
+
+/// Its name, or "pads[2].stiffness" of one pad.
+std::string key_of(MapParameter parameter);
+
+/// The parameter whose `key_of` this is; absent when there is none.
+std::optional<MapParameter> parameter_of(std::string_view key);
 
 /// Sets what `at` points to.
 /// @param at  null where the brake has no such key

@@ -99,7 +99,7 @@ inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
 /// The flexible disc of that body, undamped.
 inline Disc disc_of(const std::vector<PlatePair>& pairs)
 {
-  return make_disc(analytic_body(pairs), "track", {});
+  return disc_on_ring(analytic_body(pairs), "track", {});
 }
 
 /// The state matrix over the speed.

@@ -1,11 +1,10 @@
 #include "report/page/squeal_results.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
 
 #include "report/page/headline.hpp"
+#include "report/page/motion_statistics.hpp"
 #include "report/page/numbers.hpp"
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/stability/stability_search.hpp"
@@ -228,6 +227,8 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
     members.emplace_back("branch", branch_json(*results.limit_cycle_branch));
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
+  if (results.motion_statistics)
+    members.emplace_back("statistics", statistics_page(*results.motion_statistics));
   return members;
 }
 

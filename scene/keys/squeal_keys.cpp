@@ -149,7 +149,7 @@ constexpr Key squeal_rows[] = {
     {"squeal.map.parameter",
      word,
      "required",
-     "those of pads are of all pads",
+     "those of pads are of all pads; of one pad alone: pads[2].stiffness, pads[2].angle_deg, ...",
      {},
      parameter_words},
     {"squeal.map.from", number, "required", "in the unit of the parameter", {.at_least = 0.0}},

@@ -77,7 +77,7 @@ std::vector<int> nodal_diameters(const Disc& disc)
   return n;
 }
 
-Disc make_disc(const ModalBody& body, const std::string& ring, const ModeChoice& modes)
+Disc disc_on_ring(const ModalBody& body, const std::string& ring, const ModeChoice& modes)
 {
   return make_disc(body, RingChoice{.names = {ring}}, modes);
 }

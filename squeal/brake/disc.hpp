@@ -57,7 +57,10 @@ struct Disc {
 ///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),
 ///         and modes that do not move the ring.
 Disc make_disc(const mbs_export::ModalBody& body, const RingChoice& rings, const ModeChoice& modes);
-Disc make_disc(const mbs_export::ModalBody& body, const std::string& ring, const ModeChoice& modes);
+
+/// The disc of `body` that touches the pads at one ring, by its axial motion; see `make_disc`.
+Disc disc_on_ring(const mbs_export::ModalBody& body, const std::string& ring,
+                  const ModeChoice& modes);
 
 /// Which modes have no part in the motion, a sentence each: "60 modes above 17048 Hz follow the
 /// pads without inertia"; empty when all have one.

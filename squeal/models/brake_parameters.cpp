@@ -56,6 +56,7 @@ constexpr std::array pad_rows = {
     PadRow{"preload", [](PadPair& pad) { return &pad.preload; }},
     PadRow{"stiffness", [](PadPair& pad) { return &pad.stiffness; }},
     PadRow{"damping", [](PadPair& pad) { return &pad.damping; }},
+    PadRow{"pads.angle_deg", [](PadPair& pad) { return &pad.angle; }, std::numbers::pi / 180.0},
     PadRow{"pads.grid.sector_deg",
            [](PadPair& pad) { return pad.grid ? &pad.grid->sector : nullptr; },
            std::numbers::pi / 180.0},
@@ -81,14 +82,26 @@ constexpr std::array pad_rows = {
     PadRow{"pads.caliper.damping", of_caliper<d>},
 };
 
-/// In every pad that has it.
+/// In every pad that has it, or in one.
+/// @param number  of this one, from 1; 0: every pad
 /// @return one of these places; null when no pad has it
-double* set_in_pads(SquealOptions& options, const PadRow& row, double value)
+double* set_in_pads(SquealOptions& options, const PadRow& row, int number, double value)
 {
   double* found = nullptr;
-  for (PadPair& pad : options.pads)
-    if (double* const at = row.at(pad)) *(found = at) = row.unit * value;
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
+    if (number != 0 && i + 1 != static_cast<std::size_t>(number)) continue;
+    if (double* const at = row.at(options.pads[i])) *(found = at) = row.unit * value;
+  }
   return found;
+}
+
+/// At one angle all pads would be in one place.
+void require_one_pad_to_turn(MapParameter parameter)
+{
+  if (parameter.name != "pads.angle_deg" || parameter.pad != 0) return;
+  throw Error(
+      "[squeal] \"pads.angle_deg\" cannot vary for all pads at once; name one, e.g. "
+      "\"pads[2].angle_deg\"");
 }
 
 /// Keeps the middle between the contact planes.
@@ -129,7 +142,8 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
   }
   for (const PadRow& row : pad_rows)
     if (row.name == parameter.name) {
-      set_parameter(set_in_pads(options, row, value), parameter, row.unit * value);
+      require_one_pad_to_turn(parameter);
+      set_parameter(set_in_pads(options, row, parameter.pad, value), parameter, row.unit * value);
       return options;
     }
   double* const at = parameter.name == "thickness" ? set_thickness(options, value)

@@ -142,7 +142,7 @@ std::unique_ptr<Brake> OscillatorBrake::with(MapParameter parameter, double valu
        {"oscillator.damping_normal", &changed.d_y}}};
   double* at = nullptr;
   for (const auto& [name, place] : places)
-    if (name == parameter.name) at = place;
+    if (name == parameter.name && parameter.pad == 0) at = place;
   set_parameter(at, parameter, value);
   return std::make_unique<OscillatorBrake>(changed);
 }

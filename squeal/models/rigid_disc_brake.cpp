@@ -155,7 +155,7 @@ std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value
        {"rigid_disc.pad_radius", &disc.radius}}};
   double* at = nullptr;
   for (const auto& [name, place] : places)
-    if (name == parameter.name) at = place;
+    if (name == parameter.name && parameter.pad == 0) at = place;
   set_parameter(at, parameter, value);
   return std::make_unique<RigidDiscBrake>(changed);
 }

@@ -30,8 +30,8 @@ std::string shape_group(std::size_t i)
 std::string unit_of(const std::string& parameter)
 {
   if (parameter == "speed") return "rad/s";
-  const ParameterRow* const row = find_parameter(parameter);
-  return row ? std::string(row->unit) : "1";
+  const auto known = parameter_of(parameter);
+  return known ? std::string(find_parameter(known->name)->unit) : "1";
 }
 
 void write_eigenvalues(Writer& file, const EigenvalueMap& map)

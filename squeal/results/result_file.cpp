@@ -14,6 +14,7 @@
 #include "squeal/results/sensitivity_file.hpp"
 #include "squeal/results/stability_file.hpp"
 #include "squeal/results/stability_table_file.hpp"
+#include "squeal/results/statistics_file.hpp"
 #include "squeal/results/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -145,6 +146,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.limit_cycle_direct) write_direct(file, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) write_branch(file, *results.limit_cycle_branch);
   if (results.spectrum) write_spectrum(file, *results.spectrum);
+  if (results.motion_statistics) write_statistics(file, *results.motion_statistics);
   if (results.failure) file.write("failure", *results.failure);
   if (!results.missing.empty()) file.write("missing", results.missing);
   if (!results.inputs.empty()) file.write("inputs", results.inputs);
@@ -168,6 +170,7 @@ SquealResults read_results(const Reader& file)
   if (file.contains("critical/speed")) results.critical_speed = read_critical_speed(file);
   results.critical_values = read_critical_values(file);
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
+  if (file.contains("motion_statistics")) results.motion_statistics = read_statistics(file);
   if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("missing")) results.missing = file.texts("missing");
   if (file.contains("inputs")) results.inputs = file.text("inputs");

@@ -44,8 +44,9 @@ Eigen::MatrixXcd transformed(Eigen::MatrixXcd f, double sign)
 
 AngleHarmonics harmonics_of(AngleSamples f)
 {
-  const double N = double(f.cols());
-  return transformed(std::move(f), -1.0) / N;
+  AngleHarmonics c = transformed(std::move(f), -1.0);
+  c *= 1.0 / double(c.cols());
+  return c;
 }
 
 AngleSamples samples_of(AngleHarmonics c)

@@ -16,9 +16,14 @@ using std::numbers::pi;
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-/// Steps are halved until the growth changes by less, 1/s.
-constexpr double growth_error = 1e-8;
+/// Steps are halved until the growth changes by less, 1/s, or by less than this part of what the
+/// equations of the group leave open.
+constexpr double growth_error = 1e-8, part_of_error = 0.1;
 constexpr Index n_steps_max = Index{1} << 18;
+/// Halvings that do not lessen the change before there are no more.
+constexpr int stuck_max = 2;
+/// Error over the largest of these changes.
+constexpr double chance = 4.0;
 /// Of the invariant flag over one period, per angle, and how often it is passed until then.
 constexpr double flag_error = 1e-13;
 constexpr int n_passes_max = 8;
@@ -177,19 +182,23 @@ GroupExponents integrated(const NearGroup& group, double step)
   const double turns = 2.0 * pi * samples_of(F.c).cwiseAbs().colwise().maxCoeff().maxCoeff();
   Index M = power_of_two(std::max(4 * F.c.cols(), static_cast<Index>(4.0 * turns)));
   Flag flag = Orbit<G>(F.c, g, M).motions();
-  double change = std::numeric_limits<double>::infinity(), last = change;
+  double change = std::numeric_limits<double>::infinity(), unsettled = 0.0;
   // Each half of a step errs a 64th: what does not fall is rounding, or exponents so near each
-  // other that the flag of their vectors turns slowly, and no step helps.
+  // other that the flag of their vectors turns slowly, and no step helps. Changes that do not fall
+  // are differences of two errors of one size, small by chance.
   int stuck = 0;
-  while (change > growth_error && M < n_steps_max && stuck < 2) {
+  const double enough = std::max(growth_error, part_of_error * group.error);
+  while (change > enough && M < n_steps_max && stuck < stuck_max) {
     M *= 2;
     const Flag finer = Orbit<G>(F.c, g, M).motions();
-    last = change;
+    const double last = change;
     change = step * (finer.exponent - flag.exponent).real().cwiseAbs().maxCoeff();
     stuck = change > 0.25 * last ? stuck + 1 : 0;
+    unsettled = stuck > 0 ? std::max({unsettled, change, last}) : 0.0;
     flag = finer;
   }
-  GroupExponents result{Eigen::VectorXcd(g), std::max(change, step * flag.error)};
+  GroupExponents result{Eigen::VectorXcd(g),
+                        std::max({change, chance * unsettled, step * flag.error})};
   for (Index i = 0; i < g; ++i) {
     const double replica = std::round(flag.frequency[i] - flag.exponent[i].imag());
     result.lambda[i] = step * (F.mean + flag.exponent[i] + Complex(0.0, replica));

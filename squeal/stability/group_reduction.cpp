@@ -21,8 +21,8 @@ constexpr double F_error = 1e-7;
 constexpr double share_limit = 0.5, long_share_limit = 0.03;
 constexpr int n_iterations_max = 80;
 
-/// The iteration for one group; X is zero in the rows of the group. In each step B multiplies the
-/// columns of `put` at every sample, for all groups at once; `take` is given the product.
+/// The iteration for one group; X is zero in the rows of the group. In each step P B P^* multiplies
+/// the columns of `put` at every sample, for all groups at once; `take` is given the product.
 class Reduction {
  public:
   Reduction(const TurningModes& modes, double tolerance, States states)
@@ -151,10 +151,22 @@ class Reduction {
   std::optional<Reduced> outcome_;
 };
 
+/// P B P^* W at the sample s: B is real, and so are the two products.
+Eigen::MatrixXcd coupled(const TurningModes& modes, Index s, Eigen::MatrixXcd W)
+{
+  const Index n = W.cols();
+  Eigen::MatrixXcd r = to_real_pairs(modes.lambda, std::move(W));
+  Eigen::MatrixXd parts(r.rows(), 2 * n), product(r.rows(), 2 * n);
+  parts << r.real(), r.imag();
+  product.noalias() = modes.at(s) * parts;
+  r.real() = product.leftCols(n);
+  r.imag() = product.rightCols(n);
+  return from_real_pairs(modes.lambda, std::move(r));
+}
+
 /// Until each has its outcome. B is read once for all of them, which is what it costs.
 void solve(std::vector<Reduction>& all, const TurningModes& modes)
 {
-  Eigen::MatrixXcd W, BW;
   for (;;) {
     std::vector<Reduction*> open;
     Index n_columns = 0;
@@ -164,14 +176,14 @@ void solve(std::vector<Reduction>& all, const TurningModes& modes)
         n_columns += one.size();
       }
     if (open.empty()) return;
-    W.resize(modes.size(), n_columns);
     for (Index s = 0; s < modes.B.cols(); ++s) {
+      Eigen::MatrixXcd W(modes.size(), n_columns);
       Index at = 0;
       for (Reduction* one : open) {
         one->put(s, W.middleCols(at, one->size()));
         at += one->size();
       }
-      BW.noalias() = modes.at(s) * W;
+      const Eigen::MatrixXcd BW = coupled(modes, s, std::move(W));
       at = 0;
       for (Reduction* one : open) {
         one->take(s, BW.middleCols(at, one->size()));

@@ -84,7 +84,7 @@ CriticalValue critical_value(const Brake& brake, const CriticalCase& search)
     return brake.with(search.parameter, value)->state_matrix(search.speed);
   };
   CriticalValue result{
-      .parameter = std::string(search.parameter.name),
+      .parameter = key_of(search.parameter),
       .speed = search.speed,
       .value = {},
       .frequency_Hz = 0.0,

@@ -76,12 +76,13 @@ class Sets {
 /// States that B couples by much of their distance, each harmonic by itself.
 void unite_near(Sets& sets, const TurningModes& modes)
 {
-  const AngleHarmonics c = harmonics_of(modes.B);
+  const AngleHarmonics c = harmonics_of(modes.B.cast<Complex>());
   const Index m = modes.size(), N = c.cols();
   for (Index column = 0; column < N; ++column) {
     const Index k = order_of(column, N);
     if (std::abs(k) > modes.highest) continue;
-    const Eigen::Map<const Eigen::MatrixXcd> B(c.col(column).data(), m, m);
+    const Eigen::MatrixXcd PB = from_real_pairs(modes.lambda, c.col(column).reshaped(m, m));
+    const Eigen::MatrixXcd B = from_real_pairs(modes.lambda, PB.adjoint()).adjoint();
     const Complex turn{0.0, double(k) * modes.step};
     for (Index j = 0; j < m; ++j)
       for (Index i = 0; i < m; ++i)

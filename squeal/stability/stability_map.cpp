@@ -25,7 +25,7 @@ void fill_column(StabilityMap& map, const Brake& brake, MapParameter parameter, 
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,
                            unsigned n_threads)
 {
-  StabilityMap map{.parameter = std::string(range.parameter.name),
+  StabilityMap map{.parameter = key_of(range.parameter),
                    .values = Eigen::VectorXd::LinSpaced(range.count, range.from, range.to),
                    .speeds = Eigen::VectorXd::LinSpaced(speeds.count, speeds.from, speeds.to),
                    .growth = Eigen::MatrixXd(range.count, speeds.count),

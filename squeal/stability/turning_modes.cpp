@@ -125,17 +125,41 @@ TurningModes turning_modes(const TurningHarmonics& harmonics, Index N)
     c.col(N - k) = c.col(k).conjugate();
   }
   const AngleSamples change = samples_of(std::move(c));
-  const Eigen::MatrixXd V_re = harmonics.V.real(), V_im = harmonics.V.imag();
-  TurningModes modes{nu * harmonics.speed, harmonics.lambda, AngleSamples(m * m, N), highest};
-  Eigen::MatrixXcd product(n, m);
+  const Eigen::VectorXcd& lambda = harmonics.lambda;
+  const Eigen::MatrixXd VP = to_real_pairs(lambda, harmonics.V.adjoint()).adjoint().real();
+  const Eigen::MatrixXd left = to_real_pairs(lambda, harmonics.left_V).real();
+  TurningModes modes{nu * harmonics.speed, lambda, Eigen::MatrixXd(m * m, N), highest};
   for (Index s = 0; s < N; ++s) {
     const Eigen::MatrixXd A = change.col(s).real().reshaped(n, m);
-    product.real() = A * V_re;
-    product.imag() = A * V_im;
-    Eigen::Map<Eigen::MatrixXcd>(modes.B.col(s).data(), m, m).noalias() =
-        harmonics.left_V * product;
+    Eigen::Map<Eigen::MatrixXd>(modes.B.col(s).data(), m, m).noalias() = left * (A * VP);
   }
   return modes;
+}
+
+Eigen::MatrixXcd from_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd r)
+{
+  const Complex i(0.0, 1.0);
+  for (Index row = 0; row + 1 < lambda.size(); ++row) {
+    if (lambda[row].imag() == 0.0) continue;
+    const Eigen::RowVectorXcd a = r.row(row), b = i * r.row(row + 1);
+    r.row(row) = std::sqrt(0.5) * (a + b);
+    r.row(row + 1) = std::sqrt(0.5) * (a - b);
+    ++row;
+  }
+  return r;
+}
+
+Eigen::MatrixXcd to_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd y)
+{
+  const Complex i(0.0, 1.0);
+  for (Index row = 0; row + 1 < lambda.size(); ++row) {
+    if (lambda[row].imag() == 0.0) continue;
+    const Eigen::RowVectorXcd a = y.row(row), b = y.row(row + 1);
+    y.row(row) = std::sqrt(0.5) * (a + b);
+    y.row(row + 1) = std::sqrt(0.5) * i * (b - a);
+    ++row;
+  }
+  return y;
 }
 
 }  // namespace chladni::squeal

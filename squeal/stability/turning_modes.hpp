@@ -30,19 +30,25 @@ struct TurningHarmonics {
 TurningHarmonics turning_harmonics(TurningBrake brake, double speed, int bound, double budget);
 
 /// A(phi) in the eigenvectors of its mean A_0 = V diag(lambda) V^-1:
-/// y' = (diag(lambda) + B(nu phi)) y with x = V y; the mean of B is zero.
+/// y' = (diag(lambda) + P B(nu phi) P^*) y with x = V y; the mean of B is zero. P = [1 i; 1 -i] /
+/// sqrt 2 for the two of a conjugate pair and 1 for a real one: it is unitary, and V P and B are
+/// real.
 struct TurningModes {
   double step;              ///< nu times the speed, rad/s: harmonic k turns by k step
-  Eigen::VectorXcd lambda;  ///< [m] 1/s
-  AngleSamples B;           ///< [m m x N] 1/s, each column a matrix, over one period 2 pi / nu
+  Eigen::VectorXcd lambda;  ///< [m] 1/s, both of a conjugate pair behind each other
+  Eigen::MatrixXd B;        ///< [m m x N] 1/s, each column a matrix, over one period 2 pi / nu
   Eigen::Index highest;     ///< harmonic of B, in multiples of nu
 
   Eigen::Index size() const { return lambda.size(); }
-  Eigen::Map<const Eigen::MatrixXcd> at(Eigen::Index s) const
+  Eigen::Map<const Eigen::MatrixXd> at(Eigen::Index s) const
   {
     return {B.col(s).data(), size(), size()};
   }
 };
+
+/// P r, and P^* y.
+Eigen::MatrixXcd from_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd r);
+Eigen::MatrixXcd to_real_pairs(const Eigen::VectorXcd& lambda, Eigen::MatrixXcd y);
 
 /// @param N  samples, a power of two above twice the highest harmonic kept / nu
 TurningModes turning_modes(const TurningHarmonics& harmonics, Eigen::Index N);

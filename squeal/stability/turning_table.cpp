@@ -100,7 +100,7 @@ bool TurningMotions::are_of(const FlexibleDisc& brake, const StabilityCase& sear
 StabilityTable TurningMotions::table(const std::optional<FrequencyBand>& band)
 {
   StabilityTable table{
-      .parameter = std::string(search_.over ? search_.over->name : "speed"),
+      .parameter = search_.over ? key_of(*search_.over) : "speed",
       .speed = search_.over ? std::optional(search_.speed) : std::nullopt,
       .band = band,
       .values = Eigen::VectorXd::LinSpaced(search_.count, search_.from, search_.to),

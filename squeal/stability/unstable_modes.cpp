@@ -125,7 +125,7 @@ ModeFigure figure_of(const Disc& disc, const InertialDisc& inertial, Index coord
 /// Without its branches.
 StabilityTable empty_table(const Brake& brake, const StabilityCase& search)
 {
-  StabilityTable table{.parameter = std::string(search.over ? search.over->name : "speed"),
+  StabilityTable table{.parameter = search.over ? key_of(*search.over) : "speed",
                        .speed = search.over ? std::optional(search.speed) : std::nullopt,
                        .band = search.band,
                        .values = Eigen::VectorXd::LinSpaced(search.count, search.from, search.to),

@@ -14,6 +14,7 @@
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/stability/unstable_modes.hpp"
+#include "squeal/transient/motion_statistics.hpp"
 #include "squeal/transient/spectrum.hpp"
 
 namespace chladni::squeal {
@@ -105,6 +106,12 @@ void find_spectrum(const Study& /*study*/, SquealResults& results, const Keeping
   results.spectrum = spectrum(results.transient->tail.pad_velocity, results.transient->step);
 }
 
+void find_motion_statistics(const Study& /*study*/, SquealResults& results,
+                            const Keeping& /*keeping*/)
+{
+  results.motion_statistics = motion_statistics(*results.transient);
+}
+
 void find_limit_cycle(const Study& /*study*/, SquealResults& results, const Keeping& /*keeping*/)
 {
   results.limit_cycle = limit_cycle(*results.transient);
@@ -135,8 +142,9 @@ std::span<const AnalysisStep> analysis_steps()
       {"mode-sensitivity", 10.0, {}, find_mode_sensitivity},
       {"rotation-stability", 20.0, {}, find_rotation_stability},
       {"growth", 40.0, {}, find_growth},
-      {"transient", 60.0, {"limit-cycle", "spectrum"}, find_transient},
+      {"transient", 60.0, {"limit-cycle", "motion-statistics", "spectrum"}, find_transient},
       {"spectrum", 1.0, {}, find_spectrum},
+      {"motion-statistics", 1.0, {}, find_motion_statistics},
       {"limit-cycle", 1.0, {}, find_limit_cycle},
       {"limit-cycle-direct", 10.0, {}, find_limit_cycle_direct},
       {"limit-cycle-branch", 40.0, {}, find_limit_cycle_branch},

@@ -46,7 +46,7 @@ void require_not_negative(double x, const std::string& key)
 void require_value_of(MapParameter parameter, double x, const std::string& key)
 {
   const ParameterRow* const row = find_parameter(parameter.name);
-  if (!row) throw Error(fmt::format("[squeal] \"{}\" is no parameter", parameter.name));
+  if (!row) throw Error(fmt::format("[squeal] \"{}\" is no parameter", key_of(parameter)));
   if (row->may_be_zero)
     require_not_negative(x, key);
   else
@@ -107,8 +107,8 @@ void validate_transient(const StudyOptions& study)
 {
   if (!study.transient) {
     throw Error(
-        "[squeal] analyses: \"transient\", \"limit-cycle\" and \"spectrum\" need `transient = { "
-        "... }`");
+        "[squeal] analyses: \"transient\", \"limit-cycle\", \"motion-statistics\" and "
+        "\"spectrum\" need `transient = { ... }`");
   }
   require_positive(study.transient->speed, "transient.speed_rad_s");
   require_positive(study.transient->duration, "transient.duration_s");

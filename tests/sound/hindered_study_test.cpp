@@ -37,7 +37,7 @@ struct Case {
     brake.contact = contact;
     brake.pads = {{.angle = 0.0, .stiffness = 6e6, .damping = 0.0, .preload = 2000.0}};
     squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
-        squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
+        squeal::FlexibleDisc(squeal::disc_on_ring(body, "track", {}), brake), 6.0 * pi);
   }
   Setting setting() const { return {body, brake, options}; }
 };
@@ -57,7 +57,8 @@ double difference_with(const std::vector<Holes>& holes)
 {
   const Case disc;
   const Outline outline = thick_body(disc.options.lines, Hub::closed, holes).outline;
-  const auto even = even_over_pairs(uneven(), squeal::make_disc(disc.body, "track", {}), outline);
+  const auto even =
+      even_over_pairs(uneven(), squeal::disc_on_ring(disc.body, "track", {}), outline);
   EXPECT_NEAR(even.damping.sum(), 7.0, 1e-12);
   return even.damping[1] - even.damping[0];
 }

@@ -134,7 +134,7 @@ TEST(Study, TellsWhatTheSoundDoesToTheSqueal)
   options.speeds = {4.0 * pi, 6.0 * pi};
   squeal::SquealResults squeal_results;
   squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
-      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
+      squeal::FlexibleDisc(squeal::disc_on_ring(body, "track", {}), brake), 6.0 * pi);
   const SoundResults results = sound_study({body, brake, options}, squeal_results);
   ASSERT_TRUE(results.feedback);
   const Brake &without = results.feedback->without, &with = results.feedback->with;
@@ -160,7 +160,7 @@ TEST(Study, NeedsALimitCycleAndMicrophonesInTheAir)
   squeal::SquealResults squeal_results;
   EXPECT_THROW(sound_study({body, brake, options}, squeal_results), Error);
   squeal_results.limit_cycle_direct = squeal::limit_cycle_direct(
-      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
+      squeal::FlexibleDisc(squeal::disc_on_ring(body, "track", {}), brake), 6.0 * pi);
   options.microphones[0].x = {0.1, 0.0, 0.0};
   EXPECT_THROW(sound_study({body, brake, options}, squeal_results), Error);
 }
@@ -172,7 +172,7 @@ TEST(Study, RefusesTheLimitCycleOfAnotherBody)
   const SoundOptions options = thesis_sound();
   squeal::SquealResults results;
   results.limit_cycle_direct = squeal::limit_cycle_direct(
-      squeal::FlexibleDisc(squeal::make_disc(body, "track", {}), brake), 6.0 * pi);
+      squeal::FlexibleDisc(squeal::disc_on_ring(body, "track", {}), brake), 6.0 * pi);
   squeal::DirectLimitCycle& cycle = *results.limit_cycle_direct;
   const double frequency_Hz = cycle.frequency_Hz;
   for (const double wrong_Hz : {0.0, -1700.0, 1e9}) {  // a mesh for 1e9 Hz fills any memory

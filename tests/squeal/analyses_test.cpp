@@ -29,7 +29,7 @@ Disc damped_disc()
 {
   auto body = analytic_body({kirchhoff_2(), kirchhoff_3()});
   body.C = 2.0 * Eigen::Matrix4d::Identity();
-  return make_disc(body, "track", {});
+  return disc_on_ring(body, "track", {});
 }
 
 TEST(HopfPoint, IsTheCriticalSpeedOfTheReference)
@@ -110,7 +110,8 @@ TEST(LimitCycleDirect, BalancesItsEnergy)
     SquealOptions options = reference_options(law);
     options.pads.push_back({.angle = 2.0, .stiffness = 3e6, .damping = 0.2, .preload = 1000.0});
     const CycleEnergy energy =
-        limit_cycle_direct(FlexibleDisc(make_disc(body, "track", {}), options), 10.0 * pi).energy;
+        limit_cycle_direct(FlexibleDisc(disc_on_ring(body, "track", {}), options), 10.0 * pi)
+            .energy;
     ASSERT_EQ(energy.friction.size(), 2);
     const double sum = energy.friction.sum() + energy.normal.sum() + energy.damping;
     const double largest =
@@ -130,7 +131,7 @@ mbs_export::ModalBody linearly_interpolated(mbs_export::ModalBody body, Eigen::I
 {
   constexpr Eigen::Index n_fine = 960;
   mbs_export::ContactRing& ring = body.rings[0];
-  const Disc exact = make_disc(body, "track", {});
+  const Disc exact = disc_on_ring(body, "track", {});
   const Eigen::Index part = n_fine / n_coarse;
   ring.angles = Eigen::VectorXd::LinSpaced(n_fine, 0.0, 2.0 * pi * (1.0 - 1.0 / n_fine));
   Eigen::MatrixXd W(n_fine, exact.n_modes()), W_r = W, W_t = W;
@@ -158,7 +159,7 @@ TEST(RingShapes, InterpolatedLinearlyWouldFalsifyTheGrowth)
                             .initial_pad_displacement = 1e-8,
                             .steps_per_period = 40,
                             .integrator = IntegratorKind::splitting};
-    return transient(FlexibleDisc(make_disc(body, "track", {}), reference_options()), run)
+    return transient(FlexibleDisc(disc_on_ring(body, "track", {}), reference_options()), run)
         .growth_rate.value();
   };
   const mbs_export::ModalBody body = analytic_body({kirchhoff_3(1672.13)});
@@ -266,7 +267,7 @@ TEST(Run, YieldsSpectrumSoundAndCriticalValues)
   const ScratchFolder folder;
   WavSpool sound(folder.file("disc.wav"), folder.file("disc.samples"), 44100);
   const SquealResults results =
-      run(FlexibleDisc(make_disc(body, "track", {}), options), options.study, {.sound = &sound});
+      run(FlexibleDisc(disc_on_ring(body, "track", {}), options), options.study, {.sound = &sound});
   ASSERT_TRUE(results.spectrum && !results.spectrum->peaks.empty());
   EXPECT_NEAR(results.spectrum->peaks[0].frequency_Hz, 1696.85, 0.3);
   // 1.2 s of 16 bits, and the headers.

@@ -122,7 +122,7 @@ TEST(ColumnEigenvalues, WithModesWithoutInertiaAreThoseOfTheQrIteration)
   mbs_export::ModalBody body = analytic_body(pairs);
   for (std::size_t i = 35; i < body.kinds.size(); ++i)
     body.kinds[i] = mbs_export::ModeKind::interface;
-  const Disc disc = make_disc(body, "track", {.quasi_static_above = 2.0 * pi * 30e3});
+  const Disc disc = disc_on_ring(body, "track", {.quasi_static_above = 2.0 * pi * 30e3});
   ASSERT_FALSE(disc.compliance.empty());
   for (const MapCase& map : {over_friction, over_stiffness})
     EXPECT_EQ(expect_map_as_qr(disc, reference_options(), map).by_qr, 3);

@@ -62,8 +62,8 @@ TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
   for (const SquealOptions& options : {reference_options(), two_pads()}) {
     for (const double scale : {1.0, 2.0}) {
       const mbs_export::ModalBody body = augmented_body(scale);
-      const Disc whole = make_disc(body, "track", static_above(1e9));
-      const Disc condensed = make_disc(body, "track", {});
+      const Disc whole = disc_on_ring(body, "track", static_above(1e9));
+      const Disc condensed = disc_on_ring(body, "track", {});
       ASSERT_EQ(whole.n_modes(), 17);
       ASSERT_EQ(condensed.n_modes(), 2);
       EXPECT_EQ(condensed.compliance.mode_numbers.size(), 15U);
@@ -73,7 +73,8 @@ TEST(ContactCompliance, OfModesFarAboveIsWhatTheyDo)
       const auto exact = least_stable_of_the_pair(whole, options);
       const auto error = least_stable_of_the_pair(condensed, options) - exact;
       const auto without =
-          least_stable_of_the_pair(make_disc(body, "track", {.list = {{1, 2}}}), options) - exact;
+          least_stable_of_the_pair(disc_on_ring(body, "track", {.list = {{1, 2}}}), options) -
+          exact;
       // Without them 2.6e-2 and 5.8e-2 1/s, 1.7 and 2.2 rad/s.
       EXPECT_GT(std::abs(without.real()), 0.02);
       EXPECT_GT(std::abs(without.imag()), 1.5);
@@ -90,12 +91,12 @@ TEST(ContactCompliance, TakesEveryInterfaceModeBeyondTheRange)
   mbs_export::ModalBody body = analytic_body(
       {kirchhoff_3(),
        {.n = 4, .f_Hz = 1.1 * kirchhoff_3().f_Hz, .mass = 1.0, .U = 0.6, .U_r = 9.0, .U_t = 18.0}});
-  ASSERT_EQ(make_disc(body, "track", {}).n_modes(), 4);
+  ASSERT_EQ(disc_on_ring(body, "track", {}).n_modes(), 4);
   body.kinds[2] = body.kinds[3] = mbs_export::ModeKind::interface;
-  const Disc disc = make_disc(body, "track", {});
+  const Disc disc = disc_on_ring(body, "track", {});
   EXPECT_EQ(disc.n_modes(), 2);
   EXPECT_EQ(disc.compliance.mode_numbers, (std::vector{3, 4}));
-  EXPECT_EQ(make_disc(body, "track", static_above(1e9)).n_modes(), 4);
+  EXPECT_EQ(disc_on_ring(body, "track", static_above(1e9)).n_modes(), 4);
 }
 
 /// The pair of the reference, at which the range of a tolerance ends, a pair of interface modes a
@@ -119,11 +120,11 @@ mbs_export::ModalBody body_with_a_pair_beyond_its_range()
 TEST(ContactCompliance, LeavesTheModesOfTheDiscBeyondATolerancesRangeTheirInertia)
 {
   const mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
-  const Disc disc = make_disc(body, "track", {});
+  const Disc disc = disc_on_ring(body, "track", {});
   EXPECT_EQ(disc.mode_numbers, (std::vector{1, 2, 5, 6}));
   EXPECT_EQ(disc.compliance.mode_numbers, (std::vector{3, 4}));
   // What the scene says holds for modes of all kinds.
-  const Disc said = make_disc(body, "track", static_above(1.01 * kirchhoff_3().f_Hz));
+  const Disc said = disc_on_ring(body, "track", static_above(1.01 * kirchhoff_3().f_Hz));
   EXPECT_EQ(said.mode_numbers, (std::vector{1, 2}));
   EXPECT_EQ(said.compliance.mode_numbers, (std::vector{3, 4, 5, 6}));
 }
@@ -132,7 +133,7 @@ TEST(ContactCompliance, CountsAModeOfUnknownKindAsOneOfTheDisc)
 {
   mbs_export::ModalBody body = body_with_a_pair_beyond_its_range();
   body.kinds.resize(4);
-  EXPECT_EQ(make_disc(body, "track", {}).mode_numbers, (std::vector{1, 2, 5, 6}));
+  EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2, 5, 6}));
 }
 
 /// State of the pair in the inertial frame, large enough for the pads to let go.
@@ -149,7 +150,7 @@ TEST(ContactCompliance, StandsInSeriesWithPadsThatLetGo)
   // y = G f and f = F(u + y) hold at once, on every branch of the unilateral law.
   SquealOptions options = two_pads();
   options.contact = ContactLaw::unilateral;
-  const InertialDisc disc = inertial_disc(make_disc(augmented_body(1.0), "track", {}));
+  const InertialDisc disc = inertial_disc(disc_on_ring(augmented_body(1.0), "track", {}));
   const PadSystem pads = pad_system(options, ring_places(disc));
   const ContactSeries series(disc.compliance, pads, 6.0 * pi);
   for (const double size : {1e-3, 1.0, -1.0, 20.0}) {
@@ -168,8 +169,9 @@ TEST(ContactCompliance, StandsInSeriesWithPadsThatLetGo)
     };
     series.add_to(at, force);
     // A second solution from the first one's forces, point by point through the modes themselves.
-    const Disc high = make_disc(augmented_body(1.0), "track",
-                                {.list = {{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}}});
+    const Disc high =
+        disc_on_ring(augmented_body(1.0), "track",
+                     {.list = {{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}}});
     Eigen::VectorXd q = Eigen::VectorXd::Zero(high.n_modes());
     for (std::size_t i = 0; i < at.size(); ++i) {
       q += high.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
@@ -186,7 +188,7 @@ TEST(ContactCompliance, IsTheSameInBothFrames)
 {
   // The rate of the same state in the inertial and in the rotating frame, at t = 0.
   const SquealOptions options = two_pads();
-  const Disc disc = make_disc(augmented_body(1.0), "track", {});
+  const Disc disc = disc_on_ring(augmented_body(1.0), "track", {});
   const InertialDisc inertial = inertial_disc(disc);
   SlidingDisc sliding(inertial, options, 6.0 * pi);
   RotatingDisc rotating(disc, options, 6.0 * pi);
@@ -207,7 +209,7 @@ TEST(ContactCompliance, IsTheSameInBothFrames)
 
 TEST(ContactCompliance, IsInTheDerivativesOfTheMotion)
 {
-  SlidingDisc sliding(inertial_disc(make_disc(augmented_body(1.0), "track", {})), two_pads(),
+  SlidingDisc sliding(inertial_disc(disc_on_ring(augmented_body(1.0), "track", {})), two_pads(),
                       6.0 * pi);
   const Eigen::VectorXd x = 0.01 * large_state(2);
   sliding.take_sides(0.0, x);
@@ -224,7 +226,7 @@ TEST(ContactCompliance, IsInTheDerivativesOfTheMotion)
 
 TEST(ContactCompliance, GrowsInTransientsAsItsEigenvaluesSay)
 {
-  const Disc disc = make_disc(augmented_body(1.0), "track", {});
+  const Disc disc = disc_on_ring(augmented_body(1.0), "track", {});
   const double exact = least_stable_of_the_pair(disc, reference_options()).real();
   for (const IntegratorKind kind :
        {IntegratorKind::splitting, IntegratorKind::exponential, IntegratorKind::dormand_prince}) {
@@ -238,7 +240,7 @@ TEST(ContactCompliance, GrowsInTransientsAsItsEigenvaluesSay)
 
 TEST(ContactCompliance, TakesNoEnergyInALimitCycle)
 {
-  const FlexibleDisc brake(make_disc(augmented_body(1.0), "track", {}), two_pads());
+  const FlexibleDisc brake(disc_on_ring(augmented_body(1.0), "track", {}), two_pads());
   ASSERT_FALSE(brake.disc().compliance.empty());
   const CycleEnergy energy = limit_cycle_direct(brake, 12.0 * pi).energy;
   EXPECT_GT(energy.friction.sum(), 0.0);

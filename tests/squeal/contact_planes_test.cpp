@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/motion/rotating_disc.hpp"
 #include "squeal/motion/sliding_disc.hpp"
@@ -17,6 +16,7 @@
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/transient/transient.hpp"
+#include "tests/squeal/linked_rings.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -24,83 +24,6 @@ namespace {
 using namespace test;
 using mbs_export::ContactRing;
 using mbs_export::ModalBody;
-
-/// A ring at the height z that is linked rigidly to "track" in the middle surface: it moves by
-/// u = -z (W_r, W_t) in its plane.
-void add_linked_ring(ModalBody& body, const std::string& name, double z)
-{
-  ContactRing ring = body.rings.front();
-  ring.name = name;
-  ring.height = z;
-  ring.nodes.clear();
-  const auto first = static_cast<int>(body.attachment_modes.rows() / 6);
-  body.attachment_modes.conservativeResizeLike(
-      Eigen::MatrixXd::Zero(body.attachment_modes.rows() + 6 * ring.angles.size(), body.n_modes()));
-  for (Eigen::Index i = 0; i < ring.angles.size(); ++i) {
-    ring.nodes.push_back(first + static_cast<int>(i));
-    auto u = body.attachment_modes.middleRows(6 * (first + i), 2);
-    const double c = std::cos(ring.angles[i]), s = std::sin(ring.angles[i]);
-    u.row(0) = -z * (c * ring.W_r.row(i) - s * ring.W_t.row(i));
-    u.row(1) = -z * (s * ring.W_r.row(i) + c * ring.W_t.row(i));
-  }
-  body.rings.push_back(ring);
-}
-
-ModalBody linked_body(const std::vector<PlatePair>& pairs, const std::vector<double>& heights)
-{
-  ModalBody body = analytic_body(pairs);
-  body.attachment_modes.resize(0, body.n_modes());
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    add_linked_ring(body, "ring " + std::to_string(i + 1), heights[i]);
-  return body;
-}
-
-std::vector<PlatePair> three_pairs()
-{
-  return {kirchhoff_2(), kirchhoff_3(), kirchhoff_4()};
-}
-
-/// Two pads, one of them with a plate that moves in all directions and a caliper.
-SquealOptions brake_options(ContactLaw law = ContactLaw::bilateral)
-{
-  SquealOptions options = reference_options(law);
-  options.pads[0].damping = 20.0;
-  PadPair second = options.pads[0];
-  second.angle = 1.2;
-  second.body = PadBody{.mass = 0.3,
-                        .height = 0.01,
-                        .radial = Suspension{3e7, 20.0},
-                        .tangential = Suspension{2e7, 20.0},
-                        .axial = Suspension{5e6, 30.0},
-                        .about_radial = RotarySuspension{1.5e-4, {3e3, 0.05}}};
-  second.caliper = Caliper{.mass = 3.0, .axial = {4e6, 10.0}};
-  second.grid = PadGrid{.sector = 0.4, .points = 3};
-  options.pads.push_back(second);
-  return options;
-}
-
-SquealOptions on_rings(SquealOptions options, const std::string& ring, const ContactPlanes& planes)
-{
-  options.ring = ring;
-  options.planes = planes;
-  return options;
-}
-
-/// Pads on rings in the two faces of the plate.
-SquealOptions on_faces(const SquealOptions& options)
-{
-  return on_rings(options, "ring 1", {.opposite_ring = "ring 2"});
-}
-
-Disc disc_for(const ModalBody& body, const SquealOptions& options)
-{
-  return make_disc(body, ring_choice(options), {});
-}
-
-Eigen::MatrixXd matrix_of_brake(const ModalBody& body, const SquealOptions& options)
-{
-  return state_matrix(inertial_disc(disc_for(body, options)), options, 18.0);
-}
 
 TEST(ContactPlanes, OnRingsInBothFacesOfAPlateAreThoseOfItsMiddleSurface)
 {
@@ -276,59 +199,6 @@ TEST(ContactPlanes, OfTwoPlatesThatMoveByThemselvesGrowAlikeInAllFrames)
       least_stable_eigenvalue(state_matrix(inertial_disc(disc_for(body, alone)), alone, speed))
           .real();
   EXPECT_GT(std::abs(growth - of_plate), 0.1);
-}
-
-/// W = 1 + sin(40 (r - r_0)) of a pair of three diameters on rings at distances from r_0, without
-/// rotations of their nodes.
-ModalBody body_without_rotations(const std::vector<double>& distances)
-{
-  ModalBody body = analytic_body({kirchhoff_3()});
-  const ContactRing track = body.rings.front();
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    ContactRing beside = track;
-    beside.name = "beside " + std::to_string(i + 1);
-    beside.radius += distances[i];
-    beside.W *= 1.0 + std::sin(40.0 * distances[i]);
-    body.rings.push_back(beside);
-  }
-  for (ContactRing& ring : body.rings) {
-    ring.W_r.setZero();
-    ring.W_t.setZero();
-  }
-  return body;
-}
-
-TEST(SlopesFromDisplacements, ConvergeToThoseOfRotations)
-{
-  SquealOptions options = reference_options();
-  options.slopes_from = {"beside 1", "beside 2"};
-  const auto ring = [&](double h) {
-    return disc_for(body_without_rotations({-h, h}), options).rings.front();
-  };
-  const Eigen::RowVectorXd W = ring(1e-3).W.cosine.row(3);
-  const auto error = [&](double h) {
-    return (ring(h).W_r.cosine.row(3) - 40.0 * W).norm() / (40.0 * W.norm());
-  };
-  EXPECT_LT(error(1e-3), 1e-3);
-  EXPECT_NEAR(error(2e-3) / error(1e-3), 4.0, 0.1);  // second order, two rings beside it
-  options.slopes_from = {"beside 2"};
-  EXPECT_NEAR(error(2e-3) / error(1e-3), 4.0, 0.1);  // sin has no second derivative at r_0
-  // Along the ring, dW/dtheta / r of the plate: as the rotations of a plate without shear are.
-  const Disc exact = disc_of({kirchhoff_3()});
-  EXPECT_LT((ring(1e-3).W_t.sine - exact.rings[0].W_t.sine).norm(), 1e-12);
-  EXPECT_LT((ring(1e-3).W_t.cosine - exact.rings[0].W_t.cosine).norm(), 1e-12);
-}
-
-TEST(SlopesFromDisplacements, OfTwoFacesAreTheLeanOfTheLineBetweenThem)
-{
-  ModalBody body = linked_body(three_pairs(), {-0.01, 0.01});
-  const SquealOptions faces = on_faces(brake_options());
-  const Eigen::MatrixXd A = matrix_of_brake(body, faces);
-  for (std::size_t i = 1; i < 3; ++i) {
-    body.rings[i].W_r.setZero();
-    body.rings[i].W_t.setZero();
-  }
-  EXPECT_LT((matrix_of_brake(body, faces) - A).norm(), 1e-13 * A.norm());
 }
 
 std::string complaint(const ModalBody& body, const SquealOptions& options)

@@ -16,7 +16,7 @@ std::string complaint(const mbs_export::ModalBody& body, const ModeChoice& modes
                       const std::string& ring = "track")
 {
   try {
-    make_disc(body, ring, modes);
+    disc_on_ring(body, ring, modes);
   } catch (const Error& error) {
     return error.what();
   }
@@ -73,7 +73,7 @@ TEST(Harmonics, RefuseUnequalSpacing)
 TEST(Disc, GivesTheShapesOfThePlateBetweenTheNodes)
 {
   const PlatePair pair = kirchhoff_3();
-  const Disc disc = make_disc(analytic_body({pair}), "track", {});
+  const Disc disc = disc_on_ring(analytic_body({pair}), "track", {});
   const double theta = 0.1234, root = std::sqrt(pair.mass);
   const Shapes shapes = shapes_at(disc, theta);
   EXPECT_NEAR(shapes.W[0] * root, pair.U * std::cos(3 * theta), 1e-13);
@@ -83,7 +83,7 @@ TEST(Disc, GivesTheShapesOfThePlateBetweenTheNodes)
 
 TEST(RingShapes, AgreeWithTheShapesOfTheDisc)
 {
-  const Disc disc = make_disc(three_pairs(), "track", {});
+  const Disc disc = disc_on_ring(three_pairs(), "track", {});
   RingShapes ring(disc.rings.front());
   for (const double theta : {0.0, 1.7, -42.0}) {
     const Shapes shapes = shapes_at(disc, theta);
@@ -99,13 +99,14 @@ TEST(Disc, PicksTheLowestPairWithSoManyNodalDiameters)
   PlatePair higher = kirchhoff_3(7554.0);
   higher.U = 0.1;
   const auto body = analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4(), higher});
-  EXPECT_EQ(make_disc(body, "track", nodal(3)).mode_numbers, (std::vector{3, 4}));
-  EXPECT_EQ(nodal_diameters(make_disc(body, "track", {})), (std::vector{2, 2, 3, 3, 4, 4, 3, 3}));
+  EXPECT_EQ(disc_on_ring(body, "track", nodal(3)).mode_numbers, (std::vector{3, 4}));
+  EXPECT_EQ(nodal_diameters(disc_on_ring(body, "track", {})),
+            (std::vector{2, 2, 3, 3, 4, 4, 3, 3}));
 }
 
 TEST(Disc, TakesListedModesInTheirOrderOfFrequency)
 {
-  const Disc disc = make_disc(three_pairs(), "track", list({6, 5, 2, 1}));
+  const Disc disc = disc_on_ring(three_pairs(), "track", list({6, 5, 2, 1}));
   EXPECT_EQ(disc.mode_numbers, (std::vector{1, 2, 5, 6}));
   EXPECT_DOUBLE_EQ(disc.omega[2], 2 * pi * kirchhoff_4().f_Hz);
 }
@@ -115,7 +116,7 @@ TEST(Disc, LeavesOutModesThatDoNotMoveTheRing)
   auto body = three_pairs();
   for (Eigen::MatrixXd* shape : {&body.rings[0].W, &body.rings[0].W_r, &body.rings[0].W_t})
     shape->col(2) *= 1e-9;
-  EXPECT_EQ(make_disc(body, "track", {}).mode_numbers, (std::vector{1, 2, 4, 5, 6}));
+  EXPECT_EQ(disc_on_ring(body, "track", {}).mode_numbers, (std::vector{1, 2, 4, 5, 6}));
   EXPECT_NE(complaint(body, list({2, 3})).find("mode 3 does not move the ring"), std::string::npos);
 }
 
@@ -123,9 +124,9 @@ TEST(Disc, KeepsTheDampingOfTheChosenModes)
 {
   auto body = three_pairs();
   body.C = Eigen::MatrixXd::Random(6, 6);
-  const Disc disc = make_disc(body, "track", list({3, 5}));
+  const Disc disc = disc_on_ring(body, "track", list({3, 5}));
   EXPECT_EQ(disc.C(0, 1), body.C(2, 4));
-  EXPECT_EQ(make_disc(three_pairs(), "track", nodal(3)).C, Eigen::MatrixXd::Zero(2, 2));
+  EXPECT_EQ(disc_on_ring(three_pairs(), "track", nodal(3)).C, Eigen::MatrixXd::Zero(2, 2));
 }
 
 TEST(Disc, RefusesWhatTheBodyDoesNotHave)

@@ -34,8 +34,8 @@ Disc disc_with_damping_on_one_side()
 /// One mode of three diameters without its partner.
 Disc disc_with_half_a_pair()
 {
-  return make_disc(analytic_body({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3)}),
-                   "track", {.nodal_diameters = {}, .list = std::vector{1, 2, 4}});
+  return disc_on_ring(analytic_body({turned_by(kirchhoff_2(), 0.2), turned_by(kirchhoff_3(), 0.3)}),
+                      "track", {.nodal_diameters = {}, .list = std::vector{1, 2, 4}});
 }
 
 /// The growth by integration over a rotation, to a thousandth.

@@ -209,7 +209,7 @@ TEST(Integrator, OfAnyKindEndsWhereTheMotionDiverges)
 {
   auto body = analytic_body({kirchhoff_3()});
   body.C = -4e4 * Eigen::Matrix2d::Identity();
-  const Disc disc = make_disc(body, "track", {});
+  const Disc disc = disc_on_ring(body, "track", {});
   for (const IntegratorKind kind : all_kinds) {
     const Transient run = transient(
         FlexibleDisc(disc, reference_options()),

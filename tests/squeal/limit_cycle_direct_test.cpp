@@ -120,7 +120,7 @@ TEST(DirectLimitCycle, IsWhereATransientEnds)
   options.pads = {{0.2, 5e6, 3.0, 1500.0}, {1.4, 2e6, 0.0, 900.0}};
   auto body = analytic_body({kirchhoff_3(1672.13)});
   body.C = Eigen::Matrix2d::Identity();
-  const Disc disc = make_disc(body, "track", {});
+  const Disc disc = disc_on_ring(body, "track", {});
   const auto cycle = limit_cycle_direct(FlexibleDisc(disc, options), 20.0 * pi);
   const LimitCycle end =
       limit_cycle(transient(FlexibleDisc(disc, options), {.speed = 20.0 * pi,

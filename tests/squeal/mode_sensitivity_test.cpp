@@ -20,7 +20,7 @@ TEST(ModeSensitivity, SaysWhichModesMoveTheCriticalSpeed)
   auto body = analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()});
   body.C = Eigen::MatrixXd::Zero(6, 6);
   for (const int i : {0, 1, 4, 5}) body.C(i, i) = 200.0;
-  const InertialDisc disc = inertial_disc(make_disc(body, "track", {}));
+  const InertialDisc disc = inertial_disc(disc_on_ring(body, "track", {}));
   const SquealOptions options = reference_options();
   const ModeSensitivity result = mode_sensitivity(disc, options);
   EXPECT_EQ(
@@ -37,9 +37,9 @@ TEST(ModeSensitivity, SaysWhichModesMoveTheCriticalSpeed)
   auto without = analytic_body({kirchhoff_3(), kirchhoff_4()});
   without.C = body.C.bottomRightCorner(4, 4);
   const auto expected =
-      critical_speed(
-          stability_over_speed(at_speeds(inertial_disc(make_disc(without, "track", {})), options),
-                               options.study.speeds))
+      critical_speed(stability_over_speed(
+                         at_speeds(inertial_disc(disc_on_ring(without, "track", {})), options),
+                         options.study.speeds))
           ->speed;
   EXPECT_NEAR(result.influences[0].critical_speed_without.value(), expected, 1e-7 * expected);
   EXPECT_NE(result.influences[0].growth_without.value(), 0.0);
@@ -77,7 +77,7 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   // speed of the Mindlin pair with it. They leave out the centrifugal part 2 n g Omega^2 of the
   // same terms, 1e-7 of omega^2.
   auto body = analytic_body({mindlin_3()});
-  Disc disc = make_disc(body, "track", {});
+  Disc disc = disc_on_ring(body, "track", {});
   const double g = 3.0 * 0.00765875649913187;
   const auto critical_by_pi = [&] {
     return critical_speed(stability_over_speed(at_speeds(inertial_disc(disc), reference_options()),
@@ -92,7 +92,7 @@ TEST(Coriolis, OfTheRotaryInertiaRaisesTheCriticalSpeedOfAMindlinPlate)
   integrals.products.fill(Eigen::Matrix2d::Zero());
   integrals.products[3] = Eigen::Matrix2d{{0.0, g}, {0.0, 0.0}};
   body.mass_integrals = integrals;
-  disc = make_disc(body, "track", {});
+  disc = disc_on_ring(body, "track", {});
   EXPECT_EQ(disc.G, (Eigen::Matrix2d{{0.0, -g}, {g, 0.0}}));
   EXPECT_NEAR(critical_by_pi(), 4.250189346231441, 1e-7);
   // The transient has the same terms in its kick.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -178,6 +179,39 @@ TEST(PadGrid, RefusesARingThatTheDiscDoesNotHave)
   EXPECT_THROW(pad_system(options_with(pad_on({"outer"})), ring_radius), Error);
   EXPECT_THROW(make_disc(body_with_two_rings(), RingChoice{.names = {"track", "outer"}}, {}),
                Error);
+}
+
+TEST(PadGrid, HasEventsOfEveryPointUnderItsPad)
+{
+  const Disc disc = disc_of({kirchhoff_3()});
+  SquealOptions options = options_with(grid_pad(0.6, 3), ContactLaw::unilateral);
+  options.pads.push_back(grid_pad(0.6, 3));
+  options.pads[1].angle = 2.0;
+  // Three times the compression of the pads at rest, so that every pad leaves.
+  const TransientCase run{.speed = 6.0 * pi,
+                          .duration = 3e-3,
+                          .initial_pad_displacement = 1e-3,
+                          .integrator = IntegratorKind::dormand_prince};
+  std::vector<int> n_events(4, 0);
+  for (const ContactEvent& event : transient(FlexibleDisc(disc, options), run).events)
+    ++n_events.at(static_cast<std::size_t>(event.pad));
+  for (const int n : n_events) EXPECT_GE(n, 3);  // one for each point
+}
+
+TEST(Pads, AtDifferentAnglesAddTheirForces)
+{
+  // Two pad pairs a quarter period of the mode apart, 30 degrees, hold both modes alike: without
+  // friction the frequencies of the pair stay together.
+  const InertialDisc disc = inertial_disc(disc_of({kirchhoff_3()}));
+  SquealOptions options = reference_options();
+  options.friction.kinetic = 0.0;
+  options.pads.push_back(options.pads[0]);
+  options.pads[1].angle = pi / 6.0;
+  const Eigen::MatrixXd A = state_matrix(disc, options, 1e-6);
+  Eigen::VectorXd omega = A.eigenvalues().imag();
+  std::ranges::sort(omega);
+  EXPECT_NEAR(omega[3] - omega[2], 0.0, 1e-4);
+  EXPECT_GT(omega[3], disc.omega[0] + 50.0);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -57,6 +58,7 @@ TEST(Parameters, OfABodyChangeItsStateMatrix)
   int n = 0;
   for (const ParameterRow& row : parameters) {
     if (row.of != ParameterOf::body && row.of != ParameterOf::any) continue;
+    if (row.name == "pads.angle_deg") continue;  // of one of several pads: the next tests
     const double value = row.name == "friction" ? 0.3 : row.name == "friction.static" ? 0.9 : 0.07;
     const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
     // Modes of the pads come with any sign: their spectra are compared.
@@ -86,6 +88,42 @@ TEST(Parameters, AreThoseOfTheScene)
   same("pads.body.about_axial.inertia", 3e-4,
        [](auto& o) { o.pads[0].body->about_axial->inertia = 3e-4; });
   same("pads.caliper.stiffness", 5e6, [](auto& o) { o.pads[0].caliper->axial.stiffness = 5e6; });
+}
+
+TEST(Parameters, OfOnePadLeaveTheOthersAsTheyAre)
+{
+  SquealOptions two = full_options();
+  two.pads.push_back({.angle = 1.0, .stiffness = 4e6, .damping = 2.0, .preload = 1500.0});
+  const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3()}), two);
+  const auto same = [&](std::string_view key, double value, const auto& change) {
+    SquealOptions options = two;
+    change(options.pads);
+    const auto parameter = parameter_of(key);
+    ASSERT_TRUE(parameter) << key;
+    EXPECT_EQ(key_of(*parameter), key);
+    const auto changed = brake.with(*parameter, value)->state_matrix(8.0);
+    EXPECT_EQ(changed,
+              FlexibleDisc(disc_of({kirchhoff_2(), kirchhoff_3()}), options).state_matrix(8.0))
+        << key;
+    EXPECT_NE(changed, brake.state_matrix(8.0)) << key;
+  };
+  same("pads[2].stiffness", 7e6, [](auto& pads) { pads[1].stiffness = 7e6; });
+  same("pads[1].preload", 900.0, [](auto& pads) { pads[0].preload = 900.0; });
+  same("pads[2].angle_deg", 120.0, [](auto& pads) { pads[1].angle = 120.0 * (pi / 180.0); });
+  same("pads[1].body.mass", 0.5, [](auto& pads) { pads[0].body->mass = 0.5; });
+}
+
+TEST(Parameters, OfPadsThatAreNotThereAreRefused)
+{
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), full_options());
+  EXPECT_NE(complaint(brake, {"stiffness", 2}, 1e6).find("\"pads[2].stiffness\" cannot vary"),
+            std::string::npos);
+  EXPECT_NE(complaint(brake, {"pads.angle_deg"}, 10.0).find("pads[2].angle_deg"),
+            std::string::npos);
+  for (const std::string_view key :
+       {"pads[0].stiffness", "pads[x].stiffness", "pads[1].friction", "pads[1]", "pads[1].",
+        "pads[99999999999].stiffness", "pads.stiffness", "pads[1].pads.body.mass"})
+    EXPECT_FALSE(parameter_of(key)) << key;
 }
 
 TEST(Parameters, ThatABrakeLacksAreNamed)
@@ -147,7 +185,7 @@ mbs_export::ModalBody pictured_body(double circle, double in_plane)
 
 StabilityTable table_of(const mbs_export::ModalBody& body)
 {
-  const FlexibleDisc brake(make_disc(body, "track", {}), reference_options());
+  const FlexibleDisc brake(disc_on_ring(body, "track", {}), reference_options());
   return unstable_modes(brake, {.from = 10.0, .to = 20.0, .count = 2});
 }
 

@@ -101,7 +101,7 @@ TEST(PeriodWork, IsThatOnTheModesWithInertia)
     body.kinds[i] = mbs_export::ModeKind::interface;
   SquealOptions options = reference_options();
   options.pads.push_back({.angle = 1.1, .stiffness = 4e6, .damping = 1.0, .preload = 1500.0});
-  const FlexibleDisc brake(make_disc(body, "track", {}), options);
+  const FlexibleDisc brake(disc_on_ring(body, "track", {}), options);
   ASSERT_FALSE(brake.disc().compliance.empty());
   const auto rows = unstable_ones(unstable_modes(brake, over_speeds(1.0, 20.0, 20)));
   ASSERT_FALSE(rows.empty());

@@ -77,7 +77,7 @@ TEST(RotationStability, TakesModesWithoutInertia)
 {
   // Modes of four diameters as compliance alone, against the eigenvalues.
   const mbs_export::ModalBody body = analytic_body({kirchhoff_2(), kirchhoff_3(), kirchhoff_4()});
-  const Disc disc = make_disc(body, "track", {.quasi_static_above = 2.0 * pi * 2500.0});
+  const Disc disc = disc_on_ring(body, "track", {.quasi_static_above = 2.0 * pi * 2500.0});
   ASSERT_EQ(disc.n_modes(), 4);
   ASSERT_FALSE(disc.compliance.empty());
   SquealOptions options = reference_options();

@@ -77,7 +77,7 @@ TEST(Run, NeedsAnAxisymmetricDiscForEigenvaluesOnly)
 {
   auto body = analytic_body({kirchhoff_3()});
   body.omega[1] *= 1.1;
-  const Disc disc = make_disc(body, "track", {});
+  const Disc disc = disc_on_ring(body, "track", {});
   SquealOptions options = reference_options();
   options.study.analyses = {"eigenvalues"};
   EXPECT_THROW(run(FlexibleDisc(disc, options), options.study), Error);

@@ -45,7 +45,7 @@ InertialDisc damped_plate(double zeta)
 {
   auto body = analytic_body(kirchhoff_modes());
   body.C = (2.0 * zeta * body.omega).asDiagonal();
-  return inertial_disc(make_disc(body, "track", {}));
+  return inertial_disc(disc_on_ring(body, "track", {}));
 }
 
 TEST(StateMatrix, HasTheReferenceMatricesOfOnePair)

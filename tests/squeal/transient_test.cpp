@@ -169,7 +169,7 @@ TEST(Transient, OfAFreeOscillationIsExactAtAnyStep)
   run.steps_per_period = 8;
   run.initial_pad_displacement = z_0;
   const History history =
-      transient(FlexibleDisc(make_disc(body, "track", {}), options), run).history;
+      transient(FlexibleDisc(disc_on_ring(body, "track", {}), options), run).history;
   const double omega = 2.0 * pi * kirchhoff_3().f_Hz, nu = std::sqrt(omega * omega - 0.25 * c * c);
   for (std::size_t i = 0; i < history.t.size(); ++i) {
     const double t = history.t[i], x = 3.0 * run.speed * t;
@@ -189,7 +189,7 @@ TEST(Transient, EndsWhereTheMotionDiverges)
   auto body = analytic_body({kirchhoff_3()});
   body.C = -4e4 * Eigen::Matrix2d::Identity();
   const Transient result =
-      transient(FlexibleDisc(make_disc(body, "track", {}), reference_options()), short_run(1.0));
+      transient(FlexibleDisc(disc_on_ring(body, "track", {}), reference_options()), short_run(1.0));
   EXPECT_FALSE(result.finished);
   EXPECT_FALSE(result.history.t.empty());
   EXPECT_LT(result.history.t.back(), 0.5);

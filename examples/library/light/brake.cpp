@@ -16,7 +16,7 @@ try {
   // 1. The body, and of its modes the pair with three nodal diameters on the ring of the pads.
   const auto body = chladni::mbs_export::read_body(argv[1]);
   const chladni::squeal::Disc disc =
-      chladni::squeal::make_disc(body, "track", {.nodal_diameters = 3});
+      chladni::squeal::disc_on_ring(body, "track", {.nodal_diameters = 3});
   // 2. One pair of pads at the angle 0.
   const chladni::squeal::SquealOptions options{
       .ring = "track",

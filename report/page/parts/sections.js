@@ -197,6 +197,24 @@ function cycleTable(content) {
                                        "pad displacement, mm", "normal force, N"], rows)) : "";
 }
 
+// The motion over the last rotations: how large, at which lines, and how it changes as the disc turns.
+function drawStatistics({statistics}) {
+  const {lines, rms_over_angle} = statistics, n = rms_over_angle.length;
+  const figures_of = [["rotation speed, rad/s", formatted(statistics.speed, 5)],
+                      ["effective pad velocity, m/s", formatted(statistics.rms_velocity, 4)],
+                      ["largest pad velocity, m/s", formatted(statistics.peak_velocity, 4)],
+                      ["largest pad displacement, mm", formatted(1e3 * statistics.peak_displacement, 4)],
+                      ["normal force, N", `${formatted(statistics.N_min, 4)} … ${formatted(statistics.N_max, 4)}`],
+                      ["modulation by the rotation", percent(statistics.modulation)]];
+  const rows = lines.map(line => [formatted(line.frequency_Hz, 6), formatted(line.amplitude, 4), formatted(line.rotations, 4)]);
+  section("statistics", `Motion over the last ${statistics.n_rotations} rotations${statistics.doubt && `, ${statistics.doubt}`}`,
+    scrolled(table(["quantity", "value"], figures_of)),
+    scrolled(table(["line, Hz", "amplitude, m/s", "rotations from the strongest"], rows)),
+    figures(plot({title: "Effective pad velocity while the disc turns, mean over the rotations",
+                  x: {label: "angle of the disc, degrees"}, y: {label: "pad velocity, m/s", low: 0, high: 1.1 * Math.max(...rms_over_angle)},
+                  series: [{x: rms_over_angle.map((_, i) => (i + 0.5) * 360 / n), y: rms_over_angle, colour: 0, marker: "circle"}]})));
+}
+
 function selectionFigure(selection) {
   const path = (key, colour, marker, name) => ({x: selection[key].map(s => s.size), y: selection[key].map(s => s.error),
                                                 colour, marker, name});
@@ -257,6 +275,7 @@ function drawPage() {
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);
   if (cycles.length || cycle) section("limit-cycle", "Limit cycle", cycleTable(page), figures(...cycles));
+  if (page.statistics) drawStatistics(page);
   const errors = [page.modes && estimateFigure(page.modes), page.selection && selectionFigure(page.selection),
                   benchmark && benchmarkFigure(benchmark)].filter(Boolean);
   if (errors.length) section("errors", "Size and time against error", figures(...errors));
