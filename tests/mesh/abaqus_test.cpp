@@ -21,7 +21,8 @@ Deck deck_of(const std::string& text)
 Declarations declared_by(const std::string& text, double length_unit)
 {
   const std::vector<Keyword> keywords = abaqus_keywords(text);
-  return abaqus_declarations(keywords, abaqus_deck(keywords), units_of(length_unit));
+  return abaqus_declarations(keywords, abaqus_deck(keywords),
+                             {.length = length_unit, .force = 1.0});
 }
 
 std::string error_in(const std::string& text)
@@ -74,7 +75,8 @@ TEST_F(AbaqusFile, IsReadInItsUnitByAProcessOfItsOwn)
     const Mesh mesh = generate({.file = file, .length_unit = 1e-3});
     EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
   }
-  const Declarations declared = declarations({.file = write("b.inp", plate), .length_unit = 1e-3});
+  const Declarations declared =
+      declarations({.file = write("b.inp", plate)}, {.length = 1e-3, .force = 1.0});
   EXPECT_EQ(declared.shells.size(), 1U);
 }
 
