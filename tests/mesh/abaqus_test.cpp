@@ -10,8 +10,10 @@ namespace {
 
 using testing::area;
 using testing::error_of;
+using testing::expect_refused;
 using testing::expect_words;
 using testing::MeshFile;
+using testing::Refusal;
 
 Deck deck_of(const std::string& text)
 {
@@ -137,18 +139,11 @@ TEST(AbaqusDeclarations, HoldTheReferenceNodeOfACoupling)
   EXPECT_TRUE(declared_by(plate + coupling + "*Distributing\n", 1.0).couplings[0].averages);
 }
 
-struct Refusal {
-  std::string text;
-  std::vector<std::string> words;
-};
-
 class RefusedKeyword : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedKeyword, IsNamedWithItsLine)
 {
-  const std::string error = error_in(GetParam().text);
-  expect_words(error, GetParam().words);
-  EXPECT_TRUE(error.find("line") != std::string::npos) << error;
+  expect_refused(GetParam(), error_in(GetParam().text));
 }
 
 const std::vector<Refusal> refusals{
