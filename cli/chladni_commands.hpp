@@ -31,6 +31,7 @@ struct ExportArguments {
 struct ImportArguments {
   std::string deck;         ///< of Nastran or Abaqus
   std::string length_unit;  ///< what 1 is in it: "mm"
+  std::string force_unit;   ///< of its moduli: "N"; empty: N, or lbf where lengths are inches
   std::string output;       ///< the scene to write; empty for stdout
 };
 

@@ -18,6 +18,13 @@ namespace {
 
 using std::filesystem::path;
 
+double newtons_of(const std::string& unit)
+{
+  if (unit == "mN") return 1e-3;
+  if (unit == "kN") return 1e3;
+  return unit == "lbf" ? 4.4482216152605 : 1.0;
+}
+
 /// The stem of the deck in letters that a scene's name may have.
 std::string name_of(const path& deck)
 {
@@ -38,8 +45,11 @@ void import_and_write(const ImportArguments& arguments)
                     "imported; other mesh files have no sections",
                     arguments.deck));
   }
-  const mesh::Declarations declared =
-      mesh::declarations({.file = arguments.deck, .length_unit = metres_of(arguments.length_unit)});
+  const std::string usual = arguments.length_unit == "inch" ? "lbf" : "N";
+  const mesh::Declarations declared = mesh::declarations(
+      {.file = arguments.deck},
+      {.length = metres_of(arguments.length_unit),
+       .force = newtons_of(arguments.force_unit.empty() ? usual : arguments.force_unit)});
   const path target = arguments.output.empty() ? path("scene.toml") : path(arguments.output);
   const path folder = std::filesystem::absolute(target).parent_path();
   const std::string text = cases::declared_scene(

@@ -116,6 +116,11 @@ void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
   imported->add_option("DECK", arguments.deck, "*.bdf, *.nas, *.dat or *.inp")->required();
   declare_length_unit(*imported, arguments.length_unit);
   imported->get_option("--length-unit")->required();
+  imported
+      ->add_option("--force-unit", arguments.force_unit,
+                   "what a force of 1 is in the deck; N, or lbf with inches, unless given")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember({"N", "mN", "kN", "lbf"}));
   imported->add_option("--output", arguments.output, "scene to write; else it is printed")
       ->type_name("FILE");
   imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");

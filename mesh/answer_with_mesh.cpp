@@ -58,8 +58,11 @@ int answer_with_mesh()
     if (wanted == Wanted::mesh) {
       pack(packer, read_here(options, confine));
     } else {
+      DeckUnits units{};
+      unpacker(units.length);
+      unpacker(units.force);
       confine();
-      pack(packer, declarations_here(options));
+      pack(packer, declarations_here(options, units));
     }
   } catch (const Error& error) {
     packer = Packer{};

@@ -91,7 +91,8 @@ std::string sentence_on_end(const Outcome& outcome, const confinement::Limits& l
 }
 
 /// What `unpack` makes of the answer of the process that reads the file.
-auto answer_of(const MeshOptions& options, Wanted wanted, auto&& unpack)
+/// @param ask  packs what is asked for behind the options
+auto answer_of(const MeshOptions& options, Wanted wanted, auto&& ask, auto&& unpack)
 {
   const confinement::Limits limits = limits_of(options);
   Packer question;
@@ -99,6 +100,7 @@ auto answer_of(const MeshOptions& options, Wanted wanted, auto&& unpack)
   question(limits.seconds);
   question(wanted);
   pack(question, options);
+  ask(question);
   const Outcome outcome = confinement::run({.program = reader_program(),
                                             .question = question.bytes(),
                                             .most_seconds = limits.seconds,
@@ -121,13 +123,18 @@ auto answer_of(const MeshOptions& options, Wanted wanted, auto&& unpack)
 
 Mesh read_confined(const MeshOptions& options)
 {
-  return answer_of(options, Wanted::mesh, unpack_mesh);
+  return answer_of(
+      options, Wanted::mesh, [](Packer&) {}, unpack_mesh);
 }
 
-Declarations declarations(const MeshOptions& options)
+Declarations declarations(const MeshOptions& options, const DeckUnits& units)
 {
-  if (options.trust == Trust::owner) return declarations_here(options);
-  return answer_of(options, Wanted::declarations, unpack_declarations);
+  if (options.trust == Trust::owner) return declarations_here(options, units);
+  const auto ask = [&](Packer& question) {
+    question(units.length);
+    question(units.force);
+  };
+  return answer_of(options, Wanted::declarations, ask, unpack_declarations);
 }
 
 }  // namespace chladni::mesh

@@ -40,15 +40,19 @@ std::vector<std::size_t> column_widths(const TextTable& table)
   return widths;
 }
 
-/// The words of a cell in lines of at most so many columns; a longer word stays whole.
+/// The words of a cell in lines of at most so many columns, those behind the first one indented; a
+/// longer word stays whole.
 std::vector<std::string> wrapped(const std::string& cell, std::size_t most)
 {
+  constexpr std::string_view indent = "  ";
   if (width(cell) <= most) return {cell};
   std::vector<std::string> lines;
   std::istringstream words(cell);
   for (std::string word; words >> word;)
-    if (lines.empty() || width(lines.back()) + 1 + width(word) > most)
+    if (lines.empty())
       lines.push_back(word);
+    else if (width(lines.back()) + 1 + width(word) > most)
+      lines.push_back(std::string(indent) + word);
     else
       lines.back() += " " + word;
   return lines;

@@ -23,7 +23,8 @@ struct TextTable {
 };
 
 /// Columns two blanks apart, the first flush left, the others flush right; ends with a newline.
-/// Where lines would be longer than 120, the cells of the widest column take several.
+/// Where lines would be longer than 120, the cells of the widest column take several,
+/// indented behind the first.
 std::string format_table(const TextTable& table);
 
 /// Flushes stdout.

@@ -35,20 +35,6 @@ struct Deck {
   std::vector<std::string> notes;
 };
 
-/// What 1 is in a deck whose masses follow from its forces.
-struct DeckUnits {
-  double length;  ///< m
-  double force;   ///< N
-
-  double stress() const { return force / (length * length); }      ///< Pa
-  double density() const { return stress() / (length * length); }  ///< kg/m^3
-  double area() const { return length * length; }                  ///< m^2
-  double second_moment() const { return area() * area(); }         ///< m^4
-};
-
-/// Forces in N, or in lbf where lengths are in inches.
-DeckUnits units_of(double length);
-
 /// The group of that name, made if need be.
 /// @return its index
 int group_index(Deck& deck, const std::string& name, int dimension);
@@ -58,7 +44,8 @@ int group_index(Deck& deck, const std::string& name, int dimension);
 DeckElement surface_element(std::int64_t number, const std::vector<std::int64_t>& nodes, int group);
 
 /// The mesh of a deck: its surfaces, and the lines of `line_groups`; other lines are sets of nodes,
-/// as is said in a note. Nodes of no element are left out.
+/// as is said in a note. Nodes of no element are left out, flat quadrilaterals split as those of
+/// other files.
 /// @throws chladni::Error naming an element and its node that is not there, and for a deck without
 ///         elements.
 Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups);

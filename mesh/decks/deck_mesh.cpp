@@ -6,6 +6,7 @@
 #include "common/error.hpp"
 #include "mesh/complete_elements.hpp"
 #include "mesh/decks/deck.hpp"
+#include "mesh/split_quadrilaterals.hpp"
 
 namespace chladni::mesh {
 namespace {
@@ -112,13 +113,29 @@ std::vector<int> lattice_places(std::size_t n_nodes)
   }
 }
 
-}  // namespace
-
-DeckUnits units_of(double length)
+int n_quadrilaterals(const Mesh& mesh)
 {
-  constexpr double inch = 0.0254, pound_force = 4.4482216152605;
-  return {.length = length, .force = length == inch ? pound_force : 1.0};
+  int n = 0;
+  for (const ElementBlock& block : mesh.blocks)
+    if (block.shape == Shape::quadrilateral) n += block.n_elements();
+  return n;
 }
+
+/// As in files that Gmsh reads, and said in a note.
+Mesh with_flat_corners_split(Mesh mesh)
+{
+  const int n_before = n_quadrilaterals(mesh);
+  Mesh split = split_flat_corners(std::move(mesh));
+  const int n_split = n_before - n_quadrilaterals(split);
+  if (n_split > 0) {
+    split.notes.push_back(fmt::format(
+        "{} quadrilaterals with a corner of more than 165 degrees are two triangles each",
+        n_split));
+  }
+  return split;
+}
+
+}  // namespace
 
 int group_index(Deck& deck, const std::string& name, int dimension)
 {
@@ -165,7 +182,7 @@ Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups)
     mesh.notes.push_back(
         fmt::format("group \"{}\" is left out: no element has a node of it", group.name));
   }
-  return mesh;
+  return with_flat_corners_split(std::move(mesh));
 }
 
 }  // namespace chladni::mesh

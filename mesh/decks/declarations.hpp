@@ -56,11 +56,20 @@ struct Declarations {
   std::vector<std::string> notes;  ///< for the user: what becomes something else here
 };
 
-/// What the deck says besides its mesh, read where strangers' files are read. Its forces are taken
-/// for N (for lbf where its lengths are inches), its masses for what follows from them with
-/// seconds.
-/// @param options  `file` is a deck, and `length_unit` what 1 is in it
+/// What 1 is in a deck whose masses follow from its forces and seconds.
+struct DeckUnits {
+  double length;  ///< m
+  double force;   ///< N
+
+  double stress() const { return force / (length * length); }      ///< Pa
+  double density() const { return stress() / (length * length); }  ///< kg/m^3
+  double area() const { return length * length; }                  ///< m^2
+  double second_moment() const { return area() * area(); }         ///< m^4
+};
+
+/// What the deck says besides its mesh, read where strangers' files are read.
+/// @param options  `file` is a deck; its `length_unit` is not looked at
 /// @throws chladni::Error naming file, line and card of what is wrong or has no counterpart here.
-Declarations declarations(const MeshOptions& options);
+Declarations declarations(const MeshOptions& options, const DeckUnits& units);
 
 }  // namespace chladni::mesh

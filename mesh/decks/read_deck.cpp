@@ -32,9 +32,8 @@ Mesh deck_mesh(const MeshOptions& options)
   });
 }
 
-Declarations declarations_here(const MeshOptions& options)
+Declarations declarations_here(const MeshOptions& options, const DeckUnits& units)
 {
-  const DeckUnits units = units_of(options.length_unit);
   return of_text(options, [&](const std::string& text) {
     if (is_abaqus(*options.file)) {
       const std::vector<Keyword> keywords = abaqus_keywords(text);

@@ -15,7 +15,7 @@ void feed_nastran(const std::string& text)
   const std::vector<Card> cards = nastran_cards(text);
   const Deck deck = nastran_deck(cards);
   mesh_of(deck, {"pbar_8"});
-  nastran_declarations(cards, deck, units_of(1e-3));
+  nastran_declarations(cards, deck, {.length = 1e-3, .force = 1.0});
 }
 
 void feed_abaqus(const std::string& text)
@@ -23,7 +23,7 @@ void feed_abaqus(const std::string& text)
   const std::vector<Keyword> keywords = abaqus_keywords(text);
   const Deck deck = abaqus_deck(keywords);
   mesh_of(deck, {"RIB"});
-  abaqus_declarations(keywords, deck, units_of(1e-3));
+  abaqus_declarations(keywords, deck, {.length = 1e-3, .force = 1.0});
 }
 
 }  // namespace

@@ -44,6 +44,18 @@ inline void expect_words(const std::string& text, const std::vector<std::string>
   for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
 }
 
+/// A text of a deck that is refused, and what the error must say.
+struct Refusal {
+  std::string text;
+  std::vector<std::string> words;
+};
+
+inline void expect_refused(const Refusal& refusal, const std::string& error)
+{
+  expect_words(error, refusal.words);
+  EXPECT_NE(error.find("line "), std::string::npos) << error;
+}
+
 inline double area(const Mesh& mesh)
 {
   double sum = 0.0;

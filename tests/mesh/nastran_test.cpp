@@ -11,18 +11,21 @@ namespace {
 
 using testing::area;
 using testing::error_of;
+using testing::expect_refused;
 using testing::expect_words;
 using testing::MeshFile;
+using testing::Refusal;
 
 Deck deck_of(const std::string& text)
 {
   return nastran_deck(nastran_cards(text));
 }
 
-Declarations declared_by(const std::string& text, double length_unit)
+Declarations declared_by(const std::string& text, double length_unit, double force_unit = 1.0)
 {
   const std::vector<Card> cards = nastran_cards(text);
-  return nastran_declarations(cards, nastran_deck(cards), units_of(length_unit));
+  return nastran_declarations(cards, nastran_deck(cards),
+                              {.length = length_unit, .force = force_unit});
 }
 
 std::string error_in(const std::string& text)
@@ -107,6 +110,19 @@ TEST(NastranDeck, NamesItsGroupsByPropertiesSetsAndConstraints)
   EXPECT_EQ(mesh.blocks.size(), 3U);
 }
 
+TEST(NastranDeck, HasItsFlatQuadrilateralsSplitAsThoseOfOtherFiles)
+{
+  const Mesh mesh =
+      mesh_of(deck_of("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,.02,0.\nGRID,4,,1.,1.,0.\n"
+                      "CQUAD4,1,7,1,2,3,4\n"),
+              {});
+  ASSERT_EQ(mesh.blocks.size(), 1U);
+  EXPECT_EQ(mesh.blocks[0].shape, Shape::triangle);
+  EXPECT_EQ(mesh.blocks[0].n_elements(), 2);
+  ASSERT_EQ(mesh.notes.size(), 1U);
+  EXPECT_NE(mesh.notes[0].find("1 quadrilaterals"), std::string::npos) << mesh.notes[0];
+}
+
 /// 2 x 1 by elements of each kind, in mm.
 class NastranFile : public MeshFile {};
 
@@ -123,7 +139,8 @@ TEST_F(NastranFile, IsReadInItsUnitByAProcessOfItsOwn)
     const Mesh mesh = generate({.file = file, .length_unit = 1e-3});
     EXPECT_NEAR(area(mesh), 2e-6, 1e-18) << of_kind;
   }
-  const Declarations declared = declarations({.file = write("b.bdf", plate), .length_unit = 1e-3});
+  const Declarations declared =
+      declarations({.file = write("b.bdf", plate)}, {.length = 1e-3, .force = 1.0});
   EXPECT_EQ(declared.shells.size(), 1U);
   EXPECT_EQ(declared.materials.size(), 1U);
 }
@@ -158,7 +175,7 @@ TEST(NastranDeclarations, AreInSI)
   EXPECT_EQ(in_mm.beams.at(1).shear_factor_z, 1.0);
   // Steel in inches, lbf and seconds.
   const Declarations in_inches =
-      declared_by(square + "MAT1,9,3.0E7,,.3,7.33E-4\nPSHELL,7,9,.1,9,,9\n", 0.0254);
+      declared_by(square + "MAT1,9,3.0E7,,.3,7.33E-4\nPSHELL,7,9,.1,9,,9\n", 0.0254, 4.4482216);
   EXPECT_NEAR(in_inches.materials[0].young, 206.8e9, 0.1e9);
   EXPECT_NEAR(in_inches.materials[0].density, 7833.0, 2.0);
 }
@@ -175,18 +192,11 @@ TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
   EXPECT_EQ(declared.supports[1].group, "spc_6_123456");
 }
 
-struct Refusal {
-  std::string text;
-  std::vector<std::string> words;
-};
-
 class RefusedCard : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedCard, IsNamedWithItsLine)
 {
-  const std::string error = error_in(GetParam().text);
-  expect_words(error, GetParam().words);
-  EXPECT_TRUE(error.find("line") != std::string::npos) << error;
+  expect_refused(GetParam(), error_in(GetParam().text));
 }
 
 const std::vector<Refusal> refusals{
