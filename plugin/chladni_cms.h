@@ -46,6 +46,10 @@ typedef struct {
 typedef PetscErrorCode (*CMSMonitorFunction)(CMS cms, const char phase[], PetscReal seconds,
                                              void* ctx);
 
+/* fraction: of the phase that goes on, 0 to 1. */
+typedef PetscErrorCode (*CMSProgressFunction)(CMS cms, const char phase[], PetscReal fraction,
+                                              void* ctx);
+
 PETSC_EXTERN PetscClassId CMS_CLASSID;
 
 /* Registers class, log events and stages; CMSCreate and -dll_append do it by themselves. */
@@ -97,6 +101,9 @@ PETSC_EXTERN PetscErrorCode CMSGetOptionsPrefix(CMS cms, const char* prefix[]);
 PETSC_EXTERN PetscErrorCode CMSSetFromOptions(CMS cms);
 /* Called at the end of each phase; -cms_monitor prints. */
 PETSC_EXTERN PetscErrorCode CMSMonitorSet(CMS cms, CMSMonitorFunction monitor, void* ctx);
+/* Called on each rank by itself while a long phase goes on. An error that it returns ends the work: at once
+   where there is one rank, at the end of the phase where there are several. */
+PETSC_EXTERN PetscErrorCode CMSProgressSet(CMS cms, CMSProgressFunction progress, void* ctx);
 
 /* Checks the input, partitions, factors K_ss. */
 PETSC_EXTERN PetscErrorCode CMSSetUp(CMS cms);

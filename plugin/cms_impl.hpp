@@ -42,6 +42,8 @@ struct Settings {
   reduce::ReductionOptions options{.basis = {.method = reduce::Method::craig_bampton, .modes = 20}};
   CMSMonitorFunction monitor = nullptr;
   void* monitor_context = nullptr;
+  CMSProgressFunction progress = nullptr;
+  void* progress_context = nullptr;
   bool prints_phases = false;
 };
 
@@ -69,8 +71,8 @@ Handle reference(Object object)
   return Handle(object);
 }
 
-/// Brackets a phase: log event, wall time, monitor; with -cms_monitor on a terminal also how much
-/// of it is done and how long the rest will take.
+/// Brackets a phase: log event, wall time, monitor, and how much of it is done meanwhile; with
+/// -cms_monitor on a terminal also how long the rest will take.
 class Phase {
  public:
   Phase(CMS cms, PetscLogEvent event, std::string name);
@@ -81,7 +83,9 @@ class Phase {
   void done();
 
  private:
+  void listen();
   void show(double fraction);
+  void tell(double fraction);
   void call_monitor(PetscLogDouble seconds);
 
   CMS cms_;
@@ -89,6 +93,7 @@ class Phase {
   std::string name_;
   PetscLogDouble started_ = 0.0;
   PetscLogDouble shown_ = 0.0;
+  int users_code_ = 0;  ///< that the progress function returned on this rank
   std::optional<linear::ListenToProgress> listener_;
 };
 

@@ -160,6 +160,15 @@ PetscErrorCode CMSMonitorSet(CMS cms, CMSMonitorFunction monitor, void* ctx)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode CMSProgressSet(CMS cms, CMSProgressFunction progress, void* ctx)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  cms->inside->settings.progress = progress;
+  cms->inside->settings.progress_context = ctx;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CMSSetFromOptions(CMS cms)
 {
   PetscInt n_modes = 20;

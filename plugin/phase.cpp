@@ -26,6 +26,12 @@ PetscErrorCode print_phase(CMS cms, const char phase[], PetscReal seconds)
   PetscFunctionReturn(0);
 }
 
+std::string progress_failure(int code, const std::string& phase)
+{
+  return fmt::format("the function of CMSProgressSet() returned error {} in the phase \"{}\"", code,
+                     phase);
+}
+
 }  // namespace
 
 Phase::Phase(CMS cms, PetscLogEvent event, std::string name)
@@ -33,9 +39,19 @@ Phase::Phase(CMS cms, PetscLogEvent event, std::string name)
 {
   petsc::check(PetscLogEventBegin(event_, cms_, 0, 0, 0));
   petsc::check(PetscTime(&started_));
-  const bool is_first = petsc::rank(PetscObjectComm(reinterpret_cast<PetscObject>(cms))) == 0;
-  if (!cms->inside->settings.prints_phases || !is_first || isatty(STDERR_FILENO) == 0) return;
-  listener_.emplace([this](double fraction) { show(fraction); });
+  listen();
+}
+
+void Phase::listen()
+{
+  const Settings& settings = cms_->inside->settings;
+  const bool is_first = petsc::rank(PetscObjectComm(reinterpret_cast<PetscObject>(cms_))) == 0;
+  const bool is_shown = settings.prints_phases && is_first && isatty(STDERR_FILENO) != 0;
+  if (!is_shown && !settings.progress) return;
+  listener_.emplace([this, is_shown](double fraction) {
+    if (is_shown) show(fraction);
+    tell(fraction);
+  });
 }
 
 Phase::~Phase()
@@ -58,27 +74,46 @@ void Phase::show(double fraction)
       stderr);
 }
 
+/// Where there are other ranks, they hear of a failure at the end of the phase only: until then
+/// they wait for this one.
+void Phase::tell(double fraction)
+{
+  const Settings& settings = cms_->inside->settings;
+  if (!settings.progress || users_code_ != 0) return;
+  users_code_ = settings.progress(cms_, name_.c_str(), fraction, settings.progress_context);
+  if (users_code_ == 0 || petsc::size(PetscObjectComm(reinterpret_cast<PetscObject>(cms_))) > 1)
+    return;
+  throw UsersFailure(static_cast<PetscErrorCode>(users_code_),
+                     progress_failure(users_code_, name_));
+}
+
 void Phase::done()
 {
   PetscLogDouble now = 0.0;
   petsc::check(PetscTime(&now));
   const Settings& settings = cms_->inside->settings;
   if (settings.prints_phases) petsc::check(print_phase(cms_, name_.c_str(), now - started_));
-  if (settings.monitor) call_monitor(now - started_);
+  if (settings.monitor || settings.progress) call_monitor(now - started_);
 }
 
-/// The monitor is called on all ranks and may fail on one.
+/// The user's functions are called on all ranks and may fail on one.
 void Phase::call_monitor(PetscLogDouble seconds)
 {
   const Settings& settings = cms_->inside->settings;
-  int code = settings.monitor(cms_, name_.c_str(), seconds, settings.monitor_context);
-  MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX,
+  std::array<int, 2> codes{0, users_code_};
+  if (settings.monitor)
+    codes[0] = settings.monitor(cms_, name_.c_str(), seconds, settings.monitor_context);
+  MPI_Allreduce(MPI_IN_PLACE, codes.data(), 2, MPI_INT, MPI_MAX,
                 PetscObjectComm(reinterpret_cast<PetscObject>(cms_)));
-  if (code == 0) return;
-  throw UsersFailure(static_cast<PetscErrorCode>(code),
-                     fmt::format("the monitor of CMSMonitorSet() returned error {} at the end of "
-                                 "the phase \"{}\"",
-                                 code, name_));
+  if (codes[0] != 0) {
+    throw UsersFailure(
+        static_cast<PetscErrorCode>(codes[0]),
+        fmt::format(
+            "the monitor of CMSMonitorSet() returned error {} at the end of the phase \"{}\"",
+            codes[0], name_));
+  }
+  if (codes[1] != 0)
+    throw UsersFailure(static_cast<PetscErrorCode>(codes[1]), progress_failure(codes[1], name_));
 }
 
 namespace {

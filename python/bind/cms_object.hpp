@@ -83,10 +83,14 @@ class Cms {
   void solve(pybind11::object listener, PetscErrorCode (*function)(CMS))
   {
     Progress progress(std::move(listener));
-    const auto forget = [&] { CMSMonitorSet(cms_, nullptr, nullptr); };
+    const auto forget = [&] {
+      CMSMonitorSet(cms_, nullptr, nullptr);
+      CMSProgressSet(cms_, nullptr, nullptr);
+    };
     try {
       progress.during([&] {
         call([&] { return CMSMonitorSet(cms_, &tell, &progress); });
+        call([&] { return CMSProgressSet(cms_, &look_for_signals, &progress); });
         call([&] { return function(cms_); });
       });
     } catch (...) {
@@ -103,6 +107,16 @@ class Cms {
       static_cast<Progress*>(progress)->tell(phase, seconds);
       return 0;
     } catch (...) {  // Progress keeps it
+      return PETSC_ERR_USER;
+    }
+  }
+  static PetscErrorCode look_for_signals(CMS /*cms*/, const char[] /*phase*/,
+                                         PetscReal /*fraction*/, void* progress)
+  {
+    try {
+      static_cast<Progress*>(progress)->look_for_signals();
+      return 0;
+    } catch (...) {
       return PETSC_ERR_USER;
     }
   }

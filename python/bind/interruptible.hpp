@@ -16,11 +16,17 @@ class Progress {
   /// @param listener  takes the name of the phase and its part that is done, 0 to 1; or None
   explicit Progress(pybind11::object listener) : listener_(std::move(listener)) {}
 
-  /// To be called without the lock of the interpreter.
-  void tell(const std::string& phase, double fraction)
+  /// To be called without the lock of the interpreter, as is `tell`.
+  void look_for_signals()
   {
     const pybind11::gil_scoped_acquire locked;
     if (PyErr_CheckSignals() != 0) fail(pybind11::error_already_set());
+  }
+
+  void tell(const std::string& phase, double fraction)
+  {
+    look_for_signals();
+    const pybind11::gil_scoped_acquire locked;
     if (listener_.is_none()) return;
     try {
       listener_(phase, fraction);

@@ -92,7 +92,7 @@ class CMS:
 
         Args:
             monitor: is called at the end of each phase with its name and its wall time in s; what it raises ends
-                the reduction, and so does Ctrl-C at that time
+                the reduction, and so does Ctrl-C, on one rank also in the midst of a long phase
         """
         self._cms.solve(monitor)
 

@@ -475,6 +475,29 @@ TEST(CMS, SaysThatTheMonitorFailed)
       << message(code);
 }
 
+TEST(CMS, TellsHowFarItIsAndEndsWhereThatFails)
+{
+  Solver solver;
+  constexpr int users_code = 78;
+  static std::vector<std::string> phases;
+  petsc::check(CMSProgressSet(
+      solver.cms,
+      [](CMS, const char phase[], PetscReal fraction, void*) -> PetscErrorCode {
+        EXPECT_GE(fraction, 0.0);
+        EXPECT_LE(fraction, 1.0);
+        phases.emplace_back(phase);
+        const bool last = petsc::rank(PETSC_COMM_WORLD) == petsc::size(PETSC_COMM_WORLD) - 1;
+        return last && std::string_view(phase) == "fixed-interface modes" ? users_code : 0;
+      },
+      nullptr));
+  const PetscErrorCode code = solver.solve();
+  EXPECT_EQ(static_cast<int>(code), users_code);
+  EXPECT_FALSE(phases.empty());
+  EXPECT_NE(message(code).find("returned error 78 in the phase \"fixed-interface modes\""),
+            std::string::npos)
+      << message(code);
+}
+
 TEST(CMS, KeepsTheCodeOfAnErrorOfPetsc)
 {
   Solver solver;

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -124,6 +125,33 @@ class Reduction(unittest.TestCase):
 
         with self.assertRaises(KeyboardInterrupt):
             chladni.reduce(K, M, MASTERS, modes=3, monitor=interrupt)
+
+
+LONG = """
+import chladni, scipy.sparse
+n = 250
+line = scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n))
+K = scipy.sparse.kronsum(line, line).tocsr()
+print("begins", flush=True)
+try:
+    chladni.reduce(K, scipy.sparse.identity(n * n, format="csr"), range(0, n * n, 1000), modes=1500,
+                   monitor=lambda phase, seconds: print(phase, flush=True))
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+@unittest.skipUnless(RANKS == 1, "on one rank")
+class Interruption(unittest.TestCase):
+    def test_ends_a_phase_in_its_midst(self):
+        process = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True)
+        while process.stdout.readline() != "factorization\n":
+            pass
+        time.sleep(1.0)  # in the search for modes, which takes minutes
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        self.assertEqual(process.communicate(timeout=60)[0].splitlines(), ["interrupted"])
+        self.assertLess(time.monotonic() - start, 20.0)
 
 
 class Cms(unittest.TestCase):
