@@ -4,6 +4,7 @@
 
 #include "report/output.hpp"
 #include "squeal/results/cycle_results.hpp"
+#include "squeal/results/signal_results.hpp"
 
 namespace chladni::report {
 

@@ -4,6 +4,7 @@ DefineConstant[
   outer_radius = 162, wall_radius = 70, hub_radius = 35, height = 46,
   track_radius = 130, n_track = 60,   // a circle with nodes at equal angles, for the pads
   n_holes = 8, hole_radius = 7, inner_holes = 105, outer_holes = 147,
+  n_bolts = 0, bolt_radius = 7, bolt_circle = 52,   // holes of the flange, in the group "bolts"
   size = 16                           // of elements
 ];
 Mesh.MeshSizeMax = size;
@@ -68,6 +69,19 @@ cr = hub_radius; n_on_arc = Max(3, Ceil(Pi * cr / (2 * size)));
 Call AddCircle;
 hub_edge[] = arcs[];
 
+bolt_loops[] = {};
+bolt_edges[] = {};
+For j In {0 : n_bolts - 1}
+  phi = 2 * Pi * j / n_bolts;
+  cx = bolt_circle * Cos(phi); cy = bolt_circle * Sin(phi); cz = height; cr = bolt_radius; cn = 4;
+  n_on_arc = 2;
+  Call AddCircle;
+  l = newll;
+  Curve Loop(l) = {arcs[]};
+  bolt_loops[] += l;
+  bolt_edges[] += arcs[];
+EndFor
+
 around = newll; Curve Loop(around) = {outer_edge[]};
 middle = newll; Curve Loop(middle) = {track[]};
 foot = newll; Curve Loop(foot) = {seat[]};
@@ -75,7 +89,7 @@ rim = newll; Curve Loop(rim) = {top[]};
 hub = newll; Curve Loop(hub) = {hub_edge[]};
 Plane Surface(1) = {around, middle, outer_loops[]};
 Plane Surface(2) = {middle, foot, inner_loops[]};
-Plane Surface(3) = {rim, hub};
+Plane Surface(3) = {rim, hub, bolt_loops[]};
 
 uprights[] = {};
 wall[] = {};
@@ -100,3 +114,6 @@ Physical Surface("flange") = {3};
 Physical Curve("outer_edge") = {outer_edge[]};
 Physical Curve("hub_edge") = {hub_edge[]};
 Physical Curve("holes") = {hole_edges[]};
+If (n_bolts > 0)
+  Physical Curve("bolts") = {bolt_edges[]};
+EndIf

@@ -12,7 +12,7 @@ using States = std::vector<Eigen::Index>;
 
 /// Two states that must be in one group.
 struct Link {
-  Index i, j;
+  Eigen::Index i, j;
 };
 
 /// An invariant group, or what stands against it.

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "references/squeal/analytic_body.hpp"
 #include "squeal/stability/stability.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 
