@@ -4,23 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/vectors.hpp"
+
 namespace chladni::mesh {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
 const double cosine_limit = std::cos(165.0 * std::numbers::pi / 180.0);
-
-Vector difference(const Vector& a, const Vector& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// Lattice place of column i, row j.
 int place(int order, int i, int j)
@@ -38,8 +28,8 @@ double corner_cosine(const Mesh& mesh, const ElementBlock& block, int element, i
   const Vector& x = mesh.positions[nodes[place(p, i, j)]];
   const int next_i = i == 0 ? 1 : p - 1;
   const int next_j = j == 0 ? 1 : p - 1;
-  const Vector a = difference(mesh.positions[nodes[place(p, next_i, j)]], x);
-  const Vector b = difference(mesh.positions[nodes[place(p, i, next_j)]], x);
+  const Vector a = minus(mesh.positions[nodes[place(p, next_i, j)]], x);
+  const Vector b = minus(mesh.positions[nodes[place(p, i, next_j)]], x);
   return dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
 }
 
