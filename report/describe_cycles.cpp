@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <complex>
 #include <numbers>
-#include <ranges>
+#include <span>
 
 #include "report/quantities.hpp"
 
@@ -56,7 +57,8 @@ void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics
   add(table, name + "largest normal force", statistics.N_max, "N");
   add(table, name + "modulation by the rotation", 100.0 * statistics.modulation, "%");
   if (!statistics.settled) add(table, name + "drift", 100.0 * statistics.drift, "%");
-  for (const auto& line : statistics.lines | std::views::take(n_lines_told))
+  const auto n_told = std::min<std::size_t>(statistics.lines.size(), n_lines_told);
+  for (const auto& line : std::span(statistics.lines).first(n_told))
     add(table, fmt::format("{}line at {:.6g} Hz", name, line.frequency_Hz), line.amplitude, "m/s");
 }
 

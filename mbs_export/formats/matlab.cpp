@@ -40,8 +40,9 @@ MatrixXd rows_of(const ModalBody& body)
 {
   MatrixXd rows(body.attachment_modes.rows(), 2);
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    rows(row, 0) = double(row / 6 + 1);
-    rows(row, 1) = double(row % 6 + 1);
+    const Eigen::Index node = row / 6 + 1, component = row % 6 + 1;
+    rows(row, 0) = double(node);
+    rows(row, 1) = double(component);
   }
   return rows;
 }

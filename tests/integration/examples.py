@@ -13,6 +13,7 @@ ELSEWHERE = {
     "hat_disc": "hat_disc.py",
     "library": "../install/install.py",
     "plugin": "plugin.py",
+    "python": "../python/CMakeLists.txt",
     "read_body.py": "../cli/chladni_export_test.cpp",
     "thesis_disc": "thesis_disc.py",
 }
