@@ -74,7 +74,8 @@ std::vector<int> own_harmonics(int count)
 
 void check_method(reduce::Method method)
 {
-  if (method == reduce::Method::craig_bampton || method == reduce::Method::guyan) return;
+  using enum reduce::Method;
+  if (method == craig_bampton || method == guyan || method == automatic) return;
   throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
 }
 
@@ -88,6 +89,8 @@ reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const Secto
                                    .keeps_matrices = true,
                                    .later = {}};
   check_method(scene.reduce.method);
+  if (scene.reduce.method == reduce::Method::automatic)
+    options.basis.method = reduce::Method::craig_bampton;
   if (scene.reduce.modes) {
     options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
     options.basis.modes.reset();

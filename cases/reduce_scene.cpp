@@ -148,9 +148,9 @@ std::vector<std::string> certified_support(const scene::Scene& scene, const FeMo
   return support;
 }
 
-bool finds_modes(const scene::Scene& scene)
+bool finds_modes(const reduce::Reduction& reduction)
 {
-  return scene.reduce.method == reduce::Method::craig_bampton;
+  return reduction.choice.method == reduce::Method::craig_bampton;
 }
 
 SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
@@ -165,7 +165,7 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
   const auto n_modes = static_cast<int>(reduction.model.omega.size());
   phases.begin("residuals");
   const double residual =
-      finds_modes(scene)
+      finds_modes(reduction)
           ? reduce::largest_residual(*reduction.Q_CB.modes, body.K_blocks.ss, body.M_blocks.ss)
           : 0.0;
   phases.end();
@@ -274,17 +274,18 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;
   system.provenance = provenance(scene, solvers, fe.mesh);
-  return {
-      .reduced = std::move(system),
-      .phases = phases.times(),
-      .n_dofs = fe.system.dofs.n_dofs(),
-      .n_nodes = fe.mesh.n_nodes(),
-      .n_masters = static_cast<int>(reduced.body.masters.size()),
-      .n_modes = reduced.n_modes,
-      .n_modes_asked = finds_modes(scene) ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
-      .factorization = phases.time_of("factorization"),
-      .factor = linear::factor_size(reduced.body.K_ss.factor()),
-      .modes_residual = reduced.modes_residual};
+  return {.reduced = std::move(system),
+          .phases = phases.times(),
+          .n_dofs = fe.system.dofs.n_dofs(),
+          .n_nodes = fe.mesh.n_nodes(),
+          .n_masters = static_cast<int>(reduced.body.masters.size()),
+          .choice = reduced.reduction.choice,
+          .n_modes = reduced.n_modes,
+          .n_modes_asked =
+              finds_modes(reduced.reduction) ? static_cast<int>(scene.reduce.modes.value_or(0)) : 0,
+          .factorization = phases.time_of("factorization"),
+          .factor = linear::factor_size(reduced.body.K_ss.factor()),
+          .modes_residual = reduced.modes_residual};
 }
 
 }  // namespace chladni::cases

@@ -8,6 +8,7 @@
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/solver_options.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "reduce/reduction.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cases {
@@ -19,11 +20,12 @@ struct ReduceSummary {
   std::int64_t n_dofs;                    ///< of the FE model, after elimination of the couplings
   std::int64_t n_nodes;                   ///< of the mesh
   int n_masters;
-  int n_modes;        ///< fixed-interface modes
+  reduce::MethodChoice choice;
+  int n_modes;        ///< of the method
   int n_modes_asked;  ///< of these, by their number; 0 where something else has chosen them
   report::PhaseTime factorization;  ///< of K_ss, on this rank; part of one of the phases
   linear::FactorSize factor;
-  double modes_residual;  ///< largest of the fixed-interface modes; 0 without any
+  double modes_residual;  ///< largest of the fixed-interface modes; 0 of other methods
 };
 
 /// What was said of the solvers after `--`.

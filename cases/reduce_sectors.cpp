@@ -195,6 +195,7 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
   const std::vector<HarmonicPart> parts = gathered(own);
   phases.end();
   ReduceSummary summary{};
+  summary.choice.method = options.basis.method;
   summary.n_masters = static_cast<int>(described.masters.size());
   if (rank() == 0) {
     double lambda_max = std::numeric_limits<double>::infinity();

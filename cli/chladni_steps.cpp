@@ -66,6 +66,13 @@ std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
   };
   if (wanted.method == reduce::Method::guyan)
     add({constraint});
+  else if (wanted.method == reduce::Method::mixed_interface)
+    add({constraint, {"mixed-interface modes", 25.0}, {"residual flexibility", 5.0}});
+  else if (wanted.method == reduce::Method::automatic)
+    add({constraint,
+         {"fixed-interface modes", 25.0, Times::unknown},
+         {"mixed-interface modes", 25.0},
+         {"residual flexibility", 5.0}});
   else if (wanted.method != reduce::Method::craig_bampton)
     add({constraint, {"free-interface modes", 25.0}, {"residual flexibility", 5.0}});
   else if (wanted.tolerance)
@@ -147,7 +154,8 @@ report::TextTable reduction_table(const cases::ReduceSummary& summary)
   table.rows.push_back({"nodes of the mesh", fmt::format("{}", summary.n_nodes)});
   table.rows.push_back({"DOFs", fmt::format("{}", summary.n_dofs)});
   table.rows.push_back({"masters", fmt::format("{}", summary.n_masters)});
-  table.rows.push_back({"fixed-interface modes", number_of_modes(summary)});
+  table.rows.push_back({"method", std::string(reduce::name_of(summary.choice.method))});
+  table.rows.push_back({"modes", number_of_modes(summary)});
   const mbs_export::Certificate& certificate = summary.reduced.certificate;
   if (const Eigen::Index n = certificate.eta2.size(); n > 0) {
     table.rows.push_back(
@@ -172,6 +180,8 @@ std::vector<report::Json::Member> reduction_json(const cases::ReduceSummary& sum
       {"n_dofs", summary.n_dofs},
       {"n_nodes", summary.n_nodes},
       {"n_masters", summary.n_masters},
+      {"method", std::string(reduce::name_of(summary.choice.method))},
+      {"why_this_method", summary.choice.reason},
       {"n_modes", summary.n_modes},
       {"certified_frequencies_Hz", frequencies_json(summary.reduced.certificate.frequencies)},
       {"eta2", numbers_json(summary.reduced.certificate.eta2)},

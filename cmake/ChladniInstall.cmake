@@ -112,7 +112,7 @@ set(fe_headers
     reduce/craig_bampton.hpp
     reduce/basis_rows.hpp
     reduce/guyan_stiffness.hpp
-    reduce/free_interface.hpp
+    reduce/mixed_interface.hpp
     reduce/error_estimates.hpp
     reduce/completeness.hpp
     reduce/tolerance_search.hpp

@@ -21,8 +21,10 @@ typedef const char* CMSType;
 
 #define CMSGUYAN "guyan"                /* masters only: static condensation */
 #define CMSCRAIGBAMPTON "craig-bampton" /* masters and fixed-interface modes; the default */
+#define CMSMIXED "mixed-interface" /* modes with the rows of CMSSetHeld held, the other masters free */
 #define CMSRUBIN "rubin"     /* modes of the free body and residual flexibility, consistent mass */
 #define CMSMACNEAL "macneal" /* the same with the mass of the modes alone; no error estimates */
+#define CMSAUTO "auto" /* of Craig-Bampton and mixed interface what costs least for a tolerance */
 
 /* How the modes found compare with the number of eigenvalues that the full model must have. */
 typedef struct {
@@ -77,15 +79,20 @@ PETSC_EXTERN PetscErrorCode CMSGetInterface(CMS cms, IS* masters);
 PETSC_EXTERN PetscErrorCode CMSSetInterfaceGeometry(CMS cms, PetscInt n, const PetscInt nodes[],
                                                     const PetscInt components[],
                                                     const PetscReal positions[]);
+/* The support: masters that will be held, global indices, each once, on any rank; NULL (default): none.
+   Frequencies, errors and counts are those of the body that is held so, and mixed-interface modes too.
+   Other supports remain possible, since all masters remain rows of the reduced model. */
+PETSC_EXTERN PetscErrorCode CMSSetHeld(CMS cms, IS held);
 /* Rows wanted by CMSGetTransformation, global indices; NULL (default): all rows, laid out as K. */
 PETSC_EXTERN PetscErrorCode CMSSetOutput(CMS cms, IS rows);
 
-/* -cms_type guyan|craig-bampton|rubin|macneal */
+/* -cms_type guyan|craig-bampton|mixed-interface|rubin|macneal|auto */
 PETSC_EXTERN PetscErrorCode CMSSetType(CMS cms, CMSType type);
 PETSC_EXTERN PetscErrorCode CMSGetType(CMS cms, CMSType* type);
 /* How many modes; the last of the three that is set counts.
    -cms_nmodes N | -cms_cutoff F | -cms_tol T -cms_tol_upto F;  F in Hz: lambda = (2 pi F)^2.
-   By tolerance: as many as keep the estimated relative error of all frequencies up to F below T. */
+   By tolerance: as many as keep the estimated relative error of all frequencies up to F below T; of
+   the mixed interface all modes up to F. CMSAUTO needs a tolerance. */
 PETSC_EXTERN PetscErrorCode CMSSetDimensions(CMS cms, PetscInt nmodes);
 PETSC_EXTERN PetscErrorCode CMSSetCutoff(CMS cms, PetscReal f);
 PETSC_EXTERN PetscErrorCode CMSSetTolerance(CMS cms, PetscReal tol, PetscReal upto);
@@ -114,8 +121,8 @@ PETSC_EXTERN PetscErrorCode CMSSolve(CMS cms);
 PETSC_EXTERN PetscErrorCode CMSGetReducedOperators(CMS cms, Mat* K, Mat* M, Mat* C);
 /* T with K_r = T^T K T: u = T (u_m, q). Dense, made at the first call, owned by the object. */
 PETSC_EXTERN PetscErrorCode CMSGetTransformation(CMS cms, Mat* T);
-/* Elastic modes of the reduced model with free masters, ascending, f in Hz, up to the highest
-   fixed-interface mode, at most 100; of Guyan the lowest 20. Arrays are owned by the object. */
+/* Elastic modes of the reduced model under the support of CMSSetHeld, ascending, f in Hz, up to the
+   highest fixed-interface mode or the last mixed-interface one, at most 100; of Guyan the lowest 20. Arrays are owned by the object. */
 PETSC_EXTERN PetscErrorCode CMSGetFrequencies(CMS cms, PetscInt* n, const PetscReal* f[]);
 /* eta^2 of the same modes: estimated relative error of lambda; half of it for f. MacNeal's method has
    no such estimate: n is 0, and there is nothing to read. */

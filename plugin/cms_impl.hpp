@@ -49,9 +49,9 @@ struct Settings {
 
 /// All that a CMS holds.
 struct Inside {
-  petsc::Matrix K, M, C;              ///< as given
-  petsc::IndexSet interface, output;  ///< as given
-  std::vector<MasterPlace> geometry;  ///< of this rank's part of the interface, or empty
+  petsc::Matrix K, M, C;                    ///< as given
+  petsc::IndexSet interface, held, output;  ///< as given
+  std::vector<MasterPlace> geometry;        ///< of this rank's part of the interface, or empty
   Settings settings;
   std::optional<SetUp> set_up;
   std::optional<Result> result;
@@ -116,6 +116,9 @@ linear::OptionSource option_source(CMS cms);
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
 SetUp make_set_up(CMS cms);
 Result make_result(CMS cms);
+/// What CMSSetHeld was given, the same on every rank.
+/// @note   Collective.
+std::vector<PetscInt> held_masters(const Inside& inside);
 /// T^T C T; masters ascending by DOF. Symmetric where C is.
 Eigen::MatrixXd reduced_velocity_forces(const Inside& in);
 void write_file(CMS cms, const std::string& path);

@@ -177,6 +177,18 @@ PetscErrorCode CMSSetInterfaceGeometry(CMS cms, PetscInt n, const PetscInt nodes
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode CMSSetHeld(CMS cms, IS held)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
+  if (held) PetscValidHeaderSpecific(held, IS_CLASSID, 2);
+  PetscCall(guarded((PetscObject)cms, __func__, [&] {
+    cms->inside->held = reference<petsc::IndexSet>(held);
+    cms->inside->result.reset();
+  }));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CMSSetOutput(CMS cms, IS rows)
 {
   PetscFunctionBegin;

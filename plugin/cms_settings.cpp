@@ -14,9 +14,11 @@ namespace chladni::plugin {
 
 namespace {
 
-constexpr std::array<const char*, 4> type_names{CMSGUYAN, CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL};
-constexpr std::array types{reduce::Method::guyan, reduce::Method::craig_bampton,
-                           reduce::Method::rubin, reduce::Method::macneal};
+constexpr std::array<const char*, 6> type_names{CMSGUYAN, CMSCRAIGBAMPTON, CMSMIXED,
+                                                CMSRUBIN, CMSMACNEAL,      CMSAUTO};
+constexpr std::array types{reduce::Method::guyan,           reduce::Method::craig_bampton,
+                           reduce::Method::mixed_interface, reduce::Method::rubin,
+                           reduce::Method::macneal,         reduce::Method::automatic};
 
 }  // namespace
 
@@ -61,8 +63,8 @@ PetscErrorCode CMSSetType(CMS cms, CMSType type)
     PetscFunctionReturn(0);
   }
   SETERRQ(PetscObjectComm((PetscObject)cms), PETSC_ERR_ARG_UNKNOWN_TYPE,
-          "Unknown CMS type \"%s\"; give -cms_type %s, %s, %s or %s", type, CMSGUYAN,
-          CMSCRAIGBAMPTON, CMSRUBIN, CMSMACNEAL);
+          "Unknown CMS type \"%s\"; give -cms_type %s, %s, %s, %s, %s or %s", type, CMSGUYAN,
+          CMSCRAIGBAMPTON, CMSMIXED, CMSRUBIN, CMSMACNEAL, CMSAUTO);
 }
 
 PetscErrorCode CMSGetType(CMS cms, CMSType* type)
@@ -190,9 +192,9 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   PetscObjectOptionsBegin((PetscObject)cms);
   PetscCall(PetscOptionsEList("-cms_type", "Method of reduction", "CMSSetType", type_names.data(),
                               type_names.size(), type_names[type], &type, &type_given));
-  PetscCall(PetscOptionsInt("-cms_nmodes", "Number of fixed-interface modes", "CMSSetDimensions",
+  PetscCall(PetscOptionsInt("-cms_nmodes", "Number of modes of the method", "CMSSetDimensions",
                             n_modes, &n_modes, &modes_given));
-  PetscCall(PetscOptionsReal("-cms_cutoff", "All fixed-interface modes below this, Hz",
+  PetscCall(PetscOptionsReal("-cms_cutoff", "All modes of the method below this, Hz",
                              "CMSSetCutoff", cutoff, &cutoff, &cutoff_given));
   PetscCall(PetscOptionsReal("-cms_tol",
                              "As many modes as keep the error of frequencies below this",

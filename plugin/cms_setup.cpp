@@ -10,18 +10,18 @@ namespace chladni::plugin {
 
 namespace {
 
-/// The interface in the order of the user, the same on every rank.
-std::vector<PetscInt> all_masters(IS interface)
+/// In the order of the user, the same on every rank.
+std::vector<PetscInt> indices_of_all_ranks(IS set)
 {
   petsc::IndexSet gathered;
   PetscInt n = 0;
   const PetscInt* indices = nullptr;
-  petsc::check(ISAllGather(interface, gathered.put()));
+  petsc::check(ISAllGather(set, gathered.put()));
   petsc::check(ISGetSize(gathered, &n));
   petsc::check(ISGetIndices(gathered, &indices));
-  std::vector<PetscInt> masters(indices, indices + n);
+  std::vector<PetscInt> all(indices, indices + n);
   petsc::check(ISRestoreIndices(gathered, &indices));
-  return masters;
+  return all;
 }
 
 /// Ascending; out-of-range and double ones are refused by value.
@@ -65,12 +65,17 @@ Operators checked_operators(CMS cms)
 
 }  // namespace
 
+std::vector<PetscInt> held_masters(const Inside& inside)
+{
+  return inside.held ? indices_of_all_ranks(inside.held) : std::vector<PetscInt>{};
+}
+
 SetUp make_set_up(CMS cms)
 {
   Operators checked = checked_operators(cms);
   PetscInt n = 0;
   petsc::check(MatGetSize(checked.K, &n, nullptr));
-  std::vector<PetscInt> masters = all_masters(cms->inside->interface);
+  std::vector<PetscInt> masters = indices_of_all_ranks(cms->inside->interface);
   refuse_empty_rows(checked.K, checked.M, checked_ascending(masters, n));
   reduce::ReductionOptions options = cms->inside->settings.options;
   options.solver.petsc = option_source(cms);

@@ -35,10 +35,11 @@ Result make_result(CMS cms)
 {
   CMSPhases phases(cms);
   Inside& in = *cms->inside;
-  Result result{.reduction = reduce::reduction(in.set_up->body, in.settings.options,
-                                               reduce::HeldMasters(), phases),
-                .f_Hz = {},
-                .quality = {}};
+  const reduce::HeldMasters support(in.set_up->body.masters, held_masters(in));
+  Result result{
+      .reduction = reduce::reduction(in.set_up->body, in.settings.options, support, phases),
+      .f_Hz = {},
+      .quality = {}};
   const reduce::Certificate& certificate = result.reduction.certificate;
   for (const double lambda : certificate.lambda) result.f_Hz.push_back(std::sqrt(lambda) / two_pi);
   result.quality = quality_of(certificate);

@@ -60,6 +60,30 @@ void add_attachments(mbs_export::ReducedSystem& system, const std::vector<Master
   system.sets.push_back(std::move(all));
 }
 
+/// A set for each component in which nodes are held, "held_z" of those along z, which the
+/// certificate names "held_z.z".
+/// @return the names of the support
+std::vector<std::string> add_support(mbs_export::ReducedSystem& system,
+                                     const reduce::FactoredBody& body,
+                                     const std::vector<PetscInt>& held)
+{
+  constexpr std::array components{"x", "y", "z", "rx", "ry", "rz"};
+  std::array<mbs_export::AttachmentSet, 6> sets;
+  for (const PetscInt dof : held) {
+    const auto at = std::ranges::find(body.masters, dof) - body.masters.begin();
+    const mbs_export::MasterDof& master = system.masters[static_cast<std::size_t>(at)];
+    sets[static_cast<std::size_t>(master.component)].nodes.push_back(master.node);
+  }
+  std::vector<std::string> support;
+  for (std::size_t c = 0; c < sets.size(); ++c) {
+    if (sets[c].nodes.empty()) continue;
+    sets[c].name = fmt::format("held_{}", components[c]);
+    support.push_back(fmt::format("{}.{}", sets[c].name, components[c]));
+    system.sets.push_back(std::move(sets[c]));
+  }
+  return support;
+}
+
 mbs_export::Provenance provenance(CMS cms, MPI_Comm comm)
 {
   char* options = nullptr;
@@ -96,8 +120,9 @@ void write_file(CMS cms, const std::string& path)
   add_attachments(described,
                   n_places > 0 ? gathered_places(in.geometry, comm) : default_places(body));
   const reduce::Reduction& reduction = in.result->reduction;
+  std::vector<std::string> support = add_support(described, body, held_masters(in));
   mbs_export::ReducedSystem system =
-      reduce_export::reduced_system(std::move(described), body, reduction);
+      reduce_export::reduced_system(std::move(described), body, reduction, std::move(support));
   if (velocity.C) {
     const std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
     system.C = reduced_velocity_forces(in)(places, places);

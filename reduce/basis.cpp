@@ -1,7 +1,8 @@
 #include "reduce/basis.hpp"
 
 #include "reduce/certify.hpp"
-#include "reduce/free_interface.hpp"
+#include "reduce/held_masters.hpp"
+#include "reduce/mixed_interface.hpp"
 #include "reduce/rigid_constraint_modes.hpp"
 #include "reduce/tolerance_search.hpp"
 
@@ -46,10 +47,18 @@ FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
   return search.modes();
 }
 
-/// Rubin's basis, and for MacNeal the mass that is not the projected one.
-Basis basis_of_free_modes(const FactoredBody& body, const ReductionOptions& options,
-                          PhaseListener& phases)
+std::vector<int> held_rows(const FactoredBody& body, const Support& support, Method method)
 {
+  if (method != Method::mixed_interface) return {};
+  return rows_of_masters(body.masters, support.held());
+}
+
+/// Of the modes of the body with some masters held or none, and for MacNeal the mass that is not
+/// the projected one.
+Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& options,
+                         const Support& support, PhaseListener& phases)
+{
+  const Method method = options.basis.method;
   Basis basis{.Q = {.Psi = constraint_modes_of(body, phases), .modes = {}}};
   const WholeSystem whole{.K = body.K,
                           .M = body.M,
@@ -57,29 +66,32 @@ Basis basis_of_free_modes(const FactoredBody& body, const ReductionOptions& opti
                           .K_blocks = body.K_blocks,
                           .M_blocks = body.M_blocks,
                           .K_ss = body.K_ss};
-  phases.begin("free-interface modes");
-  const FreeInterfaceModes free = free_interface_modes(whole, basis.Q.Psi, options.basis);
+  phases.begin(method == Method::mixed_interface ? "mixed-interface modes"
+                                                 : "free-interface modes");
+  const MixedInterfaceModes modes =
+      mixed_interface_modes(whole, basis.Q.Psi, options.basis, held_rows(body, support, method));
   phases.begin("residual flexibility");
-  basis.Q.modes = rubin_modes(whole, basis.Q.Psi, free);
-  if (options.basis.method == Method::macneal) {
+  basis.Q.modes = residual_modes(whole, basis.Q.Psi, modes);
+  if (method == Method::mixed_interface) basis.exact_up_to = modes.omega.back();
+  if (method == Method::macneal) {
     phases.begin("mass of the modes");
-    basis.mass = macneal_mass(basis.Q, body.M_blocks, free);
+    basis.mass = macneal_mass(basis.Q, body.M_blocks, modes);
   }
   return basis;
 }
 
 }  // namespace
 
-bool is_free_interface(Method method)
+bool has_free_masters(Method method)
 {
-  return method == Method::rubin || method == Method::macneal;
+  return method != Method::guyan && method != Method::craig_bampton;
 }
 
 Basis make_basis(const FactoredBody& body, const ReductionOptions& options, const Support& support,
                  PhaseListener& phases)
 {
   const ReduceOptions& wanted = options.basis;
-  if (is_free_interface(wanted.method)) return basis_of_free_modes(body, options, phases);
+  if (has_free_masters(wanted.method)) return basis_of_own_modes(body, options, support, phases);
   Basis basis{.Q = {.Psi = {}, .modes = {}}};
   if (wanted.method == Method::guyan) {
     basis.Q.Psi = constraint_modes_of(body, phases);

@@ -6,13 +6,16 @@
 
 namespace chladni::reduce {
 
-/// Rubin's and MacNeal's.
-bool is_free_interface(Method method);
+/// Whether the modes are those of the body with free masters, which need all of K and M: the mixed
+/// interface, Rubin's, MacNeal's, and what may become one of them.
+bool has_free_masters(Method method);
 
 /// The columns of the transformation of a method.
 struct Basis {
   CraigBamptonBasis Q;
   std::optional<Eigen::MatrixXd> mass = {};  ///< M_r where the method does not project it
+  /// Up to here the basis has the modes of the supported body themselves, rad/s; 0 where it has not
+  double exact_up_to = 0.0;
 };
 
 /// By the method of the options: the one place that tells the methods apart. Its last phase is

@@ -38,7 +38,8 @@ void refuse_indefinite_mass(const MatrixXd& M)
                   least / largest));
 }
 
-/// Orthonormal combinations of the columns of R that leave these rows at rest.
+}  // namespace
+
 MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
 {
   if (rows.empty() || R.cols() == 0) return R;
@@ -57,21 +58,25 @@ std::vector<int> all_but(const std::vector<int>& rows, Index n)
   return others;
 }
 
-}  // namespace
+std::vector<int> rows_of_masters(std::vector<PetscInt> masters, const std::vector<PetscInt>& held)
+{
+  std::ranges::sort(masters);
+  std::vector<int> rows;
+  for (const PetscInt dof : held) {
+    const auto found = std::ranges::lower_bound(masters, dof);
+    if (found == masters.end() || *found != dof)
+      throw Error(fmt::format("row {} cannot be held: it is no master", dof));
+    rows.push_back(static_cast<int>(found - masters.begin()));
+  }
+  std::ranges::sort(rows);
+  if (const auto twice = std::ranges::adjacent_find(rows); twice != rows.end())
+    throw Error(fmt::format("row {} is held twice; name it once", masters[std::size_t(*twice)]));
+  return rows;
+}
 
 HeldMasters::HeldMasters(const std::vector<PetscInt>& masters, std::vector<PetscInt> held)
-    : held_(std::move(held))
-{
-  std::vector<PetscInt> ascending = masters;
-  std::ranges::sort(ascending);
-  for (const PetscInt dof : held_) {
-    const auto found = std::ranges::lower_bound(ascending, dof);
-    if (found == ascending.end() || *found != dof)
-      throw Error(fmt::format("row {} cannot be held: it is no master", dof));
-    rows_.push_back(static_cast<int>(found - ascending.begin()));
-  }
-  std::ranges::sort(rows_);
-}
+    : held_(std::move(held)), rows_(rows_of_masters(masters, held_))
+{}
 
 SupportedModes HeldMasters::modes(const ReducedModel& model, const SpectrumRange& /*wanted*/) const
 {

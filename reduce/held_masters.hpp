@@ -6,6 +6,21 @@
 
 namespace chladni::reduce {
 
+/// Orthonormal combinations of motions that leave some of their rows at rest.
+/// @param R     [n x r] linearly independent columns
+/// @param rows  ascending
+Eigen::MatrixXd at_rest(const Eigen::MatrixXd& R, const std::vector<int>& rows);
+
+/// The others of 0 .. n - 1, ascending.
+/// @param rows  ascending
+std::vector<int> all_but(const std::vector<int>& rows, Eigen::Index n);
+
+/// The rows of some masters in the models, whose masters ascend by DOF.
+/// @param masters  `Body::masters`
+/// @return ascending
+/// @throws chladni::Error for a DOF that is no master, or twice.
+std::vector<int> rows_of_masters(std::vector<PetscInt> masters, const std::vector<PetscInt>& held);
+
 /// Some masters are held, or none. The zero-energy motions are those that K does not resist,
 /// whatever they are.
 class HeldMasters : public Support {

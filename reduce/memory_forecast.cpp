@@ -43,7 +43,7 @@ double modes_at_first(const ReduceOptions& wanted)
 
 bool needs_matrices(const ReductionOptions& options, bool counts)
 {
-  return options.keeps_matrices || counts || is_free_interface(options.basis.method);
+  return options.keeps_matrices || counts || has_free_masters(options.basis.method);
 }
 
 MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOptions& options)

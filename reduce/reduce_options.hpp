@@ -1,20 +1,32 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 namespace chladni::reduce {
 
-enum class Method { guyan, craig_bampton, rubin, macneal };
+/// With `automatic`, which needs a tolerance, the method is what costs least.
+enum class Method { guyan, craig_bampton, mixed_interface, rubin, macneal, automatic };
+
+/// Their names in scenes and options.
+constexpr std::string_view name_of(Method method)
+{
+  constexpr std::array<std::string_view, 6> names{"guyan", "craig-bampton", "mixed-interface",
+                                                  "rubin", "macneal",       "auto"};
+  return names[static_cast<std::size_t>(method)];
+}
 
 /// As few fixed-interface modes as keep the estimated relative error eta^2 of omega^2 of each mode
-/// of the supported body up to a frequency below a tolerance.
+/// of the supported body up to a frequency below a tolerance; of the mixed interface all modes of
+/// the supported body up to that frequency, which have no such error.
 struct ModesByTolerance {
   double tolerance;
   double up_to_Hz;
 };
 
-/// How many fixed-interface modes, or free-interface ones of Rubin and MacNeal, which know no
-/// tolerance: exactly one member is set (none for Guyan).
+/// How many fixed-interface modes, modes of the supported body (mixed interface), or free-interface
+/// ones of Rubin and MacNeal, which know no tolerance: exactly one member is set (none for Guyan).
 struct ReduceOptions {
   Method method = Method::craig_bampton;
   std::optional<int> modes = {};

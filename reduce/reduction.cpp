@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 
 #include "linear/cholesky/condition_estimate.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
 #include "reduce/memory_forecast.hpp"
+#include "reduce/method_choice.hpp"
 
 namespace chladni::reduce {
 
@@ -70,9 +72,12 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
           .require_memory = require_memory};
 }
 
-Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,
+Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Support& support,
                     PhaseListener& phases)
 {
+  MethodChoice choice = method_choice(body, wanted, support);
+  ReductionOptions options = wanted;
+  options.basis.method = choice.method;
   const CountPlan count(body, options);
   if (!needs_matrices(options, count.is_possible())) {  // the blocks are enough
     body.K = {};
@@ -80,6 +85,8 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
     linear::give_back_freed();  // the basis does not come from the heap
   }
   Basis basis = make_basis(body, options, support, phases);
+  if (basis.exact_up_to > 0.0 && !options.basis.tolerance && !options.basis.certified_up_to_Hz)
+    options.basis.certified_up_to_Hz = basis.exact_up_to / (2.0 * std::numbers::pi);
   phases.begin("projection");
   ReducedModel model = project(basis.Q, body.K_blocks, body.M_blocks);
   if (basis.mass) model.M = *basis.mass;
@@ -98,7 +105,8 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& options, const S
   phases.end();
   return {.Q_CB = std::move(basis.Q),
           .model = std::move(model),
-          .certificate = std::move(certified.certificate)};
+          .certificate = std::move(certified.certificate),
+          .choice = std::move(choice)};
 }
 
 Reduction with_responses(Reduction reduction, const FactoredBody& body,

@@ -82,11 +82,18 @@ struct Certificate {
   double count_share = 0.0;         ///< of a count in the reduction's work
 };
 
+/// The method of a reduction.
+struct MethodChoice {
+  Method method;
+  std::string reason = {};  ///< why that one, where it was chosen automatically
+};
+
 /// A reduced model, its basis and its certificate.
 struct Reduction {
   CraigBamptonBasis Q_CB;
   ReducedModel model;
   Certificate certificate;
+  MethodChoice choice = {.method = Method::craig_bampton};
 };
 
 /// Basis, projection, error estimates, condition and count. Memory: modes come before constraint

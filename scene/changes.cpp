@@ -51,12 +51,16 @@ std::optional<toml::table> parsed(const std::string& text)
   }
 }
 
-/// Whether one of the texts lets the reduction depend on a key of [body]: a tolerance on the
-/// supports, modes of the whole model on the loads.
+/// Whether one of the texts lets the reduction depend on a key of [body]: a tolerance and the mixed
+/// interface on the supports, modes of the whole model on the loads.
 bool is_of_reduction(std::string_view key, const Values& values)
 {
   const auto has = [&](std::string_view wanted) { return values.contains(std::string(wanted)); };
-  if (key == "body.fixed" || key.starts_with("body.fixed[")) return has("reduce.tolerance");
+  if (key == "body.fixed" || key.starts_with("body.fixed[")) {
+    const auto method = values.find("reduce.method");
+    return has("reduce.tolerance") ||
+           (method != values.end() && method->second == "\"mixed-interface\"");
+  }
   if (!key.starts_with("body.interface_modes")) return false;
   for (const auto& [path, value] : values) {
     const bool is_space = path.starts_with("body.interface_modes") && path.ends_with(".space");

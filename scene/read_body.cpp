@@ -75,10 +75,11 @@ InterfaceModes::Space read_space(const Table& mode, InterfaceModes::Kind kind,
                 "the reduced system holds every static response already; take this key out");
   }
   if (space == Space::full &&
-      (method == reduce::Method::rubin || method == reduce::Method::macneal)) {
+      (method != reduce::Method::craig_bampton && method != reduce::Method::guyan)) {
     mode.refuse("space",
-                "responses of the whole model join fixed-interface modes, and a free-interface "
-                "reduction has none; take this key out, or reduce with method \"craig-bampton\"");
+                "responses of the whole model join fixed-interface modes, and a reduction with "
+                "free masters has none; take this key out, or reduce with method "
+                "\"craig-bampton\"");
   }
   return space;
 }

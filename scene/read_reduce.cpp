@@ -81,15 +81,31 @@ std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const S
   return rings;
 }
 
+namespace {
+
+/// A tolerance implies the method that costs least.
+reduce::Method read_method(const Table& table)
+{
+  using enum reduce::Method;
+  if (!table.has("method") && table.has("tolerance")) return automatic;
+  const auto method = table.choice<reduce::Method>("method", {{"auto", automatic},
+                                                              {"craig-bampton", craig_bampton},
+                                                              {"mixed-interface", mixed_interface},
+                                                              {"guyan", guyan},
+                                                              {"rubin", rubin},
+                                                              {"macneal", macneal}});
+  if (method == automatic && !table.has("tolerance"))
+    table.refuse("method", "\"auto\" chooses for a tolerance; give tolerance and up_to_Hz");
+  return method;
+}
+
+}  // namespace
+
 reduce::ReduceOptions read_reduce(const Table& root)
 {
   const Table table = root.table("reduce");
   reduce::ReduceOptions options;
-  options.method =
-      table.choice<reduce::Method>("method", {{"craig-bampton", reduce::Method::craig_bampton},
-                                              {"guyan", reduce::Method::guyan},
-                                              {"rubin", reduce::Method::rubin},
-                                              {"macneal", reduce::Method::macneal}});
+  options.method = read_method(table);
   if (options.method == reduce::Method::guyan) {
     for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"})
       if (table.has(key))
@@ -102,8 +118,11 @@ reduce::ReduceOptions read_reduce(const Table& root)
   } else if (criterion == "cutoff_Hz") {
     options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
-    if (options.method != reduce::Method::craig_bampton)
-      table.refuse("tolerance", "needs method \"craig-bampton\"; give modes or cutoff_Hz");
+    if (options.method == reduce::Method::rubin || options.method == reduce::Method::macneal) {
+      table.refuse("tolerance",
+                   "needs method \"auto\", \"mixed-interface\" or \"craig-bampton\"; give modes or "
+                   "cutoff_Hz");
+    }
     options.tolerance = {.tolerance = table.number("tolerance"),
                          .up_to_Hz = table.number("up_to_Hz")};
   }

@@ -131,6 +131,11 @@ void declare_input(py::class_<Cms>& type)
              Cms::call([&] { return CMSSetInterface(cms.get(), set); });
            })
       .def("set_interface_geometry", &set_geometry)
+      .def("set_held",
+           [](const Cms& cms, const std::vector<PetscInt>& rows) {
+             const petsc::IndexSet set = index_set(cms.get(), rows);
+             Cms::call([&] { return CMSSetHeld(cms.get(), set); });
+           })
       .def("set_output",
            [](const Cms& cms, const std::optional<std::vector<PetscInt>>& rows) {
              const petsc::IndexSet set = rows ? index_set(cms.get(), *rows) : petsc::IndexSet();

@@ -49,12 +49,17 @@ class CMS:
             _indices(nodes), _indices(components), np.asarray(positions, float).ravel().tolist()
         )
 
+    def set_held(self, rows: Sequence[int]) -> None:
+        """Masters that the support holds, each once, on any rank: what the frequencies and errors are of, and
+        mixed-interface modes too."""
+        self._cms.set_held(_indices(rows))
+
     def set_output(self, rows: Sequence[int] | None) -> None:
         """Global rows wanted of the transformation; None for all of them."""
         self._cms.set_output(None if rows is None else _indices(rows))
 
     def set_type(self, name: str) -> None:
-        """ "guyan", "craig-bampton", "rubin" or "macneal"."""
+        """ "guyan", "craig-bampton", "mixed-interface", "rubin", "macneal" or, for a tolerance, "auto"."""
         self._cms.set_type(name)
 
     def get_type(self) -> str:
@@ -185,15 +190,16 @@ class Reduction:
 
 def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton", modes: int | None = None,
            cutoff_Hz: float | None = None, tolerance: float | None = None, up_to_Hz: float | None = None,
-           count: bool = False, rows: Sequence[int] | None = None, transformation: bool = True,
+           held: Sequence[int] = (), count: bool = False, rows: Sequence[int] | None = None, transformation: bool = True,
            monitor: Monitor | None = None) -> Reduction:  # fmt: skip
-    """Reduces K and M to the masters and fixed-interface modes.
+    """Reduces K and M to the masters and modes.
 
     Args:
         K, M, C: as in `CMS`
         masters: global rows, on every rank the whole list
-        method: "craig-bampton", "guyan", "rubin" or "macneal"
+        method: "craig-bampton", "mixed-interface", "guyan", "rubin", "macneal" or, for a tolerance, "auto"
         modes, cutoff_Hz, tolerance with up_to_Hz: how many modes, one of the three; 20 if nothing is said
+        held: of the masters those that the support holds, on every rank the whole list
         count: whether eigenvalues of the full model are counted, which makes bounds of the estimates
         rows: global rows wanted of T, on every rank the whole list; if nothing is said all
         transformation: whether T is wanted
@@ -227,6 +233,8 @@ def reduce(K, M, masters: Sequence[int], *, C=None, method: str = "craig-bampton
     cms.set_sylvester(count)
     is_first = cms._comm.getRank() == 0
     cms.set_interface(masters if is_first else [])
+    if len(held):
+        cms.set_held(held if is_first else [])
     if rows is not None:
         cms.set_output(rows if is_first else [])
     cms.solve(monitor)

@@ -62,6 +62,15 @@ class Reduction(unittest.TestCase):
         self.assertEqual(reduced.quality["n_zero"], 1)
         self.assertEqual(reduced.quality["model"]["missing"], 0)
 
+    def test_has_the_modes_of_its_support(self):
+        free = np.delete(np.arange(N), MASTERS[0])
+        exact = scipy.linalg.eigh(K.toarray()[np.ix_(free, free)], M.toarray()[np.ix_(free, free)], eigvals_only=True)
+        reduced = chladni.reduce(K, M, MASTERS, method="mixed-interface", modes=8, held=[MASTERS[0]])
+        np.testing.assert_allclose(reduced.frequencies, np.sqrt(exact[:8]) / (2 * np.pi), rtol=1e-9)
+        chosen = chladni.reduce(K, M, MASTERS, method="auto", tolerance=1e-3, held=[MASTERS[0]],
+                                up_to_Hz=np.sqrt(exact[8] * 0.999) / (2 * np.pi))  # fmt: skip
+        np.testing.assert_allclose(chosen.frequencies, np.sqrt(exact[:8]) / (2 * np.pi), rtol=1e-3)
+
     def test_of_petsc_is_that_of_scipy(self):
         theirs = chladni.reduce(K, M, MASTERS, modes=12)
         ours = chladni.reduce(distributed(K), distributed(M), MASTERS, modes=12)

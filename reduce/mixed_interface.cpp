@@ -1,4 +1,4 @@
-#include "reduce/free_interface.hpp"
+#include "reduce/mixed_interface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 #include "reduce/block_rows.hpp"
-#include "reduce/free_flexibility.hpp"
+#include "reduce/flexibility.hpp"
 #include "reduce/guyan_stiffness.hpp"
 
 namespace chladni::reduce {
@@ -33,7 +33,8 @@ PetscInt complete_cluster(const std::vector<double>& lambda, PetscInt n)
 
 double lambda_max(const ReduceOptions& wanted)
 {
-  return std::pow(2.0 * std::numbers::pi * *wanted.cutoff_Hz, 2);
+  const double f_Hz = wanted.tolerance ? wanted.tolerance->up_to_Hz : wanted.cutoff_Hz.value();
+  return std::pow(2.0 * std::numbers::pi * f_Hz, 2);
 }
 
 /// How many of the eigenvalues found are wanted.
@@ -46,17 +47,10 @@ PetscInt n_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda
 
 /// The lowest elastic modes, as many or as far up as wanted, with all partners of the last one:
 /// which combinations of some of them came first would be chance.
-linear::EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility& flexibility,
+linear::EigenPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
                                  const ReduceOptions& wanted)
 {
-  if (!wanted.modes && !wanted.cutoff_Hz) {
-    throw Error(
-        "free_interface_modes: a tolerance needs Craig-Bampton; give the number of modes or "
-        "cutoff_Hz");
-  }
-  PetscInt n = 0;
-  petsc::check(MatGetSize(body.K, &n, nullptr));
-  n -= linear::LocalRows(flexibility.R()).n_cols();
+  const PetscInt n = flexibility.n_elastic();
   linear::BlockLanczos lanczos(flexibility.factor(), body.M,
                                {.n_pairs = 0, .tolerance = tolerance});
   linear::EigenPairs pairs;
@@ -70,7 +64,7 @@ linear::EigenPairs elastic_pairs(const WholeSystem& body, const FreeFlexibility&
       lanczos.require_resolved(wanted.modes ? linear::all_of_them : lambda_max(wanted));
     if (n_taken > n_found) {
       throw Error(
-          fmt::format("free_interface_modes: {} of {} elastic modes found; there are no more",
+          fmt::format("mixed_interface_modes: {} of {} elastic modes found; there are no more",
                       n_found, n_taken));
     }
     const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
@@ -160,34 +154,35 @@ FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const Wh
 
 }  // namespace
 
-FreeInterfaceModes free_interface_modes(const WholeSystem& body, Mat Psi,
-                                        const ReduceOptions& wanted)
+MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
+                                          const ReduceOptions& wanted, const std::vector<int>& held)
 {
-  const FreeFlexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks));
+  const Flexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks), held);
   const linear::EigenPairs elastic = elastic_pairs(body, flexibility, wanted);
   const petsc::Matrix X =
       beside(flexibility.R(), elastic.X, static_cast<PetscInt>(elastic.lambda.size()));
-  FreeInterfaceModes free{.X_s = slave_rows(X, body.dofs, body.K_blocks.ss),
-                          .X_m = master_rows(X, body.dofs),
-                          .omega = {},
-                          .n_rigid = linear::LocalRows(flexibility.R()).n_cols()};
-  free.omega.resize(free.n_rigid, 0.0);
-  for (const double lambda : elastic.lambda) free.omega.push_back(std::sqrt(lambda));
-  return free;
+  MixedInterfaceModes modes{.X_s = slave_rows(X, body.dofs, body.K_blocks.ss),
+                            .X_m = master_rows(X, body.dofs),
+                            .omega = {},
+                            .n_rigid = linear::LocalRows(flexibility.R()).n_cols()};
+  modes.omega.resize(modes.n_rigid, 0.0);
+  for (const double lambda : elastic.lambda) modes.omega.push_back(std::sqrt(lambda));
+  return modes;
 }
 
-FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInterfaceModes& free)
+FixedInterfaceModes residual_modes(const WholeSystem& body, Mat Psi,
+                                   const MixedInterfaceModes& modes)
 {
   petsc::Matrix T;  // X_s - Psi X_m, in the first columns K_ss^-1 (M_ss X_s + M_sm X_m)
-  petsc::check(MatDuplicate(free.X_s, MAT_COPY_VALUES, T.put()));
+  petsc::check(MatDuplicate(modes.X_s, MAT_COPY_VALUES, T.put()));
   std::vector<double> sizes = lengths(gram(T, body.K_blocks.ss));  // before the difference
-  linear::add_product(-1.0, Psi, free.X_m, T);
-  if (free.n_rigid > 0) {
-    const MatrixXd R_m = free.X_m.leftCols(free.n_rigid);
-    const linear::ColumnRange inertia(T, 0, free.n_rigid);
-    const petsc::Matrix R_s = linear::uninitialized_dense(body.K_blocks.ss, free.n_rigid);
+  linear::add_product(-1.0, Psi, modes.X_m, T);
+  if (modes.n_rigid > 0) {
+    const MatrixXd R_m = modes.X_m.leftCols(modes.n_rigid);
+    const linear::ColumnRange inertia(T, 0, modes.n_rigid);
+    const petsc::Matrix R_s = linear::uninitialized_dense(body.K_blocks.ss, modes.n_rigid);
     petsc::check(
-        MatCopy(linear::ColumnRange(free.X_s, 0, free.n_rigid), R_s, SAME_NONZERO_PATTERN));
+        MatCopy(linear::ColumnRange(modes.X_s, 0, modes.n_rigid), R_s, SAME_NONZERO_PATTERN));
     linear::SparseProduct(body.M_blocks.ss).apply(R_s, inertia);
     linear::add_sparse_product(body.M_blocks.sm, R_m, inertia);
     petsc::check(MatMatSolve(body.K_ss.factor(), inertia, R_s));
@@ -197,19 +192,19 @@ FixedInterfaceModes rubin_modes(const WholeSystem& body, Mat Psi, const FreeInte
   return ritz_modes(T, sizes, body);
 }
 
-MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M, const FreeInterfaceModes& free)
+MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M, const MixedInterfaceModes& modes)
 {
   // Z of the masters: X_s^T (M_ss Psi + M_sm) + X_m^T (M_ms Psi + M_mm)
-  const MatrixXd at_slaves = inertial_coupling(free.X_s, Q.Psi, M);
+  const MatrixXd at_slaves = inertial_coupling(modes.X_s, Q.Psi, M);
   const MatrixXd M_of_masters =
       linear::replicate(M.mm) + linear::inner_product_sparse(Q.Psi, M.sm).transpose();
-  const MatrixXd at_masters = linear::product(free.X_m.transpose(), M_of_masters);
+  const MatrixXd at_masters = linear::product(modes.X_m.transpose(), M_of_masters);
   // and of the modes: (M_ss X_s + M_sm X_m)^T Phi
-  petsc::Matrix momentum = linear::uninitialized_dense(M.ss, free.n_modes());
-  linear::SparseProduct(M.ss).apply(free.X_s, momentum);
-  linear::add_sparse_product(M.sm, free.X_m, momentum);
+  petsc::Matrix momentum = linear::uninitialized_dense(M.ss, modes.n_modes());
+  linear::SparseProduct(M.ss).apply(modes.X_s, momentum);
+  linear::add_sparse_product(M.sm, modes.X_m, momentum);
   const MatrixXd of_modes = linear::inner_product(momentum, Q.modes->Phi);
-  MatrixXd Z(free.n_modes(), at_masters.cols() + of_modes.cols());
+  MatrixXd Z(modes.n_modes(), at_masters.cols() + of_modes.cols());
   Z.leftCols(at_masters.cols()) = at_slaves + at_masters;
   Z.rightCols(of_modes.cols()) = of_modes;
   return linear::product(Z.transpose(), Z);

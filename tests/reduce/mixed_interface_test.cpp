@@ -1,4 +1,4 @@
-#include "reduce/free_interface.hpp"
+#include "reduce/mixed_interface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ struct ReducedChain {
   WholeSystem body{
       .K = chain.K, .M = chain.M, .dofs = dofs, .K_blocks = K, .M_blocks = M, .K_ss = K_ss};
   CraigBamptonBasis Q{.Psi = constraint_modes(K_ss, K), .modes = {}};
-  FreeInterfaceModes free = free_interface_modes(body, Q.Psi, {.modes = n_modes});
+  MixedInterfaceModes free = mixed_interface_modes(body, Q.Psi, {.modes = n_modes});
 };
 
 /// Eigenvalues of M x = mu (K + M) x as lambda = 1 / mu - 1, ascending; infinite without mass.
@@ -48,7 +48,7 @@ std::vector<double> eigenvalues(const MatrixXd& K, const MatrixXd& M)
   return lambda;
 }
 
-TEST(FreeInterfaceModes, BeginWithTheRigidMotion)
+TEST(MixedInterfaceModes, BeginWithTheRigidMotion)
 {
   const ReducedChain reduced;
   EXPECT_EQ(reduced.free.n_rigid, 1);
@@ -61,7 +61,7 @@ TEST(FreeInterfaceModes, BeginWithTheRigidMotion)
 TEST(Rubin, KeepsTheModesThatItIsMadeOf)
 {
   ReducedChain reduced;
-  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Two masters, the modes, and the inertia relief of one rigid motion.
   ASSERT_EQ(model.K.rows(), 2 + n_modes + 1);
@@ -73,7 +73,7 @@ TEST(Rubin, KeepsTheModesThatItIsMadeOf)
 TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
 {
   ReducedChain reduced;
-  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Receptance of the first mass to a force on it, full model: sum over all modes.
   const auto receptance = [](double omega2) {
@@ -100,7 +100,7 @@ TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
 TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 {
   ReducedChain reduced;
-  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   const Eigen::Index n_r = model.K.rows();  // the first mass is held
   const MatrixXd K = model.K.bottomRightCorner(n_r - 1, n_r - 1);
@@ -125,7 +125,7 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
 {
   ReducedChain reduced;
-  reduced.Q.modes = rubin_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   const MatrixXd M = macneal_mass(reduced.Q, reduced.M, reduced.free);
   const std::vector<double> lambda = eigenvalues(model.K, M);
@@ -135,13 +135,84 @@ TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
   EXPECT_GT(mass.eigenvalues()[2], 1e-6);
 }
 
-TEST(FreeInterfaceModes, RefuseATolerance)
+/// 4 sin^2((2 k - 1) pi / (2 (2 n - 1))), k = 1, 2, ..., of the chain with one end held.
+double exact_with_end_held(int k)
+{
+  return 4.0 * std::pow(std::sin((2 * k - 1) * std::numbers::pi / (2.0 * (2 * n - 1))), 2);
+}
+
+TEST(MixedInterfaceModes, AreThoseOfTheBodyWithTheHeldMasters)
 {
   const ReducedChain reduced;
-  EXPECT_THROW(
-      free_interface_modes(reduced.body, reduced.Q.Psi,
-                           {.tolerance = ModesByTolerance{.tolerance = 0.1, .up_to_Hz = 1.0}}),
-      Error);
+  const MixedInterfaceModes modes =
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+  EXPECT_EQ(modes.n_rigid, 0);
+  ASSERT_EQ(modes.n_modes(), n_modes);
+  EXPECT_EQ(modes.X_m.row(0).norm(), 0.0);
+  EXPECT_GT(modes.X_m.row(1).norm(), 0.1);
+  for (int k = 1; k <= n_modes; ++k)
+    EXPECT_NEAR(std::pow(modes.omega[k - 1], 2) / exact_with_end_held(k), 1.0, 1e-9);
+}
+
+TEST(MixedInterfaceModes, OfAToleranceAreThoseOfItsRange)
+{
+  const ReducedChain reduced;
+  const double between =
+      0.5 * (std::sqrt(exact_with_end_held(4)) + std::sqrt(exact_with_end_held(5)));
+  const MixedInterfaceModes modes = mixed_interface_modes(
+      reduced.body, reduced.Q.Psi,
+      {.tolerance =
+           ModesByTolerance{.tolerance = 0.1, .up_to_Hz = between / (2.0 * std::numbers::pi)}},
+      {0});
+  EXPECT_EQ(modes.n_modes(), 4);
+}
+
+/// With its first mass held, of a model whose first coordinate is that mass.
+std::vector<double> eigenvalues_with_end_held(const ReducedModel& model)
+{
+  const Eigen::Index n_r = model.K.rows() - 1;
+  return eigenvalues(model.K.bottomRightCorner(n_r, n_r), model.M.bottomRightCorner(n_r, n_r));
+}
+
+TEST(MixedInterface, KeepsTheModesUnderItsSupport)
+{
+  ReducedChain reduced;
+  const MixedInterfaceModes modes =
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  ASSERT_EQ(model.K.rows(), 2 + n_modes);
+  const std::vector<double> lambda = eigenvalues_with_end_held(model);
+  for (int k = 1; k <= n_modes; ++k)
+    EXPECT_NEAR(lambda[k - 1] / exact_with_end_held(k), 1.0, 1e-9) << "mode " << k;
+}
+
+TEST(MixedInterface, IsExactUnderForcesAtEachMasterAndOtherSupports)
+{
+  ReducedChain reduced;
+  const MixedInterfaceModes modes =
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
+  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
+  // The spring between both masters, 23 of stiffness 1 in series.
+  EXPECT_NEAR(model.K(0, 0), 1.0 / 23.0, 1e-14);
+  // Free, it is no worse than static condensation, and near the truth.
+  const std::vector<double> free = eigenvalues(model.K, model.M);
+  EXPECT_NEAR(free[0], 0.0, 1e-12);
+  for (int k = 1; k < 4; ++k) EXPECT_NEAR(free[k] / exact(k), 1.0, 1e-2) << "mode " << k;
+}
+
+TEST(MixedInterface, WithAllMastersHeldIsCraigAndBampton)
+{
+  ReducedChain reduced;
+  const MixedInterfaceModes modes =
+      mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0, 1});
+  const FixedInterfaceModes residual = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  const FixedInterfaceModes fixed =
+      fixed_interface_modes(reduced.K_ss, reduced.M.ss, {.modes = n_modes});
+  ASSERT_EQ(residual.omega.size(), fixed.omega.size());
+  for (std::size_t k = 0; k < fixed.omega.size(); ++k)
+    EXPECT_NEAR(residual.omega[k] / fixed.omega[k], 1.0, 1e-10);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "reduce/free_flexibility.hpp"
+#include "reduce/flexibility.hpp"
 
 #include <petsc/private/matimpl.h>
 
@@ -10,6 +10,7 @@
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "reduce/block_rows.hpp"
+#include "reduce/held_masters.hpp"
 
 namespace chladni::reduce {
 
@@ -17,19 +18,19 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// The inverse of K_G on the complement of its r motions without energy, in units that its diagonal
-/// gives; all else is as wrong as any, since the forces have no share of it.
-MatrixXd pseudo_inverse(const GuyanStiffness& K_G)
+/// The inverse of a K_G on the complement of its r motions without energy, in units that its
+/// diagonal gives; all else is as wrong as any, since the forces have no share of it.
+MatrixXd pseudo_inverse(const MatrixXd& K_G, Eigen::Index r)
 {
-  const Eigen::Index n = K_G.K.rows(), r = K_G.R.cols();
+  const Eigen::Index n = K_G.rows();
   double largest = 0.0;
-  for (PetscInt i = 0; i < n; ++i) largest = std::max(largest, K_G.K(i, i));
+  for (PetscInt i = 0; i < n; ++i) largest = std::max(largest, K_G(i, i));
   std::vector<double> scale;
   for (PetscInt i = 0; i < n; ++i) {
-    const double k = K_G.K(i, i) > 0.0 ? K_G.K(i, i) : largest;
+    const double k = K_G(i, i) > 0.0 ? K_G(i, i) : largest;
     scale.push_back(k > 0.0 ? 1.0 / std::sqrt(k) : 1.0);
   }
-  MatrixXd scaled = K_G.K;
+  MatrixXd scaled = K_G;
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= scale[i] * scale[j];
   const linear::SymmetricEigen eigen = linear::symmetric_eigen(std::move(scaled));
@@ -38,6 +39,15 @@ MatrixXd pseudo_inverse(const GuyanStiffness& K_G)
     for (PetscInt i = 0; i < n; ++i)
       V(i, k - r) = scale[i] * eigen.vectors(i, k) / std::sqrt(eigen.values[k]);
   return linear::product(V, V.transpose());
+}
+
+/// That of the rows that are not held, and zero in the others.
+MatrixXd inverse(const MatrixXd& K_G, Eigen::Index r, const std::vector<int>& held)
+{
+  const std::vector<int> free = all_but(held, K_G.rows());
+  MatrixXd inverse = MatrixXd::Zero(K_G.rows(), K_G.cols());
+  if (!free.empty()) inverse(free, free) = pseudo_inverse(K_G(free, free), r);
+  return inverse;
 }
 
 double form(const MatrixXd& G, const MatrixXd& S, PetscInt i, PetscInt j)
@@ -95,7 +105,7 @@ petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const MatrixXd& R_
 
 }  // namespace
 
-struct FreeFlexibility::Parts {
+struct Flexibility::Parts {
   const WholeSystem& body;
   Mat Psi;
   Mat R;
@@ -120,17 +130,20 @@ struct FreeFlexibility::Parts {
   }
 };
 
-FreeFlexibility::FreeFlexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G)
-    : R_(rigid_motions(body, Psi, K_G.R))
+Flexibility::Flexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G,
+                         const std::vector<int>& held)
 {
+  const MatrixXd R_m = at_rest(K_G.R, held);
+  R_ = rigid_motions(body, Psi, R_m);
   parts_ = std::make_unique<Parts>(Parts{.body = body,
                                          .Psi = Psi,
                                          .R = R_,
                                          .MR = times(body.M, R_),
-                                         .K_G_inverse = pseudo_inverse(K_G)});
+                                         .K_G_inverse = inverse(K_G.K, R_m.cols(), held)});
   PetscInt n_local = 0, n = 0;
   petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));
   petsc::check(MatGetSize(body.K, &n, nullptr));
+  n_elastic_ = n - static_cast<PetscInt>(std::ssize(held) + R_m.cols());
   petsc::check(MatCreateShell(petsc::communicator(body.K), n_local, n_local, n, n, parts_.get(),
                               factor_.put()));
   PetscErrorCode (*solve)(Mat, Mat, Mat) = [](Mat A, Mat F, Mat U) {
@@ -146,6 +159,6 @@ FreeFlexibility::FreeFlexibility(const WholeSystem& body, Mat Psi, const GuyanSt
       MAT_FACTOR_CHOLESKY;  // without which PETSc solves nothing
 }
 
-FreeFlexibility::~FreeFlexibility() = default;
+Flexibility::~Flexibility() = default;
 
 }  // namespace chladni::reduce
