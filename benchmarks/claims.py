@@ -135,7 +135,7 @@ def end_to_end(found):
     costs = [b["cost_over_best_by_hand"] or 0.0 for b in both]
     return [("Choice by tolerance",
              f"of {len(both)} tolerances asked {kept[0]} are kept by all frequencies of the range, {kept[1]} by the body's responses beside "
-             f"the reduced system; {sum(c <= 2 for c in costs)} cost at most twice the cheapest choice by hand, the dearest "
+             f"the FE model; {sum(c <= 2 for c in costs)} cost at most twice the cheapest choice by hand, the dearest "
              f"{max(costs):.1f} times")]
 
 

@@ -13,6 +13,7 @@
 #include "cases/ranks.hpp"
 #include "cases/reduce_sectors.hpp"
 #include "cases/reduce_steps.hpp"
+#include "cases/response_goal.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
 #include "common/eigen_every.hpp"
@@ -156,12 +157,16 @@ bool finds_modes(const reduce::Reduction& reduction)
 SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
                             const linear::SolverOptions& solver, Phases& phases)
 {
-  const reduce::ReductionOptions options = options_of(scene, solver);
+  reduce::ReductionOptions options = options_of(scene, solver);
   mbs_export::ReducedSystem system = described(scene, fe);
   reduce::FactoredBody body = reduce::factored(body_of(scene, fe), options, phases);
   const SceneSupport support(system, body.masters, certified_support(scene, fe));
+  const std::optional<SceneResponses> responses =
+      scene_responses(scene, system, body.masters, support.fixed());
+  if (responses) options.responses = responses->goal;
   reduce::Reduction reduction = reduce::reduction(body, options, support, phases);
   system = reduce_export::reduced_system(std::move(system), body, reduction, support.fixed());
+  if (system.certificate.responses) system.certificate.responses->loads = *responses->names;
   const auto n_modes = static_cast<int>(reduction.model.omega.size());
   phases.begin("residuals");
   const double residual =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct ModeCount {
   int found = 0;
 
   int missing() const { return expected - found; }
+};
+
+/// Responses to harmonic loads at masters, compared with those of the FE model.
+struct ResponseCheck {
+  double up_to = 0.0;              ///< rad/s
+  double error = 0.0;              ///< upper bound, relative
+  std::vector<std::string> loads;  ///< "track.z" stands for all nodes of the set
 };
 
 /// How good a reduced system is, made at the time of the reduction, when the FE model is at hand.
@@ -32,6 +40,7 @@ struct Certificate {
   double rigid_residual = 0.0;     ///< their energy over the first elastic omega^2; 0 is perfect
   double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
   double count_share = 0.0;        ///< of a count in the reduction's work; 0 where unknown, no file
+  std::optional<ResponseCheck> responses = {};
 };
 
 /// The estimated relative error of each frequency, what a user reads: `estimates`, or in files

@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "common/eigen_every.hpp"
 #include "mbs_export/attachment_motion.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
-#include "mbs_export/drilling.hpp"
-#include "mbs_export/held_dofs.hpp"
+#include "mbs_export/held_body.hpp"
 #include "mbs_export/interface_modes.hpp"
 #include "mbs_export/loaded_dofs.hpp"
-#include "mbs_export/mode_shift.hpp"
-#include "mbs_export/orthogonalize.hpp"
 #include "mbs_export/rigid_body.hpp"
 #include "mbs_export/select_by_tolerance.hpp"
 
@@ -30,8 +29,8 @@ struct HeldModes {
   const FreeModes& free;
   const HeldDofs& held;
   const VectorXd& omega;
-  MatrixXd T;  ///< Q_e Q_c X, [n_FE x n]
-  MatrixXd U;  ///< [6 n_nodes x n] of the attachment nodes
+  const MatrixXd& T;  ///< [n_FE x n]
+  const MatrixXd& U;  ///< [6 n_nodes x n] of the attachment nodes
 };
 
 /// The final modes: kept ones and interface modes, in ascending order of frequency.
@@ -87,6 +86,20 @@ Choice choose_by_hand(const HeldModes& modes, const BodyOptions& options)
   return {std::move(selection), std::move(basis), {}};
 }
 
+/// Of the responses of the reduced system against those of the FE model, where the reduction was
+/// certified for this support, these loads and this range.
+std::optional<double> error_of_reduction(const Certificate& certificate, const BodyOptions& options,
+                                         const LoadedDofs& loads)
+{
+  const std::optional<ResponseCheck>& check = certificate.responses;
+  const double Omega_max = 2.0 * std::numbers::pi * options.keep.tolerance->up_to_Hz;
+  constexpr double same = 1.0 + 1e-12;
+  if (!check || certificate.fixed != options.fixed || check->loads != loads.names ||
+      Omega_max > same * check->up_to)
+    return std::nullopt;
+  return check->error;
+}
+
 Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
 {
   if (options.keep.count || options.keep.up_to_Hz || options.keep.list) {
@@ -95,7 +108,13 @@ Choice choose_by_tolerance(const HeldModes& modes, const BodyOptions& options)
   }
   const LoadedDofs loads = loaded_dofs(modes.reduced, modes.held, options.interface_modes);
   const MatrixXd B = modes.U(loads.dofs, every).transpose();
-  ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, *options.keep.tolerance);
+  const std::optional<double> of_reduction =
+      error_of_reduction(modes.reduced.certificate, options, loads);
+  Tolerance left = *options.keep.tolerance;
+  if (of_reduction && *of_reduction < left.error) left.error -= *of_reduction;
+  ToleranceSelection chosen = select_by_tolerance(modes.omega, B, loads, left);
+  chosen.table.error = options.keep.tolerance->error;
+  chosen.table.of_reduction = of_reduction;
   const VectorXd omega_n = modes.omega(chosen.neglected);
   MatrixXd responses(omega_n.size(), 0);
   for (const InterfaceChoice& one : chosen.interface) {
@@ -201,13 +220,8 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
 
 ModalBody make_body(const ReducedSystem& reduced, const BodyOptions& options)
 {
-  const FreeModes free = orthogonalize(reduced);
-  const HeldDofs held = held_dofs(reduced, options.fixed);
-  refuse_drilling_support(reduced, held);
-  const ModeShift shift = shift_modes(free, held);
-  const ConstrainedModes constrained = constrained_modes(shift);
-  const MatrixXd T = free.Q_e * (shift.Q_c * constrained.X);
-  const HeldModes modes{reduced, free, held, constrained.omega, T, attachment_motion(reduced, T)};
+  const auto [free, held, shift, constrained, T, U] = held_body(reduced, options.fixed);
+  const HeldModes modes{reduced, free, held, constrained.omega, T, U};
   const Choice choice =
       options.keep.tolerance ? choose_by_tolerance(modes, options) : choose_by_hand(modes, options);
   ModalBody body = assemble(reduced, options, merge(modes, choice.selection, choice.basis));

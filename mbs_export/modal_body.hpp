@@ -49,7 +49,10 @@ struct SelectionStep {
 
 /// Size against error: what each size buys, without and with interface modes.
 struct SelectionTable {
-  double error;                    ///< the tolerance
+  double error;  ///< the tolerance
+  /// Of the reduced system against the FE model, which comes on top of the errors of the steps;
+  /// nothing where these are all that is known.
+  std::optional<double> of_reduction = {};
   double Omega_max;                ///< end of the range, rad/s
   std::vector<std::string> loads;  ///< loaded attachment DOFs, "track.z" for all nodes of a set
   std::vector<SelectionStep> modes_only;

@@ -23,9 +23,10 @@ VectorXcd dynamic_stiffness(const VectorXd& omega, double Omega)
   return stiffness_factor * omega.cwiseAbs2().cast<Complex>().array() - Omega * Omega;
 }
 
-/// B in which forces and moments count alike: each of the two divided by the square root of its
+/// Units in which forces and moments count alike: each of the two divided by the square root of its
 /// mean static flexibility.
-MatrixXd commensurable(const VectorXd& omega, const MatrixXd& B, const std::vector<char>& is_moment)
+VectorXd commensurable_units(const VectorXd& omega, const MatrixXd& B,
+                             const std::vector<char>& is_moment)
 {
   const VectorXd flexibility_k =
       (omega.array() > 0.0).select(omega.array().max(1e-300).square().inverse(), 0.0);
@@ -37,12 +38,12 @@ MatrixXd commensurable(const VectorXd& omega, const MatrixXd& B, const std::vect
     sum[unit] += flexibility[j];
     ++n[unit];
   }
-  MatrixXd scaled = B;
+  VectorXd units = VectorXd::Ones(B.cols());
   for (Index j = 0; j < B.cols(); ++j) {
     const int unit = is_moment[std::size_t(j)] ? 1 : 0;
-    if (sum[unit] > 0.0) scaled.col(j) *= std::sqrt(static_cast<double>(n[unit]) / sum[unit]);
+    if (sum[unit] > 0.0) units[j] = std::sqrt(static_cast<double>(n[unit]) / sum[unit]);
   }
-  return scaled;
+  return units;
 }
 
 /// [m x n] squares of what each mode contributes to the response to each load.
@@ -189,8 +190,10 @@ MatrixXd independent(const MatrixXd& V, const MatrixXd& X)
 ReferenceResponse reference_response(const VectorXd& omega, const MatrixXd& B,
                                      const LoadedDofs& loads, const Tolerance& tolerance)
 {
+  const VectorXd unit = commensurable_units(omega, B, loads.is_moment);
   ReferenceResponse reference{.omega = omega,
-                              .B = commensurable(omega, B, loads.is_moment),
+                              .B = B * unit.asDiagonal(),
+                              .unit = unit,
                               .clusters = mode_clusters(omega),
                               .resonances = {},
                               .Omega = {},

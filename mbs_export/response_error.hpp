@@ -14,7 +14,8 @@ namespace chladni::mbs_export {
 /// resonances, eta = 0.02 being 1 % of the critical damping there.
 struct ReferenceResponse {
   Eigen::VectorXd omega;  ///< [n] all modes of the held body, rad/s, ascending
-  Eigen::MatrixXd B;      ///< [n x m] mode shapes at the loads; moments in a unit of their own
+  Eigen::MatrixXd B;      ///< [n x m] mode shapes at the loads, in units of each
+  Eigen::VectorXd unit;   ///< [m] that make forces and moments count alike
   std::vector<ModeCluster> clusters;
   std::vector<int> resonances;      ///< clusters that the loads excite within the range
   Eigen::VectorXd Omega;            ///< [G], rad/s, ascending: resonances and between them

@@ -1,5 +1,8 @@
 #include "reduce/basis.hpp"
 
+#include <algorithm>
+#include <numbers>
+
 #include "reduce/certify.hpp"
 #include "reduce/held_masters.hpp"
 #include "reduce/mixed_interface.hpp"
@@ -47,6 +50,17 @@ FixedInterfaceModes modes_to_tolerance(const FactoredBody& body, Mat Psi,
   return search.modes();
 }
 
+/// With a tolerance all modes of the responses' range too, and those near it that they still feel.
+ReduceOptions with_modes_of_responses(const ReductionOptions& options)
+{
+  constexpr double beyond = 1.15;
+  ReduceOptions wanted = options.basis;
+  if (!options.responses || !wanted.tolerance) return wanted;
+  const double f_Hz = beyond * options.responses->Omega / (2.0 * std::numbers::pi);
+  wanted.tolerance->up_to_Hz = std::max(wanted.tolerance->up_to_Hz, f_Hz);
+  return wanted;
+}
+
 std::vector<int> held_rows(const FactoredBody& body, const Support& support, Method method)
 {
   if (method != Method::mixed_interface) return {};
@@ -60,19 +74,17 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
 {
   const Method method = options.basis.method;
   Basis basis{.Q = {.Psi = constraint_modes_of(body, phases), .modes = {}}};
-  const WholeSystem whole{.K = body.K,
-                          .M = body.M,
-                          .dofs = body.dofs,
-                          .K_blocks = body.K_blocks,
-                          .M_blocks = body.M_blocks,
-                          .K_ss = body.K_ss};
+  const WholeSystem whole = whole_system(body);
   phases.begin(method == Method::mixed_interface ? "mixed-interface modes"
                                                  : "free-interface modes");
-  const MixedInterfaceModes modes =
-      mixed_interface_modes(whole, basis.Q.Psi, options.basis, held_rows(body, support, method));
+  const MixedInterfaceModes modes = mixed_interface_modes(
+      whole, basis.Q.Psi, with_modes_of_responses(options), held_rows(body, support, method));
   phases.begin("residual flexibility");
   basis.Q.modes = residual_modes(whole, basis.Q.Psi, modes);
-  if (method == Method::mixed_interface) basis.exact_up_to = modes.omega.back();
+  if (method == Method::mixed_interface) {
+    basis.exact_up_to = modes.omega.back();
+    basis.lambda_left_out = modes.lambda_left_out;
+  }
   if (method == Method::macneal) {
     phases.begin("mass of the modes");
     basis.mass = macneal_mass(basis.Q, body.M_blocks, modes);
@@ -81,6 +93,16 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
 }
 
 }  // namespace
+
+WholeSystem whole_system(const FactoredBody& body)
+{
+  return {.K = body.K,
+          .M = body.M,
+          .dofs = body.dofs,
+          .K_blocks = body.K_blocks,
+          .M_blocks = body.M_blocks,
+          .K_ss = body.K_ss};
+}
 
 bool has_free_masters(Method method)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "reduce/reduction.hpp"
@@ -10,12 +11,18 @@ namespace chladni::reduce {
 /// interface, Rubin's, MacNeal's, and what may become one of them.
 bool has_free_masters(Method method);
 
+/// What the methods with free masters see of a body, which must outlive it.
+WholeSystem whole_system(const FactoredBody& body);
+
 /// The columns of the transformation of a method.
 struct Basis {
   CraigBamptonBasis Q;
   std::optional<Eigen::MatrixXd> mass = {};  ///< M_r where the method does not project it
   /// Up to here the basis has the modes of the supported body themselves, rad/s; 0 where it has not
   double exact_up_to = 0.0;
+  /// The first eigenvalue under the support whose mode it has not, rad^2/s^2; infinite where
+  /// unknown
+  double lambda_left_out = std::numeric_limits<double>::infinity();
 };
 
 /// By the method of the options: the one place that tells the methods apart. Its last phase is

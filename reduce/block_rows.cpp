@@ -79,4 +79,16 @@ void set_rows(Mat X, const DofPartition& dofs, const MatrixXd& X_m, Mat X_s)
   petsc::check(MatDenseRestoreArray(X, &values));
 }
 
+petsc::Matrix beside(Mat R, Mat X, PetscInt k)
+{
+  const PetscInt r = linear::LocalRows(R).n_cols();
+  petsc::Matrix both = linear::uninitialized_dense(R, r + k);
+  if (r > 0) petsc::check(MatCopy(R, linear::ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
+  if (k > 0) {
+    petsc::check(MatCopy(linear::ColumnRange(X, 0, k), linear::ColumnRange(both, r, r + k),
+                         SAME_NONZERO_PATTERN));
+  }
+  return both;
+}
+
 }  // namespace chladni::reduce

@@ -17,4 +17,7 @@ Eigen::MatrixXd master_rows(Mat X, const DofPartition& dofs);
 /// Writes X_m and X_s to the rows of X.
 void set_rows(Mat X, const DofPartition& dofs, const Eigen::MatrixXd& X_m, Mat X_s);
 
+/// [R, X] of the first k columns of X.
+petsc::Matrix beside(Mat R, Mat X, PetscInt k);
+
 }  // namespace chladni::reduce

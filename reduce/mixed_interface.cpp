@@ -45,16 +45,22 @@ PetscInt n_wanted(const ReduceOptions& wanted, const std::vector<double>& lambda
                                lambda.begin());
 }
 
+struct ElasticPairs {
+  linear::EigenPairs pairs;
+  double lambda_left_out = std::numeric_limits<double>::infinity();
+};
+
 /// The lowest elastic modes, as many or as far up as wanted, with all partners of the last one:
 /// which combinations of some of them came first would be chance.
-linear::EigenPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
-                                 const ReduceOptions& wanted)
+ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibility,
+                           const ReduceOptions& wanted)
 {
   const PetscInt n = flexibility.n_elastic();
   linear::BlockLanczos lanczos(flexibility.factor(), body.M,
                                {.n_pairs = 0, .tolerance = tolerance});
-  linear::EigenPairs pairs;
-  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;; n_asked *= 2) {
+  ElasticPairs found;
+  linear::EigenPairs& pairs = found.pairs;
+  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;; n_asked += n_asked / 4) {
     lanczos.converge(std::min(n_asked, n));
     pairs.lambda.clear();
     for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) pairs.lambda.push_back(lanczos.lambda(i));
@@ -69,23 +75,11 @@ linear::EigenPairs elastic_pairs(const WholeSystem& body, const Flexibility& fle
     }
     const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
     if (n_complete == n_found && !are_all) continue;  // the cluster of the last one may go on
+    if (n_complete < n_found) found.lambda_left_out = pairs.lambda[std::size_t(n_complete)];
     pairs.lambda.resize(n_complete);
     pairs.X = lanczos.vectors(0, n_complete);
-    return pairs;
+    return found;
   }
-}
-
-/// [R, X] of the first k columns of X.
-petsc::Matrix beside(Mat R, Mat X, PetscInt k)
-{
-  const PetscInt r = linear::LocalRows(R).n_cols();
-  petsc::Matrix both = linear::uninitialized_dense(R, r + k);
-  if (r > 0) petsc::check(MatCopy(R, linear::ColumnRange(both, 0, r), SAME_NONZERO_PATTERN));
-  if (k > 0) {
-    petsc::check(MatCopy(linear::ColumnRange(X, 0, k), linear::ColumnRange(both, r, r + k),
-                         SAME_NONZERO_PATTERN));
-  }
-  return both;
 }
 
 /// T^T A T
@@ -158,13 +152,14 @@ MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
                                           const ReduceOptions& wanted, const std::vector<int>& held)
 {
   const Flexibility flexibility(body, Psi, guyan_stiffness(Psi, body.K_blocks), held);
-  const linear::EigenPairs elastic = elastic_pairs(body, flexibility, wanted);
+  const auto [elastic, lambda_left_out] = elastic_pairs(body, flexibility, wanted);
   const petsc::Matrix X =
       beside(flexibility.R(), elastic.X, static_cast<PetscInt>(elastic.lambda.size()));
   MixedInterfaceModes modes{.X_s = slave_rows(X, body.dofs, body.K_blocks.ss),
                             .X_m = master_rows(X, body.dofs),
                             .omega = {},
-                            .n_rigid = linear::LocalRows(flexibility.R()).n_cols()};
+                            .n_rigid = linear::LocalRows(flexibility.R()).n_cols(),
+                            .lambda_left_out = lambda_left_out};
   modes.omega.resize(modes.n_rigid, 0.0);
   for (const double lambda : elastic.lambda) modes.omega.push_back(std::sqrt(lambda));
   return modes;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "reduce/craig_bampton.hpp"
 #include "reduce/reduce_options.hpp"
 
@@ -21,6 +24,8 @@ struct MixedInterfaceModes {
   Eigen::MatrixXd X_m;        ///< [n_m x k], on every rank
   std::vector<double> omega;  ///< [k] rad/s; 0 for the rigid-body motions
   PetscInt n_rigid;
+  /// rad^2/s^2 of the first mode that is not among these; infinite where there are no others
+  double lambda_left_out = std::numeric_limits<double>::infinity();
 
   PetscInt n_modes() const { return static_cast<PetscInt>(omega.size()); }
 };

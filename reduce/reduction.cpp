@@ -8,6 +8,7 @@
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
+#include "reduce/held_masters.hpp"
 #include "reduce/memory_forecast.hpp"
 #include "reduce/method_choice.hpp"
 
@@ -72,6 +73,33 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
           .require_memory = require_memory};
 }
 
+namespace {
+
+/// Basis and model, and what the goal of the options adds to them.
+struct Made {
+  Basis basis;
+  ReducedModel model;
+  ResponseCertificate responses = {};
+};
+
+Made made(const FactoredBody& body, const ReductionOptions& options, const Support& support,
+          PhaseListener& phases)
+{
+  Basis basis = make_basis(body, options, support, phases);
+  phases.begin("projection");
+  ReducedModel model = project(basis.Q, body.K_blocks, body.M_blocks);
+  if (basis.mass) model.M = *basis.mass;
+  Made made{.basis = std::move(basis), .model = std::move(model)};
+  if (!options.responses || options.basis.method != Method::mixed_interface) return made;
+  phases.begin("responses");
+  made.responses = keep_responses(whole_system(body), {.Q_CB = made.basis.Q, .model = made.model},
+                                  rows_of_masters(body.masters, support.held()),
+                                  made.basis.lambda_left_out, *options.responses);
+  return made;
+}
+
+}  // namespace
+
 Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Support& support,
                     PhaseListener& phases)
 {
@@ -84,12 +112,9 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Su
     body.M = {};
     linear::give_back_freed();  // the basis does not come from the heap
   }
-  Basis basis = make_basis(body, options, support, phases);
+  auto [basis, model, responses] = made(body, options, support, phases);
   if (basis.exact_up_to > 0.0 && !options.basis.tolerance && !options.basis.certified_up_to_Hz)
     options.basis.certified_up_to_Hz = basis.exact_up_to / (2.0 * std::numbers::pi);
-  phases.begin("projection");
-  ReducedModel model = project(basis.Q, body.K_blocks, body.M_blocks);
-  if (basis.mass) model.M = *basis.mass;
   const Reduced reduced{.body = body, .Q_CB = basis.Q, .model = model, .is_projected = !basis.mass};
   const bool counts = count.is_possible() && count.is_due(basis.Q.n_modes());
   phases.begin("error estimates");
@@ -102,6 +127,7 @@ Reduction reduction(FactoredBody& body, const ReductionOptions& wanted, const Su
     phases.begin("count of eigenvalues");
     certified.certificate = counted(std::move(certified), reduced, options, support);
   }
+  certified.certificate.responses = responses;
   phases.end();
   return {.Q_CB = std::move(basis.Q),
           .model = std::move(model),

@@ -11,6 +11,7 @@
 #include "reduce/full_responses.hpp"
 #include "reduce/phases.hpp"
 #include "reduce/reduce_options.hpp"
+#include "reduce/response_errors.hpp"
 #include "reduce/support.hpp"
 
 /// From K and M to the certified reduced model: what `chladni reduce` and the class CMS run.
@@ -44,6 +45,8 @@ struct ReductionOptions {
   /// Whether K and M are wanted afterwards; else they are given back as soon as may be.
   bool keeps_matrices = true;
   WorkAfterwards later = {};
+  /// Kept by the mixed interface alone: other methods leave modes of the range out.
+  std::optional<ResponseGoal> responses = {};
 };
 
 /// Masters and slaves parted, and the factor of K_ss: what all methods share.
@@ -80,6 +83,7 @@ struct Certificate {
   double zero_energy = 0.0;         ///< theirs over the first elastic lambda; 0 is perfect
   double condition = 0.0;           ///< estimate for K_ss
   double count_share = 0.0;         ///< of a count in the reduction's work
+  ResponseCertificate responses;    ///< of the goal of the options
 };
 
 /// The method of a reduction.

@@ -37,6 +37,16 @@ mbs_export::ReducedSystem with_model(mbs_export::ReducedSystem described,
   return described;
 }
 
+namespace {
+
+std::optional<mbs_export::ResponseCheck> as_check(const reduce::ResponseCertificate& responses)
+{
+  if (responses.Omega == 0.0) return std::nullopt;
+  return mbs_export::ResponseCheck{.up_to = responses.Omega, .error = responses.error, .loads = {}};
+}
+
+}  // namespace
+
 mbs_export::Certificate certificate_of(const reduce::Certificate& certificate,
                                        std::vector<std::string> fixed)
 {
@@ -54,7 +64,8 @@ mbs_export::Certificate certificate_of(const reduce::Certificate& certificate,
       .n_rigid = certificate.n_zero,
       .rigid_residual = certificate.zero_energy,
       .condition = certificate.condition,
-      .count_share = certificate.count_share};
+      .count_share = certificate.count_share,
+      .responses = as_check(certificate.responses)};
 }
 
 mbs_export::ReducedSystem reduced_system(mbs_export::ReducedSystem described,

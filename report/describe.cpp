@@ -162,14 +162,18 @@ std::string describe_selection(const mbs_export::ModalBody& body)
   const mbs_export::SelectionTable& selection = *body.selection;
   const auto n_interface = std::ranges::count(body.kinds, mbs_export::ModeKind::interface);
   const Steps& steps = n_interface > 0 ? selection.with_interface_modes : selection.modes_only;
-  const double error = steps.empty() ? 0.0 : steps.back().error;
+  const double of_body = steps.empty() ? 0.0 : steps.back().error;
+  const double error = of_body + selection.of_reduction.value_or(0.0);
   return fmt::format(
       "selection for loads at {} up to {:.6g} Hz, tolerance {:.3g}\n\n{}\n{}: {} modes and {} "
-      "interface modes, error {:.2e}\n",
+      "interface modes, error {:.2e} beside the {}\n",
       fmt::join(selection.loads, ", "), selection.Omega_max / (2.0 * pi), selection.error,
       format_table(selection_table(selection)),
       error <= selection.error ? "chosen" : "the tolerance cannot be reached; the best is",
-      body.n_modes() - n_interface, n_interface, error);
+      body.n_modes() - n_interface, n_interface, error,
+      selection.of_reduction
+          ? fmt::format("FE model, of which {:.2e} of the reduction", *selection.of_reduction)
+          : "reduced system");
 }
 
 std::string describe_file(const std::filesystem::path& path)

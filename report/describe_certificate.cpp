@@ -66,6 +66,11 @@ TextTable quality_table(const mbs_export::Certificate& certificate)
   }
   if (certificate.condition > 0.0)
     table.rows.push_back({"condition of K_ss", fmt::format("{:.1e}", certificate.condition)});
+  if (const auto& responses = certificate.responses) {
+    table.rows.push_back({fmt::format("bound of the error of responses at {} up to {:.0f} Hz",
+                                      fmt::join(responses->loads, ", "), responses->up_to / two_pi),
+                          fmt::format("{:.1e}", responses->error)});
+  }
   add_count(table, "fixed-interface modes", certificate.fixed_interface);
   add_count(table, "modes", certificate.range);
   if (certificate.complete.up_to != certificate.range.up_to)

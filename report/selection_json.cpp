@@ -32,6 +32,7 @@ std::vector<Json::Member> preparation_json(const mbs_export::ModalBody& body)
   members.emplace_back(
       "selection",
       Json::object({{"tolerance", table.error},
+                    {"error_of_reduction", table.of_reduction ? Json(*table.of_reduction) : Json()},
                     {"up_to_Hz", table.Omega_max / (2.0 * std::numbers::pi)},
                     {"loads", Json::array(loads)},
                     {"modes_only", steps_json(table.modes_only)},

@@ -7,6 +7,10 @@ namespace chladni::linear {
 /// A B
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
+/// A^-1 B of any regular A, by LU with pivoting.
+/// @throws chladni::Error when A is singular.
+Eigen::MatrixXd solution(Eigen::MatrixXd A, Eigen::MatrixXd B);
+
 /// A above B.
 Eigen::MatrixXd stacked(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 

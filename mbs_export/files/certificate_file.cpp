@@ -62,6 +62,11 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0)
     file.write("certificate/condition_K_ss", certificate.condition, "1");
+  if (certificate.responses) {
+    file.write("certificate/responses/up_to", certificate.responses->up_to, "rad/s");
+    file.write("certificate/responses/error", certificate.responses->error, "1");
+    file.write("certificate/responses/loads", certificate.responses->loads);
+  }
   if (certificate.range.up_to == 0.0) return;
   file.write("certificate/bounds", certificate.bounds, "1");
   write_counts(file, certificate);
@@ -84,6 +89,11 @@ Certificate read_certificate(const files::Reader& file)
   }
   if (file.contains("certificate/condition_K_ss"))
     certificate.condition = file.real("certificate/condition_K_ss");
+  if (file.contains("certificate/responses")) {
+    certificate.responses = {.up_to = file.real("certificate/responses/up_to"),
+                             .error = file.real("certificate/responses/error"),
+                             .loads = file.texts("certificate/responses/loads")};
+  }
   if (!file.contains("certificate/counts")) return certificate;
   certificate.bounds = file.vector("certificate/bounds");
   if (certificate.bounds.size() > certificate.eta2.size()) {

@@ -49,6 +49,7 @@ std::vector<SelectionStep> read_steps(const files::Reader& file, const std::stri
 void write_selection(files::Writer& file, const SelectionTable& table)
 {
   file.write("selection/tolerance", table.error, "1");
+  if (table.of_reduction) file.write("selection/error_of_reduction", *table.of_reduction, "1");
   file.write("selection/highest_frequency", table.Omega_max, "rad/s");
   file.write("selection/loads", table.loads);
   write_steps(file, "selection/modes_only/", table.modes_only);
@@ -58,8 +59,12 @@ void write_selection(files::Writer& file, const SelectionTable& table)
 std::optional<SelectionTable> read_selection(const files::Reader& file)
 {
   if (!file.contains("selection")) return std::nullopt;
+  std::optional<double> of_reduction;
+  if (file.contains("selection/error_of_reduction"))
+    of_reduction = file.real("selection/error_of_reduction");
   return SelectionTable{
       .error = file.real("selection/tolerance"),
+      .of_reduction = of_reduction,
       .Omega_max = file.real("selection/highest_frequency"),
       .loads = file.texts("selection/loads"),
       .modes_only = read_steps(file, "selection/modes_only/"),

@@ -61,7 +61,9 @@ constexpr Key reduction_rows[] = {
     {"body.keep.up_to_Hz", number, "one of these", "those below; with tolerance its range",
      frequency},
     {"body.keep.list", integers, "one of these", "by number from 1, ascending", {.at_least = 1}},
-    {"body.keep.tolerance", number, "one of these", "relative error of the frequency responses",
+    {"body.keep.tolerance", number, "one of these",
+     "relative error of the frequency responses, against the FE model where the reduction tells "
+     "its own",
      tolerance},
     {"body.interface_modes", tables, "none", "static or frequency-response modes"},
     {"body.interface_modes.kind",

@@ -74,6 +74,11 @@ void expect_equal(const Certificate& a, const Certificate& b)
   EXPECT_EQ(a.n_rigid, b.n_rigid);
   EXPECT_EQ(a.rigid_residual, b.rigid_residual);
   EXPECT_EQ(a.condition, b.condition);
+  ASSERT_EQ(a.responses.has_value(), b.responses.has_value());
+  if (!a.responses) return;
+  EXPECT_EQ(a.responses->up_to, b.responses->up_to);
+  EXPECT_EQ(a.responses->error, b.responses->error);
+  EXPECT_EQ(a.responses->loads, b.responses->loads);
 }
 
 void expect_equal(const std::vector<AttachmentNode>& a, const std::vector<AttachmentNode>& b)
@@ -119,6 +124,7 @@ void expect_equal(const Preparation& a, const Preparation& b)
 void expect_equal(const SelectionTable& a, const SelectionTable& b)
 {
   EXPECT_EQ(a.error, b.error);
+  EXPECT_EQ(a.of_reduction, b.of_reduction);
   EXPECT_EQ(a.Omega_max, b.Omega_max);
   EXPECT_EQ(a.loads, b.loads);
   expect_equal(a.modes_only, b.modes_only);

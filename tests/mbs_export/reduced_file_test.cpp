@@ -54,7 +54,9 @@ ReducedSystem complete_system()
                         .complete = {.up_to = 25.0, .expected = 2, .found = 2},
                         .n_rigid = 6,
                         .rigid_residual = 1e-12,
-                        .condition = 1e9};
+                        .condition = 1e9,
+                        .responses = ResponseCheck{
+                            .up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}}};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",

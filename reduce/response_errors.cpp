@@ -1,0 +1,169 @@
+#include "reduce/response_errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "common/all_ranks.hpp"
+#include "common/eigen_every.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "linear/kernels/small_matrices.hpp"
+#include "reduce/held_masters.hpp"
+#include "reduce/residual_forms.hpp"
+
+namespace chladni::reduce {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+namespace {
+
+/// The same matrix on all ranks, whatever round-off made of it.
+MatrixXd of_first_rank(MatrixXd A, MPI_Comm comm)
+{
+  linear::broadcast_numbers(linear::values_of(A), comm);
+  return A;
+}
+
+/// X = (K_r - Omega^2 M_r)^-1 F with some masters held.
+MatrixXd responses(const ReducedModel& model, const MatrixXd& F, double Omega,
+                   const std::vector<int>& held, MPI_Comm comm)
+{
+  MatrixXd X = MatrixXd::Zero(model.K.rows(), F.cols());
+  on_first_rank(comm, [&] {
+    const std::vector<int> free = all_but(held, model.K.rows());
+    const MatrixXd A = model.K(free, free) - Omega * Omega * model.M(free, free);
+    MatrixXd all = MatrixXd::Zero(model.K.rows(), F.cols());
+    all.topRows(F.rows()) = F;
+    const MatrixXd loads = all(free, every);
+    X(free, every) = linear::solution(A, loads);
+  });
+  return of_first_rank(std::move(X), comm);
+}
+
+/// A matrix of the first rank on all ranks.
+void broadcast(MatrixXd& A, MPI_Comm comm)
+{
+  std::array<Index, 2> size{A.rows(), A.cols()};
+  MPI_Bcast(size.data(), 2 * sizeof(Index), MPI_BYTE, 0, comm);
+  A.conservativeResize(size[0], size[1]);
+  linear::broadcast_numbers(linear::values_of(A), comm);
+}
+
+/// Loads and sizes of the first rank.
+ResponseLoads loads_everywhere(const ResponseGoal& goal, const ReducedModel& model, MPI_Comm comm)
+{
+  ResponseLoads loads;
+  on_first_rank(comm, [&] { loads = goal.loads(model); });
+  MatrixXd Omega = loads.Omega;
+  broadcast(loads.F, comm);
+  broadcast(loads.size, comm);
+  broadcast(Omega, comm);
+  loads.Omega = Omega;
+  return loads;
+}
+
+/// The combinations of loads whose errors are more than a tenth of what is allowed, such that the
+/// shapes of their residuals are K-orthonormal.
+/// @param allowed  [l] errors
+MatrixXd combinations_above(const MatrixXd& G, const VectorXd& allowed, double c)
+{
+  constexpr double share = 0.1;
+  const VectorXd unit = allowed.cwiseSqrt().cwiseInverse();
+  const MatrixXd relative = unit.asDiagonal() * G * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> errors(relative);
+  const Index n = (c * errors.eigenvalues().array() > share).count();
+  const VectorXd lengths = errors.eigenvalues().tail(n).cwiseSqrt();
+  return unit.asDiagonal() * errors.eigenvectors().rightCols(n) *
+         lengths.cwiseInverse().asDiagonal();
+}
+
+/// 1 / (1 - Omega^2 / lambda): how much the dynamic stiffness of what is left out may be below the
+/// static one.
+double softening(double Omega, double lambda_left_out)
+{
+  return 1.0 / (1.0 - Omega * Omega / lambda_left_out);
+}
+
+void require_modes_of_range(double Omega, double lambda_left_out)
+{
+  if (Omega * Omega < lambda_left_out) return;
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  throw Error(fmt::format(
+      "responses up to {:.6g} Hz need the modes of that range, and the first one left out is at "
+      "{:.6g} Hz; take more modes, or a tolerance with its range in [reduce]",
+      Omega / two_pi, std::sqrt(lambda_left_out) / two_pi));
+}
+
+}  // namespace
+
+VectorXd response_error_bounds(const MatrixXd& G, double Omega, double lambda_left_out)
+{
+  const double c = softening(Omega, lambda_left_out);
+  const double norm =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(G, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return G.colwise().norm().transpose().array() +
+         (c - 1.0) * (std::max(norm, 0.0) * G.diagonal().cwiseMax(0.0).array()).sqrt();
+}
+
+namespace {
+
+/// Where a model is furthest from the goal.
+struct Worst {
+  double error = -1.0;  ///< bound over size
+  Index g = 0;
+  MatrixXd X, G;
+};
+
+}  // namespace
+
+ResponseCertificate keep_responses(const WholeSystem& body, const RespondingModel& made,
+                                   const std::vector<int>& held, double lambda_left_out,
+                                   const ResponseGoal& goal)
+{
+  constexpr int most_rounds = 12;
+  constexpr double falls = 0.9;  // in two rounds, or round-off has it
+  require_modes_of_range(goal.Omega, lambda_left_out);
+  const MPI_Comm comm = petsc::communicator(body.K_blocks.ss);
+  const ResponseLoads loads = loads_everywhere(goal, made.model, comm);
+  ResidualForms forms({.K_ss = body.K_ss,
+                       .K = body.K_blocks,
+                       .M = body.M_blocks,
+                       .Q_CB = made.Q_CB,
+                       .model = made.model});
+  const auto worst_of = [&] {
+    Worst worst;
+    for (Index g = 0; g < loads.Omega.size(); ++g) {
+      const double Omega = loads.Omega[g];
+      MatrixXd X = responses(made.model, loads.F, Omega, held, comm);
+      MatrixXd G = of_first_rank(forms.energy(X, Omega * Omega), comm);
+      const double error = response_error_bounds(G, Omega, lambda_left_out)
+                               .cwiseQuotient(loads.size.col(g))
+                               .maxCoeff();
+      if (error > worst.error) worst = {error, g, std::move(X), std::move(G)};
+    }
+    return worst;
+  };
+  const auto n_before = static_cast<int>(made.model.omega.size());
+  std::array<double, 2> before{std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity()};
+  for (int round = 0;; ++round) {
+    const Worst worst = worst_of();
+    const bool is_stuck = worst.error > falls * std::exchange(before[round % 2], worst.error);
+    if (worst.error <= goal.tolerance || is_stuck || round == most_rounds) {
+      if (round > 0) forms.make_ritz();
+      return {.Omega = goal.Omega,
+              .error = worst.error,
+              .n_loads = static_cast<int>(loads.F.cols()),
+              .n_added = static_cast<int>(made.model.omega.size()) - n_before};
+    }
+    const double Omega = loads.Omega[worst.g];
+    const MatrixXd V = combinations_above(worst.G, goal.tolerance * loads.size.col(worst.g),
+                                          softening(Omega, lambda_left_out));
+    forms.append(forms.shapes(linear::product(worst.X, V), Omega * Omega));
+  }
+}
+
+}  // namespace chladni::reduce

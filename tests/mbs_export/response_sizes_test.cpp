@@ -1,0 +1,97 @@
+// Responses whose errors the reduction tells: their sizes, and the choice that is left to a body.
+#include "mbs_export/response_sizes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/make_body.hpp"
+#include "tests/files/scratch_folder.hpp"
+#include "wheel.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+constexpr double up_to_Hz = 2000.0;
+constexpr double tolerance = 1e-2;
+
+/// The wheel held at its hub, loaded normal to its plane all around the rim.
+BodyOptions loaded_rim()
+{
+  BodyOptions options;
+  options.fixed = {"hub"};
+  options.keep.tolerance = Tolerance{.error = tolerance, .up_to_Hz = up_to_Hz};
+  return options;
+}
+
+TEST(ResponseSizes, AreThoseOfTheLoadsOfTheTolerance)
+{
+  const ReducedSystem wheel = test::wheel();
+  const ResponseSizes sizes = response_sizes(wheel, loaded_rim());
+  ASSERT_FALSE(sizes.rows.empty());
+  for (const int row : sizes.rows) EXPECT_EQ(wheel.masters[std::size_t(row)].component, 2);
+  EXPECT_NEAR(sizes.Omega[sizes.Omega.size() - 1], 2.0 * std::numbers::pi * up_to_Hz, 1e-9);
+  ASSERT_EQ(sizes.size.rows(), std::ssize(sizes.rows));
+  ASSERT_EQ(sizes.size.cols(), sizes.Omega.size());
+  EXPECT_GT(sizes.size.minCoeff(), 0.0);
+}
+
+/// A wheel whose reduction was certified.
+ReducedSystem certified_wheel(double error)
+{
+  ReducedSystem wheel = test::wheel();
+  wheel.certificate.fixed = {"hub"};
+  wheel.certificate.responses = ResponseCheck{.up_to = 2.0 * std::numbers::pi * up_to_Hz,
+                                              .error = error,
+                                              .loads = response_sizes(wheel, loaded_rim()).names};
+  return wheel;
+}
+
+double error_of_choice(const ModalBody& body)
+{
+  const SelectionTable& table = *body.selection;
+  return std::min(table.modes_only.back().error, table.with_interface_modes.back().error);
+}
+
+TEST(CertifiedResponses, LeaveTheBodyTheRestOfTheTolerance)
+{
+  for (const double of_reduction : {1e-3, 0.7 * tolerance}) {
+    const ModalBody body = make_body(certified_wheel(of_reduction), loaded_rim());
+    EXPECT_EQ(body.selection->error, tolerance);
+    EXPECT_EQ(body.selection->of_reduction, of_reduction);
+    EXPECT_LE(error_of_choice(body) + of_reduction, tolerance);
+  }
+}
+
+TEST(CertifiedResponses, AboveTheToleranceAreTold)
+{
+  const ModalBody body = make_body(certified_wheel(2.0 * tolerance), loaded_rim());
+  EXPECT_EQ(body.selection->of_reduction, 2.0 * tolerance);
+  EXPECT_LE(error_of_choice(body), tolerance);  // the best that a body can do
+}
+
+TEST(CertifiedResponses, AreOfOneSupportOneRangeAndTheirLoads)
+{
+  EXPECT_FALSE(make_body(test::wheel(), loaded_rim()).selection->of_reduction);
+  ReducedSystem other_support = certified_wheel(1e-3);
+  other_support.certificate.fixed = {};
+  EXPECT_FALSE(make_body(other_support, loaded_rim()).selection->of_reduction);
+  ReducedSystem other_loads = certified_wheel(1e-3);
+  other_loads.certificate.responses->loads = {"rim.x"};
+  EXPECT_FALSE(make_body(other_loads, loaded_rim()).selection->of_reduction);
+  ReducedSystem lower_range = certified_wheel(1e-3);
+  lower_range.certificate.responses->up_to *= 0.5;
+  EXPECT_FALSE(make_body(lower_range, loaded_rim()).selection->of_reduction);
+}
+
+TEST(CertifiedResponses, AreKeptInTheBodyFile)
+{
+  const files::test::ScratchFolder folder;
+  const ModalBody body = make_body(certified_wheel(1e-3), loaded_rim());
+  write_body(folder.file("a.h5"), body);
+  EXPECT_EQ(read_body(folder.file("a.h5")).selection->of_reduction, 1e-3);
+}
+
+}  // namespace
+}  // namespace chladni::mbs_export
