@@ -69,6 +69,15 @@ TEST(ChangedKeys, OfTheSupportsMatterToATolerance)
             Changes{"body.fixed = \"rim\" (was \"hub\")"});
 }
 
+TEST(ChangedKeys, OfTheSupportsMatterToTheMixedInterface)
+{
+  const std::string mixed = with("modes = 10", "method = \"mixed-interface\"\nmodes = 10");
+  std::string other = mixed;
+  other.replace(other.find("\"hub\""), 5, "\"rim\"");
+  EXPECT_EQ(changed_keys(mixed, other, Step::reduction),
+            Changes{"body.fixed = \"rim\" (was \"hub\")"});
+}
+
 TEST(ChangedKeys, AreNotLookedForWhereThereIsNoScene)
 {
   EXPECT_EQ(changed_keys("", disc, Step::reduction), Changes{});

@@ -126,6 +126,32 @@ TEST(Scene, HoldsTheToleranceOfTheBody)
   EXPECT_FALSE(scene.body.keep.up_to_Hz || scene.body.keep.count || scene.body.keep.list);
 }
 
+TEST(Scene, LeavesTheMethodOpenWhereAToleranceIsGiven)
+{
+  using reduce::Method;
+  const auto method = [](const std::string& text) {
+    return parse_scene(text, "scene.toml").reduce.method;
+  };
+  const std::string tolerance = replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  EXPECT_EQ(method(tolerance), Method::craig_bampton);  // as it says
+  EXPECT_EQ(method(replaced(tolerance, "method = \"craig-bampton\"\n", "")), Method::automatic);
+  EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "auto")), Method::automatic);
+  EXPECT_EQ(method(replaced(tolerance, "craig-bampton", "mixed-interface")),
+            Method::mixed_interface);
+  EXPECT_EQ(method(replaced(disc, "craig-bampton", "mixed-interface")), Method::mixed_interface);
+}
+
+TEST(SceneError, NamesTheMethodThatSuitsTheChoiceOfModes)
+{
+  const std::string tolerance = replaced(disc, "modes = 100", "tolerance = 1e-3\nup_to_Hz = 8e3");
+  EXPECT_NE(error_of(replaced(disc, "craig-bampton", "auto")).find("give tolerance and up_to_Hz"),
+            std::string::npos);
+  EXPECT_NE(error_of(replaced(disc, "method = \"craig-bampton\"\n", "")).find("reduce.method"),
+            std::string::npos);
+  EXPECT_NE(error_of(replaced(tolerance, "craig-bampton", "rubin")).find("\"mixed-interface\""),
+            std::string::npos);
+}
+
 TEST(SceneError, NeedsARangeForATolerance)
 {
   expect_messages({
