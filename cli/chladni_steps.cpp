@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -148,6 +149,18 @@ std::string number_of_modes(const cases::ReduceSummary& summary)
 
 }  // namespace
 
+namespace {
+
+/// Of the frequencies: the estimate, or what rounding may do where that is more.
+double largest_error(const mbs_export::Certificate& certificate)
+{
+  const double estimate = mbs_export::estimated_errors(certificate).maxCoeff();
+  if (certificate.rounding.size() == 0) return estimate;
+  return std::max(estimate, 0.5 * certificate.rounding.maxCoeff());
+}
+
+}  // namespace
+
 report::TextTable reduction_table(const cases::ReduceSummary& summary)
 {
   report::TextTable table{.header = {"reduction", "value"}, .rows = {}};
@@ -158,10 +171,9 @@ report::TextTable reduction_table(const cases::ReduceSummary& summary)
   table.rows.push_back({"modes", number_of_modes(summary)});
   const mbs_export::Certificate& certificate = summary.reduced.certificate;
   if (const Eigen::Index n = certificate.eta2.size(); n > 0) {
-    table.rows.push_back(
-        {fmt::format("estimated error of the frequencies up to {:.0f} Hz",
-                     certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
-         fmt::format("{:.1e}", mbs_export::estimated_errors(certificate).maxCoeff())});
+    table.rows.push_back({fmt::format("estimated error of the frequencies up to {:.0f} Hz",
+                                      certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
+                          fmt::format("{:.1e}", largest_error(certificate))});
   }
   if (const mbs_export::ModeCount& count = certificate.range; count.up_to > 0.0) {
     table.rows.push_back(
