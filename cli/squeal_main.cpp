@@ -8,6 +8,7 @@
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"
 #include "cli/squeal_run.hpp"
+#include "cli/squeal_sweep.hpp"
 #include "files/hdf5.hpp"
 #include "files/unfinished_file.hpp"
 #include "report/describe.hpp"
@@ -23,6 +24,7 @@ namespace cli = chladni::cli;
 
 struct SquealArguments {
   chladni::cli::RunArguments run;
+  chladni::cli::SweepArguments sweep;
   std::string info_file;
   chladni::cli::SealArguments seal;
   chladni::cli::SelfDescription self;
@@ -54,7 +56,7 @@ void declare_run(CLI::App& app, SquealArguments& arguments)
 void declare_info(CLI::App& app, SquealArguments& arguments)
 {
   CLI::App* info = app.add_subcommand("info", "prints what a body or a result file holds");
-  info->add_option("FILE", arguments.info_file, "*.body.h5 or *.squeal.h5")->required();
+  info->add_option("FILE", arguments.info_file, "*.body.h5, *.squeal.h5 or *.sweep.h5")->required();
   info->footer("Example:\n  squeal info out/disc.squeal.h5");
 }
 
@@ -68,6 +70,7 @@ int main(int argc, char** argv)
   app.set_version_flag("--version", fmt::format("squeal {}", chladni::report::version));
   app.require_subcommand(1);
   declare_run(app, arguments);
+  chladni::cli::declare_sweep(app, arguments.sweep);
   declare_info(app, arguments);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
@@ -75,15 +78,19 @@ int main(int argc, char** argv)
   app.add_subcommand("scene-reference", "prints every key of a scene file, in Markdown")
       ->footer("Example:\n  squeal scene-reference > scene_reference.md");
   app.footer(
-      "Examples:\n  squeal run scene.toml --output out\n  squeal info out/disc.squeal.h5\n"
+      "Examples:\n  squeal run scene.toml --output out\n"
+      "  squeal sweep scene.toml --vary squeal.friction=0.3:0.6:10 --output out\n  squeal info "
+      "out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
   if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
-  if (arguments.run.scene.quiet) chladni::report::be_quiet();
+  if (arguments.run.scene.quiet || arguments.sweep.scene.quiet) chladni::report::be_quiet();
   chladni::files::leave_nothing_to_exit();
   chladni::files::remove_unfinished_files_on_signals();
   try {
     if (app.got_subcommand("run"))
       chladni::cli::run_squeal(arguments.run);
+    else if (app.got_subcommand("sweep"))
+      chladni::cli::run_sweep(arguments.sweep);
     else if (app.got_subcommand("report"))
       chladni::report::write_report(arguments.report);
     else if (app.got_subcommand("seal"))

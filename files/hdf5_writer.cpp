@@ -13,6 +13,14 @@
 namespace chladni::files {
 namespace {
 
+/// How a dataset is made: without the time of the day, so that the same values are the same file.
+Handle timeless_dataset()
+{
+  Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+  H5Pset_obj_track_times(creation.get(), false);
+  return creation;
+}
+
 Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                       const std::vector<std::uint64_t>& shape)
 {
@@ -22,8 +30,10 @@ Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                      H5Sclose};
   const Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
   H5Pset_create_intermediate_group(links.get(), 1);
-  return {H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
-          H5Dclose};
+  const Handle creation = timeless_dataset();
+  return {
+      H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+      H5Dclose};
 }
 
 bool set_attribute(hid_t object, const std::string& name, hid_t type, const void* value)
@@ -205,7 +215,7 @@ void Writer::view_column(const std::string& name, const Column& column)
   const Handle source{H5Screate_simple(2, matrix.data(), nullptr), H5Sclose};
   H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   const Handle view{H5Screate_simple(2, triples.data(), nullptr), H5Sclose};
-  const Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+  const Handle creation = timeless_dataset();
   // "." is the file itself, whatever its name will be.
   H5Pset_virtual(creation.get(), view.get(), ".", column.matrix.c_str(), source.get());
   const Handle made{H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, view.get(), H5P_DEFAULT,

@@ -15,8 +15,10 @@
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "report/describe_certificate.hpp"
+#include "report/describe_sweep.hpp"
 #include "report/quantities.hpp"
 #include "squeal/results/result_file.hpp"
+#include "squeal/results/sweep_file.hpp"
 
 namespace chladni::report {
 namespace {
@@ -194,6 +196,7 @@ std::string describe_file(const std::filesystem::path& path)
            (selection.empty() ? "" : "\n" + selection) +
            (certificate.empty() ? "" : "\n" + certificate);
   }
+  if (format == squeal::sweep_format) return format_table(describe(squeal::read_sweep(file)));
   if (format == squeal::results_format) return format_table(describe(squeal::read_results(file)));
   throw Error(
       fmt::format("{}: holds \"{}\", which this program does not know", file.path(), format));

@@ -7,17 +7,26 @@
 
 namespace chladni::squeal {
 
+/// Whether this thread works for a loop of `for_each_index`.
+inline thread_local bool is_within_loop = false;
+
 /// f(i) for i = 0 ... n - 1 on `n_threads` threads, 0 for as many as there are processors. Each
 /// index is computed alone, so that a result that is stored by index does not depend on their
-/// number. Rethrows the first exception of the lowest thread.
+/// number. A loop within a loop takes the thread that it is on: all processors are busy already.
+/// Rethrows the first exception of the lowest thread.
 template <class Function>
 void for_each_index(int n, const Function& f, unsigned n_threads = 0)
 {
+  if (is_within_loop) {
+    for (int i = 0; i < n; ++i) f(i);
+    return;
+  }
   if (n_threads == 0) n_threads = std::max(1U, std::thread::hardware_concurrency());
   const int stride = std::min(std::max(n, 1), static_cast<int>(n_threads));
   std::vector<std::future<void>> parts;
   for (int first = 0; first < stride; ++first)
     parts.push_back(std::async(std::launch::async, [&f, n, first, stride] {
+      is_within_loop = true;
       for (int i = first; i < n; i += stride) f(i);
     }));
   for (std::future<void>& part : parts) part.wait();

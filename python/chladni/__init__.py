@@ -9,11 +9,12 @@ chladni.Error: scene:1: squeal.oscillator is missing: must be a table
 
 from chladni._squeal import Error, version as __version__
 from chladni.files import Array, File, Group, open_file
+from chladni.sampling import samples, write_samples
 from chladni.scene import Run, Scene, sweep
 
 Error.__module__ = "chladni"
 
-__all__ = ["Array", "CMS", "Error", "File", "Group", "Reduction", "Run", "Scene", "open", "reduce", "sweep"]
+__all__ = ["Array", "CMS", "Error", "File", "Group", "Reduction", "Run", "Scene", "open", "reduce", "samples", "sweep", "write_samples"]
 
 open = open_file
 

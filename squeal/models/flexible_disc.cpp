@@ -31,6 +31,13 @@ std::unique_ptr<Brake> FlexibleDisc::with(MapParameter parameter, double value) 
   return changed;
 }
 
+std::unique_ptr<FlexibleDisc> FlexibleDisc::between(SquealOptions options) const
+{
+  auto changed = std::make_unique<FlexibleDisc>(*this);
+  changed->options_ = std::move(options);
+  return changed;
+}
+
 std::unique_ptr<AutonomousMotion> FlexibleDisc::motion(double speed) const
 {
   return std::make_unique<SlidingDisc>(inertial(), options_, speed);

@@ -28,6 +28,9 @@ class FlexibleDisc final : public Brake {
   bool is_autonomous() const override { return inertial_->has_value(); }
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
+  /// The same disc between other pads.
+  /// @param options  which ask for the same rings and modes of the body
+  std::unique_ptr<FlexibleDisc> between(SquealOptions options) const;
   /// A SlidingDisc.
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override;

@@ -23,7 +23,7 @@ struct EigenvalueMap {
 
 /// The least stable motion of the sliding disc at one value of a parameter.
 struct StabilityPoint {
-  double value;            ///< of the parameter: rad/s, 1, N or N/m
+  double value;            ///< of the parameter, in its unit
   double growth;           ///< 1/s; 0 where stability is lost or regained
   double frequency_Hz;     ///< of the motion
   int n_newton_steps = 0;  ///< that led to a limit of stability; 0: bisection alone
@@ -71,7 +71,7 @@ struct CriticalSpeed {
 
 /// Where the sliding disc loses or regains its stability over one parameter.
 struct CriticalValue {
-  std::string parameter;  ///< "friction", "preload" or "stiffness"
+  std::string parameter;  ///< `key_of` a MapParameter
   double speed;           ///< rad/s
   /// The lowest value at which stability is lost, else the lowest at which it is regained: 1, N or
   /// N/m; absent when there is neither in the range.
@@ -83,7 +83,7 @@ struct CriticalValue {
 
 /// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
 struct StabilityMap {
-  std::string parameter;         ///< "friction", "preload" or "stiffness"
+  std::string parameter;         ///< `key_of` a MapParameter
   Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
   Eigen::VectorXd speeds;        ///< [n] rad/s
   Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s

@@ -42,7 +42,7 @@ struct ModeFamily {
 
 /// All motions of the sliding brake that have a frequency of the band at some value of a parameter.
 struct StabilityTable {
-  std::string parameter;              ///< "speed", "friction", "preload" or "stiffness"
+  std::string parameter;              ///< "speed", or `key_of` a MapParameter
   std::optional<double> speed;        ///< of a table over another parameter, rad/s
   std::optional<FrequencyBand> band;  ///< absent: all motions
   Eigen::VectorXd values;             ///< [m] of the parameter: rad/s, 1, N or N/m

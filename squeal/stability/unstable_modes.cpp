@@ -25,21 +25,6 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Values that are looked at, at least.
 constexpr int n_scanned = 128;
 
-/// Refuses a band beyond the modes with inertia: what is above them has other frequencies than the
-/// disc, or none.
-void check_band(const Disc& disc, const StabilityCase& search)
-{
-  if (!search.band) return;
-  const double range = disc.compliance.empty()
-                           ? disc.omega.maxCoeff()
-                           : std::min(disc.omega.maxCoeff(), disc.compliance.lowest_omega);
-  if (search.band->to_Hz * two_pi <= range) return;
-  throw Error(fmt::format(
-      "[squeal] stability.band_Hz = [{:.6g}, {:.6g}] goes beyond the modes of the body, "
-      "{:.6g} to {:.6g} Hz; end it there, or take a body with more modes",
-      search.band->from_Hz, search.band->to_Hz, disc.omega.minCoeff() / two_pi, range / two_pi));
-}
-
 StateMatrixOf state_matrix_over(const Brake& brake, const StabilityCase& search)
 {
   if (!search.over) return [&brake](double speed) { return brake.state_matrix(speed); };
@@ -153,11 +138,24 @@ StabilityCase stability_case(const StudyOptions& options)
       .over = {}, .from = speeds.from, .to = speeds.to, .count = speeds.count, .band = {}});
 }
 
+void require_band_of(const Disc& disc, const StabilityCase& search)
+{
+  if (!search.band) return;
+  const double range = disc.compliance.empty()
+                           ? disc.omega.maxCoeff()
+                           : std::min(disc.omega.maxCoeff(), disc.compliance.lowest_omega);
+  if (search.band->to_Hz * two_pi <= range) return;
+  throw Error(fmt::format(
+      "[squeal] stability.band_Hz = [{:.6g}, {:.6g}] goes beyond the modes of the body, "
+      "{:.6g} to {:.6g} Hz; end it there, or take a body with more modes",
+      search.band->from_Hz, search.band->to_Hz, disc.omega.minCoeff() / two_pi, range / two_pi));
+}
+
 StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search,
                               const TurningTableOf& by_hill)
 {
   if (const FlexibleDisc* body = brake.body()) {
-    check_band(body->disc(), search);
+    require_band_of(body->disc(), search);
     if (!brake.is_autonomous()) return by_hill(*body, search);
   }
   StabilityTable table = empty_table(brake, search);

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "squeal/brake/disc.hpp"
 #include "squeal/models/brake.hpp"
 #include "squeal/results/stability_table.hpp"
 #include "squeal/stability/turning_table.hpp"
@@ -11,6 +12,11 @@ namespace chladni::squeal {
 
 /// What `options.stability` asks for: without it all motions over the speeds of the study.
 StabilityCase stability_case(const StudyOptions& options);
+
+/// Refuses a band beyond the modes of a disc with inertia: what is above them has other frequencies
+/// than the disc, or none.
+/// @throws chladni::Error with the band and the range of the modes.
+void require_band_of(const Disc& disc, const StabilityCase& search);
 
 using TurningTableOf =
     std::function<StabilityTable(const FlexibleDisc& brake, const StabilityCase& search)>;

@@ -263,7 +263,10 @@ void validate(const Brake& brake, const StudyOptions& study)
   if (needs(study, "growth")) validate_growth(study);
   if (needs(study, "limit_cycle_direct")) validate_direct(study);
   if (needs(study, "map")) validate_map(study);
-  if (asks_for(study, "stability")) validate_stability(study);
+  if (asks_for(study, "stability")) {
+    validate_stability(study);
+    if (body) require_band_of(body->disc(), stability_case(study));
+  }
   require_parameters(brake, study);
 }
 

@@ -4,13 +4,14 @@ with a hat on five bolts.
 Usage: every_body.py PROGRAM_DIR
 """
 
+import json
 import sys
 import tempfile
 from pathlib import Path
 
 from pair_between_planes import critical_speeds
 from report import content_of
-from running import changed, run, summary
+from running import changed, run
 
 DATA = Path(__file__).parents[1] / "data"
 HAT = Path(__file__).parents[2] / "examples/hat_disc"
@@ -30,17 +31,28 @@ ANY = 'analyses = ["rotation-stability", "growth"]\ngrowth = { speeds_rad_s = [3
 FINE = (("element_size = 0.03", "element_size = 0.02"), ("nodes = 12", "nodes = 24"), ("modes = 20", "modes = 60"))
 
 
-def squeal(programs, scene, look=lambda folder: None):
-    """What `squeal run` finds on the body of this scene, and what it says; `look` sees the files."""
+def studies(programs, scenes, look=lambda folder: None):
+    """What `squeal run` finds for each of some scenes that differ in [squeal] alone, and what it says: the body is made
+    once. `look` sees the files."""
     with tempfile.TemporaryDirectory() as name:
-        file = Path(name) / "scene.toml"
-        file.write_text(scene)
+        folder = Path(name)
+        file, json_file = folder / "scene.toml", folder / "summary.json"
         for part in (*DATA.glob("*.geo"), HAT / "hat_disc.geo"):
-            (file.parent / part.name).write_text(part.read_text())
-        run(programs / "chladni", "run", file, "--output", name)
-        said = run(programs / "squeal", "run", file, "--output", name)
-        look(Path(name))
-        return summary(programs / "squeal", "run", file, "--output", name), said
+            (folder / part.name).write_text(part.read_text())
+        found = []
+        for scene in scenes:
+            file.write_text(scene)
+            if not found:
+                run(programs / "chladni", "run", file, "--output", name)
+            said = run(programs / "squeal", "run", file, "--output", name, "--json", json_file)
+            found.append((json.loads(json_file.read_text()), said))
+        look(folder)
+        return found
+
+
+def squeal(programs, scene, look=lambda folder: None):
+    """The same of one scene."""
+    return studies(programs, [scene], look)[0]
 
 
 def check_symmetric(programs):
@@ -81,11 +93,10 @@ def check_contact_planes(programs):
     brake = BRAKE.replace("0.02", "0.032") + 'use_modes = "nodal-diameters 3"\nanalyses = ["critical-speed"]\n'
     faces = changed(brake, ('ring = "track"', 'ring = { inboard = "inner", outboard = "track" }'))
     alone = []
-    both, _ = squeal(programs, scene + faces, lambda folder: alone.extend(
+    planes = changed(faces, ("thickness = 0.032", "contact_planes = [-0.016, 0.016]"))
+    all_found = studies(programs, [scene + faces, scene + planes, scene + brake], lambda folder: alone.extend(
         critical_speeds(folder / "coarse.body.h5", (("track", 0.004), ("inner", -0.004)), [5, 6], 3, 0.032)))
-    planes, _ = squeal(programs, scene + changed(faces, ("thickness = 0.032", "contact_planes = [-0.016, 0.016]")))
-    one, _ = squeal(programs, scene + brake)
-    found, same, plate = (each["critical_speed_rad_s"] for each in (both, planes, one))
+    found, same, plate = (each["critical_speed_rad_s"] for each, _ in all_found)
     print("critical speed", found, "of two rings,", plate, "of one; by forces of first order", alone)
     assert abs(found / same - 1) < 1e-12, (found, same)
     # Forces of second order in the slopes are in `squeal` alone.

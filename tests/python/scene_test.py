@@ -103,6 +103,27 @@ class Results(unittest.TestCase):
         self.assertEqual(found, [scene.with_keys({"squeal.friction": mu}).squeal().critical.speed for mu in frictions])
         self.assertEqual(len(set(found)), 3)
 
+    def test_by_a_generator_are_those_of_the_program(self):
+        ranges = {"squeal.friction": (0.4, 0.6), "squeal.pads[0].preload": (2000.0, 4000.0)}
+        for method in ("sobol", "latin-hypercube"):
+            variants = chladni.samples(ranges, 5, method, seed=3)
+            self.assertEqual(variants, chladni.samples(ranges, 5, method, seed=3))
+            for key, (low, high) in ranges.items():
+                # Each fifth of a range, or each quarter for the sequence, holds one of the first points.
+                parts = 4 if method == "sobol" else 5
+                places = {int(parts * (variant[key] - low) / (high - low)) for variant in variants[:parts]}
+                self.assertEqual(places, set(range(parts)), (method, key))
+        scene = chladni.Scene.read(RIGID).with_keys({**QUICK, "squeal.analyses": ["critical-speed"]})
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "scene.toml").write_text(scene.text)
+            chladni.write_samples(f"{folder}/samples.csv", variants)
+            done = squeal("sweep", f"{folder}/scene.toml", "--samples", f"{folder}/samples.csv", "--output", folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lines = Path(folder, f"{scene.name}.sweep.csv").read_text().splitlines()
+        self.assertTrue(lines[0].startswith("variant,squeal.friction,squeal.pads[1].preload,critical_speed_rad_s,"), lines[0])
+        found = [float(line.split(",")[3]) for line in lines[1:]]
+        self.assertEqual(found, [scene.with_keys(variant).squeal().critical.speed for variant in variants])
+
 
 LONG = """
 import chladni, sys

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "reference_branches.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/cycle/branch_parts.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
@@ -86,6 +89,51 @@ TEST(LimitCycleBranch, IsThatOfTheReferenceWithUnilateralContact)
                  {10.0, 21.759116, 1772.34606},
                  {20.0, 40.398247, 1786.21926}},
                 tolerance);
+}
+
+/// What a row of the reference may be off by: velocity and displacement relative, frequency in Hz,
+/// the smallest normal force in N, the multiplier.
+struct RowTolerance {
+  double amplitude, frequency_Hz, N_min, multiplier;
+  std::vector<double> rough_by_pi = {};  ///< speeds at which it is off by up to six times as much
+};
+
+/// Every row of the reference, in the ranges that hold their speeds.
+void expect_rows(ContactLaw law, const std::vector<BranchRow>& rows, const RowTolerance& tolerance)
+{
+  const SpeedRange ranges[] = {{4.25 * pi, 5.0 * pi, 31},
+                               {4.28 * pi, 4.32 * pi, 5},
+                               {5.0 * pi, 7.0 * pi, 5},
+                               {6.0 * pi, 20.0 * pi, 8},
+                               {10.0 * pi, 20.0 * pi, 3}};
+  std::vector<BranchPoint> points;
+  for (const SpeedRange& range : ranges)
+    std::ranges::copy(branch_over(law, range).points, std::back_inserter(points));
+  for (const BranchRow& row : rows) {
+    SCOPED_TRACE(row.speed_by_pi);
+    const auto at = std::ranges::find_if(points, [&](const BranchPoint& point) {
+      return std::abs(point.speed / pi - row.speed_by_pi) < 1e-9;
+    });
+    ASSERT_NE(at, points.end());
+    const bool is_rough = std::ranges::count(tolerance.rough_by_pi, row.speed_by_pi) > 0;
+    const double factor = is_rough ? 6.0 : 1.0, relative = factor * tolerance.amplitude;
+    EXPECT_NEAR(at->pad_velocity, row.velocity, relative * row.velocity);
+    EXPECT_NEAR(at->pad_displacement, row.displacement, relative * row.displacement);
+    EXPECT_NEAR(at->frequency_Hz, row.frequency_Hz, factor * tolerance.frequency_Hz);
+    EXPECT_NEAR(at->N_min, row.N_min, factor * tolerance.N_min);
+    EXPECT_NEAR(at->largest_multiplier, row.multiplier, factor * tolerance.multiplier);
+  }
+}
+
+TEST(LimitCycleBranch, MeetsEveryRowOfTheReference)
+{
+  // What steps over the kinks of the contact law leave the reference: largest where contact is
+  // lost, and least where the force only changes its sign.
+  expect_rows(ContactLaw::bilateral, bilateral_rows, {1e-4, 6e-5, 0.3, 2e-4});
+  // Its velocities at 4.4 and 4.6 pi do not lie on a smooth line with their neighbours; ours do.
+  expect_rows(ContactLaw::unilateral, unilateral_rows, {1e-3, 6e-3, 0.006, 2.5e-3, {4.4, 4.6}});
+  // At 7 pi the slip all but stops, 0.017 m/s, and its direction turns within microseconds.
+  expect_rows(ContactLaw::signed_force, signed_rows, {2.1e-5, 4e-5, 0.6, 5e-8, {7.0}});
 }
 
 TEST(LimitCycleBranch, HoldsTheEndOfATransient)

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <complex>
 #include <numbers>
+#include <vector>
 
 #include "source_disc.hpp"
 
@@ -79,6 +82,19 @@ TEST(RigidDisc, HasTheMatricesThatItsLinearisationGives)
       }
 }
 
+TEST(RigidDisc, HasTheMatricesOfTheReference)
+{
+  // SQUEAL reference values at 6 pi; 16 digits.
+  const RigidMatrices found = rigid_disc_matrices(source_disc(), 6.0 * pi);
+  const RigidMatrices expected{
+      .M = Eigen::Matrix2d{{0.16, 0.0}, {0.0, 0.16}},
+      .C = Eigen::Matrix2d{{0.4159122551617495, 6.031857894892403}, {-6.039657894892403, 0.1}},
+      .K = Eigen::Matrix2d{{19002860.0, 2.7692307692307536}, {-9827.999999999998, 18800081.6}}};
+  EXPECT_LT((found.M - expected.M).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((found.C - expected.C).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((found.K - expected.K).cwiseAbs().maxCoeff(), 1e-8);
+}
+
 TEST(RigidDisc, HasTheEigenvaluesOfTheReference)
 {
   // SQUEAL reference values with 40 digits; rounding of 1e4 in double: 1e-11, margin of 10.
@@ -139,6 +155,87 @@ TEST(RigidDiscNote, NoReadingOfTheSourceGivesItsCriticalSpeed)
   EXPECT_NEAR(printed, 7.071993454795727, 1e-9);
   EXPECT_NEAR(along_axis, 10.679787364222378, 1e-9);
   EXPECT_NEAR(workless, 10.032172422448102, 1e-9);
+}
+
+/// Eigenvalues of the disc at one speed, of rising frequency.
+struct PairAtSpeed {
+  double speed_by_pi;
+  std::complex<double> lower, higher;
+};
+
+/// SQUEAL reference values; rounding of 1e4 in two programs.
+template <class Change>
+void expect_eigenvalues(const std::vector<PairAtSpeed>& rows, const Change& change)
+{
+  for (const PairAtSpeed& row : rows) {
+    SCOPED_TRACE(row.speed_by_pi);
+    RigidMatrices matrices = rigid_disc_matrices(source_disc(), row.speed_by_pi * pi);
+    change(matrices);
+    const Eigen::Vector2cd lambda = eigenvalues(matrices);
+    EXPECT_LT(std::abs(lambda[0] - row.lower), 1e-10);
+    EXPECT_LT(std::abs(lambda[1] - row.higher), 1e-10);
+  }
+}
+
+TEST(RigidDiscNote, EachReadingOfTheSourceHasTheEigenvaluesOfTheReference)
+{
+  const RigidDisc disc = source_disc();
+  const double M_A = 2.0 * disc.friction.kinetic * disc.radius * disc.preload;
+  const std::vector<PairAtSpeed> printed = {
+      {1, {-0.47213669130680697, 10839.60323544992}, {-3.123093092976214, 10898.229888905245}},
+      {5, {-1.0282319888436833, 10835.808598132915}, {-0.3633139680133207, 10902.046788647554}},
+      {10.4, {-1.445734474083582, 10825.161110228413}, {0.3402436294414593, 10912.769852872081}},
+      {20, {-1.6938621260048208, 10799.811750838693}, {0.7155068867907908, 10938.384292877718}},
+  };
+  const std::vector<PairAtSpeed> along_axis = {
+      {1, {-0.458827141777307, 10839.597216132814}, {-3.448902642506907, 10898.235776285694}},
+      {5, {-0.9829693996958548, 10835.806692825865}, {-0.7210765571606028, 10902.048625177928}},
+      {10.4, {-1.39726310407797, 10825.1617765258}, {-0.020727740564494973, 10912.769125960149}},
+      {20, {-1.661523617294139, 10799.812699246453}, {0.3706683780808442, 10938.383287430008}},
+  };
+  const std::vector<PairAtSpeed> workless = {
+      {1, {-0.4657607867130286, 10839.60376040599}, {-3.4419689975696732, 10898.229265322507}},
+      {5, {-1.0149528372192615, 10835.812032132626}, {-0.6890931196385572, 10902.043319172884}},
+      {10.4, {-1.4475386472531353, 10825.165104639746}, {0.0295478026110675, 10912.765831136558}},
+      {20, {-1.7225849414375467, 10799.814403097043}, {0.4317297022235334, 10938.381616849185}},
+  };
+  expect_eigenvalues(printed, [&](RigidMatrices& m) { m.C(0, 0) -= disc.d_t; });
+  expect_eigenvalues(along_axis, [&](RigidMatrices& m) {
+    m.K(0, 1) -= M_A;
+    m.K(1, 0) += M_A;
+  });
+  expect_eigenvalues(workless, [&](RigidMatrices& m) { m.K(1, 0) += M_A; });
+}
+
+TEST(RigidDiscNote, EachParameterWouldHaveToChangeSoMuchForTheCriticalSpeedOfTheSource)
+{
+  // SQUEAL reference values: one parameter alone, the others those of the source.
+  const struct {
+    const char* name;
+    double* (*of)(RigidDisc&);
+    std::vector<double> values;
+  } rows[] = {
+      {"kt", [](RigidDisc& disc) { return &disc.k_t; }, {26862127.573958557}},
+      {"dt", [](RigidDisc& disc) { return &disc.d_t; }, {0.12545266548372383}},
+      {"k", [](RigidDisc& disc) { return &disc.spring.linear; }, {4916809.38444717}},
+      {"d", [](RigidDisc& disc) { return &disc.damping; }, {5.904948247868073}},
+      {"N0", [](RigidDisc& disc) { return &disc.preload; }, {4404.455374504033}},
+      {"mu", [](RigidDisc& disc) { return &disc.friction.kinetic; }, {0.5425829418942868}},
+      {"r0",
+       [](RigidDisc& disc) { return &disc.radius; },
+       {0.06770517735647429, 0.1406279837944478}},
+      {"h", [](RigidDisc& disc) { return &disc.thickness; }, {0.01730679540254759}},
+      {"Th", [](RigidDisc& disc) { return &disc.Theta; }, {0.11245933842320206}},
+      {"Ph", [](RigidDisc& disc) { return &disc.Phi; }, {0.2817843209408045}},
+  };
+  for (const auto& row : rows)
+    for (const double value : row.values) {
+      SCOPED_TRACE(testing::Message() << row.name << " = " << value);
+      RigidDisc disc = source_disc();
+      *row.of(disc) = value;
+      const Eigen::Vector2cd lambda = eigenvalues(rigid_disc_matrices(disc, 10.4 * pi));
+      EXPECT_NEAR(lambda.real().maxCoeff(), 0.0, 1e-9);
+    }
 }
 
 TEST(RigidDiscNote, TheDamperThatThePrintedMatrixLacksIsInTheLinearisation)

@@ -1,6 +1,9 @@
 // Each sweep on several threads, small enough for the thread sanitizer without optimisation.
 #include <gtest/gtest.h>
 
+#include <thread>
+#include <vector>
+
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/parallel.hpp"
@@ -12,6 +15,21 @@ namespace chladni::squeal {
 namespace {
 
 using namespace test;
+
+TEST(SweepOnThreads, OfALoopWithinALoopTakesItsThread)
+{
+  std::vector<char> is_own(12, 0);
+  for_each_index(
+      3,
+      [&](int i) {
+        const auto outer = std::this_thread::get_id();
+        for_each_index(4, [&](int j) {
+          is_own[static_cast<std::size_t>(4 * i + j)] = std::this_thread::get_id() == outer;
+        });
+      },
+      3);
+  EXPECT_EQ(is_own, std::vector<char>(12, 1));
+}
 
 TEST(SweepOnThreads, OfTheStabilityMapIsThatOnOne)
 {
