@@ -10,6 +10,8 @@
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
+#include "linear/kernels/parted_form.hpp"
+#include "linear/kernels/sparse_product.hpp"
 #include "matrices.hpp"
 
 namespace chladni::linear {
@@ -115,6 +117,35 @@ TEST(DecoupledRows, BelongTogetherWhereARankHasAlmostNothingOfASet)
     petsc::check(ISGetLocalSize(set, &n_local));
     EXPECT_LE(2 * n_local * petsc::size(PETSC_COMM_WORLD), 3 * n);
   }
+}
+
+/// Columns of which each has entries in one chain of three only, but every fifth in all of them.
+petsc::Matrix columns_of_chains(Mat A, PetscInt n_columns)
+{
+  petsc::Matrix X = uninitialized_dense(A, n_columns);
+  petsc::check(MatZeroEntries(X));
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < n_columns; ++j)
+      if (j % 5 == 0 || i % 3 == j % 3)
+        petsc::check(MatSetValue(X, i, j, 1.0 / (1.0 + i % 17 + 3.0 * j), INSERT_VALUES));
+  testing::finish(X);
+  return X;
+}
+
+TEST(PartedForm, IsThatOfTheWhole)
+{
+  const petsc::Matrix A = chains(301, 3);
+  ASSERT_EQ(decoupled_rows(A, A).size(), 3u);
+  const petsc::Matrix X = columns_of_chains(A, 80), Y = columns_of_chains(A, 70);
+  petsc::Matrix AX = uninitialized_dense(A, 80), AY = uninitialized_dense(A, 70);
+  SparseProduct(A).apply(X, AX);
+  SparseProduct(A).apply(Y, AY);
+  const Eigen::MatrixXd of_both = inner_product(X, AY), of_one = inner_product(X, AX);
+  EXPECT_LT((parted_form(X, A, Y) - of_both).norm(), 1e-14 * of_both.norm());
+  EXPECT_LT((parted_form(X, A) - of_one).norm(), 1e-14 * of_one.norm());
+  EXPECT_EQ(parted_form(X, A), Eigen::MatrixXd(parted_form(X, A).transpose()));
 }
 
 TEST(PartSolver, SolvesForThePartAsTheWholeDoes)
