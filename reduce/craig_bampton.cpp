@@ -1,55 +1,14 @@
 #include "reduce/craig_bampton.hpp"
 
-#include <algorithm>
-
-#include "linear/kernels/sparse_product.hpp"
-#include "linear/progress.hpp"
+#include "linear/kernels/parted_form.hpp"
 
 namespace chladni::reduce {
 
 using Eigen::MatrixXd;
 
-namespace {
-
-constexpr PetscInt block_columns = 64;  // at a time: bounds the memory, enough for dgemm
-
-/// Calls with the first and the last + 1 of some columns, block after block.
-template <typename Work>
-void for_column_blocks(PetscInt n_columns, const Work& work)
-{
-  for (PetscInt first = 0; first < n_columns; first += block_columns)
-    work(first, std::min(first + block_columns, n_columns));
-}
-
-PetscInt n_columns(Mat A)
-{
-  PetscInt n = 0;
-  petsc::check(MatGetSize(A, nullptr, &n));
-  return n;
-}
-
-/// Psi^T M_ss Psi
-MatrixXd slave_mass(Mat Psi, Mat M_ss)
-{
-  const PetscInt n_m = n_columns(Psi);
-  MatrixXd Psi_M_Psi = MatrixXd::Zero(n_m, n_m);
-  const linear::SparseProduct product(M_ss);
-  for_column_blocks(n_m, [&](PetscInt first, PetscInt last) {
-    linear::report_progress(double(first) / n_m);
-    const petsc::Matrix M_Psi = linear::uninitialized_dense(M_ss, last - first);
-    product.apply(linear::ColumnRange(Psi, first, last), M_Psi);
-    // The upper triangle of Psi^T M Psi is enough.
-    Psi_M_Psi.block(0, first, last, last - first) =
-        linear::inner_product(linear::ColumnRange(Psi, 0, last), M_Psi);
-  });
-  return Psi_M_Psi.selfadjointView<Eigen::Upper>();
-}
-
-}  // namespace
-
 MatrixXd guyan_mass(Mat Psi, const Blocks& M)
 {
-  const MatrixXd Psi_M_Psi = slave_mass(Psi, M.ss);
+  const MatrixXd Psi_M_Psi = linear::parted_form(Psi, M.ss);
   const MatrixXd M_mm = linear::replicate(M.mm), Psi_M_sm = linear::inner_product_sparse(Psi, M.sm);
   MatrixXd M_G(M_mm.rows(), M_mm.cols());
   M_G.triangularView<Eigen::Upper>() =
@@ -59,14 +18,7 @@ MatrixXd guyan_mass(Mat Psi, const Blocks& M)
 
 MatrixXd inertial_coupling(Mat Phi, Mat Psi, const Blocks& M)
 {
-  MatrixXd P = linear::inner_product_sparse(Phi, M.sm);
-  const linear::SparseProduct product(M.ss);
-  for_column_blocks(n_columns(Phi), [&](PetscInt first, PetscInt last) {
-    const petsc::Matrix M_Phi = linear::uninitialized_dense(M.ss, last - first);
-    product.apply(linear::ColumnRange(Phi, first, last), M_Phi);
-    P.middleRows(first, last - first) += linear::inner_product(M_Phi, Psi);
-  });
-  return P;
+  return linear::inner_product_sparse(Phi, M.sm) + linear::parted_form(Phi, M.ss, Psi);
 }
 
 ReducedModel join(const GuyanStiffness& K_G, const MatrixXd& M_G, const MatrixXd& P,

@@ -5,6 +5,8 @@
 
 #include "common/petsc_compat.hpp"
 #include "linear/cholesky/inner_solver.hpp"
+#include "linear/cholesky/part_solver.hpp"
+#include "linear/kernels/decoupled_rows.hpp"
 
 namespace chladni::reduce {
 
@@ -81,6 +83,20 @@ linear::BlockLanczosOptions block_options(const linear::LanczosOptions& options)
           .tolerance = options.tolerance};
 }
 
+/// By parts where K_ss and M_ss have some and the factor solves for them.
+linear::PartedLanczos lanczos(const linear::Factorization& K_ss, Mat M_ss)
+{
+  const linear::BlockLanczosOptions options = block_options(K_ss.options().lanczos);
+  if (!linear::solves_for_parts(K_ss.factor())) return {K_ss.factor(), M_ss, options};
+  std::vector<linear::DecoupledPart> parts;
+  for (petsc::IndexSet& rows : linear::decoupled_rows(K_ss.matrix(), M_ss)) {
+    linear::BlockSolve solve = linear::part_solver(K_ss.factor(), rows);
+    parts.push_back({.rows = std::move(rows), .solve = std::move(solve)});
+  }
+  if (parts.empty()) return {K_ss.factor(), M_ss, options};
+  return {std::move(parts), M_ss, options};
+}
+
 double angular_frequency(double lambda)
 {
   if (lambda > 0.0) return std::sqrt(lambda);
@@ -96,9 +112,8 @@ ModeSearch::ModeSearch(const linear::Factorization& K_ss, Mat M_ss, MemoryCheck 
     : K_ss_(K_ss), M_ss_(M_ss), require_memory_(std::move(require_memory))
 {
   petsc::check(MatGetSize(M_ss, &n_s_, nullptr));
-  const linear::LanczosOptions& options = K_ss.options().lanczos;
-  if (options.solver == linear::ModeSolver::block_lanczos)
-    lanczos_.emplace(K_ss.factor(), M_ss, block_options(options));
+  if (K_ss.options().lanczos.solver == linear::ModeSolver::block_lanczos)
+    lanczos_.emplace(lanczos(K_ss, M_ss));
 }
 
 void ModeSearch::find_by_krylov_schur(PetscInt n)

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "linear/lanczos/block_lanczos.hpp"
+#include "linear/lanczos/parted_lanczos.hpp"
 #include "reduce/fixed_interface_modes.hpp"
 
 namespace chladni::reduce {
@@ -34,6 +34,8 @@ class ModeSearch {
   {
     return lanczos_ ? lanczos_->unresolved_from() : linear::all_of_them;
   }
+  /// Parts that K_ss and M_ss do not couple, each solved for by itself.
+  PetscInt n_parts() const { return lanczos_ ? lanczos_->n_parts() : 1; }
   /// Whether all modes that there are have been found.
   bool has_all() const { return has_all_; }
   /// Angular frequencies of all that are found, ascending; rad/s.
@@ -55,8 +57,8 @@ class ModeSearch {
   Mat M_ss_;
   MemoryCheck require_memory_;
   PetscInt n_s_ = 0;
-  std::optional<linear::BlockLanczos> lanczos_;  ///< nothing where SLEPc is asked for
-  petsc::Matrix X_;                              ///< then all vectors that it found
+  std::optional<linear::PartedLanczos> lanczos_;  ///< nothing where SLEPc is asked for
+  petsc::Matrix X_;                               ///< then all vectors that it found
   std::vector<double> omega_;
   bool has_all_ = false;
 };

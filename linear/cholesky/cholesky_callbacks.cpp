@@ -5,31 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "linear/cholesky/local_array.hpp"
 #include "linear/kernels/gather.hpp"
 #include "linear/progress.hpp"
 
 namespace chladni::linear {
 
 namespace {
-
-/// Dense array of the rows of this rank, for writing, as long as it lives.
-class LocalArray {
- public:
-  explicit LocalArray(Mat dense) : dense_(dense)
-  {
-    petsc::check(MatDenseGetLDA(dense_, &columns_.leading_dimension));
-    petsc::check(MatGetSize(dense_, nullptr, &columns_.n_columns));
-    petsc::check(MatDenseGetArray(dense_, &columns_.values));
-  }
-  ~LocalArray() { MatDenseRestoreArray(dense_, &columns_.values); }
-  LocalArray(const LocalArray&) = delete;
-  LocalArray& operator=(const LocalArray&) = delete;
-  LocalColumns columns() const { return columns_; }
-
- private:
-  Mat dense_;
-  LocalColumns columns_{};
-};
 
 /// The rows of B_t as columns, on rank 0.
 SparseColumns columns_of_transpose(Mat B_t)

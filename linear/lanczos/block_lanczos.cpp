@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "linear/progress.hpp"
 
@@ -46,13 +47,17 @@ PetscInt lacking(PetscInt n, double excess)
 }  // namespace
 
 BlockLanczos::BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options)
-    : factor_(factor),
+    : BlockLanczos([factor](Mat B, Mat X) { petsc::check(MatMatSolve(factor, B, X)); }, M, options)
+{}
+
+BlockLanczos::BlockLanczos(BlockSolve solve, Mat M, const BlockLanczosOptions& options)
+    : solve_(std::move(solve)),
       options_(options),
       n_rows_(size_of(M)),
       op_([this](Mat, Mat MQ, Mat Y) {
         PetscInt n_columns = 0;
         petsc::check(MatGetSize(MQ, nullptr, &n_columns));
-        petsc::check(MatMatSolve(factor_, MQ, Y));
+        solve_(MQ, Y);
         n_solves_ += n_columns;
       }),
       iteration_(M, options.block_size, capacity(0, n_rows_, options))

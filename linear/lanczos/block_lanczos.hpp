@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "linear/lanczos/block_iteration.hpp"
 
 namespace chladni::linear {
+
+/// X <- K^-1 B for dense B and X.
+using BlockSolve = std::function<void(Mat B, Mat X)>;
 
 struct BlockLanczosOptions {
   PetscInt n_pairs;           ///< wanted
@@ -43,6 +47,7 @@ class BlockLanczos {
   /// @param factor   Cholesky factor of K, for MatMatSolve; must outlive this.
   /// @param options  all but n_pairs
   BlockLanczos(Mat factor, Mat M, const BlockLanczosOptions& options);
+  BlockLanczos(BlockSolve solve, Mat M, const BlockLanczosOptions& options);
   BlockLanczos(const BlockLanczos&) = delete;
   BlockLanczos& operator=(const BlockLanczos&) = delete;
 
@@ -81,7 +86,7 @@ class BlockLanczos {
   void restart(PetscInt n_pairs);
   void begin_anew(PetscInt n_kept, PetscInt n_pairs);
 
-  Mat factor_;
+  BlockSolve solve_;
   BlockLanczosOptions options_;
   PetscInt n_rows_ = 0;
   BlockOperator op_;

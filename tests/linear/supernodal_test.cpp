@@ -202,6 +202,40 @@ TEST(ShareSubtrees, GivesWholeSubtreesToTheRanksAndShortensTheLongestPath)
   }
 }
 
+/// Two of one grid that are not coupled.
+QuotientGraph twice(const QuotientGraph& one)
+{
+  const int n = one.n_vertices();
+  QuotientGraph both = one;
+  for (const int v : one.vertex_of_row) both.vertex_of_row.push_back(v + n);
+  both.n_rows.insert(both.n_rows.end(), one.n_rows.begin(), one.n_rows.end());
+  for (const int v : one.edges.neighbours) both.edges.neighbours.push_back(v + n);
+  for (int v = 0; v < n; ++v)
+    both.edges.starts.push_back(one.edges.starts.back() + one.edges.starts[v + 1]);
+  return both;
+}
+
+TEST(ShareSubtrees, GivesEachRankItsShareOfEachOfTwoTrees)
+{
+  const Grid one = grid(40, 3);
+  std::vector<int> places = one.places;
+  for (const int place : one.places) places.push_back(place + static_cast<int>(one.places.size()));
+  const AssemblyTree tree = assembly_tree(twice(one.graph), places);
+  const int n = tree.n_supernodes();
+  const auto n_rows = static_cast<int>(one.places.size());
+  for (const int n_ranks : {2, 4}) {
+    const std::vector<int> owner = share_subtrees(tree, n_ranks);
+    std::vector<std::vector<double>> entries(2, std::vector<double>(n_ranks, 0.0));
+    for (int s = 0; s < n; ++s) {
+      if (owner[s] == all_ranks) continue;
+      const int which = tree.row[tree.first_column[s]] < n_rows ? 0 : 1;
+      entries[which][owner[s]] += tree.n_entries(s);
+    }
+    for (const std::vector<double>& of_tree : entries)
+      EXPECT_GT(std::ranges::min(of_tree), 0.5 * std::ranges::max(of_tree)) << n_ranks << " ranks";
+  }
+}
+
 MatrixXd random_matrix(int n_rows, int n_columns)
 {
   std::mt19937 generator(n_rows + 1000 * n_columns);

@@ -1,6 +1,7 @@
 #include "linear/cholesky/supernodal/slot_exchange.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "linear/cholesky/supernodal/subtrees.hpp"
@@ -23,12 +24,15 @@ void pack(LocalColumns X, PetscInt first, const std::vector<int>& rows, double* 
   }
 }
 
-void unpack(const double* from, PetscInt first, const std::vector<int>& rows, LocalColumns X)
+/// @param columns  of X, at most as many as a panel has
+void unpack(const double* from, std::span<const int> columns, const std::vector<int>& rows,
+            LocalColumns X)
 {
-  const PetscInt n = std::min<PetscInt>(panel_width, X.n_columns - first);
-  double* to = X.values + std::size_t(first) * X.leading_dimension;
+  std::array<double*, panel_width> to{};
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    to[c] = X.values + std::size_t(columns[c]) * X.leading_dimension;
   for (const int row : rows) {
-    for (PetscInt c = 0; c < n; ++c) to[row + std::size_t(c) * X.leading_dimension] = from[c];
+    for (std::size_t c = 0; c < columns.size(); ++c) to[c][row] = from[c];
     from += panel_width;
   }
 }
@@ -47,11 +51,11 @@ void get(const double* panel, const std::vector<int>& slots, double* to)
 
 }  // namespace
 
-SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vector<int>& slot)
-    : comm_(petsc::communicator(A))
+SlotExchange::SlotExchange(const RowRange& here, const std::vector<int>& owner,
+                           const std::vector<int>& slot)
+    : comm_(here.comm)
 {
-  PetscInt first = 0, last = 0;
-  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  const PetscInt first = here.first, last = here.last;
   const int n_ranks = petsc::size(comm_);
   std::vector<std::vector<int>> rows_of_rank(n_ranks);
   for (PetscInt row = first; row < last; ++row) {
@@ -71,7 +75,7 @@ SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vect
     row_counts_.push_back(static_cast<int>(rows.size()));
     rows_.insert(rows_.end(), rows.begin(), rows.end());
   }
-  // In the order of slots a single rank has nothing left to do.
+  // In the order of slots a single rank has nothing left to do where these stand side by side.
   if (n_ranks == 1) std::ranges::sort(rows_, {}, [&](int row) { return slot[row]; });
   MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
   row_starts_ = offsets(row_counts_);
@@ -81,18 +85,25 @@ SlotExchange::SlotExchange(Mat A, const std::vector<int>& owner, const std::vect
                 slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
   for (int& row : slots_) row = slot[row];
   for (int& row : rows_) row -= first;
+  const auto n = std::ssize(slots_);
+  stands_in_place_ = n_ranks == 1 && n > 0 && slots_.back() - slots_.front() == n - 1;
+}
+
+double* SlotExchange::place_in(double* panel) const
+{
+  return panel + std::size_t(slots_.front()) * panel_width;
 }
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 {
-  const bool alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
-  std::vector<double> out(alone ? 0 : rows_.size() * panel_width),
-      in(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
+  std::vector<double> out(stands_in_place_ ? 0 : rows_.size() * panel_width),
+      in(stands_in_place_ ? 0 : slots_.size() * panel_width),
+      common(common_rows_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     double* panel = panels.values + p * panels.stride;
-    pack(X, first, rows_, alone ? panel : out.data());
-    if (alone) continue;
+    pack(X, first, rows_, stands_in_place_ ? place_in(panel) : out.data());
+    if (stands_in_place_) continue;
     MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
                   slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
     put(in.data(), slots_, panel);
@@ -103,22 +114,25 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
   }
 }
 
-void SlotExchange::to_rows(Panels panels, PetscInt first, LocalColumns X) const
+void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const
 {
-  const bool alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
-  std::vector<double> in(alone ? 0 : rows_.size() * panel_width),
-      out(alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
-  for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
-    const double* panel = panels.values + p * panels.stride;
-    if (!alone) {
+  std::vector<double> in(stands_in_place_ ? 0 : rows_.size() * panel_width),
+      out(stands_in_place_ ? 0 : slots_.size() * panel_width),
+      common(common_rows_.size() * panel_width);
+  for (int p = 0; p < panels.n_panels; ++p) {
+    double* panel = panels.values + p * panels.stride;
+    const std::size_t first = std::size_t(p) * panel_width;
+    const auto some =
+        columns.subspan(first, std::min<std::size_t>(panel_width, columns.size() - first));
+    if (!stands_in_place_) {
       get(panel, slots_, out.data());
       MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
                     row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
       get(panel, common_slots_, common.data());
-      unpack(common.data(), first, common_rows_, X);
+      unpack(common.data(), some, common_rows_, X);
     }
-    unpack(alone ? panel : in.data(), first, rows_, X);
+    unpack(stands_in_place_ ? place_in(panel) : in.data(), some, rows_, X);
   }
 }
 

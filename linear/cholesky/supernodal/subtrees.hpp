@@ -9,7 +9,9 @@ namespace chladni::linear {
 /// The rank of every rank's own subtrees.
 inline constexpr int all_ranks = -1;
 
-/// Who eliminates which supernode: whole subtrees by one rank, what stands above them by all.
+/// Who eliminates which supernode: whole subtrees by one rank, what stands above them by all. Each
+/// tree of a good part of the work is shared out by itself, so that it can be solved without the
+/// others.
 /// @return [n_supernodes] a rank, or all_ranks.
 /// Source: Geist and Ng, Int. J. Parallel Programming 18 (1989) 291.
 std::vector<int> share_subtrees(const AssemblyTree& tree, int n_ranks);

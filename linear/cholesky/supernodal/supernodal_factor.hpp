@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,17 @@
 #include "linear/kernels/aligned_numbers.hpp"
 
 namespace chladni::linear {
+
+/// Supernodes of some trees, children first: those of this rank, and those of all ranks.
+struct Supernodes {
+  std::vector<int> own, common;
+};
+
+/// Rows that are coupled to no others: what solves for them.
+struct SupernodalPart {
+  Supernodes supernodes;
+  SlotExchange exchange;
+};
 
 /// Sparse factor L D L^T of our own for many right-hand sides: nested dissection by METIS,
 /// multifrontal elimination without pivoting, and triangular solutions that read the factor as it
@@ -27,8 +39,16 @@ class SupernodalFactor : public CholeskyFactor {
   PetscInt n_negative_pivots() const override { return n_negative_; }
   bool is_reliable() const override;
   void release() override { tiles_.reset(); }
-  PetscInt columns_at_a_time() const override { return most_columns; }
-  void solve(LocalColumns X) override;
+  /// All of them: it chooses which go together.
+  PetscInt columns_at_a_time() const override { return std::numeric_limits<int>::max(); }
+  void solve(LocalColumns X) override { solve(whole_, X); }
+  /// What solves for some rows alone.
+  /// @param rows  of the matrix; those of each rank ascend, and on the rank that owns them
+  /// @throws chladni::Error when others are coupled to them.
+  /// @note   Collective.
+  SupernodalPart part(IS rows) const;
+  /// X <- A^-1 X for the rows of a part alone.
+  void solve(const SupernodalPart& part, LocalColumns X);
   void solve(const SparseColumns& B, LocalColumns X) override;
   Memory forecast() const override;
   FactorSize size() const override;
@@ -37,15 +57,24 @@ class SupernodalFactor : public CholeskyFactor {
  private:
   static constexpr PetscInt most_columns = 64;
 
+  void number_trees();
   void number_slots();
+  int supernode_of_row(PetscInt row) const;
+  Supernodes of_trees(const std::vector<char>& roots) const;
+  SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
   void eliminate(Mat A);
   int eliminate_own(Fronts& fronts);
   int eliminate_common(Fronts& fronts, int s);
   void keep(const Fronts& fronts, int s);
-  std::vector<char> take(const SparseColumns& B, int first, Panels panels) const;
-  void sweep(Panels X, const std::vector<char>& is_active) const;
+  std::vector<std::vector<int>> trees_of(const SparseColumns& B) const;
+  std::vector<char> take(const SparseColumns& B, const std::vector<int>& columns,
+                         Panels block) const;
+  void solve_block(const SparseColumns& B, const std::vector<int>& columns,
+                   const std::vector<std::vector<int>>& trees, LocalColumns X);
+  void sum_common(const std::vector<int>& supernodes, Panels X) const;
+  void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   TiledColumns tiles(int s) const;
-  Panels panels(int n_columns);
+  Panels panels(std::size_t n_columns);
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
@@ -53,13 +82,13 @@ class SupernodalFactor : public CholeskyFactor {
   PetscInt n_negative_ = 0;
   AssemblyTree tree_;
   std::vector<int> owner_;                ///< [n_supernodes] a rank or all_ranks
-  std::vector<int> own_, common_;         ///< supernodes of this rank alone, of all ranks
+  std::vector<int> tree_of_;              ///< [n_supernodes] the root above
   std::vector<int> slot_;                 ///< [n positions] row of the panels, -1: not here
   int n_own_slots_ = 0, n_slots_ = 0;     ///< those of all ranks behind the own ones
   std::vector<std::size_t> tile_starts_;  ///< [n_supernodes + 1]
   std::vector<int> below_slots_;          ///< of all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
-  SlotExchange exchange_;
+  SupernodalPart whole_;
   double n_gathered_ = 0.0;  ///< entries of the rows that are gathered from other ranks, about
 };
 

@@ -1,0 +1,55 @@
+#include "linear/cholesky/part_solver.hpp"
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "linear/cholesky/cholesky_callbacks.hpp"
+#include "linear/cholesky/cholesky_types.hpp"
+#include "linear/cholesky/local_array.hpp"
+#include "linear/cholesky/supernodal/supernodal_factor.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+/// The factor of our own that solves, or null.
+SupernodalFactor* supernodal_of(Mat factor)
+{
+  return is_ours(factor) ? dynamic_cast<SupernodalFactor*>(&factor_of(factor).active()) : nullptr;
+}
+
+}  // namespace
+
+bool solves_for_parts(Mat factor)
+{
+  return supernodal_of(factor) != nullptr;
+}
+
+bool will_solve_for_parts(const OptionSource& source)
+{
+  std::array<char, 64> name{};
+  PetscBool is_given = PETSC_FALSE;
+  petsc::check(PetscOptionsGetString(source.database, source.prefix.c_str(),
+                                     "-pc_factor_mat_solver_type", name.data(), name.size(),
+                                     &is_given));
+  return !is_given || std::string_view(name.data()) == supernodal;
+}
+
+std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows)
+{
+  SupernodalFactor* whole = supernodal_of(factor);
+  if (whole == nullptr) {
+    throw Error(
+        fmt::format("part_solver: the factor solves for all rows only; take "
+                    "-cms_pc_factor_mat_solver_type {}",
+                    supernodal));
+  }
+  const auto part = std::make_shared<SupernodalPart>(whole->part(rows));
+  return [whole, part](Mat B, Mat X) {
+    if (B != X) petsc::check(MatCopy(B, X, SAME_NONZERO_PATTERN));
+    whole->solve(*part, LocalArray(X).columns());
+  };
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,232 @@
+// The solutions of a SupernodalFactor.
+#include <algorithm>
+#include <numeric>
+#include <ranges>
+#include <span>
+
+#include "linear/cholesky/supernodal/subtrees.hpp"
+#include "linear/cholesky/supernodal/supernodal_factor.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/gather.hpp"
+#include "linear/kernels/tile_kernels.hpp"
+#include "linear/log_event.hpp"
+#include "linear/progress.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+int n_panels(std::size_t n_columns)
+{
+  return static_cast<int>((n_columns + panel_width - 1) / panel_width);
+}
+
+/// Those from rank 0, on all ranks.
+SparseColumns on_all(SparseColumns B, MPI_Comm comm)
+{
+  int n_entries = static_cast<int>(B.values.size());
+  MPI_Bcast(&n_entries, 1, MPI_INT, 0, comm);
+  B.starts.resize(B.n_columns + 1);
+  B.rows.resize(n_entries);
+  B.values.resize(n_entries);
+  MPI_Bcast(B.starts.data(), B.n_columns + 1, MPI_INT, 0, comm);
+  MPI_Bcast(B.rows.data(), n_entries, MPI_INT, 0, comm);
+  MPI_Bcast(B.values.data(), n_entries, MPI_DOUBLE, 0, comm);
+  return B;
+}
+
+/// A block of columns ends when it is full, or has a panel and the next one lies in other trees.
+bool is_complete(const std::vector<int>& block, PetscInt most, bool next_is_alike)
+{
+  return std::ssize(block) == most || (std::ssize(block) >= panel_width && !next_is_alike);
+}
+
+}  // namespace
+
+void SupernodalFactor::number_trees()
+{
+  tree_of_.assign(tree_.n_supernodes(), 0);
+  for (int s = tree_.n_supernodes() - 1; s >= 0; --s)
+    tree_of_[s] = tree_.parent[s] == -1 ? s : tree_of_[tree_.parent[s]];
+}
+
+int SupernodalFactor::supernode_of_row(PetscInt row) const
+{
+  const auto behind = std::ranges::upper_bound(tree_.first_column, tree_.position[row]);
+  return static_cast<int>(behind - tree_.first_column.begin()) - 1;
+}
+
+Supernodes SupernodalFactor::of_trees(const std::vector<char>& roots) const
+{
+  Supernodes found;
+  for (int s = 0; s < tree_.n_supernodes(); ++s) {
+    if (roots[tree_of_[s]] == 0) continue;
+    if (owner_[s] == rank_) found.own.push_back(s);
+    if (owner_[s] == all_ranks) found.common.push_back(s);
+  }
+  return found;
+}
+
+SlotExchange SupernodalFactor::exchange_of(const std::vector<int>& rows, const RowRange& here) const
+{
+  std::vector<int> owner, slot;
+  for (const int row : rows) {
+    owner.push_back(owner_[supernode_of_row(row)]);
+    slot.push_back(slot_[tree_.position[row]]);
+  }
+  return {here, owner, slot};
+}
+
+SupernodalPart SupernodalFactor::part(IS rows) const
+{
+  PetscInt n_local = 0;
+  const PetscInt* indices = nullptr;
+  petsc::check(ISGetLocalSize(rows, &n_local));
+  petsc::check(ISGetIndices(rows, &indices));
+  const std::vector<int> own(indices, indices + n_local);
+  petsc::check(ISRestoreIndices(rows, &indices));
+  const std::vector<int> all = gather_on_all(own, MPI_INT, comm_);
+  std::vector<char> roots(tree_.n_supernodes(), 0);
+  for (const int row : all) roots[tree_of_[supernode_of_row(row)]] = 1;
+  std::ptrdiff_t n_coupled = 0;
+  for (int s = 0; s < tree_.n_supernodes(); ++s)
+    if (roots[tree_of_[s]] != 0) n_coupled += tree_.n_columns(s);
+  if (n_coupled != std::ssize(all)) {
+    throw Error(fmt::format(
+        "SupernodalFactor::part: the {} rows of a part are coupled to {} others; take all of them",
+        all.size(), n_coupled - std::ssize(all)));
+  }
+  RowRange here{.comm = comm_, .first = 0, .last = 0};
+  MPI_Scan(&n_local, &here.last, 1, MPIU_INT, MPI_SUM, comm_);
+  here.first = here.last - n_local;
+  return {.supernodes = of_trees(roots), .exchange = exchange_of(all, here)};
+}
+
+TiledColumns SupernodalFactor::tiles(int s) const
+{
+  const std::size_t first = tree_.below_starts[s], n = tree_.below_starts[s + 1] - first;
+  return {.values = tiles_.get() + tile_starts_[s],
+          .n_columns = tree_.n_columns(s),
+          .first = slot_[tree_.first_column[s]],
+          .below = std::span(below_slots_).subspan(first, n)};
+}
+
+Panels SupernodalFactor::panels(std::size_t n_columns)
+{
+  const std::size_t stride = std::size_t(n_slots_) * panel_width;
+  if (!panel_values_) panel_values_ = aligned_numbers(stride * n_panels(most_columns));
+  return {.values = panel_values_.get(), .stride = stride, .n_panels = n_panels(n_columns)};
+}
+
+/// Sums of the slots that all ranks have, of supernodes that stand side by side in one call.
+void SupernodalFactor::sum_common(const std::vector<int>& supernodes, Panels X) const
+{
+  const auto first_slot = [&](int s) { return slot_[tree_.first_column[s]]; };
+  for (std::size_t i = 0; i < supernodes.size();) {
+    const int first = first_slot(supernodes[i]);
+    int last = first;
+    for (; i < supernodes.size() && first_slot(supernodes[i]) == last; ++i)
+      last += tree_.n_columns(supernodes[i]);
+    const std::size_t n = std::size_t(last - first) * panel_width;
+    for (int p = 0; p < X.n_panels; ++p) {
+      double* common = X.values + p * X.stride + std::size_t(first) * panel_width;
+      sum_over_ranks(std::span(common, n), comm_);
+    }
+  }
+}
+
+/// X <- A^-1 X in some trees.
+/// @param is_active  [n_supernodes] of own supernodes: right-hand sides are not zero
+void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
+                             const std::vector<char>& is_active) const
+{
+  for (const int s : trees.own)
+    if (is_active[s] != 0) solve_forward(tiles(s), X);
+  if (petsc::size(comm_) > 1) sum_common(trees.common, X);
+  for (const int s : trees.common) solve_forward(tiles(s), X);
+  for (const int s : std::views::reverse(trees.common)) solve_backward(tiles(s), X);
+  for (const int s : std::views::reverse(trees.own)) solve_backward(tiles(s), X);
+}
+
+void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
+{
+  const LogEvent event(Event::solution);
+  const std::vector<char> all(tree_.n_supernodes(), 1);
+  std::vector<int> columns(X.n_columns);
+  std::iota(columns.begin(), columns.end(), 0);
+  for (PetscInt first = 0; first < X.n_columns; first += most_columns) {
+    const PetscInt n = std::min(most_columns, X.n_columns - first);
+    const Panels block = panels(n);
+    part.exchange.to_slots(X, first, block);
+    sweep(block, part.supernodes, all);
+    part.exchange.to_rows(block, std::span(columns).subspan(first, n), X);
+  }
+}
+
+/// The trees that each column is in: its roots, ascending.
+std::vector<std::vector<int>> SupernodalFactor::trees_of(const SparseColumns& B) const
+{
+  std::vector<std::vector<int>> trees(B.n_columns);
+  for (int j = 0; j < B.n_columns; ++j) {
+    for (int k = B.starts[j]; k < B.starts[j + 1]; ++k)
+      trees[j].push_back(tree_of_[supernode_of_row(B.rows[k])]);
+    std::ranges::sort(trees[j]);
+    trees[j].erase(std::ranges::unique(trees[j]).begin(), trees[j].end());
+  }
+  return trees;
+}
+
+/// Some columns; the own supernodes where they are not zero, and those above.
+std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vector<int>& columns,
+                                         Panels block) const
+{
+  std::fill_n(block.values, block.stride * block.n_panels, 0.0);
+  std::vector<char> is_active(tree_.n_supernodes(), 0);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    double* panel = block.values + j / panel_width * block.stride;
+    for (int k = B.starts[columns[j]]; k < B.starts[columns[j] + 1]; ++k) {
+      const int slot = slot_[tree_.position[B.rows[k]]];
+      const bool is_common = slot >= n_own_slots_;
+      if (slot == -1 || (is_common && rank_ != 0)) continue;
+      panel[std::size_t(slot) * panel_width + j % panel_width] = B.values[k];
+      is_active[supernode_of_row(B.rows[k])] = 1;
+    }
+  }
+  for (int s = 0; s < tree_.n_supernodes(); ++s)
+    if (is_active[s] != 0 && tree_.parent[s] != -1) is_active[tree_.parent[s]] = 1;
+  return is_active;
+}
+
+/// Columns in the same trees one after the other: the other trees have nothing to do for them.
+void SupernodalFactor::solve(const SparseColumns& on_first_rank, LocalColumns X)
+{
+  const LogEvent event(Event::solution);
+  const SparseColumns B = on_all(on_first_rank, comm_);
+  const std::vector<std::vector<int>> trees = trees_of(B);
+  std::vector<int> order(B.n_columns), block;
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int j) { return trees[j]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    block.push_back(order[i]);
+    const bool is_last = i + 1 == order.size();
+    const bool next_is_alike = !is_last && trees[order[i]] == trees[order[i + 1]];
+    if (!is_last && !is_complete(block, most_columns, next_is_alike)) continue;
+    solve_block(B, block, trees, X);
+    report_progress(double(i + 1) / B.n_columns);
+    block.clear();
+  }
+}
+
+void SupernodalFactor::solve_block(const SparseColumns& B, const std::vector<int>& columns,
+                                   const std::vector<std::vector<int>>& trees, LocalColumns X)
+{
+  std::vector<char> roots(tree_.n_supernodes(), 0);
+  for (const int j : columns)
+    for (const int root : trees[j]) roots[root] = 1;
+  const Panels block = panels(columns.size());
+  const std::vector<char> is_active = take(B, columns, block);
+  sweep(block, of_trees(roots), is_active);
+  whole_.exchange.to_rows(block, columns, X);
+}
+
+}  // namespace chladni::linear

@@ -1,0 +1,205 @@
+#include "linear/kernels/decoupled_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "linear/cholesky/factorization.hpp"
+#include "linear/cholesky/part_solver.hpp"
+#include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/gather.hpp"
+#include "linear/kernels/parted_form.hpp"
+#include "linear/kernels/sparse_product.hpp"
+#include "matrices.hpp"
+
+namespace chladni::linear {
+namespace {
+
+/// Chains between fixed ends that lie into each other: row i belongs to chain i % n_chains.
+petsc::Matrix chains(PetscInt n_rows, PetscInt n_chains)
+{
+  return testing::matrix(n_rows, 3, [&](PetscInt i) {
+    testing::Row row{{i, 2.1}};
+    if (i >= n_chains) row.emplace_back(i - n_chains, -1.0);
+    if (i + n_chains < n_rows) row.emplace_back(i + n_chains, -1.0);
+    return row;
+  });
+}
+
+/// A diagonal, and one entry between two rows.
+petsc::Matrix diagonal(PetscInt n_rows, PetscInt a, PetscInt b)
+{
+  return testing::matrix(n_rows, 2, [&](PetscInt i) {
+    testing::Row row{{i, 1.0}};
+    if (a != b && i == a) row.emplace_back(b, 0.1);
+    if (a != b && i == b) row.emplace_back(a, 0.1);
+    return row;
+  });
+}
+
+std::vector<PetscInt> all_of(IS set)
+{
+  PetscInt n = 0;
+  const PetscInt* rows = nullptr;
+  petsc::check(ISGetLocalSize(set, &n));
+  petsc::check(ISGetIndices(set, &rows));
+  const std::vector<PetscInt> own(rows, rows + n);
+  petsc::check(ISRestoreIndices(set, &rows));
+  return gather_on_all(own, MPIU_INT, petsc::communicator(set));
+}
+
+std::vector<PetscInt> members(PetscInt first, PetscInt step, PetscInt end)
+{
+  std::vector<PetscInt> rows;
+  for (PetscInt i = first; i < end; i += step) rows.push_back(i);
+  return rows;
+}
+
+TEST(DecoupledRows, AreThoseOfEachChain)
+{
+  const petsc::Matrix K = chains(301, 2);
+  const auto sets = decoupled_rows(K, diagonal(301, 0, 0));
+  ASSERT_EQ(sets.size(), 2u);
+  EXPECT_EQ(all_of(sets[0]), members(0, 2, 301));  // the longer one
+  EXPECT_EQ(all_of(sets[1]), members(1, 2, 301));
+}
+
+TEST(DecoupledRows, AreNoneWhereOneEntryOfTheMassCouplesTheChains)
+{
+  const petsc::Matrix K = chains(301, 2);
+  EXPECT_TRUE(decoupled_rows(K, diagonal(301, 0, 299)).empty());
+  EXPECT_TRUE(decoupled_rows(K, diagonal(301, 7, 8)).empty());
+}
+
+TEST(DecoupledRows, AreUnitedWhereTheyAreSmall)
+{
+  EXPECT_TRUE(decoupled_rows(diagonal(300, 0, 0), diagonal(300, 0, 0)).empty());
+  EXPECT_TRUE(decoupled_rows(chains(300, 40), diagonal(300, 0, 0)).empty());
+}
+
+TEST(DecoupledRows, LeaveWhatIsSmallForTheLastSet)
+{
+  const petsc::Matrix K = testing::matrix(301, 5, [&](PetscInt i) {
+    testing::Row row{{i, 4.1}};
+    if (i % 50 == 17) return row;  // alone
+    const auto join = [&](PetscInt j) {
+      if (j >= 0 && j < 301 && j % 50 != 17) row.emplace_back(j, -1.0);
+    };
+    join(i - 2);
+    join(i + 2);
+    join(i - 4);
+    join(i + 4);
+    return row;
+  });
+  const auto sets = decoupled_rows(K, diagonal(301, 0, 0));
+  ASSERT_EQ(sets.size(), 3u);
+  EXPECT_EQ(all_of(sets[0]), members(0, 2, 301));
+  EXPECT_EQ(all_of(sets[2]), members(17, 50, 301));
+}
+
+TEST(DecoupledRows, BelongTogetherWhereARankHasAlmostNothingOfASet)
+{
+  const petsc::Matrix K = testing::matrix(300, 3, [](PetscInt i) {  // halves, one after the other
+    testing::Row row{{i, 2.1}};
+    if (i % 150 > 0) row.emplace_back(i - 1, -1.0);
+    if (i % 150 < 149) row.emplace_back(i + 1, -1.0);
+    return row;
+  });
+  const bool is_alone = petsc::size(PETSC_COMM_WORLD) == 1;
+  const auto sets = decoupled_rows(K, diagonal(300, 0, 0));
+  EXPECT_TRUE(!is_alone || sets.size() == 2) << sets.size();
+  // Of two ranks each has a half: by themselves they would have one wait for the other.
+  for (const petsc::IndexSet& set : sets) {
+    PetscInt n = 0, n_local = 0;
+    petsc::check(ISGetSize(set, &n));
+    petsc::check(ISGetLocalSize(set, &n_local));
+    EXPECT_LE(2 * n_local * petsc::size(PETSC_COMM_WORLD), 3 * n);
+  }
+}
+
+/// Columns of which each has entries in one chain of three only, but every fifth in all of them.
+petsc::Matrix columns_of_chains(Mat A, PetscInt n_columns)
+{
+  petsc::Matrix X = uninitialized_dense(A, n_columns);
+  petsc::check(MatZeroEntries(X));
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < n_columns; ++j)
+      if (j % 5 == 0 || i % 3 == j % 3)
+        petsc::check(MatSetValue(X, i, j, 1.0 / (1.0 + i % 17 + 3.0 * j), INSERT_VALUES));
+  testing::finish(X);
+  return X;
+}
+
+TEST(PartedForm, IsThatOfTheWhole)
+{
+  const petsc::Matrix A = chains(301, 3);
+  ASSERT_EQ(decoupled_rows(A, A).size(), 3u);
+  const petsc::Matrix X = columns_of_chains(A, 80), Y = columns_of_chains(A, 70);
+  petsc::Matrix AX = uninitialized_dense(A, 80), AY = uninitialized_dense(A, 70);
+  SparseProduct(A).apply(X, AX);
+  SparseProduct(A).apply(Y, AY);
+  const Eigen::MatrixXd of_both = inner_product(X, AY), of_one = inner_product(X, AX);
+  EXPECT_LT((parted_form(X, A, Y) - of_both).norm(), 1e-14 * of_both.norm());
+  EXPECT_LT((parted_form(X, A) - of_one).norm(), 1e-14 * of_one.norm());
+  EXPECT_EQ(parted_form(X, A), Eigen::MatrixXd(parted_form(X, A).transpose()));
+}
+
+TEST(PartSolver, SolvesForThePartAsTheWholeDoes)
+{
+  const PetscInt n = 301, n_columns = 11;
+  const petsc::Matrix K = chains(n, 3);
+  const Factorization factorization(K);
+  ASSERT_TRUE(solves_for_parts(factorization.factor()));
+  const auto sets = decoupled_rows(K, diagonal(n, 0, 0));
+  ASSERT_EQ(sets.size(), 3u);
+  petsc::Matrix X = uninitialized_dense(K, n_columns);
+  const auto fill = [](Mat B, IS rows) {
+    const std::vector<PetscInt> all = all_of(rows);
+    PetscInt first = 0, last = 0;
+    petsc::check(MatGetOwnershipRange(B, &first, &last));
+    for (PetscInt i = first; i < last; ++i)
+      for (PetscInt j = 0; j < 11; ++j)
+        petsc::check(MatSetValue(B, i, j, 1.0 / (1.0 + all[i] + 3.0 * j), INSERT_VALUES));
+    testing::finish(B);
+  };
+  petsc::IndexSet every_row;
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  petsc::check(ISCreateStride(PETSC_COMM_WORLD, last - first, first, 1, every_row.put()));
+  fill(X, every_row);
+  petsc::check(MatMatSolve(factorization.factor(), X, X));
+  const LocalRows whole(X);
+  for (const petsc::IndexSet& set : sets) {
+    petsc::Matrix K_part;
+    petsc::check(MatCreateSubMatrix(K, set, set, MAT_INITIAL_MATRIX, K_part.put()));
+    petsc::Matrix B = uninitialized_dense(K_part, n_columns),
+                  Y = uninitialized_dense(K_part, n_columns);
+    fill(B, set);
+    part_solver(factorization.factor(), set)(B, Y);
+    const LocalRows part(Y);
+    const PetscInt* rows = nullptr;
+    petsc::check(ISGetIndices(set, &rows));
+    for (PetscInt i = 0; i < part.n_rows(); ++i)
+      for (PetscInt j = 0; j < n_columns; ++j)
+        EXPECT_NEAR(part(i, j), whole(rows[i] - first, j), 1e-14) << rows[i] << ", " << j;
+    petsc::check(ISRestoreIndices(set, &rows));
+  }
+}
+
+TEST(PartSolver, RefusesRowsThatOthersAreCoupledTo)
+{
+  const petsc::Matrix K = chains(300, 2);
+  const Factorization factorization(K);
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(K, &first, &last));
+  petsc::IndexSet some;
+  petsc::check(ISCreateStride(PETSC_COMM_WORLD, last - first - 2, first, 1, some.put()));
+  EXPECT_THROW(part_solver(factorization.factor(), some), Error);
+}
+
+}  // namespace
+}  // namespace chladni::linear
