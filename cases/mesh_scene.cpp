@@ -51,13 +51,14 @@ void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh)
   scene::check_groups(scene, names);
 }
 
-mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene)
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose)
 {
   mesh::Mesh mesh;
   on_first_rank([&] {
     mesh = mesh_scene(scene);
     for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
     check_groups(scene, mesh);
+    if (choose) mesh = choose(std::move(mesh));
   });
   return broadcast(mesh);
 }
