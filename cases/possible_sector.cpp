@@ -8,6 +8,7 @@
 #include "cases/mesh_scene.hpp"
 #include "common/error.hpp"
 #include "mesh/repetition.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cases {
 
@@ -52,7 +53,7 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
     sector.reset();
     found = fmt::format("{}; the whole body is reduced", error.what());
   }
-  fmt::print(stderr, "note: {}\n", found);
+  report::tell_note(found);
   return sector;
 }
 
