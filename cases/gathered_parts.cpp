@@ -117,13 +117,13 @@ std::vector<char> received(int from)
 
 }  // namespace
 
-std::vector<HarmonicPart> gathered(const std::vector<HarmonicPart>& own)
+std::vector<HarmonicPart> gathered(std::vector<HarmonicPart> own)
 {
   if (rank() > 0) {
     send(packed(own));
     return {};
   }
-  std::vector<HarmonicPart> parts = own;
+  std::vector<HarmonicPart> parts = std::move(own);
   for (int from = 1; from < n_ranks(); ++from) unpack(received(from), parts);
   std::ranges::sort(parts, {}, &HarmonicPart::order);
   return parts;

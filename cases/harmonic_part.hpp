@@ -25,7 +25,7 @@ struct HarmonicPart {
 
 /// The parts of all ranks, by order, on the first rank; none on the others.
 /// @note   Collective on all ranks.
-std::vector<HarmonicPart> gathered(const std::vector<HarmonicPart>& own);
+std::vector<HarmonicPart> gathered(std::vector<HarmonicPart> own);
 
 /// Where the rows of each part stand in the whole: its masters, then its modes among all by
 /// frequency.

@@ -1,7 +1,5 @@
 #include "cases/mesh_scene.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "common/petsc.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/packed_mesh.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cases {
 
@@ -51,13 +50,14 @@ void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh)
   scene::check_groups(scene, names);
 }
 
-mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene)
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose)
 {
   mesh::Mesh mesh;
   on_first_rank([&] {
     mesh = mesh_scene(scene);
-    for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : mesh.notes) report::tell_note(note);
     check_groups(scene, mesh);
+    if (choose) mesh = choose(std::move(mesh));
   });
   return broadcast(mesh);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "mesh/mesh.hpp"
 #include "scene/scene.hpp"
 
@@ -12,9 +14,13 @@ mesh::Mesh mesh_scene(const scene::Scene& scene);
 /// @throws chladni::Error naming file, line and key of a group in the scene that the mesh lacks.
 void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh);
 
+/// A part of a mesh, or all of it.
+using ChooseMesh = std::function<mesh::Mesh(mesh::Mesh)>;
+
 /// The mesh of the first rank on all ranks.
+/// @param choose  what of it, on the first rank
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike; also as check_groups.
-mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene);
+mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose = {});
 
 }  // namespace chladni::cases

@@ -11,6 +11,12 @@ namespace chladni::cases {
 /// Rows of the transformation for a list of DOFs, [n x n_FE].
 using RowsOf = std::function<Eigen::MatrixXd(const std::vector<int>& dofs)>;
 
+/// A mesh and its DOFs.
+struct MeshedDofs {
+  const mesh::Mesh& mesh;
+  const plate::DofMap& dofs;
+};
+
 /// Displacement and rotation of nodes for each reduced coordinate: row 6 k + c is component c of
 /// nodes[k]. Dependent nodes follow their reference nodes; components that the model does not have
 /// are zero.

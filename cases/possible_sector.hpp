@@ -2,15 +2,25 @@
 
 #include <optional>
 
+#include "cases/sector_model.hpp"
 #include "mesh/mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cases {
 
 /// With mesh.sectors = "auto": one sector of a body that repeats, if the scene can be reduced from
-/// it. What was found, or why the whole body is taken, is told on stderr.
-/// @param whole  on all ranks
-/// @return the same on all ranks
-std::optional<mesh::Mesh> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole);
+/// it, assembled. What was found, or why the whole body is taken, is told on stderr.
+std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole);
+
+/// What is reduced.
+struct MeshedScene {
+  mesh::Mesh mesh;                    ///< of the whole body or of a sector
+  std::optional<SectorModel> sector;  ///< on the first rank where it has been assembled already
+};
+
+/// The mesh of the scene, made by the first rank, which looks for sectors too.
+/// @note   Collective on all ranks.
+/// @throws chladni::Error on all ranks alike.
+MeshedScene meshed_scene(const scene::Scene& scene);
 
 }  // namespace chladni::cases

@@ -7,7 +7,6 @@
 
 #include "cases/enrich_scene.hpp"
 #include "cases/mass_integrals.hpp"
-#include "cases/mesh_scene.hpp"
 #include "cases/picture.hpp"
 #include "cases/possible_sector.hpp"
 #include "cases/ranks.hpp"
@@ -217,7 +216,8 @@ SceneReduction with_what_bodies_need(const scene::Scene& scene, const FeModel& f
       make_picture(picture_nodes(fe.mesh, scene.pictures), fe.system.dofs, rows);
   if (!scene.resultants.groups.empty()) {
     phases.begin("section forces");
-    reduced.system.resultants = section_forces(scene.resultants, structure_of(scene), fe, rows);
+    reduced.system.resultants = section_forces(scene.resultants, structure_of(scene),
+                                               {.mesh = fe.mesh, .dofs = fe.system.dofs}, rows);
   }
   phases.end();
   return reduced;
@@ -265,16 +265,15 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
   }
   Phases phases(progress);
   phases.begin("mesh");
-  mesh::Mesh mesh = mesh_on_all_ranks(scene);
-  if (std::optional<mesh::Mesh> sector = possible_sector(scene, mesh)) mesh = std::move(*sector);
-  if (mesh.sectors.count > 1) {
-    const mbs_export::Provenance from = provenance(scene, solvers, mesh);
-    ReduceSummary summary = reduce_sectors(scene, std::move(mesh), solvers.options, phases);
+  MeshedScene meshed = meshed_scene(scene);
+  if (meshed.mesh.sectors.count > 1) {
+    const mbs_export::Provenance from = provenance(scene, solvers, meshed.mesh);
+    ReduceSummary summary = reduce_sectors(scene, std::move(meshed), solvers.options, phases);
     summary.reduced.provenance = from;
     return summary;
   }
   phases.begin("assembly");
-  FeModel fe = assemble_scene(scene, std::move(mesh));
+  FeModel fe = assemble_scene(scene, std::move(meshed.mesh));
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
   mbs_export::ReducedSystem& system = reduced.system;

@@ -11,6 +11,7 @@
 #include "cases/harmonic_options.hpp"
 #include "cases/harmonic_part.hpp"
 #include "cases/ranks.hpp"
+#include "cases/sector_forces.hpp"
 #include "cases/sector_integrals.hpp"
 #include "common/all_ranks.hpp"
 #include "common/error.hpp"
@@ -60,8 +61,11 @@ std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
 {
   const plate::DofMap& dofs = model.system.dofs;
   Eigen::MatrixX3d positions(model.dofs.n_blocks, 3);
-  for (int node = 0; node < dofs.n_nodes(); ++node)
-    if (!dofs.is_dependent(node)) positions.row(dofs.number(node)) = dofs.position(node);
+  // A mean has no block of its own: its DOFs stand in those of its group.
+  for (int node = 0; node < dofs.n_nodes(); ++node) {
+    if (!dofs.is_dependent(node) && dofs.number(node) >= 0)
+      positions.row(dofs.number(node)) = dofs.position(node);
+  }
   return cyclic::find_mirror(model.dofs, positions, {&matrices.K, &matrices.M, &matrices.C});
 }
 
@@ -156,9 +160,11 @@ std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
 {
   return on_all_ranks(PETSC_COMM_WORLD, [&] {
     std::vector<HarmonicPart> parts;
-    for (const int order : own_harmonics(model.dofs.count)) {
+    const std::vector<int> orders = own_harmonics(model.dofs.count);
+    for (const int order : orders) {
       FactorTime phases;
       try {
+        const linear::ListenToProgress to_no_step({});  // a harmonic is a step of the whole
         const cyclic::HarmonicModel harmonic =
             cyclic::reduce_harmonic(matrices, cyclic::harmonic_coordinates(model.dofs, order),
                                     options, support.is_held, phases);
@@ -168,50 +174,61 @@ std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
             fmt::format("harmonic {} of {} sectors: {}", order, model.dofs.count, error.what()));
       }
       parts.back().factor_s = phases.seconds();
+      linear::report_progress(double(parts.size()) / double(orders.size()));
     }
     return parts;
   });
 }
 
-}  // namespace
+/// What the file of the whole body is made of, besides the parts.
+struct Described {
+  mbs_export::ReducedSystem system;  ///< `described_whole`
+  std::vector<std::string> fixed;    ///< the support of the certificates
+  double lambda_max;                 ///< up to which each harmonic is certified, rad^2/s^2
+  PictureNodes chosen;
+};
 
-ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
-                             const linear::SolverOptions& solver, Phases& phases)
+double certified_up_to(const reduce::ReduceOptions& wanted)
 {
-  phases.begin("assembly");
-  SectorModel model =
-      on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_model(scene, std::move(mesh)); });
-  const mbs_export::ReducedSystem described = described_whole(scene, model);
-  const SectorSupport support = sector_support(scene, model);
-  const cyclic::SectorMatrices matrices = matrices_of(model);
-  model.dofs.mirror = mirror_of(model, matrices);
-  phases.begin("choice of modes");
-  const reduce::ReductionOptions options = harmonic_options(scene, model, matrices, solver);
-  const PictureNodes chosen = picture_nodes(model.mesh, scene.pictures);
-  phases.begin("harmonics");
-  const std::vector<HarmonicPart> own =
-      reduced_harmonics(model, matrices, options, described, support, chosen, scene.mass_integrals);
+  double f_Hz = wanted.certified_up_to_Hz.value_or(std::numeric_limits<double>::infinity());
+  if (wanted.tolerance) f_Hz = wanted.tolerance->up_to_Hz;
+  return std::pow(2.0 * std::numbers::pi * f_Hz, 2);
+}
+
+/// All that the file has, on the first rank; the parts give back what no later step wants.
+/// @note   Collective on all ranks: they have the same phases.
+mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorModel& model,
+                                     std::vector<HarmonicPart>& parts, const Described& described,
+                                     Phases& phases)
+{
+  const Index n_m = described.system.n_masters();
+  mbs_export::ReducedSystem whole;
   phases.begin("whole body");
-  const std::vector<HarmonicPart> parts = gathered(own);
-  phases.end();
-  ReduceSummary summary{};
-  summary.choice.method = options.basis.method;
-  summary.n_masters = static_cast<int>(described.masters.size());
-  if (rank() == 0) {
-    double lambda_max = std::numeric_limits<double>::infinity();
-    if (options.basis.certified_up_to_Hz)
-      lambda_max = std::pow(2.0 * std::numbers::pi * *options.basis.certified_up_to_Hz, 2);
-    if (options.basis.tolerance)
-      lambda_max = std::pow(2.0 * std::numbers::pi * options.basis.tolerance->up_to_Hz, 2);
-    const Index n_m = described.n_masters();
-    summary.reduced = unfolded(described, model, parts, support.names, lambda_max);
-    if (scene.mass_integrals) {
-      summary.reduced.mass_integrals =
-          sector_integrals(scene, model, parts, summary.reduced.M, n_m);
-    }
-    if (!chosen.nodes.empty())
-      summary.reduced.picture = unfolded_picture(chosen, model, parts, n_m);
+  on_first_rank([&] {
+    whole = unfolded(described.system, model, parts, described.fixed, described.lambda_max);
+  });
+  if (scene.mass_integrals) {
+    phases.begin("mass integrals");
+    on_first_rank(
+        [&] { whole.mass_integrals = sector_integrals(scene, model, parts, whole.M, n_m); });
   }
+  if (!scene.resultants.groups.empty()) {
+    phases.begin("section forces");
+    on_first_rank(
+        [&] { whole.resultants = sector_forces(scene, model, parts, whole.M.rows(), n_m); });
+  }
+  for (HarmonicPart& part : parts) part.sector = {};
+  if (!described.chosen.nodes.empty()) {
+    phases.begin("pictures");
+    on_first_rank([&] { whole.picture = unfolded_picture(described.chosen, model, parts, n_m); });
+  }
+  phases.end();
+  return whole;
+}
+
+ReduceSummary summary_of(const SectorModel& model, const std::vector<HarmonicPart>& parts)
+{
+  ReduceSummary summary{};
   for (const HarmonicPart& part : parts) {
     summary.n_dofs += part.n_coordinates;
     summary.n_modes += static_cast<int>(part.omega.size());
@@ -222,6 +239,35 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
   summary.n_nodes = std::int64_t{model.mesh.sectors.count} *
                     (model.mesh.n_nodes() - std::ssize(model.mesh.sectors.pairs));
   summary.factorization.name = "factorization";
+  return summary;
+}
+
+}  // namespace
+
+ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
+                             const linear::SolverOptions& solver, Phases& phases)
+{
+  phases.begin("assembly");
+  SectorModel model = on_all_ranks(PETSC_COMM_WORLD, [&] {
+    return meshed.sector ? std::move(*meshed.sector) : sector_model(scene, std::move(meshed.mesh));
+  });
+  SectorSupport support = sector_support(scene, model);
+  const cyclic::SectorMatrices matrices = matrices_of(model);
+  model.dofs.mirror = mirror_of(model, matrices);
+  phases.begin("modes of harmonics");
+  const reduce::ReductionOptions options = harmonic_options(scene, model, matrices, solver);
+  const Described described{.system = described_whole(scene, model),
+                            .fixed = std::move(support.names),
+                            .lambda_max = certified_up_to(options.basis),
+                            .chosen = picture_nodes(model.mesh, scene.pictures)};
+  phases.begin("harmonics");
+  std::vector<HarmonicPart> parts = gathered(
+      reduced_harmonics(model, matrices, options, described.system, support, described.chosen,
+                        scene.mass_integrals || !scene.resultants.groups.empty()));
+  ReduceSummary summary = summary_of(model, parts);
+  summary.choice.method = options.basis.method;
+  summary.n_masters = static_cast<int>(described.system.masters.size());
+  summary.reduced = whole_body(scene, model, parts, described, phases);
   summary.phases = phases.times();
   return summary;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "cases/possible_sector.hpp"
 #include "cases/reduce_scene.hpp"
-#include "mesh/mesh.hpp"
 
 namespace chladni::cases {
 
@@ -10,7 +10,7 @@ namespace chladni::cases {
 /// the axis and the harmonics of rings, its modes come in exact pairs.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike, for what sectors cannot do yet too.
-ReduceSummary reduce_sectors(const scene::Scene& scene, mesh::Mesh mesh,
+ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
                              const linear::SolverOptions& solver, Phases& phases);
 
 }  // namespace chladni::cases

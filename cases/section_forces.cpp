@@ -39,9 +39,9 @@ void add_points(ResultantModes& forces, const ChosenElement& line, const plate::
 }
 
 ResultantModes beam_section_forces(const Chosen& chosen, const plate::BeamSection& section,
-                                   const FeModel& fe, const RowsOf& rows_of)
+                                   const MeshedDofs& fe, const RowsOf& rows_of)
 {
-  const MatrixXd u = node_rows(chosen.nodes, fe.system.dofs, rows_of);
+  const MatrixXd u = node_rows(chosen.nodes, fe.dofs, rows_of);
   const Index n_points = chosen.n_points;
   ResultantModes forces{.name = chosen.group,
                         .kinds = {"N", "Q_y", "Q_z", "M_x", "M_y", "M_z"},
@@ -84,7 +84,7 @@ void drop_silent_kinds(ResultantModes& forces)
 }
 
 std::vector<ResultantModes> section_forces(const scene::ResultantChoice& choice,
-                                           const plate::Structure& structure, const FeModel& fe,
+                                           const plate::Structure& structure, const MeshedDofs& fe,
                                            const RowsOf& rows_of)
 {
   std::vector<ResultantModes> forces;

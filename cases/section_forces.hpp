@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "cases/node_rows.hpp"
-#include "cases/reduce_steps.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "plate/assembly/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace chladni::cases {
 
@@ -16,6 +17,6 @@ namespace chladni::cases {
 /// @throws chladni::Error for a group without section, or without any of the chosen elements.
 std::vector<mbs_export::ResultantModes> section_forces(const scene::ResultantChoice& choice,
                                                        const plate::Structure& structure,
-                                                       const FeModel& fe, const RowsOf& rows_of);
+                                                       const MeshedDofs& fe, const RowsOf& rows_of);
 
 }  // namespace chladni::cases

@@ -1,12 +1,13 @@
 #include "cases/sector_integrals.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/KroneckerProduct>
 
 #include "cases/reduce_steps.hpp"
+#include "common/eigen_every.hpp"
 #include "cyclic/sparse_rows.hpp"
+#include "cyclic/turn.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 
@@ -23,9 +24,10 @@ class Turns {
  public:
   explicit Turns(int count) : count_(count)
   {
-    for (int j = 0; j < count; ++j)
-      R_.push_back(Eigen::AngleAxisd(angle(j), Eigen::Vector3d::UnitZ()).toRotationMatrix());
+    for (int j = 0; j < count; ++j) R_.push_back(cyclic::turn_of_sector(j, count));
   }
+
+  int count() const { return count_; }
 
   /// Whether two harmonics have anything in common.
   bool couple(int n, int m) const
@@ -85,33 +87,65 @@ void add_moments(mbs_export::MassIntegrals& whole, const plate::MassMoments& mom
     if (!turns.couple(n, 0)) continue;
     for (const bool of_y : {false, true}) {
       const MatrixXd of_sector = V.transpose() * phase(parts[a], of_y);  // [12 x n of the part]
-      whole.displacement(Eigen::all, places[a]) += turns.first(n, of_y) * of_sector.topRows<3>();
-      whole.position_displacement(Eigen::all, places[a]) +=
+      whole.displacement(every, places[a]) += turns.first(n, of_y) * of_sector.topRows<3>();
+      whole.position_displacement(every, places[a]) +=
           turns.second(n, of_y, 0, false) * of_sector.bottomRows<9>();
     }
   }
 }
 
+/// The rows of a matrix that are not empty, which a motion in one direction has a third of.
+struct MovingRows {
+  std::vector<Index> rows;
+  cyclic::SparseRows S;  ///< these alone
+};
+
+MovingRows moving_rows(const cyclic::SparseRows& S)
+{
+  MovingRows moving;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < S.outerSize(); ++row) {
+    bool is_new = true;
+    for (cyclic::SparseRows::InnerIterator it(S, row); it; ++it) {
+      if (it.value() == 0.0) continue;
+      if (is_new) moving.rows.push_back(row);
+      is_new = false;
+      entries.emplace_back(int(moving.rows.size()) - 1, int(it.index()), it.value());
+    }
+  }
+  moving.S.resize(Index(moving.rows.size()), S.cols());
+  moving.S.setFromTriplets(entries.begin(), entries.end());
+  return moving;
+}
+
+/// The phases that a harmonic has.
+std::vector<bool> phases_of(const HarmonicPart& part, int count)
+{
+  return cyclic::has_one_phase(part.order, count) ? std::vector{false} : std::vector{false, true};
+}
+
 /// Adds what S_pq of the sector is to S_kl of the whole body, and its transpose S_qp.
-void add_products(mbs_export::MassIntegrals& whole, const cyclic::SparseRows& S, int p, int q,
+void add_products(mbs_export::MassIntegrals& whole, const MovingRows& moving, int p, int q,
                   const Turns& turns, const std::vector<HarmonicPart>& parts, const Places& places)
 {
-  const auto add = [&](std::size_t a, std::size_t b, const Matrix9d& sums, int pq,
-                       const MatrixXd& G) {
+  const auto add = [&](std::size_t a, std::size_t b, const Matrix9d& sums, int pq, const auto& G) {
     for (std::size_t i = 0; i < whole.products.size(); ++i) {
       const auto [k, l] = mbs_export::product_axes[i];
       const double factor = sums(3 * k + l, pq);
       if (std::abs(factor) > 1e-12) whole.products[i](places[a], places[b]) += factor * G;
     }
   };
+  const auto of_rows = [&](std::size_t a, bool of_y) -> MatrixXd {
+    return phase(parts[a], of_y)(moving.rows, every);
+  };
   for (std::size_t b = 0; b < parts.size(); ++b) {
-    for (const bool b_of_y : {false, true}) {
-      const MatrixXd S_b = S * phase(parts[b], b_of_y);
+    for (const bool b_of_y : phases_of(parts[b], turns.count())) {
+      const MatrixXd S_b = moving.S * phase(parts[b], b_of_y);
       for (std::size_t a = 0; a < parts.size(); ++a) {
         const int n = parts[a].order, m = parts[b].order;
         if (!turns.couple(n, m)) continue;
-        for (const bool a_of_y : {false, true}) {
-          const MatrixXd G = phase(parts[a], a_of_y).transpose() * S_b;
+        for (const bool a_of_y : phases_of(parts[a], turns.count())) {
+          const MatrixXd G = linear::inner_product(of_rows(a, a_of_y), S_b);
           add(a, b, turns.second(n, a_of_y, m, b_of_y), 3 * p + q, G);
           if (p != q) add(b, a, turns.second(m, b_of_y, n, a_of_y), 3 * q + p, G.transpose());
         }
@@ -143,8 +177,9 @@ mbs_export::MassIntegrals sector_integrals(const scene::Scene& scene, const Sect
   add_moments(whole, plate::mass_moments(mass), turns, count, parts, places);
   for (MatrixXd& S : whole.products) S = MatrixXd::Zero(n, n);
   for (const auto& [p, q] : mbs_export::product_axes) {
-    add_products(whole, cyclic::sparse_rows(plate::displacement_product(mass, p, q)), p, q, turns,
-                 parts, places);
+    if (p == 2 && q == 2) continue;  // a turn about z makes S_zz of it alone, which M tells
+    const petsc::Matrix S = plate::displacement_product(mass, p, q);
+    add_products(whole, moving_rows(cyclic::sparse_rows(S)), p, q, turns, parts, places);
   }
   auto& S = whole.products;
   for (const std::size_t i : {0, 1}) S[i] = 0.5 * (S[i] + S[i].transpose()).eval();

@@ -52,10 +52,6 @@ void refuse_unsupported(const scene::Scene& scene)
     throw Error(fmt::format("sectors: {}; mesh the whole body, or take this out", what));
   };
   refuse_unclosed_components(scene.components);
-  if (std::ranges::count(scene.couplings, plate::CouplingKind::averaging, &plate::Coupling::kind))
-    refuse("averaging couplings are not available for one sector");
-  if (!scene.resultants.groups.empty())
-    refuse("section forces (reduce.resultants) are not available for one sector");
   for (const auto& interface : scene.body.interface_modes)
     if (interface.space == mbs_export::InterfaceModes::Space::full)
       refuse("interface modes with space = \"full\" are not available for one sector");
@@ -120,6 +116,35 @@ SectorPoints sector_points(const scene::Scene& scene, const SectorModel& model)
     for (double& value : spring.damping) value *= share;
   }
   return points;
+}
+
+/// The mean of a group is one of each sector where each sector has a group of its own: the cut
+/// edges, whose nodes two sectors share, have none of it. A mean is no interface node of a sector.
+void check_mean(const scene::Scene& scene, const SectorModel& model,
+                const plate::Coupling& coupling)
+{
+  if (std::ranges::count(scene.interface_nodes, coupling.name) > 0) {
+    throw Error(fmt::format(
+        "sectors: \"{}\" is the mean of a group, which is no interface node of a sector; mesh the "
+        "whole body, or take it out of interface.nodes",
+        coupling.name));
+  }
+  for (const int node : mesh::find_group(model.mesh, coupling.group).nodes) {
+    const bool is_cut = std::ranges::any_of(model.mesh.sectors.pairs, [&](const auto& pair) {
+      return pair[0] == node || pair[1] == node;
+    });
+    if (!is_cut && !is_on_axis(model, node)) continue;
+    throw Error(fmt::format(
+        "sectors: the group of the mean \"{}\" has node {} on a cut edge or on the axis, which "
+        "several sectors share; cut the body elsewhere, or mesh all of it",
+        coupling.name, model.mesh.node_numbers[std::size_t(node)]));
+  }
+}
+
+void check_means(const scene::Scene& scene, const SectorModel& model)
+{
+  for (const plate::Coupling& coupling : scene.couplings)
+    if (coupling.kind == plate::CouplingKind::averaging) check_mean(scene, model, coupling);
 }
 
 /// Nodes of the cut edges have the same motion, or follow the same.
@@ -268,6 +293,7 @@ SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
                     .system = {.K = {}, .M = {}, .C = {}, .dofs = dofs},
                     .dofs = {},
                     .interface = {}};
+  check_means(scene, model);
   const SectorPoints points = sector_points(scene, model);
   plate::Structure structure = structure_of(scene);
   structure.masses = points.masses;

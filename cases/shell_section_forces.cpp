@@ -89,10 +89,10 @@ Index points_of_shell(const mesh::ElementBlock& block)
 }
 
 ResultantModes shell_section_forces(const Chosen& chosen, const plate::ShellSection& section,
-                                    const FeModel& fe, const RowsOf& rows_of)
+                                    const MeshedDofs& fe, const RowsOf& rows_of)
 {
   const plate::NodeVectors normals = plate::mean_normals(fe.mesh);
-  const MatrixXd rows = node_rows(chosen.nodes, fe.system.dofs, rows_of);
+  const MatrixXd rows = node_rows(chosen.nodes, fe.dofs, rows_of);
   ResultantModes forces{.name = chosen.group,
                         .kinds = {"N_x", "N_y", "N_xy", "M_x", "M_y", "M_xy", "Q_x", "Q_y"},
                         .units = {"N/m", "N/m", "N/m", "N", "N", "N", "N/m", "N/m"},

@@ -2,8 +2,8 @@
 
 #include "cases/chosen_elements.hpp"
 #include "cases/node_rows.hpp"
-#include "cases/reduce_steps.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "plate/assembly/assemble.hpp"
 
 namespace chladni::cases {
 
@@ -14,7 +14,7 @@ namespace chladni::cases {
 /// @note   Collective, as rows_of.
 mbs_export::ResultantModes shell_section_forces(const Chosen& chosen,
                                                 const plate::ShellSection& section,
-                                                const FeModel& fe, const RowsOf& rows_of);
+                                                const MeshedDofs& fe, const RowsOf& rows_of);
 
 /// How many such points a shell has; none for a line.
 Eigen::Index points_of_shell(const mesh::ElementBlock& block);

@@ -1,21 +1,14 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cases/attachments.hpp"
 #include "cases/sector_model.hpp"
+#include "cyclic/turn.hpp"
 
 namespace chladni::cases {
 
 namespace {
-
-using Eigen::Vector3d;
-
-Eigen::Matrix3d turn(double angle)
-{
-  return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
-}
 
 /// The nodes of a ring all around, by angle; the first one is the first of the sector.
 struct WholeRing {
@@ -37,7 +30,7 @@ void add_shapes(Eigen::MatrixXd& F, const WholeRing& whole, const cyclic::Ring& 
       const double phase = d * (whole.angles[i] - (is_highest ? ring.first_angle : 0.0));
       const double value = length * (master.harmonic->is_sine ? std::sin(phase) : std::cos(phase));
       F.block<3, 1>(6 * whole.nodes[i] + 3 * (master.component / 3), column) =
-          value * turn(whole.angles[i]).col(master.component % 3);
+          value * cyclic::turn(whole.angles[i]).col(master.component % 3);
     }
   }
 }
@@ -46,7 +39,7 @@ int add_attachment(mbs_export::ReducedSystem& whole, const SectorModel& model,
                    const SectorNode& node, int sector)
 {
   const std::int64_t n_numbers = model.mesh.node_numbers.back() + model.system.dofs.n_nodes();
-  const Eigen::Matrix3d R = turn(2.0 * std::numbers::pi * sector / model.mesh.sectors.count);
+  const Eigen::Matrix3d R = cyclic::turn_of_sector(sector, model.mesh.sectors.count);
   whole.attachment_nodes.push_back(
       {.number = node_number(model.mesh, model.system.dofs, node.node) + sector * n_numbers,
        .position = R * model.system.dofs.position(node.node),

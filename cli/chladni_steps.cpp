@@ -90,6 +90,14 @@ std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
   return stages;
 }
 
+/// The phases of a reduction from one sector.
+std::vector<report::Stage> stages_of_sectors()
+{
+  return {{"mesh", 2.0},       {"assembly", 4.0},   {"modes of harmonics", 14.0},
+          {"harmonics", 60.0}, {"whole body", 2.0}, {"mass integrals", 16.0},
+          {"pictures", 2.0}};
+}
+
 }  // namespace
 
 cases::ReduceProgress progress_bar(std::vector<report::Stage> stages)
@@ -108,7 +116,12 @@ cases::ReduceProgress progress_bar(std::vector<report::Stage> stages)
 
 cases::ReduceProgress line_of_progress(const scene::Scene& scene)
 {
-  return progress_bar(stages_of(scene.reduce));
+  const cases::ReduceProgress whole = progress_bar(stages_of(scene.reduce)),
+                              sectors = progress_bar(stages_of_sectors());
+  return [whole, sectors, found = false](const std::string& phase, double fraction) mutable {
+    found = found || phase == "modes of harmonics";
+    (found ? sectors : whole)(phase, fraction);
+  };
 }
 
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,

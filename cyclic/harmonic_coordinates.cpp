@@ -1,12 +1,12 @@
 #include "cyclic/harmonic_coordinates.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "cyclic/mirror.hpp"
+#include "cyclic/turn.hpp"
 
 namespace chladni::cyclic {
 
@@ -14,12 +14,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// Of the turn by an angle, for displacements and rotations alike.
-Matrix3d turn(double angle)
-{
-  return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
 
 int order_of(int place)
 {
@@ -125,7 +119,7 @@ class Builder {
   void add_follower(int first, int block)
   {
     const int n = n_components();
-    const Matrix3d R = turn(2.0 * std::numbers::pi / sector_.count);
+    const Matrix3d R = turn_of_sector(1, sector_.count);
     const double c = std::cos(mu_), s = one_phase_ ? 0.0 : std::sin(mu_);
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
@@ -243,24 +237,6 @@ class Builder {
 HarmonicCoordinates harmonic_coordinates(const SectorDofs& sector, int order)
 {
   return Builder(sector, order).build();
-}
-
-SparseRows harmonic_form(const SparseRows& A, const HarmonicCoordinates& c)
-{
-  constexpr double round_off = 1e-14;
-  const SparseRows AX = A * c.X;
-  SparseRows sum = SparseRows(c.X.transpose()) * AX;
-  if (c.Y.nonZeros() > 0) {
-    const SparseRows AY = A * c.Y;
-    sum += SparseRows(SparseRows(c.Y.transpose()) * AY);
-  }
-  SparseRows form = 0.5 * c.weight * (sum + SparseRows(sum.transpose()));
-  const Eigen::VectorXd scale = Eigen::VectorXd(form.diagonal()).cwiseAbs().cwiseSqrt();
-  form.prune([&](Eigen::Index i, Eigen::Index j, double value) {
-    return i == j || std::abs(value) > round_off * scale[i] * scale[j];
-  });
-  form.makeCompressed();
-  return form;
 }
 
 SparseRows times_quarter_turn(const SparseRows& A, const HarmonicCoordinates& c)

@@ -58,8 +58,9 @@ struct SectorMotion {
 /// Source: Thomas, Int. J. Numer. Methods Eng. 14 (1979) 81.
 HarmonicCoordinates harmonic_coordinates(const SectorDofs& sector, int order);
 
-/// A form of the whole body in the coordinates, weight (X^T A X + Y^T A Y); symmetric to the last
-/// bit if A is symmetric. What is below 1e-14 of its diagonals is round-off and no entry.
+/// A form of the whole body in the coordinates, weight (X^T A X + Y^T A Y), symmetric to the last
+/// bit. What is below 1e-14 of its diagonals is round-off and no entry.
+/// @param A  symmetric
 SparseRows harmonic_form(const SparseRows& A, const HarmonicCoordinates& c);
 
 /// A J

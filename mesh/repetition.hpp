@@ -10,7 +10,8 @@ namespace chladni::mesh {
 int n_repetitions(const Mesh& mesh);
 
 /// One of the equal sectors of a mesh that repeats so often: of each element and its turned copies
-/// the one with the least angle from the x axis on. The cut follows the sides of elements.
+/// the one with the least angle from the x axis on, or from a plane on that makes the sector its
+/// own image. The cut follows the sides of elements.
 /// @param count  that many at least: `n_repetitions`, or a divisor of it
 Mesh one_sector(const Mesh& mesh, int count);
 

@@ -184,7 +184,8 @@ VelocityForces checked_velocity_forces(Mat C, Mat like)
   return {.C = std::move(aij), .is_symmetric = skew == 0};
 }
 
-void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters)
+void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters,
+                       const NameOfRow& name_of_row)
 {
   const std::vector<double> stiffness = scan(K, "K").row_sums, mass = scan(M, "M").row_sums;
   PetscInt first = 0, n_empty = 0;
@@ -202,10 +203,10 @@ void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters)
   std::optional<std::string> complaint;
   if (named) {
     complaint = fmt::format(
-        "CMSSetUp: row {} of K is empty (empty rows: {}): nothing resists this DOF, as the "
+        "CMSSetUp: {} is empty (empty rows: {}): nothing resists this DOF, as the "
         "rotation about the normal of a flat shell (drilling); leave such rows out, or give them "
         "a stiffness on the diagonal",
-        *named, n_empty);
+        name_of_row ? name_of_row(*named) : fmt::format("row {} of K", *named), n_empty);
   }
   agree_on(complaint, comm);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,15 @@ struct VelocityForces {
 /// @note   Collective.
 VelocityForces checked_velocity_forces(Mat C, Mat like);
 
+/// "row 17 of K", as the user knows it.
+using NameOfRow = std::function<std::string(PetscInt)>;
+
 /// @param masters  global rows, ascending, the same on every rank
+/// @param name_of_row  where rows are not those of the user's K
 /// @note   Collective.
 /// @throws chladni::Error on all ranks, naming the row, when a slave has no stiffness at all or a
 /// master has neither stiffness nor mass.
-void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters);
+void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters,
+                       const NameOfRow& name_of_row = {});
 
 }  // namespace chladni::plugin

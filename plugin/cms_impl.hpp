@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "linear/progress.hpp"
-#include "plugin/check_operators.hpp"
-#include "plugin/chladni_cms.h"
+#include "plugin/chladni_cms_cyclic.h"
+#include "plugin/harmonic_problem.hpp"
 #include "reduce/reduction.hpp"
 
 /// Inside of the PETSc class CMS; nothing of it crosses the C header.
@@ -33,8 +33,8 @@ struct Result {
   reduce::Reduction reduction;
   std::vector<PetscReal> f_Hz;  ///< [k] of the certified modes
   CMSQuality quality;
-  petsc::Matrix K_r = {}, M_r = {}, C_r = {},
-                T = {};  ///< made when asked for; C_r only with damping
+  /// Made when asked for; C_r only with damping, T_y only of a harmonic with two phases.
+  petsc::Matrix K_r = {}, M_r = {}, C_r = {}, T = {}, T_y = {};
 };
 
 /// What the user has said.
@@ -52,13 +52,17 @@ struct Inside {
   petsc::Matrix K, M, C;                    ///< as given
   petsc::IndexSet interface, held, output;  ///< as given
   std::vector<MasterPlace> geometry;        ///< of this rank's part of the interface, or empty
+  std::optional<Sectors> sectors;           ///< as given
+  PetscInt harmonic = 0;
   Settings settings;
+  std::optional<HarmonicProblem> problem;  ///< of sectors
   std::optional<SetUp> set_up;
   std::optional<Result> result;
 };
 
 struct Events {
-  PetscLogEvent set_up, check, solve, factor, constraint, modes, project, errors, count, view;
+  PetscLogEvent set_up, check, harmonic, solve, factor, constraint, modes, project, errors, count,
+      view;
   PetscLogStage stage_set_up, stage_solve;
 };
 extern Events events;
@@ -115,10 +119,14 @@ linear::OptionSource option_source(CMS cms);
 
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
 SetUp make_set_up(CMS cms);
+/// The harmonic of the sectors, made where there is none.
+HarmonicProblem& made_problem(CMS cms);
 Result make_result(CMS cms);
 /// What CMSSetHeld was given, the same on every rank.
 /// @note   Collective.
 std::vector<PetscInt> held_masters(const Inside& inside);
+/// T, of a harmonic also T_y, with the rows asked for.
+void make_transformation(Inside& in);
 /// T^T C T; masters ascending by DOF. Symmetric where C is.
 Eigen::MatrixXd reduced_velocity_forces(const Inside& in);
 void write_file(CMS cms, const std::string& path);

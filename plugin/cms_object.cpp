@@ -23,11 +23,12 @@ struct NamedEvent {
 };
 
 constexpr std::array named_events{
-    NamedEvent{&Events::set_up, "CMSSetUp"},          NamedEvent{&Events::check, "CMSCheck"},
-    NamedEvent{&Events::solve, "CMSSolve"},           NamedEvent{&Events::factor, "CMSFactor"},
-    NamedEvent{&Events::constraint, "CMSConstraint"}, NamedEvent{&Events::modes, "CMSModes"},
-    NamedEvent{&Events::project, "CMSProject"},       NamedEvent{&Events::errors, "CMSErrors"},
-    NamedEvent{&Events::count, "CMSSylvester"},       NamedEvent{&Events::view, "CMSWrite"},
+    NamedEvent{&Events::set_up, "CMSSetUp"},      NamedEvent{&Events::check, "CMSCheck"},
+    NamedEvent{&Events::harmonic, "CMSHarmonic"}, NamedEvent{&Events::solve, "CMSSolve"},
+    NamedEvent{&Events::factor, "CMSFactor"},     NamedEvent{&Events::constraint, "CMSConstraint"},
+    NamedEvent{&Events::modes, "CMSModes"},       NamedEvent{&Events::project, "CMSProject"},
+    NamedEvent{&Events::errors, "CMSErrors"},     NamedEvent{&Events::count, "CMSSylvester"},
+    NamedEvent{&Events::view, "CMSWrite"},
 };
 
 /// After PetscFinalize a second PetscInitialize begins anew.
@@ -94,6 +95,7 @@ PetscErrorCode CMSReset(CMS cms)
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   cms->inside->result.reset();
   cms->inside->set_up.reset();
+  cms->inside->problem.reset();
   PetscFunctionReturn(0);
 }
 
@@ -196,7 +198,10 @@ PetscErrorCode CMSSetOutput(CMS cms, IS rows)
   if (rows) PetscValidHeaderSpecific(rows, IS_CLASSID, 2);
   PetscCall(guarded((PetscObject)cms, __func__, [&] {
     cms->inside->output = reference<petsc::IndexSet>(rows);
-    if (cms->inside->result) cms->inside->result->T = {};
+    if (auto& result = cms->inside->result) {
+      result->T = {};
+      result->T_y = {};
+    }
   }));
   PetscFunctionReturn(0);
 }

@@ -96,21 +96,26 @@ petsc::Matrix whole_transformation(const reduce::FactoredBody& body,
   return T;
 }
 
+/// The rows of `output` of all ranks.
+std::vector<PetscInt> checked_output(const Inside& in)
+{
+  std::vector<PetscInt> rows = all_indices(in.output);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(in.K, &n, nullptr));
+  for (const PetscInt row : rows) {
+    if (row < 0 || row >= n) {
+      throw Error(
+          fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", row, n - 1));
+    }
+  }
+  return rows;
+}
+
 /// The rows of `output`, each rank those of its part.
 petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
 {
   const MPI_Comm comm = petsc::communicator(in.set_up->body.K);
-  petsc::IndexSet gathered;
-  petsc::check(ISAllGather(in.output, gathered.put()));
-  const std::vector<PetscInt> dofs = own_indices(gathered);
-  PetscInt n = 0;
-  petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
-  for (const PetscInt dof : dofs) {
-    if (dof < 0 || dof >= n) {
-      throw Error(
-          fmt::format("CMSSetOutput: row {} is out of range; rows are 0 to {}", dof, n - 1));
-    }
-  }
+  const std::vector<PetscInt> dofs = checked_output(in);
   const Eigen::MatrixXd rows =
       reduce::basis_rows(in.result->reduction.Q_CB, in.set_up->body.dofs, dofs);
   const std::vector<PetscInt> own = own_indices(in.output);
@@ -123,6 +128,23 @@ petsc::Matrix chosen_rows(const Inside& in, const std::vector<int>& places)
     for (std::size_t i = 0; i < own.size(); ++i)
       values[i + j * own.size()] = rows(first + static_cast<PetscInt>(i), places[j]);
   petsc::check(MatDenseRestoreArray(T, &values));
+  return T;
+}
+
+/// The rows asked for of a phase of a harmonic.
+petsc::Matrix phase_transformation(const Inside& in, Mat phase, Mat T_harmonic)
+{
+  petsc::Matrix chosen, T;
+  if (in.output) {
+    PetscInt first = 0, n = 0;
+    petsc::check(MatGetOwnershipRangeColumn(phase, &first, nullptr));
+    petsc::check(MatGetLocalSize(phase, nullptr, &n));
+    petsc::IndexSet all;
+    petsc::check(ISCreateStride(petsc::communicator(phase), n, first, 1, all.put()));
+    petsc::check(MatCreateSubMatrix(phase, in.output, all, MAT_INITIAL_MATRIX, chosen.put()));
+  }
+  petsc::check(MatMatMult(chosen ? static_cast<Mat>(chosen) : phase, T_harmonic, MAT_INITIAL_MATRIX,
+                          petsc::automatic, T.put()));
   return T;
 }
 
@@ -143,6 +165,26 @@ void make_reduced_operators(Inside& in)
 }
 
 }  // namespace
+
+void make_transformation(Inside& in)
+{
+  Result& result = *in.result;
+  if (result.T) return;
+  const std::vector<int> places = places_of(in);
+  if (in.output && !in.problem) {
+    result.T = chosen_rows(in, places);
+    return;
+  }
+  petsc::Matrix whole = whole_transformation(in.set_up->body, result.reduction.Q_CB, places);
+  if (!in.problem) {
+    result.T = std::move(whole);
+    return;
+  }
+  const cyclic::SectorHarmonic& harmonic = in.problem->harmonic;
+  if (in.output) static_cast<void>(checked_output(in));
+  if (harmonic.Y) result.T_y = phase_transformation(in, harmonic.Y, whole);
+  result.T = phase_transformation(in, harmonic.X, whole);
+}
 
 Eigen::MatrixXd reduced_velocity_forces(const Inside& in)
 {
@@ -181,14 +223,7 @@ PetscErrorCode CMSGetTransformation(CMS cms, Mat* T)
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   PetscAssertPointer(T, 2);
   CMSCheckSolved(cms);
-  PetscCall(guarded((PetscObject)cms, __func__, [&] {
-    Inside& in = *cms->inside;
-    if (in.result->T) return;
-    const std::vector<int> places = places_of(in);
-    in.result->T = in.output
-                       ? chosen_rows(in, places)
-                       : whole_transformation(in.set_up->body, in.result->reduction.Q_CB, places);
-  }));
+  PetscCall(guarded((PetscObject)cms, __func__, [&] { make_transformation(*cms->inside); }));
   *T = cms->inside->result->T;
   PetscFunctionReturn(0);
 }

@@ -184,6 +184,8 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   PetscBool cutoff_given = PETSC_FALSE;
   PetscBool tolerance_given = PETSC_FALSE;
   PetscBool up_to_given = PETSC_FALSE;
+  PetscBool harmonic_given = PETSC_FALSE;
+  PetscInt harmonic = 0;
   PetscFunctionBegin;
   PetscValidHeaderSpecific(cms, CMS_CLASSID, 1);
   Settings& settings = cms->inside->settings;
@@ -201,6 +203,8 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
                              "CMSSetTolerance", tolerance, &tolerance, &tolerance_given));
   PetscCall(PetscOptionsReal("-cms_tol_upto", "Range of -cms_tol, Hz", "CMSSetTolerance", up_to,
                              &up_to, &up_to_given));
+  PetscCall(PetscOptionsInt("-cms_harmonic", "Harmonic of the sectors", "CMSSetHarmonic", harmonic,
+                            &harmonic, &harmonic_given));
   PetscCall(PetscOptionsBool("-cms_sylvester", "Count eigenvalues by one more factorisation",
                              "CMSSetSylvester", sylvester, &sylvester, nullptr));
   PetscCall(PetscOptionsBool("-cms_monitor", "Print each phase with its time", "CMSMonitorSet",
@@ -218,6 +222,7 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
   if (modes_given) PetscCall(CMSSetDimensions(cms, n_modes));
   if (cutoff_given) PetscCall(CMSSetCutoff(cms, cutoff));
   if (tolerance_given) PetscCall(CMSSetTolerance(cms, tolerance, up_to));
+  if (harmonic_given) PetscCall(CMSSetHarmonic(cms, harmonic));
   settings.options.count = sylvester == PETSC_TRUE;
   settings.prints_phases = monitor == PETSC_TRUE;
   PetscCall(guarded((PetscObject)cms, __func__, [&] { read_solver(cms); }));

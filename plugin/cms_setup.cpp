@@ -10,20 +10,6 @@ namespace chladni::plugin {
 
 namespace {
 
-/// In the order of the user, the same on every rank.
-std::vector<PetscInt> indices_of_all_ranks(IS set)
-{
-  petsc::IndexSet gathered;
-  PetscInt n = 0;
-  const PetscInt* indices = nullptr;
-  petsc::check(ISAllGather(set, gathered.put()));
-  petsc::check(ISGetSize(gathered, &n));
-  petsc::check(ISGetIndices(gathered, &indices));
-  std::vector<PetscInt> all(indices, indices + n);
-  petsc::check(ISRestoreIndices(gathered, &indices));
-  return all;
-}
-
 /// Ascending; out-of-range and double ones are refused by value.
 std::vector<PetscInt> checked_ascending(std::vector<PetscInt> masters, PetscInt n)
 {
@@ -44,17 +30,11 @@ std::vector<PetscInt> checked_ascending(std::vector<PetscInt> masters, PetscInt 
   return masters;
 }
 
-struct Operators {
-  petsc::Matrix K, M;
-  VelocityForces velocity;
-};
-
 Operators checked_operators(CMS cms)
 {
   Phase phase(cms, events.check, "checks of the input");
   const Inside& in = *cms->inside;
   if (!in.K || !in.M) throw Error("CMSSetUp: no operators; call CMSSetOperators() first");
-  if (!in.interface) throw Error("CMSSetUp: no interface; call CMSSetInterface() first");
   Operators checked{.K = checked_operator(in.K, in.K, "K"),
                     .M = checked_operator(in.M, in.K, "M"),
                     .velocity = {.C = {}, .is_symmetric = true}};
@@ -63,27 +43,89 @@ Operators checked_operators(CMS cms)
   return checked;
 }
 
+/// References to what is reduced: of sectors a harmonic, else what was given.
+Operators reduced_operators(CMS cms)
+{
+  if (!cms->inside->sectors) {
+    if (const PetscInt n = cms->inside->harmonic; n != 0) {
+      throw Error(
+          fmt::format("CMSSetHarmonic: harmonic {} of no sectors; call CMSSetCyclic() or "
+                      "leave -cms_harmonic out",
+                      n));
+    }
+    return checked_operators(cms);
+  }
+  const Operators& made = made_problem(cms).operators;
+  return {.K = reference<petsc::Matrix>(static_cast<Mat>(made.K)),
+          .M = reference<petsc::Matrix>(static_cast<Mat>(made.M)),
+          .velocity = {.C = reference<petsc::Matrix>(static_cast<Mat>(made.velocity.C)),
+                       .is_symmetric = made.velocity.is_symmetric}};
+}
+
+/// The rows that are kept, in the order of the reduced rows.
+std::vector<PetscInt> reduced_masters(Inside& in)
+{
+  PetscInt n = 0;
+  petsc::check(MatGetSize(in.K, &n, nullptr));
+  std::vector<PetscInt> masters = all_indices(in.interface);
+  checked_ascending(masters, n);
+  if (!in.problem) return masters;
+  in.problem->masters = harmonic_masters(in.problem->harmonic.coordinates, masters);
+  return in.problem->masters.coordinates;
+}
+
+std::vector<PetscInt> ascending(std::vector<PetscInt> rows)
+{
+  std::ranges::sort(rows);
+  return rows;
+}
+
 }  // namespace
 
 std::vector<PetscInt> held_masters(const Inside& inside)
 {
-  return inside.held ? indices_of_all_ranks(inside.held) : std::vector<PetscInt>{};
+  if (!inside.held) return {};
+  std::vector<PetscInt> held = all_indices(inside.held);
+  if (!inside.problem) return held;
+  return harmonic_masters(inside.problem->harmonic.coordinates, held).coordinates;
+}
+
+HarmonicProblem& made_problem(CMS cms)
+{
+  Inside& in = *cms->inside;
+  if (!in.sectors) throw Error("no sectors; call CMSSetCyclic() first");
+  if (!in.problem) {
+    const Operators sector = checked_operators(cms);
+    Phase phase(cms, events.harmonic, "harmonic matrices");
+    in.problem = harmonic_problem(*in.sectors, in.harmonic, sector);
+    phase.done();
+  }
+  return *in.problem;
 }
 
 SetUp make_set_up(CMS cms)
 {
-  Operators checked = checked_operators(cms);
-  PetscInt n = 0;
-  petsc::check(MatGetSize(checked.K, &n, nullptr));
-  std::vector<PetscInt> masters = indices_of_all_ranks(cms->inside->interface);
-  refuse_empty_rows(checked.K, checked.M, checked_ascending(masters, n));
-  reduce::ReductionOptions options = cms->inside->settings.options;
+  Inside& in = *cms->inside;
+  Operators made = reduced_operators(cms);
+  if (!in.interface) throw Error("CMSSetUp: no interface; call CMSSetInterface() first");
+  std::vector<PetscInt> masters = reduced_masters(in);
+  NameOfRow name_of_row;
+  if (in.problem) {
+    name_of_row = [&coordinates = in.problem->harmonic.coordinates](PetscInt coordinate) {
+      return coordinates.name_of(coordinate);
+    };
+  }
+  refuse_empty_rows(made.K, made.M, ascending(masters), name_of_row);
+  reduce::ReductionOptions options = in.settings.options;
   options.solver.petsc = option_source(cms);
   CMSPhases phases(cms);
-  return {.body = reduce::factored(
-              {.K = std::move(checked.K), .M = std::move(checked.M), .masters = std::move(masters)},
-              options, phases),
-          .velocity = std::move(checked.velocity)};
+  return {.body = reduce::factored({.K = std::move(made.K),
+                                    .M = std::move(made.M),
+                                    .masters = std::move(masters),
+                                    .name_of_dof = name_of_row,
+                                    .may_lack_masters = in.problem.has_value()},
+                                   options, phases),
+          .velocity = std::move(made.velocity)};
 }
 
 namespace {

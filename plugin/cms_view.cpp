@@ -89,6 +89,12 @@ void view_state(CMS cms, PetscViewer viewer)
     PetscInt n = 0;
     chladni::petsc::check(MatGetSize(in.set_up->body.K, &n, nullptr));
     print(viewer, fmt::format("rows: {}, masters: {}", n, in.set_up->body.masters.size()));
+    if (in.problem) {
+      const auto& coordinates = in.problem->harmonic.coordinates;
+      print(viewer,
+            fmt::format("harmonic {} of {} sectors{}", coordinates.order(), coordinates.count(),
+                        coordinates.has_one_phase() ? "" : ": each eigenvalue twice"));
+    }
   }
   if (in.result)
     view_result(*in.result, in.settings.options.basis, viewer);

@@ -16,13 +16,13 @@ namespace chladni::plugin {
 namespace {
 
 /// Blocks of K's rows are nodes where a block fits the six components of one; else each row is.
-std::vector<MasterPlace> default_places(const reduce::FactoredBody& body)
+std::vector<MasterPlace> default_places(Mat K, const std::vector<PetscInt>& masters)
 {
   PetscInt block_size = 1;
-  petsc::check(MatGetBlockSize(body.K, &block_size));
+  petsc::check(MatGetBlockSize(K, &block_size));
   if (block_size > 6) block_size = 1;
   std::vector<MasterPlace> places;
-  for (const PetscInt dof : body.masters) {
+  for (const PetscInt dof : masters) {
     places.push_back(
         {.node = dof / block_size, .component = dof % block_size, .x = {0.0, 0.0, 0.0}});
   }
@@ -40,6 +40,30 @@ std::vector<MasterPlace> gathered_places(const std::vector<MasterPlace>& own, MP
   MPI_Allgatherv(own.data(), n_bytes, MPI_BYTE, all.data(), sizes.data(), offsets.data(), MPI_BYTE,
                  comm);
   return all;
+}
+
+/// Of a harmonic, whose nodes move in y, too: these are numbered on from the largest in x.
+std::vector<MasterPlace> harmonic_places(const std::vector<MasterPlace>& places,
+                                         const HarmonicMasters& masters)
+{
+  const PetscInt beyond = 1 + std::ranges::max(places, {}, &MasterPlace::node).node;
+  std::vector<MasterPlace> of_harmonic;
+  for (std::size_t i = 0; i < masters.places.size(); ++i) {
+    of_harmonic.push_back(places[static_cast<std::size_t>(masters.places[i])]);
+    of_harmonic.back().node += masters.phases[i] * beyond;
+  }
+  return of_harmonic;
+}
+
+/// In the order of the reduced rows.
+std::vector<MasterPlace> places_of_masters(const Inside& in, MPI_Comm comm)
+{
+  int n_places = static_cast<int>(in.geometry.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_places, 1, MPI_INT, MPI_SUM, comm);
+  const std::vector<MasterPlace> places = n_places > 0
+                                              ? gathered_places(in.geometry, comm)
+                                              : default_places(in.K, all_indices(in.interface));
+  return in.problem ? harmonic_places(places, in.problem->masters) : places;
 }
 
 /// Nodes in the order of their first master.
@@ -115,10 +139,9 @@ void write_file(CMS cms, const std::string& path)
   const char* name = nullptr;
   petsc::check(PetscObjectGetName(reinterpret_cast<PetscObject>(cms), &name));
   described.title = name;
-  int n_places = static_cast<int>(in.geometry.size());
-  MPI_Allreduce(MPI_IN_PLACE, &n_places, 1, MPI_INT, MPI_SUM, comm);
-  add_attachments(described,
-                  n_places > 0 ? gathered_places(in.geometry, comm) : default_places(body));
+  if (in.sectors)
+    described.title += fmt::format(", harmonic {} of {} sectors", in.harmonic, in.sectors->count);
+  add_attachments(described, places_of_masters(in, comm));
   const reduce::Reduction& reduction = in.result->reduction;
   std::vector<std::string> support = add_support(described, body, held_masters(in));
   mbs_export::ReducedSystem system =

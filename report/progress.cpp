@@ -61,6 +61,11 @@ void be_quiet()
   if (std::FILE* nowhere = std::fopen("/dev/null", "w")) stdout = nowhere;
 }
 
+void tell_note(std::string_view note)
+{
+  fmt::print(stderr, "{}note: {}\n", ::isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", note);
+}
+
 ProgressLine::~ProgressLine()
 {
   wipe();

@@ -46,6 +46,9 @@ std::string progress_text(std::string_view phase, double whole, double elapsed_s
 /// Prints no results from here on, and no progress: of what follows only notes and errors are seen.
 void be_quiet();
 
+/// Prints "note: ..." on stderr, on a terminal over the progress line if one stands there.
+void tell_note(std::string_view note);
+
 /// One line on stderr that tells how far a run is; it shows only where stderr is a terminal and
 /// nobody wanted quiet, and is wiped out at the end.
 class ProgressLine {

@@ -75,24 +75,57 @@ petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns)
   return dense;
 }
 
+namespace {
+
+/// Rows of some columns in the memory, column-major.
+struct Columns {
+  const double* values;
+  PetscBLASInt n_rows, n_cols, leading_dimension;
+};
+
+MatrixXd product_of_columns(const Columns& x, const Columns& y)
+{
+  MatrixXd product = MatrixXd::Zero(x.n_cols, y.n_cols);
+  const PetscScalar one = 1.0, zero = 0.0;
+  if (x.n_rows > 0 && product.size() > 0) {
+    BLASgemm_("T", "N", &x.n_cols, &y.n_cols, &x.n_rows, &one, x.values, &x.leading_dimension,
+              y.values, &y.leading_dimension, &zero, product.data(), &x.n_cols);
+  }
+  return product;
+}
+
+Columns columns_of(const LocalRows& rows)
+{
+  return {.values = rows.values(),
+          .n_rows = rows.n_rows(),
+          .n_cols = rows.n_cols(),
+          .leading_dimension = rows.leading_dimension()};
+}
+
+Columns columns_of(const MatrixXd& A)
+{
+  const auto n_rows = static_cast<PetscBLASInt>(A.rows());
+  return {.values = A.data(),
+          .n_rows = n_rows,
+          .n_cols = static_cast<PetscBLASInt>(A.cols()),
+          .leading_dimension = std::max(n_rows, 1)};
+}
+
+}  // namespace
+
 MatrixXd inner_product(Mat X, Mat Y)
 {
-  const LocalRows x(X);
-  const LocalRows y(Y);
-  MatrixXd product = MatrixXd::Zero(x.n_cols(), y.n_cols());
-  const PetscBLASInt m = x.n_cols();
-  const PetscBLASInt n = y.n_cols();
-  const PetscBLASInt k = x.n_rows();
-  const PetscBLASInt ldx = x.leading_dimension();
-  const PetscBLASInt ldy = y.leading_dimension();
-  const PetscScalar one = 1.0;
-  const PetscScalar zero = 0.0;
-  if (k > 0) {
-    BLASgemm_("T", "N", &m, &n, &k, &one, x.values(), &ldx, y.values(), &ldy, &zero, product.data(),
-              &m);
-  }
+  MatrixXd product = [&] {
+    const LocalRows x(X), y(Y);
+    return product_of_columns(columns_of(x), columns_of(y));
+  }();
   sum_over_ranks(values_of(product), petsc::communicator(X));
   return product;
+}
+
+MatrixXd inner_product(const MatrixXd& X, const MatrixXd& Y)
+{
+  return product_of_columns(columns_of(X), columns_of(Y));
 }
 
 std::vector<double> column_products(Mat X, Mat Y)

@@ -90,6 +90,10 @@ class ColumnRange {
 /// @note   Collective.
 Eigen::MatrixXd inner_product(Mat X, Mat Y);
 
+/// X^T Y by the BLAS, which has kernels for the processor where Eigen has those of the compiler's
+/// options.
+Eigen::MatrixXd inner_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Y);
+
 /// x_k^T y_k of the columns of two dense matrices with equally distributed rows, on every rank.
 /// @note   Collective.
 std::vector<double> column_products(Mat X, Mat Y);

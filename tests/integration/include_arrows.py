@@ -34,7 +34,7 @@ ALLOWED = {
     "cyclic": (*LINEAR, "reduce"),
     "mbs_export": BODIES,
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
-    "plugin": (*LINEAR, "files", "reduce", "mbs_export/", "reduce_export"),
+    "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
     "squeal": BODIES,
     "squeal/results": (*BODIES, "squeal"),
     "squeal/brake": (*BODIES, "squeal", "squeal/results"),

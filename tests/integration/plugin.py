@@ -44,10 +44,10 @@ class Plugin:
         return f"-dll_append {self.library}"
 
 
-def numbers(text):
-    """The rows of numbers that the examples print, as an array."""
+def numbers(text, columns=3):
+    """The rows of numbers that the examples print, as an array, without the first column."""
     rows = [line.split() for line in text.splitlines() if re.match(r"\s*\d+ +[\d.e+-]+ ", line)]
-    return np.array([[float(word) for word in row[1:3]] for row in rows])
+    return np.array([[float(word) for word in row[1:columns]] for row in rows])
 
 
 def square_laplacian(n, count):
@@ -163,6 +163,28 @@ def class_of_the_compiled_example(plugin):
         yield expect(f"help and log name {words}", words in helped)
 
 
+def sectors_of_the_compiled_example(plugin):
+    for options, ranks in (("", 1), ("", 2), ("-eps_type krylovschur", 2), ("-sectors 7", 1)):
+        text = plugin.run([plugin.examples / "wheel", *options.split(), "-cms_monitor", "-log_view"], ranks)
+        named = f"wheel {options}, {ranks} ranks"
+        rows = numbers(text[text.index("of whole") :], 6)
+        yield expect(f"{named}: a row for each harmonic", len(rows) == (4 if "7" in options else 7), len(rows))
+        of_whole, split, of_cms, eta2 = rows[:, 1:5].T
+        yield expect("its lowest is one of the whole", np.max(of_whole) < 1e-9, np.max(of_whole))
+        yield expect("pairs", np.max(np.abs(split)) < 1e-12, np.max(np.abs(split)))
+        effectivity = eta2 / of_cms
+        yield expect("reduced to what eta^2 says", np.all((effectivity > 0.7) & (effectivity < 1.01)), effectivity)
+        n_found, n_whole, worst = re.search(r"(\d+) of (\d+) eigenvalues of the whole, .* (\S+)", text).groups()
+        yield expect("all eigenvalues of the whole and no others",
+                     n_found == n_whole and float(worst) < 1e-9, n_found, n_whole, worst)  # fmt: skip
+        yield expect("log and monitor name the harmonic", "CMSHarmonic" in text and "harmonic matrices" in text)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        plugin.run([plugin.examples / "wheel", "-cms_view", "hdf5:wheel.reduced.h5"], folder=folder)
+        unsound = list(failed_checks(plugin.chladni.parent, folder))
+        yield expect("the file of the last harmonic is sound", not unsound, *unsound)
+
+
 # `chladni body` reads the reduced file and [body]; the mesh it does not open.
 BODY_SCENE = """
 name = "chain"
@@ -273,7 +295,7 @@ def main(build, mpirun):
     plugin = Plugin(build, mpirun)
     parts = (solver_type_of_an_alien_program, answers_of_the_solver_type, python,
              memory_of_one_rank,
-             class_of_the_compiled_example, matrix_market, interrupted_run)  # fmt: skip
+             class_of_the_compiled_example, sectors_of_the_compiled_example, matrix_market, interrupted_run)  # fmt: skip
     results = [result for part in parts for result in part(plugin)]
     return all(results)
 

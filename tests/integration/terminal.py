@@ -109,6 +109,11 @@ if __name__ == "__main__":
         scene.write_text(changed(DISC, ("modes = 10", "tolerance = 1e-3\nup_to_Hz = 4000.0")) + LOADED)
         chladni, squeal = programs / "chladni", programs / "squeal"
         check_bar(chladni, "run", scene, folder, {"mesh", "fixed-interface modes", "choice of modes"})
+        whole = scene.read_text()
+        # The note of what was found stands in a line of its own.
+        scene.write_text(changed(DISC, ("[mesh]\n", '[mesh]\nsectors = "auto"\npattern = "structured"\n')))
+        check_bar(chladni, "reduce", scene, folder, {"mesh", "modes of harmonics", "harmonics", "pictures"})
+        scene.write_text(whole)
         check_bar(chladni, "modes", scene, folder, {"mesh", "assembly", "modes"})
         check_bar(chladni, "static", scene, folder, {"mesh", "assembly", "solution"})
         scene.write_text(changed(scene.read_text(), ('analyses = ["eigenvalues"]', SQUEALING)))

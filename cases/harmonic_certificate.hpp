@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cases/harmonic_part.hpp"
+
+namespace chladni::cases {
+
+/// The certificate of all harmonics together. Each place has at least the eigenvalue of its place
+/// among the lower ends lambda / (1 + bound) of all harmonics, as far as none misses one.
+/// @param fixed       the support of the certificates
+/// @param lambda_max  up to which each harmonic is certified, rad^2/s^2
+mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts,
+                                          const std::vector<std::string>& fixed, double lambda_max);
+
+}  // namespace chladni::cases

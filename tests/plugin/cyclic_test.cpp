@@ -1,0 +1,360 @@
+#include <chladni_cms_cyclic.h>
+#include <gtest/gtest.h>
+#include <slepceps.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "linear/kernels/dense_matrices.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "tests/plugin/random_ring.hpp"
+
+namespace chladni::reduce {
+namespace {
+
+using Eigen::MatrixXd, Eigen::VectorXd;
+using testing::distributed, testing::RandomRing, testing::shared_out;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+VectorXd eigenvalues(const MatrixXd& K, const MatrixXd& M)
+{
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+/// A CMS of a sector, with two nodes in the middle and one of the low edge as masters.
+struct Solver {
+  explicit Solver(int n_sectors) : count(n_sectors), ring(n_sectors)
+  {
+    const RandomRing::Matrices sector = ring.sector();
+    K = distributed(sector.K);
+    M = distributed(sector.M);
+    petsc::check(CMSCreate(PETSC_COMM_WORLD, &cms));
+    petsc::check(CMSSetOperators(cms, K, M, nullptr));
+    petsc::check(set_edges(RandomRing::low(), RandomRing::high()));
+    petsc::check(set_masters({14, 12, 13, 3, 4, 5, 17}));
+  }
+  ~Solver() { CMSDestroy(&cms); }
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  PetscErrorCode set_edges(const std::vector<PetscInt>& low, const std::vector<PetscInt>& high)
+  {
+    return CMSSetCyclic(cms, count, shared_out(low), shared_out(high), 3, ring.rotation().data());
+  }
+  PetscErrorCode set_masters(const std::vector<PetscInt>& rows)
+  {
+    return CMSSetInterface(cms, shared_out(rows));
+  }
+
+  int count;
+  RandomRing ring;
+  petsc::Matrix K, M;
+  CMS cms = nullptr;
+};
+
+std::string message(PetscErrorCode code)
+{
+  const char* specific = petsc::error_texts(PetscErrorMessage, code).specific;
+  return specific != nullptr ? specific : "";
+}
+
+/// The motion of the whole ring of x and y of a sector.
+MatrixXd unfolded(const RandomRing& ring, int count, int order, const MatrixXd& x,
+                  const MatrixXd& y)
+{
+  MatrixXd whole = MatrixXd::Zero(3 * (1 + count * RandomRing::n_own), x.cols());
+  for (int j = 0; j < count; ++j) {
+    const double angle = two_pi * order * j / count;
+    for (int a = 0; a < RandomRing::n_sector_nodes; ++a) {
+      MatrixXd u = std::cos(angle) * x.middleRows<3>(3 * a);
+      if (y.size() > 0) u -= std::sin(angle) * y.middleRows<3>(3 * a);
+      whole.middleRows<3>(3 * ring.node(j, a)) = ring.turn(j) * u;
+    }
+  }
+  return whole;
+}
+
+MatrixXd replicated(Mat A)
+{
+  petsc::Matrix dense;
+  petsc::check(MatConvert(A, MATDENSE, MAT_INITIAL_MATRIX, dense.put()));
+  return linear::replicate(dense);
+}
+
+TEST(CMSCyclic, HarmonicsHaveTheEigenvaluesOfTheWholeRingAndNoOthers)
+{
+  for (const int count : {2, 3, 6, 7}) {
+    Solver solver(count);
+    std::vector<double> found;
+    for (PetscInt order = 0; order <= count / 2; ++order) {
+      petsc::check(CMSSetHarmonic(solver.cms, order));
+      Mat K = nullptr, M = nullptr;
+      petsc::check(CMSGetHarmonicOperators(solver.cms, &K, &M, nullptr));
+      const VectorXd lambda = eigenvalues(replicated(K), replicated(M));
+      found.insert(found.end(), lambda.begin(), lambda.end());
+    }
+    std::ranges::sort(found);
+    const RandomRing::Matrices whole = solver.ring.whole();
+    const VectorXd expected = eigenvalues(whole.K, whole.M);
+    ASSERT_EQ(std::ssize(found), expected.size()) << count << " sectors";
+    for (Eigen::Index i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found[std::size_t(i)], expected[i], 1e-12 * expected.maxCoeff());
+  }
+}
+
+TEST(CMSCyclic, ReducesTheWholeRingToMotionsOfAHarmonic)
+{
+  for (const int order : {0, 1, 2, 3}) {
+    Solver solver(6);
+    petsc::check(CMSSetHarmonic(solver.cms, order));
+    petsc::check(CMSSetDimensions(solver.cms, 6));
+    petsc::check(CMSSolve(solver.cms));
+    Mat K_r = nullptr, M_r = nullptr, T_x = nullptr, T_y = nullptr;
+    petsc::check(CMSGetReducedOperators(solver.cms, &K_r, &M_r, nullptr));
+    petsc::check(CMSGetHarmonicTransformation(solver.cms, &T_x, &T_y));
+    const bool one_phase = order == 0 || order == 3;
+    ASSERT_EQ(T_y == nullptr, one_phase);
+    const MatrixXd x = linear::replicate(T_x),
+                   y = T_y ? MatrixXd(linear::replicate(T_y)) : MatrixXd();
+    const MatrixXd T = unfolded(solver.ring, 6, order, x, y);
+    const RandomRing::Matrices whole = solver.ring.whole();
+    const MatrixXd K = linear::replicate(K_r), M = linear::replicate(M_r);
+    // Fixed-interface modes have residuals of 1e-7: the blocks with masters vanish to that.
+    EXPECT_LT((T.transpose() * whole.K * T - K).cwiseAbs().maxCoeff(), 1e-6 * K.norm());
+    EXPECT_LT((T.transpose() * whole.M * T - M).cwiseAbs().maxCoeff(), 1e-12 * M.norm());
+    PetscInt n = 0;
+    const PetscInt *rows = nullptr, *phases = nullptr;
+    petsc::check(CMSGetHarmonicInterface(solver.cms, &n, &rows, &phases));
+    ASSERT_EQ(n, one_phase ? 7 : 14);
+    EXPECT_EQ(rows[0], 14);
+    for (PetscInt i = 0; i < n; ++i) {
+      const double moved = phases[i] == 0 ? x(rows[i], i) : y(rows[i], i);
+      EXPECT_NEAR(moved, 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(CMSCyclic, AHarmonicWithAllItsModesHasTheFrequenciesOfTheRing)
+{
+  const RandomRing ring(6);
+  const RandomRing::Matrices whole = ring.whole();
+  const VectorXd expected = eigenvalues(whole.K, whole.M);
+  int n_zero = 0;
+  for (const int order : {0, 1, 2, 3}) {
+    Solver solver(6);
+    petsc::check(CMSSetHarmonic(solver.cms, order));
+    Mat K_n = nullptr;
+    PetscInt n_rows = 0, n_masters = 0, n = 0;
+    petsc::check(CMSGetHarmonicOperators(solver.cms, &K_n, nullptr, nullptr));
+    petsc::check(MatGetSize(K_n, &n_rows, nullptr));
+    petsc::check(CMSSetUp(solver.cms));
+    petsc::check(CMSGetDimensions(solver.cms, &n_masters, nullptr));
+    petsc::check(CMSSetDimensions(solver.cms, n_rows - n_masters));
+    petsc::check(CMSSolve(solver.cms));
+    const PetscReal* f = nullptr;
+    petsc::check(CMSGetFrequencies(solver.cms, &n, &f));
+    ASSERT_GT(n, 4);
+    for (PetscInt i = 0; i < n; ++i) {
+      const double lambda = std::pow(two_pi * f[i], 2);
+      EXPECT_LT((expected.array() / lambda - 1.0).abs().minCoeff(), 1e-9) << "harmonic " << order;
+    }
+    for (PetscInt i = 0; order != 0 && order != 3 && i + 1 < n; i += 2)
+      EXPECT_NEAR(f[i + 1] / f[i], 1.0, 1e-12);  // pairs
+    CMSQuality quality{};
+    petsc::check(CMSGetQuality(solver.cms, &quality));
+    n_zero += static_cast<int>(quality.n_zero);
+  }
+  EXPECT_EQ(n_zero, 3);  // translations
+}
+
+TEST(CMSCyclic, AHubIsAMasterOfTheHarmonicsThatMoveIt)
+{
+  const std::vector<std::vector<PetscInt>> moves{{2}, {0, 1}, {}, {}};
+  for (int order = 0; order <= 3; ++order) {
+    Solver solver(6);
+    petsc::check(solver.set_masters({2, 1, 0, 15, 16, 17}));
+    petsc::check(CMSSetHarmonic(solver.cms, order));
+    petsc::check(CMSSetUp(solver.cms));
+    PetscInt n = 0;
+    const PetscInt* rows = nullptr;
+    petsc::check(CMSGetHarmonicInterface(solver.cms, &n, &rows, nullptr));
+    std::vector<PetscInt> of_hub;
+    std::copy_if(rows, rows + n, std::back_inserter(of_hub), [](PetscInt row) { return row < 3; });
+    std::ranges::sort(of_hub);
+    EXPECT_EQ(of_hub, moves[std::size_t(order)]) << "harmonic " << order;
+  }
+}
+
+/// The lowest eigenvalues of a harmonic that an EPS finds.
+std::vector<double> lowest(CMS cms, const char* type, int n)
+{
+  Mat K = nullptr, M = nullptr;
+  petsc::check(CMSGetHarmonicOperators(cms, &K, &M, nullptr));
+  petsc::EigenSolver eps;
+  ST st = nullptr;
+  petsc::check(EPSCreate(PETSC_COMM_WORLD, eps.put()));
+  petsc::check(EPSSetOperators(eps, K, M));
+  petsc::check(EPSSetProblemType(eps, EPS_GHEP));
+  petsc::check(EPSSetType(eps, type));
+  petsc::check(EPSSetDimensions(eps, n, PETSC_DEFAULT, PETSC_DEFAULT));
+  petsc::check(EPSSetTarget(eps, -0.1));
+  petsc::check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  petsc::check(EPSSetTolerances(eps, 1e-12, PETSC_DEFAULT));
+  petsc::check(EPSGetST(eps, &st));
+  petsc::check(STSetType(st, STSINVERT));
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  petsc::check(STGetKSP(st, &ksp));
+  petsc::check(KSPSetType(ksp, KSPPREONLY));
+  petsc::check(KSPGetPC(ksp, &pc));
+  petsc::check(PCSetType(pc, PCCHOLESKY));
+  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  petsc::check(EPSSolve(eps));
+  std::vector<double> lambda;
+  for (int i = 0; i < n; ++i) {
+    lambda.push_back(0.0);
+    petsc::check(EPSGetEigenvalue(eps, i, &lambda.back(), nullptr));
+  }
+  return lambda;
+}
+
+TEST(CMSCyclic, GivesMatricesThatEigensolversTake)
+{
+  Solver solver(7);
+  petsc::check(CMSRegisterEPS());
+  petsc::check(CMSSetHarmonic(solver.cms, 2));
+  Mat K = nullptr, M = nullptr;
+  petsc::check(CMSGetHarmonicOperators(solver.cms, &K, &M, nullptr));
+  const VectorXd expected = eigenvalues(replicated(K), replicated(M));
+  for (const char* type : {"blocklanczos", EPSKRYLOVSCHUR}) {
+    const std::vector<double> found = lowest(solver.cms, type, 6);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(found[std::size_t(i)] / expected[i], 1.0, 1e-10) << type;
+  }
+}
+
+TEST(CMSCyclic, RefusesEdgesThatDoNotMatch)
+{
+  using Rows = std::vector<PetscInt>;
+  const auto refused = [](const std::string& words, auto change) {
+    Solver solver(6);
+    change(solver);
+    const PetscErrorCode code = CMSSolve(solver.cms);
+    ASSERT_NE(code, 0) << words;
+    EXPECT_NE(message(code).find(words), std::string::npos) << message(code);
+  };
+  Rows longer = RandomRing::high();
+  longer.push_back(20);
+  refused("the low edge has 12 rows and the high edge 13",
+          [&](Solver& s) { petsc::check(s.set_edges(RandomRing::low(), longer)); });
+  refused("the edges have 2 rows, which the block size 3", [](Solver& s) {
+    petsc::check(s.set_edges({3, 4}, {21, 22}));
+  });
+  refused("row 6 is in both edges", [](Solver& s) {
+    petsc::check(s.set_edges({3, 4, 5, 6, 7, 8}, {6, 7, 8, 9, 10, 11}));
+  });
+  refused("row 3 is twice in the low edge", [](Solver& s) {
+    petsc::check(s.set_edges({3, 4, 3}, {21, 22, 23}));
+  });
+  refused("row 30 of the high edge is out of range; rows are 0 to 29", [](Solver& s) {
+    petsc::check(s.set_edges({3, 4, 5}, {21, 22, 30}));
+  });
+  refused("harmonic 4 of 6 sectors; give 0 to 3",
+          [](Solver& s) { petsc::check(CMSSetHarmonic(s.cms, 4)); });
+  refused("harmonic -1 of 6 sectors", [](Solver& s) { petsc::check(CMSSetHarmonic(s.cms, -1)); });
+  refused("5 times the rotation is no whole turn", [](Solver& s) {
+    s.count = 5;
+    petsc::check(s.set_edges(RandomRing::low(), RandomRing::high()));
+  });
+  refused("master 21 is in the high edge; give row 3 of the low edge", [](Solver& s) {
+    petsc::check(s.set_masters({14, 21}));
+  });
+  refused("harmonic 1 of no sectors", [](Solver& s) {
+    petsc::check(CMSSetCyclic(s.cms, 0, nullptr, nullptr, 1, nullptr));
+    petsc::check(CMSSetHarmonic(s.cms, 1));
+  });
+  refused("the rotation is not orthogonal", [](Solver& s) {
+    std::vector<double> R = s.ring.rotation();
+    R[0] += 0.1;
+    petsc::check(CMSSetCyclic(s.cms, 6, shared_out(RandomRing::low()),
+                              shared_out(RandomRing::high()), 3, R.data()));
+  });
+}
+
+TEST(CMSCyclic, NamesTheRowOfTheSectorThatNothingHolds)
+{
+  Solver solver(6);
+  MatrixXd K = solver.ring.sector().K;
+  K.row(16).setZero();
+  K.col(16).setZero();
+  const petsc::Matrix without = distributed(K);
+  petsc::check(CMSSetOperators(solver.cms, without, solver.M, nullptr));
+  petsc::check(CMSSetHarmonic(solver.cms, 1));
+  const std::string words = message(CMSSolve(solver.cms));
+  EXPECT_NE(words.find("row 16 of K, in x is empty (empty rows: 2)"), std::string::npos) << words;
+}
+
+TEST(CMSCyclic, GivesTheRowsAskedForAndDamping)
+{
+  Solver all(6), some(6);
+  const std::vector<PetscInt> rows{29, 0, 14, 4};
+  for (Solver* solver : {&all, &some}) {
+    petsc::check(CMSSetOperators(solver->cms, solver->K, solver->M, solver->K));
+    petsc::check(CMSSetHarmonic(solver->cms, 1));
+  }
+  petsc::check(CMSSetOutput(some.cms, shared_out(rows)));
+  petsc::check(CMSSolve(all.cms));
+  petsc::check(CMSSolve(some.cms));
+  for (const int phase : {0, 1}) {
+    Mat whole = nullptr, chosen = nullptr;
+    petsc::check(CMSGetHarmonicTransformation(all.cms, phase == 0 ? &whole : nullptr,
+                                              phase == 1 ? &whole : nullptr));
+    petsc::check(CMSGetHarmonicTransformation(some.cms, phase == 0 ? &chosen : nullptr,
+                                              phase == 1 ? &chosen : nullptr));
+    const MatrixXd T = linear::replicate(whole), T_some = linear::replicate(chosen);
+    ASSERT_EQ(T_some.rows(), 4);
+    for (int i = 0; i < 4; ++i)
+      EXPECT_LT((T_some.row(i) - T.row(rows[std::size_t(i)])).norm(), 1e-12 * T.norm());
+  }
+  Mat K_r = nullptr, C_r = nullptr;
+  petsc::check(CMSGetReducedOperators(all.cms, &K_r, nullptr, &C_r));
+  const MatrixXd K = linear::replicate(K_r), C = linear::replicate(C_r);
+  EXPECT_LT((C - K).norm(), 1e-6 * K.norm());  // residuals of the modes
+}
+
+TEST(CMSCyclic, ObeysItsPrefixAndWritesBothPhases)
+{
+  petsc::check(PetscOptionsInsertString(nullptr, "-wheel_cms_harmonic 2 -cms_harmonic 1"));
+  Solver solver(6);
+  petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "wheel"));
+  petsc::check(CMSSetOptionsPrefix(solver.cms, "wheel_"));
+  petsc::check(CMSSetFromOptions(solver.cms));
+  for (const char* name : {"-wheel_cms_harmonic", "-cms_harmonic"})
+    petsc::check(PetscOptionsClearValue(nullptr, name));
+  PetscInt order = 0;
+  petsc::check(CMSGetHarmonic(solver.cms, &order));
+  EXPECT_EQ(order, 2);
+  petsc::check(CMSSolve(solver.cms));
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() /
+      fmt::format("cyclic_test_{}.reduced.h5", petsc::size(PETSC_COMM_WORLD));
+  petsc::check(CMSWrite(solver.cms, path.c_str()));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  const mbs_export::ReducedSystem system = mbs_export::read_reduced(path.string());
+  EXPECT_EQ(system.title, "wheel, harmonic 2 of 6 sectors");
+  ASSERT_EQ(system.masters.size(), 14U);
+  std::set<std::pair<int, int>> different;
+  for (const auto& master : system.masters) different.emplace(master.node, master.component);
+  EXPECT_EQ(different.size(), 14U);
+  MPI_Barrier(PETSC_COMM_WORLD);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace chladni::reduce
