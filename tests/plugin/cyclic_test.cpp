@@ -173,6 +173,33 @@ TEST(CMSCyclic, AHarmonicWithAllItsModesHasTheFrequenciesOfTheRing)
   EXPECT_EQ(n_zero, 3);  // translations
 }
 
+TEST(CMSCyclic, HoldsRowsOfTheSectorInBothPhases)
+{
+  for (const int order : {0, 1}) {
+    Solver solver(6);
+    petsc::check(CMSSetHarmonic(solver.cms, order));
+    petsc::check(CMSSetHeld(solver.cms, shared_out({3, 4, 5})));
+    petsc::check(CMSSetDimensions(solver.cms, 12));
+    petsc::check(CMSSetType(solver.cms, CMSMIXED));
+    petsc::check(CMSSolve(solver.cms));
+    Mat K_n = nullptr, M_n = nullptr;
+    petsc::check(CMSGetHarmonicOperators(solver.cms, &K_n, &M_n, nullptr));
+    PetscInt n_free = 0, n = 0;
+    const PetscReal* f = nullptr;
+    petsc::check(MatGetSize(K_n, &n_free, nullptr));
+    // Rows 3, 4 and 5 follow the hub, of which harmonic 0 has z alone and harmonic 1 x and y.
+    const int first = order == 0 ? 1 : 2, n_held = order == 0 ? 3 : 6;
+    std::vector<int> kept;
+    for (int i = 0; i < n_free; ++i)
+      if (i < first || i >= first + n_held) kept.push_back(i);
+    const VectorXd lambda = eigenvalues(replicated(K_n)(kept, kept), replicated(M_n)(kept, kept));
+    petsc::check(CMSGetFrequencies(solver.cms, &n, &f));
+    ASSERT_GT(n, 5);
+    for (PetscInt i = 0; i < 5; ++i)
+      EXPECT_NEAR(std::pow(two_pi * f[i], 2) / lambda[i], 1.0, 1e-9) << "harmonic " << order;
+  }
+}
+
 TEST(CMSCyclic, AHubIsAMasterOfTheHarmonicsThatMoveIt)
 {
   const std::vector<std::vector<PetscInt>> moves{{2}, {0, 1}, {}, {}};
