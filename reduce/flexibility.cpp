@@ -82,13 +82,6 @@ MatrixXd orthonormal_in(const MatrixXd& G)
   return S;
 }
 
-petsc::Matrix times(Mat A, Mat X)
-{
-  petsc::Matrix AX = linear::uninitialized_dense(A, linear::LocalRows(X).n_cols());
-  linear::SparseProduct(A).apply(X, AX);
-  return AX;
-}
-
 /// Rigid motions of all DOFs, R^T M R = I.
 petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const MatrixXd& R_m)
 {
@@ -99,7 +92,8 @@ petsc::Matrix rigid_motions(const WholeSystem& body, Mat Psi, const MatrixXd& R_
   set_rows(R, body.dofs, R_m, R_s);
   petsc::Matrix normal = linear::uninitialized_dense(body.K, R_m.cols());
   petsc::check(MatZeroEntries(normal));
-  linear::add_product(1.0, R, orthonormal_in(linear::inner_product(R, times(body.M, R))), normal);
+  linear::add_product(
+      1.0, R, orthonormal_in(linear::inner_product(R, linear::sparse_product(body.M, R))), normal);
   return normal;
 }
 
@@ -138,7 +132,7 @@ Flexibility::Flexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness&
   parts_ = std::make_unique<Parts>(Parts{.body = body,
                                          .Psi = Psi,
                                          .R = R_,
-                                         .MR = times(body.M, R_),
+                                         .MR = linear::sparse_product(body.M, R_),
                                          .K_G_inverse = inverse(K_G.K, R_m.cols(), held)});
   PetscInt n_local = 0, n = 0;
   petsc::check(MatGetLocalSize(body.K, &n_local, nullptr));

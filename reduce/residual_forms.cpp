@@ -14,13 +14,6 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 namespace {
 
-petsc::Matrix times(Mat A, Mat X)
-{
-  petsc::Matrix AX = linear::uninitialized_dense(A, linear::LocalRows(X).n_cols());
-  linear::SparseProduct(A).apply(X, AX);
-  return AX;
-}
-
 petsc::Matrix solved(Mat factor, Mat F)
 {
   petsc::Matrix z = linear::uninitialized_dense(F, linear::LocalRows(F).n_cols());
@@ -65,7 +58,7 @@ petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
   constexpr double dependent = 1e-6;  // of their lengths: what a Gram matrix resolves
   petsc::Matrix Z;
   petsc::check(MatDuplicate(shapes, MAT_COPY_VALUES, Z.put()));
-  const petsc::Matrix KZ = times(K, Z);
+  const petsc::Matrix KZ = linear::sparse_product(K, Z);
   const MatrixXd share = lambda.cwiseInverse().asDiagonal() * linear::inner_product(Phi, KZ);
   const MatrixXd G = symmetric(linear::inner_product(Z, KZ));
   linear::add_product(-1.0, Phi, share, Z);
@@ -85,7 +78,7 @@ ResidualForms::ResidualForms(const GrowingBasis& basis) : of_(basis)
 
 petsc::Matrix ResidualForms::inertia_of_masters() const
 {
-  petsc::Matrix B = times(of_.M.ss, of_.Q_CB.Psi);
+  petsc::Matrix B = linear::sparse_product(of_.M.ss, of_.Q_CB.Psi);
   const PetscInt n_m = linear::LocalRows(B).n_cols();
   linear::add_sparse_product(of_.M.sm, MatrixXd::Identity(n_m, n_m), B);
   return B;
@@ -93,7 +86,7 @@ petsc::Matrix ResidualForms::inertia_of_masters() const
 
 void ResidualForms::start(Mat B)
 {
-  const petsc::Matrix D = times(of_.M.ss, of_.Q_CB.modes->Phi);
+  const petsc::Matrix D = linear::sparse_product(of_.M.ss, of_.Q_CB.modes->Phi);
   z_B_ = solved(of_.K_ss.factor(), B);
   z_D_ = solved(of_.K_ss.factor(), D);
   H_ = bordered(symmetric(linear::inner_product(z_B_, B)), linear::inner_product(z_B_, D),
@@ -127,7 +120,7 @@ void ResidualForms::append(Mat shapes)
   FixedInterfaceModes& modes = *of_.Q_CB.modes;
   const petsc::Matrix Z = orthonormal(shapes, modes.Phi, stiffness_of_modes(model), of_.K.ss);
   const PetscInt k = linear::LocalRows(Z).n_cols();
-  const petsc::Matrix D = times(of_.M.ss, Z), z = solved(of_.K_ss.factor(), D);
+  const petsc::Matrix D = linear::sparse_product(of_.M.ss, Z), z = solved(of_.K_ss.factor(), D);
   MatrixXd above(model.M.rows(), k), H_above(H_.rows(), k);
   above.topRows(model.n_masters) = linear::inner_product(of_.Q_CB.Psi, D) +
                                    linear::inner_product_sparse(Z, of_.M.sm).transpose();

@@ -198,4 +198,11 @@ void SparseProduct::apply(Mat X, Mat Y) const
   petsc::check(MatDenseRestoreArrayWrite(Y, &y));
 }
 
+petsc::Matrix sparse_product(Mat A, Mat X)
+{
+  petsc::Matrix AX = uninitialized_dense(A, LocalRows(X).n_cols());
+  SparseProduct(A).apply(X, AX);
+  return AX;
+}
+
 }  // namespace chladni::linear

@@ -52,4 +52,8 @@ class SparseProduct {
   mutable std::vector<double> outbox_;
 };
 
+/// A X for a dense X with the rows of A.
+/// @note   Collective.
+petsc::Matrix sparse_product(Mat A, Mat X);
+
 }  // namespace chladni::linear
