@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "linear/cholesky/cholesky_types.hpp"
+#include "linear/cholesky/part_solver.hpp"
+#include "linear/kernels/decoupled_rows.hpp"
 #include "linear/machine_memory.hpp"
 #include "reduce/basis.hpp"
 #include "reduce/certify.hpp"
@@ -46,7 +48,8 @@ bool needs_matrices(const ReductionOptions& options, bool counts)
   return options.keeps_matrices || counts || has_free_masters(options.basis.method);
 }
 
-MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOptions& options)
+MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
+                               const ReductionOptions& options)
     : options_(options), n_masters_(static_cast<double>(body.masters.size()))
 {
   PetscInt n_local = 0, n = 0;
@@ -57,6 +60,17 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, const ReductionOption
   K_MiB_ = own_MiB(body.K);
   M_MiB_ = own_MiB(body.M);
   const bool keeps = needs_matrices(options, options.count.value_or(false));
+  const linear::SolverOptions& solver = options.solver;
+  if (solver.lanczos.solver == linear::ModeSolver::block_lanczos &&
+      linear::will_solve_for_parts(solver.petsc)) {
+    const std::vector<petsc::IndexSet> parts = linear::decoupled_rows(K_ss, M_ss);
+    if (!parts.empty()) {
+      PetscInt n_largest = 0;
+      petsc::check(ISGetSize(parts.front(), &n_largest));
+      largest_part_ = n_largest / n_slaves_;
+      mass_of_parts_ = own_MiB(M_ss);
+    }
+  }
   let_go_MiB_ = keeps ? 0.0 : K_MiB_ + M_MiB_;
 }
 
@@ -69,18 +83,29 @@ double MemoryForecast::columns_in_estimates(double n_modes) const
   return arrays * block + kept;
 }
 
+/// Of block Lanczos, of the length of all slaves: the most that parts take is where all modes are
+/// those of the largest.
+double MemoryForecast::basis_columns(double n_modes) const
+{
+  constexpr double basis_for_each_mode = 2.2, least_basis = 85.0;
+  return std::min(largest_part_ * basis_for_each_mode * n_modes + least_basis, n_slaves_);
+}
+
 double MemoryForecast::beside_MiB(double n_modes) const
 {
-  constexpr double basis_for_each_mode = 2.2, least_basis = 85.0, blocks_of_lanczos = 16.0;
+  constexpr double blocks_of_lanczos = 16.0;
   n_modes = std::min(n_modes, n_slaves_);
-  const double basis = std::min(basis_for_each_mode * n_modes + least_basis, n_slaves_);
-  const double there = options_.basis.tolerance ? n_masters_ : 0.0;  // Psi comes first
-  const double in_search = n_modes > 0.0 ? there + basis + n_modes + blocks_of_lanczos : 0.0;
+  const double basis = basis_columns(n_modes);
+  const double there = options_.basis.tolerance ? n_masters_ : 0.0;             // Psi comes first
+  const double of_parts = largest_part_ < 1.0 ? largest_part_ * n_modes : 0.0;  // beside Phi
+  const double in_search =
+      n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
   const double kept = n_masters_ + n_modes;
   const WorkAfterwards& later = options_.later;
   const double later_MiB =
       column_MiB_ * (later.columns + later.columns_for_each_kept * kept) + M_MiB_ * later.matrices;
-  return std::max(column_MiB_ * in_search + (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
+  return std::max(column_MiB_ * in_search + mass_of_parts_ +
+                      (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
                   column_MiB_ * kept +
                       std::max(column_MiB_ * columns_in_estimates(n_modes), later_MiB)) -
          let_go_MiB_;

@@ -14,7 +14,7 @@ bool needs_matrices(const ReductionOptions& options, bool counts);
 class MemoryForecast {
  public:
   /// Before the factor and before K and M are given back.
-  MemoryForecast(const Body& body, Mat K_ss, const ReductionOptions& options);
+  MemoryForecast(const Body& body, Mat K_ss, Mat M_ss, const ReductionOptions& options);
 
   /// With as many modes as are asked for; of a cut-off or a tolerance the modes to begin with.
   linear::FactorOptions at_first(linear::FactorOptions factor) const;
@@ -30,6 +30,10 @@ class MemoryForecast {
   linear::SecondFactor second(double n_modes) const;
 
   ReductionOptions options_;
+  double basis_columns(double n_modes) const;
+
+  double largest_part_ = 1.0;   ///< of the slaves, where parts are solved for by themselves
+  double mass_of_parts_ = 0.0;  ///< MiB
   double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
 };
 

@@ -53,7 +53,7 @@ FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener&
       partition(body.K, own_masters(body.K, body.masters), body.may_lack_masters ? 0 : 1);
   Blocks K = split(body.K, dofs), M = split(body.M, dofs);
   phases.begin("factorization");
-  const MemoryForecast memory(body, K.ss, options);
+  const MemoryForecast memory(body, K.ss, M.ss, options);
   linear::SolverOptions solver = options.solver;
   solver.factor = memory.at_first(solver.factor);
   linear::Factorization K_ss = factorized(body, K.ss, dofs, solver);

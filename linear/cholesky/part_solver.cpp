@@ -1,6 +1,8 @@
 #include "linear/cholesky/part_solver.hpp"
 
+#include <array>
 #include <memory>
+#include <string_view>
 
 #include "linear/cholesky/cholesky_callbacks.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
@@ -22,6 +24,16 @@ SupernodalFactor* supernodal_of(Mat factor)
 bool solves_for_parts(Mat factor)
 {
   return supernodal_of(factor) != nullptr;
+}
+
+bool will_solve_for_parts(const OptionSource& source)
+{
+  std::array<char, 64> name{};
+  PetscBool is_given = PETSC_FALSE;
+  petsc::check(PetscOptionsGetString(source.database, source.prefix.c_str(),
+                                     "-pc_factor_mat_solver_type", name.data(), name.size(),
+                                     &is_given));
+  return !is_given || std::string_view(name.data()) == supernodal;
 }
 
 std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows)
