@@ -60,7 +60,9 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
                                {.n_pairs = 0, .tolerance = tolerance});
   ElasticPairs found;
   linear::EigenPairs& pairs = found.pairs;
-  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;; n_asked += n_asked / 4) {
+  constexpr PetscInt least_more = 8;
+  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;;
+       n_asked += std::max<PetscInt>(n_asked / 4, least_more)) {
     lanczos.converge(std::min(n_asked, n));
     pairs.lambda.clear();
     for (PetscInt i = 0; i < lanczos.n_pairs(); ++i) pairs.lambda.push_back(lanczos.lambda(i));
