@@ -69,10 +69,9 @@ TEST(WholeCertificate, BoundsEachPlaceAmongAllHarmonics)
     const double error = lambda / all.exact[std::size_t(i)] - 1.0;
     EXPECT_LE(error, whole.bounds[i] + 1e-12) << "place " << i;
     for (const HarmonicPart& part : all.parts) {
-      for (std::size_t k = 0; k < part.certificate.lambda.size(); ++k) {
+      for (std::size_t k = 0; k < part.certificate.lambda.size(); ++k)
         if (std::abs(part.certificate.lambda[k] / lambda - 1.0) < 1e-12)
           takes_others = takes_others || part.certificate.bounds[k] < error;
-      }
     }
   }
   EXPECT_TRUE(takes_others);

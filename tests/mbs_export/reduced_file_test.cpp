@@ -45,18 +45,18 @@ ReducedSystem complete_system()
   system.picture.cells = {{0, 1, 2, 2}};
   system.picture.transformation = Eigen::MatrixXd::Random(9, system.K.cols());
   system.resultants = {two_points(system.K.cols())};
-  system.certificate = {.fixed = {"hub"},
-                        .frequencies = Eigen::Vector3d(10.0, 20.0, 30.0),
-                        .eta2 = Eigen::Vector3d(1e-6, 1e-5, 1e-4),
-                        .bounds = Eigen::Vector2d(2e-6, 3e-5),
-                        .fixed_interface = {.up_to = 40.0, .expected = 4, .found = 4},
-                        .range = {.up_to = 31.0, .expected = 4, .found = 3},
-                        .complete = {.up_to = 25.0, .expected = 2, .found = 2},
-                        .n_rigid = 6,
-                        .rigid_residual = 1e-12,
-                        .condition = 1e9,
-                        .responses = ResponseCheck{
-                            .up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}}};
+  system.certificate = {
+      .fixed = {"hub"},
+      .frequencies = Eigen::Vector3d(10.0, 20.0, 30.0),
+      .eta2 = Eigen::Vector3d(1e-6, 1e-5, 1e-4),
+      .bounds = Eigen::Vector2d(2e-6, 3e-5),
+      .fixed_interface = {.up_to = 40.0, .expected = 4, .found = 4},
+      .range = {.up_to = 31.0, .expected = 4, .found = 3},
+      .complete = {.up_to = 25.0, .expected = 2, .found = 2},
+      .n_rigid = 6,
+      .rigid_residual = 1e-12,
+      .condition = 1e9,
+      .responses = ResponseCheck{.up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}}};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",
