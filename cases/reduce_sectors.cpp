@@ -62,10 +62,9 @@ std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
   const plate::DofMap& dofs = model.system.dofs;
   Eigen::MatrixX3d positions(model.dofs.n_blocks, 3);
   // A mean has no block of its own: its DOFs stand in those of its group.
-  for (int node = 0; node < dofs.n_nodes(); ++node) {
+  for (int node = 0; node < dofs.n_nodes(); ++node)
     if (!dofs.is_dependent(node) && dofs.number(node) >= 0)
       positions.row(dofs.number(node)) = dofs.position(node);
-  }
   return cyclic::find_mirror(model.dofs, positions, {&matrices.K, &matrices.M, &matrices.C});
 }
 
