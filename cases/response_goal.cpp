@@ -31,7 +31,7 @@ reduce::ResponseLoads loads_of(const mbs_export::ResponseSizes& sizes,
 std::optional<SceneResponses> scene_responses(const scene::Scene& scene,
                                               mbs_export::ReducedSystem described,
                                               std::vector<PetscInt> masters,
-                                              std::vector<std::string> fixed)
+                                              const std::vector<std::string>& fixed)
 {
   const std::optional<mbs_export::Tolerance>& tolerance = scene.body.keep.tolerance;
   if (!tolerance || described.ring_motion || fixed != scene.body.fixed) return std::nullopt;

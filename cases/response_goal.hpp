@@ -26,6 +26,6 @@ struct SceneResponses {
 std::optional<SceneResponses> scene_responses(const scene::Scene& scene,
                                               mbs_export::ReducedSystem described,
                                               std::vector<PetscInt> masters,
-                                              std::vector<std::string> fixed);
+                                              const std::vector<std::string>& fixed);
 
 }  // namespace chladni::cases

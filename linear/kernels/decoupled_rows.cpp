@@ -131,7 +131,7 @@ std::vector<PetscInt> joints(const Pieces& pieces, const std::vector<Edge>& edge
   std::vector<PetscInt> rows;
   for (const Edge& edge : edges) rows.push_back(edge.other);
   std::ranges::sort(rows);
-  rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   const std::vector<double> piece_at =
       values_at(rows, {pieces.of_row.begin(), pieces.of_row.end()}, comm);
   std::vector<std::pair<PetscInt, PetscInt>> pairs;
@@ -141,7 +141,7 @@ std::vector<PetscInt> joints(const Pieces& pieces, const std::vector<Edge>& edge
     if (pairs.size() > 1 && pairs.back() == pairs[pairs.size() - 2]) pairs.pop_back();
   }
   std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<PetscInt> flat;
   for (const auto& [a, b] : pairs) {
     flat.push_back(a);
@@ -173,7 +173,7 @@ PetscInt unite_small_sets(std::vector<PetscInt>& set_of_row, PetscInt n, MPI_Com
     const bool is_even = largest[set] * petsc::size(comm) <= uneven * sum[set];
     if (sum[set] >= good_part * all && is_even) alone.push_back(set);
   }
-  std::ranges::stable_sort(alone, std::greater<>(), [&](PetscInt set) { return sum[set]; });
+  std::ranges::stable_sort(alone, [&of = sum](PetscInt a, PetscInt b) { return of[a] > of[b]; });
   auto n_sets = static_cast<PetscInt>(alone.size());
   double kept = 0.0;
   for (PetscInt k = 0; k < n_sets; ++k) {

@@ -1,7 +1,6 @@
 // The solutions of a SupernodalFactor.
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 #include <span>
 
 #include "linear/cholesky/supernodal/subtrees.hpp"
@@ -144,8 +143,8 @@ void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
     if (is_active[s] != 0) solve_forward(tiles(s), X);
   if (petsc::size(comm_) > 1) sum_common(trees.common, X);
   for (const int s : trees.common) solve_forward(tiles(s), X);
-  for (const int s : std::views::reverse(trees.common)) solve_backward(tiles(s), X);
-  for (const int s : std::views::reverse(trees.own)) solve_backward(tiles(s), X);
+  for (const std::vector<int>* some : {&trees.common, &trees.own})
+    for (auto s = some->rbegin(); s != some->rend(); ++s) solve_backward(tiles(*s), X);
 }
 
 void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
@@ -171,7 +170,7 @@ std::vector<std::vector<int>> SupernodalFactor::trees_of(const SparseColumns& B)
     for (int k = B.starts[j]; k < B.starts[j + 1]; ++k)
       trees[j].push_back(tree_of_[supernode_of_row(B.rows[k])]);
     std::ranges::sort(trees[j]);
-    trees[j].erase(std::ranges::unique(trees[j]).begin(), trees[j].end());
+    trees[j].erase(std::unique(trees[j].begin(), trees[j].end()), trees[j].end());
   }
   return trees;
 }
