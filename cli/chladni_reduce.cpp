@@ -13,8 +13,7 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
                              const report::Cost& cost)
 {
   fmt::print("{}\n\n{}\n{}\n{}", report::printable(summary.reduced.title),
-             report::format_table(reduction_table(summary)),
-             report::format_table(report::describe(summary.reduced)),
+             described_reduction(summary), report::format_table(report::describe(summary.reduced)),
              report::format_table(report::cost_table(cost)));
   std::vector<report::Json::Member> members = reduction_json(summary);
   members.emplace_back("frequencies_Hz",

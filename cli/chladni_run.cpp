@@ -32,7 +32,7 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
   const std::string selection = report::describe_selection(body);
   fmt::print("{}\n\n{}\n{}{}{}\n{}\n{}", report::printable(body.title),
              report::format_table(report::list_modes(body)), selection,
-             selection.empty() ? "" : "\n", report::format_table(reduction_table(summary)),
+             selection.empty() ? "" : "\n", described_reduction(summary),
              report::format_table(report::describe(body)),
              report::format_table(report::cost_table(cost)));
   std::vector<report::Json::Member> members = reduction_json(summary);

@@ -199,6 +199,14 @@ report::TextTable reduction_table(const cases::ReduceSummary& summary)
   return table;
 }
 
+std::string described_reduction(const cases::ReduceSummary& summary)
+{
+  const std::string table = report::format_table(reduction_table(summary));
+  if (summary.choice.reason.empty()) return table;
+  return fmt::format("{}{} was chosen since\n  {}\n", table, reduce::name_of(summary.choice.method),
+                     summary.choice.reason);
+}
+
 std::vector<report::Json::Member> reduction_json(const cases::ReduceSummary& summary)
 {
   return {

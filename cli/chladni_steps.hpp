@@ -48,6 +48,8 @@ report::PhaseTime time_of_all_ranks(const report::PhaseTime& time);
 
 /// What the reduction was about, beside what the factorisation cost.
 report::TextTable reduction_table(const cases::ReduceSummary& summary);
+/// That table, and where the method was chosen automatically a line that says why.
+std::string described_reduction(const cases::ReduceSummary& summary);
 
 /// Members `n_dofs`, `n_nodes`, `n_masters`, `n_modes`, `certified_frequencies_Hz` with their
 /// `eta2`, `factor_wall_s`, `factor_cpu_s`.
