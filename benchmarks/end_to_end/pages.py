@@ -66,9 +66,9 @@ def against_fe(studies):
     for one in studies:
         for both in one["tolerances"]:
             asked = both["chosen"]["tolerance"]
-            errors = [both[name]["response_error_full"] if name in both else None for name in ("chosen", "hand")]
+            errors = [both[name]["response_error_full"] for name in ("chosen", "hand")]
             yield row(one["case"], f"{asked:g}", ", ".join(f"{f:.0f}" for f in one["compared_at_Hz"]),
-                      *("" if e is None else f"{e:.1e}" + ("" if e <= asked else ", above") for e in errors))
+                      *(f"{e:.1e}" + ("" if e <= asked else ", above") for e in errors))
 
 
 def costs(studies):
@@ -102,7 +102,8 @@ def table(result):
 
 
 RED, BLUE, GREY = "#b2182b", "#2166ac", "0.45"
-KINDS = [("error", "o", RED, "frequencies, against the full model"),
+FLOOR = 1e-6  # errors below are drawn there: they would squeeze the others
+KINDS = [("error", "o", RED, f"frequencies, against the full model ({FLOOR:g} or less)"),
          ("response_error", "s", BLUE, "responses, against the reduced system"),
          ("response_error_full", "x", GREY, "responses between resonances, against the FE model")]
 
@@ -111,7 +112,7 @@ def draw_promises(axis, study):
     """Error reached over tolerance asked; below the line is kept."""
     asked = [both["chosen"]["tolerance"] for both in study["tolerances"]]
     for key, marker, colour, label in KINDS:
-        axis.loglog(asked, [max(both["chosen"][key], 1e-12) for both in study["tolerances"]], marker + "-", color=colour,
+        axis.loglog(asked, [max(both["chosen"][key], FLOOR) for both in study["tolerances"]], marker + "-", color=colour,
                     label=label, linewidth=1)
     axis.loglog(asked, asked, "--", color="k", linewidth=0.8, label="asked")
     axis.set_xlim(2 * max(asked), min(asked) / 2)
@@ -130,20 +131,19 @@ def ticks(low, high):
 
 
 def draw_costs(axis, study):
-    """Error of the frequencies over cost: a line from the choice by hand to the automatic one for each tolerance."""
+    """Error of the responses over cost: a line from the choice by hand to the automatic one for each tolerance."""
     from matplotlib.ticker import FixedLocator, FormatStrFormatter, NullFormatter
-    with_hand = [both for both in study["tolerances"] if "hand" in both]
-    for both in with_hand:
-        x, y = zip(*((both[name]["cost_s"], both[name]["error"]) for name in ("hand", "chosen")))
+    for both in study["tolerances"]:
+        x, y = zip(*((both[name]["cost_s"], both[name]["response_error_full"]) for name in ("hand", "chosen")))
         axis.plot(x, y, "-", color=GREY, linewidth=0.7)
-    for name, marker, colour, label in (("hand", "o", GREY, "smallest number by hand"), ("chosen", "o", RED, "by tolerance")):
-        points = [both[name] for both in study["tolerances"] if name in both]
-        axis.loglog([p["cost_s"] for p in points], [p["error"] for p in points], marker, color=colour, label=label)
+    for name, marker, colour, label in (("hand", "o", GREY, "by hand: modes of the range"), ("chosen", "o", RED, "by tolerance")):
+        points = [both[name] for both in study["tolerances"]]
+        axis.loglog([p["cost_s"] for p in points], [p["response_error_full"] for p in points], marker, color=colour, label=label)
         for p in points:
-            axis.annotate(f" {p['modes']}", (p["cost_s"], p["error"]), fontsize=7, color=colour, va="bottom")
+            axis.annotate(f" {p['modes']}", (p["cost_s"], p["response_error_full"]), fontsize=7, color=colour, va="bottom")
     for both in study["tolerances"]:
         axis.axhline(both["chosen"]["tolerance"], color="k", linestyle="--", linewidth=0.5)
-    costs_s = [both[name]["cost_s"] for both in study["tolerances"] for name in ("hand", "chosen") if name in both]
+    costs_s = [both[name]["cost_s"] for both in study["tolerances"] for name in ("hand", "chosen")]
     axis.set_xlim(0.7 * min(costs_s), 1.5 * max(costs_s))
     axis.xaxis.set_major_locator(FixedLocator(ticks(*axis.get_xlim())))
     axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
@@ -162,7 +162,7 @@ def draw(result, path):
         draw_promises(column[0], study)
         draw_costs(column[1], study)
     axes[0][0].set_ylabel("relative error reached")
-    axes[1][0].set_ylabel("relative error of the frequencies")
+    axes[1][0].set_ylabel("error of the responses beside the FE model")
     figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", fontsize=8, ncols=min(2, len(studies)))
     figure.get_layout_engine().set(rect=(0, 0, 1, 0.89))  # below the legend
     axes[1][0].legend(fontsize=8)
