@@ -105,11 +105,19 @@ reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::Sol
   constexpr reduce::WorkAfterwards in_integrals{.columns = block * (1.0 + moving_rows),
                                                 .columns_for_each_kept = moving_rows,
                                                 .matrices = 2.0};
+  reduce::WorkAfterwards later = scene.mass_integrals ? in_integrals : reduce::WorkAfterwards{};
+  if (may_keep_responses(scene)) {
+    // K_ss^-1 of the inertia of each column, and blocks of these; for each load, which are one
+    // direction of the nodes, a shape, its part in the basis, its products with K and M, K_ss^-1.
+    constexpr double blocks = 2.0, for_each_load = 5.0, loads = 1.0 / 6.0;
+    later.columns = std::max(later.columns, blocks * block);
+    later.columns_for_each_kept = 1.0 + for_each_load * loads;
+  }
   return {.basis = scene.reduce,
           .solver = solver,
           .count = scene.sylvester,
           .keeps_matrices = wants_full_responses(scene),
-          .later = scene.mass_integrals ? in_integrals : reduce::WorkAfterwards{}};
+          .later = later};
 }
 
 /// The system that is written without its matrices.

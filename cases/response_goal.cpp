@@ -28,6 +28,13 @@ reduce::ResponseLoads loads_of(const mbs_export::ResponseSizes& sizes,
 
 }  // namespace
 
+bool may_keep_responses(const scene::Scene& scene)
+{
+  using enum reduce::Method;
+  const reduce::Method method = scene.reduce.method;
+  return scene.body.keep.tolerance && (method == automatic || method == mixed_interface);
+}
+
 std::optional<SceneResponses> scene_responses(const scene::Scene& scene,
                                               mbs_export::ReducedSystem described,
                                               std::vector<PetscInt> masters,

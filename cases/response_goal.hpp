@@ -18,6 +18,9 @@ struct SceneResponses {
   std::shared_ptr<std::vector<std::string>> names;
 };
 
+/// Whether a reduction of the scene may come to keep responses.
+bool may_keep_responses(const scene::Scene& scene);
+
 /// The responses of `[body] keep` with a tolerance, where the loads act on masters; a third of the
 /// tolerance is the reduction's, the rest the body's. Nothing without a tolerance.
 /// @param described  nodes, sets and masters, in the order of `masters`

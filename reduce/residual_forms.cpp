@@ -1,5 +1,6 @@
 #include "reduce/residual_forms.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linear/kernels/orthonormalisation.hpp"
@@ -73,24 +74,31 @@ petsc::Matrix orthonormal(Mat shapes, Mat Phi, const VectorXd& lambda, Mat K)
 
 ResidualForms::ResidualForms(const GrowingBasis& basis) : of_(basis)
 {
-  start(inertia_of_masters());
-}
-
-petsc::Matrix ResidualForms::inertia_of_masters() const
-{
-  petsc::Matrix B = linear::sparse_product(of_.M.ss, of_.Q_CB.Psi);
-  const PetscInt n_m = linear::LocalRows(B).n_cols();
-  linear::add_sparse_product(of_.M.sm, MatrixXd::Identity(n_m, n_m), B);
-  return B;
-}
-
-void ResidualForms::start(Mat B)
-{
+  const MatrixXd H_mm = forms_of_masters();
   const petsc::Matrix D = linear::sparse_product(of_.M.ss, of_.Q_CB.modes->Phi);
-  z_B_ = solved(of_.K_ss.factor(), B);
   z_D_ = solved(of_.K_ss.factor(), D);
-  H_ = bordered(symmetric(linear::inner_product(z_B_, B)), linear::inner_product(z_B_, D),
-                symmetric(linear::inner_product(z_D_, D)));
+  H_ = bordered(H_mm, linear::inner_product(z_B_, D), symmetric(linear::inner_product(z_D_, D)));
+}
+
+MatrixXd ResidualForms::forms_of_masters()
+{
+  constexpr PetscInt most = 64;  // columns of B at a time
+  const Mat Psi = of_.Q_CB.Psi;
+  const PetscInt n_m = linear::LocalRows(Psi).n_cols();
+  z_B_ = linear::uninitialized_dense(of_.K.ss, n_m);
+  petsc::check(MatZeroEntries(z_B_));
+  const MatrixXd unit = MatrixXd::Identity(n_m, n_m);
+  MatrixXd H = MatrixXd::Zero(n_m, n_m);
+  for (PetscInt first = 0; first < n_m; first += most) {
+    const PetscInt last = std::min(first + most, n_m);
+    const petsc::Matrix B = linear::sparse_product(of_.M.ss, linear::ColumnRange(Psi, first, last));
+    linear::add_sparse_product(of_.M.sm, unit.middleCols(first, last - first), B);
+    const petsc::Matrix z = solved(of_.K_ss.factor(), B);
+    petsc::check(MatCopy(z, linear::ColumnRange(z_B_, first, last), SAME_NONZERO_PATTERN));
+    H.block(0, first, last, last - first) =
+        linear::inner_product(linear::ColumnRange(z_B_, 0, last), B);
+  }
+  return H.selfadjointView<Eigen::Upper>();
 }
 
 MatrixXd ResidualForms::energy(const MatrixXd& X, double s) const

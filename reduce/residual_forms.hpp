@@ -34,8 +34,8 @@ class ResidualForms {
   void make_ritz();
 
  private:
-  petsc::Matrix inertia_of_masters() const;
-  void start(Mat B);
+  /// B^T K_ss^-1 B
+  Eigen::MatrixXd forms_of_masters();
 
   GrowingBasis of_;
   petsc::Matrix z_B_, z_D_;  ///< K_ss^-1 B, K_ss^-1 D

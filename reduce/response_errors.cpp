@@ -146,7 +146,6 @@ ResponseCertificate keep_responses(const WholeSystem& body, const RespondingMode
     }
     return worst;
   };
-  const auto n_before = static_cast<int>(made.model.omega.size());
   std::array<double, 2> before{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};
   for (int round = 0;; ++round) {
@@ -154,10 +153,7 @@ ResponseCertificate keep_responses(const WholeSystem& body, const RespondingMode
     const bool is_stuck = worst.error > falls * std::exchange(before[round % 2], worst.error);
     if (worst.error <= goal.tolerance || is_stuck || round == most_rounds) {
       if (round > 0) forms.make_ritz();
-      return {.Omega = goal.Omega,
-              .error = worst.error,
-              .n_loads = static_cast<int>(loads.F.cols()),
-              .n_added = static_cast<int>(made.model.omega.size()) - n_before};
+      return {.Omega = goal.Omega, .error = worst.error};
     }
     const double Omega = loads.Omega[worst.g];
     const MatrixXd V = combinations_above(worst.G, goal.tolerance * loads.size.col(worst.g),

@@ -120,7 +120,7 @@ TextTable describe(const mbs_export::ReducedSystem& reduced)
   add_harmonics(table, reduced);
   add_count(table, "masters", reduced.n_masters());
   const Eigen::VectorXd f_Hz = reduced.fixed_interface_frequencies / (2.0 * pi);
-  add_count(table, "fixed-interface modes", f_Hz.size());
+  add_count(table, "modes with held masters", f_Hz.size());
   if (f_Hz.size() > 0) {
     add(table, "lowest of them", f_Hz.minCoeff(), "Hz");
     add(table, "highest of them", f_Hz.maxCoeff(), "Hz");

@@ -143,8 +143,8 @@ TEST(ResponseErrors, AreKeptBelowATolerance)
     const ResponseCertificate found = keep_responses(
         loaded.body, {loaded.Q, loaded.model}, loaded.held, loaded.modes.lambda_left_out, goal);
     EXPECT_LE(found.error, tolerance);
-    EXPECT_EQ(found.n_loads, 2);
-    EXPECT_EQ(loaded.model.K.rows(), 3 + n_modes + found.n_added);
+    EXPECT_EQ(loaded.model.K.rows(), 3 + std::ssize(loaded.model.omega));
+    EXPECT_LE(loaded.model.omega.size(), std::size_t(n_modes + 24));
     double largest = 0.0;
     for (int i = 1; i <= 50; ++i) {  // between the frequencies that were looked at, too
       const MatrixXd error = loaded.error(i / 50.0 * goal.Omega) / 10.0;

@@ -76,7 +76,7 @@ def laid_out(path, without_braces):
 
 def main(arguments):
     check = arguments[:1] == ["--check"]
-    paths = [Path(name) for name in arguments[check:]]
+    paths = [Path(name) for name in arguments[check:] if name.endswith((".cpp", ".hpp"))]
     with tempfile.NamedTemporaryFile("w", suffix=".clang-format") as style, ThreadPoolExecutor() as pool:
         style.write((ROOT / ".clang-format").read_text() + "RemoveBracesLLVM: true\n")
         style.flush()
