@@ -10,7 +10,6 @@
 #include "plate/dofs/supports.hpp"
 
 namespace chladni::cases {
-namespace {
 
 SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 {
@@ -34,8 +33,6 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
           .held = std::move(held),
           .free = std::move(free)};
 }
-
-}  // namespace
 
 SupportedModel supported_model(const scene::Scene& scene, Phases& phases)
 {

@@ -20,6 +20,11 @@ struct SupportedModel {
   std::vector<plate::FreePart> free;  ///< what can still move as a rigid body
 };
 
+/// The model of a mesh of the scene.
+/// @note   Collective on all ranks.
+/// @throws chladni::Error on all ranks alike.
+SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh);
+
 /// The phase of the assembly is still under way at its end.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike.

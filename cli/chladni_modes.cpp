@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cases/fe_solution.hpp"
+#include "cases/mesh_errors.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
@@ -25,13 +26,18 @@ Eigen::VectorXd angular_frequencies(const std::vector<double>& lambda, int n_rig
   return omega;
 }
 
-report::TextTable mode_table(const Eigen::VectorXd& omega, int n_rigid)
+/// @param errors  [elastic modes] of the mesh, or none
+report::TextTable mode_table(const Eigen::VectorXd& omega, int n_rigid,
+                             const Eigen::VectorXd& errors)
 {
   report::TextTable table{.header = {"mode", "frequency, Hz", "kind"}, .rows = {}};
+  if (errors.size() > 0) table.header.emplace_back("error of the mesh");
   for (Eigen::Index i = 0; i < omega.size(); ++i) {
     table.rows.push_back({fmt::format("{}", i + 1),
                           fmt::format("{:.6f}", omega[i] / (2.0 * std::numbers::pi)),
                           i < n_rigid ? "rigid" : "elastic"});
+    if (errors.size() > 0)
+      table.rows.back().push_back(i < n_rigid ? "" : fmt::format("{:.1e}", errors[i - n_rigid]));
   }
   return table;
 }
@@ -68,11 +74,16 @@ void modes_command(const ChladniArguments& arguments)
   cases::Phases phases(bar);
   const cases::SupportedModel model = cases::supported_model(scene, phases);
   const int n_rigid = plate::n_free_motions(model.free);
-  const int n_modes = scene.natural_modes.value_or(scene::ModesOptions{}).count;
+  const scene::ModesOptions asked = scene.natural_modes.value_or(scene::ModesOptions{});
   phases.begin("modes");
   const reduce::NaturalModes modes = reduce::natural_modes(
       model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
-      {.n_modes = n_modes, .n_rigid = n_rigid, .solver = arguments.solver});
+      {.n_modes = asked.count, .n_rigid = n_rigid, .solver = arguments.solver});
+  Eigen::VectorXd errors;
+  if (asked.mesh_errors) {
+    phases.begin("errors of the mesh");
+    errors = cases::mesh_errors(scene, model, modes, arguments.solver).errors;
+  }
   phases.end();
   const Eigen::VectorXd omega = angular_frequencies(modes.lambda, n_rigid);
   const report::SceneGrid grid = mode_grid(scene, model, modes);
@@ -81,12 +92,13 @@ void modes_command(const ChladniArguments& arguments)
   cases::on_first_rank([&] {
     files::write_text(file, report::vtu_text(grid.grid) + writer_mark(arguments.scene));
     fmt::print("{}\n\n{}\n{}\n{}\nwrote {}\n", report::printable(scene.title),
-               report::format_table(mode_table(omega, n_rigid)),
+               report::format_table(mode_table(omega, n_rigid, errors)),
                report::format_table(cases::model_table(model)),
                report::format_table(report::cost_table(cost)), file.string());
     std::vector<report::Json::Member> members = cases::model_json(model);
     members.emplace_back("n_modes", omega.size());
     members.emplace_back("frequencies_Hz", frequencies_json(omega));
+    if (errors.size() > 0) members.emplace_back("errors_of_mesh", numbers_json(errors));
     write_summary(arguments.scene, members, cost);
   });
 }

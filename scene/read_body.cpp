@@ -33,11 +33,20 @@ std::vector<std::string> read_fixed(const Table& body,
   return fixed;
 }
 
-KeptModes read_kept_modes(const Table& body)
+std::optional<mbs_export::Tolerance> tolerance_of(const std::optional<Accuracy>& accuracy)
 {
-  if (!body.has("keep")) return {};
-  const Table keep = body.table("keep");
+  if (!accuracy) return std::nullopt;
+  return mbs_export::Tolerance{.error = accuracy->error, .up_to_Hz = accuracy->up_to_Hz};
+}
+
+KeptModes read_kept_modes(const Table& body, const std::optional<Accuracy>& accuracy)
+{
   KeptModes kept;
+  if (!body.has("keep")) {
+    kept.tolerance = tolerance_of(accuracy);
+    return kept;
+  }
+  const Table keep = body.table("keep");
   if (keep.has("tolerance")) {
     kept.tolerance = {.error = keep.number("tolerance"), .up_to_Hz = keep.number("up_to_Hz")};
     return kept;
@@ -169,11 +178,14 @@ std::vector<int> read_mode_list(const Table& table, std::string_view key)
 
 mbs_export::BodyOptions read_body(const Table& root, const Scene& scene)
 {
-  if (!root.has("body")) return {};
-  const Table body = root.table("body");
   mbs_export::BodyOptions options;
+  if (!root.has("body")) {
+    options.keep.tolerance = tolerance_of(scene.accuracy);
+    return options;
+  }
+  const Table body = root.table("body");
   options.fixed = read_fixed(body, scene.interface_nodes);
-  options.keep = read_kept_modes(body);
+  options.keep = read_kept_modes(body, scene.accuracy);
   if (body.has("interface_modes"))
     for (const Table& mode : body.tables("interface_modes"))
       options.interface_modes.push_back(read_interface_mode(mode, scene));

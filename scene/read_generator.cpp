@@ -25,9 +25,19 @@ std::optional<double> read_edge_row(const Table& mesh, double width)
                      {.above = 0.0, .below = 0.5 * width, .unit = "m, half of the width"});
 }
 
-/// For a body of this width (m) and area (m^2), of ten million elements at most.
-double read_element_size(const Table& mesh, double width, double area)
+void refuse_chosen(const Table& mesh, const char* key)
 {
+  if (mesh.has(key)) mesh.refuse(key, "`accuracy` chooses it; take this key out");
+}
+
+/// For a body of this width (m) and area (m^2), of ten million elements at most; 0 where it is to
+/// be chosen.
+double read_element_size(const Table& mesh, Size size, double width, double area)
+{
+  if (size == Size::chosen) {
+    refuse_chosen(mesh, "element_size");
+    return 0.0;
+  }
   constexpr double most_elements = 1e7;
   return mesh.number("element_size", {.at_least = std::sqrt(area / most_elements),
                                       .at_most = width,
@@ -51,19 +61,20 @@ void refuse_free_pattern(const Table& mesh, int sectors, mesh::Pattern pattern)
   mesh.refuse("sectors", "needs pattern = \"structured\": Gmsh's elements differ between sectors");
 }
 
-mesh::AnnulusOptions read_annulus(const Table& mesh)
+mesh::AnnulusOptions read_annulus(const Table& mesh, Size size)
 {
   mesh::AnnulusOptions annulus{};
   annulus.inner_radius = mesh.number("inner_radius");
   annulus.outer_radius = read_outer_radius(mesh, annulus.inner_radius);
   const double width = annulus.outer_radius - annulus.inner_radius;
-  annulus.element_size =
-      read_element_size(mesh, width, area_of_ring(annulus.inner_radius, annulus.outer_radius));
+  annulus.element_size = read_element_size(
+      mesh, size, width, area_of_ring(annulus.inner_radius, annulus.outer_radius));
   if (mesh.has("element_order")) annulus.element_order = read_element_order(mesh);
   annulus.sectors = read_sectors(mesh);
   annulus.pattern =
-      read_pattern(mesh, annulus.sectors > 1 || finds_sectors(mesh) ? mesh::Pattern::structured
-                                                                    : mesh::Pattern::unstructured);
+      read_pattern(mesh, annulus.sectors > 1 || finds_sectors(mesh) || size == Size::chosen
+                             ? mesh::Pattern::structured
+                             : mesh::Pattern::unstructured);
   refuse_free_pattern(mesh, annulus.sectors, annulus.pattern);
   annulus.edge_row = read_edge_row(mesh, width);
   annulus.rings = read_rings(mesh, generated_groups({.annulus = annulus}),
@@ -87,7 +98,7 @@ std::optional<mesh::BoltOptions> read_bolts(const Table& mesh, const mesh::HatDi
       .hole_radius = bolts.number("hole_radius")};
 }
 
-mesh::HatDiscOptions read_hat_disc(const Table& mesh)
+mesh::HatDiscOptions read_hat_disc(const Table& mesh, Size size)
 {
   mesh::HatDiscOptions hat{};
   hat.wall_radius = mesh.number("wall_radius");
@@ -105,7 +116,7 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
     hat.foot = mesh.number("foot", {.at_least = 0.0, .below = hat.height, .unit = "m"});
   const double width = hat.outer_radius - hat.wall_radius;
   hat.element_size =
-      read_element_size(mesh, width, area_of_ring(hat.wall_radius, hat.outer_radius));
+      read_element_size(mesh, size, width, area_of_ring(hat.wall_radius, hat.outer_radius));
   if (mesh.has("element_order")) hat.element_order = read_element_order(mesh);
   hat.pattern = read_pattern(
       mesh, mesh.has("bolts") ? mesh::Pattern::unstructured : mesh::Pattern::structured);
@@ -120,7 +131,7 @@ mesh::HatDiscOptions read_hat_disc(const Table& mesh)
   return hat;
 }
 
-mesh::PadOptions read_pad(const Table& mesh)
+mesh::PadOptions read_pad(const Table& mesh, Size size)
 {
   mesh::PadOptions pad{};
   pad.inner_radius = mesh.number("inner_radius");
@@ -129,20 +140,21 @@ mesh::PadOptions read_pad(const Table& mesh)
   if (mesh.has("centre_deg")) pad.centre_angle = degree * mesh.number("centre_deg");
   const double length = 0.5 * (pad.inner_radius + pad.outer_radius) * pad.angle;
   const double width = std::min(pad.outer_radius - pad.inner_radius, length);
-  pad.element_size = read_element_size(mesh, width, length * (pad.outer_radius - pad.inner_radius));
+  pad.element_size =
+      read_element_size(mesh, size, width, length * (pad.outer_radius - pad.inner_radius));
   if (mesh.has("element_order")) pad.element_order = read_element_order(mesh);
   pad.pattern = read_pattern(mesh, mesh::Pattern::structured);
   pad.edge_row = read_edge_row(mesh, width);
   return pad;
 }
 
-mesh::RectangleOptions read_rectangle(const Table& mesh)
+mesh::RectangleOptions read_rectangle(const Table& mesh, Size size)
 {
   mesh::RectangleOptions plate{};
   plate.length = mesh.number("length");
   plate.width = mesh.number("width");
   const double width = std::min(plate.length, plate.width);
-  plate.element_size = read_element_size(mesh, width, plate.length * plate.width);
+  plate.element_size = read_element_size(mesh, size, width, plate.length * plate.width);
   if (mesh.has("element_order")) plate.element_order = read_element_order(mesh);
   plate.pattern = read_pattern(mesh, mesh::Pattern::structured);
   plate.edge_row = read_edge_row(mesh, width);
@@ -166,13 +178,16 @@ std::vector<mesh::BeamPoint> read_points(const Table& mesh, double length)
   return points;
 }
 
-mesh::BeamMeshOptions read_beam(const Table& mesh)
+mesh::BeamMeshOptions read_beam(const Table& mesh, Size size)
 {
   mesh::BeamMeshOptions beam{.start = read_vector(mesh, "start"), .end = read_vector(mesh, "end")};
   const double length = std::hypot(beam.end[0] - beam.start[0], beam.end[1] - beam.start[1],
                                    beam.end[2] - beam.start[2]);
   if (!(length > 0.0)) mesh.refuse("end", "is the start of the beam too");
-  if (mesh.only_one_of({"elements", "element_size"}) == "elements") {
+  if (size == Size::chosen) {
+    for (const char* key : {"elements", "element_size"}) refuse_chosen(mesh, key);
+    beam.element_size = 0.0;
+  } else if (mesh.only_one_of({"elements", "element_size"}) == "elements") {
     beam.elements = mesh.integer("elements");
   } else {
     beam.element_size =
@@ -203,26 +218,27 @@ std::vector<std::string> hat_disc_groups(const mesh::HatDiscOptions& hat)
 
 }  // namespace
 
-mesh::MeshOptions read_generator(const Table& mesh)
+mesh::MeshOptions read_generator(const Table& mesh, Size size)
 {
-  using Read = void (*)(const Table&, mesh::MeshOptions&);
+  using Read = void (*)(const Table&, Size, mesh::MeshOptions&);
   const Read read = mesh.choice<Read>(
       "generator",
       {{"annulus",
-        [](const Table& t, mesh::MeshOptions& o) {
-          o.annulus = read_annulus(t);
+        [](const Table& t, Size s, mesh::MeshOptions& o) {
+          o.annulus = read_annulus(t, s);
           o.finds_sectors = finds_sectors(t);
         }},
        {"hat_disc",
-        [](const Table& t, mesh::MeshOptions& o) {
-          o.hat_disc = read_hat_disc(t);
+        [](const Table& t, Size s, mesh::MeshOptions& o) {
+          o.hat_disc = read_hat_disc(t, s);
           o.finds_sectors = finds_sectors(t);
         }},
-       {"pad", [](const Table& t, mesh::MeshOptions& o) { o.pad = read_pad(t); }},
-       {"rectangle", [](const Table& t, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t); }},
-       {"beam", [](const Table& t, mesh::MeshOptions& o) { o.beam = read_beam(t); }}});
+       {"pad", [](const Table& t, Size s, mesh::MeshOptions& o) { o.pad = read_pad(t, s); }},
+       {"rectangle",
+        [](const Table& t, Size s, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t, s); }},
+       {"beam", [](const Table& t, Size s, mesh::MeshOptions& o) { o.beam = read_beam(t, s); }}});
   mesh::MeshOptions options;
-  read(mesh, options);
+  read(mesh, size, options);
   return options;
 }
 

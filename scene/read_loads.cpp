@@ -123,6 +123,7 @@ std::optional<ModesOptions> read_natural_modes(const Table& root)
   const Table table = root.table("modes");
   ModesOptions options;
   if (table.has("count")) options.count = table.integer("count");
+  if (table.has("mesh_errors")) options.mesh_errors = table.truth("mesh_errors");
   return options;
 }
 

@@ -91,7 +91,16 @@ void check_only_for(const Table& mesh, const char* key, bool makes_sense, const 
   if (mesh.has(key) && !makes_sense) mesh.refuse(key, why);
 }
 
-mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
+/// m; nothing where it is chosen later
+std::optional<double> read_size_of_step(const Table& mesh, Size size)
+{
+  if (size == Size::given) return mesh.number("element_size");
+  if (mesh.has("element_size"))
+    mesh.refuse("element_size", "`accuracy` chooses it; take this key out");
+  return std::nullopt;
+}
+
+mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& scene_path)
 {
   mesh::MeshOptions options{.file = read_file_name(mesh, scene_path)};
   const bool is_msh = options.file->ends_with(".msh");
@@ -107,7 +116,7 @@ mesh::MeshOptions read_file(const Table& mesh, const std::string& scene_path)
   check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
   check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
   if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
-  if (is_step) options.element_size = mesh.number("element_size");
+  if (is_step) options.element_size = read_size_of_step(mesh, size);
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
   if (mesh.has("length_unit") || is_of_deck) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
@@ -161,8 +170,9 @@ std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<s
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
 {
   const Table mesh = root.table("mesh");
-  if (mesh.only_one_of({"generator", "file"}) == "generator") return read_generator(mesh);
-  return read_file(mesh, scene_path);
+  const Size size = root.has("accuracy") ? Size::chosen : Size::given;
+  if (mesh.only_one_of({"generator", "file"}) == "generator") return read_generator(mesh, size);
+  return read_file(mesh, size, scene_path);
 }
 
 const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh)

@@ -8,8 +8,11 @@
 /// The parts of [mesh].
 namespace chladni::scene {
 
-/// The options of the generator that `mesh` names.
-mesh::MeshOptions read_generator(const Table& mesh);
+/// Whether the scene says how large elements are, or an accuracy is to choose it.
+enum class Size { given, chosen };
+
+/// The options of the generator that `mesh` names; a size that is chosen later is 0.
+mesh::MeshOptions read_generator(const Table& mesh, Size size);
 
 /// The groups that a generator makes besides its rings; empty for a file.
 std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh);

@@ -83,26 +83,91 @@ std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const S
 
 namespace {
 
+reduce::Method method_of(const Table& table)
+{
+  using enum reduce::Method;
+  return table.choice<reduce::Method>("method", {{"auto", automatic},
+                                                 {"craig-bampton", craig_bampton},
+                                                 {"mixed-interface", mixed_interface},
+                                                 {"guyan", guyan},
+                                                 {"rubin", rubin},
+                                                 {"macneal", macneal}});
+}
+
+void refuse_without_tolerance(const Table& table, const char* key, reduce::Method method)
+{
+  if (method != reduce::Method::rubin && method != reduce::Method::macneal) return;
+  table.refuse(key,
+               "a tolerance needs method \"auto\", \"mixed-interface\" or \"craig-bampton\"; give "
+               "modes or cutoff_Hz");
+}
+
+/// The method of a reduction that keeps an accuracy.
+reduce::Method method_of_tolerance(const Table& table)
+{
+  const reduce::Method method = method_of(table);
+  if (method == reduce::Method::guyan)
+    table.refuse("method", "Guyan keeps no accuracy; take this key out");
+  refuse_without_tolerance(table, "method", method);
+  return method;
+}
+
 /// A tolerance implies the method that costs least.
 reduce::Method read_method(const Table& table)
 {
   using enum reduce::Method;
   if (!table.has("method") && table.has("tolerance")) return automatic;
-  const auto method = table.choice<reduce::Method>("method", {{"auto", automatic},
-                                                              {"craig-bampton", craig_bampton},
-                                                              {"mixed-interface", mixed_interface},
-                                                              {"guyan", guyan},
-                                                              {"rubin", rubin},
-                                                              {"macneal", macneal}});
+  const reduce::Method method = method_of(table);
   if (method == automatic && !table.has("tolerance"))
     table.refuse("method", "\"auto\" chooses for a tolerance; give tolerance and up_to_Hz");
   return method;
 }
 
+/// With an accuracy nothing else may say what is kept.
+reduce::ReduceOptions kept_by(const Accuracy& accuracy, const std::optional<Table>& table)
+{
+  if (table) {
+    for (const char* key : {"modes", "cutoff_Hz", "tolerance", "up_to_Hz"})
+      if (table->has(key)) table->refuse(key, "`accuracy` chooses what is kept; take this key out");
+  }
+  reduce::ReduceOptions options{.method = reduce::Method::automatic};
+  if (table && table->has("method")) options.method = method_of_tolerance(*table);
+  options.tolerance = {.tolerance = accuracy.error, .up_to_Hz = accuracy.up_to_Hz};
+  return options;
+}
+
+std::optional<Table> optional_table(const Table& root)
+{
+  return root.has("reduce") ? std::optional(root.table("reduce")) : std::nullopt;
+}
+
 }  // namespace
 
-reduce::ReduceOptions read_reduce(const Table& root)
+std::optional<Accuracy> read_accuracy(const Table& root)
 {
+  if (!root.has("accuracy")) return std::nullopt;
+  if (!root.is_table("accuracy")) {
+    root.refuse("accuracy",
+                "must say up to which frequency too: { error = 1e-3, up_to_Hz = 8000 }");
+  }
+  const Table table = root.table("accuracy");
+  const Table mesh = root.table("mesh");
+  return Accuracy{.error = table.number("error"),
+                  .up_to_Hz = table.number("up_to_Hz"),
+                  .chooses_order = !mesh.has("element_order"),
+                  .chooses_edge_row = !mesh.has("edge_row")};
+}
+
+bool read_mesh_errors(const Table& root, const std::optional<Accuracy>& accuracy)
+{
+  const std::optional<Table> table = optional_table(root);
+  if (table && table->has("mesh_errors")) return table->truth("mesh_errors");
+  return accuracy.has_value();
+}
+
+reduce::ReduceOptions read_reduce(const Table& root, const std::optional<Accuracy>& accuracy)
+{
+  if (accuracy) return kept_by(*accuracy, optional_table(root));
   const Table table = root.table("reduce");
   reduce::ReduceOptions options;
   options.method = read_method(table);
@@ -118,11 +183,7 @@ reduce::ReduceOptions read_reduce(const Table& root)
   } else if (criterion == "cutoff_Hz") {
     options.cutoff_Hz = table.number("cutoff_Hz");
   } else {
-    if (options.method == reduce::Method::rubin || options.method == reduce::Method::macneal) {
-      table.refuse("tolerance",
-                   "needs method \"auto\", \"mixed-interface\" or \"craig-bampton\"; give modes or "
-                   "cutoff_Hz");
-    }
+    refuse_without_tolerance(table, "tolerance", options.method);
     options.tolerance = {.tolerance = table.number("tolerance"),
                          .up_to_Hz = table.number("up_to_Hz")};
   }
@@ -131,8 +192,8 @@ reduce::ReduceOptions read_reduce(const Table& root)
 
 ResultantChoice read_resultants(const Table& root, const Scene& scene)
 {
+  if (!root.has("reduce") || !root.table("reduce").has("resultants")) return {};
   const Table table = root.table("reduce");
-  if (!table.has("resultants")) return {};
   std::vector<std::string> groups = table.texts("resultants");
   std::vector<std::string> known;
   for (const plate::BeamSection& beam : scene.beams) known.push_back(beam.group);
@@ -153,24 +214,24 @@ ResultantChoice read_resultants(const Table& root, const Scene& scene)
 
 PictureChoice read_pictures(const Table& root)
 {
-  const Table table = root.table("reduce");
-  if (!table.has("pictures")) return PictureChoice::vertices;
-  return table.choice<PictureChoice>("pictures", {{"vertices", PictureChoice::vertices},
-                                                  {"all", PictureChoice::all},
-                                                  {"none", PictureChoice::none}});
+  const std::optional<Table> table = optional_table(root);
+  if (!table || !table->has("pictures")) return PictureChoice::vertices;
+  return table->choice<PictureChoice>("pictures", {{"vertices", PictureChoice::vertices},
+                                                   {"all", PictureChoice::all},
+                                                   {"none", PictureChoice::none}});
 }
 
 bool read_mass_integrals(const Table& root)
 {
-  const Table table = root.table("reduce");
-  return !table.has("mass_integrals") || table.truth("mass_integrals");
+  const std::optional<Table> table = optional_table(root);
+  return !table || !table->has("mass_integrals") || table->truth("mass_integrals");
 }
 
 std::optional<bool> read_sylvester(const Table& root)
 {
-  const Table table = root.table("reduce");
-  if (!table.has("sylvester")) return std::nullopt;
-  return table.truth("sylvester");
+  const std::optional<Table> table = optional_table(root);
+  if (!table || !table->has("sylvester")) return std::nullopt;
+  return table->truth("sylvester");
 }
 
 }  // namespace chladni::scene

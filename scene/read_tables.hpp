@@ -11,7 +11,11 @@
 /// read before it, so that names which refer to other tables can be checked.
 namespace chladni::scene {
 
-/// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene.
+/// `accuracy`
+std::optional<Accuracy> read_accuracy(const Table& root);
+
+/// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene. With `accuracy`
+/// the size of its elements stays open.
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
 
 /// [model] dofs: the components of each node; without the table all six.
@@ -52,8 +56,11 @@ std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
 
 /// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
-/// `mass_integrals` and `sylvester`.
-reduce::ReduceOptions read_reduce(const Table& root);
+/// `mass_integrals`, `mesh_errors` and `sylvester`; with `accuracy` by its tolerance.
+reduce::ReduceOptions read_reduce(const Table& root, const std::optional<Accuracy>& accuracy);
+
+/// [reduce] mesh_errors
+bool read_mesh_errors(const Table& root, const std::optional<Accuracy>& accuracy);
 
 /// [reduce] resultants, resultant_elements; needs the sections of `scene`.
 ResultantChoice read_resultants(const Table& root, const Scene& scene);
@@ -67,7 +74,8 @@ bool read_mass_integrals(const Table& root);
 /// [reduce] sylvester
 std::optional<bool> read_sylvester(const Table& root);
 
-/// [body]; without the table the body is free and keeps all modes. Reads `interface_nodes` and
+/// [body]; without the table the body is free and keeps all modes, with `accuracy` those of its
+/// tolerance. Reads `accuracy`, `interface_nodes` and
 /// `reduce` of the scene.
 mbs_export::BodyOptions read_body(const Table& root, const Scene& scene);
 

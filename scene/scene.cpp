@@ -61,6 +61,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.notes = root.notes();
     return scene;
   }
+  scene.accuracy = read_accuracy(root);
   scene.mesh = read_mesh(root, scene.path);
   scene.components = read_model_components(root);
   const Sections sections = read_sections(root, scene);
@@ -77,7 +78,8 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   if (is_reduced(root, scene, purpose)) {
     scene.interface_nodes = read_interface(root, scene);
     scene.ring_harmonics = read_ring_harmonics(root, scene);
-    scene.reduce = read_reduce(root);
+    scene.reduce = read_reduce(root, scene.accuracy);
+    scene.mesh_errors = read_mesh_errors(root, scene.accuracy);
     scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);
     scene.mass_integrals = read_mass_integrals(root);

@@ -32,7 +32,16 @@ struct StaticOptions {
 
 /// `chladni modes`
 struct ModesOptions {
-  int count = 10;  ///< natural modes, rigid-body motions included
+  int count = 10;            ///< natural modes, rigid-body motions included
+  bool mesh_errors = false;  ///< estimate what the mesh lets their frequencies be off
+};
+
+/// What a scene asks for in place of a mesh and a reduction of its choice.
+struct Accuracy {
+  double error;     ///< of each natural frequency of the body under its supports, relative: of mesh
+                    ///< and reduction together
+  double up_to_Hz;  ///< of the frequencies that keep it
+  bool chooses_order = true, chooses_edge_row = true;  ///< where [mesh] does not say them
 };
 
 /// A scene file, read and checked: one case from the mesh to the squeal.
@@ -42,6 +51,9 @@ struct Scene {
   std::string text;                ///< of the file, for provenance
   std::string path;                ///< of the file
   std::vector<std::string> notes;  ///< for the user: numbers that look like another unit's
+  std::optional<Accuracy> accuracy;
+  /// With `accuracy` a generator's element size of 0, and of a file a size factor of none, are
+  /// still to be chosen.
   mesh::MeshOptions mesh;
   std::vector<std::string> file_groups;  ///< of the mesh file; empty before it is read
   /// Of each node; the others are held at zero and not part of the model.
@@ -61,6 +73,7 @@ struct Scene {
   PictureChoice pictures = PictureChoice::vertices;
   ResultantChoice resultants;
   reduce::ReduceOptions reduce;
+  bool mesh_errors = false;       ///< estimate what the mesh lets the body's frequencies be off
   bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
   std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
   mbs_export::BodyOptions body;

@@ -112,6 +112,7 @@ constexpr Key model_rows[] = {
     {"static.report", texts, "none", "groups whose displacements are listed"},
     {"modes", table, "not asked for", "`chladni modes`"},
     {"modes.count", integer, "10", "rigid-body motions included", {.at_least = 1}},
+    {"modes.mesh_errors", truth, "false", "estimate what the mesh lets each frequency be off"},
 };
 
 }  // namespace

@@ -1,0 +1,173 @@
+#include "cases/mesh_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "plate/assembly/recovery.hpp"
+#include "plate/refinement/refined_mesh.hpp"
+#include "plate/sections/profile.hpp"
+#include "reduce/improved_modes.hpp"
+
+namespace chladni::cases {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+/// DOFs of a model whose elements are halved, for the better estimate, at four times its size.
+constexpr int most_halved = 50'000;
+
+/// Motions of all nodes in the modes, those of the mesh and then the reference nodes.
+/// @return [6 n_nodes x k]
+MatrixXd mode_motions(const plate::DofMap& dofs, Mat X, Index n_modes)
+{
+  MatrixXd motions(6 * dofs.n_nodes(), n_modes);
+  for (Index j = 0; j < n_modes; ++j) {
+    Vec column = nullptr;
+    petsc::check(MatDenseGetColumnVecRead(X, static_cast<PetscInt>(j), &column));
+    motions.col(j) = plate::node_motions(dofs, column).transpose().reshaped();
+    petsc::check(MatDenseRestoreColumnVecRead(X, static_cast<PetscInt>(j), &column));
+  }
+  return motions;
+}
+
+/// The rows of the motions of the nodes that are DOFs of the model.
+/// @param motions  [6 n_nodes x k]
+MatrixXd dof_rows(const plate::DofMap& dofs, const MatrixXd& motions,
+                  const std::vector<PetscInt>& wanted)
+{
+  std::vector<Index> row_of(static_cast<std::size_t>(dofs.n_dofs()), -1);
+  for (int node = 0; node < dofs.n_nodes(); ++node)
+    for (const int c : dofs.components())
+      if (const auto dof = dofs.dof(node, c)) row_of[static_cast<std::size_t>(*dof)] = 6 * node + c;
+  MatrixXd rows = MatrixXd::Zero(std::ssize(wanted), motions.cols());
+  for (Index i = 0; i < rows.rows(); ++i) {
+    const Index row = row_of[static_cast<std::size_t>(wanted[static_cast<std::size_t>(i)])];
+    if (row >= 0) rows.row(i) = motions.row(row);
+  }
+  return rows;
+}
+
+/// A frequency of another model for each of the given ones: pairs of modes that are most alike.
+VectorXd in_order_of_shapes(const reduce::ImprovedModes& modes)
+{
+  const Index n = modes.lambda.size();
+  MatrixXd shares = modes.shares;
+  VectorXd omega(n);
+  for (Index k = 0; k < n; ++k) {
+    Index shape = 0, mode = 0;
+    shares.maxCoeff(&shape, &mode);
+    omega[shape] = std::sqrt(std::max(modes.lambda[mode], 0.0));
+    shares.row(shape).setConstant(-1.0);
+    shares.col(mode).setConstant(-1.0);
+  }
+  return omega;
+}
+
+/// Modes of a model as another starts from them.
+struct KnownModes {
+  const mesh::Mesh& mesh;
+  const MatrixXd& motions;  ///< [6 n_nodes x k]
+  Index n_rigid;
+  double mu;  ///< rad^2/s^2, as improved_modes
+};
+
+/// The elastic frequencies of the refined mesh, in the order of the known ones.
+VectorXd frequencies_on(const scene::Scene& scene, plate::RefinedMesh refined,
+                        const KnownModes& known, const linear::SolverOptions& solver)
+{
+  const Index n_mesh = known.mesh.n_nodes();
+  MatrixXd on_mesh = plate::interpolated(known.mesh, refined, known.motions);
+  const SupportedModel other = assemble_supported(scene, std::move(refined.mesh));
+  MatrixXd motions(6 * other.system.dofs.n_nodes(), known.motions.cols());
+  motions << on_mesh, known.motions.bottomRows(known.motions.rows() - 6 * n_mesh);
+  const reduce::ShapesNearModes shapes{
+      .n_shapes = static_cast<int>(motions.cols()),
+      .rows = [&](const auto& dofs) { return dof_rows(other.system.dofs, motions, dofs); }};
+  const VectorXd omega = in_order_of_shapes(reduce::improved_modes(
+      other.system.K, other.system.M, reduce::free_dofs(other.system.K, other.held), shapes,
+      known.mu, solver));
+  return omega.tail(omega.size() - known.n_rigid);
+}
+
+/// Of the finer model, from the differences to a finer and to a coarser one: they go on as a
+/// geometric series, or as a slow one that is cut.
+VectorXd extrapolated(const VectorXd& to_finer, const VectorXd& to_coarser)
+{
+  constexpr double slowest = 0.5;
+  VectorXd errors = to_finer;
+  for (Index i = 0; i < errors.size(); ++i)
+    if (to_coarser[i] > 0.0) errors[i] /= 1.0 - std::min(to_finer[i] / to_coarser[i], slowest);
+  return errors;
+}
+
+/// Relative differences from the frequencies of a refinement.
+using DistanceTo = std::function<VectorXd(plate::RefinedMesh)>;
+
+/// The least thickness of the shells at each node: free edges have a layer of that width, where the
+/// twisting moment of a thin plate becomes its shear force.
+std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mesh)
+{
+  std::vector<double> least(mesh.positions.size(), std::numeric_limits<double>::infinity());
+  for (const plate::ShellSection& section : scene.sections)
+    for (const int node : mesh::find_group(mesh, section.group).nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      least[n] = std::min(least[n], plate::value_at(section.thickness, mesh.positions[n]));
+    }
+  return least;
+}
+
+/// Elements of half the size, and of the width of the layer at free edges, lack next to nothing
+/// where modes are smooth, and a quarter of the error where it goes with the square of the size.
+VectorXd errors_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh,
+                          const DistanceTo& distance_to)
+{
+  constexpr double left = 0.25;
+  const int order = mesh.blocks.front().order;
+  plate::RefinedMesh finer =
+      plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = thicknesses(scene, mesh)});
+  if (!plate::keeps_points(mesh, finer.mesh))
+    finer = plate::refined(mesh, {.parts = 2, .order = order});
+  return distance_to(std::move(finer)) / (1.0 - left);
+}
+
+VectorXd errors_by_orders(const mesh::Mesh& mesh, const DistanceTo& distance_to)
+{
+  const int order = mesh.blocks.front().order;
+  const VectorXd to_finer = distance_to(plate::refined(mesh, {.parts = 1, .order = order + 1}));
+  if (order == 1) return to_finer;
+  plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
+  if (!plate::keeps_points(mesh, coarser.mesh)) return to_finer;
+  return extrapolated(to_finer, distance_to(std::move(coarser)));
+}
+
+}  // namespace
+
+MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
+                       const reduce::NaturalModes& modes, const linear::SolverOptions& solver)
+{
+  const Index n = std::ssize(modes.lambda);
+  const Index n_rigid = std::min<Index>(plate::n_free_motions(model.free), n);
+  if (n == n_rigid) return {};
+  MeshErrors found{.omega = VectorXd(n - n_rigid), .errors = VectorXd(n - n_rigid)};
+  for (Index i = n_rigid; i < n; ++i)
+    found.omega[i - n_rigid] = std::sqrt(std::max(modes.lambda[static_cast<std::size_t>(i)], 0.0));
+  const MatrixXd motions = mode_motions(model.system.dofs, modes.X, n);
+  const double first = found.omega[0];
+  const KnownModes known{.mesh = model.mesh,
+                         .motions = motions,
+                         .n_rigid = n_rigid,
+                         .mu = n_rigid > 0 ? first * first : 0.0};
+  const auto distance_to = [&](plate::RefinedMesh other) {
+    const VectorXd omega = frequencies_on(scene, std::move(other), known, solver);
+    return VectorXd((omega - found.omega).cwiseAbs().cwiseQuotient(found.omega));
+  };
+  const bool is_large = model.system.dofs.n_dofs() > most_halved;
+  found.errors = is_large && plate::can_rise(model.mesh)
+                     ? errors_by_orders(model.mesh, distance_to)
+                     : errors_by_halves(scene, model.mesh, distance_to);
+  return found;
+}
+
+}  // namespace chladni::cases
