@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/chosen_mesh.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/ranks.hpp"
 #include "common/error.hpp"
@@ -34,12 +35,15 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
           .free = std::move(free)};
 }
 
-SupportedModel supported_model(const scene::Scene& scene, Phases& phases)
+SupportedModel supported_model(const scene::Scene& scene, const linear::SolverOptions& solver,
+                               Phases& phases)
 {
+  const scene::Scene meshed =
+      scene.accuracy ? chosen_mesh(scene, scene.supports, solver, phases).scene : scene;
   phases.begin("mesh");
-  mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  mesh::Mesh mesh = mesh_on_all_ranks(meshed);
   phases.begin("assembly");
-  return assemble_supported(scene, std::move(mesh));
+  return assemble_supported(meshed, std::move(mesh));
 }
 
 report::TextTable model_table(const SupportedModel& model)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cases/reduce_steps.hpp"
+#include "linear/solver_options.hpp"
 #include "plate/dofs/free_motions.hpp"
 #include "report/fe/vtu_scene.hpp"
 #include "report/json.hpp"
@@ -25,10 +26,12 @@ struct SupportedModel {
 /// @throws chladni::Error on all ranks alike.
 SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh);
 
-/// The phase of the assembly is still under way at its end.
+/// On a mesh that keeps the accuracy of the scene, if it asks for one. The phase of the assembly is
+/// still under way at its end.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike.
-SupportedModel supported_model(const scene::Scene& scene, Phases& phases);
+SupportedModel supported_model(const scene::Scene& scene, const linear::SolverOptions& solver,
+                               Phases& phases);
 
 /// Table of what the model is like.
 report::TextTable model_table(const SupportedModel& model);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// DOFs of a model whose elements are halved, for the better estimate, at four times its size.
-constexpr int most_halved = 50'000;
+constexpr int most_halved = 20'000;
 
 /// Motions of all nodes in the modes, those of the mesh and then the reference nodes.
 /// @return [6 n_nodes x k]
@@ -102,8 +102,13 @@ VectorXd extrapolated(const VectorXd& to_finer, const VectorXd& to_coarser)
   return errors;
 }
 
-/// Relative differences from the frequencies of a refinement.
-using DistanceTo = std::function<VectorXd(plate::RefinedMesh)>;
+/// The frequencies of a refinement, in the order of those of the model.
+using FrequenciesOf = std::function<VectorXd(plate::RefinedMesh)>;
+
+VectorXd relative_distance(const VectorXd& omega, const VectorXd& other)
+{
+  return (other - omega).cwiseAbs().cwiseQuotient(omega);
+}
 
 /// The least thickness of the shells at each node: free edges have a layer of that width, where the
 /// twisting moment of a thin plate becomes its shear force.
@@ -118,28 +123,40 @@ std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mes
   return least;
 }
 
-/// Elements of half the size, and of the width of the layer at free edges, lack next to nothing
-/// where modes are smooth, and a quarter of the error where it goes with the square of the size.
-VectorXd errors_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh,
-                          const DistanceTo& distance_to)
+/// Of each mode the frequency that is further from that of the model.
+VectorXd further(const VectorXd& omega, const VectorXd& one, const VectorXd& other)
+{
+  return ((one - omega).cwiseAbs().array() < (other - omega).cwiseAbs().array()).select(other, one);
+}
+
+/// Elements of half the size lack next to nothing where modes are smooth, and a quarter of the
+/// error where it goes with the square of the size. The layer at free edges, where it is thinner
+/// than half of the elements there, is asked for by elements cut at its width.
+void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh,
+                    const FrequenciesOf& frequencies, MeshErrors& found)
 {
   constexpr double left = 0.25;
   const int order = mesh.blocks.front().order;
-  plate::RefinedMesh finer =
-      plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = thicknesses(scene, mesh)});
-  if (!plate::keeps_points(mesh, finer.mesh))
-    finer = plate::refined(mesh, {.parts = 2, .order = order});
-  return distance_to(std::move(finer)) / (1.0 - left);
+  found.finer = frequencies(plate::refined(mesh, {.parts = 2, .order = order}));
+  const std::vector<double> rows = thicknesses(scene, mesh);
+  if (plate::has_wide_edges(mesh, rows)) {
+    plate::RefinedMesh cut = plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = rows});
+    if (plate::keeps_points(mesh, cut.mesh))
+      found.finer = further(found.omega, found.finer, frequencies(std::move(cut)));
+  }
+  found.errors = relative_distance(found.omega, found.finer) / (1.0 - left);
 }
 
-VectorXd errors_by_orders(const mesh::Mesh& mesh, const DistanceTo& distance_to)
+void find_by_orders(const mesh::Mesh& mesh, const FrequenciesOf& frequencies, MeshErrors& found)
 {
   const int order = mesh.blocks.front().order;
-  const VectorXd to_finer = distance_to(plate::refined(mesh, {.parts = 1, .order = order + 1}));
-  if (order == 1) return to_finer;
+  found.finer = frequencies(plate::refined(mesh, {.parts = 1, .order = order + 1}));
+  found.errors = relative_distance(found.omega, found.finer);
+  if (order == 1) return;
   plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
-  if (!plate::keeps_points(mesh, coarser.mesh)) return to_finer;
-  return extrapolated(to_finer, distance_to(std::move(coarser)));
+  if (!plate::keeps_points(mesh, coarser.mesh)) return;
+  found.errors =
+      extrapolated(found.errors, relative_distance(found.omega, frequencies(std::move(coarser))));
 }
 
 }  // namespace
@@ -150,7 +167,7 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
   const Index n = std::ssize(modes.lambda);
   const Index n_rigid = std::min<Index>(plate::n_free_motions(model.free), n);
   if (n == n_rigid) return {};
-  MeshErrors found{.omega = VectorXd(n - n_rigid), .errors = VectorXd(n - n_rigid)};
+  MeshErrors found{.omega = VectorXd(n - n_rigid), .errors = {}, .finer = {}};
   for (Index i = n_rigid; i < n; ++i)
     found.omega[i - n_rigid] = std::sqrt(std::max(modes.lambda[static_cast<std::size_t>(i)], 0.0));
   const MatrixXd motions = mode_motions(model.system.dofs, modes.X, n);
@@ -159,14 +176,14 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
                          .motions = motions,
                          .n_rigid = n_rigid,
                          .mu = n_rigid > 0 ? first * first : 0.0};
-  const auto distance_to = [&](plate::RefinedMesh other) {
-    const VectorXd omega = frequencies_on(scene, std::move(other), known, solver);
-    return VectorXd((omega - found.omega).cwiseAbs().cwiseQuotient(found.omega));
+  const auto frequencies = [&](plate::RefinedMesh other) {
+    return frequencies_on(scene, std::move(other), known, solver);
   };
   const bool is_large = model.system.dofs.n_dofs() > most_halved;
-  found.errors = is_large && plate::can_rise(model.mesh)
-                     ? errors_by_orders(model.mesh, distance_to)
-                     : errors_by_halves(scene, model.mesh, distance_to);
+  if (is_large && plate::can_rise(model.mesh))
+    find_by_orders(model.mesh, frequencies, found);
+  else
+    find_by_halves(scene, model.mesh, frequencies, found);
   return found;
 }
 

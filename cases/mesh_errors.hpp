@@ -13,6 +13,7 @@ namespace chladni::cases {
 struct MeshErrors {
   Eigen::VectorXd omega;   ///< [k] of the elastic modes, ascending; rad/s
   Eigen::VectorXd errors;  ///< [k] estimated relative errors of omega, without sign
+  Eigen::VectorXd finer;   ///< [k] the frequencies of the finer model, of the same modes; rad/s
 
   double largest() const { return errors.size() > 0 ? errors.maxCoeff() : 0.0; }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cases/chosen_mesh.hpp"
 #include "cases/enrich_scene.hpp"
 #include "cases/mass_integrals.hpp"
 #include "cases/picture.hpp"
@@ -264,14 +265,11 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
 
 }  // namespace
 
-ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
-                           const ReduceProgress& progress)
+namespace {
+
+/// Of a scene whose mesh is said.
+ReduceSummary reduce_meshed(const scene::Scene& scene, const SaidOfSolvers& solvers, Phases& phases)
 {
-  if (scene.interface_nodes.empty()) {
-    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
-                            scene.path));
-  }
-  Phases phases(progress);
   phases.begin("mesh");
   MeshedScene meshed = meshed_scene(scene);
   if (meshed.mesh.sectors.count > 1) {
@@ -298,6 +296,27 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
           .factorization = phases.time_of("factorization"),
           .factor = linear::factor_size(reduced.body.K_ss.factor()),
           .modes_residual = reduced.modes_residual};
+}
+
+}  // namespace
+
+ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
+                           const ReduceProgress& progress)
+{
+  if (scene.interface_nodes.empty()) {
+    throw Error(fmt::format("{}: interface is missing: a reduction needs [interface] and [reduce]",
+                            scene.path));
+  }
+  Phases phases(progress);
+  const MeshChoice choice =
+      chosen_mesh(scene, supports_of(scene.body.fixed), solvers.options, phases);
+  ReduceSummary summary = reduce_meshed(choice.scene, solvers, phases);
+  if (choice.errors) {
+    const Eigen::Index certified = summary.reduced.certificate.frequencies.size();
+    summary.reduced.certificate.mesh_errors =
+        choice.errors->errors.head(std::min(certified, choice.errors->errors.size()));
+  }
+  return summary;
 }
 
 }  // namespace chladni::cases

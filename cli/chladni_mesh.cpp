@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/chosen_mesh.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
@@ -126,15 +127,14 @@ void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
       count);
 }
 
-void mesh_and_print(const ChladniArguments& all)
+/// On the first rank.
+void mesh_and_print(const ChladniArguments& all, const Subject& subject)
 {
   const SceneArguments& arguments = all.scene;
   const QualityChoice& choice = all.mesh;
   report::PhaseClock clock;
-  const Subject subject = read_subject(all);
   const PictureFiles files = picture_files(subject, arguments);
   const ReservedOutputs reserved = reserve_outputs(arguments, {files.vtu, files.page});
-  clock.end_phase("read");
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
   std::vector<report::Json::Member> summary = mesh_json(mesh);
@@ -164,7 +164,15 @@ void mesh_and_print(const ChladniArguments& all)
 
 void mesh_command(const ChladniArguments& arguments)
 {
-  cases::on_first_rank([&] { mesh_and_print(arguments); });
+  Subject subject = read_subject(arguments);
+  if (subject.scene && subject.scene->accuracy) {
+    const cases::ReduceProgress bar = progress_bar({{"errors of the mesh", 100.0}});
+    cases::Phases phases(bar);
+    subject.mesh = cases::chosen_mesh(*subject.scene, cases::supports_of(subject.scene->body.fixed),
+                                      arguments.solver, phases)
+                       .scene.mesh;
+  }
+  cases::on_first_rank([&] { mesh_and_print(arguments, subject); });
 }
 
 }  // namespace chladni::cli

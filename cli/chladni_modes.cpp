@@ -72,7 +72,7 @@ void modes_command(const ChladniArguments& arguments)
   const ReservedOutputs reserved = reserve_on_first_rank(arguments.scene, {file});
   cases::ReduceProgress bar = progress_bar({{"mesh", 10.0}, {"assembly", 20.0}, {"modes", 70.0}});
   cases::Phases phases(bar);
-  const cases::SupportedModel model = cases::supported_model(scene, phases);
+  const cases::SupportedModel model = cases::supported_model(scene, arguments.solver, phases);
   const int n_rigid = plate::n_free_motions(model.free);
   const scene::ModesOptions asked = scene.natural_modes.value_or(scene::ModesOptions{});
   phases.begin("modes");

@@ -140,7 +140,7 @@ void static_command(const ChladniArguments& arguments)
   cases::ReduceProgress bar =
       progress_bar({{"mesh", 10.0}, {"assembly", 20.0}, {"solution", 70.0}});
   cases::Phases phases(bar);
-  const cases::SupportedModel model = cases::supported_model(scene, phases);
+  const cases::SupportedModel model = cases::supported_model(scene, arguments.solver, phases);
   phases.begin("solution");
   const Found found = solve(scene, model, arguments.solver);
   phases.end();

@@ -59,8 +59,11 @@ namespace {
 std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
 {
   using report::Times;
-  std::vector<report::Stage> stages{
-      {"mesh", 1.0}, {"assembly", 3.0}, {"partition", 1.0}, {"factorization", 4.0}};
+  std::vector<report::Stage> stages{{"errors of the mesh", 30.0, Times::unknown},
+                                    {"mesh", 1.0},
+                                    {"assembly", 3.0},
+                                    {"partition", 1.0},
+                                    {"factorization", 4.0}};
   const report::Stage constraint{"constraint modes", 4.0};
   const auto add = [&](const std::vector<report::Stage>& more) {
     stages.insert(stages.end(), more.begin(), more.end());
@@ -187,6 +190,10 @@ report::TextTable reduction_table(const cases::ReduceSummary& summary)
     table.rows.push_back({fmt::format("estimated error of the frequencies up to {:.0f} Hz",
                                       certificate.frequencies[n - 1] / (2.0 * std::numbers::pi)),
                           fmt::format("{:.1e}", largest_error(certificate))});
+  }
+  if (certificate.mesh_errors.size() > 0) {
+    table.rows.push_back({"estimated error of these by the mesh",
+                          fmt::format("{:.1e}", certificate.mesh_errors.maxCoeff())});
   }
   if (const mbs_export::ModeCount& count = certificate.range; count.up_to > 0.0) {
     table.rows.push_back(

@@ -41,6 +41,7 @@ struct Certificate {
   double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
   double count_share = 0.0;        ///< of a count in the reduction's work; 0 where unknown, no file
   std::optional<ResponseCheck> responses = {};
+  Eigen::VectorXd mesh_errors{};  ///< [<= k] estimated relative errors of `frequencies` by the mesh
 };
 
 /// The estimated relative error of each frequency, what a user reads: `estimates`, or in files

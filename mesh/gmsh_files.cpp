@@ -137,6 +137,7 @@ std::vector<std::string> open_geo(const MeshOptions& options)
   check_parameters_can_be_set(options);
   check_does_not_mesh_itself(file, code);
   check_parameters_are_used(options, code);
+  gmsh::option::setNumber("Mesh.MeshSizeFactor", options.size_factor);
   if (options.parameters.empty()) {
     gmsh::open(file);
   } else {

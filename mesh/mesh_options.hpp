@@ -131,6 +131,7 @@ struct MeshOptions {
   std::optional<std::string> file = {};
   std::optional<int> element_order = {};    ///< not of a .msh, which has its own
   std::optional<double> element_size = {};  ///< m; of a .step, else as Gmsh likes
+  double size_factor = 1.0;                 ///< of the element sizes that a .geo says
   std::vector<std::pair<std::string, double>> parameters = {};  ///< of a .geo, in its own unit
   double length_unit = 1.0;                   ///< m; what 1 is in the file; a .step tells it itself
   std::vector<EntityGroup> groups = {};       ///< besides those of the file

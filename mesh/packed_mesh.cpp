@@ -42,6 +42,7 @@ void transfer_options(auto& archive, auto& options)
   archive(options.file);
   archive(options.element_order);
   archive(options.element_size);
+  archive(options.size_factor);
   archive.each(options.parameters, [](auto& a, auto& parameter) {
     a(parameter.first);
     a(parameter.second);

@@ -56,6 +56,10 @@ TextTable quality_table(const mbs_export::Certificate& certificate)
   table.rows.push_back(
       {"largest estimated error of a frequency",
        fmt::format("{:.2e}", mbs_export::estimated_errors(certificate).maxCoeff())});
+  if (certificate.mesh_errors.size() > 0) {
+    table.rows.push_back({"largest estimated error of one by the mesh",
+                          fmt::format("{:.2e}", certificate.mesh_errors.maxCoeff())});
+  }
   if (const auto limit = limit_by_rounding(certificate))
     table.rows.push_back({"limited by rounding to about", fmt::format("{:.0e}", *limit)});
   table.rows.push_back(
@@ -85,14 +89,19 @@ TextTable mode_table(const mbs_export::Certificate& certificate)
   TextTable table{.header = {"mode", "frequency, Hz", "estimated error"}, .rows = {}};
   const bool has_bounds = certificate.bounds.size() > 0;
   if (has_bounds) table.header.emplace_back("bound");
+  const Eigen::VectorXd& of_mesh = certificate.mesh_errors;
+  if (of_mesh.size() > 0) table.header.emplace_back("error of the mesh");
   const Eigen::VectorXd errors = mbs_export::estimated_errors(certificate);
   for (Index i = 0; i < std::min(most_lines, errors.size()); ++i) {
     table.rows.push_back({fmt::format("{}", i + 1),
                           fmt::format("{:.4f}", certificate.frequencies[i] / two_pi),
                           fmt::format("{:.2e}", errors[i])});
-    if (!has_bounds) continue;
-    table.rows.back().push_back(
-        i < certificate.bounds.size() ? fmt::format("{:.2e}", 0.5 * certificate.bounds[i]) : "");
+    if (has_bounds) {
+      table.rows.back().push_back(
+          i < certificate.bounds.size() ? fmt::format("{:.2e}", 0.5 * certificate.bounds[i]) : "");
+    }
+    if (of_mesh.size() > 0)
+      table.rows.back().push_back(i < of_mesh.size() ? fmt::format("{:.2e}", of_mesh[i]) : "");
   }
   return table;
 }

@@ -132,7 +132,9 @@ reduce::ReduceOptions kept_by(const Accuracy& accuracy, const std::optional<Tabl
   }
   reduce::ReduceOptions options{.method = reduce::Method::automatic};
   if (table && table->has("method")) options.method = method_of_tolerance(*table);
-  options.tolerance = {.tolerance = accuracy.error, .up_to_Hz = accuracy.up_to_Hz};
+  // Of the squares of the frequencies: what the mesh leaves of the accuracy.
+  constexpr double share = 0.2;
+  options.tolerance = {.tolerance = share * accuracy.error, .up_to_Hz = accuracy.up_to_Hz};
   return options;
 }
 

@@ -40,6 +40,15 @@ void read_counts(const files::Reader& file, Certificate& certificate)
     certificate.*counts[i] = {up_to[Eigen::Index(i)], expected[i], found[i]};
 }
 
+/// Of the first modes of the certificate.
+void check_length(const files::Reader& file, const std::string& name, const Eigen::VectorXd& values,
+                  const Certificate& certificate)
+{
+  if (values.size() <= certificate.eta2.size()) return;
+  file.fail(name,
+            fmt::format("has {} values for {} modes", values.size(), certificate.eta2.size()));
+}
+
 }  // namespace
 
 Eigen::VectorXd estimated_errors(const Certificate& certificate)
@@ -58,6 +67,8 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
     file.write("certificate/estimates", certificate.estimates, "1");
     file.write("certificate/rounding", certificate.rounding, "1");
   }
+  if (certificate.mesh_errors.size() > 0)
+    file.write("certificate/mesh_errors", certificate.mesh_errors, "1");
   file.write("certificate/rigid_modes", std::int64_t{certificate.n_rigid}, "1");
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0)
@@ -83,6 +94,10 @@ Certificate read_certificate(const files::Reader& file)
     certificate.estimates = file.vector("certificate/estimates", certificate.eta2.size());
     certificate.rounding = file.vector("certificate/rounding", certificate.eta2.size());
   }
+  if (file.contains("certificate/mesh_errors")) {
+    certificate.mesh_errors = file.vector("certificate/mesh_errors");
+    check_length(file, "certificate/mesh_errors", certificate.mesh_errors, certificate);
+  }
   if (file.contains("certificate/rigid_modes")) {
     certificate.n_rigid = file_parts::read_count(file, "certificate/rigid_modes");
     certificate.rigid_residual = file.real("certificate/rigid_residual");
@@ -96,11 +111,7 @@ Certificate read_certificate(const files::Reader& file)
   }
   if (!file.contains("certificate/counts")) return certificate;
   certificate.bounds = file.vector("certificate/bounds");
-  if (certificate.bounds.size() > certificate.eta2.size()) {
-    file.fail("certificate/bounds",
-              fmt::format("has {} values for {} modes", certificate.bounds.size(),
-                          certificate.eta2.size()));
-  }
+  check_length(file, "certificate/bounds", certificate.bounds, certificate);
   read_counts(file, certificate);
   return certificate;
 }

@@ -34,13 +34,15 @@ EdgeCuts::EdgeCuts(const mesh::Mesh& mesh, const std::vector<double>& rows)
 double EdgeCuts::cut(const std::vector<int>& edge) const
 {
   constexpr double middle = 0.5;
+  constexpr double near_middle = 0.3;  // a half of the element is about as wide as the row
   if (rows_.empty()) return middle;
   const auto a = static_cast<std::size_t>(edge.front()), b = static_cast<std::size_t>(edge.back());
   if (is_free_[a] == is_free_[b]) return middle;
   const auto& x = mesh_.positions[a];
   const auto& y = mesh_.positions[b];
   const double length = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
-  const double share = std::min(rows_[is_free_[a] != 0 ? a : b] / length, middle);
+  const double share = rows_[is_free_[a] != 0 ? a : b] / length;
+  if (share > near_middle) return middle;
   return is_free_[a] != 0 ? share : 1.0 - share;
 }
 

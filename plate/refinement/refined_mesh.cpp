@@ -264,6 +264,16 @@ RefinedMesh refined(const Mesh& mesh, const Refinement& refinement)
   return Refiner(mesh, refinement).result();
 }
 
+bool has_wide_edges(const Mesh& mesh, const std::vector<double>& rows)
+{
+  const EdgeCuts cuts(mesh, rows);
+  return std::ranges::any_of(mesh.blocks, [&](const ElementBlock& block) {
+    for (int e = 0; e < block.n_elements(); ++e)
+      if (cuts.cuts(block, e) != in_the_middle) return true;
+    return false;
+  });
+}
+
 bool keeps_points(const Mesh& mesh, const Mesh& refined)
 {
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {

@@ -34,6 +34,10 @@ struct RefinedMesh {
 /// none, and lose those that the refined elements do not have.
 RefinedMesh refined(const mesh::Mesh& mesh, const Refinement& refinement);
 
+/// Whether elements at free edges are much wider than two of these rows.
+/// @param rows  [n_nodes] m
+bool has_wide_edges(const mesh::Mesh& mesh, const std::vector<double>& rows);
+
 /// Whether groups of points and rings have all their nodes in the refined mesh.
 bool keeps_points(const mesh::Mesh& mesh, const mesh::Mesh& refined);
 

@@ -58,7 +58,7 @@ _OF_BODIES: _Rows = [
     (r"certificate/counts/\w+", ("count",), {}),
     (r"certificate/fixed|fixed", ("support",), {}),
     (r"certificate/frequencies", ("certified_mode",), {}),
-    (r"certificate/(eta2|estimates|rounding)", ("certified_mode",), {"certified_mode": "frequencies"}),
+    (r"certificate/(eta2|estimates|rounding|mesh_errors)", ("certified_mode",), {"certified_mode": "frequencies"}),
     (r"certificate/bounds", ("bounded_mode",), {}),
     (r"modes/(frequencies|kinds)", ("mode",), {}),
     (r"modes/damping", ("mode", "mode_2"), {"mode": "frequencies", "mode_2": "frequencies"}),

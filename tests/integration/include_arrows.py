@@ -27,6 +27,7 @@ ALLOWED = {
     "mesh/decks": ("common", "mesh"),
     "plate": ("common", "mesh"),
     "plate/elements": ("common", "mesh", "plate"),
+    "plate/refinement": ("common", "mesh", "plate", "plate/elements"),
     "plate/sections": ("common", "mesh", "plate", "plate/elements"),
     "plate/dofs": ("common", "mesh", "plate", "plate/elements", "plate/sections"),
     "plate/assembly": ("common", "mesh", "plate/"),

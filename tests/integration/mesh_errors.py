@@ -44,6 +44,17 @@ count = {count}
 mesh_errors = {estimated}
 """
 
+PLATE_WITH_HOLE = """
+SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.1 ];
+Rectangle(1) = {0, 0, 0, 0.3, 0.2};
+Disk(2) = {0.1, 0.1, 0, 0.02};
+BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
+MeshSize{ PointsOf{ Surface{:}; } } = h;
+Physical Surface("plate") = {3};
+Physical Curve("left") = {Boundary{ Surface{3}; }};
+"""
+
 L_SHAPE = """
 SetFactory("OpenCASCADE");
 DefineConstant[ h = 0.1 ];
@@ -70,13 +81,13 @@ pattern = "{pattern}"
                    thickness=thickness, support="inner_edge", count=count, estimated="true")
 
 
-def l_shape(size, order, estimated):
+def of_geo(name, size, order, thickness, estimated):
     return f"""
 [mesh]
-file = "l.geo"
+file = "{name}"
 element_order = {order}
 parameters = {{ h = {size} }}
-""" + PLATE.format(young=2e11, density=7800.0, group="plate", thickness=0.05, support="left", count=4,
+""" + PLATE.format(young=2e11, density=7800.0, group="plate", thickness=thickness, support="left", count=4,
                    estimated=estimated)
 
 
@@ -139,9 +150,13 @@ def main(programs):
                 good &= check(f"r/h = {ratio}{', edge row' if row else ''}", [found[nearest]], [exact],
                               [estimates[nearest]])
         (folder / "l.geo").write_text(L_SHAPE.replace('"edge"', '"left"'))
-        fine, _ = modes(programs, folder, l_shape(0.02, 3, "false"))
-        found, estimates = modes(programs, folder, l_shape(0.15, 2, "true"))
+        fine, _ = modes(programs, folder, of_geo("l.geo", 0.02, 3, 0.05, "false"))
+        found, estimates = modes(programs, folder, of_geo("l.geo", 0.15, 2, 0.05, "true"))
         good &= check("L-shaped plate, clamped", found, fine, estimates, 1e-4)
+        (folder / "hole.geo").write_text(PLATE_WITH_HOLE)
+        fine, _ = modes(programs, folder, of_geo("hole.geo", 0.012, 3, 0.004, "false"))
+        found, estimates = modes(programs, folder, of_geo("hole.geo", 0.025, 3, 0.004, "true"))
+        good &= check("thin plate with a round hole, triangles", found, fine, estimates)
         fine, _ = modes(programs, folder, beam(400, "false"))
         found, estimates = modes(programs, folder, beam(10, "true"))
         good &= check("cantilever of ten Timoshenko elements", found, fine, estimates)

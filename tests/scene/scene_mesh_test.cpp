@@ -132,6 +132,67 @@ TEST(SceneMeshError, NamesWhatAGeneratorDoesNotAdmit)
             std::string::npos);
 }
 
+/// With an accuracy: no size of elements and no [reduce], or what `changes` say.
+std::string accurate(const std::string& mesh = "", const std::string& rest = "")
+{
+  return R"(accuracy = { error = 1e-3, up_to_Hz = 8000.0 }
+[mesh]
+generator = "annulus"
+inner_radius = 0.02
+outer_radius = 0.16
+)" + mesh +
+         R"([material.iron]
+young = 9e10
+poisson = 0.3
+density = 6300.0
+[[section]]
+type = "shell"
+material = "iron"
+thickness = 0.02
+group = "disc"
+[interface]
+nodes = ["outer_edge"]
+)" + rest;
+}
+
+TEST(SceneAccuracy, StandsForMeshAndReduction)
+{
+  const Scene scene = parse_scene(accurate(), "scene.toml");
+  ASSERT_TRUE(scene.accuracy);
+  EXPECT_EQ(scene.accuracy->error, 1e-3);
+  EXPECT_TRUE(scene.accuracy->chooses_order && scene.accuracy->chooses_edge_row);
+  EXPECT_TRUE(scene.mesh_errors);
+  EXPECT_EQ(scene.mesh.annulus->element_size, 0.0);
+  EXPECT_EQ(scene.mesh.annulus->pattern, mesh::Pattern::structured);
+  EXPECT_EQ(scene.reduce.method, reduce::Method::automatic);
+  EXPECT_EQ(scene.reduce.tolerance->up_to_Hz, 8000.0);
+  EXPECT_LT(scene.reduce.tolerance->tolerance, 1e-3);
+  EXPECT_EQ(scene.body.keep.tolerance->error, 1e-3);
+  const Scene said = parse_scene(accurate("element_order = 2\nedge_row = 0.01\n",
+                                          "[reduce]\nmethod = \"craig-bampton\"\nmesh_errors = "
+                                          "false\n[body]\nkeep = { modes = 7 }\n"),
+                                 "scene.toml");
+  EXPECT_FALSE(said.accuracy->chooses_order || said.accuracy->chooses_edge_row);
+  EXPECT_EQ(said.reduce.method, reduce::Method::craig_bampton);
+  EXPECT_FALSE(said.mesh_errors);
+  EXPECT_EQ(said.body.keep.count, 7);
+}
+
+TEST(SceneAccuracyError, NamesWhatItChoosesItself)
+{
+  const auto starts = [](const std::string& text, const std::string& with) {
+    EXPECT_EQ(error_of(text).substr(0, with.size()), with);
+  };
+  starts(accurate("element_size = 0.01\n"),
+         "scene.toml:6: mesh.element_size = 0.01: `accuracy` chooses it; take this key out");
+  starts(accurate("", "[reduce]\nmethod = \"guyan\"\n"),
+         "scene.toml:18: reduce.method = \"guyan\": Guyan keeps no accuracy");
+  starts(accurate("", "[reduce]\nmodes = 7\n"),
+         "scene.toml:18: reduce.modes = 7: `accuracy` chooses what is kept; take this key out");
+  starts("accuracy = 1e-3\n" + accurate().substr(accurate().find('\n') + 1),
+         "scene.toml:1: accuracy = 0.001: must say up to which frequency too");
+}
+
 TEST(SceneMesh, HoldsWhatAFileNeeds)
 {
   const auto options = options_of(

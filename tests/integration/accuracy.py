@@ -1,0 +1,146 @@
+"""A scene that says an accuracy and no mesh gets one that keeps it.
+
+The clamped annular Mindlin plate against its exact frequencies, for three accuracies; a free plate, a plate
+from a .geo, a hat disc and a beam against meshes that were chosen for a tenth of the error. A mesh file
+that cannot be refined is refused with the error that it has.
+
+Usage: accuracy.py PROGRAM_DIR
+"""
+
+import sys
+import tempfile
+from pathlib import Path
+
+from running import run, summary
+
+UP_TO_HZ = 4000.0
+# Hz, as in mesh_errors.py.
+EXACT = sorted([638.0761173813, 1045.85339702, 3527.579164383]
+               + 2 * [542.5079495233, 794.5199204630, 1672.090697922, 2854.918331051, 3315.46219397,
+                      3799.055572333])
+IRON = """
+[material.iron]
+young = 9.15915e10
+poisson = 0.3
+density = 6300.0
+"""
+HELD = """
+[[support]]
+group = "{group}"
+dofs = ["x", "y", "z", "rx", "ry", "rz"]
+"""
+GEO = """
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 0.3, 0.2};
+Disk(2) = {0.1, 0.1, 0, 0.02};
+BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
+MeshSize{ PointsOf{ Surface{:}; } } = 0.05;
+Physical Surface("plate") = {3};
+Physical Curve("edge") = {Boundary{ Surface{3}; }};
+"""
+
+
+def shell(group, thickness):
+    return f"""
+[[section]]
+group = "{group}"
+type = "shell"
+material = "iron"
+thickness = {thickness}
+"""
+
+
+ANNULUS = ("""
+[mesh]
+generator = "annulus"
+inner_radius = 0.025
+outer_radius = 0.162
+""" + IRON + shell("disc", 0.02) + HELD.format(group="inner_edge"))
+
+MODELS = {
+    "free plate": """
+[mesh]
+generator = "rectangle"
+length = 0.3
+width = 0.2
+""" + IRON + shell("plate", 0.006),
+    "plate of a .geo": """
+[mesh]
+file = "plate.geo"
+""" + IRON + shell("plate", 0.006) + HELD.format(group="edge"),
+    "hat disc": """
+[mesh]
+generator = "hat_disc"
+outer_radius = 0.15
+wall_radius = 0.08
+hub_radius = 0.035
+height = 0.04
+""" + IRON + shell("disc", 0.02) + shell("wall", 0.01) + shell("flange", 0.01) + HELD.format(group="hub_edge"),
+    "beam": """
+[mesh]
+generator = "beam"
+start = [0, 0, 0]
+end = [0.5, 0, 0]
+""" + IRON + """
+[[section]]
+group = "beam"
+type = "beam"
+material = "iron"
+area = 6e-4
+I_y = 4.5e-8
+I_z = 2e-8
+J = 4.7e-8
+orientation = [0, 0, 1]
+""" + HELD.format(group="start"),
+}
+
+
+def frequencies(programs, folder, model, error, count):
+    text = f"accuracy = {{ error = {error}, up_to_Hz = {UP_TO_HZ} }}\n{model}\n[modes]\ncount = {count}\n"
+    (folder / "scene.toml").write_text(text)
+    found = summary(programs / "chladni", "modes", folder / "scene.toml", "--output", folder)
+    return [f for f in found["frequencies_Hz"] if 1.0 < f < UP_TO_HZ], found["n_dofs"]
+
+
+def check(name, found, exact, error, n_dofs):
+    worst = max(abs(f / e - 1) for f, e in zip(found, exact))
+    print(f"{name:18} {error:9.0e} {worst:9.1e} {n_dofs:7}")
+    return worst <= error and len(found) == len(exact)
+
+
+def refuses_mesh_file(programs, folder):
+    """A .msh keeps its size: what it has is said."""
+    nodes = [(x, y) for y in (0, 0.1, 0.2) for x in (0, 0.1, 0.2, 0.3)]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "1", '2 1 "plate"', "$EndPhysicalNames",
+             "$Nodes", str(len(nodes))]
+    lines += [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(nodes)] + ["$EndNodes", "$Elements", "6"]
+    corners = [4 * j + i + 1 for j in range(2) for i in range(3)]
+    lines += [f"{k + 1} 3 2 1 1 {c} {c + 1} {c + 5} {c + 4}" for k, c in enumerate(corners)] + ["$EndElements", ""]
+    (folder / "plate.msh").write_text("\n".join(lines))
+    (folder / "scene.toml").write_text(
+        f'accuracy = {{ error = 1e-3, up_to_Hz = {UP_TO_HZ} }}\n[mesh]\nfile = "plate.msh"\n{IRON}'
+        f'{shell("plate", 0.006)}\n[modes]\ncount = 10\n')
+    said = run(programs / "chladni", "modes", folder / "scene.toml", "--output", folder, code=1)
+    print(said.strip())
+    return "plate.msh has an error of" in said
+
+
+def main(programs):
+    good = True
+    print(f"{'model':18} {'accuracy':>9} {'error':>9} {'DOFs':>7}")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "plate.geo").write_text(GEO)
+        for error in (1e-2, 1e-3, 1e-4):
+            found, n_dofs = frequencies(programs, folder, ANNULUS, error, 20)
+            good &= check("annulus", found, EXACT, error, n_dofs)
+        for model, text in MODELS.items():
+            fine, _ = frequencies(programs, folder, text, 3e-4, 40)
+            found, n_dofs = frequencies(programs, folder, text, 3e-3, 40)
+            good &= check(model, found, fine, 3e-3, n_dofs)
+        good &= refuses_mesh_file(programs, folder)
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))
