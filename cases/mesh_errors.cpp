@@ -1,10 +1,13 @@
 #include "cases/mesh_errors.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 
+#include "common/eigen_every.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "plate/refinement/refined_mesh.hpp"
 #include "plate/sections/profile.hpp"
@@ -49,20 +52,77 @@ MatrixXd dof_rows(const plate::DofMap& dofs, const MatrixXd& motions,
   return rows;
 }
 
-/// A frequency of another model for each of the given ones: pairs of modes that are most alike.
-VectorXd in_order_of_shapes(const reduce::ImprovedModes& modes)
+/// The mode of another model for each of the given ones: pairs that are most alike.
+std::vector<Index> by_shapes(MatrixXd shares)
 {
-  const Index n = modes.lambda.size();
-  MatrixXd shares = modes.shares;
-  VectorXd omega(n);
-  for (Index k = 0; k < n; ++k) {
+  std::vector<Index> mode_of(static_cast<std::size_t>(shares.rows()), 0);
+  for (Index k = 0; k < shares.rows(); ++k) {
     Index shape = 0, mode = 0;
     shares.maxCoeff(&shape, &mode);
-    omega[shape] = std::sqrt(std::max(modes.lambda[mode], 0.0));
+    mode_of[static_cast<std::size_t>(shape)] = mode;
     shares.row(shape).setConstant(-1.0);
     shares.col(mode).setConstant(-1.0);
   }
-  return omega;
+  return mode_of;
+}
+
+/// Root sums of squares of the radial, circumferential and axial displacements of some nodes, and
+/// of their rotations about these axes; z is the axis.
+/// @param motions  [6 n_nodes x k]
+/// @return [6 x k]
+MatrixXd sizes_at(const mesh::Mesh& mesh, const std::vector<int>& nodes, const MatrixXd& motions)
+{
+  MatrixXd squares = MatrixXd::Zero(6, motions.cols());
+  for (const int node : nodes) {
+    const auto& x = mesh.positions[static_cast<std::size_t>(node)];
+    const double angle = std::atan2(x[1], x[0]);
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    for (const int kind : {0, 3})
+      squares.middleRows<3>(kind) += (turn * motions.middleRows<3>(6 * node + kind)).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
+/// Nodes of the interface that two meshes have, in each of them.
+struct CommonNodes {
+  std::vector<int> one, other;
+};
+
+CommonNodes interface_nodes(const scene::Scene& scene, const mesh::Mesh& one,
+                            const mesh::Mesh& other)
+{
+  std::map<std::int64_t, int> with_number;
+  for (int i = 0; i < other.n_nodes(); ++i)
+    with_number[other.node_numbers[static_cast<std::size_t>(i)]] = i;
+  CommonNodes common;
+  for (const mesh::Group& group : one.groups) {
+    if (std::ranges::find(scene.interface_nodes, group.name) == scene.interface_nodes.end())
+      continue;
+    for (const int node : group.nodes) {
+      const auto found = with_number.find(one.node_numbers[static_cast<std::size_t>(node)]);
+      if (found == with_number.end()) continue;
+      common.one.push_back(node);
+      common.other.push_back(found->second);
+    }
+  }
+  return common;
+}
+
+/// The relative differences of the components that a mode moves.
+/// @param one, other  [6 x k]
+MatrixXd differences(const MatrixXd& one, const MatrixXd& other)
+{
+  constexpr double still = 1e-3;  // of the largest component, and of what other modes do
+  MatrixXd relative = MatrixXd::Zero(6, one.cols());
+  for (Index c = 0; c < 6; ++c) {
+    const auto of_kind = one.middleRows<3>(c < 3 ? 0 : 3);
+    const double most = of_kind.maxCoeff();
+    for (Index j = 0; j < one.cols(); ++j)
+      if (one(c, j) > still * std::max(most, of_kind.col(j).maxCoeff()))
+        relative(c, j) = std::abs(other(c, j) / one(c, j) - 1.0);
+  }
+  return relative;
 }
 
 /// Modes of a model as another starts from them.
@@ -73,9 +133,14 @@ struct KnownModes {
   double mu;  ///< rad^2/s^2, as improved_modes
 };
 
-/// The elastic frequencies of the refined mesh, in the order of the known ones.
-VectorXd frequencies_on(const scene::Scene& scene, plate::RefinedMesh refined,
-                        const KnownModes& known, const linear::SolverOptions& solver)
+/// What a refined mesh tells of the elastic modes, in the order of the known ones.
+struct RefinedModes {
+  VectorXd omega;   ///< [k] rad/s
+  MatrixXd shapes;  ///< [6 x k] differences from the known ones
+};
+
+RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
+                      const KnownModes& known, const linear::SolverOptions& solver)
 {
   const Index n_mesh = known.mesh.n_nodes();
   MatrixXd on_mesh = plate::interpolated(known.mesh, refined, known.motions);
@@ -85,10 +150,21 @@ VectorXd frequencies_on(const scene::Scene& scene, plate::RefinedMesh refined,
   const reduce::ShapesNearModes shapes{
       .n_shapes = static_cast<int>(motions.cols()),
       .rows = [&](const auto& dofs) { return dof_rows(other.system.dofs, motions, dofs); }};
-  const VectorXd omega = in_order_of_shapes(reduce::improved_modes(
-      other.system.K, other.system.M, reduce::free_dofs(other.system.K, other.held), shapes,
-      known.mu, solver));
-  return omega.tail(omega.size() - known.n_rigid);
+  const reduce::FreeDofs free = reduce::free_dofs(other.system.K, other.held);
+  const reduce::ImprovedModes modes =
+      reduce::improved_modes(other.system.K, other.system.M, free, shapes, known.mu, solver);
+  std::vector<Index> mode_of = by_shapes(modes.shares);
+  mode_of.erase(mode_of.begin(), mode_of.begin() + known.n_rigid);
+  RefinedModes found{.omega = VectorXd(modes.lambda(mode_of)).cwiseMax(0.0).cwiseSqrt(),
+                     .shapes = MatrixXd::Zero(6, std::ssize(mode_of))};
+  const CommonNodes common = interface_nodes(scene, known.mesh, other.mesh);
+  if (common.one.empty()) return found;
+  const petsc::Matrix X = reduce::of_all_dofs(modes.X, free, other.system.K, shapes.n_shapes);
+  const MatrixXd of_other =
+      sizes_at(other.mesh, common.other, mode_motions(other.system.dofs, X, motions.cols()));
+  const MatrixXd of_known = sizes_at(known.mesh, common.one, known.motions);
+  found.shapes = differences(of_known.rightCols(std::ssize(mode_of)), of_other(every, mode_of));
+  return found;
 }
 
 /// Of the finer model, from the differences to a finer and to a coarser one: they go on as a
@@ -102,8 +178,8 @@ VectorXd extrapolated(const VectorXd& to_finer, const VectorXd& to_coarser)
   return errors;
 }
 
-/// The frequencies of a refinement, in the order of those of the model.
-using FrequenciesOf = std::function<VectorXd(plate::RefinedMesh)>;
+/// The modes of a refinement, in the order of those of the model.
+using ModesOn = std::function<RefinedModes(plate::RefinedMesh)>;
 
 VectorXd relative_distance(const VectorXd& omega, const VectorXd& other)
 {
@@ -132,31 +208,35 @@ VectorXd further(const VectorXd& omega, const VectorXd& one, const VectorXd& oth
 /// Elements of half the size lack next to nothing where modes are smooth, and a quarter of the
 /// error where it goes with the square of the size. The layer at free edges, where it is thinner
 /// than half of the elements there, is asked for by elements cut at its width.
-void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh,
-                    const FrequenciesOf& frequencies, MeshErrors& found)
+void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const ModesOn& modes,
+                    MeshErrors& found)
 {
   constexpr double left = 0.25;
   const int order = mesh.blocks.front().order;
-  found.finer = frequencies(plate::refined(mesh, {.parts = 2, .order = order}));
+  RefinedModes finer = modes(plate::refined(mesh, {.parts = 2, .order = order}));
+  found.finer = std::move(finer.omega);
+  found.shape_errors = finer.shapes / (1.0 - left);
   const std::vector<double> rows = thicknesses(scene, mesh);
   if (plate::has_wide_edges(mesh, rows)) {
     plate::RefinedMesh cut = plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = rows});
     if (plate::keeps_points(mesh, cut.mesh))
-      found.finer = further(found.omega, found.finer, frequencies(std::move(cut)));
+      found.finer = further(found.omega, found.finer, modes(std::move(cut)).omega);
   }
   found.errors = relative_distance(found.omega, found.finer) / (1.0 - left);
 }
 
-void find_by_orders(const mesh::Mesh& mesh, const FrequenciesOf& frequencies, MeshErrors& found)
+void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found)
 {
   const int order = mesh.blocks.front().order;
-  found.finer = frequencies(plate::refined(mesh, {.parts = 1, .order = order + 1}));
+  RefinedModes finer = modes(plate::refined(mesh, {.parts = 1, .order = order + 1}));
+  found.finer = std::move(finer.omega);
+  found.shape_errors = std::move(finer.shapes);
   found.errors = relative_distance(found.omega, found.finer);
   if (order == 1) return;
   plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
   if (!plate::keeps_points(mesh, coarser.mesh)) return;
   found.errors =
-      extrapolated(found.errors, relative_distance(found.omega, frequencies(std::move(coarser))));
+      extrapolated(found.errors, relative_distance(found.omega, modes(std::move(coarser)).omega));
 }
 
 }  // namespace
@@ -167,7 +247,7 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
   const Index n = std::ssize(modes.lambda);
   const Index n_rigid = std::min<Index>(plate::n_free_motions(model.free), n);
   if (n == n_rigid) return {};
-  MeshErrors found{.omega = VectorXd(n - n_rigid), .errors = {}, .finer = {}};
+  MeshErrors found{.omega = VectorXd(n - n_rigid), .errors = {}, .shape_errors = {}, .finer = {}};
   for (Index i = n_rigid; i < n; ++i)
     found.omega[i - n_rigid] = std::sqrt(std::max(modes.lambda[static_cast<std::size_t>(i)], 0.0));
   const MatrixXd motions = mode_motions(model.system.dofs, modes.X, n);
@@ -176,14 +256,14 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
                          .motions = motions,
                          .n_rigid = n_rigid,
                          .mu = n_rigid > 0 ? first * first : 0.0};
-  const auto frequencies = [&](plate::RefinedMesh other) {
-    return frequencies_on(scene, std::move(other), known, solver);
+  const auto on = [&](plate::RefinedMesh other) {
+    return modes_on(scene, std::move(other), known, solver);
   };
   const bool is_large = model.system.dofs.n_dofs() > most_halved;
   if (is_large && plate::can_rise(model.mesh))
-    find_by_orders(model.mesh, frequencies, found);
+    find_by_orders(model.mesh, on, found);
   else
-    find_by_halves(scene, model.mesh, frequencies, found);
+    find_by_halves(scene, model.mesh, on, found);
   return found;
 }
 

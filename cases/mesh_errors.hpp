@@ -13,7 +13,11 @@ namespace chladni::cases {
 struct MeshErrors {
   Eigen::VectorXd omega;   ///< [k] of the elastic modes, ascending; rad/s
   Eigen::VectorXd errors;  ///< [k] estimated relative errors of omega, without sign
-  Eigen::VectorXd finer;   ///< [k] the frequencies of the finer model, of the same modes; rad/s
+  /// [6 x k] of the radial, circumferential and axial displacements of the interface nodes about
+  /// the z axis, and of their rotations about these directions: of root mean squares in a mode of
+  /// unit modal mass; 0 where the mode does not move them
+  Eigen::MatrixXd shape_errors;
+  Eigen::VectorXd finer;  ///< [k] the frequencies of the finer model, of the same modes; rad/s
 
   double largest() const { return errors.size() > 0 ? errors.maxCoeff() : 0.0; }
 };

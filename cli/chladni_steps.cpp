@@ -59,11 +59,8 @@ namespace {
 std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted)
 {
   using report::Times;
-  std::vector<report::Stage> stages{{"errors of the mesh", 30.0, Times::unknown},
-                                    {"mesh", 1.0},
-                                    {"assembly", 3.0},
-                                    {"partition", 1.0},
-                                    {"factorization", 4.0}};
+  std::vector<report::Stage> stages{
+      {"mesh", 1.0}, {"assembly", 3.0}, {"partition", 1.0}, {"factorization", 4.0}};
   const report::Stage constraint{"constraint modes", 4.0};
   const auto add = [&](const std::vector<report::Stage>& more) {
     stages.insert(stages.end(), more.begin(), more.end());
@@ -119,8 +116,13 @@ cases::ReduceProgress progress_bar(std::vector<report::Stage> stages)
 
 cases::ReduceProgress line_of_progress(const scene::Scene& scene)
 {
-  const cases::ReduceProgress whole = progress_bar(stages_of(scene.reduce)),
-                              sectors = progress_bar(stages_of_sectors());
+  const auto bar = [&](std::vector<report::Stage> stages) {
+    const report::Stage errors{"errors of the mesh", 40.0};
+    if (scene.mesh_errors || scene.accuracy) stages.insert(stages.begin(), errors);
+    return progress_bar(std::move(stages));
+  };
+  const cases::ReduceProgress whole = bar(stages_of(scene.reduce)),
+                              sectors = bar(stages_of_sectors());
   return [whole, sectors, found = false](const std::string& phase, double fraction) mutable {
     found = found || phase == "modes of harmonics";
     (found ? sectors : whole)(phase, fraction);

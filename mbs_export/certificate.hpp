@@ -41,6 +41,9 @@ struct Certificate {
   double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
   double count_share = 0.0;        ///< of a count in the reduction's work; 0 where unknown, no file
   std::optional<ResponseCheck> responses = {};
+  /// [6 x mesh_errors] estimated relative errors by the mesh of the radial, circumferential and
+  /// axial displacements of the interface nodes, and of their rotations about these directions
+  Eigen::MatrixXd mesh_shape_errors{};
   Eigen::VectorXd mesh_errors{};  ///< [<= k] estimated relative errors of `frequencies` by the mesh
 };
 

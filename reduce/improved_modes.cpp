@@ -57,8 +57,12 @@ ImprovedModes improved_modes(Mat K, Mat M, const FreeDofs& free, const ShapesNea
   K_r = MatrixXd(0.5 * (K_r + K_r.transpose()));
   M_r = MatrixXd(0.5 * (M_r + M_r.transpose()));
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(K_r, M_r);
+  petsc::Matrix X = linear::uninitialized_dense(A, shapes.n_shapes);
+  petsc::check(MatZeroEntries(X));
+  linear::add_product(1.0, Y, scale.asDiagonal() * pairs.eigenvectors(), X);
   return {.lambda = (pairs.eigenvalues().array() - mu).matrix(),
-          .shares = pairs.eigenvectors().cwiseAbs2()};
+          .shares = pairs.eigenvectors().cwiseAbs2(),
+          .X = std::move(X)};
 }
 
 }  // namespace chladni::reduce

@@ -19,6 +19,7 @@ struct ShapesNearModes {
 struct ImprovedModes {
   Eigen::VectorXd lambda;  ///< [k] ascending, rad^2/s^2
   Eigen::MatrixXd shares;  ///< [k x k] squared share of shape i in mode j
+  petsc::Matrix X;         ///< [free DOFs x k] dense, X^T M X = I
 };
 
 /// The modes of a discretisation from those of another: what one inverse iteration leaves of the

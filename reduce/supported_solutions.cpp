@@ -123,8 +123,9 @@ linear::EigenPairs lowest_pairs(Mat K, Mat M, const NaturalModesOptions& options
   return linear::block_lanczos(factor.factor(), M, {.n_pairs = options.n_modes});
 }
 
-/// The first n columns of X in the rows of all DOFs.
-petsc::Matrix expand(Mat X, const FreeDofs& free, Mat K, PetscInt n)
+}  // namespace
+
+petsc::Matrix of_all_dofs(Mat X, const FreeDofs& free, Mat K, PetscInt n)
 {
   PetscInt n_local = 0, n_global = 0, first = 0, n_free = 0;
   petsc::check(MatGetLocalSize(K, &n_local, nullptr));
@@ -149,8 +150,6 @@ petsc::Matrix expand(Mat X, const FreeDofs& free, Mat K, PetscInt n)
   petsc::check(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
   return all;
 }
-
-}  // namespace
 
 FreeDofs free_dofs(Mat K, const std::vector<int>& held)
 {
@@ -203,7 +202,7 @@ NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalMode
                             pairs.lambda.size(), options.n_modes));
   }
   pairs.lambda.resize(options.n_modes);
-  return {.lambda = std::move(pairs.lambda), .X = expand(pairs.X, free, K, options.n_modes)};
+  return {.lambda = std::move(pairs.lambda), .X = of_all_dofs(pairs.X, free, K, options.n_modes)};
 }
 
 }  // namespace chladni::reduce

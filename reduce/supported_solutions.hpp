@@ -18,6 +18,10 @@ struct FreeDofs {
 /// @throws chladni::Error when nothing is left free.
 FreeDofs free_dofs(Mat K, const std::vector<int>& held);
 
+/// The first n columns of X, of the free DOFs, in the rows of all DOFs; zero at the held ones.
+/// @note   Collective.
+petsc::Matrix of_all_dofs(Mat X, const FreeDofs& free, Mat K, PetscInt n);
+
 /// K u = f with u = 0 at the held DOFs.
 struct StaticSolution {
   petsc::Vector u;         ///< of all DOFs

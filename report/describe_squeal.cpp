@@ -46,6 +46,22 @@ struct Searched {
   }
 };
 
+/// How far the critical speed may be off, and why.
+void add_budget(TextTable& table, const squeal::ErrorBudget& budget)
+{
+  if (budget.is_empty()) return;
+  std::vector<std::string> parts;
+  const auto add_part = [&](const char* name, const std::optional<double>& part) {
+    if (part) parts.push_back(fmt::format("{} {:.1g}", name, *part));
+  };
+  add_part("mesh", budget.mesh);
+  add_part("reduction", budget.reduction);
+  add_part("body", budget.body);
+  add_part("modes left out", budget.left_out);
+  table.rows.push_back({fmt::format("its error ({})", fmt::join(parts, ", ")),
+                        fmt::format("+- {:.2g}", budget.sum()), "rad/s"});
+}
+
 /// Why there is no value at which stability is lost.
 std::string none_because(squeal::Stability stability, const std::string& values)
 {
@@ -93,6 +109,7 @@ void add_critical_speed(TextTable& table, const squeal::SquealResults& results)
   if (results.critical_speed) {
     add_speed(table, "critical speed", results.critical_speed->speed, results.wheel_radius);
     add(table, "critical frequency", results.critical_speed->frequency_Hz, "Hz");
+    add_budget(table, results.critical_speed->budget);
   } else if (results.speed_stability) {
     const squeal::Stability stability = squeal::stability_of(*results.speed_stability);
     table.rows.push_back({"critical speed", none_because(stability, speed.values), ""});

@@ -179,6 +179,14 @@ Json optional_json(const std::optional<double>& x)
   return x ? Json(*x) : Json();
 }
 
+Json budget_json(const squeal::ErrorBudget& budget)
+{
+  return Json::object({{"mesh", optional_json(budget.mesh)},
+                       {"reduction", optional_json(budget.reduction)},
+                       {"body", optional_json(budget.body)},
+                       {"modes_left_out", optional_json(budget.left_out)}});
+}
+
 Json rotation_json(const squeal::RotationStability& stability)
 {
   std::vector<Json> growth;
@@ -253,6 +261,8 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
     const auto& critical = results.critical_speed;
     members.emplace_back("critical_speed_rad_s", critical ? Json(critical->speed) : Json());
     members.emplace_back("critical_frequency_Hz", critical ? Json(critical->frequency_Hz) : Json());
+    if (critical && !critical->budget.is_empty())
+      members.emplace_back("critical_speed_errors_rad_s", budget_json(critical->budget));
     if (results.speed_stability)
       for (Json::Member& member : stability_json(*results.speed_stability, "speeds_rad_s"))
         members.push_back(std::move(member));

@@ -88,6 +88,19 @@ std::optional<mbs_export::ModalBody> body_for_squeal(const scene::Scene& scene,
   return body;
 }
 
+namespace {
+
+/// What the modes that a scene leaves out would change: the brake with all of them.
+std::shared_ptr<const squeal::FlexibleDisc> complete_disc(const mbs_export::ModalBody& body,
+                                                          const squeal::SquealOptions& options)
+{
+  if (!options.modes.nodal_diameters && !options.modes.list) return nullptr;
+  return std::make_shared<const squeal::FlexibleDisc>(
+      squeal::make_disc(body, squeal::ring_choice(options), {}), options);
+}
+
+}  // namespace
+
 SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export::ModalBody>& body,
                        const SquealFiles& files, StaleChoice stale)
 {
@@ -97,7 +110,8 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(scene, files, stale));
   std::vector<std::string> notes = squeal::notes_of(disc);
-  return {.brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options),
+  return {.brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
+                                                          complete_disc(*body, options)),
           .notes = std::move(notes)};
 }
 

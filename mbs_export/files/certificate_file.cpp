@@ -67,8 +67,10 @@ void write_certificate(files::Writer& file, const Certificate& certificate)
     file.write("certificate/estimates", certificate.estimates, "1");
     file.write("certificate/rounding", certificate.rounding, "1");
   }
-  if (certificate.mesh_errors.size() > 0)
+  if (certificate.mesh_errors.size() > 0) {
     file.write("certificate/mesh_errors", certificate.mesh_errors, "1");
+    file.write("certificate/mesh_shape_errors", certificate.mesh_shape_errors, "1");
+  }
   file.write("certificate/rigid_modes", std::int64_t{certificate.n_rigid}, "1");
   file.write("certificate/rigid_residual", certificate.rigid_residual, "1");
   if (certificate.condition > 0.0)
@@ -97,6 +99,8 @@ Certificate read_certificate(const files::Reader& file)
   if (file.contains("certificate/mesh_errors")) {
     certificate.mesh_errors = file.vector("certificate/mesh_errors");
     check_length(file, "certificate/mesh_errors", certificate.mesh_errors, certificate);
+    certificate.mesh_shape_errors =
+        file.matrix("certificate/mesh_shape_errors", {6, certificate.mesh_errors.size()});
   }
   if (file.contains("certificate/rigid_modes")) {
     certificate.n_rigid = file_parts::read_count(file, "certificate/rigid_modes");

@@ -108,6 +108,20 @@ std::vector<std::array<double, 2>> lattice_parameters(const Lattice& lattice, in
   return parameters;
 }
 
+std::vector<Part> parts_of(Shape shape, int parts)
+{
+  std::vector<Part> all;
+  for (int j = 0; j < (shape == Shape::line ? 1 : parts); ++j) {
+    for (int i = 0; i < (shape == Shape::triangle ? parts - j : parts); ++i) {
+      all.push_back({.i = i, .j = j, .sign = 1});
+      // The triangle between three others is turned by half a turn.
+      if (shape == Shape::triangle && i + j + 2 <= parts)
+        all.push_back({.i = i + 1, .j = j + 1, .sign = -1});
+    }
+  }
+  return all;
+}
+
 Eigen::MatrixXd shapes_at(Shape shape, int order,
                           const std::vector<std::array<double, 2>>& parameters)
 {

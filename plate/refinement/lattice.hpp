@@ -39,6 +39,14 @@ constexpr Cuts in_the_middle{0.5, 0.5, 0.5, 0.5};
 std::vector<std::array<double, 2>> lattice_parameters(const Lattice& lattice, int parts,
                                                       const Cuts& cuts);
 
+/// The lattice of a part of an element: the place of its first corner, and its direction.
+struct Part {
+  int i, j, sign;
+};
+
+/// All parts of an element that is cut into so many along each direction.
+std::vector<Part> parts_of(mesh::Shape shape, int parts);
+
 /// Values at these parameters of the shape functions of an element of this order.
 /// @return [n_points x nodes_per_element]
 Eigen::MatrixXd shapes_at(mesh::Shape shape, int order,

@@ -21,25 +21,6 @@ constexpr int highest_order(Shape shape)
   return shape == Shape::quadrilateral ? 4 : 3;
 }
 
-/// The lattice of a part of an element: the place of its first corner, and its direction.
-struct Part {
-  int i, j, sign;
-};
-
-std::vector<Part> parts_of(Shape shape, int parts)
-{
-  std::vector<Part> all;
-  for (int j = 0; j < (shape == Shape::line ? 1 : parts); ++j) {
-    for (int i = 0; i < (shape == Shape::triangle ? parts - j : parts); ++i) {
-      all.push_back({.i = i, .j = j, .sign = 1});
-      // The triangle between three others is turned by half a turn.
-      if (shape == Shape::triangle && i + j + 2 <= parts)
-        all.push_back({.i = i + 1, .j = j + 1, .sign = -1});
-    }
-  }
-  return all;
-}
-
 /// An element of the original at work.
 struct Work {
   int block, element;

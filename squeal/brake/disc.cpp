@@ -27,6 +27,55 @@ Eigen::MatrixXd coriolis_of(const ModalBody& body)
   return 0.5 * mbs_export::gyroscopic_matrix(*body.mass_integrals, Eigen::Vector3d::UnitZ());
 }
 
+/// Of the constrained modes those of the body's certificate that have their frequencies, in order;
+/// modes beyond it, and interface modes, which are no modes of the disc, have none.
+Eigen::VectorXd errors_of(const ModalBody& body, const Eigen::VectorXd& certified)
+{
+  constexpr double same = 1e-6;
+  if (certified.size() == 0 || body.certificate.fixed != body.fixed) return {};
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(body.n_modes());
+  Eigen::Index next = 0;
+  for (Eigen::Index i = 0; i < body.n_modes(); ++i) {
+    if (body.kinds[static_cast<std::size_t>(i)] != mbs_export::ModeKind::constrained) continue;
+    const auto& omega = body.certificate.frequencies;
+    while (next < certified.size() && omega[next] < (1.0 - same) * body.omega[i]) ++next;
+    if (next == certified.size()) break;
+    if (omega[next] <= (1.0 + same) * body.omega[i]) errors[i] = certified[next++];
+  }
+  return errors;
+}
+
+/// [6 x n_modes]
+Eigen::MatrixXd shape_errors_of(const ModalBody& body)
+{
+  const Eigen::MatrixXd& certified = body.certificate.mesh_shape_errors;
+  Eigen::MatrixXd errors(certified.rows(), certified.rows() > 0 ? body.n_modes() : 0);
+  for (Eigen::Index row = 0; row < errors.rows(); ++row) {
+    const Eigen::VectorXd of_modes = errors_of(body, certified.row(row));
+    if (of_modes.size() == 0) return {};
+    errors.row(row) = of_modes;
+  }
+  return errors;
+}
+
+ModeErrors mode_errors(const ModalBody& body)
+{
+  const Eigen::VectorXd& certified = body.certificate.frequencies;
+  ModeErrors errors{.mesh = errors_of(body, body.certificate.mesh_errors),
+                    .mesh_shapes = shape_errors_of(body),
+                    .reduction = errors_of(body, mbs_export::estimated_errors(body.certificate)),
+                    .responses = {},
+                    .range = certified.size() > 0 ? certified[certified.size() - 1] : 0.0};
+  if (body.selection && !body.selection->with_interface_modes.empty()) {
+    const mbs_export::SelectionTable& table = *body.selection;
+    const double of_steps =
+        std::min(table.with_interface_modes.back().error,
+                 table.modes_only.empty() ? table.error : table.modes_only.back().error);
+    errors.responses = of_steps + table.of_reduction.value_or(0.0);
+  }
+  return errors;
+}
+
 Disc disc_of_all_modes(const ModalBody& body, const RingChoice& choice)
 {
   std::vector<DiscRing> rings;
@@ -35,14 +84,30 @@ Disc disc_of_all_modes(const ModalBody& body, const RingChoice& choice)
   std::iota(numbers.begin(), numbers.end(), 1);
   const Eigen::MatrixXd C =
       body.C.size() > 0 ? body.C : Eigen::MatrixXd::Zero(body.n_modes(), body.n_modes());
-  return {
-      .rings = rings, .mode_numbers = numbers, .omega = body.omega, .C = C, .G = coriolis_of(body)};
+  return {.rings = rings,
+          .mode_numbers = numbers,
+          .omega = body.omega,
+          .C = C,
+          .G = coriolis_of(body),
+          .errors = mode_errors(body)};
 }
 
 Harmonics columns(const Harmonics& f, const std::vector<int>& modes)
 {
   if (f.cosine.size() == 0) return {};
   return {f.cosine(every, modes), f.sine(every, modes)};
+}
+
+Eigen::VectorXd part(const Eigen::VectorXd& values, const std::vector<int>& modes)
+{
+  if (values.size() == 0) return {};
+  return values(modes);
+}
+
+Eigen::MatrixXd columns_of(const Eigen::MatrixXd& values, const std::vector<int>& modes)
+{
+  if (values.size() == 0) return {};
+  return values(every, modes);
 }
 
 Disc with_modes(const Disc& all, const std::vector<int>& modes)
@@ -60,7 +125,12 @@ Disc with_modes(const Disc& all, const std::vector<int>& modes)
           .mode_numbers = numbers,
           .omega = all.omega(modes),
           .C = all.C(modes, modes),
-          .G = all.G(modes, modes)};
+          .G = all.G(modes, modes),
+          .errors = {.mesh = part(all.errors.mesh, modes),
+                     .mesh_shapes = columns_of(all.errors.mesh_shapes, modes),
+                     .reduction = part(all.errors.reduction, modes),
+                     .responses = all.errors.responses,
+                     .range = all.errors.range}};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,17 @@ struct RingCompliance {
   bool empty() const { return C.empty(); }
 };
 
+/// What is known of the errors of modes, relative.
+struct ModeErrors {
+  Eigen::VectorXd mesh = {};  ///< [n_modes] of omega by the mesh; empty where unknown
+  /// [6 x n_modes] of the rings by the mesh, as Certificate::mesh_shape_errors; empty where unknown
+  Eigen::MatrixXd mesh_shapes = {};
+  Eigen::VectorXd reduction = {};  ///< [n_modes] of omega by the reduction; empty where unknown
+  std::optional<double> responses = {};  ///< of the body by the modes that it lacks
+  double range =
+      0.0;  ///< rad/s of the last mode whose errors are known; those beyond it have zeros
+};
+
 /// The disc of a squeal study, in the frame that rotates with it:
 /// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes along its contact rings, of
 /// which the first is that of pads without a grid.
@@ -40,7 +52,8 @@ struct Disc {
   /// Up to which the modes are those of the disc, rad/s; beyond it interface modes stand for
   /// others.
   double range = std::numeric_limits<double>::infinity();
-  std::vector<int> still = {};           ///< 1-based, of modes left out: no pad sees them
+  std::vector<int> still = {};  ///< 1-based, of modes left out: no pad sees them
+  ModeErrors errors = {};
   std::vector<ModeFigure> figures = {};  ///< [n_modes], or empty where nothing is known of them
 
   Eigen::Index n_modes() const { return omega.size(); }

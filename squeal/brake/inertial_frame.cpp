@@ -107,7 +107,20 @@ InertialDisc empty_inertial_disc(const Disc& disc)
           .R = zeros,
           .largest_split = 0.0,
           .largest_impurity = 0.0,
-          .compliance = disc.compliance};
+          .compliance = disc.compliance,
+          .errors = {.mesh = disc.errors.mesh,
+                     .mesh_shapes = disc.errors.mesh_shapes,
+                     .reduction = disc.errors.reduction,
+                     .responses = disc.errors.responses,
+                     .range = disc.errors.range}};
+}
+
+/// Of a mode that consists of others, by their shares.
+/// @param errors  [n_modes] of the disc, or none
+void put_error(Eigen::VectorXd& inertial, const Eigen::VectorXd& errors, const Eigen::VectorXcd& e,
+               Eigen::Index at, Eigen::Index size)
+{
+  if (errors.size() > 0) inertial.segment(at, size).setConstant(e.cwiseAbs2().dot(errors));
 }
 
 /// Puts modes at the coordinates `at` (and `at` + 1) of the inertial disc.
@@ -191,7 +204,14 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     const double impurity =
         put(inertial, harmonics, mode, at) / (mode.omega > disc.range ? beyond_range : 1.0);
     inertial.largest_impurity = std::max(inertial.largest_impurity, impurity);
-    at += mode.n == 0 ? 1 : 2;
+    const Eigen::Index size = mode.n == 0 ? 1 : 2;
+    put_error(inertial.errors.mesh, disc.errors.mesh, mode.e, at, size);
+    for (Eigen::Index row = 0; row < disc.errors.mesh_shapes.rows(); ++row) {
+      const double error = disc.errors.mesh_shapes.row(row).dot(mode.e.cwiseAbs2());
+      inertial.errors.mesh_shapes.row(row).segment(at, size).setConstant(error);
+    }
+    put_error(inertial.errors.reduction, disc.errors.reduction, mode.e, at, size);
+    at += size;
   }
   inertial.largest_split = largest_split(disc, spaces);
   if (!(inertial.largest_impurity < impurity_limit))

@@ -40,6 +40,7 @@ struct InertialDisc {
   double largest_split;              ///< of the frequencies of a pair, relative
   double largest_impurity;           ///< of the mode shapes on the ring, relative; see below
   RingCompliance compliance = {};    ///< as in Disc
+  ModeErrors errors = {};            ///< as in Disc, of the pairs
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

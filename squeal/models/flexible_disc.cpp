@@ -7,10 +7,12 @@
 
 namespace chladni::squeal {
 
-FlexibleDisc::FlexibleDisc(Disc disc, SquealOptions options)
+FlexibleDisc::FlexibleDisc(Disc disc, SquealOptions options,
+                           std::shared_ptr<const FlexibleDisc> complete)
     : disc_(std::make_shared<const Disc>(std::move(disc))),
       inertial_(std::make_shared<const std::optional<InertialDisc>>(find_inertial_disc(*disc_))),
-      options_(std::move(options))
+      options_(std::move(options)),
+      complete_(std::move(complete))
 {}
 
 const InertialDisc& FlexibleDisc::inertial() const
@@ -28,6 +30,7 @@ std::unique_ptr<Brake> FlexibleDisc::with(MapParameter parameter, double value) 
 {
   auto changed = std::make_unique<FlexibleDisc>(*this);
   changed->options_ = with_parameter(options_, parameter, value);
+  changed->complete_.reset();
   return changed;
 }
 
@@ -35,6 +38,7 @@ std::unique_ptr<FlexibleDisc> FlexibleDisc::between(SquealOptions options) const
 {
   auto changed = std::make_unique<FlexibleDisc>(*this);
   changed->options_ = std::move(options);
+  changed->complete_.reset();
   return changed;
 }
 

@@ -15,10 +15,13 @@ namespace chladni::squeal {
 /// inertial frame. Copies share the disc.
 class FlexibleDisc final : public Brake {
  public:
-  FlexibleDisc(Disc disc, SquealOptions options);
+  /// @param complete  with all modes of the body, where the options chose some of them
+  FlexibleDisc(Disc disc, SquealOptions options, std::shared_ptr<const FlexibleDisc> complete = {});
 
   const Disc& disc() const { return *disc_; }
   const SquealOptions& options() const { return options_; }
+  /// The same brake with all modes of the body; null where this one has them.
+  const FlexibleDisc* complete() const { return complete_.get(); }
 
   /// The disc in the inertial frame; absent when it is not axisymmetric.
   const std::optional<InertialDisc>& find_inertial() const { return *inertial_; }
@@ -40,6 +43,7 @@ class FlexibleDisc final : public Brake {
   std::shared_ptr<const Disc> disc_;
   std::shared_ptr<const std::optional<InertialDisc>> inertial_;
   SquealOptions options_;
+  std::shared_ptr<const FlexibleDisc> complete_;
 };
 
 }  // namespace chladni::squeal

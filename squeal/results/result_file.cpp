@@ -30,6 +30,12 @@ Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd
   return re + std::complex<double>(0.0, 1.0) * im;
 }
 
+constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 4> budget_parts{
+    {{"mesh", &ErrorBudget::mesh},
+     {"reduction", &ErrorBudget::reduction},
+     {"body", &ErrorBudget::body},
+     {"modes_left_out", &ErrorBudget::left_out}}};
+
 void write_critical_speed(Writer& file, const SquealResults& results)
 {
   const auto& critical = results.critical_speed;
@@ -39,6 +45,9 @@ void write_critical_speed(Writer& file, const SquealResults& results)
   file.write("critical/speed", critical->speed, "rad/s");
   file.write("critical/frequency", critical->frequency_Hz, "Hz");
   file.write("critical/newton_steps", std::int64_t{critical->n_newton_steps}, "1");
+  for (const auto& [name, part] : budget_parts)
+    if (critical->budget.*part)
+      file.write(fmt::format("critical/errors/{}", name), *(critical->budget.*part), "rad/s");
 }
 
 CriticalSpeed read_critical_speed(const Reader& file)
@@ -46,6 +55,10 @@ CriticalSpeed read_critical_speed(const Reader& file)
   CriticalSpeed critical{file.real("critical/speed"), file.real("critical/frequency")};
   if (file.contains("critical/newton_steps"))
     critical.n_newton_steps = mbs_export::file_parts::read_count(file, "critical/newton_steps");
+  for (const auto& [name, part] : budget_parts) {
+    const std::string path = fmt::format("critical/errors/{}", name);
+    if (file.contains(path)) critical.budget.*part = file.real(path);
+  }
   return critical;
 }
 

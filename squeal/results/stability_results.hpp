@@ -62,11 +62,29 @@ Stability stability_of(const StabilityProfile& profile);
 /// "regained within the range".
 const char* name_of(Stability stability);
 
+/// How far a critical speed may be off because of what the body is made of, rad/s; parts of which
+/// nothing is known are absent.
+struct ErrorBudget {
+  std::optional<double> mesh = {};       ///< of the frequencies, estimated by finer meshes
+  std::optional<double> reduction = {};  ///< of the frequencies, against the FE model
+  std::optional<double> body = {};       ///< of the responses of the modes that the body keeps
+  /// The distance from the critical speed of all modes of the body, where the study chose some.
+  std::optional<double> left_out = {};
+
+  bool is_empty() const { return !mesh && !reduction && !body && !left_out; }
+  double sum() const
+  {
+    return mesh.value_or(0.0) + reduction.value_or(0.0) + body.value_or(0.0) +
+           left_out.value_or(0.0);
+  }
+};
+
 /// The lowest speed at which the sliding disc loses its stability.
 struct CriticalSpeed {
   double speed;            ///< rad/s
   double frequency_Hz;     ///< of the undamped oscillation there
   int n_newton_steps = 0;  ///< 0: it was bisected, because Newton's method led elsewhere
+  ErrorBudget budget = {};
 };
 
 /// Where the sliding disc loses or regains its stability over one parameter.

@@ -1,7 +1,10 @@
 #include "squeal/stability/error_budget.hpp"
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <initializer_list>
 #include <numbers>
 
 #include "linear/dense/dense_solvers.hpp"
@@ -25,6 +28,10 @@ VectorXcd eigenvector(const MatrixXd& A, const Complex& expected)
   (solver.eigenvalues().array() - expected).abs().minCoeff(&at);
   return solver.eigenvectors().col(at);
 }
+
+/// Where the errors of W, W_r, W_t, V_r and V_t stand in ModeErrors::mesh_shapes: a radial slope is
+/// a rotation about the circumferential direction.
+constexpr std::array<Index, 5> rows_of_functions{2, 4, 3, 0, 1};
 
 /// The critical oscillation, and how its growth changes.
 class CriticalGrowth {
@@ -50,15 +57,20 @@ class CriticalGrowth {
   /// By the logarithm of the frequency of a mode or a pair.
   double by_frequency(Index first, Index size) const
   {
-    return by([&](InertialDisc& disc, double factor) { disc.omega.segment(first, size) *= factor; });
+    return by(
+        [&](InertialDisc& disc, double factor) { disc.omega.segment(first, size) *= factor; });
   }
 
-  /// By the logarithm of all displacements of the rings.
-  double by_amplitude() const
+  /// By the logarithm of what the rings do in some modes.
+  /// @param functions  of W, W_r, W_t, V_r, V_t
+  double by_motion(Index first, Index size, std::initializer_list<std::size_t> functions) const
   {
-    return by([](InertialDisc& disc, double factor) {
-      for (InertialRing& ring : disc.rings)
-        for (Eigen::VectorXd* amplitude : amplitudes_of(ring)) *amplitude *= factor;
+    return by([&](InertialDisc& disc, double factor) {
+      for (InertialRing& ring : disc.rings) {
+        const std::vector<Eigen::VectorXd*> amplitudes = amplitudes_of(ring);
+        for (const std::size_t f : functions)
+          if (f < amplitudes.size()) amplitudes[f]->segment(first, size) *= factor;
+      }
     });
   }
 
@@ -86,15 +98,18 @@ class CriticalGrowth {
   VectorXcd right_, left_;
 };
 
-/// What relative errors of the frequencies make of the critical speed, rad/s.
-double by_frequencies(const InertialDisc& disc, const CriticalGrowth& growth,
-                      const Eigen::VectorXd& errors)
+/// The sum over all modes and pairs of error times sensitivity, without sign, as a speed; rad/s.
+/// @param errors       [n_modes] relative
+/// @param sensitivity  of the growth, of a mode or pair by its first coordinate and their number
+double sum_over_modes(const InertialDisc& disc, const CriticalGrowth& growth,
+                      const Eigen::VectorXd& errors,
+                      const std::function<double(Index first, Index size)>& sensitivity)
 {
   double sum = 0.0;
   Index size = 1;
-  for (Index i = 0; i < disc.n_modes(); i += size) {
+  for (Index i = 0; i < errors.size(); i += size) {
     size = disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 ? 2 : 1;
-    if (errors[i] > 0.0) sum += std::abs(growth.by_frequency(i, size)) * errors[i];
+    if (errors[i] > 0.0) sum += std::abs(sensitivity(i, size)) * errors[i];
   }
   return sum / std::abs(growth.by_speed());
 }
@@ -107,10 +122,25 @@ ErrorBudget error_budget(const FlexibleDisc& brake, const CriticalSpeed& critica
   const CriticalGrowth growth(brake, critical);
   ErrorBudget budget;
   const ModeErrors& errors = disc.errors;
-  if (errors.mesh.size() > 0) budget.mesh = by_frequencies(disc, growth, errors.mesh);
-  if (errors.reduction.size() > 0) budget.reduction = by_frequencies(disc, growth, errors.reduction);
-  if (errors.responses)
-    budget.body = std::abs(growth.by_amplitude() / growth.by_speed()) * 0.5 * *errors.responses;
+  const auto by_frequency = [&](Index i, Index size) { return growth.by_frequency(i, size); };
+  const bool is_known = 2.0 * std::numbers::pi * critical.frequency_Hz <= errors.range;
+  if (is_known && errors.mesh.size() > 0) {
+    double sum = sum_over_modes(disc, growth, errors.mesh, by_frequency);
+    for (std::size_t f = 0; f < rows_of_functions.size() && errors.mesh_shapes.size() > 0; ++f) {
+      sum += sum_over_modes(disc, growth, errors.mesh_shapes.row(rows_of_functions[f]),
+                            [&](Index i, Index size) { return growth.by_motion(i, size, {f}); });
+    }
+    budget.mesh = sum;
+  }
+  if (is_known && errors.reduction.size() > 0)
+    budget.reduction = sum_over_modes(disc, growth, errors.reduction, by_frequency);
+  if (is_known && errors.responses) {
+    // A response is quadratic in the motion of its place.
+    double sum = 0.0;
+    for (std::size_t f = 0; f < rows_of_functions.size(); ++f)
+      sum += std::abs(growth.by_motion(0, disc.n_modes(), {f}));
+    budget.body = 0.5 * *errors.responses * sum / std::abs(growth.by_speed());
+  }
   if (const FlexibleDisc* complete = brake.complete(); complete && complete->is_autonomous()) {
     const auto of_all = critical_speed(
         stability_over_speed(state_matrix_at(*complete), brake.options().study.speeds));

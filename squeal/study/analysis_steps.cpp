@@ -7,6 +7,7 @@
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/parallel.hpp"
+#include "squeal/stability/error_budget.hpp"
 #include "squeal/stability/hopf.hpp"
 #include "squeal/stability/mode_sensitivity.hpp"
 #include "squeal/stability/mode_shapes.hpp"
@@ -45,6 +46,9 @@ void find_critical_speed(const Study& study, SquealResults& results, const Keepi
 {
   results.speed_stability = speed_stability(study);
   results.critical_speed = critical_speed(*results.speed_stability);
+  const FlexibleDisc* body = study.brake.body();
+  if (results.critical_speed && body && body->is_autonomous())
+    results.critical_speed->budget = error_budget(*body, *results.critical_speed);
   results.searched_critical_speed = true;
 }
 

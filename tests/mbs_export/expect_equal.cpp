@@ -68,6 +68,7 @@ void expect_equal(const Certificate& a, const Certificate& b)
   EXPECT_EQ(a.frequencies, b.frequencies);
   EXPECT_EQ(a.eta2, b.eta2);
   EXPECT_EQ(a.mesh_errors, b.mesh_errors);
+  EXPECT_EQ(a.mesh_shape_errors, b.mesh_shape_errors);
   EXPECT_EQ(a.bounds, b.bounds);
   expect_equal(a.fixed_interface, b.fixed_interface);
   expect_equal(a.range, b.range);

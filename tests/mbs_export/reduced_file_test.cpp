@@ -56,7 +56,9 @@ ReducedSystem complete_system()
       .n_rigid = 6,
       .rigid_residual = 1e-12,
       .condition = 1e9,
-      .responses = ResponseCheck{.up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}}};
+      .responses = ResponseCheck{.up_to = 22.0, .error = 3e-4, .loads = {"rim.z", "hub.rx"}},
+      .mesh_shape_errors = Eigen::MatrixXd::Random(6, 2).cwiseAbs(),
+      .mesh_errors = Eigen::Vector2d(1e-4, 3e-4)};
   system.provenance = {.scene = "title = \"wheel\"\n",
                        .mesh_checksum = "cbf29ce484222325",
                        .versions = "PETSc 3.18",

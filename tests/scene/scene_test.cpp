@@ -719,7 +719,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "edge_row, element_order, element_size, file, generator, inner_radius, outer_radius, "
        "pattern, rings, sectors"},
       {"[body]", "[boddy]",
-       "scene.toml:27: boddy is not a key here; did you mean body? allowed: body, coupling, "
+       "scene.toml:27: boddy is not a key here; did you mean body? allowed: accuracy, body, "
+       "coupling, "
        "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, "
        "spring, squeal, static, support, title"},
       {"count = 60", "count = 60, colour = 3",

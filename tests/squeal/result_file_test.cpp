@@ -69,12 +69,17 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   written.limit_cycle_branch->note = "a second part";
   written.limit_cycle_branch->second_part = 2;
   written.limit_cycle_direct->way = "by a detour";
+  written.critical_speed->budget = {.mesh = 0.1, .reduction = 2e-9, .body = {}, .left_out = 0.3};
   write_results(file.path, written, {});
   const SquealResults read = read_results(file.path);
   EXPECT_EQ(read.largest_split, written.largest_split);
   EXPECT_EQ(read.eigenvalues->speeds, written.eigenvalues->speeds);
   EXPECT_EQ(read.eigenvalues->lambda, written.eigenvalues->lambda);
   EXPECT_EQ(read.critical_speed->speed, written.critical_speed->speed);
+  EXPECT_EQ(read.critical_speed->budget.mesh, 0.1);
+  EXPECT_EQ(read.critical_speed->budget.reduction, 2e-9);
+  EXPECT_FALSE(read.critical_speed->budget.body);
+  EXPECT_EQ(read.critical_speed->budget.left_out, 0.3);
   ASSERT_EQ(read.growth.size(), 2u);
   EXPECT_EQ(read.growth[1].rate, written.growth[1].rate);
   EXPECT_EQ(read.growth[1].eigenvalue_rate, written.growth[1].eigenvalue_rate);

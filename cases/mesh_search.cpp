@@ -1,0 +1,279 @@
+#include "cases/mesh_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "cases/mesh_scene.hpp"
+#include "common/error.hpp"
+
+namespace chladni::cases {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// The elastic modes up to a frequency (rad/s), and the next one where there is one.
+reduce::NaturalModes modes_up_to(const SupportedModel& model, double omega,
+                                 const linear::SolverOptions& solver)
+{
+  const int n_rigid = plate::n_free_motions(model.free);
+  const reduce::FreeDofs free = reduce::free_dofs(model.system.K, model.held);
+  const int most =
+      std::max(1, (model.system.dofs.n_dofs() - static_cast<int>(model.held.size())) / 3);
+  for (int n = std::min(n_rigid + 24, most);; n = std::min(2 * n, most)) {
+    reduce::NaturalModes modes = reduce::natural_modes(
+        model.system.K, model.system.M, free, {.n_modes = n, .n_rigid = n_rigid, .solver = solver});
+    if (n == most || modes.lambda.back() > omega * omega) return modes;
+  }
+}
+
+/// The modes up to a frequency; the first elastic one in any case.
+reduce::NaturalModes modes_in_range(const SupportedModel& model, double omega,
+                                    const linear::SolverOptions& solver)
+{
+  reduce::NaturalModes modes = modes_up_to(model, omega, solver);
+  const int n_rigid = plate::n_free_motions(model.free);
+  const auto in_range = static_cast<int>(
+      std::ranges::count_if(modes.lambda, [&](double lambda) { return lambda <= omega * omega; }));
+  modes.lambda.resize(static_cast<std::size_t>(
+      std::min(std::max(in_range, n_rigid + 1), static_cast<int>(modes.lambda.size()))));
+  return modes;
+}
+
+/// The largest error against known frequencies, by their order.
+double error_against(const Eigen::VectorXd& known, const SupportedModel& model,
+                     const linear::SolverOptions& solver)
+{
+  const int n_rigid = plate::n_free_motions(model.free);
+  const reduce::NaturalModes modes = reduce::natural_modes(
+      model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
+      {.n_modes = n_rigid + static_cast<int>(known.size()), .n_rigid = n_rigid, .solver = solver});
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < known.size(); ++i) {
+    const double omega =
+        std::sqrt(std::max(modes.lambda[static_cast<std::size_t>(n_rigid + i)], 0.0));
+    largest = std::max(largest, std::abs(omega / known[i] - 1.0));
+  }
+  return largest;
+}
+
+/// A mesh that was tried.
+struct Trial {
+  MeshSize size;
+  int n_dofs;
+  double error;       ///< the largest
+  MeshErrors errors;  ///< of each mode; empty where they were compared with known frequencies
+};
+
+/// The search for a mesh.
+class Search {
+ public:
+  Search(scene::Scene scene, const linear::SolverOptions& solver)
+      : scene_(std::move(scene)), solver_(solver), target_(share_of_mesh * scene_.accuracy->error)
+  {}
+
+  /// Of the orders and edge rows that the scene leaves open, as meshes of about the first size tell
+  /// them: the finer model of the first one is what the others are compared with.
+  Trial start()
+  {
+    const double thickness = least_thickness(scene_);
+    const MeshSize first{.size = first_size(scene_, two_pi * scene_.accuracy->up_to_Hz),
+                         .order = order_of(scene_.mesh),
+                         .edge_row = edge_row_of(scene_.mesh)};
+    Trial best = first_trial(first);
+    error_of_first_ = best.error;
+    known_ = best.errors.finer;
+    if (scene_.accuracy->chooses_edge_row && takes_edge_row(scene_.mesh, thickness) &&
+        best.size.size > thickness) {
+      MeshSize with_row = best.size;
+      with_row.edge_row = thickness;
+      best = cheaper(std::move(best), possible([&] { return compared(with_row); }));
+    }
+    if (!scene_.accuracy->chooses_order) return best;
+    const MeshSize at = best.size;
+    for (const int order : other_orders(scene_.mesh)) {
+      MeshSize other = at;
+      other.order = order;
+      other.size = std::min(at.size * order / at.order, largest_size(scene_.mesh));
+      best = cheaper(std::move(best), possible([&] { return compared(other); }));
+    }
+    return best;
+  }
+
+  /// From the size that the trial tells to smaller elements until the target is kept.
+  Trial refined(Trial trial)
+  {
+    constexpr int most_trials = 12;
+    MeshSize next = trial.size;
+    next.size = predicted_size(trial);
+    std::optional<Trial> much_larger;
+    for (int i = 0; i < most_trials; ++i) {
+      const bool was_kept = i > 0 && keeps(trial);
+      if (was_kept && is_estimated(trial)) return trial;
+      if (was_kept)
+        next = trial.size;
+      else if (i > 0)
+        next.size = std::min(predicted_size(trial), 0.9 * trial.size.size);
+      trial = next_trial(next, was_kept || !can_compare());
+      if (keeps(trial)) continue;
+      if (much_larger && is_stuck(*much_larger, trial)) break;
+      if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
+    }
+    if (keeps(trial)) return trial;
+    throw Error(
+        fmt::format("{}: accuracy.error = {:.1e} up to {:.6g} Hz: the best mesh that was tried, "
+                    "{}, has an error "
+                    "of {:.1e}; ask for no less, or choose the mesh yourself",
+                    scene_.path, scene_.accuracy->error, scene_.accuracy->up_to_Hz,
+                    described(trial.size), trial.error));
+  }
+
+ private:
+  bool keeps(const Trial& trial) const { return trial.error <= target_; }
+  static bool is_estimated(const Trial& trial) { return trial.errors.omega.size() > 0; }
+  /// As many elements as that should help.
+  static constexpr double twice = 2.0;
+  bool is_stuck(const Trial& larger, const Trial& smaller) const
+  {
+    return is_estimated(larger) && is_estimated(smaller) && !keeps(smaller) &&
+           smaller.n_dofs > twice * larger.n_dofs && smaller.error > 0.9 * larger.error;
+  }
+  /// Whether the known frequencies are much better than what is wanted.
+  bool can_compare() const
+  {
+    constexpr double share_of_finer = 0.1;  // of the error, with elements of half the size
+    return share_of_finer * error_of_first_ < 0.3 * target_;
+  }
+
+  /// A model of the scene on a mesh of this size, which is rounded.
+  SupportedModel model_of(MeshSize& size) const
+  {
+    size.size = rounded(size.size);
+    scene::Scene scene = scene_;
+    set_size(scene.mesh, size);
+    return assemble_supported(scene, mesh_on_all_ranks(scene));
+  }
+
+  /// With an estimate of its error.
+  Trial tried(MeshSize size)
+  {
+    const SupportedModel model = model_of(size);
+    if (const Trial* same = same_mesh(size, model, true)) return *same;
+    MeshErrors errors = errors_up_to(scene_, model, two_pi * scene_.accuracy->up_to_Hz, solver_);
+    const double largest = errors.largest();
+    return kept({.size = size,
+                 .n_dofs = model.system.dofs.n_dofs(),
+                 .error = largest,
+                 .errors = std::move(errors)});
+  }
+
+  /// Its error against the known frequencies.
+  Trial compared(MeshSize size)
+  {
+    const SupportedModel model = model_of(size);
+    if (const Trial* same = same_mesh(size, model, false)) return *same;
+    return kept({.size = size,
+                 .n_dofs = model.system.dofs.n_dofs(),
+                 .error = error_against(known_, model, solver_),
+                 .errors = {}});
+  }
+
+  /// A trial of a mesh with as many elements, which takes the size for its own: generators round
+  /// their numbers.
+  const Trial* same_mesh(const MeshSize& size, const SupportedModel& model, bool estimated)
+  {
+    const auto found = std::ranges::find_if(trials_, [&](const Trial& trial) {
+      return trial.size.order == size.order && trial.size.edge_row == size.edge_row &&
+             trial.n_dofs == model.system.dofs.n_dofs() && is_estimated(trial) == estimated;
+    });
+    if (found == trials_.end()) return nullptr;
+    found->size = size;
+    return &*found;
+  }
+
+  const Trial& kept(Trial trial) { return trials_.emplace_back(std::move(trial)); }
+
+  /// Of that size, or a little smaller where its elements cannot fill the body.
+  Trial next_trial(MeshSize size, bool estimates)
+  {
+    constexpr double smaller = 0.85;
+    const auto attempt = [&] { return estimates ? tried(size) : compared(size); };
+    if (std::optional<Trial> trial = possible(attempt)) return std::move(*trial);
+    size.size *= smaller;
+    return attempt();
+  }
+
+  /// The size at which a mesh like this one is expected to keep the target.
+  double predicted_size(const Trial& trial) const
+  {
+    constexpr double smallest_step = 0.3, largest_step = 1.4;
+    const double rate = trial.size.order + 1.0;  // 2 order of a smooth mode on small elements
+    const double step = std::pow(0.7 * target_ / trial.error, 1.0 / rate);
+    return std::min(trial.size.size * std::clamp(step, smallest_step, largest_step),
+                    largest_size(scene_.mesh));
+  }
+
+  /// The work on a mesh of that size, and with the finer one that tells its error: by its DOFs, and
+  /// the entries of a row of the matrices.
+  double predicted_work(const Trial& trial) const
+  {
+    const double finer = trial.size.size / predicted_size(trial);
+    return trial.n_dofs * finer * finer * (0.6 + 0.2 * trial.size.order);
+  }
+
+  Trial cheaper(Trial one, std::optional<Trial> other) const
+  {
+    if (!other || predicted_work(*other) >= predicted_work(one)) return one;
+    return std::move(*other);
+  }
+
+  /// Nothing where elements of that size and order cannot fill the body.
+  template <class Try>
+  static std::optional<Trial> possible(const Try& attempt)
+  {
+    try {
+      return attempt();
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+
+  /// Of that size or, where large elements would fold over, of smaller ones.
+  Trial first_trial(MeshSize size)
+  {
+    constexpr int most_attempts = 4;
+    constexpr double smaller = 0.6;
+    for (int i = 1; i < most_attempts; ++i, size.size *= smaller)
+      if (std::optional<Trial> trial = possible([&] { return tried(size); }))
+        return std::move(*trial);
+    return tried(size);
+  }
+
+  scene::Scene scene_;
+  linear::SolverOptions solver_;
+  double target_;
+  std::vector<Trial> trials_;
+  Eigen::VectorXd known_;  ///< [k] rad/s, of the finer model of the first mesh
+  double error_of_first_ = 0.0;
+};
+
+}  // namespace
+
+MeshErrors errors_up_to(const scene::Scene& scene, const SupportedModel& model, double omega,
+                        const linear::SolverOptions& solver)
+{
+  return mesh_errors(scene, model, modes_in_range(model, omega, solver), solver);
+}
+
+FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver)
+{
+  Search search(scene, solver);
+  Trial trial = search.refined(search.start());
+  return {.size = trial.size, .errors = std::move(trial.errors)};
+}
+
+}  // namespace chladni::cases
