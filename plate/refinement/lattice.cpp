@@ -30,7 +30,7 @@ RowVector2d in_quarters(int i, int j, int q, const Cuts& cuts)
   const auto corners = corners_of_quarters(cuts);
   const int column = i > q ? 1 : 0, row = j > q ? 1 : 0;
   const auto& below = corners.at(static_cast<std::size_t>(row));
-  const auto& above = corners.at(static_cast<std::size_t>(row + 1));
+  const auto& above = corners.at(static_cast<std::size_t>(row) + 1);
   const auto c = static_cast<std::size_t>(column);
   return between({below.at(c), below.at(c + 1), above.at(c), above.at(c + 1)},
                  double(i - column * q) / q, double(j - row * q) / q);
