@@ -14,7 +14,8 @@ class FileTest : public ::testing::Test {
   void SetUp() override
   {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / (std::string("chladni_") + test->name());
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("chladni_") + test->test_suite_name() + "_" + test->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
