@@ -53,6 +53,17 @@ void transfer_certificate(auto& archive, auto& certificate)
   archive(certificate.count_share);
 }
 
+void transfer_mass(auto& archive, auto& mass)
+{
+  transfer(archive, mass.displacement);
+  transfer(archive, mass.position_displacement);
+  archive.each(mass.couplings, [](auto& within, auto& coupling) {
+    within(coupling.other);
+    for (auto* blocks : {&coupling.of_other, &coupling.of_other_transposed})
+      for (auto& block : *blocks) transfer(within, block);
+  });
+}
+
 void transfer_part(auto& archive, auto& part, auto& omega)
 {
   archive(part.order);
@@ -61,6 +72,7 @@ void transfer_part(auto& archive, auto& part, auto& omega)
   for (auto* A : {&part.K, &part.M, &part.C, &omega, &part.interface.x, &part.interface.y,
                   &part.picture.x, &part.picture.y, &part.sector.x, &part.sector.y})
     transfer(archive, *A);
+  transfer_mass(archive, part.mass);
   transfer_certificate(archive, part.certificate);
   archive(part.factor_entries);
   archive(part.factor_s);

@@ -65,10 +65,16 @@ double frequency_of_modes(int n_modes, const SectorModel& model,
 
 }  // namespace
 
+int rank_of_harmonic(int order)
+{
+  return order % n_ranks();
+}
+
 std::vector<int> own_harmonics(int count)
 {
   std::vector<int> orders;
-  for (int n = rank(); n < cyclic::n_harmonics(count); n += n_ranks()) orders.push_back(n);
+  for (int order = 0; order < cyclic::n_harmonics(count); ++order)
+    if (rank_of_harmonic(order) == rank()) orders.push_back(order);
   return orders;
 }
 

@@ -7,7 +7,10 @@
 
 namespace chladni::cases {
 
-/// The harmonics that this rank reduces.
+/// The rank that reduces a harmonic.
+int rank_of_harmonic(int order);
+
+/// The harmonics that this rank reduces, ascending.
 std::vector<int> own_harmonics(int count);
 
 /// @throws chladni::Error for a method that harmonics do not know.

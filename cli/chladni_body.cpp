@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include "report/numbers_json.hpp"
 
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
@@ -52,7 +53,7 @@ void make_and_write_body(const SceneArguments& arguments)
   std::vector<report::Json::Member> members = {
       {"n_masters", reduced.n_masters()},
       {"n_modes", reduced.fixed_interface_frequencies.size()},
-      {"frequencies_Hz", frequencies_json(body.omega)},
+      {"frequencies_Hz", report::frequencies_json(body.omega)},
       {"n_rigid", body.n_rigid}};
   for (report::Json::Member& member : report::preparation_json(body))
     members.push_back(std::move(member));

@@ -20,50 +20,13 @@
 #include "report/fe/mesh_groups.hpp"
 #include "report/fe/mesh_page.hpp"
 #include "report/fe/mesh_quality.hpp"
+#include "report/fe/mesh_table.hpp"
 #include "report/fe/mesh_vtu.hpp"
 #include "report/output.hpp"
 #include "scene/names.hpp"
 
 namespace chladni::cli {
 namespace {
-
-std::string name_of(mesh::Shape shape)
-{
-  switch (shape) {
-    case mesh::Shape::line:
-      return "lines";
-    case mesh::Shape::triangle:
-      return "triangles";
-    case mesh::Shape::quadrilateral:
-      return "quadrilaterals";
-  }
-  return "";
-}
-
-report::TextTable mesh_table(const mesh::Mesh& mesh)
-{
-  report::TextTable table{.header = {"part of the mesh", "count"}, .rows = {}};
-  table.rows.push_back({"nodes", fmt::format("{}", mesh.n_nodes())});
-  for (const mesh::ElementBlock& block : mesh.blocks) {
-    table.rows.push_back({fmt::format("{} of order {}", name_of(block.shape), block.order),
-                          fmt::format("{}", block.n_elements())});
-  }
-  for (const mesh::Group& group : mesh.groups) {
-    table.rows.push_back(
-        {fmt::format("nodes of {}", group.name), fmt::format("{}", group.nodes.size())});
-  }
-  return table;
-}
-
-std::vector<report::Json::Member> mesh_json(const mesh::Mesh& mesh)
-{
-  int n_elements = 0;
-  for (const mesh::ElementBlock& block : mesh.blocks) n_elements += block.n_elements();
-  return {{"n_nodes", mesh.n_nodes()},
-          {"n_elements", n_elements},
-          {"mesh_checksum", mesh::checksum(mesh)},
-          {"notes", report::Json::array({mesh.notes.begin(), mesh.notes.end()})}};
-}
 
 /// A scene, or a mesh file by itself, whose title is then its path.
 struct Subject {
@@ -111,7 +74,7 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
   const std::string mark = writer_mark(arguments);
   files::write_text(files.vtu, report::mesh_vtu(mesh, parts) + mark);
   files::write_text(files.page,
-                    report::mesh_page(subject.title, mesh, parts, mesh_table(mesh)) + mark);
+                    report::mesh_page(subject.title, mesh, parts, report::mesh_table(mesh)) + mark);
 }
 
 /// A body that repeats costs less than it seems.
@@ -137,7 +100,7 @@ void mesh_and_print(const ChladniArguments& all, const Subject& subject)
   const ReservedOutputs reserved = reserve_outputs(arguments, {files.vtu, files.page});
   const mesh::Mesh mesh = choice.quality ? mesh::draft(subject.mesh) : mesh::generate(subject.mesh);
   clock.end_phase("mesh");
-  std::vector<report::Json::Member> summary = mesh_json(mesh);
+  std::vector<report::Json::Member> summary = report::mesh_json(mesh);
   std::string text;
   if (choice.quality) {
     const std::vector<mesh::ElementQuality> elements = mesh::quality(mesh);
@@ -150,7 +113,7 @@ void mesh_and_print(const ChladniArguments& all, const Subject& subject)
   clock.end_phase("picture");
   const report::Cost cost = report::cost_so_far(clock.phases());
   fmt::print("{}\n\n{}\n{}{}", report::printable(subject.title),
-             report::format_table(mesh_table(mesh)), text,
+             report::format_table(report::mesh_table(mesh)), text,
              report::format_table(report::cost_table(cost)));
   for (const std::string& note : mesh.notes) fmt::print("note: {}\n", report::printable(note));
   tell_of_sectors(subject, mesh);

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include "cases/describe_reduction.hpp"
+#include "report/numbers_json.hpp"
 
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
@@ -13,11 +15,12 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
                              const report::Cost& cost)
 {
   fmt::print("{}\n\n{}\n{}\n{}", report::printable(summary.reduced.title),
-             described_reduction(summary), report::format_table(report::describe(summary.reduced)),
+             cases::described_reduction(summary),
+             report::format_table(report::describe(summary.reduced)),
              report::format_table(report::cost_table(cost)));
-  std::vector<report::Json::Member> members = reduction_json(summary);
+  std::vector<report::Json::Member> members = cases::reduction_json(summary);
   members.emplace_back("frequencies_Hz",
-                       frequencies_json(summary.reduced.fixed_interface_frequencies));
+                       report::frequencies_json(summary.reduced.fixed_interface_frequencies));
   write_summary(arguments, members, cost);
 }
 

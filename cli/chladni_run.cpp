@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include "cases/describe_reduction.hpp"
+#include "report/numbers_json.hpp"
 
 #include "cases/ranks.hpp"
 #include "cli/chladni_commands.hpp"
@@ -32,11 +34,11 @@ void print_and_write_summary(const SceneArguments& arguments, const cases::Reduc
   const std::string selection = report::describe_selection(body);
   fmt::print("{}\n\n{}\n{}{}{}\n{}\n{}", report::printable(body.title),
              report::format_table(report::list_modes(body)), selection,
-             selection.empty() ? "" : "\n", described_reduction(summary),
+             selection.empty() ? "" : "\n", cases::described_reduction(summary),
              report::format_table(report::describe(body)),
              report::format_table(report::cost_table(cost)));
-  std::vector<report::Json::Member> members = reduction_json(summary);
-  members.emplace_back("frequencies_Hz", frequencies_json(body.omega));
+  std::vector<report::Json::Member> members = cases::reduction_json(summary);
+  members.emplace_back("frequencies_Hz", report::frequencies_json(body.omega));
   members.emplace_back("n_rigid", body.n_rigid);
   for (report::Json::Member& member : report::preparation_json(body))
     members.push_back(std::move(member));

@@ -31,27 +31,6 @@ void need(const path& file, const std::string& remedy)
     throw Error(fmt::format("{}: no such file; {}", file.string(), remedy));
 }
 
-/// The speed at which the feedback is looked at when no limit cycle tells one.
-double speed_of(const squeal::SquealOptions& options)
-{
-  if (options.study.transient) return options.study.transient->speed;
-  if (options.study.limit_cycle_direct) return options.study.limit_cycle_direct->speed;
-  return options.study.speeds.to;
-}
-
-/// The envelope of the transient, when that is what led to the limit cycle.
-sound::Onset onset_of(const squeal::SquealResults& results, sound::CycleChoice choice)
-{
-  sound::Onset onset;
-  if (!results.transient || !results.limit_cycle || choice == sound::CycleChoice::direct)
-    return onset;
-  if (!(results.limit_cycle->pad_velocity > 0.0)) return onset;
-  onset.t = results.transient->envelope.t;
-  for (const double v : results.transient->envelope.pad_velocity)
-    onset.amplitude.push_back(v / results.limit_cycle->pad_velocity);
-  return onset;
-}
-
 /// NAME.sound.wav, when the scene asks for it.
 void write_wav(const scene::Scene& scene, const path& file, const sound::SoundResults& results,
                const sound::Onset& onset)
@@ -167,7 +146,7 @@ void compute_sound(const ChladniArguments& arguments)
       .found = [&](const sound::SoundResults& found) { write_found(scene, files, found, origin); }};
   const sound::SoundResults results =
       whole ? sound_study(setting, squeal_results, listener)
-            : radiation_study(setting, speed_of(*scene.squeal), listener);
+            : radiation_study(setting, sound::speed_of(*scene.squeal), listener);
   clock.end_phase("sound");
 
   if (whole) write_found(scene, files, results, origin);
@@ -178,7 +157,7 @@ void compute_sound(const ChladniArguments& arguments)
              files.radiation.string());
   if (whole) {
     fmt::print("wrote {}\nwrote {}\n", files.sound.string(), files.picture.string());
-    write_wav(scene, files.wav, results, onset_of(squeal_results, scene.sound->cycle));
+    write_wav(scene, files.wav, results, sound::onset_of(squeal_results, scene.sound->cycle));
   }
   write_summary(arguments.scene, report::sound_json(results), cost);
 }

@@ -46,21 +46,6 @@ mbs_export::ModalBody make_body_of(const scene::Scene& scene,
 report::Cost cost_of_all_ranks(const std::vector<report::PhaseTime>& phases);
 report::PhaseTime time_of_all_ranks(const report::PhaseTime& time);
 
-/// What the reduction was about, beside what the factorisation cost.
-report::TextTable reduction_table(const cases::ReduceSummary& summary);
-/// That table, and where the method was chosen automatically a line that says why.
-std::string described_reduction(const cases::ReduceSummary& summary);
-
-/// Members `n_dofs`, `n_nodes`, `n_masters`, `n_modes`, `certified_frequencies_Hz` with their
-/// `eta2`, `factor_wall_s`, `factor_cpu_s`.
-std::vector<report::Json::Member> reduction_json(const cases::ReduceSummary& summary);
-
-/// Numbers as a JSON array.
-report::Json numbers_json(const Eigen::VectorXd& values);
-
-/// Angular frequencies in rad/s as a JSON array in Hz.
-report::Json frequencies_json(const Eigen::VectorXd& omega);
-
 /// Writes the summary of a subcommand where --json says.
 void write_summary(const SceneArguments& arguments,
                    const std::vector<report::Json::Member>& members, const report::Cost& cost);

@@ -7,9 +7,9 @@
 #include <system_error>
 #include <utility>
 
+#include "cases/squeal/resume.hpp"
 #include "cases/squeal/squeal_case.hpp"
 #include "cli/reserve_outputs.hpp"
-#include "cli/squeal_resume.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "report/cost.hpp"
@@ -135,14 +135,15 @@ void run_squeal(const RunArguments& arguments)
   if (!arguments.resume) forget(files, arguments.scene);
   std::error_code ignored;
   if (sound && !arguments.resume) std::filesystem::remove(files.sound, ignored);
-  squeal::SquealResults results = perform(
-      *brake_case.brake, study,
-      {.file = files.results,
-       .origin = origin,
-       .checkpoint = &checkpoint,
-       .sound = sound ? &*sound : nullptr,
-       .begin = arguments.resume ? resume({files.results, files.checkpoint}, origin, checkpoint)
-                                 : squeal::SquealResults{}});
+  squeal::SquealResults results =
+      perform(*brake_case.brake, study,
+              {.file = files.results,
+               .origin = origin,
+               .checkpoint = &checkpoint,
+               .sound = sound ? &*sound : nullptr,
+               .begin = arguments.resume
+                            ? cases::resume({files.results, files.checkpoint}, origin, checkpoint)
+                            : squeal::SquealResults{}});
   clock.end_phase("analyses");
 
   results.inputs = results.missing.empty() ? std::string() : origin.inputs;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include "report/numbers_json.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -72,11 +73,6 @@ std::string feeding(const StabilityBranch& branch)
                      100.0 * branch.work->friction);
 }
 
-Json numbers_json(const Eigen::VectorXd& x)
-{
-  return Json::array({x.begin(), x.end()});
-}
-
 Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
 {
   std::vector<Json> unstable;
@@ -85,22 +81,21 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
   const std::optional<int> diameters = nodal_diameters(table, branch);
   const std::optional<int> circles = nodal_circles(table, branch);
   const std::optional<double> in_plane = in_plane_share(table, branch);
-  return Json::object(
-      {{"unstable", Json::array(unstable)},
-       {"worst_value", branch.worst.value},
-       {"worst_growth_1_s", branch.worst.growth},
-       {"worst_frequency_Hz", branch.worst.frequency_Hz},
-       {"damping_ratio", damping_ratio(branch.worst)},
-       {"nodal_diameters", diameters ? Json(*diameters) : Json()},
-       {"nodal_circles", circles ? Json(*circles) : Json()},
-       {"in_plane", in_plane ? Json(*in_plane) : Json()},
-       {"shares", numbers_json(branch.shares)},
-       {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
-       {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
-       {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
-       {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
-       {"growth_1_s", numbers_json(branch.lambda.real())},
-       {"frequency_Hz", numbers_json(branch.lambda.imag() / (2.0 * std::numbers::pi))}});
+  return Json::object({{"unstable", Json::array(unstable)},
+                       {"worst_value", branch.worst.value},
+                       {"worst_growth_1_s", branch.worst.growth},
+                       {"worst_frequency_Hz", branch.worst.frequency_Hz},
+                       {"damping_ratio", damping_ratio(branch.worst)},
+                       {"nodal_diameters", diameters ? Json(*diameters) : Json()},
+                       {"nodal_circles", circles ? Json(*circles) : Json()},
+                       {"in_plane", in_plane ? Json(*in_plane) : Json()},
+                       {"shares", numbers_json(branch.shares)},
+                       {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
+                       {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
+                       {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
+                       {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
+                       {"growth_1_s", numbers_json(branch.lambda.real())},
+                       {"frequency_Hz", frequencies_json(branch.lambda.imag())}});
 }
 
 }  // namespace

@@ -79,4 +79,18 @@ TextTable describe(const squeal::SweepTable& sweep)
   return table;
 }
 
+std::vector<Json::Member> sweep_json(const squeal::SweepTable& sweep)
+{
+  std::vector<Json> failures;
+  for (std::size_t i = 0; i < sweep.n_variants(); ++i) {
+    if (sweep.failures[i].empty()) continue;
+    failures.push_back(Json::object(
+        {{"variant", i + 1}, {"of", name_of_variant(sweep, i)}, {"reason", sweep.failures[i]}}));
+  }
+  return {{"variants", sweep.n_variants()},
+          {"done", sweep.count(VariantState::done)},
+          {"failed", sweep.count(VariantState::failed)},
+          {"failures", Json::array(failures)}};
+}
+
 }  // namespace chladni::report

@@ -210,4 +210,22 @@ SoundResults sound_study(const Setting& setting, const squeal::SquealResults& sq
   return results;
 }
 
+double speed_of(const squeal::SquealOptions& options)
+{
+  if (options.study.transient) return options.study.transient->speed;
+  if (options.study.limit_cycle_direct) return options.study.limit_cycle_direct->speed;
+  return options.study.speeds.to;
+}
+
+Onset onset_of(const squeal::SquealResults& results, CycleChoice choice)
+{
+  Onset onset;
+  if (!results.transient || !results.limit_cycle || choice == CycleChoice::direct) return onset;
+  if (!(results.limit_cycle->pad_velocity > 0.0)) return onset;
+  onset.t = results.transient->envelope.t;
+  for (const double v : results.transient->envelope.pad_velocity)
+    onset.amplitude.push_back(v / results.limit_cycle->pad_velocity);
+  return onset;
+}
+
 }  // namespace chladni::sound

@@ -72,6 +72,12 @@ struct StudyListener {
   std::function<void(const SoundResults&)> found = {};
 };
 
+/// The speed at which the feedback is looked at when no limit cycle tells one, rad/s.
+double speed_of(const squeal::SquealOptions& options);
+
+/// The envelope of the transient, when that is what led to the limit cycle; else nothing.
+Onset onset_of(const squeal::SquealResults& results, CycleChoice choice);
+
 /// The damping of the modes that the brake uses, and what it does to the squeal at `speed`, rad/s.
 /// @throws chladni::Error from make_stage and plan_air, before anything is solved.
 SoundResults radiation_study(const Setting& setting, double speed,

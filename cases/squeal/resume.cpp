@@ -1,8 +1,9 @@
-#include "cli/squeal_resume.hpp"
+#include "cases/squeal/resume.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string>
 #include <vector>
 
 #include "common/error.hpp"
@@ -10,8 +11,9 @@
 #include "mbs_export/files/provenance.hpp"
 #include "scene/changes.hpp"
 #include "squeal/results/result_file.hpp"
+#include "squeal/results/sweep_file.hpp"
 
-namespace chladni::cli {
+namespace chladni::cases {
 namespace {
 
 using std::filesystem::path;
@@ -70,4 +72,40 @@ squeal::SquealResults resume(const LeftBehind& left, const squeal::RunOrigin& or
   return begin.missing.empty() ? squeal::SquealResults{} : begin;
 }
 
-}  // namespace chladni::cli
+squeal::SweepTable resume(const path& file, const squeal::SweepTable& wanted,
+                          const squeal::RunOrigin& origin)
+{
+  if (!exists(file))
+    throw Error(fmt::format("--resume: there is no {}; run without --resume", file.string()));
+  const files::Reader reader(file.string());
+  squeal::SweepTable left = squeal::read_sweep(reader);
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("{}: cannot be resumed, since {}; --overwrite begins anew",
+                            file.string(), why));
+  };
+  if (left.count(squeal::VariantState::to_do) == 0) refuse("no variant is left to do");
+  if (left.keys != wanted.keys) refuse("other keys vary");
+  if (left.values.rows() != wanted.values.rows() || left.values != wanted.values)
+    refuse("the keys take other values");
+  const auto changed = scene::changed_keys(mbs_export::file_parts::read_provenance(reader).scene,
+                                           origin.provenance.scene, scene::Step::squeal);
+  if (!changed.empty()) refuse("the scene has changed: " + changed.front());
+  if (left.columns != wanted.columns || left.inputs != wanted.inputs)
+    refuse(fmt::format("it was made from {}, and this run has {}", left.inputs, wanted.inputs));
+  return left;
+}
+
+void require_no_unfinished_sweep(const path& file)
+{
+  if (!exists(file)) return;
+  const files::Reader reader(file.string());
+  if (reader.text_attribute("/", "format") != squeal::sweep_format) return;
+  const squeal::SweepTable left = squeal::read_sweep(reader);
+  if (left.count(squeal::VariantState::to_do) == 0) return;
+  throw Error(
+      fmt::format("{}: a sweep that was interrupted; --resume goes on from it, --overwrite begins "
+                  "anew",
+                  file.string()));
+}
+
+}  // namespace chladni::cases

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "reduce/reduce_options.hpp"
+#include "report/progress.hpp"
+
+namespace chladni::cases {
+
+/// The phases of a reduction in their order, and their usual parts of the time, per cent.
+std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted);
+
+/// The phases of a reduction from one sector.
+std::vector<report::Stage> stages_of_sectors();
+
+}  // namespace chladni::cases

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "cases/sector_model.hpp"
+#include "mbs_export/mass_integrals.hpp"
+#include "plate/assembly/inertia_integrals.hpp"
+
+namespace chladni::cases {
+
+/// By order, of harmonics that have something in common.
+using MotionsOfHarmonics = std::map<int, cyclic::SectorMotion>;
+
+/// The blocks of MassIntegrals::products of two harmonics of the whole body; S_zz is empty.
+struct MassCoupling {
+  int other;  ///< order, at most that of the harmonic
+  std::array<Eigen::MatrixXd, 6> of_other, of_other_transposed;  ///< [n_other x n], [n x n_other]
+};
+
+/// What one harmonic adds to the integrals over the mass of the whole body.
+struct HarmonicMass {
+  Eigen::MatrixXd displacement, position_displacement;  ///< [3 x n], [9 x n]; see MassIntegrals
+  std::vector<MassCoupling> couplings;                  ///< with itself and with lower ones
+};
+
+/// Integrals over the mass of a body of equal sectors from those of its sector: a turn by one
+/// sector takes x to R x, so that each is a sum over the sectors of products with R and the phases.
+/// Harmonics have nothing in common unless their orders differ by `reach` at most.
+class SectorMass {
+ public:
+  static constexpr int reach = 2;
+
+  /// Refers to the model.
+  SectorMass(const scene::Scene& scene, const SectorModel& model);
+  SectorMass(const SectorMass&) = delete;
+  SectorMass& operator=(const SectorMass&) = delete;
+
+  /// @param motions  of all DOFs of the sector, of this harmonic and of the `reach` lower ones
+  HarmonicMass of_harmonic(int order, const MotionsOfHarmonics& motions) const;
+
+  /// What does not depend on motions: mass, first and second moments of the whole body; no
+  /// products.
+  mbs_export::MassIntegrals of_rigid_body() const;
+
+ private:
+  /// What the motions in the direction p have in common with all others.
+  struct MovingRows {
+    std::vector<Eigen::Index> rows;       ///< where a DOF moves in this direction
+    std::array<cyclic::SparseRows, 3> S;  ///< S_px, S_py, S_pz; these rows alone
+  };
+
+  MovingRows moving_rows(int p) const;
+  MassCoupling coupling(int n, const cyclic::SectorMotion& of_n, int m,
+                        const cyclic::SectorMotion& of_m) const;
+
+  int count_;
+  plate::Structure structure_;
+  plate::MassModel mass_;
+  plate::MassMoments moments_;
+  std::array<MovingRows, 3> moving_;
+};
+
+}  // namespace chladni::cases

@@ -1,0 +1,20 @@
+#include "report/numbers_json.hpp"
+
+#include <numbers>
+#include <vector>
+
+namespace chladni::report {
+
+Json numbers_json(const Eigen::VectorXd& values)
+{
+  std::vector<Json> numbers;
+  for (const double value : values) numbers.emplace_back(value);
+  return Json::array(numbers);
+}
+
+Json frequencies_json(const Eigen::VectorXd& omega)
+{
+  return numbers_json(omega / (2.0 * std::numbers::pi));
+}
+
+}  // namespace chladni::report
