@@ -27,11 +27,11 @@ std::vector<double> joined(const std::vector<double>& own)
   return all;
 }
 
-/// The frequency below which the whole body has so many fixed-interface modes, Hz, both of a pair
+/// The frequency below which the whole body has so many modes of the method, Hz, both of a pair
 /// with it.
 double frequency_of_modes(int n_modes, const SectorModel& model,
                           const cyclic::SectorMatrices& matrices,
-                          const reduce::ReductionOptions& options)
+                          const reduce::ReductionOptions& options, const cyclic::IsHeld& is_held)
 {
   const int count = model.dofs.count;
   const std::vector<int> orders = own_harmonics(count);
@@ -42,8 +42,9 @@ double frequency_of_modes(int n_modes, const SectorModel& model,
     on_all_ranks(PETSC_COMM_WORLD, [&] {
       for (std::size_t i = 0; i < orders.size(); ++i) {
         if (std::ssize(omega[i]) < asked) {
-          omega[i] = cyclic::lowest_held_frequencies(
-              matrices, cyclic::harmonic_coordinates(model.dofs, orders[i]), asked, options);
+          omega[i] = cyclic::lowest_frequencies(matrices,
+                                                cyclic::harmonic_coordinates(model.dofs, orders[i]),
+                                                asked, options, is_held);
         }
         own.insert(own.end(), omega[i].begin(), omega[i].end());
         last.push_back(omega[i].back());
@@ -78,27 +79,30 @@ std::vector<int> own_harmonics(int count)
   return orders;
 }
 
-void check_method(reduce::Method method)
+reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted)
 {
-  using enum reduce::Method;
-  if (method == craig_bampton || method == guyan || method == automatic) return;
-  throw Error("sectors: reduce.method must be \"craig-bampton\" or \"guyan\" for one sector");
+  if (wanted.method != reduce::Method::automatic) return {.method = wanted.method};
+  if (!wanted.tolerance) return {.method = reduce::Method::craig_bampton};
+  return {.method = reduce::Method::mixed_interface,
+          .reason =
+              "a harmonic of the sectors has few masters: modes that leave them free cost "
+              "hardly more than fixed-interface modes, of which more would be needed"};
 }
 
 reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
                                           const cyclic::SectorMatrices& matrices,
-                                          const linear::SolverOptions& solver)
+                                          const linear::SolverOptions& solver,
+                                          const cyclic::IsHeld& is_held)
 {
   reduce::ReductionOptions options{.basis = scene.reduce,
                                    .solver = solver,
                                    .count = scene.sylvester,
                                    .keeps_matrices = true,
                                    .later = {}};
-  check_method(scene.reduce.method);
-  if (scene.reduce.method == reduce::Method::automatic)
-    options.basis.method = reduce::Method::craig_bampton;
+  options.basis.method = harmonic_method(scene.reduce).method;
   if (scene.reduce.modes) {
-    options.basis.cutoff_Hz = frequency_of_modes(*scene.reduce.modes, model, matrices, options);
+    options.basis.cutoff_Hz =
+        frequency_of_modes(*scene.reduce.modes, model, matrices, options, is_held);
     options.basis.modes.reset();
   }
   if (options.basis.cutoff_Hz) options.basis.certified_up_to_Hz = options.basis.cutoff_Hz;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "cases/harmonic_certificate.hpp"
 #include "cyclic/turn.hpp"
@@ -106,33 +107,33 @@ mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const Sector
   return whole;
 }
 
-mbs_export::Picture unfolded_picture(const PictureNodes& chosen, const SectorModel& model,
-                                     const std::vector<HarmonicPart>& parts, Index n_masters)
+void add_picture(mbs_export::ReducedSystem& whole, const PictureNodes& chosen,
+                 const SectorModel& model, std::vector<HarmonicPart>& parts)
 {
-  const auto places = places_of(parts, n_masters);
   const int count = model.mesh.sectors.count;
   const auto n_nodes = std::ssize(chosen.nodes);
-  Index n = n_masters;
-  for (const HarmonicPart& part : parts) n += part.omega.size();
-  mbs_export::Picture picture;
+  mbs_export::Picture& picture = whole.picture;
   picture.positions.resize(n_nodes * count, 3);
-  picture.transformation = MatrixXd::Zero(3 * n_nodes * count, n);
   for (int sector = 0; sector < count; ++sector) {
     const Eigen::Matrix3d R = cyclic::turn_of_sector(sector, count);
     for (Index i = 0; i < n_nodes; ++i) {
       picture.positions.row(sector * n_nodes + i) =
           (R * model.system.dofs.position(chosen.nodes[std::size_t(i)])).transpose();
     }
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      picture.transformation(Eigen::seqN(3 * sector * n_nodes, 3 * n_nodes), places[p]) +=
-          turned_motion(parts[p].picture, parts[p].order, sector, count);
-    }
     for (std::array<int, 4> cell : chosen.cells) {
       for (int& corner : cell) corner += static_cast<int>(sector * n_nodes);
       picture.cells.push_back(cell);
     }
   }
-  return picture;
+  auto places = places_of(parts, whole.n_masters());
+  whole.picture_of_sectors = {.n_sectors = count, .n_coordinates = whole.K.rows(), .harmonics = {}};
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    cyclic::SectorMotion motion = std::exchange(parts[p].picture, {});
+    whole.picture_of_sectors->harmonics.push_back({.order = parts[p].order,
+                                                   .x = std::move(motion.x),
+                                                   .y = std::move(motion.y),
+                                                   .columns = std::move(places[p])});
+  }
 }
 
 }  // namespace chladni::cases

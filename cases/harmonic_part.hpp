@@ -42,10 +42,10 @@ mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const Sector
                                    const std::vector<HarmonicPart>& parts,
                                    const std::vector<std::string>& fixed, double lambda_max);
 
-/// Surface of all sectors, and its motion.
+/// Adds the surface of all sectors; its motion stays that of one, which is taken from the parts.
+/// @param whole   `unfolded`
 /// @param chosen  nodes and cells of the sector, as in the pictures of the parts
-mbs_export::Picture unfolded_picture(const PictureNodes& chosen, const SectorModel& model,
-                                     const std::vector<HarmonicPart>& parts,
-                                     Eigen::Index n_masters);
+void add_picture(mbs_export::ReducedSystem& whole, const PictureNodes& chosen,
+                 const SectorModel& model, std::vector<HarmonicPart>& parts);
 
 }  // namespace chladni::cases

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cases/harmonic_options.hpp"
 #include "cases/mesh_scene.hpp"
 #include "common/error.hpp"
 #include "mesh/repetition.hpp"
@@ -44,7 +43,6 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
   try {
     const int count = mesh::n_repetitions(whole);
     if (count < least) throw Error("sectors: the mesh does not repeat about the z axis");
-    check_method(scene.reduce.method);
     mesh::Mesh first = mesh::one_sector(whole, count);
     refuse_groups_in_parts(scene, first);
     sector = sector_model(scene, std::move(first));

@@ -82,8 +82,8 @@ mbs_export::ReducedSystem described(const scene::Scene& scene, const FeModel& fe
   }
   system.masters = fe.attachments.masters;
   if (!fe.system.dofs.harmonic_rings().empty()) {
-    system.ring_motion = {.shapes = master_shapes(fe.attachments, fe.system.dofs),
-                          .displacements = {}};
+    const MatrixXd F = master_shapes(fe.attachments, fe.system.dofs);
+    system.ring_motion = {.shapes = F, .displacements = F};  // of the masters alone
   }
   return system;
 }

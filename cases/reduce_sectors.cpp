@@ -96,7 +96,7 @@ mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorMode
   }
   if (!described.chosen.nodes.empty()) {
     phases.begin("pictures");
-    on_first_rank([&] { whole.picture = unfolded_picture(described.chosen, model, parts, n_m); });
+    on_first_rank([&] { add_picture(whole, described.chosen, model, parts); });
   }
   phases.end();
   return whole;
@@ -130,13 +130,14 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
   const cyclic::SectorMatrices matrices = matrices_of(model);
   model.dofs.mirror = mirror_of(model, matrices);
   phases.begin("modes of harmonics");
-  const reduce::ReductionOptions options = harmonic_options(scene, model, matrices, solver);
+  const reduce::ReductionOptions options =
+      harmonic_options(scene, model, matrices, solver, sector_support(scene, model).is_held);
   const Described described = described_body(scene, model, options);
   phases.begin("harmonics");
   std::vector<HarmonicPart> parts =
       gathered(reduced_harmonics(model, matrices, options, described));
   ReduceSummary summary = summary_of(model, parts);
-  summary.choice.method = options.basis.method;
+  summary.choice = harmonic_method(scene.reduce);
   summary.n_masters = static_cast<int>(described.system.masters.size());
   summary.reduced = whole_body(scene, model, parts, described, phases);
   summary.phases = phases.times();

@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/progress.hpp"
+#include "reduce/basis.hpp"
 #include "report/timing.hpp"
 
 namespace chladni::cases {
@@ -109,7 +110,8 @@ HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& m
   for (const cyclic::Master& master : harmonic.coordinates.masters)
     part.masters.push_back(master_index(whole, model, master));
   part.factor_entries = linear::factor_size(harmonic.body.K_ss.factor()).entries;
-  if (harmonic.basis.modes && harmonic.basis.n_modes() > 0) {
+  const bool are_fixed_interface = !reduce::has_free_masters(harmonic.method);
+  if (are_fixed_interface && harmonic.basis.modes && harmonic.basis.n_modes() > 0) {
     part.modes_residual = reduce::largest_residual(*harmonic.basis.modes, harmonic.body.K_blocks.ss,
                                                    harmonic.body.M_blocks.ss);
   }

@@ -1,5 +1,6 @@
 #include "cases/sector_mass.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/KroneckerProduct>
@@ -35,14 +36,8 @@ Matrix3d sum_of_turns(int count, int n, bool of_y)
   return sum;
 }
 
-/// A phase of a harmonic.
-struct Phase {
-  int order;
-  bool of_y;
-};
-
 /// sum of the Kronecker product of R and R: row 3 k + l, column 3 p + q of R_kp R_lq
-Matrix9d sum_of_two_turns(int count, const Phase& a, const Phase& b)
+Matrix9d sum_of_two_turns(int count, const HarmonicPhase& a, const HarmonicPhase& b)
 {
   Matrix9d sum = Matrix9d::Zero();
   for (int j = 0; j < count; ++j) {
@@ -53,13 +48,13 @@ Matrix9d sum_of_two_turns(int count, const Phase& a, const Phase& b)
   return sum;
 }
 
-const MatrixXd& motion_in(const Phase& phase, const cyclic::SectorMotion& motion)
+const MatrixXd& motion_in(const HarmonicPhase& phase, const cyclic::SectorMotion& motion)
 {
   return phase.of_y ? motion.y : motion.x;
 }
 
 /// The phases that a harmonic has.
-std::vector<Phase> phases_of(int order, int count)
+std::vector<HarmonicPhase> phases_of(int order, int count)
 {
   if (cyclic::has_one_phase(order, count)) return {{order, false}};
   return {{order, false}, {order, true}};
@@ -122,44 +117,68 @@ mbs_export::MassIntegrals SectorMass::of_rigid_body() const
           .products = {}};
 }
 
-MassCoupling SectorMass::coupling(int n, const cyclic::SectorMotion& of_n, int m,
-                                  const cyclic::SectorMotion& of_m) const
+namespace {
+
+/// S_zz follows from M.
+bool is_needed(std::size_t kl)
 {
-  const Index n_n = of_n.x.cols(), n_m = of_m.x.cols();
-  MassCoupling coupling{.other = m, .of_other = {}, .of_other_transposed = {}};
-  const auto is_needed = [](std::size_t kl) { return kl != 2; };  // M tells S_zz
+  return kl != 2;
+}
+
+MassCoupling no_coupling(int other, Index n_other, Index n, bool is_itself)
+{
+  MassCoupling coupling{.other = other, .of_other = {}, .of_other_transposed = {}};
   for (std::size_t kl = 0; kl < 6; ++kl) {
     if (!is_needed(kl)) continue;
-    coupling.of_other[kl] = MatrixXd::Zero(n_m, n_n);
-    if (n != m) coupling.of_other_transposed[kl] = MatrixXd::Zero(n_n, n_m);
+    coupling.of_other[kl] = MatrixXd::Zero(n_other, n);
+    if (!is_itself) coupling.of_other_transposed[kl] = MatrixXd::Zero(n, n_other);
   }
-  /// What S_pq of the sector is to S_kl and, transposed, S_qp to S_kl of the whole body.
-  const auto add = [&](const Phase& a, const Phase& b, int p, int q, const auto& G) {
-    const Matrix9d ab = sum_of_two_turns(count_, a, b), ba = sum_of_two_turns(count_, b, a);
-    for (std::size_t kl = 0; kl < 6; ++kl) {
-      if (!is_needed(kl)) continue;
-      const auto [k, l] = mbs_export::product_axes[kl];
-      const double forward = ab(3 * k + l, 3 * p + q), backward = ba(3 * k + l, 3 * q + p);
-      if (std::abs(forward) > 1e-12) coupling.of_other[kl] += forward * G;
-      if (n != m && std::abs(backward) > 1e-12)
-        coupling.of_other_transposed[kl] += backward * G.transpose();
-    }
-  };
-  for (int p = 0; p < 3; ++p) {
-    const MovingRows& moving = moving_[std::size_t(p)];
-    const int n_q = p == 2 ? 2 : 3;
-    for (const Phase& b : phases_of(n, count_)) {
+  return coupling;
+}
+
+}  // namespace
+
+void SectorMass::add_product(MassCoupling& coupling, const PhasedProduct& product) const
+{
+  const auto& [a, b, p, q, G] = product;
+  const Matrix9d ab = sum_of_two_turns(count_, a, b), ba = sum_of_two_turns(count_, b, a);
+  for (std::size_t kl = 0; kl < 6; ++kl) {
+    if (!is_needed(kl)) continue;
+    const auto [k, l] = mbs_export::product_axes[kl];
+    const double forward = ab(3 * k + l, 3 * p + q), backward = ba(3 * k + l, 3 * q + p);
+    if (std::abs(forward) > 1e-12) coupling.of_other[kl] += forward * G;
+    MatrixXd& transposed = coupling.of_other_transposed[kl];
+    if (transposed.size() > 0 && std::abs(backward) > 1e-12) transposed += backward * G.transpose();
+  }
+}
+
+std::vector<MassCoupling> SectorMass::couplings(int n, const MotionsOfHarmonics& motions) const
+{
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const cyclic::SectorMotion& of_n = motions.at(n);
+  const Index n_n = of_n.x.cols();
+  std::vector<MassCoupling> couplings;
+  for (int m = std::max(n - reach, 0); m <= n; ++m)
+    couplings.push_back(no_coupling(m, motions.at(m).x.cols(), n_n, m == n));
+  for (const HarmonicPhase& b : phases_of(n, count_)) {
+    const Rows of_b = motion_in(b, of_n);  // whose rows a sparse product takes one after the other
+    for (int p = 0; p < 3; ++p) {
+      const MovingRows& moving = moving_[std::size_t(p)];
+      const int n_q = p == 2 ? 2 : 3;
       MatrixXd S_b(std::ssize(moving.rows), n_q * n_n);
       for (int q = 0; q < n_q; ++q)
-        S_b.middleCols(q * n_n, n_n).noalias() = moving.S[std::size_t(q)] * motion_in(b, of_n);
-      for (const Phase& a : phases_of(m, count_)) {
-        const MatrixXd of_a = motion_in(a, of_m)(moving.rows, every);
-        const MatrixXd G = linear::inner_product(of_a, S_b);
-        for (int q = 0; q < n_q; ++q) add(a, b, p, q, G.middleCols(q * n_n, n_n));
+        S_b.middleCols(q * n_n, n_n) = Rows(moving.S[std::size_t(q)] * of_b);
+      for (MassCoupling& coupling : couplings) {
+        for (const HarmonicPhase& a : phases_of(coupling.other, count_)) {
+          const MatrixXd of_a = motion_in(a, motions.at(coupling.other))(moving.rows, every);
+          const MatrixXd G = linear::inner_product(of_a, S_b);
+          for (int q = 0; q < n_q; ++q)
+            add_product(coupling, {a, b, p, q, G.middleCols(q * n_n, n_n)});
+        }
       }
     }
   }
-  return coupling;
+  return couplings;
 }
 
 HarmonicMass SectorMass::of_harmonic(int order, const MotionsOfHarmonics& motions) const
@@ -168,7 +187,7 @@ HarmonicMass SectorMass::of_harmonic(int order, const MotionsOfHarmonics& motion
   const Index n = own.x.cols();
   HarmonicMass mass{.displacement = MatrixXd::Zero(3, n),
                     .position_displacement = MatrixXd::Zero(9, n),
-                    .couplings = {}};
+                    .couplings = couplings(order, motions)};
   if (std::min(order, count_ - order) <= reach) {
     const MatrixXd V = linear::replicate(moments_.displacement);
     for (const bool of_y : {false, true}) {
@@ -178,8 +197,6 @@ HarmonicMass SectorMass::of_harmonic(int order, const MotionsOfHarmonics& motion
           sum_of_two_turns(count_, {order, of_y}, {0, false}) * of_sector.bottomRows<9>();
     }
   }
-  for (int other = std::max(order - reach, 0); other <= order; ++other)
-    mass.couplings.push_back(coupling(order, own, other, motions.at(other)));
   return mass;
 }
 

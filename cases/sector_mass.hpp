@@ -25,6 +25,12 @@ struct HarmonicMass {
   std::vector<MassCoupling> couplings;                  ///< with itself and with lower ones
 };
 
+/// One of the two motions x and y of a harmonic.
+struct HarmonicPhase {
+  int order;
+  bool of_y;
+};
+
 /// Integrals over the mass of a body of equal sectors from those of its sector: a turn by one
 /// sector takes x to R x, so that each is a sum over the sectors of products with R and the phases.
 /// Harmonics have nothing in common unless their orders differ by `reach` at most.
@@ -51,9 +57,18 @@ class SectorMass {
     std::array<cyclic::SparseRows, 3> S;  ///< S_px, S_py, S_pz; these rows alone
   };
 
+  /// S_pq of the sector, between the motions of two phases.
+  struct PhasedProduct {
+    HarmonicPhase a, b;
+    int p, q;
+    Eigen::MatrixXd G;
+  };
+
   MovingRows moving_rows(int p) const;
-  MassCoupling coupling(int n, const cyclic::SectorMotion& of_n, int m,
-                        const cyclic::SectorMotion& of_m) const;
+  /// Adds what it is to S_kl and, transposed, S_qp to S_kl of the whole body.
+  void add_product(MassCoupling& coupling, const PhasedProduct& product) const;
+  /// Of a harmonic with itself and the lower ones.
+  std::vector<MassCoupling> couplings(int n, const MotionsOfHarmonics& motions) const;
 
   int count_;
   plate::Structure structure_;

@@ -1,5 +1,6 @@
 #include "confinement/confine.hpp"
 
+#include <fcntl.h>
 #include <linux/landlock.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -7,9 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <new>
 
 #include "confinement/system_calls.hpp"
@@ -17,12 +18,38 @@
 namespace chladni::confinement {
 namespace {
 
-/// Of this process, bytes.
+/// The addresses of this process, bytes. A signal's handler may call it.
 std::uint64_t size_of_process()
 {
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  std::array<char, 32> text{};
+  const ssize_t n_read = ::read(file, text.data(), text.size());
+  ::close(file);
   std::uint64_t n_pages = 0;
-  std::ifstream("/proc/self/statm") >> n_pages;
+  for (ssize_t i = 0; i < n_read && text[i] >= '0' && text[i] <= '9'; ++i)
+    n_pages = 10 * n_pages + std::uint64_t(text[i] - '0');
   return n_pages * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+/// From how many bytes on a crash is taken for one of memory that ran out.
+std::uint64_t suspicious_size = 0;
+struct sigaction earlier_action {};
+
+void judge_crash(int /*signal*/)
+{
+  if (size_of_process() > suspicious_size) _exit(exit_out_of_memory);
+  sigaction(SIGSEGV, &earlier_action, nullptr);  // and the fault comes again
+}
+
+/// A C library that does not look at what malloc answers crashes where a C++ library ends by the
+/// handler of `new`. The request that failed may have been large, so half of the limit is enough
+/// to suspect it.
+void watch_crashes(std::uint64_t size, std::uint64_t limit)
+{
+  suspicious_size = size + limit / 2;
+  struct sigaction action {};
+  action.sa_handler = judge_crash;
+  sigaction(SIGSEGV, &action, &earlier_action);
 }
 
 /// Never above what the user's `ulimit` says.
@@ -61,7 +88,9 @@ void confine(const Limits& limits)
   lower(RLIMIT_FSIZE, 1 << 20);  // of files in memory; of others there are none
   lower(RLIMIT_NOFILE, 64);
   lower(RLIMIT_CPU, std::uint64_t(std::ceil(limits.seconds)) + 1);
-  lower(RLIMIT_AS, size_of_process() + limits.memory);
+  const std::uint64_t size = size_of_process();
+  watch_crashes(size, limits.memory);
+  lower(RLIMIT_AS, size + limits.memory);
   forbid_changes_by_landlock();
   filter_system_calls();
 }

@@ -10,7 +10,8 @@ struct Limits {
   double seconds;        ///< of CPU time
 };
 
-/// Exit code of a process that `confine` ended because memory ran out.
+/// Exit code of a process that `confine` ended because memory ran out, or that crashed with more
+/// than half of its memory in use.
 inline constexpr int exit_out_of_memory = 111;
 
 /// From here on, and for good, this process can read and compute, and hand back what it found

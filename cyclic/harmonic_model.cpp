@@ -8,6 +8,7 @@
 #include "cyclic/exact_pairs.hpp"
 #include "cyclic/sparse_rows.hpp"
 #include "cyclic/symmetric_half.hpp"
+#include "reduce/basis.hpp"
 #include "reduce/basis_rows.hpp"
 #include "reduce/held_masters.hpp"
 #include "reduce/project_form.hpp"
@@ -125,6 +126,22 @@ void leave_out_modes(HarmonicModel& model)
   model.omega.resize(0);
 }
 
+/// Without masters all methods are the same.
+reduce::Method method_of(const HarmonicCoordinates& c, const reduce::ReductionOptions& options)
+{
+  const reduce::Method method = options.basis.method;
+  const bool has_choice = !c.masters.empty() || !reduce::has_free_masters(method);
+  return has_choice ? method : reduce::Method::craig_bampton;
+}
+
+std::vector<PetscInt> held_masters(const HarmonicCoordinates& c, const IsHeld& is_held)
+{
+  std::vector<PetscInt> held;
+  for (const Master& master : c.masters)
+    if (is_held(master)) held.push_back(master.coordinate);
+  return held;
+}
+
 }  // namespace
 
 HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates coordinates,
@@ -136,17 +153,17 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
   if (coordinates.symmetric.size() > 0) half = symmetric_half(coordinates);
   const HarmonicCoordinates& solved = half ? *half : coordinates;
   reduce::Body whole = body_of(sector, solved);
-  std::vector<PetscInt> held;
-  for (const Master& master : solved.masters)
-    if (is_held(master)) held.push_back(master.coordinate);
-  const reduce::HeldMasters support(whole.masters, std::move(held));
+  const reduce::HeldMasters support(whole.masters, held_masters(solved, is_held));
   reduce::FactoredBody body = reduce::factored(std::move(whole), options, phases);
   reduce::ReductionOptions chosen = options;
+  chosen.basis.method = method_of(solved, options);
   chosen.basis.at_least = 1;  // of which the certificate learns that there are none below
+  chosen.basis.may_have_none = true;
   chosen.basis.expected = 4;  // a harmonic has few
   reduce::Reduction reduction = reduce::reduction(body, chosen, support, phases);
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   HarmonicModel model{.coordinates = std::move(coordinates),
+                      .method = chosen.basis.method,
                       .K = reduction.model.K(places, places),
                       .M = reduction.model.M(places, places),
                       .C = {},
@@ -167,28 +184,28 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
   make_pairs(model);
   phases.end();
   const double cutoff = 2.0 * std::numbers::pi * options.basis.cutoff_Hz.value_or(0.0);
-  if (options.basis.cutoff_Hz && model.omega.size() > 0 && model.omega[0] >= cutoff)
+  const bool are_fixed_interface = !reduce::has_free_masters(model.method);
+  if (are_fixed_interface && cutoff > 0.0 && model.omega.size() > 0 && model.omega[0] >= cutoff)
     leave_out_modes(model);
   return model;
 }
 
-std::vector<double> lowest_held_frequencies(const SectorMatrices& sector,
-                                            const HarmonicCoordinates& coordinates, int count,
-                                            const reduce::ReductionOptions& options)
+std::vector<double> lowest_frequencies(const SectorMatrices& sector,
+                                       const HarmonicCoordinates& coordinates, int count,
+                                       const reduce::ReductionOptions& options,
+                                       const IsHeld& is_held)
 {
   const bool is_half = coordinates.symmetric.size() > 0;
-  const reduce::FactoredBody body = [&] {
-    reduce::PhaseListener silent;
-    return reduce::factored(body_of(sector, is_half ? symmetric_half(coordinates) : coordinates),
-                            options, silent);
-  }();
+  const HarmonicCoordinates solved = is_half ? symmetric_half(coordinates) : coordinates;
+  reduce::PhaseListener silent;
+  const reduce::FactoredBody body = reduce::factored(body_of(sector, solved), options, silent);
   PetscInt n_slaves = 0;
   petsc::check(MatGetSize(body.K_blocks.ss, &n_slaves, nullptr));
   const int n = is_half ? (count + 1) / 2 : count;
-  std::vector<double> omega =
-      reduce::fixed_interface_modes(body.K_ss, body.M_blocks.ss,
-                                    {.modes = std::min(n, static_cast<int>(n_slaves))})
-          .omega;
+  reduce::ReductionOptions lowest = options;
+  lowest.basis = {.method = method_of(solved, options), .modes = std::min<int>(n, n_slaves)};
+  const reduce::HeldMasters support(body.masters, held_masters(solved, is_held));
+  std::vector<double> omega = reduce::lowest_modes(body, lowest, support);
   if (!is_half) return omega;
   std::vector<double> pairs;
   for (const double value : omega) pairs.insert(pairs.end(), 2, value);

@@ -22,6 +22,7 @@ using IsHeld = std::function<bool(const Master&)>;
 /// One harmonic of the body, reduced: rows are its masters, then modes in exact pairs.
 struct HarmonicModel {
   HarmonicCoordinates coordinates;
+  reduce::Method method;    ///< Craig and Bampton's where there are no masters to be free
   Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
   Eigen::VectorXd omega;    ///< [n_modes] rad/s
   reduce::Certificate certificate;
@@ -42,11 +43,13 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                               const reduce::ReductionOptions& options, const IsHeld& is_held,
                               reduce::PhaseListener& phases);
 
-/// The lowest eigenvalues with all masters held, ascending, in rad/s, those of pairs twice; at
-/// least `count` of them.
-std::vector<double> lowest_held_frequencies(const SectorMatrices& sector,
-                                            const HarmonicCoordinates& coordinates, int count,
-                                            const reduce::ReductionOptions& options);
+/// The lowest elastic modes that the method takes: with all masters held or, of methods with free
+/// masters, with those of the support. Ascending, in rad/s, those of pairs twice; at least `count`
+/// of them.
+std::vector<double> lowest_frequencies(const SectorMatrices& sector,
+                                       const HarmonicCoordinates& coordinates, int count,
+                                       const reduce::ReductionOptions& options,
+                                       const IsHeld& is_held);
 
 /// Rows of the transformation from the model to the sector.
 SectorMotion sector_motion(const HarmonicModel& model, std::span<const int> dofs);

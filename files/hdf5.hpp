@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,8 +10,7 @@
 #include "files/replacement.hpp"
 
 /// A thin layer over the HDF5 C library: atomic writing, sealed files (seal.hpp), strict reading.
-/// Paths of datasets are relative to the root ("rings/track/W"); groups on the way are created as
-/// needed.
+/// Paths of datasets are relative to the root ("rings/track/W"); groups on the way are created.
 namespace chladni::files {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -34,6 +34,12 @@ struct Column {
   Eigen::Index column;
 };
 
+/// A matrix that nobody holds whole.
+struct RowBlocks {
+  Eigen::Index rows, cols;
+  std::function<Eigen::MatrixXd(Eigen::Index row)> from;  ///< some rows from this one on
+};
+
 /// Writes a file under a temporary name beside the target; only `commit` gives it its name.
 class Writer {
  public:
@@ -54,13 +60,15 @@ class Writer {
   template <class Derived>
   void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)
   {
-    RowMajorMatrix rows(x.rows(), x.cols());
-    rows = x.template cast<double>();
-    if constexpr (Derived::IsVectorAtCompileTime)
-      write_reals(name, rows.data(), {static_cast<std::uint64_t>(rows.size())}, unit);
-    else
-      write_reals(name, rows.data(), extents(rows.rows(), rows.cols()), unit);
+    if constexpr (Derived::IsVectorAtCompileTime) {
+      const Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values =
+          x.template cast<double>();
+      write_reals(name, values.data(), {static_cast<std::uint64_t>(values.size())}, unit);
+    } else {
+      write_matrix(name, x.template cast<double>(), unit);
+    }
   }
+  void write(const std::string& name, const RowBlocks& x, const std::string& unit);
   void write(const std::string& name, double x, const std::string& unit);
   void write(const std::string& name, std::span<const double> x, const std::string& unit);
   void write(const std::string& name, std::int64_t x, const std::string& unit);
@@ -81,19 +89,16 @@ class Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t number);
   void attribute(const std::string& object, const std::string& name,
                  std::span<const std::int64_t> numbers);
-  /// Of variable length, for readers that compare text as h5py gives it to them: what is of fixed
-  /// length comes as bytes. Reader refuses it.
+  /// Of variable length: text of fixed length is bytes to h5py. Reader refuses it.
   void variable_attribute(const std::string& object, const std::string& name,
                           const std::string& text);
 
  private:
   using Extents = std::vector<std::uint64_t>;
-  static Extents extents(Eigen::Index rows, Eigen::Index cols)
-  {
-    return {static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(cols)};
-  }
   void write_reals(const std::string& name, const double* x, const Extents& shape,
                    const std::string& unit);
+  void write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                    const std::string& unit);
   void write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,
                       const std::string& unit);
 

@@ -69,6 +69,36 @@ bool write_dataset(const Target& target, hid_t type, const std::vector<std::uint
   return set_text_attribute(dataset.get(), "unit", target.unit);
 }
 
+bool write_rows(const Handle& dataset, const RowMajorMatrix& rows, Eigen::Index first)
+{
+  const std::array start{hsize_t(first), hsize_t{0}};
+  const std::array count{hsize_t(rows.rows()), hsize_t(rows.cols())};
+  const Handle in_file{H5Dget_space(dataset.get()), H5Sclose};
+  const Handle in_memory{H5Screate_simple(2, count.data(), nullptr), H5Sclose};
+  return H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                             nullptr) >= 0 &&
+         H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT,
+                  rows.data()) >= 0;
+}
+
+std::vector<std::uint64_t> extents(Eigen::Index rows, Eigen::Index cols)
+{
+  return {static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(cols)};
+}
+
+bool write_blocks(const Target& target, const RowBlocks& x)
+{
+  const Handle dataset =
+      create_dataset(target.file, target.name, H5T_NATIVE_DOUBLE, extents(x.rows, x.cols));
+  if (!dataset.valid()) return false;
+  RowMajorMatrix rows;
+  for (Eigen::Index first = 0; first < x.rows && x.cols > 0; first += rows.rows()) {
+    rows = x.from(first);
+    if (!write_rows(dataset, rows, first)) return false;
+  }
+  return set_text_attribute(dataset.get(), "unit", target.unit);
+}
+
 void require(bool done, const std::string& file, const std::string& name)
 {
   if (!done)
@@ -116,6 +146,11 @@ void Writer::group(const std::string& name)
   const Handle created{H5Gcreate2(file_, name.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
                        H5Gclose};
   require(created.valid(), path(), name);
+}
+
+void Writer::write(const std::string& name, const RowBlocks& x, const std::string& unit)
+{
+  require(write_blocks({file_, name, unit}, x), path(), name);
 }
 
 void Writer::write(const std::string& name, double x, const std::string& unit)
@@ -239,6 +274,17 @@ void Writer::write_reals(const std::string& name, const double* x, const Extents
                          const std::string& unit)
 {
   require(write_dataset({file_, name, unit}, H5T_NATIVE_DOUBLE, shape, x), path(), name);
+}
+
+void Writer::write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                          const std::string& unit)
+{
+  constexpr Eigen::Index piece = 1 << 18;  // numbers: 2 MiB
+  const Eigen::Index most = std::max<Eigen::Index>(1, piece / std::max<Eigen::Index>(1, x.cols()));
+  const auto from = [&](Eigen::Index row) -> Eigen::MatrixXd {
+    return x.middleRows(row, std::min(most, x.rows() - row));
+  };
+  write(name, {.rows = x.rows(), .cols = x.cols(), .from = from}, unit);
 }
 
 void Writer::write_integers(const std::string& name, const std::int64_t* x, const Extents& shape,

@@ -175,12 +175,6 @@ MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
   return VectorXd(2.0 * zeta.array() * modes.omega.array()).asDiagonal();
 }
 
-Picture picture_modes(const Picture& picture, const MatrixXd& T)
-{
-  if (picture.positions.rows() == 0) return {};
-  return {picture.positions, picture.cells, picture.transformation * T};
-}
-
 std::vector<ResultantModes> resultants_in_modes(std::vector<ResultantModes> resultants,
                                                 const MatrixXd& T)
 {
@@ -200,7 +194,7 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .fixed = options.fixed,
                  .attachment_modes = attachment_motion(reduced, modes.T),
                  .rings = {},
-                 .picture = picture_modes(reduced.picture, modes.T),
+                 .picture = picture_in(reduced, modes.T),
                  .mass = rigid.mass,
                  .centre_of_mass = rigid.centre_of_mass,
                  .inertia = rigid.inertia,

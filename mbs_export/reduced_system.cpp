@@ -19,4 +19,13 @@ const AttachmentSet& find_set(const ReducedSystem& reduced, const std::string& n
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
+Picture picture_in(const ReducedSystem& reduced, const Eigen::MatrixXd& T)
+{
+  const auto& [positions, cells, transformation] = reduced.picture;
+  if (positions.rows() == 0) return {};
+  if (reduced.picture_of_sectors)
+    return {positions, cells, in_coordinates(*reduced.picture_of_sectors, T)};
+  return {positions, cells, transformation * T};
+}
+
 }  // namespace chladni::mbs_export

@@ -9,6 +9,7 @@
 
 #include "mbs_export/certificate.hpp"
 #include "mbs_export/mass_integrals.hpp"
+#include "mbs_export/sector_motions.hpp"
 
 namespace chladni::mbs_export {
 
@@ -54,7 +55,7 @@ struct RingMotion {
 };
 
 /// Surface for pictures: some nodes of the mesh, triangles and quadrilaterals over them, and the
-/// rows of the Craig-Bampton transformation that give their displacements.
+/// rows of the transformation that give their displacements.
 struct Picture {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;  ///< [n x 3], m
   std::vector<std::array<int, 4>>
@@ -104,6 +105,8 @@ struct ReducedSystem {
   Eigen::MatrixXd C;                            ///< [n_FE x n_FE] or [0 x 0] when undamped
   Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
   Picture picture;                              ///< empty when the scene wants none
+  /// The rows of the picture's transformation, which is empty then: many times as large.
+  std::optional<SectorMotions> picture_of_sectors = {};
   Certificate certificate = {};
   std::vector<ResultantModes> resultants = {};
   std::optional<MassIntegrals> mass_integrals = {};  ///< absent for matrices without geometry
@@ -115,5 +118,8 @@ struct ReducedSystem {
 /// The index in `sets` of the set with this name.
 /// @throws chladni::Error naming the sets that exist.
 const AttachmentSet& find_set(const ReducedSystem& reduced, const std::string& name);
+
+/// The picture in other coordinates, q = T times these; empty where there is none.
+Picture picture_in(const ReducedSystem& reduced, const Eigen::MatrixXd& T);
 
 }  // namespace chladni::mbs_export

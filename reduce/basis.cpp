@@ -80,12 +80,12 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
   const MixedInterfaceModes modes = mixed_interface_modes(
       whole, basis.Q.Psi, with_modes_of_responses(options), held_rows(body, support, method));
   phases.begin("residual flexibility");
-  basis.Q.modes = residual_modes(whole, basis.Q.Psi, modes);
+  if (modes.n_modes() > 0) basis.Q.modes = residual_modes(whole, basis.Q.Psi, modes);
   if (method == Method::mixed_interface) {
-    basis.exact_up_to = modes.omega.back();
+    basis.exact_up_to = modes.omega.empty() ? 0.0 : modes.omega.back();
     basis.lambda_left_out = modes.lambda_left_out;
   }
-  if (method == Method::macneal) {
+  if (method == Method::macneal && modes.n_modes() > 0) {
     phases.begin("mass of the modes");
     basis.mass = macneal_mass(basis.Q, body.M_blocks, modes);
   }
@@ -93,6 +93,18 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
 }
 
 }  // namespace
+
+std::vector<double> lowest_modes(const FactoredBody& body, const ReductionOptions& options,
+                                 const Support& support)
+{
+  const ReduceOptions& wanted = options.basis;
+  if (!has_free_masters(wanted.method))
+    return fixed_interface_modes(body.K_ss, body.M_blocks.ss, wanted).omega;
+  const petsc::Matrix Psi = constraint_modes(body.K_ss, body.K_blocks);
+  const MixedInterfaceModes modes = mixed_interface_modes(whole_system(body), Psi, wanted,
+                                                          held_rows(body, support, wanted.method));
+  return {modes.omega.begin() + modes.n_rigid, modes.omega.end()};
+}
 
 WholeSystem whole_system(const FactoredBody& body)
 {

@@ -32,4 +32,11 @@ struct Basis {
 Basis make_basis(const FactoredBody& body, const ReductionOptions& options, const Support& support,
                  PhaseListener& phases);
 
+/// The lowest elastic modes of a method by number, rad/s, ascending: fixed-interface modes or those
+/// of the body that the support holds or nothing.
+/// @note   Collective.
+/// @throws chladni::Error when there are not as many.
+std::vector<double> lowest_modes(const FactoredBody& body, const ReductionOptions& options,
+                                 const Support& support);
+
 }  // namespace chladni::reduce

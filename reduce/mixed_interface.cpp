@@ -61,7 +61,7 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
   ElasticPairs found;
   linear::EigenPairs& pairs = found.pairs;
   constexpr PetscInt least_more = 8;
-  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : 32;;
+  for (PetscInt n_asked = wanted.modes ? *wanted.modes + 2 : wanted.expected;;
        n_asked += std::max<PetscInt>(n_asked / 4, least_more)) {
     lanczos.converge(std::min(n_asked, n));
     pairs.lambda.clear();
@@ -74,6 +74,13 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
       throw Error(
           fmt::format("mixed_interface_modes: {} of {} elastic modes found; there are no more",
                       n_found, n_taken));
+    }
+    const bool is_nothing = n_taken == 0 && linear::LocalRows(flexibility.R()).n_cols() == 0;
+    if (is_nothing && !pairs.lambda.empty() && wanted.cutoff_Hz && !wanted.may_have_none) {
+      throw Error(fmt::format(
+          "mixed_interface_modes: no elastic mode below {:.6g} Hz (the first is at {:.6g} Hz); "
+          "raise cutoff_Hz or use Guyan",
+          *wanted.cutoff_Hz, std::sqrt(pairs.lambda.front()) / (2.0 * std::numbers::pi)));
     }
     const PetscInt n_complete = complete_cluster(pairs.lambda, n_taken);
     if (n_complete == n_found && !are_all) continue;  // the cluster of the last one may go on

@@ -32,10 +32,11 @@ struct ReduceOptions {
   std::optional<int> modes = {};
   std::optional<double> cutoff_Hz = {};
   std::optional<ModesByTolerance> tolerance = {};
-  /// With cutoff_Hz: modes that are kept even where they are above it. Without any, a cut-off below
-  /// the first mode is an error.
+  /// With cutoff_Hz: fixed-interface modes that are kept even where they are above it. Without any,
+  /// a cut-off below the first mode is an error.
   int at_least = 0;
-  int expected = 32;  ///< with cutoff_Hz: how many are looked for at first
+  bool may_have_none = false;  ///< with cutoff_Hz: methods with free masters do with statics alone
+  int expected = 32;           ///< with cutoff_Hz: how many are looked for at first
   /// The modes that get an error are those below this frequency, however many modes the basis has;
   /// without it those up to the last mode of the basis, or of the tolerance's range.
   std::optional<double> certified_up_to_Hz = {};

@@ -7,11 +7,13 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off.
+/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off, in
+/// K or in M.
 double deflation_shift(const MatrixXd& K, const MatrixXd& M)
 {
-  const VectorXd ratio =
-      (M.diagonal().array() > 0.0).select(K.diagonal().array() / M.diagonal().array(), 0.0);
+  const double without_mass = M.size() > 0 ? 1e-14 * M.diagonal().maxCoeff() : 0.0;
+  const VectorXd ratio = (M.diagonal().array() > without_mass)
+                             .select(K.diagonal().array() / M.diagonal().array(), 0.0);
   const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
   if (largest <= 0.0) return 1.0;
   return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();

@@ -52,7 +52,8 @@ Attachment read_attachment(const files::Reader& file)
   return attachment;
 }
 
-void write_picture(files::Writer& file, const Picture& picture)
+void write_picture(files::Writer& file, const Picture& picture,
+                   const std::optional<SectorMotions>& motions)
 {
   if (picture.positions.rows() == 0) return;
   files::IntegerMatrix cells(Index(picture.cells.size()), 4);
@@ -61,7 +62,12 @@ void write_picture(files::Writer& file, const Picture& picture)
       cells(i, k) = picture.cells[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
   file.write("picture/positions", picture.positions, "m");
   file.write("picture/cells", cells, "1");
-  file.write("picture/displacements", picture.transformation, "m per unit of each coordinate");
+  const std::string name = "picture/displacements", unit = "m per unit of each coordinate";
+  if (!motions) return file.write(name, picture.transformation, unit);
+  const Index n = motions->rows_of_sector();
+  const auto sector = [&](Index row) { return rows_of_sector(*motions, int(row / n)); };
+  file.write(name, {.rows = n * motions->n_sectors, .cols = motions->n_coordinates, .from = sector},
+             unit);
 }
 
 Picture read_picture(const files::Reader& file, Index n_columns)

@@ -21,7 +21,9 @@ void write_attachment(files::Writer& file, const std::vector<AttachmentNode>& no
 Attachment read_attachment(const files::Reader& file);
 
 /// Nothing is written for an empty picture.
-void write_picture(files::Writer& file, const Picture& picture);
+/// @param motions  of the nodes, where the picture has no transformation
+void write_picture(files::Writer& file, const Picture& picture,
+                   const std::optional<SectorMotions>& motions = {});
 /// @param n_columns  that `transformation` must have
 Picture read_picture(const files::Reader& file, Eigen::Index n_columns);
 

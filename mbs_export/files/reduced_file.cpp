@@ -80,7 +80,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
     file.write("matrices/damping", reduced.C, "N s/m, N s, N m s; 1/s of fixed-interface modes");
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
   write_certificate(file, reduced.certificate);
-  file_parts::write_picture(file, reduced.picture);
+  file_parts::write_picture(file, reduced.picture, reduced.picture_of_sectors);
   file_parts::write_resultants(file, reduced.resultants);
   file_parts::write_mass_integrals(file, reduced.mass_integrals);
   file_parts::write_provenance(file, reduced.provenance);

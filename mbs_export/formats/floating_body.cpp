@@ -23,6 +23,7 @@ ReducedSystem with_all_coordinates(ReducedSystem reduced)
   const Index n = reduced.K.rows();
   reduced.resultants.clear();
   reduced.mass_integrals.reset();
+  reduced.picture_of_sectors.reset();
   reduced.picture = {};
   reduced.picture.positions.setZero(1, 3);
   reduced.picture.transformation = MatrixXd::Identity(n, n);
@@ -49,9 +50,7 @@ ModalBody elastic_part(const ModalBody& body, Index n_rigid)
 void add_from_reduced(ModalBody& elastic, const ReducedSystem& reduced, const MatrixXd& T)
 {
   if (reduced.mass_integrals) elastic.mass_integrals = in_coordinates(*reduced.mass_integrals, T);
-  if (reduced.picture.positions.rows() == 0) return;
-  elastic.picture = {reduced.picture.positions, reduced.picture.cells,
-                     reduced.picture.transformation * T};
+  elastic.picture = picture_in(reduced, T);
 }
 
 /// Whether A R != 0 for the rigid motions R of the masters, where A = A^T >= 0: then and only then

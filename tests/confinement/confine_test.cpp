@@ -15,6 +15,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -176,6 +177,33 @@ TEST(Confined, IsOfLimitedMemory)
   };
   EXPECT_EQ(exit_code_after(swell, {.memory = 100 << 20, .seconds = 20.0}), exit_out_of_memory);
   EXPECT_EQ(exit_code_after(swell, {.memory = std::uint64_t(4) << 30, .seconds = 20.0}), did_it);
+}
+
+/// What a C library does that does not look at malloc's answer.
+bool fills_all(std::size_t n_blocks)
+{
+  constexpr std::size_t size = 1 << 20;
+  for (std::size_t i = 0; i < n_blocks; ++i) {
+    auto* block = static_cast<volatile char*>(std::malloc(size));
+    for (std::size_t k = 0; k < size; k += 4096) block[k] = 'x';
+  }
+  return true;
+}
+
+TEST(Confined, CrashesForWantOfMemoryUnderThatName)
+{
+#ifdef CHLADNI_SANITIZED
+  GTEST_SKIP() << "the sanitizer ends a process without memory in its own way";
+#endif
+  const Limits limits{.memory = 100 << 20, .seconds = 20.0};
+  EXPECT_EQ(exit_code_after([] { return fills_all(1000); }, limits), exit_out_of_memory);
+  const auto crash_early = [] {
+    const volatile std::uintptr_t nowhere = 0;
+    return fills_all(10) && *reinterpret_cast<volatile char*>(nowhere) == 'x';
+  };
+  const int status = status_after(crash_early, limits);
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGSEGV);
 }
 
 TEST(Confined, IsOfLimitedTime)

@@ -64,6 +64,18 @@ TEST(Eigenmodes, LeaveOutMasslessDirections)
   EXPECT_NEAR(modes.lambda[1], 9.0, 1e-13);
 }
 
+TEST(Eigenmodes, SeeNoStiffnessToMassRatioWhereTheMassIsRoundOff)
+{
+  const int n = 5;
+  const MatrixXd R = VectorXd::Constant(n + 1, 1.0 / std::sqrt(n));
+  MatrixXd M = MatrixXd::Identity(n + 1, n + 1);
+  M(n, n) = 1e-31;  // at the end of a last spring, which goes along
+  const Eigenmodes modes = eigenmodes(free_chain(n + 1), M, R);
+  ASSERT_EQ(modes.lambda.size(), n - 1);
+  const double s = std::sin(std::numbers::pi / (2 * n));
+  EXPECT_NEAR(modes.lambda[0] / (4 * s * s), 1.0, 1e-12);
+}
+
 TEST(Eigenmodes, OfABodyWithOneNodeDoNotSeeTheRoundOffOfItsRigidMotions)
 {
   // Two rigid coordinates, in which round-off alone stands in K, and two modes.

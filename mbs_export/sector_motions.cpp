@@ -1,0 +1,61 @@
+#include "mbs_export/sector_motions.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "common/eigen_every.hpp"
+
+namespace chladni::mbs_export {
+
+using Eigen::Index, Eigen::MatrixXd;
+
+namespace {
+
+double angle_of(std::int64_t part, const SectorMotions& motions)
+{
+  return 2.0 * std::numbers::pi * double(part % motions.n_sectors) / motions.n_sectors;
+}
+
+MatrixXd in_phase(const MatrixXd& x, const MatrixXd& y, double phase)
+{
+  return std::cos(phase) * x - std::sin(phase) * y;
+}
+
+void turn(Eigen::Ref<MatrixXd> rows, double angle)
+{
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (Index i = 0; i < rows.rows(); i += 3)
+    rows.middleRows<3>(i) = (R * rows.middleRows<3>(i)).eval();
+}
+
+}  // namespace
+
+MatrixXd rows_of_sector(const SectorMotions& motions, int sector)
+{
+  MatrixXd rows = MatrixXd::Zero(motions.rows_of_sector(), motions.n_coordinates);
+  for (const SectorMotions::Harmonic& h : motions.harmonics) {
+    const std::int64_t turns = std::int64_t{h.order} * sector;
+    rows(every, h.columns) += in_phase(h.x, h.y, angle_of(turns, motions));
+  }
+  turn(rows, angle_of(sector, motions));
+  return rows;
+}
+
+MatrixXd in_coordinates(const SectorMotions& motions, const MatrixXd& T)
+{
+  const Index n = motions.rows_of_sector();
+  MatrixXd whole = MatrixXd::Zero(n * motions.n_sectors, T.cols());
+  for (const SectorMotions::Harmonic& h : motions.harmonics) {
+    const MatrixXd T_h = T(h.columns, every);
+    const MatrixXd x = h.x * T_h, y = h.y * T_h;
+    for (int j = 0; j < motions.n_sectors; ++j)
+      whole.middleRows(j * n, n) += in_phase(x, y, angle_of(std::int64_t{h.order} * j, motions));
+  }
+  for (int j = 0; j < motions.n_sectors; ++j)
+    turn(whole.middleRows(j * n, n), angle_of(j, motions));
+  return whole;
+}
+
+}  // namespace chladni::mbs_export
