@@ -6,7 +6,7 @@
 
 namespace chladni::cases {
 
-using Eigen::MatrixXd;
+using Eigen::MatrixXd, linear::FormSymmetry;
 
 mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, const FeModel& fe,
                                          const SceneReduction& reduced)
@@ -23,13 +23,11 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
                                       .displacement = V.topRows<3>(),
                                       .position_displacement = V.bottomRows<9>(),
                                       .products = {}};
-  const auto product = [&](int k, int l) -> MatrixXd {
-    return projected(reduced, plate::displacement_product(model, k, l));
-  };
   auto& S = integrals.products;
   for (const std::size_t i : {0, 1, 3, 4, 5}) {
     const auto [k, l] = mbs_export::product_axes[i];
-    S[i] = product(k, l);
+    S[i] = projected(reduced, plate::displacement_product(model, k, l),
+                     k == l ? FormSymmetry::symmetric : FormSymmetry::none);
     if (k == l) S[i] = 0.5 * (S[i] + S[i].transpose()).eval();
   }
   S[2] = reduced.system.M - S[0] - S[1];  // M = S_xx + S_yy + S_zz

@@ -188,10 +188,10 @@ plate::Structure structure_of(const scene::Scene& scene)
           .springs = scene.springs};
 }
 
-MatrixXd projected(const SceneReduction& reduced, Mat A)
+MatrixXd projected(const SceneReduction& reduced, Mat A, linear::FormSymmetry symmetry)
 {
-  return reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs))(
-      reduced.places, reduced.places);
+  return reduce::project_form(reduced.reduction.Q_CB, reduce::split(A, reduced.body.dofs),
+                              symmetry)(reduced.places, reduced.places);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include "cases/attachments.hpp"
 #include "cases/phases.hpp"
+#include "linear/kernels/parted_form.hpp"
 #include "mesh/mesh.hpp"
 #include "plate/assembly/assemble.hpp"
 #include "reduce/reduction.hpp"
@@ -33,6 +34,7 @@ plate::Structure structure_of(const scene::Scene& scene);
 
 /// A matrix of the FE model in the coordinates of the file.
 /// @note   Collective.
-Eigen::MatrixXd projected(const SceneReduction& reduced, Mat A);
+Eigen::MatrixXd projected(const SceneReduction& reduced, Mat A,
+                          linear::FormSymmetry symmetry = linear::FormSymmetry::none);
 
 }  // namespace chladni::cases

@@ -1,5 +1,7 @@
 #include "reduce/craig_bampton.hpp"
 
+#include <array>
+
 #include "linear/kernels/parted_form.hpp"
 
 namespace chladni::reduce {
@@ -8,7 +10,8 @@ using Eigen::MatrixXd;
 
 MatrixXd guyan_mass(Mat Psi, const Blocks& M)
 {
-  const MatrixXd Psi_M_Psi = linear::parted_form(Psi, M.ss);
+  const MatrixXd Psi_M_Psi =
+      linear::parted_form(std::array{Psi}, M.ss, linear::FormSymmetry::symmetric);
   const MatrixXd M_mm = linear::replicate(M.mm), Psi_M_sm = linear::inner_product_sparse(Psi, M.sm);
   MatrixXd M_G(M_mm.rows(), M_mm.cols());
   M_G.triangularView<Eigen::Upper>() =

@@ -76,6 +76,30 @@ MatrixXd weighted_inverse(const MatrixXd& R_m, const MatrixXd& K_mm, MPI_Comm co
   return linear::product(linear::product(root, root.transpose()), WR.transpose());
 }
 
+/// Psi <- Psi + X S where Psi is not zero: bending of a plate stays without motion in the plane.
+void correct_what_moves(Mat X, const MatrixXd& S, Mat Psi)
+{
+  const linear::LocalRows x(X);
+  PetscScalar* psi = nullptr;
+  PetscInt ld = 0;
+  petsc::check(MatDenseGetLDA(Psi, &ld));
+  petsc::check(MatDenseGetArray(Psi, &psi));
+  using Eigen::Index, Eigen::OuterStride;
+  const Eigen::Map<const MatrixXd, 0, OuterStride<>> from(x.values(), x.n_rows(), x.n_cols(),
+                                                          OuterStride<>(x.leading_dimension()));
+  constexpr Index rows_in_cache = 4096;
+  for (Index first = 0; first < from.rows(); first += rows_in_cache) {
+    const Index n = std::min(rows_in_cache, from.rows() - first);
+    const MatrixXd some = from.middleRows(first, n);
+    for (Index j = 0; j < S.cols(); ++j) {
+      Eigen::Map<Eigen::VectorXd> to(psi + first + std::ptrdiff_t(j) * ld, n);
+      const Eigen::VectorXd correction = some * S.col(j);
+      to = (to.array() != 0.0).select(to + correction, 0.0);
+    }
+  }
+  petsc::check(MatDenseRestoreArray(Psi, &psi));
+}
+
 }  // namespace
 
 petsc::Matrix with_rigid_motions(petsc::Matrix Psi, const KnownMotions& motions)
@@ -89,8 +113,8 @@ petsc::Matrix with_rigid_motions(petsc::Matrix Psi, const KnownMotions& motions)
   petsc::check(MatZeroEntries(error));
   linear::add_product(1.0, all_s, Y, error);
   linear::add_product(-1.0, Psi, R_m, error);
-  linear::add_product(
-      1.0, error,
+  correct_what_moves(
+      error,
       weighted_inverse(R_m, linear::replicate(motions.K.mm), petsc::communicator(motions.K.ss)),
       Psi);
   return Psi;

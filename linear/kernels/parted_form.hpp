@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "common/petsc.hpp"
 
@@ -13,8 +14,11 @@ namespace chladni::linear {
 /// @note   Collective.
 Eigen::MatrixXd parted_form(Mat X, Mat A, Mat Y);
 
-/// X^T A X, symmetric to the last bit.
+enum class FormSymmetry { none, symmetric };
+
+/// The same of X = [X_1 X_2 ...] with itself and any A, coupled rows being those with an entry on
+/// either side of the diagonal. Of a symmetric A it is symmetric to the last bit and half the work.
 /// @note   Collective.
-Eigen::MatrixXd parted_form(Mat X, Mat A);
+Eigen::MatrixXd parted_form(std::span<const Mat> X, Mat A, FormSymmetry symmetry);
 
 }  // namespace chladni::linear

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <numeric>
+#include <vector>
 
+#include "common/eigen_every.hpp"
 #include "plate/assembly/element_motion.hpp"
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/mass_points.hpp"
@@ -105,6 +107,36 @@ void add_rows(const MassModel& model, MatrixXd V_e, const ElementMotion& motion,
   }
 }
 
+/// The DOFs that move the points of an element in a direction.
+struct MovingColumns {
+  std::vector<Index> numbers;
+  MatrixXd N;               ///< [n_points x n]
+  Eigen::VectorXd lengths;  ///< [n] square roots of sum |dm| N^2
+
+  MovingColumns(const MassPoints& points, std::size_t direction)
+  {
+    const StrainRows& all = points.N[direction];
+    const Eigen::VectorXd squares = all.cwiseAbs2().transpose() * points.dm.cwiseAbs();
+    for (Index i = 0; i < squares.size(); ++i)
+      if (squares[i] > 0.0) numbers.push_back(i);
+    N = all(every, numbers);
+    lengths = squares(numbers).cwiseSqrt();
+  }
+};
+
+/// sum dm N_k^T N_l without round-off, where the contributions of the two halves of the thickness
+/// are opposite: what does not move together is not coupled.
+MatrixXd element_product(const MassPoints& points, std::size_t k, std::size_t l)
+{
+  constexpr double round_off = 1e-14;
+  const MovingColumns left(points, k), right(points, l);
+  const MatrixXd sums = left.N.transpose() * points.dm.asDiagonal() * right.N;
+  const MatrixXd least = round_off * left.lengths * right.lengths.transpose();
+  MatrixXd product = MatrixXd::Zero(points.N[k].cols(), points.N[l].cols());
+  product(left.numbers, right.numbers) = (sums.array().abs() > least.array()).select(sums, 0.0);
+  return product;
+}
+
 /// mass, int x dm, int x x^T dm in one row to be summed over ranks.
 using Totals = Eigen::Matrix<double, 13, 1>;
 
@@ -146,10 +178,8 @@ petsc::Matrix displacement_product(const MassModel& model, int k, int l)
 {
   BlockRows S(model.pattern);
   for_owned_points(model, [&](const MassPoints& points, const ElementMotion& motion, bool) {
-    const StrainRows& N_k = points.N[static_cast<std::size_t>(k)];
-    const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
     // `add` reads columns as rows, so it wants S_kl^T = S_lk.
-    add(S, N_l.transpose() * points.dm.asDiagonal() * N_k, motion, model.dofs,
+    add(S, element_product(points, std::size_t(l), std::size_t(k)), motion, model.dofs,
         block_places(model.pattern, motion.numbers));
   });
   petsc::Matrix A = S.to_matrix(model.comm);

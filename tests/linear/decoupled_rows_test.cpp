@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -144,8 +145,37 @@ TEST(PartedForm, IsThatOfTheWhole)
   SparseProduct(A).apply(Y, AY);
   const Eigen::MatrixXd of_both = inner_product(X, AY), of_one = inner_product(X, AX);
   EXPECT_LT((parted_form(X, A, Y) - of_both).norm(), 1e-14 * of_both.norm());
-  EXPECT_LT((parted_form(X, A) - of_one).norm(), 1e-14 * of_one.norm());
-  EXPECT_EQ(parted_form(X, A), Eigen::MatrixXd(parted_form(X, A).transpose()));
+  const auto form_of_X = [&] {
+    return parted_form(std::array<Mat, 1>{X}, A, FormSymmetry::symmetric);
+  };
+  EXPECT_LT((form_of_X() - of_one).norm(), 1e-14 * of_one.norm());
+  EXPECT_EQ(form_of_X(), Eigen::MatrixXd(form_of_X().transpose()));
+  Eigen::MatrixXd of_all(150, 150);
+  of_all << of_one, of_both, of_both.transpose(), inner_product(Y, AY);
+  for (const FormSymmetry symmetry : {FormSymmetry::none, FormSymmetry::symmetric}) {
+    const Eigen::MatrixXd F = parted_form(std::array<Mat, 2>{X, Y}, A, symmetry);
+    EXPECT_LT((F - of_all).norm(), 1e-14 * of_all.norm());
+  }
+}
+
+TEST(PartedForm, KnowsEntriesOnOneSideOfTheDiagonalAndRowsWithoutAny)
+{
+  constexpr PetscInt n = 302;
+  const petsc::Matrix A = testing::matrix(n, 2, [&](PetscInt i) {
+    testing::Row row;
+    if (i % 3 == 0 && i + 1 < n) row.emplace_back(i + 1, 1.5);
+    if (i % 3 == 0 && i >= 2) row.emplace_back(i - 2, -0.5);
+    return row;
+  });
+  const petsc::Matrix X = columns_of_chains(A, 80), Y = columns_of_chains(A, 70);
+  petsc::Matrix AX = uninitialized_dense(A, 80), AY = uninitialized_dense(A, 70);
+  SparseProduct(A).apply(X, AX);
+  SparseProduct(A).apply(Y, AY);
+  Eigen::MatrixXd whole(150, 150);
+  whole << inner_product(X, AX), inner_product(X, AY), inner_product(Y, AX), inner_product(Y, AY);
+  const Eigen::MatrixXd F = parted_form(std::array<Mat, 2>{X, Y}, A, FormSymmetry::none);
+  EXPECT_LT((F - whole).norm(), 1e-14 * whole.norm());
+  EXPECT_GT((F - F.transpose()).norm(), 0.1 * whole.norm());
 }
 
 TEST(PartSolver, SolvesForThePartAsTheWholeDoes)
