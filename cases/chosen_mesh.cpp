@@ -70,11 +70,13 @@ MeshChoice own_mesh(const scene::Scene& supported, const scene::Scene& scene,
 
 }  // namespace
 
-std::vector<plate::Support> supports_of(const std::vector<std::string>& fixed)
+std::vector<plate::Support> supports_of(const scene::Scene& scene)
 {
   std::vector<plate::Support> supports;
-  for (const std::string& name : fixed) {
-    const std::size_t dot = name.rfind('.');
+  const std::vector<std::string>& sets = scene.interface_nodes;
+  for (const std::string& name : scene.body.fixed) {
+    const bool is_set = std::ranges::find(sets, name) != sets.end();  // it may have a dot
+    const std::size_t dot = is_set ? std::string::npos : name.rfind('.');
     const std::string component = dot == std::string::npos ? "" : name.substr(dot + 1);
     const auto known = std::ranges::find(plate::component_names, component);
     if (known == plate::component_names.end()) {

@@ -18,7 +18,7 @@ struct MeshChoice {
 };
 
 /// What holds the body of a scene (BodyOptions::fixed), as supports of its FE model.
-std::vector<plate::Support> supports_of(const std::vector<std::string>& fixed);
+std::vector<plate::Support> supports_of(const scene::Scene& scene);
 
 /// With `accuracy` the cheapest mesh known that keeps it: coarse meshes of the orders there are,
 /// without and with rows of elements at the edges, tell what each would need; the best one is

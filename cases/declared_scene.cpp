@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace chladni::cases {
 namespace {
+
+constexpr std::array component_names{"x", "y", "z", "rx", "ry", "rz"};
 
 /// A TOML string; quotes and control characters cannot end it.
 std::string quoted(const std::string& text)
@@ -76,11 +79,48 @@ std::string coupling(const mesh::DeclaredCoupling& coupling)
 
 std::string support(const mesh::DeclaredSupport& support)
 {
-  constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
   std::string dofs;
   for (const int component : support.components)
-    dofs += fmt::format("{}\"{}\"", dofs.empty() ? "" : ", ", names[component]);
+    dofs +=
+        fmt::format("{}\"{}\"", dofs.empty() ? "" : ", ", component_names[std::size_t(component)]);
   return fmt::format("\n[[support]]\ngroup = {}\ndofs = [{}]\n", quoted(support.group), dofs);
+}
+
+template <std::size_t n>
+std::string list(const std::array<double, n>& numbers)
+{
+  std::string text;
+  for (const double x : numbers) text += (text.empty() ? "" : ", ") + number(x);
+  return "[" + text + "]";
+}
+
+template <std::size_t n>
+bool is_zero(const std::array<double, n>& numbers)
+{
+  return std::ranges::all_of(numbers, [](double x) { return x == 0.0; });
+}
+
+std::string mass(const mesh::DeclaredMass& mass)
+{
+  std::string text =
+      fmt::format("\n[[mass]]\nat = {}\nmass = {}\n", quoted(mass.at), number(mass.mass));
+  if (!is_zero(mass.inertia)) text += fmt::format("inertia = {}\n", list(mass.inertia));
+  if (!is_zero(mass.offset)) text += fmt::format("offset = {}\n", list(mass.offset));
+  return text;
+}
+
+std::string spring(const mesh::DeclaredSpring& spring)
+{
+  std::string text = fmt::format("\n[[spring]]\nat = {}\n", quoted(spring.at));
+  if (spring.to) text += fmt::format("to = {}\n", quoted(*spring.to));
+  std::string stiffness;
+  for (std::size_t c = 0; c < 6; ++c) {
+    if (spring.stiffness[c] != 0.0) {
+      stiffness += fmt::format("{}{} = {}", stiffness.empty() ? "" : ", ", component_names[c],
+                               number(spring.stiffness[c]));
+    }
+  }
+  return text + fmt::format("stiffness = {{ {} }}\n", stiffness);
 }
 
 std::string each(const auto& declared, auto&& written)
@@ -101,7 +141,8 @@ std::string declared_scene(const mesh::Declarations& declared, const DeckScene& 
                       quoted(scene.file), quoted(scene.length_unit));
   text += each(declared.materials, material) + each(declared.shells, shell) +
           each(declared.beams, beam) + each(declared.couplings, coupling) +
-          each(declared.supports, support);
+          each(declared.supports, support) + each(declared.masses, mass) +
+          each(declared.springs, spring);
   return text + "\n[modes]\ncount = 10\n";
 }
 

@@ -254,8 +254,7 @@ ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solve
                             scene.path));
   }
   Phases phases(progress);
-  const MeshChoice choice =
-      chosen_mesh(scene, supports_of(scene.body.fixed), solvers.options, phases);
+  const MeshChoice choice = chosen_mesh(scene, supports_of(scene), solvers.options, phases);
   ReduceSummary summary = reduce_meshed(choice.scene, solvers, phases);
   if (choice.errors) {
     mbs_export::Certificate& certificate = summary.reduced.certificate;

@@ -131,7 +131,7 @@ void mesh_command(const ChladniArguments& arguments)
   if (subject.scene && subject.scene->accuracy) {
     const cases::ReduceProgress bar = progress_bar({{"errors of the mesh", 100.0}});
     cases::Phases phases(bar);
-    subject.mesh = cases::chosen_mesh(*subject.scene, cases::supports_of(subject.scene->body.fixed),
+    subject.mesh = cases::chosen_mesh(*subject.scene, cases::supports_of(*subject.scene),
                                       arguments.solver, phases)
                        .scene.mesh;
   }

@@ -102,6 +102,17 @@ void transfer_declarations(auto& archive, auto& declared)
     a(support.group);
     a(support.components);
   });
+  archive.each(declared.masses, [](auto& a, auto& mass) {
+    a(mass.at);
+    a(mass.mass);
+    for (auto& moment : mass.inertia) a(moment);
+    for (auto& x : mass.offset) a(x);
+  });
+  archive.each(declared.springs, [](auto& a, auto& spring) {
+    a(spring.at);
+    a(spring.to);
+    for (auto& k : spring.stiffness) a(k);
+  });
   archive.each(declared.notes, [](auto& a, auto& note) { a(note); });
 }
 

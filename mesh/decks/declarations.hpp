@@ -46,6 +46,21 @@ struct DeclaredSupport {
   std::vector<int> components;  ///< 0 to 5, ascending
 };
 
+/// A rigid body on the node of a group or the reference node of a coupling.
+struct DeclaredMass {
+  std::string at;
+  double mass;                    ///< kg
+  std::array<double, 6> inertia;  ///< as a scene's: xx, yy, zz, xy, xz, yz, kg m^2
+  std::array<double, 3> offset;   ///< of the centre of mass, m
+};
+
+/// Between two such nodes, or one and the ground.
+struct DeclaredSpring {
+  std::string at;
+  std::optional<std::string> to = {};  ///< absent: the ground
+  std::array<double, 6> stiffness;     ///< N/m, N m/rad
+};
+
 /// What a file of another FE program says besides its mesh, in SI units.
 struct Declarations {
   std::vector<DeclaredMaterial> materials;
@@ -53,6 +68,8 @@ struct Declarations {
   std::vector<DeclaredBeam> beams;
   std::vector<DeclaredCoupling> couplings;
   std::vector<DeclaredSupport> supports;
+  std::vector<DeclaredMass> masses;
+  std::vector<DeclaredSpring> springs;
   std::vector<std::string> notes;  ///< for the user: what becomes something else here
 };
 
@@ -63,6 +80,8 @@ struct DeckUnits {
 
   double stress() const { return force / (length * length); }      ///< Pa
   double density() const { return stress() / (length * length); }  ///< kg/m^3
+  double mass() const { return force / length; }                   ///< kg, of N s^2/m
+  double moment_of_inertia() const { return mass() * area(); }     ///< kg m^2
   double area() const { return length * length; }                  ///< m^2
   double second_moment() const { return area() * area(); }         ///< m^4
 };

@@ -40,7 +40,7 @@ std::set<std::string> Holders::of(const std::string& group,
   for (const std::int64_t node : nodes) {
     const bool is_reference = references_.contains(node);
     if (!is_reference && !connected_.contains(node))
-      throw Error(fmt::format("holds node {}, which is of no element and no coupling", node));
+      throw Error(fmt::format("its node {} is of no element and no coupling", node));
     names.insert(is_reference ? name_of_reference(node) : group);
   }
   return names;

@@ -60,6 +60,24 @@ std::string name_of_held(std::int64_t set, const std::vector<int>& components);
 /// "ps_123": nodes that a GRID itself holds.
 std::string name_of_held_by_grid(const std::vector<int>& components);
 
+/// "conm2_5", "celas_7_1": the groups of the nodes of a CONM2, and of the ends 1 and 2 of a spring.
+std::string name_of_mass(const Card& card);
+std::string name_of_spring(const Card& card, int end);
+
+/// Of a CELAS1 or CELAS2; 0 for the ground.
+std::array<std::int64_t, 2> nodes_of_spring(const Card& card);
+
+class Holders;
+/// Masses and springs at nodes.
+/// @param holders  with the reference nodes of all couplings
+/// @throws chladni::Error naming line and card of what a scene has not.
+void declare_points(std::span<const Card> cards, const Deck& deck, const DeckUnits& units,
+                    const Holders& holders, Declarations& all);
+
+/// The section of a PBARL in the units of the deck, without group and material.
+/// @throws chladni::Error for a shape that is not known.
+DeclaredBeam bar_of_shape(const Card& card);
+
 /// The nodes of an RBE2 or RBE3.
 struct RigidElement {
   std::int64_t reference;

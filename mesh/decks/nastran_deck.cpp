@@ -52,12 +52,15 @@ class Reader {
 
   static Readers make_readers()
   {
-    Readers all{{"SET1", &Reader::set1}, {"RBE2", &Reader::rigid}, {"RBE3", &Reader::rigid},
-                {"SPC", &Reader::held},  {"SPC1", &Reader::held},  {"PARAM", &Reader::parameter}};
+    Readers all{
+        {"SET1", &Reader::set1},  {"RBE2", &Reader::rigid},    {"RBE3", &Reader::rigid},
+        {"SPC", &Reader::held},   {"SPC1", &Reader::held},     {"PARAM", &Reader::parameter},
+        {"CONM2", &Reader::mass}, {"CELAS1", &Reader::spring}, {"CELAS2", &Reader::spring}};
     for (const char* name : {"CQUAD4", "CTRIA3"}) all.emplace(name, &Reader::flat_shell);
     for (const char* name : {"CQUAD8", "CTRIA6"}) all.emplace(name, &Reader::curved_shell);
     for (const char* name : {"CBAR", "CBEAM"}) all.emplace(name, &Reader::beam);
-    for (const char* name : {"CORD2R", "CORD2C", "MAT1", "PSHELL", "PBAR", "PBEAM"})
+    for (const char* name :
+         {"CORD2R", "CORD2C", "MAT1", "PSHELL", "PBAR", "PBARL", "PBEAM", "PELAS"})
       all.emplace(name, [](Reader&, const Card&) {});
     for (const char* name : {"EIGR", "EIGRL", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4",
                              "GRAV", "LOAD", "TEMP", "TEMPD"})
@@ -174,6 +177,20 @@ class Reader {
     const std::int64_t number = element_number(card);
     const char* kind = card.name() == "RBE2" ? "rbe2" : "rbe3";
     add_to(fmt::format("{}_{}", kind, number), rigid_element(card).nodes);
+  }
+
+  void mass(const Card& card)
+  {
+    element_number(card);
+    add_to(name_of_mass(card), {node(card, 2)});
+  }
+
+  void spring(const Card& card)
+  {
+    element_number(card);
+    const auto ends = nodes_of_spring(card);
+    for (const int i : {0, 1})
+      if (ends[std::size_t(i)] != 0) add_to(name_of_spring(card, i + 1), {ends[std::size_t(i)]});
   }
 
   void held(const Card& card)

@@ -61,10 +61,12 @@ class Declarer {
       if (card.name() == "MAT1") all_.materials.push_back(material(card, units_));
       if (card.name() == "PSHELL") shell(card);
       if (card.name() == "PBAR") bar(card);
+      if (card.name() == "PBARL") bar_by_shape(card);
       if (card.name() == "PBEAM") beam(card);
       if (card.name() == "RBE2" || card.name() == "RBE3") coupling(card);
     }
     supports();
+    declare_points(cards_, deck_, units_, holders_, all_);
     for (const DeckGroup& group : deck_.groups) check_has_section(group);
     return std::move(all_);
   }
@@ -137,6 +139,12 @@ class Declarer {
                                .I_y = card.real(4, "I1"),
                                .I_z = card.real(5, "I2"),
                                .J = card.real_or(6, "J", 0.0)}));
+  }
+
+  void bar_by_shape(const Card& card)
+  {
+    const std::string group = fmt::format("pbar_{}", card.integer(1, "PID"));
+    if (is_used(group)) add_beam(card, group, bar_of_shape(card));
   }
 
   /// K1 belongs to the plane of the vector, which is x-z in a scene.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "mesh/decks/nastran.hpp"
 #include "mesh_file_test.hpp"
@@ -192,6 +193,53 @@ TEST(NastranDeclarations, HoldTheReferenceNodeOfAnRbe2ByItsCoupling)
   EXPECT_EQ(declared.supports[1].group, "spc_6_123456");
 }
 
+TEST(NastranDeclarations, HaveMassesAndSprings)
+{
+  const Declarations declared = declared_by(
+      plate +
+          "GRID,9,,1.,.5,0.\nRBE2,20,9,123456,1,2\n"
+          "CONM2,30,9,,2.-3,1.,0.,5.\n,8.,1.,9.,2.,3.,10.\nCONM2,31,3,-1,1.-3,2.,1.,4.\n"
+          "PELAS,40,50.,,,41,70.\nCELAS1,32,41,3,5\nCELAS2,33,100.,1,3,9,3\nCELAS2,34,5.,,,4,1\n",
+      1e-3);
+  ASSERT_EQ(declared.masses.size(), 2U);
+  const DeclaredMass& hub = declared.masses[0];
+  EXPECT_EQ(hub.at, "node_9");
+  EXPECT_NEAR(hub.mass, 2.0, 1e-12) << "t";
+  EXPECT_NEAR(hub.offset[2], 5e-3, 1e-15);
+  const std::array<double, 6> expected{8e-3, 9e-3, 10e-3, -1e-3, -2e-3, -3e-3};  // of t mm^2
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(hub.inertia[i], expected[i], 1e-15) << i;
+  EXPECT_EQ(declared.masses[1].at, "conm2_31");
+  EXPECT_NEAR(declared.masses[1].offset[2], 4e-3, 1e-15) << "from where the centre is";
+  EXPECT_NEAR(declared.masses[1].offset[0], 0.0, 1e-15);
+  ASSERT_EQ(declared.springs.size(), 3U);
+  EXPECT_EQ(declared.springs[0].at, "celas_32_1");
+  EXPECT_NEAR(declared.springs[0].stiffness[4], 70e-3, 1e-15) << "N mm/rad";
+  EXPECT_FALSE(declared.springs[0].to);
+  EXPECT_EQ(declared.springs[1].at, "celas_33_1");
+  EXPECT_EQ(declared.springs[1].to, "node_9");
+  EXPECT_NEAR(declared.springs[1].stiffness[2], 1e5, 1e-9);
+  EXPECT_EQ(declared.springs[2].at, "celas_34_2");
+}
+
+TEST(NastranDeclarations, HaveBarsByTheirShapes)
+{
+  const std::string bars =
+      plate + "CBAR,3,5,1,2,0.,3.,0.\nCBAR,4,6,1,2,0.,0.,1.\nCBAR,6,8,2,3,0.,0.,1.\n";
+  const Declarations declared = declared_by(
+      bars + "PBARL,5,9,,BAR\n,2.,6.\nPBARL,6,9,,ROD\n,2.\nPBARL,8,9,,TUBE\n,3.,2.\n", 1e-3);
+  ASSERT_EQ(declared.beams.size(), 3U);
+  const DeclaredBeam &bar = declared.beams[0], &rod = declared.beams[1], &tube = declared.beams[2];
+  EXPECT_NEAR(bar.area, 12e-6, 1e-18);
+  EXPECT_NEAR(bar.I_y, 36e-12, 1e-24) << "6 mm high in the plane of the vector";
+  EXPECT_NEAR(bar.I_z, 4e-12, 1e-24);
+  EXPECT_NEAR(bar.J / 12.64e-12, 1.0, 2e-3) << "0.2633 a b^3 of a rectangle of 3 to 1";
+  EXPECT_EQ(bar.orientation, (std::array<double, 3>{0.0, 1.0, 0.0}));
+  EXPECT_NEAR(rod.J, 8.0 * std::numbers::pi * 1e-12, 1e-22);
+  EXPECT_FALSE(rod.orientation);
+  EXPECT_NEAR(tube.area, 5.0 * std::numbers::pi * 1e-6, 1e-17);
+  EXPECT_NEAR(tube.I_y, 65.0 / 4.0 * std::numbers::pi * 1e-12, 1e-22);
+}
+
 class RefusedCard : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedCard, IsNamedWithItsLine)
@@ -200,7 +248,20 @@ TEST_P(RefusedCard, IsNamedWithItsLine)
 }
 
 const std::vector<Refusal> refusals{
-    {plate + "CELAS2,5,100.,1,1\n", {"line 8", "CELAS2 5", "not known"}},
+    {plate + "CGAP,5,100,1,2\n", {"line 8", "CGAP 5", "not known"}},
+    {plate + "CONM2,5,1,3,.5\n", {"CONM2 5", "system CID"}},
+    {plate + "CONM2,5,9,,.5\n", {"CONM2 5", "no node 9"}},
+    {plate + "GRID,9,,0.,0.,0.\nCONM2,5,9,,.5\n", {"CONM2 5", "node 9", "no coupling"}},
+    {plate + "CELAS2,5,100.,1\n", {"CELAS2 5", "no component"}},
+    {plate + "CELAS2,5,100.,1,1,2,3\n", {"CELAS2 5", "two components"}},
+    {plate + "CELAS2,5,-100.,1,1\n", {"CELAS2 5", "negative"}},
+    {plate + "CELAS2,5,100.,1,1,,,.1\n", {"CELAS2 5", "GE"}},
+    {plate + "CELAS2,5,100.\n", {"CELAS2 5", "at no node"}},
+    {plate + "CELAS1,5,6,1,1\n", {"CELAS1 5", "no PELAS 6"}},
+    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,I\n,1.,1.,1.,1.,1.,1.\n",
+     {"PBARL 5", "ROD, TUBE and BAR"}},
+    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,TUBE\n,1.,1.\n", {"PBARL 5", "inner radius"}},
+    {plate + "CBAR,3,5,1,2,0.,0.,1.\nPBARL,5,9,,BAR\n,1.,1.,2.\n", {"PBARL 5", "NSM"}},
     {plate + "CTETRA,5,7,1,2,3,4\n", {"CTETRA 5", "solid"}},
     {plate + "INCLUDE 'more.bdf'\n", {"line 8", "INCLUDE"}},
     {plate + "GRID,1,,0.,0.,0.\n", {"GRID 1", "twice"}},
