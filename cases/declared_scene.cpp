@@ -80,9 +80,10 @@ std::string coupling(const mesh::DeclaredCoupling& coupling)
 std::string support(const mesh::DeclaredSupport& support)
 {
   std::string dofs;
-  for (const int component : support.components)
+  for (const int component : support.components) {
     dofs +=
         fmt::format("{}\"{}\"", dofs.empty() ? "" : ", ", component_names[std::size_t(component)]);
+  }
   return fmt::format("\n[[support]]\ngroup = {}\ndofs = [{}]\n", quoted(support.group), dofs);
 }
 

@@ -66,7 +66,7 @@ void refuse_export(const scene::Scene& scene, const mbs_export::formats::ExportE
 std::vector<std::string> damping_left_out(const std::string& format, const Damping& damping,
                                           int n_free_rigid)
 {
-  const bool of_reduced_system = format.starts_with("nastran");
+  const bool of_reduced_system = format.starts_with("nastran") || format == "matrix-market";
   const bool is_chosen = damping.type != Damping::Type::none;
   if (of_reduced_system && is_chosen && damping.type != Damping::Type::matrix)
     return {

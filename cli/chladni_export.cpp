@@ -18,6 +18,7 @@
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/exudyn.hpp"
 #include "mbs_export/formats/matlab.hpp"
+#include "mbs_export/formats/matrix_market.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
@@ -132,6 +133,19 @@ std::string export_floating_body(const ExportArguments& arguments, const Source&
   return write(target_of(arguments, source, ".fem"), formats::mbdyn_fem(floating, version));
 }
 
+std::vector<std::string> export_matrices(const ExportArguments& arguments, const Source& source,
+                                         const mbs_export::ReducedSystem& reduced)
+{
+  const auto texts = formats::matrix_market(reduced);
+  path named = target_of(arguments, source, "");
+  if (named.extension() == ".mtx") named.replace_extension();
+  const std::string stem = named.string();
+  std::vector<std::string> files{write(stem + ".K.mtx", texts.K), write(stem + ".M.mtx", texts.M)};
+  if (!texts.C.empty()) files.push_back(write(stem + ".C.mtx", texts.C));
+  files.push_back(write(stem + ".coordinates.csv", texts.coordinates));
+  return files;
+}
+
 /// A reduced system, of which [body] is no part.
 Exported export_reduced(const ExportArguments& arguments, const Source& source,
                         const mbs_export::ReducedSystem& reduced)
@@ -141,6 +155,8 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
   std::vector<std::string> notes = cases::damping_left_out(arguments.format, damping, 0);
   if (arguments.format == "nastran-op4")
     return {export_superelement(arguments, source, reduced), std::move(notes)};
+  if (arguments.format == "matrix-market")
+    return {export_matrices(arguments, source, reduced), std::move(notes)};
   const path file = target_of(arguments, source, ".dmig");
   return {{write(file, formats::nastran_dmig(reduced))}, std::move(notes)};
 }
@@ -159,7 +175,9 @@ Exported export_as(const ExportArguments& arguments, const Source& source)
     return {{write(target_of(arguments, source, ".mat"), text)}, {}};
   }
   const mbs_export::ReducedSystem reduced = read_reduced_of(arguments, source);
-  if (arguments.format.starts_with("nastran")) return export_reduced(arguments, source, reduced);
+  const bool is_of_reduced =
+      arguments.format == "matrix-market" || arguments.format.starts_with("nastran");
+  if (is_of_reduced) return export_reduced(arguments, source, reduced);
   const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
   return {{export_floating_body(arguments, source, floating)},
           cases::damping_left_out(arguments.format, source.scene->body.damping,
@@ -198,7 +216,8 @@ void export_and_report(const ExportArguments& arguments)
 const std::vector<std::string>& export_formats()
 {
   static const std::vector<std::string> names{
-      "nastran-dmig", "nastran-op4", "mbdyn", "mbdyn-develop", "sid", "exudyn", "mat"};
+      "nastran-dmig",  "nastran-op4", "matrix-market", "mbdyn",
+      "mbdyn-develop", "sid",         "exudyn",        "mat"};
   return names;
 }
 

@@ -61,8 +61,7 @@ class Writer {
   void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)
   {
     if constexpr (Derived::IsVectorAtCompileTime) {
-      const Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values =
-          x.template cast<double>();
+      const auto& values = x.template cast<double>().eval();
       write_reals(name, values.data(), {static_cast<std::uint64_t>(values.size())}, unit);
     } else {
       write_matrix(name, x.template cast<double>(), unit);

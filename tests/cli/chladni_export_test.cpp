@@ -75,6 +75,30 @@ TEST(ChladniExport, WritesTheFilesOfNastran)
   EXPECT_EQ(folder.n_files(), 5u);
 }
 
+TEST(ChladniExport, WritesMatricesThatScipyReadsBitByBit)
+{
+  const Folder folder;
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", wheel());
+  const std::string command = chladni_program + " export disc.reduced.h5 --format matrix-market";
+  EXPECT_EQ(run(folder, command).exit_code, 0);
+  write_text(folder.path() / "read.py", R"(
+import csv, h5py, numpy as np, scipy.io
+with h5py.File("disc.reduced.h5") as file:
+    K, M, n = file["matrices/stiffness"][()], file["matrices/mass"][()], len(file["masters/node"])
+assert np.array_equal(scipy.io.mmread("disc.K.mtx"), np.tril(K) + np.tril(K, -1).T)
+assert np.array_equal(scipy.io.mmread("disc.M.mtx"), np.tril(M) + np.tril(M, -1).T)
+rows = list(csv.DictReader(open("disc.coordinates.csv")))
+assert [int(row["row"]) for row in rows] == list(range(1, len(K) + 1))
+assert sum(row["kind"] == "node" for row in rows) == n
+assert all(float(row["frequency_Hz"]) > 0 for row in rows[n:])
+print(rows[0]["set"], rows[0]["component"])
+)");
+  const Ending read = run(folder, "/usr/bin/python3 read.py");
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_EQ(run(folder, command + " --output a.mtx").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.K.mtx"));
+}
+
 TEST(ChladniExport, WritesTheBodyOfASceneForMbdyn)
 {
   const Folder folder;
