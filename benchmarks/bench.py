@@ -95,7 +95,7 @@ BENCHMARKS = [
     ("rings", "Harmonics of a ring as masters",
      script("reduction/ring_harmonics.py", ("--size", "0.03", "--harmonics", "4", "--larger")), "ring_harmonics"),
     ("sectors", "One sector of a disc",
-     script("reduction/sectors.py", ("--counts", "12", "--across", "8", "--modes", "10")), "sector_benchmarks"),
+     script("reduction/sectors.py", ("--counts", "12", "--across", "8", "--large", "6", "8", "--modes", "10")), "sector_benchmarks"),
     ("peers", "Reduction beside other programs",
      script("reduction/peers.py", ("--modes", "20", "--size", "0.02")), "reduction_peers"),
     ("calculix", "Modes beside CalculiX",

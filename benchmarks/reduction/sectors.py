@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """What does a disc of N equal sectors cost from one of them, harmonic by harmonic?
 
-usage: sectors.py [--counts 12 24 48 96] [--across 25] [--modes 40] OUTPUT
+usage: sectors.py [--counts 12 24 48 96] [--across 25] [--large 36 100] [--modes 40] OUTPUT
 
 A clamped disc with N sectors of 4 x `across` quadrilaterals of order 2 each, in a mesh file of one sector and in one of
-all. The reduction has a rigid hub and 6 harmonics of a ring of N nodes as masters, all modes to 16 kHz, pictures and mass
-integrals. Then the modes of the disc with its hub held, from the same sector: by Chladni, by scipy (the complex Hermitian
+all. The reduction has a rigid hub and 6 harmonics of a ring of N nodes as masters, of a last, larger disc all of them, all
+modes to 16 kHz, pictures and mass integrals. Then the modes of the disc with its hub held, from the same sector: by Chladni, by scipy (the complex Hermitian
 matrices of each harmonic from Chladni's K and M, splu and eigsh), and by CalculiX's *CYCLIC SYMMETRY MODEL on solid
 elements C3D20R, one over the thickness. Seconds and memory are those of whole processes with one thread.
 Writes OUTPUT/sector_benchmarks.json and .md.
@@ -97,11 +97,16 @@ def reduced(folder, ranks=1, options=()):
     return done | wall, json.loads((folder / "summary.json").read_text())
 
 
-def growth(folder, count, across):
+def reduction(harmonics):
+    """Of a scene; all harmonics of the ring without their number."""
+    rings = f'rings = [{{ name = "track", harmonics = {harmonics} }}]' if harmonics else ""
+    return {"INTERFACE": '"hub", "track"', "RINGS": rings, "WANTED": "cutoff_Hz = 16000.0\nsylvester = false\n" + HELD}
+
+
+def growth(folder, count, across, harmonics=6):
     """One sector and the whole disc."""
-    words = {"INTERFACE": '"hub", "track"', "RINGS": 'rings = [{ name = "track", harmonics = 6 }]',
-             "WANTED": "cutoff_Hz = 16000.0\nsylvester = false\n" + HELD}
-    found = {"sectors": count, "harmonics": count // 2 + 1}
+    words = reduction(harmonics)
+    found = {"sectors": count, "harmonics": count // 2 + 1, "across": across}
     summaries = {}
     for name, n_made in (("one sector", 1), ("whole disc", count)):
         write_scene(folder, count, across, n_made, **words)
@@ -117,9 +122,7 @@ def growth(folder, count, across):
 
 def over_ranks(folder, count, across):
     """Seconds of the harmonics alone; CPU of all ranks together."""
-    words = {"INTERFACE": '"hub", "track"', "RINGS": 'rings = [{ name = "track", harmonics = 6 }]',
-             "WANTED": "cutoff_Hz = 16000.0\nsylvester = false\n" + HELD}
-    write_scene(folder, count, across, 1, **words)
+    write_scene(folder, count, across, 1, **reduction(6))
     rows = []
     for ranks in (1, 2):
         usage, summary = reduced(folder, ranks)
@@ -255,13 +258,14 @@ def table(result):
              "`benchmarks/reduction/sectors.py`.", "",
              f"{result['machine']['processor']}, commit {result['machine']['commit']}.", "",
              "## Growth with the number of sectors", "",
-             "Craig-Bampton to 16 kHz with a rigid hub and 6 harmonics of a ring of N nodes as masters, pictures and mass integrals included. The certified "
+             "Craig-Bampton to 16 kHz with a rigid hub and 6 harmonics of a ring of N nodes as masters, pictures and mass integrals included. The last disc is "
+             f"larger, with {result['growth'][-1]['across']} elements across and all harmonics of the ring. The certified "
              "frequencies are compared with those of the whole disc.", "",
-             "| sectors | DOFs of the whole | modes | CPU of a harmonic, s | one sector: CPU, s | peak, MiB | whole disc: CPU, s | peak, MiB | "
-             "CPU, ratio | memory, ratio | frequencies equal to |", "|---" * 11 + "|"]
+             "| sectors | DOFs of the whole | masters | modes | CPU of a harmonic, s | one sector: CPU, s | peak, MiB | whole disc: CPU, s | peak, MiB | "
+             "CPU, ratio | memory, ratio | frequencies equal to |", "|---" * 12 + "|"]
     for r in result["growth"]:
         part, whole = r["one sector"], r["whole disc"]
-        lines.append(f"| {r['sectors']} | {r['dofs']} | {r['modes']} | {part['phases_cpu_s']['harmonics'] / r['harmonics']:.3f} | "
+        lines.append(f"| {r['sectors']} | {r['dofs']} | {r['masters']} | {r['modes']} | {part['phases_cpu_s']['harmonics'] / r['harmonics']:.3f} | "
                      f"{part['cpu_s']:.2f} | {part['peak_MiB']:.0f} | {whole['cpu_s']:.2f} | {whole['peak_MiB']:.0f} | "
                      f"{whole['cpu_s'] / part['cpu_s']:.1f} | {whole['peak_MiB'] / part['peak_MiB']:.1f} | {r['difference']:.0e} |")
     ranks = result["ranks"]
@@ -287,6 +291,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--counts", type=int, nargs="+", default=[12, 24, 48, 96])
     parser.add_argument("--across", type=int, default=25)
+    parser.add_argument("--large", type=int, nargs=2, default=[36, 100], help="sectors and elements across of the last disc")
     parser.add_argument("--modes", type=int, default=40)
     parser.add_argument("output", type=pathlib.Path)
     arguments = parser.parse_args()
@@ -294,7 +299,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         result = {"machine": run.machine(), "across": arguments.across, "load_before": load,
-                  "growth": [growth(folder, count, arguments.across) for count in arguments.counts],
+                  "growth": [*(growth(folder, count, arguments.across) for count in arguments.counts),
+                             growth(folder, *arguments.large, harmonics=None)],
                   "ranks": over_ranks(folder, arguments.counts[-1], arguments.across),
                   "beside": beside(folder, arguments.counts[min(1, len(arguments.counts) - 1)], arguments.across, arguments.modes)}
     run.publish(arguments.output, "sector_benchmarks", result, table(result))
