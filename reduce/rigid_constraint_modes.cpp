@@ -15,8 +15,6 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
-
 /// S A^(-1/2) with the eigenvectors S of a semidefinite A in units of its diagonal, as far as A is
 /// regular.
 MatrixXd inverse_root(MatrixXd A, MPI_Comm comm)
@@ -53,6 +51,7 @@ MatrixXd scaled_gram(petsc::Matrix X, Mat K_ss, double p)
 /// diagonal.
 MatrixXd unresisted(const MatrixXd& R_m, Mat R_s, const Blocks& K)
 {
+  constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
   const MPI_Comm comm = petsc::communicator(K.ss);
   petsc::Matrix force = linear::uninitialized_dense(K.ss, R_m.cols()), copy;
   linear::SparseProduct(K.ss).apply(R_s, force);
@@ -77,57 +76,23 @@ MatrixXd weighted_inverse(const MatrixXd& R_m, const MatrixXd& K_mm, MPI_Comm co
   return linear::product(linear::product(root, root.transpose()), WR.transpose());
 }
 
-/// Psi <- Psi + X S where Psi is not zero: bending of a plate stays without motion in the plane.
-void correct_what_moves(Mat X, const MatrixXd& S, Mat Psi)
-{
-  const linear::LocalRows x(X);
-  PetscScalar* psi = nullptr;
-  PetscInt ld = 0;
-  petsc::check(MatDenseGetLDA(Psi, &ld));
-  petsc::check(MatDenseGetArray(Psi, &psi));
-  using Eigen::Index, Eigen::OuterStride;
-  const Eigen::Map<const MatrixXd, 0, OuterStride<>> from(x.values(), x.n_rows(), x.n_cols(),
-                                                          OuterStride<>(x.leading_dimension()));
-  constexpr Index rows_in_cache = 4096;
-  for (Index first = 0; first < from.rows(); first += rows_in_cache) {
-    const Index n = std::min(rows_in_cache, from.rows() - first);
-    const MatrixXd some = from.middleRows(first, n);
-    for (Index j = 0; j < S.cols(); ++j) {
-      Eigen::Map<Eigen::VectorXd> to(psi + first + std::ptrdiff_t(j) * ld, n);
-      const Eigen::VectorXd correction = some * S.col(j);
-      to = (to.array() != 0.0).select(to + correction, 0.0);
-    }
-  }
-  petsc::check(MatDenseRestoreArray(Psi, &psi));
-}
-
 }  // namespace
 
 petsc::Matrix with_rigid_motions(petsc::Matrix Psi, const KnownMotions& motions)
 {
-  const MPI_Comm comm = petsc::communicator(motions.K.ss);
   const MatrixXd all_m = master_rows(motions.R, motions.dofs);
   const petsc::Matrix all_s = slave_rows(motions.R, motions.dofs, motions.K.ss);
   const MatrixXd Y = unresisted(all_m, all_s, motions.K);
   if (Y.cols() == 0) return Psi;
   const MatrixXd R_m = linear::product(all_m, Y);
-  const petsc::Matrix error = linear::uninitialized_dense(Psi, Y.cols());
-  const auto find_error = [&] {  // R_s - Psi R_m
-    petsc::check(MatZeroEntries(error));
-    linear::add_product(1.0, all_s, Y, error);
-    linear::add_product(-1.0, Psi, R_m, error);
-    petsc::Matrix copy;
-    petsc::check(MatDuplicate(error, MAT_COPY_VALUES, copy.put()));
-    return scaled_gram(std::move(copy), motions.K.ss, 0.5).trace();
-  };
-  const MatrixXd of_masters = weighted_inverse(R_m, linear::replicate(motions.K.mm), comm);
-  const double before = find_error();
-  correct_what_moves(error, of_masters, Psi);
-  // Parts that share a motion and no master, as bodies that nothing joins, are corrected in part.
-  constexpr double three_digits = 1e-6;
-  const double unavoidable = round_off * round_off * double(Y.cols());  // R_s Y has the length 1
-  if (find_error() > std::max(three_digits * before, unavoidable))
-    linear::add_product(1.0, error, of_masters, Psi);
+  const petsc::Matrix error = linear::uninitialized_dense(Psi, Y.cols());  // R_s - Psi R_m
+  petsc::check(MatZeroEntries(error));
+  linear::add_product(1.0, all_s, Y, error);
+  linear::add_product(-1.0, Psi, R_m, error);
+  linear::add_product(
+      1.0, error,
+      weighted_inverse(R_m, linear::replicate(motions.K.mm), petsc::communicator(motions.K.ss)),
+      Psi);
   return Psi;
 }
 
