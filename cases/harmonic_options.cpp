@@ -31,10 +31,11 @@ std::vector<double> joined(const std::vector<double>& own)
 /// with it.
 double frequency_of_modes(int n_modes, const SectorModel& model,
                           const cyclic::SectorMatrices& matrices,
-                          const reduce::ReductionOptions& options, const cyclic::IsHeld& is_held)
+                          const reduce::ReductionOptions& options, const cyclic::IsHeld& is_held,
+                          const HarmonicGroups& groups)
 {
   const int count = model.dofs.count;
-  const std::vector<int> orders = own_harmonics(count);
+  const std::vector<int>& orders = groups.own();
   int asked = 2 + 4 * n_modes / cyclic::n_harmonics(count);
   std::vector<std::vector<double>> omega(orders.size());
   for (;;) {
@@ -46,6 +47,7 @@ double frequency_of_modes(int n_modes, const SectorModel& model,
                                                 cyclic::harmonic_coordinates(model.dofs, orders[i]),
                                                 asked, options, is_held);
         }
+        if (!groups.speaks()) continue;
         own.insert(own.end(), omega[i].begin(), omega[i].end());
         last.push_back(omega[i].back());
       }
@@ -66,19 +68,6 @@ double frequency_of_modes(int n_modes, const SectorModel& model,
 
 }  // namespace
 
-int rank_of_harmonic(int order)
-{
-  return order % n_ranks();
-}
-
-std::vector<int> own_harmonics(int count)
-{
-  std::vector<int> orders;
-  for (int order = 0; order < cyclic::n_harmonics(count); ++order)
-    if (rank_of_harmonic(order) == rank()) orders.push_back(order);
-  return orders;
-}
-
 reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted)
 {
   if (wanted.method != reduce::Method::automatic) return {.method = wanted.method};
@@ -92,7 +81,8 @@ reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted)
 reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
                                           const cyclic::SectorMatrices& matrices,
                                           const linear::SolverOptions& solver,
-                                          const cyclic::IsHeld& is_held)
+                                          const cyclic::IsHeld& is_held,
+                                          const HarmonicGroups& groups)
 {
   reduce::ReductionOptions options{.basis = scene.reduce,
                                    .solver = solver,
@@ -102,7 +92,7 @@ reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const Secto
   options.basis.method = harmonic_method(scene.reduce).method;
   if (scene.reduce.modes) {
     options.basis.cutoff_Hz =
-        frequency_of_modes(*scene.reduce.modes, model, matrices, options, is_held);
+        frequency_of_modes(*scene.reduce.modes, model, matrices, options, is_held, groups);
     options.basis.modes.reset();
   }
   if (options.basis.cutoff_Hz) options.basis.certified_up_to_Hz = options.basis.cutoff_Hz;

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <vector>
-
+#include "cases/harmonic_groups.hpp"
 #include "cases/sector_model.hpp"
 #include "reduce/reduction.hpp"
 
 namespace chladni::cases {
-
-/// The rank that reduces a harmonic.
-int rank_of_harmonic(int order);
-
-/// The harmonics that this rank reduces, ascending.
-std::vector<int> own_harmonics(int count);
 
 /// The method of all harmonics; `automatic` without a tolerance is Craig and Bampton's.
 reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted);
@@ -22,6 +15,7 @@ reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted);
 reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
                                           const cyclic::SectorMatrices& matrices,
                                           const linear::SolverOptions& solver,
-                                          const cyclic::IsHeld& is_held);
+                                          const cyclic::IsHeld& is_held,
+                                          const HarmonicGroups& groups);
 
 }  // namespace chladni::cases

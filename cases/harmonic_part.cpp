@@ -103,6 +103,10 @@ mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const Sector
     }
     add_interface_motion(motion, model, part, places[p]);
   }
+  whole.sector_harmonics = {.n_sectors = model.mesh.sectors.count,
+                            .order = std::vector<int>(std::size_t(n), -1)};
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (const Index i : places[p]) whole.sector_harmonics->order[std::size_t(i)] = parts[p].order;
   whole.certificate = whole_certificate(parts, fixed, lambda_max);
   return whole;
 }

@@ -19,7 +19,8 @@ struct HarmonicPart {
   cyclic::SectorMotion interface;  ///< rows: six components of each interface node of the sector
   cyclic::SectorMotion picture;    ///< rows: x, y, z of each node of the sector's picture
   cyclic::SectorMotion sector;     ///< rows: all DOFs of the sector; only for section forces
-  HarmonicMass mass = {};          ///< empty without integrals over the mass
+  cyclic::SectorMotion deviating = {};  ///< rows: SectorDeviations::rows
+  HarmonicMass mass = {};               ///< empty without integrals over the mass
   double factor_entries = 0.0;
   double factor_s = 0.0;
   double modes_residual = 0.0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cases/harmonic_options.hpp"
 #include "cases/ranks.hpp"
 #include "common/petsc.hpp"
 #include "cyclic/sector_dofs.hpp"
@@ -32,8 +31,8 @@ class ColumnType {
 
 }  // namespace
 
-LentMotions::LentMotions(int count, int n_dofs)
-    : n_harmonics_(cyclic::n_harmonics(count)), n_dofs_(n_dofs)
+LentMotions::LentMotions(int count, int n_dofs, const HarmonicGroups& groups)
+    : n_harmonics_(cyclic::n_harmonics(count)), n_dofs_(n_dofs), groups_(groups)
 {}
 
 LentMotions::~LentMotions()
@@ -53,7 +52,7 @@ void LentMotions::lend(int order, int to)
 
 void LentMotions::borrow(int order)
 {
-  const int from = rank_of_harmonic(order);
+  const int from = groups_.speaker(order);
   const ColumnType column(n_dofs_);
   cyclic::SectorMotion& motion = motions_[order];
   for (MatrixXd* phase : {&motion.x, &motion.y}) {
@@ -82,10 +81,10 @@ void LentMotions::exchange(int order, cyclic::SectorMotion motion)
   motions_.emplace(order, std::move(motion));
   for (int higher = order + 1; higher <= std::min(order + SectorMass::reach, n_harmonics_ - 1);
        ++higher)
-    if (rank_of_harmonic(higher) != rank()) lend(order, rank_of_harmonic(higher));
+    if (groups_.speaker(higher) != rank()) lend(order, groups_.speaker(higher));
   forget_below(order - SectorMass::reach);
   for (int lower = std::max(order - SectorMass::reach, 0); lower < order; ++lower)
-    if (rank_of_harmonic(lower) != rank()) borrow(lower);
+    if (groups_.speaker(lower) != rank()) borrow(lower);
 }
 
 }  // namespace chladni::cases

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "cases/harmonic_groups.hpp"
 #include "cases/sector_mass.hpp"
 
 namespace chladni::cases {
@@ -15,14 +16,16 @@ class LentMotions {
  public:
   /// @param count   of the sectors
   /// @param n_dofs  of one sector
-  LentMotions(int count, int n_dofs);
+  /// @param groups  whose speakers have the motions; must outlive this
+  LentMotions(int count, int n_dofs, const HarmonicGroups& groups);
   /// Waits until the motions of this rank have been taken.
   ~LentMotions();
   LentMotions(const LentMotions&) = delete;
   LentMotions& operator=(const LentMotions&) = delete;
 
   /// Hands on the motion of a harmonic of this rank, and waits for those of lower ones. To be
-  /// called for all own harmonics in ascending order, whatever fails: without a motion after that.
+  /// called by the speaker of the group for all its harmonics in ascending order, whatever fails:
+  /// without a motion after that.
   void exchange(int order, cyclic::SectorMotion motion);
 
   /// Of the last harmonic and of those that it may have something in common with.
@@ -34,6 +37,7 @@ class LentMotions {
   void forget_below(int order);
 
   int n_harmonics_, n_dofs_;
+  const HarmonicGroups& groups_;
   MotionsOfHarmonics motions_;
   std::map<int, std::vector<MPI_Request>> lent_;
 };

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cases/mesh_scene.hpp"
+#include "cases/sector_checks.hpp"
 #include "common/error.hpp"
 #include "mesh/repetition.hpp"
+#include "mesh/sectors.hpp"
+#include "plate/sections/profile.hpp"
 #include "report/progress.hpp"
 
 namespace chladni::cases {
@@ -32,6 +36,49 @@ void refuse_groups_in_parts(const scene::Scene& scene, const mesh::Mesh& sector)
   }
 }
 
+/// A thickness or an offset that a turn by one sector changes.
+void refuse_uneven(const plate::Profile& profile, const std::string& group, const mesh::Mesh& whole,
+                   int count)
+{
+  constexpr double digits = 1e-9;
+  const mesh::Sectors sectors{.count = count, .pairs = {}};
+  for (const int node : mesh::find_group(whole, group).nodes) {
+    const std::array<double, 3> x = whole.positions[std::size_t(node)];
+    const double here = plate::value_at(profile, x);
+    const double there = plate::value_at(profile, mesh::turned(sectors, x));
+    if (std::abs(here - there) <= digits * std::max(std::abs(here), std::abs(there))) continue;
+    throw Error(fmt::format(
+        "sectors: the section of \"{}\" is not the same in all of the {} repetitions of the mesh",
+        group, count));
+  }
+}
+
+/// What has a direction of its own: the sectors of a whole body do not turn it.
+void require_turning(const std::string& place, const char* what, bool turns)
+{
+  if (turns) return;
+  throw Error(fmt::format(
+      "sectors: the {} \"{}\" has directions of its own, which do not turn with the sectors", what,
+      place));
+}
+
+void refuse_what_does_not_turn(const scene::Scene& scene, const mesh::Mesh& whole, int count)
+{
+  for (const plate::ShellSection& section : scene.sections) {
+    refuse_uneven(section.thickness, section.group, whole, count);
+    refuse_uneven(section.offset, section.group, whole, count);
+  }
+  for (const plate::BeamSection& beam : scene.beams) {
+    const bool turns =
+        !beam.orientation || ((*beam.orientation)[0] == 0.0 && (*beam.orientation)[1] == 0.0);
+    require_turning(beam.group, "section of beams", turns);
+  }
+  for (const plate::PointMass& mass : scene.masses)
+    require_turning(mass.at, "mass at", turns_with_sectors(mass));
+  for (const plate::Spring& spring : scene.springs)
+    require_turning(spring.at, "spring at", turns_with_sectors(spring));
+}
+
 }  // namespace
 
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole)
@@ -43,6 +90,7 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
   try {
     const int count = mesh::n_repetitions(whole);
     if (count < least) throw Error("sectors: the mesh does not repeat about the z axis");
+    refuse_what_does_not_turn(scene, whole, count);
     mesh::Mesh first = mesh::one_sector(whole, count);
     refuse_groups_in_parts(scene, first);
     sector = sector_model(scene, std::move(first));

@@ -12,6 +12,7 @@
 #include "cases/harmonic_part.hpp"
 #include "cases/ranks.hpp"
 #include "cases/reduced_harmonics.hpp"
+#include "cases/sector_deviations.hpp"
 #include "cases/sector_forces.hpp"
 #include "cases/sector_integrals.hpp"
 #include "common/all_ranks.hpp"
@@ -25,12 +26,13 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
 
-cyclic::SectorMatrices matrices_of(const SectorModel& model)
+cyclic::SectorMatrices matrices_of(const SectorModel& model, MPI_Comm comm)
 {
   return {
       .K = cyclic::sparse_rows(model.system.K),
       .M = cyclic::sparse_rows(model.system.M),
-      .C = model.system.C != nullptr ? cyclic::sparse_rows(model.system.C) : cyclic::SparseRows()};
+      .C = model.system.C != nullptr ? cyclic::sparse_rows(model.system.C) : cyclic::SparseRows(),
+      .comm = comm};
 }
 
 std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
@@ -53,14 +55,16 @@ double certified_up_to(const reduce::ReduceOptions& wanted)
 }
 
 Described described_body(const scene::Scene& scene, const SectorModel& model,
-                         const reduce::ReductionOptions& options)
+                         const reduce::ReductionOptions& options,
+                         const SectorDeviations& deviations)
 {
   Described described{.system = described_whole(scene, model),
                       .support = sector_support(scene, model),
                       .lambda_max = certified_up_to(options.basis),
                       .chosen = picture_nodes(model.mesh, scene.pictures),
                       .mass = {},
-                      .with_forces = !scene.resultants.groups.empty()};
+                      .with_forces = !scene.resultants.groups.empty(),
+                      .deviating = deviations.rows};
   on_all_ranks(PETSC_COMM_WORLD, [&] {
     if (scene.mass_integrals) described.mass = std::make_unique<SectorMass>(scene, model);
     return 0;
@@ -72,7 +76,7 @@ Described described_body(const scene::Scene& scene, const SectorModel& model,
 /// @note   Collective on all ranks: they have the same phases.
 mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorModel& model,
                                      std::vector<HarmonicPart>& parts, const Described& described,
-                                     Phases& phases)
+                                     const SectorDeviations& deviations, Phases& phases)
 {
   const Index n_m = described.system.n_masters();
   mbs_export::ReducedSystem whole;
@@ -90,13 +94,22 @@ mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorMode
     on_first_rank(
         [&] { whole.resultants = sector_forces(scene, model, parts, whole.M.rows(), n_m); });
   }
+  MatrixXd T;
+  if (!deviations.sectors.empty()) {
+    phases.begin("deviations");
+    on_first_rank([&] { T = add_deviations(whole, deviations, parts, model.dofs.count); });
+  }
   for (HarmonicPart& part : parts) {
     part.sector = {};
+    part.deviating = {};
     part.mass = {};
   }
   if (!described.chosen.nodes.empty()) {
     phases.begin("pictures");
-    on_first_rank([&] { add_picture(whole, described.chosen, model, parts); });
+    on_first_rank([&] {
+      add_picture(whole, described.chosen, model, parts);
+      whole.picture_of_sectors->T = std::move(T);
+    });
   }
   phases.end();
   return whole;
@@ -127,19 +140,22 @@ ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
   SectorModel model = on_all_ranks(PETSC_COMM_WORLD, [&] {
     return meshed.sector ? std::move(*meshed.sector) : sector_model(scene, std::move(meshed.mesh));
   });
-  const cyclic::SectorMatrices matrices = matrices_of(model);
+  const HarmonicGroups groups(cyclic::n_harmonics(model.dofs.count), scene.ranks_per_harmonic);
+  const cyclic::SectorMatrices matrices = matrices_of(model, groups.comm());
   model.dofs.mirror = mirror_of(model, matrices);
   phases.begin("modes of harmonics");
-  const reduce::ReductionOptions options =
-      harmonic_options(scene, model, matrices, solver, sector_support(scene, model).is_held);
-  const Described described = described_body(scene, model, options);
+  const reduce::ReductionOptions options = harmonic_options(
+      scene, model, matrices, solver, sector_support(scene, model).is_held, groups);
+  const SectorDeviations deviations =
+      on_all_ranks(PETSC_COMM_WORLD, [&] { return sector_deviations(scene, model); });
+  const Described described = described_body(scene, model, options, deviations);
   phases.begin("harmonics");
   std::vector<HarmonicPart> parts =
-      gathered(reduced_harmonics(model, matrices, options, described));
+      gathered(reduced_harmonics(model, matrices, options, described, groups));
   ReduceSummary summary = summary_of(model, parts);
   summary.choice = harmonic_method(scene.reduce);
   summary.n_masters = static_cast<int>(described.system.masters.size());
-  summary.reduced = whole_body(scene, model, parts, described, phases);
+  summary.reduced = whole_body(scene, model, parts, described, deviations, phases);
   summary.phases = phases.times();
   return summary;
 }

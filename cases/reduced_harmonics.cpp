@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "cases/harmonic_options.hpp"
 #include "cases/lent_motions.hpp"
 #include "common/all_ranks.hpp"
 #include "common/error.hpp"
@@ -94,7 +93,7 @@ cyclic::SectorMotion picture_motion(const cyclic::HarmonicModel& harmonic, const
 }
 
 HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& model,
-                     const mbs_export::ReducedSystem& whole, const PictureNodes& chosen)
+                     const Described& described)
 {
   HarmonicPart part{.order = harmonic.coordinates.order,
                     .n_coordinates = harmonic.coordinates.n(),
@@ -105,10 +104,11 @@ HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& m
                     .omega = harmonic.omega,
                     .certificate = harmonic.certificate,
                     .interface = interface_motion(harmonic, model),
-                    .picture = picture_motion(harmonic, model, chosen.nodes),
-                    .sector = {}};
+                    .picture = picture_motion(harmonic, model, described.chosen.nodes),
+                    .sector = {},
+                    .deviating = cyclic::sector_motion(harmonic, described.deviating)};
   for (const cyclic::Master& master : harmonic.coordinates.masters)
-    part.masters.push_back(master_index(whole, model, master));
+    part.masters.push_back(master_index(described.system, model, master));
   part.factor_entries = linear::factor_size(harmonic.body.K_ss.factor()).entries;
   const bool are_fixed_interface = !reduce::has_free_masters(harmonic.method);
   if (are_fixed_interface && harmonic.basis.modes && harmonic.basis.n_modes() > 0) {
@@ -126,16 +126,18 @@ cyclic::SectorMotion motion_of_sector(const cyclic::HarmonicModel& harmonic,
   return cyclic::sector_motion(harmonic, all);
 }
 
-/// The harmonics of a rank, one after the other.
+/// The harmonics of a group, one after the other.
 class Harmonics {
  public:
   Harmonics(const SectorModel& model, const cyclic::SectorMatrices& matrices,
-            const reduce::ReductionOptions& options, const Described& described)
+            const reduce::ReductionOptions& options, const Described& described,
+            const HarmonicGroups& groups)
       : model_(model),
         matrices_(matrices),
         options_(options),
         described_(described),
-        lent_(model.dofs.count, model.dofs.n_dofs())
+        groups_(groups),
+        lent_(model.dofs.count, model.dofs.n_dofs(), groups)
   {}
 
   /// @note   Collective on all ranks. A rank that fails goes on lending nothing, so that none waits
@@ -143,25 +145,40 @@ class Harmonics {
   /// @throws chladni::Error naming the harmonic, on all ranks.
   std::vector<HarmonicPart> reduced()
   {
-    const std::vector<int> orders = own_harmonics(model_.dofs.count);
     std::vector<HarmonicPart> parts;
-    for (const int order : orders) {
+    for (const int order : groups_.own()) {
       cyclic::SectorMotion motion;
+      agree_in_group();
       attempt(order, [&] { parts.push_back(reduced(order, motion)); });
-      if (!described_.mass) continue;
-      lent_.exchange(order, std::move(motion));
-      attempt(order,
-              [&] { parts.back().mass = described_.mass->of_harmonic(order, lent_.motions()); });
-      linear::report_progress(double(parts.size()) / double(orders.size()));
+      if (described_.mass && groups_.speaks()) {
+        lent_.exchange(order, std::move(motion));
+        attempt(order,
+                [&] { parts.back().mass = described_.mass->of_harmonic(order, lent_.motions()); });
+      }
+      linear::report_progress(double(parts.size()) / double(groups_.own().size()));
     }
     on_all_ranks(PETSC_COMM_WORLD, [&] {
       if (failure_) std::rethrow_exception(failure_);
       return 0;
     });
+    if (!groups_.speaks()) parts.clear();
     return parts;
   }
 
  private:
+  /// What one rank of the group failed at, all give up: they would wait for each other.
+  void agree_in_group()
+  {
+    try {
+      on_all_ranks(groups_.comm(), [&] {
+        if (failure_) std::rethrow_exception(failure_);
+        return 0;
+      });
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
   /// Unless something has failed before, or a harmonic that this one needs has on another rank.
   template <typename Work>
   void attempt(int order, const Work& work)
@@ -184,7 +201,7 @@ class Harmonics {
     const cyclic::HarmonicModel harmonic =
         cyclic::reduce_harmonic(matrices_, cyclic::harmonic_coordinates(model_.dofs, order),
                                 options_, described_.support.is_held, phases);
-    HarmonicPart part = part_of(harmonic, model_, described_.system, described_.chosen);
+    HarmonicPart part = part_of(harmonic, model_, described_);
     part.factor_s = phases.seconds();
     if (described_.mass || described_.with_forces) motion = motion_of_sector(harmonic, model_);
     if (described_.with_forces) part.sector = motion;
@@ -195,6 +212,7 @@ class Harmonics {
   const cyclic::SectorMatrices& matrices_;
   const reduce::ReductionOptions& options_;
   const Described& described_;
+  const HarmonicGroups& groups_;
   LentMotions lent_;
   std::exception_ptr failure_;
 };
@@ -204,9 +222,10 @@ class Harmonics {
 std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
                                             const cyclic::SectorMatrices& matrices,
                                             const reduce::ReductionOptions& options,
-                                            const Described& described)
+                                            const Described& described,
+                                            const HarmonicGroups& groups)
 {
-  return Harmonics(model, matrices, options, described).reduced();
+  return Harmonics(model, matrices, options, described, groups).reduced();
 }
 
 }  // namespace chladni::cases

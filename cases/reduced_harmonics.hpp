@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "cases/harmonic_groups.hpp"
 #include "cases/harmonic_part.hpp"
 #include "cases/picture.hpp"
 #include "reduce/reduction.hpp"
@@ -17,14 +18,16 @@ struct Described {
   PictureNodes chosen;
   std::unique_ptr<SectorMass> mass;  ///< none where the scene does not want the integrals
   bool with_forces;                  ///< section forces want the motion of the whole sector
+  std::vector<int> deviating;        ///< SectorDeviations::rows
 };
 
-/// The harmonics of this rank.
+/// The harmonics of this rank's group; none on ranks that do not speak for theirs.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error naming the harmonic, on all ranks.
 std::vector<HarmonicPart> reduced_harmonics(const SectorModel& model,
                                             const cyclic::SectorMatrices& matrices,
                                             const reduce::ReductionOptions& options,
-                                            const Described& described);
+                                            const Described& described,
+                                            const HarmonicGroups& groups);
 
 }  // namespace chladni::cases

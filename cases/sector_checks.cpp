@@ -15,6 +15,12 @@ using Eigen::Vector3d;
 
 namespace {
 
+bool is_on_cut(const SectorModel& model, int node)
+{
+  return std::ranges::any_of(model.mesh.sectors.pairs,
+                             [&](const auto& pair) { return pair[0] == node || pair[1] == node; });
+}
+
 void refuse_unclosed_components(const std::vector<int>& components)
 {
   for (const int c : {0, 1, 3, 4}) {
@@ -38,10 +44,7 @@ void check_mean(const scene::Scene& scene, const SectorModel& model,
         coupling.name));
   }
   for (const int node : mesh::find_group(model.mesh, coupling.group).nodes) {
-    const bool is_cut = std::ranges::any_of(model.mesh.sectors.pairs, [&](const auto& pair) {
-      return pair[0] == node || pair[1] == node;
-    });
-    if (!is_cut && !is_on_axis(model, node)) continue;
+    if (!is_on_cut(model, node) && !is_on_axis(model, node)) continue;
     throw Error(fmt::format(
         "sectors: the group of the mean \"{}\" has node {} on a cut edge or on the axis, which "
         "several sectors share; cut the body elsewhere, or mesh all of it",
@@ -50,6 +53,21 @@ void check_mean(const scene::Scene& scene, const SectorModel& model,
 }
 
 }  // namespace
+
+bool turns_with_sectors(const plate::PointMass& mass)
+{
+  const auto& I = mass.inertia;
+  return I[0] == I[1] && I[3] == 0.0 && I[4] == 0.0 && I[5] == 0.0 && mass.offset[0] == 0.0 &&
+         mass.offset[1] == 0.0;
+}
+
+bool turns_with_sectors(const plate::Spring& spring)
+{
+  const auto is_same_across = [](const std::array<double, 6>& values) {
+    return values[0] == values[1] && values[3] == values[4];
+  };
+  return is_same_across(spring.stiffness) && is_same_across(spring.damping);
+}
 
 bool is_on_axis(const SectorModel& model, int node)
 {
@@ -72,6 +90,58 @@ void check_means(const scene::Scene& scene, const SectorModel& model)
 {
   for (const plate::Coupling& coupling : scene.couplings)
     if (coupling.kind == plate::CouplingKind::averaging) check_mean(scene, model, coupling);
+}
+
+namespace {
+
+void refuse_cut_edge(const SectorModel& model, const std::string& what, const std::string& name)
+{
+  for (const int node : model.system.dofs.named_nodes(model.mesh, name)) {
+    if (!is_on_cut(model, node)) continue;
+    throw Error(fmt::format(
+        "sectors: the deviating {} at \"{}\" stands on a cut edge, which two sectors share; cut "
+        "the body elsewhere",
+        what, name));
+  }
+}
+
+void refuse_axis(const SectorModel& model, const std::string& what, const std::string& name)
+{
+  for (const int node : model.system.dofs.named_nodes(model.mesh, name)) {
+    if (!is_on_axis(model, node)) continue;
+    throw Error(
+        fmt::format("sectors: the deviating {0} at \"{1}\" stands on the axis, in no sector; give "
+                    "it as [[{0}]]",
+                    what, name));
+  }
+}
+
+}  // namespace
+
+void check_deviations(const scene::Scene& scene, const SectorModel& model)
+{
+  if (!scene.deviations.empty() && scene.reduce.method == reduce::Method::macneal) {
+    throw Error(
+        "sectors: modes after MacNeal have no mass of their own to which deviations could be "
+        "added; "
+        "take the method \"rubin\"");
+  }
+  for (const scene::Deviation& deviation : scene.deviations) {
+    const auto check = [&](const std::string& what, const std::string& at) {
+      refuse_cut_edge(model, what, at);
+      refuse_axis(model, what, at);
+    };
+    if (deviation.mass) check("mass", deviation.mass->at);
+    if (deviation.spring) check("spring", deviation.spring->at);
+    if (deviation.spring && deviation.spring->to)
+      refuse_cut_edge(model, "spring", *deviation.spring->to);
+    if (!deviation.section) continue;
+    if (std::ranges::count(scene.resultants.groups, deviation.section->group) == 0) continue;
+    throw Error(fmt::format(
+        "sectors: section forces of \"{}\", whose section deviates in some sectors, are not "
+        "available; mesh the whole body, or take it out of reduce.resultants",
+        deviation.section->group));
+  }
 }
 
 void check_ring(const SectorModel& model, const std::string& name,

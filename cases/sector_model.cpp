@@ -27,11 +27,6 @@ double angle_of(const Vector3d& x)
   return angle < -digits ? angle + 2.0 * std::numbers::pi : std::max(angle, 0.0);
 }
 
-bool is_same_across(const std::array<double, 6>& values)
-{
-  return values[0] == values[1] && values[3] == values[4];
-}
-
 /// Lumped masses and springs of the whole body, of which a sector has its share.
 struct SectorPoints {
   std::vector<plate::PointMass> masses;
@@ -59,10 +54,7 @@ SectorPoints sector_points(const scene::Scene& scene, const SectorModel& model)
   const double share = 1.0 / model.mesh.sectors.count;
   for (plate::PointMass& mass : points.masses) {
     if (!names_axis(model, "the mass", mass.at)) continue;
-    const auto& I = mass.inertia;
-    const bool repeats = I[0] == I[1] && I[3] == 0.0 && I[4] == 0.0 && I[5] == 0.0 &&
-                         mass.offset[0] == 0.0 && mass.offset[1] == 0.0;
-    if (!repeats) {
+    if (!turns_with_sectors(mass)) {
       throw Error(
           fmt::format("sectors: the mass at \"{}\" does not look the same from each "
                       "sector; give it inertia[0] = inertia[1], no products of inertia and "
@@ -76,7 +68,7 @@ SectorPoints sector_points(const scene::Scene& scene, const SectorModel& model)
     bool on_axis = names_axis(model, "the spring", spring.at);
     if (spring.to) on_axis = names_axis(model, "the spring", *spring.to) && on_axis;
     if (!on_axis) continue;
-    if (!is_same_across(spring.stiffness) || !is_same_across(spring.damping)) {
+    if (!turns_with_sectors(spring)) {
       throw Error(
           fmt::format("sectors: the spring at \"{}\" does not look the same from each "
                       "sector; give x the value of y, and rx that of ry",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "cyclic/harmonic_coordinates.hpp"
 
@@ -79,13 +80,14 @@ struct Phase {
   Rows of_form;
 };
 
-/// The sum over the phases T of T^T A T, on and above the diagonal, columns ascending.
+/// The sum over the phases T of T^T A T, on and above the diagonal, which comes first in its row.
 Rows upper_triangle(const std::vector<Phase>& phases, Eigen::Index n)
 {
   Rows upper;
   RowSum sum(n);
   for (int row = 0; row < n; ++row) {
     sum.begin(row);
+    sum.add(row, 0.0);
     for (const auto& [transposed, AT] : phases) {
       for (SparseRows::InnerIterator t(transposed, row); t; ++t) {
         const auto k = static_cast<std::size_t>(t.index());
@@ -93,56 +95,71 @@ Rows upper_triangle(const std::vector<Phase>& phases, Eigen::Index n)
           if (AT.columns[e] >= row) sum.add(AT.columns[e], t.value() * AT.values[e]);
       }
     }
-    sum.add(row, 0.0);
-    std::ranges::sort(sum.columns());
     upper.push_back(sum, sum.columns());
   }
   return upper;
 }
 
-/// visit(row, column, value) of what is no round-off beside the diagonals.
-template <class Visit>
-void for_entries(const Rows& upper, const Visit& visit)
+/// The entries by column, rows ascending: the lower triangle. What is round-off beside the
+/// diagonals is left out.
+Rows transposed(const Rows& upper)
 {
   constexpr double round_off = 1e-14;
-  const auto scale = [&](int i) {
-    return std::sqrt(std::abs(upper.values[upper.start[std::size_t(i)]]));
-  };
-  const auto n = static_cast<int>(upper.start.size()) - 1;
-  for (int row = 0; row < n; ++row) {
-    const double of_row = round_off * scale(row);
-    for (std::size_t e = upper.start[std::size_t(row)]; e < upper.start[std::size_t(row) + 1];
-         ++e) {
-      const int column = upper.columns[e];
-      if (column == row || std::abs(upper.values[e]) > of_row * scale(column))
-        visit(row, column, upper.values[e]);
+  const auto n = upper.start.size() - 1;
+  std::vector<double> scale(n);
+  for (std::size_t i = 0; i < n; ++i) scale[i] = std::sqrt(std::abs(upper.values[upper.start[i]]));
+  const auto for_entries = [&](const auto& visit) {
+    for (std::size_t row = 0; row < n; ++row) {
+      for (std::size_t e = upper.start[row]; e < upper.start[row + 1]; ++e) {
+        const auto column = static_cast<std::size_t>(upper.columns[e]);
+        const double least = round_off * scale[row] * scale[column];
+        if (column == row || std::abs(upper.values[e]) > least) visit(row, column, upper.values[e]);
+      }
     }
-  }
+  };
+  Rows lower;
+  lower.start.assign(n + 1, 0);
+  for_entries([&](std::size_t, std::size_t column, double) { ++lower.start[column + 1]; });
+  std::partial_sum(lower.start.begin(), lower.start.end(), lower.start.begin());
+  lower.columns.resize(lower.start.back());
+  lower.values.resize(lower.start.back());
+  std::vector<std::size_t> place(lower.start.begin(), lower.start.end() - 1);
+  for_entries([&](std::size_t row, std::size_t column, double value) {
+    const std::size_t at = place[column]++;
+    lower.columns[at] = static_cast<int>(row);
+    lower.values[at] = value;
+  });
+  return lower;
 }
 
-/// Both triangles of `factor` times the matrix.
-SparseRows symmetric(const Rows& upper, double factor)
+/// Both triangles of `factor` times the matrix, columns ascending without any sorting: a row has
+/// its entries up to the diagonal at once, and the others from later rows in their order.
+SparseRows symmetric(const Rows& lower, double factor)
 {
-  const auto n = static_cast<int>(upper.start.size()) - 1;
+  const auto n = static_cast<int>(lower.start.size()) - 1;
   std::vector<int> place(std::size_t(n) + 1, 0);
-  for_entries(upper, [&](int row, int column, double) {
-    ++place[std::size_t(row) + 1];
-    if (column != row) ++place[std::size_t(column) + 1];
-  });
+  for (std::size_t row = 0; row < std::size_t(n); ++row) {
+    for (std::size_t e = lower.start[row]; e < lower.start[row + 1]; ++e) {
+      ++place[row + 1];
+      if (std::cmp_not_equal(lower.columns[e], row)) ++place[std::size_t(lower.columns[e]) + 1];
+    }
+  }
   std::partial_sum(place.begin(), place.end(), place.begin());
   SparseRows form(n, n);
   form.resizeNonZeros(place.back());
   std::ranges::copy(place, form.outerIndexPtr());
-  // Row by row: what is left of a diagonal comes from earlier rows, in their order.
   const auto put = [&](int row, int column, double value) {
     const int at = place[std::size_t(row)]++;
     form.innerIndexPtr()[at] = column;
-    form.valuePtr()[at] = value;
+    form.valuePtr()[at] = factor * value;
   };
-  for_entries(upper, [&](int row, int column, double value) {
-    put(row, column, factor * value);
-    if (column != row) put(column, row, factor * value);
-  });
+  for (int row = 0; row < n; ++row) {
+    for (std::size_t e = lower.start[std::size_t(row)]; e < lower.start[std::size_t(row) + 1];
+         ++e) {
+      put(row, lower.columns[e], lower.values[e]);
+      if (lower.columns[e] != row) put(lower.columns[e], row, lower.values[e]);
+    }
+  }
   return form;
 }
 
@@ -153,7 +170,7 @@ SparseRows harmonic_form(const SparseRows& A, const HarmonicCoordinates& c)
   std::vector<Phase> phases;
   for (const SparseRows* T : {&c.X, &c.Y})
     if (T->nonZeros() > 0) phases.push_back({SparseRows(T->transpose()), product(A, *T)});
-  return symmetric(upper_triangle(phases, c.n()), c.weight);
+  return symmetric(transposed(upper_triangle(phases, c.n())), c.weight);
 }
 
 }  // namespace chladni::cyclic

@@ -21,10 +21,11 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 reduce::Body body_of(const SectorMatrices& sector, const HarmonicCoordinates& c)
 {
-  reduce::Body body{.K = as_matrix(harmonic_form(sector.K, c), Symmetry::symmetric),
-                    .M = as_matrix(harmonic_form(sector.M, c), Symmetry::symmetric),
-                    .masters = {},
-                    .may_lack_masters = true};
+  const auto form = [&](const SparseRows& A) {
+    return as_matrix(harmonic_form(A, c), Symmetry::symmetric, sector.comm);
+  };
+  reduce::Body body{
+      .K = form(sector.K), .M = form(sector.M), .masters = {}, .may_lack_masters = true};
   for (const Master& master : c.masters) body.masters.push_back(master.coordinate);
   return body;
 }
@@ -95,7 +96,7 @@ void unfold(HarmonicModel& model)
 }
 
 /// Modes in exact pairs, and matrices that commute with J to the last bit.
-void make_pairs(HarmonicModel& model)
+void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
 {
   if (model.half) return unfold(model);
   const HarmonicCoordinates& c = model.coordinates;
@@ -104,7 +105,7 @@ void make_pairs(HarmonicModel& model)
   if (c.has_one_phase()) return;
   if (n_modes > 0) {
     const petsc::Matrix MJ =
-        as_matrix(times_quarter_turn(sparse_rows(model.body.M), c), Symmetry::none);
+        as_matrix(times_quarter_turn(harmonic_form(sector.M, c), c), Symmetry::none, sector.comm);
     const MatrixXd form = reduce::project_form(model.basis, reduce::split(MJ, model.body.dofs))(
         model.places, model.places);
     ExactPairs pairs = exact_pairs(model.omega, form.bottomRightCorner(n_modes, n_modes));
@@ -176,12 +177,13 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                       .places = std::move(places),
                       .W = {}};
   if (sector.C.size() > 0) {
-    const petsc::Matrix C = as_matrix(harmonic_form(sector.C, model.solved()), Symmetry::symmetric);
+    const petsc::Matrix C =
+        as_matrix(harmonic_form(sector.C, model.solved()), Symmetry::symmetric, sector.comm);
     model.C = reduce::project_form(model.basis, reduce::split(C, model.body.dofs))(model.places,
                                                                                    model.places);
   }
   phases.begin("pairs");
-  make_pairs(model);
+  make_pairs(model, sector);
   phases.end();
   const double cutoff = 2.0 * std::numbers::pi * options.basis.cutoff_Hz.value_or(0.0);
   const bool are_fixed_interface = !reduce::has_free_masters(model.method);

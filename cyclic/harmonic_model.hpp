@@ -14,6 +14,8 @@ namespace chladni::cyclic {
 /// The matrices of the assembled sector.
 struct SectorMatrices {
   SparseRows K, M, C;  ///< C of the dampers, or empty
+  /// Of the ranks that reduce a harmonic together; each has the matrices of the sector.
+  MPI_Comm comm = PETSC_COMM_SELF;
 };
 
 /// Masters that the support holds, as (ring, place, component) of `Master`.
@@ -38,6 +40,7 @@ struct HarmonicModel {
 };
 
 /// Reduces one harmonic by the methods of `reduce::reduction`, with masters as its masters.
+/// @note   Collective on the communicator of the sector, as all of this header.
 /// @throws chladni::Error as reduce::factored and reduce::reduction.
 HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates coordinates,
                               const reduce::ReductionOptions& options, const IsHeld& is_held,

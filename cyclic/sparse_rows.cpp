@@ -1,5 +1,7 @@
 #include "cyclic/sparse_rows.hpp"
 
+#include <vector>
+
 namespace chladni::cyclic {
 
 SparseRows sparse_rows(Mat A)
@@ -19,15 +21,24 @@ SparseRows sparse_rows(Mat A)
   return copy;
 }
 
-petsc::Matrix as_matrix(const SparseRows& A, Symmetry symmetry)
+petsc::Matrix as_matrix(const SparseRows& A, Symmetry symmetry, MPI_Comm comm)
 {
   petsc::Matrix matrix;
-  petsc::check(MatCreate(PETSC_COMM_SELF, matrix.put()));
   const auto n_rows = static_cast<PetscInt>(A.rows()), n_cols = static_cast<PetscInt>(A.cols());
-  petsc::check(MatSetSizes(matrix, n_rows, n_cols, n_rows, n_cols));
-  petsc::check(MatSetType(matrix, MATSEQAIJ));
-  petsc::check(
-      MatSeqAIJSetPreallocationCSR(matrix, A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()));
+  PetscInt n_own = PETSC_DECIDE, n_total = n_rows, first = 0;
+  petsc::check(PetscSplitOwnership(comm, &n_own, &n_total));
+  MPI_Exscan(&n_own, &first, 1, MPIU_INT, MPI_SUM, comm);
+  if (petsc::rank(comm) == 0) first = 0;
+  petsc::check(MatCreate(comm, matrix.put()));
+  petsc::check(MatSetSizes(matrix, n_own, n_rows == n_cols ? n_own : PETSC_DECIDE, n_rows, n_cols));
+  petsc::check(MatSetType(matrix, MATAIJ));
+  std::vector<PetscInt> starts(A.outerIndexPtr() + first, A.outerIndexPtr() + first + n_own + 1);
+  const PetscInt before = starts.front();
+  for (PetscInt& start : starts) start -= before;
+  const PetscInt* columns = A.innerIndexPtr() + before;
+  const double* values = A.valuePtr() + before;
+  petsc::check(MatSeqAIJSetPreallocationCSR(matrix, starts.data(), columns, values));
+  petsc::check(MatMPIAIJSetPreallocationCSR(matrix, starts.data(), columns, values));
   if (symmetry == Symmetry::symmetric) {
     petsc::check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
     petsc::check(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));

@@ -10,7 +10,8 @@ enum class Symmetry { symmetric, none };
 /// A copy of an AIJ matrix that one rank has whole.
 SparseRows sparse_rows(Mat A);
 
-/// @return AIJ of this rank alone
-petsc::Matrix as_matrix(const SparseRows& A, Symmetry symmetry);
+/// @return AIJ; each rank of `comm`, which all have the whole of A, takes its share of the rows
+/// @note   Collective on `comm`.
+petsc::Matrix as_matrix(const SparseRows& A, Symmetry symmetry, MPI_Comm comm = PETSC_COMM_SELF);
 
 }  // namespace chladni::cyclic

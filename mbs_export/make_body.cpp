@@ -204,6 +204,8 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
                  .resultants = resultants_in_modes(reduced.resultants, modes.T),
                  .certificate = reduced.certificate,
                  .provenance = reduced.provenance};
+  if (reduced.sector_harmonics)
+    body.sector_harmonics = in_coordinates(*reduced.sector_harmonics, reduced.M, modes.T);
   if (reduced.mass_integrals)
     body.mass_integrals = in_coordinates(*reduced.mass_integrals, modes.T);
   body.rings = contact_rings(reduced, body.attachment_modes);

@@ -83,6 +83,7 @@ struct ModalBody {
   std::vector<ResultantModes> resultants = {};       ///< in the modes, N or the like per unit of q
   std::optional<MassIntegrals> mass_integrals = {};  ///< phi_i: mode shapes, m per unit of q
   std::optional<SelectionTable> selection = {};      ///< when a tolerance chose the modes
+  std::optional<SectorHarmonics> sector_harmonics = {};  ///< of a body of equal sectors
   Certificate certificate = {};  ///< of the reduced system; for the body where it is `fixed` alike
   Provenance provenance;
 

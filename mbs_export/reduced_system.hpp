@@ -107,6 +107,7 @@ struct ReducedSystem {
   Picture picture;                              ///< empty when the scene wants none
   /// The rows of the picture's transformation, which is empty then: many times as large.
   std::optional<SectorMotions> picture_of_sectors = {};
+  std::optional<SectorHarmonics> sector_harmonics = {};  ///< of a body of equal sectors
   Certificate certificate = {};
   std::vector<ResultantModes> resultants = {};
   std::optional<MassIntegrals> mass_integrals = {};  ///< absent for matrices without geometry

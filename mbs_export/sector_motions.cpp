@@ -32,6 +32,24 @@ void turn(Eigen::Ref<MatrixXd> rows, double angle)
 
 }  // namespace
 
+SectorHarmonics in_coordinates(const SectorHarmonics& harmonics, const MatrixXd& M,
+                               const MatrixXd& T)
+{
+  constexpr double round_off = 1e-9;
+  const MatrixXd MT = M * T;
+  SectorHarmonics of_T{.n_sectors = harmonics.n_sectors, .order = {}};
+  for (Index j = 0; j < T.cols(); ++j) {
+    Eigen::VectorXd energy = Eigen::VectorXd::Zero(harmonics.n_sectors / 2 + 1);
+    for (Index i = 0; i < T.rows(); ++i)
+      if (const int n = harmonics.order[std::size_t(i)]; n >= 0) energy[n] += T(i, j) * MT(i, j);
+    Index largest = 0;
+    const double most = energy.maxCoeff(&largest);
+    const bool is_alone = std::abs(T.col(j).dot(MT.col(j)) - most) <= round_off * most;
+    of_T.order.push_back(is_alone ? static_cast<int>(largest) : -1);
+  }
+  return of_T;
+}
+
 MatrixXd rows_of_sector(const SectorMotions& motions, int sector)
 {
   MatrixXd rows = MatrixXd::Zero(motions.rows_of_sector(), motions.n_coordinates);
@@ -40,11 +58,13 @@ MatrixXd rows_of_sector(const SectorMotions& motions, int sector)
     rows(every, h.columns) += in_phase(h.x, h.y, angle_of(turns, motions));
   }
   turn(rows, angle_of(sector, motions));
+  if (motions.T.size() > 0) rows *= motions.T;
   return rows;
 }
 
-MatrixXd in_coordinates(const SectorMotions& motions, const MatrixXd& T)
+MatrixXd in_coordinates(const SectorMotions& motions, const MatrixXd& T_whole)
 {
+  const MatrixXd T = motions.T.size() > 0 ? motions.T * T_whole : T_whole;
   const Index n = motions.rows_of_sector();
   MatrixXd whole = MatrixXd::Zero(n * motions.n_sectors, T.cols());
   for (const SectorMotions::Harmonic& h : motions.harmonics) {

@@ -26,6 +26,7 @@ struct Profile {
   std::vector<double> at;      ///< m, ascending; empty for a constant
   std::vector<double> values;  ///< m, as many as `at`; one for a constant
   std::string formula;         ///< of x, y, z, radius (m) and angle (rad); empty without one
+  double turned = 0.0;         ///< rad: a place has the value of the place so far round the z axis
 
   Profile(double constant = 0.0) : values{constant} {}  // NOLINT(google-explicit-constructor)
   Profile(Coordinate coordinate, std::vector<double> points, std::vector<double> lengths)

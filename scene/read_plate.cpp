@@ -43,31 +43,6 @@ const plate::Material& read_material_of(const Table& section,
   section.refuse("material", no_such_name("material", section.text("material"), names));
 }
 
-/// A constant, a table over a coordinate or the radius, or a formula, which the mesh will check.
-plate::Profile read_profile(const Table& section, std::string_view key)
-{
-  if (section.has(key) && section.is_text(key)) {
-    const std::string formula = section.text(key);
-    if (const std::string wrong = decimal_comma_in(formula); !wrong.empty())
-      section.refuse(key, wrong);
-    return plate::Profile::by_formula(formula);
-  }
-  if (!section.has(key) || !section.is_table(key)) return section.number(key);
-  using plate::Coordinate;
-  const Table table = section.table(key);
-  const auto over = table.choice<Coordinate>("over", {{"x", Coordinate::x},
-                                                      {"y", Coordinate::y},
-                                                      {"z", Coordinate::z},
-                                                      {"radius", Coordinate::radius}});
-  const std::vector<double> at = table.numbers("at");
-  if (at.size() < 2) table.refuse("at", "must hold at least two places");
-  for (std::size_t i = 1; i < at.size(); ++i)
-    if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
-  const std::vector<double> values = table.numbers("values");
-  if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
-  return {over, at, values};
-}
-
 plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups)
 {
   using plate::CouplingKind;
@@ -152,6 +127,35 @@ void check_coupling_name(const Table& coupling, const std::set<std::string>& tak
 }
 
 }  // namespace
+
+plate::Profile read_profile(const Table& section, std::string_view key)
+{
+  if (section.has(key) && section.is_text(key)) {
+    const std::string formula = section.text(key);
+    if (const std::string wrong = decimal_comma_in(formula); !wrong.empty())
+      section.refuse(key, wrong);
+    return plate::Profile::by_formula(formula);
+  }
+  if (!section.has(key) || !section.is_table(key)) return section.number(key);
+  using plate::Coordinate;
+  const Table table = section.table(key);
+  const auto over = table.choice<Coordinate>("over", {{"x", Coordinate::x},
+                                                      {"y", Coordinate::y},
+                                                      {"z", Coordinate::z},
+                                                      {"radius", Coordinate::radius}});
+  const std::vector<double> at = table.numbers("at");
+  if (at.size() < 2) table.refuse("at", "must hold at least two places");
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (at[i] <= at[i - 1]) table.refuse_element("at", i, "must be larger than the one before");
+  const std::vector<double> values = table.numbers("values");
+  if (values.size() != at.size()) table.refuse("values", "must be as many as the numbers of at");
+  return {over, at, values};
+}
+
+plate::Material read_material_of(const Table& table, const Table& root)
+{
+  return read_material_of(table, read_materials(root));
+}
 
 std::vector<int> read_model_components(const Table& root)
 {

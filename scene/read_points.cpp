@@ -42,16 +42,33 @@ std::array<double, 6> read_inertia(const Table& mass)
 
 }  // namespace
 
+plate::PointMass read_mass(const Table& table, const Scene& scene)
+{
+  plate::PointMass mass{.at = read_place(table, "at", scene), .mass = table.number("mass")};
+  if (table.has("inertia")) mass.inertia = read_inertia(table);
+  if (table.has("offset")) mass.offset = read_vector(table, "offset");
+  return mass;
+}
+
+plate::Spring read_spring(const Table& table, const Scene& scene)
+{
+  plate::Spring spring{.at = read_place(table, "at", scene)};
+  if (table.has("to")) {
+    spring.to = read_place(table, "to", scene);
+    if (*spring.to == spring.at) table.refuse("to", "is the place where the spring begins");
+  }
+  if (!table.has("stiffness") && !table.has("damping"))
+    table.refuse("at", "the spring needs `stiffness` or `damping`, like { z = 1e6 }");
+  if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
+  if (table.has("damping")) spring.damping = read_by_component(table, "damping");
+  return spring;
+}
+
 std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene)
 {
   std::vector<plate::PointMass> masses;
   if (!root.has("mass")) return masses;
-  for (const Table& table : root.tables("mass")) {
-    plate::PointMass mass{.at = read_place(table, "at", scene), .mass = table.number("mass")};
-    if (table.has("inertia")) mass.inertia = read_inertia(table);
-    if (table.has("offset")) mass.offset = read_vector(table, "offset");
-    masses.push_back(mass);
-  }
+  for (const Table& table : root.tables("mass")) masses.push_back(read_mass(table, scene));
   return masses;
 }
 
@@ -59,18 +76,7 @@ std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene)
 {
   std::vector<plate::Spring> springs;
   if (!root.has("spring")) return springs;
-  for (const Table& table : root.tables("spring")) {
-    plate::Spring spring{.at = read_place(table, "at", scene)};
-    if (table.has("to")) {
-      spring.to = read_place(table, "to", scene);
-      if (*spring.to == spring.at) table.refuse("to", "is the place where the spring begins");
-    }
-    if (!table.has("stiffness") && !table.has("damping"))
-      table.refuse("at", "the spring needs `stiffness` or `damping`, like { z = 1e6 }");
-    if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
-    if (table.has("damping")) spring.damping = read_by_component(table, "damping");
-    springs.push_back(spring);
-  }
+  for (const Table& table : root.tables("spring")) springs.push_back(read_spring(table, scene));
   return springs;
 }
 

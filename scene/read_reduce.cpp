@@ -160,6 +160,15 @@ std::optional<Accuracy> read_accuracy(const Table& root)
                   .chooses_edge_row = !mesh.has("edge_row")};
 }
 
+std::optional<int> read_ranks_per_harmonic(const Table& root)
+{
+  const std::optional<Table> table = optional_table(root);
+  if (!table || !table->has("ranks_per_harmonic")) return std::nullopt;
+  if (!root.table("mesh").has("sectors"))
+    table->refuse("ranks_per_harmonic", "is for bodies of equal sectors; give `sectors` in [mesh]");
+  return table->integer("ranks_per_harmonic");
+}
+
 bool read_mesh_errors(const Table& root, const std::optional<Accuracy>& accuracy)
 {
   const std::optional<Table> table = optional_table(root);

@@ -37,6 +37,20 @@ std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scen
 std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene);
 std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene);
 
+/// A table of [[mass]] or of [[spring]].
+plate::PointMass read_mass(const Table& table, const Scene& scene);
+plate::Spring read_spring(const Table& table, const Scene& scene);
+
+/// A constant, a table over a coordinate or the radius, or a formula, which the mesh will check.
+plate::Profile read_profile(const Table& section, std::string_view key);
+
+/// The [material.NAME] that a table names.
+plate::Material read_material_of(const Table& table, const Table& root);
+
+/// Puts [[deviation]] into a scene that has all of its model otherwise: where one sector is meshed
+/// beside the sections, else in their place.
+void read_deviations(const Table& root, Scene& scene);
+
 /// [[support]]; needs the mesh and the couplings of `scene`.
 std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);
 
@@ -56,8 +70,12 @@ std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
 
 /// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
-/// `mass_integrals`, `mesh_errors` and `sylvester`; with `accuracy` by its tolerance.
+/// `mass_integrals`, `mesh_errors`, `ranks_per_harmonic` and `sylvester`; with `accuracy` by its
+/// tolerance.
 reduce::ReduceOptions read_reduce(const Table& root, const std::optional<Accuracy>& accuracy);
+
+/// [reduce] ranks_per_harmonic
+std::optional<int> read_ranks_per_harmonic(const Table& root);
 
 /// [reduce] mesh_errors
 bool read_mesh_errors(const Table& root, const std::optional<Accuracy>& accuracy);

@@ -71,6 +71,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   scene.couplings = read_couplings(root, scene);
   scene.masses = read_masses(root, scene);
   scene.springs = read_springs(root, scene);
+  read_deviations(root, scene);
   scene.supports = read_supports(root, scene);
   scene.loads = read_loads(root, scene);
   scene.static_solution = read_static(root, scene);
@@ -79,6 +80,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.interface_nodes = read_interface(root, scene);
     scene.ring_harmonics = read_ring_harmonics(root, scene);
     scene.reduce = read_reduce(root, scene.accuracy);
+    scene.ranks_per_harmonic = read_ranks_per_harmonic(root);
     scene.mesh_errors = read_mesh_errors(root, scene.accuracy);
     scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);

@@ -44,6 +44,16 @@ struct Accuracy {
   bool chooses_order = true, chooses_edge_row = true;  ///< where [mesh] does not say them
 };
 
+/// What some sectors of a body have other than the rest of them; one of the three.
+struct Deviation {
+  std::vector<int> sectors;  ///< the meshed one is 0, the next about z is 1; empty: all
+  /// In the place of its group's section; profiles run over places of the whole body.
+  std::optional<plate::ShellSection> section;
+  /// Besides those of all sectors; components as in the meshed sector, turned with it.
+  std::optional<plate::PointMass> mass;
+  std::optional<plate::Spring> spring;
+};
+
 /// A scene file, read and checked: one case from the mesh to the squeal.
 struct Scene {
   std::string name;  ///< stem of the files that the programs write
@@ -62,6 +72,7 @@ struct Scene {
   std::vector<plate::BeamSection> beams;
   std::vector<plate::PointMass> masses;
   std::vector<plate::Spring> springs;
+  std::vector<Deviation> deviations;  ///< of a body of which one sector is meshed
   std::vector<plate::Coupling> couplings;
   std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
   std::vector<plate::Load> loads;        ///< of `static`
@@ -73,6 +84,8 @@ struct Scene {
   PictureChoice pictures = PictureChoice::vertices;
   ResultantChoice resultants;
   reduce::ReduceOptions reduce;
+  /// Of a body of equal sectors; without it as many as there are for each harmonic.
+  std::optional<int> ranks_per_harmonic;
   bool mesh_errors = false;       ///< estimate what the mesh lets the body's frequencies be off
   bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
   std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap

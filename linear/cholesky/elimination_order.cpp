@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <deque>
 #include <numeric>
 
 #include "common/all_ranks.hpp"
@@ -130,6 +131,30 @@ std::vector<idx_t> dissect(const Adjacency& graph, std::vector<idx_t> weights)
   return place;
 }
 
+/// A graph and its order.
+struct Dissected {
+  Adjacency graph;
+  std::vector<idx_t> weights, place;
+};
+
+/// `dissect`, which is asked for a few graphs again and again where the harmonics of one sector are
+/// factored, or one matrix with another shift: the last ones are remembered.
+std::vector<idx_t> dissect_once(const Adjacency& graph, const std::vector<idx_t>& weights)
+{
+  constexpr std::size_t most = 6, most_neighbours = 1U << 21;  // 50 MB at most
+  thread_local std::deque<Dissected> last;
+  const auto known = std::ranges::find_if(last, [&](const Dissected& other) {
+    return other.weights == weights && other.graph.starts == graph.starts &&
+           other.graph.neighbours == graph.neighbours;
+  });
+  if (known != last.end()) return known->place;
+  std::vector<idx_t> place = dissect(graph, weights);
+  if (graph.neighbours.size() > most_neighbours) return place;
+  last.push_front({.graph = graph, .weights = weights, .place = place});
+  if (last.size() > most) last.pop_back();
+  return place;
+}
+
 /// From places of blocks to places of rows, from 1.
 std::vector<int> row_places(const std::vector<idx_t>& place, const std::vector<int>& block_of,
                             const std::vector<idx_t>& sizes)
@@ -161,7 +186,7 @@ std::vector<int> elimination_order(Mat A)
     const Adjacency graph = symmetrized({.starts = offsets(degrees), .neighbours = neighbours});
     std::vector<idx_t> sizes(degrees.size(), 0);
     for (const int block : block_of) ++sizes[block];
-    return row_places(dissect(graph, sizes), block_of, sizes);
+    return row_places(dissect_once(graph, sizes), block_of, sizes);
   });
 }
 

@@ -242,6 +242,7 @@ void write_body(const std::string& path, const ModalBody& body)
   file.write("free_body/rigid_modes", std::int64_t{body.n_rigid}, "1");
   write_preparation(file, body);
   if (body.selection) write_selection(file, *body.selection);
+  file_parts::write_sector_harmonics(file, body.sector_harmonics);
   write_certificate(file, body.certificate);
   file_parts::write_provenance(file, body.provenance);
   file.commit();
@@ -284,6 +285,7 @@ ModalBody read_body(const files::Reader& file)
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),
           .selection = read_selection(file),
+          .sector_harmonics = file_parts::read_sector_harmonics(file, n),
           .certificate = read_certificate(file),
           .provenance = file_parts::read_provenance(file)};
 }

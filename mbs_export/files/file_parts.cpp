@@ -87,6 +87,30 @@ Picture read_picture(const files::Reader& file, Index n_columns)
   return picture;
 }
 
+void write_sector_harmonics(files::Writer& file, const std::optional<SectorHarmonics>& harmonics)
+{
+  if (!harmonics) return;
+  file.write("sectors/count", std::int64_t{harmonics->n_sectors}, "1");
+  file.write("sectors/harmonics", std::span<const int>(harmonics->order), "1");
+}
+
+std::optional<SectorHarmonics> read_sector_harmonics(const files::Reader& file, Index n)
+{
+  if (!file.contains("sectors")) return std::nullopt;
+  SectorHarmonics harmonics{.n_sectors = read_count(file, "sectors/count"), .order = {}};
+  if (harmonics.n_sectors < 3)
+    file.fail("sectors/count", fmt::format("is {}, expected 3 or more", harmonics.n_sectors));
+  const int largest = harmonics.n_sectors / 2;
+  for (const std::int64_t order : file.integers("sectors/harmonics", n)) {
+    if (order < -1 || order > largest) {
+      file.fail("sectors/harmonics",
+                fmt::format("has the harmonic {}, expected -1 .. {}", order, largest));
+    }
+    harmonics.order.push_back(static_cast<int>(order));
+  }
+  return harmonics;
+}
+
 std::vector<int> read_indices(const files::Reader& file, const std::string& name, Index limit,
                               Index size)
 {

@@ -38,6 +38,11 @@ void write_mass_integrals(files::Writer& file, const std::optional<MassIntegrals
 /// @param n  number of coordinates
 std::optional<MassIntegrals> read_mass_integrals(const files::Reader& file, Eigen::Index n);
 
+/// Group `sectors`; nothing is written where there are none.
+void write_sector_harmonics(files::Writer& file, const std::optional<SectorHarmonics>& harmonics);
+/// @param n  number of coordinates or modes
+std::optional<SectorHarmonics> read_sector_harmonics(const files::Reader& file, Eigen::Index n);
+
 /// Integers of which each must be an index 0 .. limit - 1.
 std::vector<int> read_indices(const files::Reader& file, const std::string& name,
                               Eigen::Index limit, Eigen::Index size = files::any);

@@ -79,6 +79,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   if (reduced.C.size() > 0)
     file.write("matrices/damping", reduced.C, "N s/m, N s, N m s; 1/s of fixed-interface modes");
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
+  file_parts::write_sector_harmonics(file, reduced.sector_harmonics);
   write_certificate(file, reduced.certificate);
   file_parts::write_picture(file, reduced.picture, reduced.picture_of_sectors);
   file_parts::write_resultants(file, reduced.resultants);
@@ -117,6 +118,7 @@ ReducedSystem read_reduced(const files::Reader& file)
           .C = std::move(C),
           .fixed_interface_frequencies = std::move(frequencies),
           .picture = file_parts::read_picture(file, n),
+          .sector_harmonics = file_parts::read_sector_harmonics(file, n),
           .certificate = read_certificate(file),
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),

@@ -59,6 +59,12 @@ class Formula {
   double x_ = 0.0, y_ = 0.0, z_ = 0.0, radius_ = 0.0, angle_ = 0.0;
 };
 
+std::array<double, 3> turned_about_z(const std::array<double, 3>& x, double angle)
+{
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
+}
+
 Formula& formula(const std::string& text)
 {
   static std::map<std::string, std::unique_ptr<Formula>> known;
@@ -69,8 +75,10 @@ Formula& formula(const std::string& text)
 
 }  // namespace
 
-double value_at(const Profile& profile, const std::array<double, 3>& position)
+double value_at(const Profile& profile, const std::array<double, 3>& place)
 {
+  const std::array<double, 3> position =
+      profile.turned == 0.0 ? place : turned_about_z(place, profile.turned);
   if (!profile.formula.empty()) return formula(profile.formula).at(position);
   if (profile.at.empty()) return profile.values.front();
   const double s = profile.over == Coordinate::radius
