@@ -51,6 +51,8 @@ void transfer_certificate(auto& archive, auto& certificate)
   archive(certificate.zero_energy);
   archive(certificate.condition);
   archive(certificate.count_share);
+  archive(certificate.responses.Omega);
+  archive(certificate.responses.error);
 }
 
 void transfer_mass(auto& archive, auto& mass)

@@ -54,6 +54,19 @@ double complete_up_to(const std::vector<HarmonicPart>& parts)
 
 }  // namespace
 
+void add_responses(mbs_export::Certificate& whole, const std::vector<HarmonicPart>& parts,
+                   const std::vector<std::string>& loads)
+{
+  mbs_export::ResponseCheck check{.up_to = 0.0, .error = 0.0, .loads = loads};
+  for (const HarmonicPart& part : parts) {
+    const reduce::ResponseCertificate& responses = part.certificate.responses;
+    if (!(responses.Omega > 0.0)) continue;
+    check.up_to = responses.Omega;
+    check.error = std::max(check.error, responses.error);
+  }
+  if (check.up_to > 0.0) whole.responses = check;
+}
+
 mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts,
                                           const std::vector<std::string>& fixed, double lambda_max)
 {

@@ -11,4 +11,8 @@ namespace chladni::cases {
 mbs_export::Certificate whole_certificate(const std::vector<HarmonicPart>& parts,
                                           const std::vector<std::string>& fixed, double lambda_max);
 
+/// Adds how well the harmonics keep responses: the worst of those that are loaded.
+void add_responses(mbs_export::Certificate& whole, const std::vector<HarmonicPart>& parts,
+                   const std::vector<std::string>& loads);
+
 }  // namespace chladni::cases

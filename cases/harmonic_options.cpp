@@ -84,11 +84,12 @@ reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const Secto
                                           const cyclic::IsHeld& is_held,
                                           const HarmonicGroups& groups)
 {
-  reduce::ReductionOptions options{.basis = scene.reduce,
-                                   .solver = solver,
-                                   .count = scene.sylvester,
-                                   .keeps_matrices = true,
-                                   .later = {}};
+  reduce::ReductionOptions options{
+      .basis = scene.reduce,
+      .solver = solver,
+      .count = scene.accuracy ? scene.sylvester.value_or(true) : scene.sylvester,
+      .keeps_matrices = true,
+      .later = {}};
   options.basis.method = harmonic_method(scene.reduce).method;
   if (scene.reduce.modes) {
     options.basis.cutoff_Hz =

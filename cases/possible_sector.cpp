@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/harmonic_responses.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/sector_checks.hpp"
 #include "common/error.hpp"
@@ -79,12 +80,23 @@ void refuse_what_does_not_turn(const scene::Scene& scene, const mesh::Mesh& whol
     require_turning(spring.at, "spring at", turns_with_sectors(spring));
 }
 
+/// What a scene with `accuracy` that does not speak of sectors would not have from one: errors
+/// under its support and of its responses, element numbers of section forces.
+bool loses_nothing(const scene::Scene& scene, const SectorModel& sector)
+{
+  const SectorSupport support = sector_support(scene, sector);
+  if (support.names != scene.body.fixed || !scene.resultants.groups.empty()) return false;
+  return !scene.body.keep.tolerance ||
+         harmonic_responses(scene, sector, described_whole(scene, sector), support).has_value();
+}
+
 }  // namespace
 
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole)
 {
   constexpr int least = 3;
-  if (!scene.mesh.finds_sectors) return std::nullopt;
+  const bool is_asked = scene.mesh.finds_sectors;
+  if (!is_asked && !scene.accuracy) return std::nullopt;
   std::optional<SectorModel> sector;
   std::string found;
   try {
@@ -94,12 +106,13 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
     mesh::Mesh first = mesh::one_sector(whole, count);
     refuse_groups_in_parts(scene, first);
     sector = sector_model(scene, std::move(first));
+    if (!is_asked && !loses_nothing(scene, *sector)) return std::nullopt;
     found = fmt::format("sectors: the body repeats {} times and is reduced from one sector", count);
   } catch (const Error& error) {
     sector.reset();
     found = fmt::format("{}; the whole body is reduced", error.what());
   }
-  report::tell_note(found);
+  if (is_asked || sector) report::tell_note(found);
   return sector;
 }
 

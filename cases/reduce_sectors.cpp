@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "cases/harmonic_certificate.hpp"
 #include "cases/harmonic_options.hpp"
 #include "cases/harmonic_part.hpp"
 #include "cases/ranks.hpp"
@@ -64,7 +65,9 @@ Described described_body(const scene::Scene& scene, const SectorModel& model,
                       .chosen = picture_nodes(model.mesh, scene.pictures),
                       .mass = {},
                       .with_forces = !scene.resultants.groups.empty(),
-                      .deviating = deviations.rows};
+                      .deviating = deviations.rows,
+                      .responses = {}};
+  described.responses = harmonic_responses(scene, model, described.system, described.support);
   on_all_ranks(PETSC_COMM_WORLD, [&] {
     if (scene.mass_integrals) described.mass = std::make_unique<SectorMass>(scene, model);
     return 0;
@@ -83,6 +86,7 @@ mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorMode
   phases.begin("whole body");
   on_first_rank([&] {
     whole = unfolded(described.system, model, parts, described.support.names, described.lambda_max);
+    if (described.responses) add_responses(whole.certificate, parts, described.responses->names);
   });
   if (described.mass) {
     phases.begin("mass integrals");

@@ -200,12 +200,18 @@ class Harmonics {
     const linear::ListenToProgress to_no_step({});  // a harmonic is a step of the whole
     const cyclic::HarmonicModel harmonic =
         cyclic::reduce_harmonic(matrices_, cyclic::harmonic_coordinates(model_.dofs, order),
-                                options_, described_.support.is_held, phases);
+                                options_, described_.support.is_held, phases, goal());
     HarmonicPart part = part_of(harmonic, model_, described_);
     part.factor_s = phases.seconds();
     if (described_.mass || described_.with_forces) motion = motion_of_sector(harmonic, model_);
     if (described_.with_forces) part.sector = motion;
     return part;
+  }
+
+  std::optional<cyclic::HarmonicGoal> goal() const
+  {
+    if (!described_.responses) return std::nullopt;
+    return described_.responses->goal;
   }
 
   const SectorModel& model_;

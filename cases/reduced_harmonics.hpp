@@ -5,6 +5,7 @@
 
 #include "cases/harmonic_groups.hpp"
 #include "cases/harmonic_part.hpp"
+#include "cases/harmonic_responses.hpp"
 #include "cases/picture.hpp"
 #include "reduce/reduction.hpp"
 
@@ -19,6 +20,7 @@ struct Described {
   std::unique_ptr<SectorMass> mass;  ///< none where the scene does not want the integrals
   bool with_forces;                  ///< section forces want the motion of the whole sector
   std::vector<int> deviating;        ///< SectorDeviations::rows
+  std::optional<HarmonicResponses> responses;
 };
 
 /// The harmonics of this rank's group; none on ranks that do not speak for theirs.

@@ -143,11 +143,35 @@ std::vector<PetscInt> held_masters(const HarmonicCoordinates& c, const IsHeld& i
   return held;
 }
 
+/// The goal of a harmonic; none where no free master is loaded.
+std::optional<reduce::ResponseGoal> response_goal(const HarmonicGoal& goal,
+                                                  const HarmonicCoordinates& c,
+                                                  const IsHeld& is_held)
+{
+  std::vector<Master> masters = c.masters;
+  std::ranges::sort(masters, {}, &Master::coordinate);
+  std::vector<int> held;
+  bool is_loaded = false;
+  for (std::size_t i = 0; i < masters.size(); ++i)
+    if (is_held(masters[i]))
+      held.push_back(static_cast<int>(i));
+    else
+      is_loaded = is_loaded || goal.is_loaded(masters[i]);
+  if (!is_loaded) return std::nullopt;
+  return reduce::ResponseGoal{
+      .Omega = goal.Omega,
+      .tolerance = goal.tolerance,
+      .loads = [loads = goal.loads, masters, held](const reduce::ReducedModel& model) {
+        return loads(model, masters, held);
+      }};
+}
+
 }  // namespace
 
 HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates coordinates,
                               const reduce::ReductionOptions& options, const IsHeld& is_held,
-                              reduce::PhaseListener& phases)
+                              reduce::PhaseListener& phases,
+                              const std::optional<HarmonicGoal>& goal)
 {
   phases.begin("harmonic matrices");
   std::optional<HarmonicCoordinates> half;
@@ -161,6 +185,7 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
   chosen.basis.at_least = 1;  // of which the certificate learns that there are none below
   chosen.basis.may_have_none = true;
   chosen.basis.expected = 4;  // a harmonic has few
+  if (goal) chosen.responses = response_goal(*goal, solved, is_held);
   reduce::Reduction reduction = reduce::reduction(body, chosen, support, phases);
   std::vector<int> places = reduce::coordinate_places(body.masters, reduction.model);
   HarmonicModel model{.coordinates = std::move(coordinates),

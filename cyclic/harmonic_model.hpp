@@ -21,6 +21,20 @@ struct SectorMatrices {
 /// Masters that the support holds, as (ring, place, component) of `Master`.
 using IsHeld = std::function<bool(const Master&)>;
 
+/// Responses of masters to harmonic loads there, which a harmonic is to keep as
+/// `reduce::ResponseGoal` says.
+struct HarmonicGoal {
+  double Omega;      ///< end of the range, rad/s
+  double tolerance;  ///< of the error of each column of responses, over its size
+  std::function<bool(const Master&)> is_loaded;
+  /// @param masters  of the model's rows, in their order
+  /// @param held     rows that the support holds, ascending
+  std::function<reduce::ResponseLoads(const reduce::ReducedModel& model,
+                                      const std::vector<Master>& masters,
+                                      const std::vector<int>& held)>
+      loads;
+};
+
 /// One harmonic of the body, reduced: rows are its masters, then modes in exact pairs.
 struct HarmonicModel {
   HarmonicCoordinates coordinates;
@@ -40,11 +54,13 @@ struct HarmonicModel {
 };
 
 /// Reduces one harmonic by the methods of `reduce::reduction`, with masters as its masters.
+/// @param goal  kept by the mixed interface where a master is loaded
 /// @note   Collective on the communicator of the sector, as all of this header.
 /// @throws chladni::Error as reduce::factored and reduce::reduction.
 HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates coordinates,
                               const reduce::ReductionOptions& options, const IsHeld& is_held,
-                              reduce::PhaseListener& phases);
+                              reduce::PhaseListener& phases,
+                              const std::optional<HarmonicGoal>& goal = std::nullopt);
 
 /// The lowest elastic modes that the method takes: with all masters held or, of methods with free
 /// masters, with those of the support. Ascending, in rad/s, those of pairs twice; at least `count`

@@ -49,6 +49,16 @@ MatrixXd least_sizes(const ReferenceResponse& reference, const VectorXd& Omega)
 
 }  // namespace
 
+ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance)
+{
+  const VectorXd Omega = frequencies(2.0 * std::numbers::pi * tolerance.up_to_Hz);
+  return {.rows = {},
+          .names = {},
+          .unit = reference.unit,
+          .Omega = Omega,
+          .size = least_sizes(reference, Omega)};
+}
+
 ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& options)
 {
   const HeldBody body = held_body(reduced, options.fixed);
@@ -56,12 +66,8 @@ ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& op
   const MatrixXd B = body.U(loads.dofs, every).transpose();
   const ReferenceResponse reference =
       reference_response(body.constrained.omega, B, loads, options.keep.tolerance.value());
-  const VectorXd Omega = frequencies(2.0 * std::numbers::pi * options.keep.tolerance->up_to_Hz);
-  ResponseSizes sizes{.rows = {},
-                      .names = loads.names,
-                      .unit = reference.unit,
-                      .Omega = Omega,
-                      .size = least_sizes(reference, Omega)};
+  ResponseSizes sizes = response_sizes(reference, *options.keep.tolerance);
+  sizes.names = loads.names;
   for (const int dof : loads.dofs) sizes.rows.push_back(master_of(reduced, dof));
   return sizes;
 }

@@ -24,4 +24,9 @@ struct ResponseSizes {
 /// @throws chladni::Error as make_body, and where a load acts on no master.
 ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& options);
 
+struct ReferenceResponse;
+
+/// Frequencies and sizes alone, of responses that are known; no rows and names.
+ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance);
+
 }  // namespace chladni::mbs_export

@@ -38,6 +38,13 @@ double lambda_left_out(const ReduceOptions& options, const ReducedModel& model)
   return model.omega.empty() ? 0.0 : model.omega.back() * model.omega.back();
 }
 
+/// Of a part of a body, whose range is that of the body, whatever the part has in it.
+std::optional<double> end_of_counts(const ReduceOptions& options, const ReducedModel& model)
+{
+  if (!options.may_have_none) return std::nullopt;
+  return certified_range(options, model).lambda_max;
+}
+
 }  // namespace
 
 SupportedModes modes_everywhere(const Support& support, const ReducedModel& model,
@@ -121,7 +128,8 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
       count_modes({.lambda = std::move(certified.modes.pairs.lambda),
                    .residuals = std::move(certified.residuals),
                    .n_zero = certified.modes.n_zero,
-                   .comm = body.comm()},
+                   .comm = body.comm(),
+                   .ends_at = end_of_counts(options.basis, reduced.model)},
                   [&, held = support.held()](double sigma) {
                     return linear::eigenvalues_below(body.K, body.M, sigma, held, source);
                   });

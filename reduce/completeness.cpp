@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/error.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
@@ -157,6 +158,21 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
   return count_near(modes, modes.lambda.back() * (1.0 + half_a_pair_gap), eigenvalues_below);
 }
 
+namespace {
+
+/// Above Ritz value k and its partners; but for a range that is longer or ends before the first
+/// one.
+double end_of_range(const ReducedSpectrum& ritz, std::size_t k)
+{
+  const double above = shift_above(ritz.lambda, k);
+  if (!ritz.ends_at) return above;
+  const std::ptrdiff_t n = n_below(ritz.lambda, *ritz.ends_at);
+  if (n == 0) return *ritz.ends_at;
+  return std::cmp_less_equal(n, k) ? std::max(above, *ritz.ends_at) : above;
+}
+
+}  // namespace
+
 Completeness count_modes(ReducedSpectrum ritz,
                          const std::function<int(double sigma)>& eigenvalues_below)
 {
@@ -166,7 +182,7 @@ Completeness count_modes(ReducedSpectrum ritz,
   const auto k = static_cast<std::size_t>(ritz.residuals.rows());
   if (k == 0) return result;
   const auto count = [&](double sigma) { return count_near(ritz, sigma, eigenvalues_below); };
-  result.range = count(shift_above(ritz.lambda, k));
+  result.range = count(end_of_range(ritz, k));
   EigenvalueCount last = result.range;
   for (std::size_t end = k; last.missing() != 0 && end >= 4; end /= 2)
     last = count(shift_in_gap(ritz, end / 2, end));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/error.hpp"
@@ -24,6 +25,9 @@ struct ReducedSpectrum {
   Eigen::MatrixXd residuals;   ///< [k x k] of the first k, `ErrorEstimates::inner_products`
   int n_zero;                  ///< zero eigenvalues before them
   MPI_Comm comm;               ///< ranks that count together; the first one decides
+  /// Where the range ends that is counted, if the residuals reach so far; else above the last of
+  /// them.
+  std::optional<double> ends_at = {};
 };
 
 /// What a count of eigenvalues certifies.

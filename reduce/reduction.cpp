@@ -92,9 +92,12 @@ Made made(const FactoredBody& body, const ReductionOptions& options, const Suppo
   Made made{.basis = std::move(basis), .model = std::move(model)};
   if (!options.responses || options.basis.method != Method::mixed_interface) return made;
   phases.begin("responses");
+  std::optional<FixedInterfaceModes>& modes = made.basis.Q.modes;
+  if (!modes) modes = {.Phi = linear::uninitialized_dense(body.K_blocks.ss, 0), .omega = {}};
   made.responses = keep_responses(whole_system(body), {.Q_CB = made.basis.Q, .model = made.model},
                                   rows_of_masters(body.masters, support.held()),
                                   made.basis.lambda_left_out, *options.responses);
+  if (modes->omega.empty()) modes.reset();
   return made;
 }
 
