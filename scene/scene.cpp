@@ -86,6 +86,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.sylvester = read_sylvester(root);
   }
   scene.body = read_body(root, scene);
+  scene.response = read_response(root, scene);
   scene.squeal = read_squeal(root, scene);
   scene.radiation = read_radiation(root);
   scene.sound = read_sound(root, scene);
