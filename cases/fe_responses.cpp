@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cases/attachments.hpp"
+#include "cases/chosen_mesh.hpp"
 #include "linear/progress.hpp"
 #include "mbs_export/responses/response_option_error.hpp"
 #include "plate/dofs/drilling.hpp"
@@ -169,19 +170,7 @@ scene::Scene held_as_body(const scene::Scene& scene)
 {
   scene::Scene held = scene;
   if (scene.interface_nodes.empty()) return held;
-  held.supports.clear();
-  for (const std::string& name : scene.body.fixed) {
-    const auto dot = name.rfind('.');
-    const auto component = dot == std::string::npos
-                               ? plate::component_names.end()
-                               : std::ranges::find(plate::component_names, name.substr(dot + 1));
-    if (component == plate::component_names.end())
-      held.supports.push_back({.group = name, .components = scene.components});
-    else
-      held.supports.push_back(
-          {.group = name.substr(0, dot),
-           .components = {static_cast<int>(component - plate::component_names.begin())}});
-  }
+  held.supports = supports_of(scene);
   return held;
 }
 

@@ -151,6 +151,21 @@ void declare_mac(CLI::App& app, chladni::cli::MacArguments& arguments)
       "Example:\n  chladni mac out/disc.body.h5 modes.unv --distance 0.002 --json mac.json");
 }
 
+/// What tells of files of Chladni.
+void declare_readers(CLI::App& app, chladni::cli::ChladniArguments& arguments)
+{
+  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
+  info->add_option("FILE", arguments.info_file,
+                   "*.reduced.h5, *.body.h5, *.response.h5 or *.squeal.h5")
+      ->required();
+  info->footer("Example:\n  chladni info out/disc.body.h5");
+  CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
+  check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
+  check->add_option("--json", arguments.check_json, "writes the table for other programs")
+      ->type_name("FILE");
+  check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
+}
+
 void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
@@ -168,24 +183,16 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step or "
       "a deck");
   declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
+  app.get_subcommand("response")
+      ->add_option("--uff", arguments.response.universal_file,
+                   "writes the responses as a universal file too (datasets 58, 2411, 164)")
+      ->type_name("FILE");
   for (const char* reader : {"body", "response", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag(
       "--radiation", arguments.sound.radiation_only,
       "only what the sound of each mode does to it: NAME.radiation.h5, for `radiation = true`");
-  app.get_subcommand("response")
-      ->add_option("--uff", arguments.response.universal_file,
-                   "writes the responses as a universal file too (datasets 58, 2411, 164)")
-      ->type_name("FILE");
-  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
-  info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5, *.response.h5 or *.squeal.h5")
-      ->required();
-  info->footer("Example:\n  chladni info out/disc.body.h5");
-  CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
-  check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
-  check->add_option("--json", arguments.check_json, "writes the table for other programs")
-      ->type_name("FILE");
-  check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
+  declare_readers(app, arguments);
   declare_export(app, arguments.exported);
   declare_import(app, arguments.imported);
   declare_mac(app, arguments.mac);

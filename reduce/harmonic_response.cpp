@@ -50,13 +50,17 @@ petsc::Matrix blocks_on(Mat pattern, PetscInt width)
   PetscInt n = 0, first = 0, last = 0;
   petsc::check(MatGetLocalSize(pattern, &n, nullptr));
   petsc::check(MatGetOwnershipRange(pattern, &first, &last));
-  std::vector<PetscInt> own(static_cast<std::size_t>(width * n)),
-      others(static_cast<std::size_t>(width * n));
-  linear::for_local_entries(pattern, [&](PetscInt row, PetscInt column, double) {
-    const bool is_own = column >= first && column < last;
-    for (PetscInt k = 0; k < width; ++k)
-      (is_own ? own : others)[static_cast<std::size_t>(width * (row - first) + k)] += width;
-  });
+  std::vector<PetscInt> own, others;  // entries of each row, in columns of this rank and of others
+  for (PetscInt row = first; row < last; ++row) {
+    PetscInt n_own = 0, n_all = 0;
+    const PetscInt* columns = nullptr;
+    petsc::check(MatGetRow(pattern, row, &n_all, &columns, nullptr));
+    for (PetscInt k = 0; k < n_all; ++k) n_own += columns[k] >= first && columns[k] < last;
+    const PetscInt n_others = n_all - n_own;
+    petsc::check(MatRestoreRow(pattern, row, &n_all, &columns, nullptr));
+    own.insert(own.end(), width, width * n_own);
+    others.insert(others.end(), width, width * n_others);
+  }
   petsc::Matrix A;
   petsc::check(MatCreateAIJ(petsc::communicator(pattern), width * n, width * n, PETSC_DETERMINE,
                             PETSC_DETERMINE, 0, own.data(), 0, others.data(), A.put()));

@@ -18,10 +18,10 @@ TextTable list_assurance(const MeasuredModes& measured, const ModalAssurance& fo
   TextTable table{.header = {"measured", "Hz", "mode of the body", "Hz", "difference", "MAC",
                              "MAC of the next"},
                   .rows = {}};
-  for (Index k = 0; k < found.MAC.rows(); ++k) {
+  for (Index k = 0; k < found.mac.rows(); ++k) {
     Index best = 0;
-    const double mac = found.MAC.row(k).maxCoeff(&best);
-    Eigen::RowVectorXd others = found.MAC.row(k);
+    const double mac = found.mac.row(k).maxCoeff(&best);
+    Eigen::RowVectorXd others = found.mac.row(k);
     others[best] = 0.0;
     const double f = found.measured_Hz[k], f_body = found.body_Hz[best];
     const std::string& name = measured.names[static_cast<std::size_t>(k)];
@@ -51,8 +51,8 @@ TextTable describe(const ModalAssurance& found)
 std::vector<Json::Member> assurance_json(const ModalAssurance& found)
 {
   std::vector<Json> rows, modes, nodes;
-  for (Index k = 0; k < found.MAC.rows(); ++k)
-    rows.push_back(numbers_json(found.MAC.row(k).transpose()));
+  for (Index k = 0; k < found.mac.rows(); ++k)
+    rows.push_back(numbers_json(found.mac.row(k).transpose()));
   for (const int mode : found.modes) modes.emplace_back(mode);
   for (const mbs_export::MatchedNode& node : found.nodes) {
     nodes.push_back(Json::object({{"node", node.number},

@@ -120,7 +120,7 @@ ModalAssurance modal_assurance(const ModalBody& body, const MeasuredModes& measu
                        .modes = {},
                        .body_Hz = {},
                        .measured_Hz = measured.f_Hz,
-                       .MAC = {}};
+                       .mac = {}};
   const std::vector<Index> rows = measured_rows(measured.shapes), modes = natural_modes(body);
   if (modes.empty()) throw Error("the body has no natural modes to compare with");
   MatrixXd Phi(std::ssize(rows), std::ssize(modes));
@@ -138,7 +138,7 @@ ModalAssurance modal_assurance(const ModalBody& body, const MeasuredModes& measu
   MatrixXd scaled = Phi;
   for (Index j = 0; j < scaled.cols(); ++j)
     if (at_rest[j] > 0.0) scaled.col(j).setOnes();
-  found.MAC = assurance(Psi, scaled) * (1.0 - at_rest.array()).matrix().asDiagonal();
+  found.mac = assurance(Psi, scaled) * (1.0 - at_rest.array()).matrix().asDiagonal();
   return found;
 }
 

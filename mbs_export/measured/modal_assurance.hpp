@@ -22,7 +22,7 @@ struct ModalAssurance {
   std::vector<int> modes;       ///< [m] numbers of the body's modes, from 1
   Eigen::VectorXd body_Hz;      ///< [m]
   Eigen::VectorXd measured_Hz;  ///< [k]
-  Eigen::MatrixXd MAC;          ///< [k x m]
+  Eigen::MatrixXd mac;          ///< [k x m]
 };
 
 /// MAC = |psi^H phi|^2 / (psi^H psi phi^T phi) of each measured shape psi and each mode phi of the

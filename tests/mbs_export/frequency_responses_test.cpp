@@ -92,7 +92,9 @@ FreeRows free_rows(const ReducedSystem& reduced, const MatrixXd& C)
 
 TEST(FrequencyResponses, SolveTheEquationOfADamperBetweenTheModes)
 {
-  ReducedSystem reduced = test::regression_beam();
+  // Few modes: round-off of the first eigenvalue, 12, is that of the largest one, (12 pi)^4 and
+  // more, and the resonance divides it by eta.
+  ReducedSystem reduced = test::reduced_beam(60, 12);
   reduced.C = MatrixXd::Zero(reduced.K.rows(), reduced.K.cols());
   reduced.C(2, 2) = 0.7;  // of w at B
   const ModalBody body = make_body(reduced, held({.type = Damping::Type::matrix}));
@@ -105,7 +107,7 @@ TEST(FrequencyResponses, SolveTheEquationOfADamperBetweenTheModes)
                         Complex(Omega * Omega) * rows.M;
     direct[f] = D.partialPivLu().solve(VectorXcd::Unit(D.rows(), 2))[2];  // w at C
   }
-  EXPECT_LT(relative_difference(found.H[0].col(0), direct), 1e-9);
+  EXPECT_LT(relative_difference(found.H[0].col(0), direct), 1e-7);
 }
 
 TEST(FrequencyResponses, OfProportionalDampingAreThoseOfItsMatrix)
@@ -185,55 +187,6 @@ TEST(FrequencyResponses, RefusePlacesThatAreNone)
   EXPECT_EQ(refused([](ResponseOptions& o) { o.outputs[1].components = {0}; }), "outputs[2].dofs");
   EXPECT_EQ(refused([](ResponseOptions& o) { o.outputs[1] = o.outputs[0]; }), "outputs[2].dofs");
   EXPECT_EQ(refused([](ResponseOptions& o) { o.section_forces = {"beam"}; }), "section_forces[1]");
-}
-
-/// Four nodes on a circle.
-struct Ring {
-  std::vector<AttachmentNode> nodes;
-  std::vector<AttachmentSet> sets{{"track", {0, 1, 2, 3}}};
-
-  Ring()
-  {
-    for (int i = 0; i < 4; ++i) {
-      const double angle = i * std::numbers::pi / 2.0;
-      nodes.push_back({.number = 11 + i, .position = {std::cos(angle), std::sin(angle), 0.0}});
-    }
-  }
-  NamedNodes named() const { return {nodes, sets}; }
-};
-
-TEST(ResponseDofs, ShareALoadAndGiveEachNodeAnOutput)
-{
-  const Ring ring;
-  const auto loads = response_loads(ring.named(), {{.at = "track", .components = {z}}});
-  ASSERT_EQ(loads.size(), 1U);
-  EXPECT_EQ(loads[0].name, "track.z");
-  EXPECT_EQ(loads[0].nodes, (std::vector{0, 1, 2, 3}));
-  EXPECT_EQ(point_of(ring.named(), loads[0]).node, 0);
-  const auto outputs = response_outputs(ring.named(), {{.at = "track", .components = {0, z}}});
-  ASSERT_EQ(outputs.size(), 8U);
-  EXPECT_EQ(outputs[3].name, "track.z (node 12)");
-}
-
-TEST(ResponseDofs, TakeTheNearestNode)
-{
-  const Ring ring;
-  const std::array<double, 3> near{0.1, -0.9, 0.0}, between{0.7, 0.7, 0.0};
-  const auto loads =
-      response_loads(ring.named(), {{.at = "track", .components = {z}, .near = near}});
-  EXPECT_EQ(loads[0].nodes, std::vector{3});
-  EXPECT_EQ(loads[0].name, "track.z (node 14)");
-  EXPECT_THROW(response_loads(ring.named(), {{.at = "track", .components = {z}, .near = between}}),
-               ResponseOptionError);
-}
-
-TEST(ResponseDofs, RefuseAMomentAboutTheNormalOfAShell)
-{
-  Ring ring;
-  for (AttachmentNode& node : ring.nodes) node.drilling_axis = {0.0, 0.0, 1.0};
-  const std::vector<ResponsePlace> twist{{.at = "track", .components = {5}}};
-  EXPECT_THROW(response_loads(ring.named(), twist), ResponseOptionError);
-  EXPECT_EQ(response_outputs(ring.named(), twist).size(), 4U);
 }
 
 TEST(AngularFrequencies, AddOrMultiplyFromOneToTheNext)

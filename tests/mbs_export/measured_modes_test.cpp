@@ -58,7 +58,7 @@ NONE
          2         6         1         2
  -3.00000E+01  4.00000E+01  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00
          7
--1.00000E+00-2.00000E+00-3.00000E+00-4.00000E+00-5.00000E+00-6.00000E+00
+-1.000000E+00-2.000000E+00-3.000000E+00-4.000000E+00-5.000000E+00-6.000000E+00
          9
   0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  1.00000E+00
     -1
@@ -140,7 +140,7 @@ TEST_F(MeasuredModesFile, RefusesWhatItDoesNotKnowByItsLine)
             std::string::npos);
 }
 
-ModalBody cantilever()
+ModalBody held_beam()
 {
   BodyOptions options;
   options.fixed = {"A"};
@@ -148,7 +148,7 @@ ModalBody cantilever()
 }
 
 /// The first three modes of the cantilever at B and C, in z, as a measurement.
-MeasuredModes of_cantilever(const ModalBody& body)
+MeasuredModes of_held_beam(const ModalBody& body)
 {
   MeasuredModes measured;
   measured.f_Hz = body.omega.head(3) / (2.0 * std::numbers::pi);
@@ -165,25 +165,25 @@ MeasuredModes of_cantilever(const ModalBody& body)
 
 TEST(ModalAssurance, IsOneOfAShapeWithItselfWhateverItsFactor)
 {
-  const ModalBody body = cantilever();
-  MeasuredModes measured = of_cantilever(body);
+  const ModalBody body = held_beam();
+  MeasuredModes measured = of_held_beam(body);
   measured.shapes.col(1) *= std::complex<double>(-3.0, 2.0);
   const ModalAssurance found = modal_assurance(body, measured, 0.002);
   EXPECT_EQ(found.n_components, 2);  // z at two nodes
   EXPECT_NEAR(found.nodes[0].distance, 0.001, 1e-12);
-  for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(found.MAC(k, k), 1.0, 1e-12);
-  EXPECT_LE(found.MAC.maxCoeff(), 1.0 + 1e-12);
+  for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(found.mac(k, k), 1.0, 1e-12);
+  EXPECT_LE(found.mac.maxCoeff(), 1.0 + 1e-12);
   // Two numbers of each shape: by hand.
   const Eigen::Vector2d a = measured.shapes.col(0).real()(std::array{2, 5}),
                         b = measured.shapes.col(2).real()(std::array{2, 5});
   const double by_hand = std::pow(a.dot(b), 2) / (a.squaredNorm() * b.squaredNorm());
-  EXPECT_NEAR(found.MAC(0, 2), by_hand, 1e-12);
+  EXPECT_NEAR(found.mac(0, 2), by_hand, 1e-12);
 }
 
 TEST(ModalAssurance, RefusesNodesThatAreElsewhere)
 {
-  const ModalBody body = cantilever();
-  MeasuredModes measured = of_cantilever(body);
+  const ModalBody body = held_beam();
+  MeasuredModes measured = of_held_beam(body);
   EXPECT_NE(error_of([&] { modal_assurance(body, measured, 0.0005); }).find("101"),
             std::string::npos);
   measured.nodes[1].position = measured.nodes[0].position;
@@ -199,7 +199,7 @@ std::string field(const std::string& line, std::size_t first, std::size_t n)
 
 TEST(UniversalFile, HasAFunctionOfType58ForEachOutputAndLoad)
 {
-  const ModalBody body = cantilever();
+  const ModalBody body = held_beam();
   const FrequencyResponses found =
       frequency_responses(body, {.loads = {{.at = "C", .components = {2}}},
                                  .outputs = {{.at = "B", .components = {2, 4}}},

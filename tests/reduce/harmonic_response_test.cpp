@@ -30,7 +30,7 @@ petsc::Matrix damper()
   petsc::Matrix C = linear::testing::empty(n);
   PetscInt first = 0, last = 0;
   petsc::check(MatGetOwnershipRange(C, &first, &last));
-  for (const auto [i, j] : {std::pair{5, 33}, std::pair{33, 5}}) {
+  for (const auto& [i, j] : {std::pair{5, 33}, std::pair{33, 5}}) {
     if (i < first || i >= last) continue;
     petsc::check(MatSetValue(C, i, i, 0.4, INSERT_VALUES));
     petsc::check(MatSetValue(C, i, j, -0.4, INSERT_VALUES));
