@@ -1,6 +1,6 @@
 """`chladni response`: closed forms, the FE model beside the reduced system and the body, ranks, files, mistakes.
 
-Usage: response.py PROGRAM_DIR MPIRUN
+Usage: response.py PROGRAM_DIR MPIRUN [CHROMIUM]
 """
 
 import csv
@@ -13,6 +13,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from report import browse
 from running import changed, run, start
 
 TWO_PI = 2 * np.pi
@@ -435,8 +436,26 @@ def check_stale(program, mpirun, folder, checks):
     run(beam.program, "response", "scene.toml", "--output", "out", "--stale", cwd=beam.folder)
 
 
-def main(program, mpirun):
+def check_page(program, mpirun, folder, checks, chromium):
+    """A browser draws amplitude and phase of the 24 outputs of each load, six of one unit in a figure."""
+    disc = Case(program, mpirun, folder, DISC, "disc").made()
+    disc.responses(("dofs = [\"z\", \"rx\"]", "dofs = [\"x\", \"y\", \"z\", \"rx\"]"))
+    browsed = browse(chromium, disc.folder / "out/disc.response.html", "--dump-dom")
+    shown = re.sub(r"<script.*?</script>", "", browsed.stdout, flags=re.DOTALL)
+    checks.holds("the console is silent, and no number failed", "CONSOLE" not in browsed.stderr
+                 and not re.search("NaN|undefined|Infinity", shown))  # fmt: skip
+    checks.holds("the page is drawn", 'data-state="drawn"' in shown)
+    checks.holds("two loads", all(f'id="responses-{k}"' in shown for k in (1, 2)) and 'id="responses-3"' not in shown)
+    checks.holds("amplitudes and phases", shown.count("Amplitude of the accelerance") >= 8 and shown.count("phase, degrees") >= 8)
+    checks.holds("it says what it leaves out", shown.count("24 smaller outputs are not drawn") == 2)
+
+
+def main(program, mpirun, chromium=None):
     checks = Checks()
+    if chromium:
+        print("\ncheck_page")
+        with tempfile.TemporaryDirectory() as folder:
+            check_page(program, mpirun, folder, checks, chromium)
     for check in (check_beam, check_damping, check_quantities, check_section_forces, check_disc, check_files,
                   check_universal_file, check_mac, check_example, check_mistakes, check_stale):  # fmt: skip
         print(f"\n{check.__name__}")
@@ -446,4 +465,4 @@ def main(program, mpirun):
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1]), sys.argv[2]))
+    sys.exit(main(Path(sys.argv[1]), *sys.argv[2:]))
