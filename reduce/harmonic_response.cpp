@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <complex>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
+#include "common/all_ranks.hpp"
+#include "common/checked_count.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "reduce/indefinite_factor.hpp"
@@ -44,9 +47,24 @@ petsc::Matrix spread(Mat A, Mat pattern)
   return wide;
 }
 
+/// @throws chladni::Error on all ranks when blocks on all entries are more than PETSc counts.
+void check_counts(Mat pattern, PetscInt width)
+{
+  PetscInt n = 0;
+  MatInfo of_rank{};
+  petsc::check(MatGetSize(pattern, &n, nullptr));
+  petsc::check(MatGetInfo(pattern, MAT_LOCAL, &of_rank));
+  checked_count(std::int64_t{width} * n, "unknowns of a damped model", "use a coarser mesh");
+  on_all_ranks(petsc::communicator(pattern), [&] {
+    return checked_count(std::int64_t{width} * width * std::int64_t(of_rank.nz_used),
+                         "entries of the dynamic stiffness on one rank", "use more ranks");
+  });
+}
+
 /// An empty matrix with a block of `width` x `width` for each entry of `pattern`.
 petsc::Matrix blocks_on(Mat pattern, PetscInt width)
 {
+  check_counts(pattern, width);
   PetscInt n = 0, first = 0, last = 0;
   petsc::check(MatGetLocalSize(pattern, &n, nullptr));
   petsc::check(MatGetOwnershipRange(pattern, &first, &last));
