@@ -153,8 +153,11 @@ class Case:
         self.call("run")
         return self
 
-    def responses(self, *changes, ranks=1, output="out"):
+    def responses(self, *changes, ranks=1, output="out", outputs=None):
         self.write(*changes)
+        if outputs:
+            file = self.folder / "scene.toml"
+            file.write_text(re.sub(r"outputs = .*", f"outputs = {outputs}", file.read_text()))
         self.call("response", ranks, output)
         return responses(self.folder / output / f"{self.name}.response.h5")
 
@@ -246,6 +249,38 @@ def check_disc(program, mpirun, folder, checks):
     checks.below("all nodes loaded alike move alike", difference(fe[1][:, z[:1]], fe[1][:, z[6:7]]), 2e-2)
     place = outputs.index(loads[0])
     checks.below("reciprocity of the shared load", difference(fe[0][:, z].mean(axis=1)[:, None], fe[1][:, place, None]), 1e-9)
+
+
+def check_fe_places(program, mpirun, folder, checks):
+    """The FE model answers at any group: under [[support]] without an interface, and at nodes that follow a coupling."""
+    scene = BEAM[: BEAM.index("[interface]")] + '[[support]]\ngroup = "start"\ntype = "clamped"\n'
+    scene += RESPONSE.replace('"body"', '"fe"').replace('at = "C"', 'at = "end"')
+    Omega, _, outputs, H = Case(program, mpirun, folder, scene, "beam").responses()
+    checks.below(f"{outputs[0]} beside the exact cantilever", difference(H[0][:, :1], exact_tip(Omega, 0.02)[:, None]), 1e-4)
+    disc = Case(program, mpirun, folder, DISC, "disc")
+    places = '[{ at = "inner_edge", dofs = ["x", "y", "z"] }, { at = "hub", dofs = ["x", "y", "z", "rx", "ry", "rz"] }]'
+    for ranks in (1, 2):
+        _, _, outputs, H = disc.responses(of("fe"), ('fixed = ["hub"]\n', ""), ranks=ranks, outputs=places)
+        edge, hub = H[0][:, :-6].reshape(len(H[0]), -1, 3), H[0][:, -6:]
+        with h5py.File(disc.folder / "out/disc.response.h5") as f:
+            arm = f["outputs/positions"][:][: edge.shape[1] * 3 : 3]  # the hub is at the origin
+        rigid = hub[:, None, :3] + np.cross(hub[:, None, 3:], arm)
+        checks.below(f"{ranks} rank(s): {edge.shape[1]} nodes follow the hub", np.abs(edge - rigid).max() / np.abs(edge).max(), 1e-10)
+        checks.below("  a unit at the edge moves the track as the reverse", reciprocity_of_a_follower(disc, ranks), 1e-9)
+
+
+def reciprocity_of_a_follower(disc, ranks):
+    """Between a node that follows the hub and one of the track."""
+    one, other = ('{ at = "inner_edge", dofs = ["x", "z"], near = [0.025, 0.001, 0.0] }', '{ at = "track", dofs = ["y", "z"], near = [0.0, 0.13, 0.0] }')
+    H = []
+    for load, output in ((one, other), (other, one)):
+        disc.write(of("fe"), ('fixed = ["hub"]\n', ""))
+        text = (disc.folder / "scene.toml").read_text()
+        text = re.sub(r"loads = .*", f"loads = [{load}]", text)
+        (disc.folder / "scene.toml").write_text(re.sub(r"outputs = .*", f"outputs = [{output}]", text))
+        disc.call("response", ranks)
+        H.append(np.stack(responses(disc.folder / "out/disc.response.h5")[3], axis=1))  # [frequency, load, output]
+    return float(np.abs(H[0] - H[1].transpose(0, 2, 1)).max() / np.abs(H[0]).max())
 
 
 def check_files(program, mpirun, folder, checks):
@@ -456,7 +491,7 @@ def main(program, mpirun, chromium=None):
         print("\ncheck_page")
         with tempfile.TemporaryDirectory() as folder:
             check_page(program, mpirun, folder, checks, chromium)
-    for check in (check_beam, check_damping, check_quantities, check_section_forces, check_disc, check_files,
+    for check in (check_beam, check_damping, check_quantities, check_section_forces, check_disc, check_fe_places, check_files,
                   check_universal_file, check_mac, check_example, check_mistakes, check_stale):  # fmt: skip
         print(f"\n{check.__name__}")
         with tempfile.TemporaryDirectory() as folder:
