@@ -38,21 +38,6 @@ const std::array<double, 6>& constants(const plate::Spring& spring, std::string_
                   scene.path, why));
 }
 
-std::string_view name_of(Damping::Type type)
-{
-  switch (type) {
-    case Damping::Type::modal:
-      return "modal";
-    case Damping::Type::rayleigh:
-      return "rayleigh";
-    case Damping::Type::matrix:
-      return "matrix";
-    case Damping::Type::none:
-      break;
-  }
-  return "none";
-}
-
 }  // namespace
 
 void refuse_export(const scene::Scene& scene, const mbs_export::formats::ExportError& error)

@@ -16,8 +16,9 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 {
   if (mesh.sectors.count > 1) {
     throw Error(
-        "sectors: one sector can be reduced, but `static` and `modes` solve whole bodies; "
-        "take mesh.sectors out");
+        "sectors: one sector can be reduced, but `static`, `modes` and responses of the FE model "
+        "are "
+        "of whole bodies; take mesh.sectors out");
   }
   std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
   plate::DofMap dofs = plate::make_dof_map(

@@ -194,8 +194,6 @@ MatrixXd projected(const SceneReduction& reduced, Mat A, linear::FormSymmetry sy
                               symmetry)(reduced.places, reduced.places);
 }
 
-namespace {
-
 mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers& solvers,
                                   const mesh::Mesh& mesh)
 {
@@ -208,8 +206,6 @@ mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers
       .ranks = n_ranks(),
       .mesh_file_digest = scene.mesh.file ? files::file_digest(*scene.mesh.file) : std::string()};
 }
-
-}  // namespace
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/solver_options.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "mesh/mesh.hpp"
 #include "reduce/reduction.hpp"
 #include "scene/scene.hpp"
 
@@ -33,6 +34,10 @@ struct SaidOfSolvers {
   std::string text;  ///< all of it, for the provenance; PETSc knows it already
   linear::SolverOptions options = {};
 };
+
+/// Where a result of the scene's FE model comes from.
+mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers& solvers,
+                                  const mesh::Mesh& mesh);
 
 /// Meshes, assembles and reduces the scene.
 /// @note   Collective on all ranks; PETSc and SLEPc are initialised.

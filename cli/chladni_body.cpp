@@ -14,22 +14,6 @@
 namespace chladni::cli {
 namespace {
 
-mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
-                                          const SceneArguments& arguments)
-{
-  const std::filesystem::path file = reduced_file(scene, arguments);
-  if (!std::filesystem::exists(file)) {
-    throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
-                            file.string(), arguments.scene, arguments.output));
-  }
-  mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
-  report::require_of_scene(
-      scene, {.file = file, .what = report::Made::reduction, .origin = reduced.provenance},
-      stale_of(arguments));
-  reduced.provenance.scene_file = scene_file_of(arguments);
-  return reduced;
-}
-
 void make_and_write_body(const SceneArguments& arguments)
 {
   report::PhaseClock clock;

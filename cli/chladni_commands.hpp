@@ -46,11 +46,27 @@ struct SoundChoice {
   bool radiation_only = false;  ///< damping of the modes, without a limit cycle
 };
 
+/// What `chladni response` takes besides.
+struct ResponseChoice {
+  std::string universal_file;  ///< to write; empty for none
+};
+
+/// What `chladni mac` takes.
+struct MacArguments {
+  std::string body;         ///< *.body.h5
+  std::string measured;     ///< a universal file
+  double distance = 0.0;    ///< m, from a measured node to one of the body
+  std::string length_unit;  ///< of a measurement that does not say its own
+  std::string json;         ///< file for the summary; empty for none
+};
+
 struct ChladniArguments {
   SceneArguments scene;
   bool trusts_mesh = false;  ///< the mesh file is the user's own and may run programs
   QualityChoice mesh;
   SoundChoice sound;
+  ResponseChoice response;
+  MacArguments mac;
   std::string info_file;
   std::string check_file;
   std::string check_json;  ///< file for the summary; empty for none
@@ -69,6 +85,10 @@ struct ChladniArguments {
 /// quality,
 ///         or when the scene names a group that the mesh does not have.
 void mesh_command(const ChladniArguments& arguments);
+
+/// Frequency responses of the scene's [response], of the FE model, or of the reduced system or the
+/// body in the output folder: NAME.response.h5, NAME.response.csv, NAME.response.html.
+void response_command(const ChladniArguments& arguments);
 
 /// Meshes, assembles and reduces; writes NAME.reduced.h5.
 void reduce_command(const ChladniArguments& arguments);
@@ -92,6 +112,9 @@ void sound_command(const ChladniArguments& arguments);
 /// Checks a reduced system or a modal body.
 /// @throws chladni::Error after the table is printed, when a check fails.
 void check_command(const ChladniArguments& arguments);
+
+/// Measured mode shapes beside the modes of a body: a table of MAC. Needs no PETSc.
+void mac_command(const ChladniArguments& arguments);
 
 /// Writes a reduced system or a body in the format of another program. Needs no PETSc.
 void export_command(const ChladniArguments& arguments);

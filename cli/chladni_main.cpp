@@ -56,6 +56,12 @@ constexpr Subcommand on_scenes[] = {
     {"body", "makes the modal body of NAME.reduced.h5: NAME.body.h5",
      "Example (after a change of [body] in the scene):\n  chladni body scene.toml --output out",
      chladni::cli::body_command},
+    {"response",
+     "frequency responses of the body, the reduced system or the FE model: NAME.response.h5, .csv, "
+     ".html",
+     "Examples:\n  chladni response scene.toml --output out --json out/response.json\n"
+     "  mpirun -n 2 chladni response scene.toml --output out    ([response] of = \"fe\")",
+     chladni::cli::response_command},
     {"sound", "the sound of the limit cycle that `squeal run` found: NAME.sound.h5, .vtu, .wav",
      "Examples:\n  chladni sound scene.toml --output out --json out/sound.json\n"
      "  chladni sound scene.toml --radiation --output out    (before `squeal run`)",
@@ -126,6 +132,40 @@ void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
   imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");
 }
 
+void declare_mac(CLI::App& app, chladni::cli::MacArguments& arguments)
+{
+  CLI::App* mac = app.add_subcommand("mac", "compares measured mode shapes with those of a body");
+  mac->add_option("BODY", arguments.body, "*.body.h5")->required();
+  mac->add_option("MEASURED", arguments.measured,
+                  "universal file with modes (55) and nodes (15, 2411)")
+      ->required();
+  mac->add_option("--distance", arguments.distance,
+                  "how far a measured node may be from the nearest one of the body, m")
+      ->type_name("METRES")
+      ->check(CLI::PositiveNumber)
+      ->required();
+  declare_length_unit(*mac, arguments.length_unit);
+  mac->add_option("--json", arguments.json, "writes the matrix for other programs")
+      ->type_name("FILE");
+  mac->footer(
+      "Example:\n  chladni mac out/disc.body.h5 modes.unv --distance 0.002 --json mac.json");
+}
+
+/// What tells of files of Chladni.
+void declare_readers(CLI::App& app, chladni::cli::ChladniArguments& arguments)
+{
+  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
+  info->add_option("FILE", arguments.info_file,
+                   "*.reduced.h5, *.body.h5, *.response.h5 or *.squeal.h5")
+      ->required();
+  info->footer("Example:\n  chladni info out/disc.body.h5");
+  CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
+  check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
+  check->add_option("--json", arguments.check_json, "writes the table for other programs")
+      ->type_name("FILE");
+  check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
+}
+
 void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& arguments)
 {
   for (const Subcommand& subcommand : on_scenes) {
@@ -133,7 +173,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
     chladni::cli::declare_scene_arguments(*declared, arguments.scene);
     declared->footer(subcommand.examples);
   }
-  for (const char* meshes : {"mesh", "static", "modes", "reduce", "run"}) {
+  for (const char* meshes : {"mesh", "static", "modes", "response", "reduce", "run"}) {
     app.get_subcommand(meshes)->add_flag(
         "--trust-mesh", arguments.trusts_mesh,
         "the mesh file is your own: a .geo may run programs and write files, and take its time");
@@ -143,22 +183,19 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
       "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step or "
       "a deck");
   declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
-  for (const char* reader : {"body", "sound"})
+  app.get_subcommand("response")
+      ->add_option("--uff", arguments.response.universal_file,
+                   "writes the responses as a universal file too (datasets 58, 2411, 164)")
+      ->type_name("FILE");
+  for (const char* reader : {"body", "response", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag(
       "--radiation", arguments.sound.radiation_only,
       "only what the sound of each mode does to it: NAME.radiation.h5, for `radiation = true`");
-  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
-  info->add_option("FILE", arguments.info_file, "*.reduced.h5, *.body.h5 or *.squeal.h5")
-      ->required();
-  info->footer("Example:\n  chladni info out/disc.body.h5");
-  CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
-  check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
-  check->add_option("--json", arguments.check_json, "writes the table for other programs")
-      ->type_name("FILE");
-  check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
+  declare_readers(app, arguments);
   declare_export(app, arguments.exported);
   declare_import(app, arguments.imported);
+  declare_mac(app, arguments.mac);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
   chladni::cli::declare_self_description(app, arguments.self);
@@ -172,6 +209,7 @@ void perform(const CLI::App& app, const chladni::cli::ChladniArguments& argument
   for (const Subcommand& subcommand : on_scenes)
     if (app.got_subcommand(subcommand.name)) return subcommand.perform(arguments);
   if (app.got_subcommand("import")) return chladni::cli::import_command(arguments);
+  if (app.got_subcommand("mac")) return chladni::cli::mac_command(arguments);
   if (app.got_subcommand("export")) return chladni::cli::export_command(arguments);
   if (app.got_subcommand("report"))
     return chladni::cases::on_first_rank([&] { chladni::report::write_report(arguments.report); });

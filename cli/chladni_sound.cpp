@@ -8,7 +8,6 @@
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
 #include "files/text_file.hpp"
-#include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "report/fe/sound_report.hpp"
 #include "report/fe/sound_vtu.hpp"
@@ -94,18 +93,7 @@ scene::Scene read_sounding_scene(const std::string& file)
   return scene;
 }
 
-/// The body, which is that of the scene as it is.
-mbs_export::ModalBody read_body_of(const scene::Scene& scene, const Files& files,
-                                   const SceneArguments& arguments)
-{
-  mbs_export::ModalBody body = mbs_export::read_body(files.body);
-  report::require_of_scene(
-      scene, {.file = files.body, .what = report::Made::body, .origin = body.provenance},
-      stale_of(arguments));
-  return body;
-}
-
-/// So with the results of squeal.
+/// The results of squeal, which are those of the scene as it is.
 squeal::SquealResults read_results_of(const scene::Scene& scene, const Files& files,
                                       const SceneArguments& arguments)
 {
@@ -130,7 +118,7 @@ void compute_sound(const ChladniArguments& arguments)
                                    "radiation of the modes alone with --radiation",
                                    arguments.scene.scene, arguments.scene.output));
   }
-  const mbs_export::ModalBody body = read_body_of(scene, files, arguments.scene);
+  const mbs_export::ModalBody body = read_body_of(scene, arguments.scene);
   const squeal::SquealResults squeal_results =
       whole ? read_results_of(scene, files, arguments.scene) : squeal::SquealResults{};
   const ReservedOutputs reserved = reserve(arguments.scene, files, arguments.sound);

@@ -11,7 +11,11 @@
 #include "cases/ranks.hpp"
 #include "cases/reduce_stages.hpp"
 #include "cases/scene_body.hpp"
+#include "common/error.hpp"
 #include "files/text_file.hpp"
+#include "mbs_export/files/body_file.hpp"
+#include "mbs_export/files/reduced_file.hpp"
+#include "report/origin.hpp"
 #include "report/progress.hpp"
 #include "report/version.hpp"
 
@@ -79,6 +83,36 @@ cases::ReduceProgress line_of_progress(const scene::Scene& scene)
     found = found || phase == "modes of harmonics";
     (found ? sectors : whole)(phase, fraction);
   };
+}
+
+mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
+                                          const SceneArguments& arguments)
+{
+  const std::filesystem::path file = reduced_file(scene, arguments);
+  if (!std::filesystem::exists(file)) {
+    throw Error(fmt::format("{}: no such file; make it with `chladni reduce {} --output {}`",
+                            file.string(), arguments.scene, arguments.output));
+  }
+  mbs_export::ReducedSystem reduced = mbs_export::read_reduced(file);
+  report::require_of_scene(
+      scene, {.file = file, .what = report::Made::reduction, .origin = reduced.provenance},
+      stale_of(arguments));
+  reduced.provenance.scene_file = scene_file_of(arguments);
+  return reduced;
+}
+
+mbs_export::ModalBody read_body_of(const scene::Scene& scene, const SceneArguments& arguments)
+{
+  const std::filesystem::path file = body_file(scene, arguments);
+  if (!std::filesystem::exists(file)) {
+    throw Error(fmt::format("{}: no such file; make it with `chladni run {} --output {}`",
+                            file.string(), arguments.scene, arguments.output));
+  }
+  mbs_export::ModalBody body = mbs_export::read_body(file);
+  report::require_of_scene(scene,
+                           {.file = file, .what = report::Made::body, .origin = body.provenance},
+                           stale_of(arguments));
+  return body;
 }
 
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,

@@ -22,6 +22,13 @@ scene::Scene read_scene_to_mesh(const ChladniArguments& arguments,
 std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments);
 std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments);
 
+/// The reduced system and the body that the scene's folder holds, as long as they are of the scene
+/// as it is, or the arguments take stale files.
+/// @throws chladni::Error naming the file and the command that makes it.
+mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
+                                          const SceneArguments& arguments);
+mbs_export::ModalBody read_body_of(const scene::Scene& scene, const SceneArguments& arguments);
+
 /// On the first rank; see reserve_outputs.hpp. @note Collective.
 ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
                                       const std::vector<std::filesystem::path>& files);

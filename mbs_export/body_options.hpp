@@ -43,6 +43,9 @@ struct Damping {
   double beta = 0.0;                ///< Rayleigh, s
 };
 
+/// "none", "modal", "rayleigh", "matrix".
+std::string name_of(Damping::Type type);
+
 /// The scene's [body].
 struct BodyOptions {
   std::vector<std::string> fixed;  ///< "SET" (whole nodes) or "SET.x|y|z|rx|ry|rz"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/cholesky/inner_solver.hpp"
 #include "linear/cholesky/sylvester.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "linear/lanczos/block_basis.hpp"
+#include "reduce/indefinite_factor.hpp"
 
 namespace chladni::reduce {
 
@@ -28,35 +28,6 @@ petsc::Matrix unit_loads(Mat K, const std::vector<PetscInt>& loaded)
   petsc::check(MatAssemblyBegin(E, MAT_FINAL_ASSEMBLY));
   petsc::check(MatAssemblyEnd(E, MAT_FINAL_ASSEMBLY));
   return E;
-}
-
-/// L D L^T of an indefinite matrix.
-petsc::LinearSolver indefinite_factor(Mat A, const linear::OptionSource& source)
-{
-  petsc::LinearSolver solver = linear::new_solver(petsc::communicator(A), source);
-  PC pc = nullptr;
-  petsc::check(KSPSetOperators(solver, A, A));
-  petsc::check(KSPSetType(solver, KSPPREONLY));
-  petsc::check(KSPGetPC(solver, &pc));
-  petsc::check(PCSetType(pc, PCCHOLESKY));
-  petsc::check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  petsc::check(KSPSetFromOptions(solver));
-  linear::set_up_factor(pc, source);
-  petsc::check(KSPSetUp(solver));
-  return solver;
-}
-
-/// Largest |A v - e| over |A| |v| of the columns in the Frobenius norm.
-double backward_error(Mat A, Mat V, Mat E)
-{
-  petsc::Matrix R = linear::uninitialized_dense(A, linear::LocalRows(V).n_cols());
-  linear::SparseProduct(A).apply(V, R);
-  petsc::check(MatAXPY(R, -1.0, E, SAME_NONZERO_PATTERN));
-  double residual = 0.0, of_A = 0.0, of_V = 0.0;
-  petsc::check(MatNorm(R, NORM_FROBENIUS, &residual));
-  petsc::check(MatNorm(A, NORM_FROBENIUS, &of_A));
-  petsc::check(MatNorm(V, NORM_FROBENIUS, &of_V));
-  return residual / (of_A * of_V);
 }
 
 /// V_s - Psi V_m: zero where the masters move.
@@ -146,18 +117,9 @@ petsc::Matrix responses(Mat K, Mat M, const HarmonicLoads& loads,
   const auto& [Omega_0, loaded] = loads;
   const petsc::Matrix A = linear::shifted(K, M, Omega_0 * Omega_0);
   const petsc::LinearSolver solver = indefinite_factor(A, source.part("response_"));
-  PC pc = nullptr;
-  Mat factor = nullptr;
-  petsc::check(KSPGetPC(solver, &pc));
-  petsc::check(PCFactorGetMatrix(pc, &factor));
-  MatFactorError error = MAT_FACTOR_NOERROR;
-  petsc::check(MatFactorGetError(factor, &error));
   const petsc::Matrix E = unit_loads(K, loaded);
   petsc::Matrix V = linear::uninitialized_dense(K, static_cast<PetscInt>(loaded.size()));
-  petsc::check(MatZeroEntries(V));
-  if (error == MAT_FACTOR_NOERROR) petsc::check(MatMatSolve(factor, E, V));
-  constexpr double round_off = 1e-12;
-  if (error != MAT_FACTOR_NOERROR || !(backward_error(A, V, E) < round_off)) {
+  if (!solve_to_round_off(solver, E, V)) {
     throw Error(fmt::format(
         "full_responses: K - omega0^2 M has no usable factor at omega0 = {:.9g} rad/s; it is a "
         "frequency of the free model, or the memory does not suffice: choose another omega0",

@@ -14,7 +14,9 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/responses/response_file.hpp"
 #include "report/describe_certificate.hpp"
+#include "report/describe_responses.hpp"
 #include "report/describe_sweep.hpp"
 #include "report/quantities.hpp"
 #include "squeal/results/result_file.hpp"
@@ -195,6 +197,10 @@ std::string describe_file(const std::filesystem::path& path)
     return titled(body) + "\n" + format_table(list_modes(body)) +
            (selection.empty() ? "" : "\n" + selection) +
            (certificate.empty() ? "" : "\n" + certificate);
+  }
+  if (format == mbs_export::response_format) {
+    const mbs_export::FrequencyResponses responses = mbs_export::read_responses(file);
+    return titled(responses) + "\n" + format_table(list_peaks(responses));
   }
   if (format == squeal::sweep_format) return format_table(describe(squeal::read_sweep(file)));
   if (format == squeal::results_format) return format_table(describe(squeal::read_results(file)));

@@ -98,8 +98,8 @@ bool is_of(Step step, std::string_view key, const Values& values)
     case Step::reduction:
       break;
   }
-  static const std::set<std::string_view> others{"name",   "title", "body",    "squeal", "sound",
-                                                 "static", "modes", "support", "load"};
+  static const std::set<std::string_view> others{
+      "name", "title", "body", "squeal", "sound", "static", "modes", "support", "load", "response"};
   return !others.contains(table) || is_of_reduction(key, values);
 }
 

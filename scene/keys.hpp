@@ -37,6 +37,7 @@ struct Key {
 std::span<const Key> mesh_keys();
 std::span<const Key> model_keys();
 std::span<const Key> reduction_keys();
+std::span<const Key> response_keys();
 std::span<const Key> squeal_keys();
 std::span<const Key> brake_keys();
 std::span<const Key> sound_keys();

@@ -6,17 +6,6 @@
 namespace chladni::scene {
 namespace {
 
-/// What may be held or loaded: groups, rings and couplings; empty where the mesh file was not read
-/// yet.
-std::vector<std::string> named_sets(const Scene& scene)
-{
-  std::vector<std::string> names = group_names(scene);
-  if (names.empty()) return names;
-  for (const plate::Coupling& coupling : scene.couplings)
-    if (!coupling.name.empty()) names.push_back(coupling.name);
-  return names;
-}
-
 std::string read_set(const Table& table, const Scene& scene)
 {
   const std::string name = table.text("group");
@@ -83,6 +72,15 @@ plate::Load read_load(const Table& table, const Scene& scene)
 }
 
 }  // namespace
+
+std::vector<std::string> named_sets(const Scene& scene)
+{
+  std::vector<std::string> names = group_names(scene);
+  if (names.empty()) return names;
+  for (const plate::Coupling& coupling : scene.couplings)
+    if (!coupling.name.empty()) names.push_back(coupling.name);
+  return names;
+}
 
 std::vector<plate::Support> read_supports(const Table& root, const Scene& scene)
 {

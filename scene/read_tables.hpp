@@ -97,6 +97,9 @@ std::optional<bool> read_sylvester(const Table& root);
 /// `reduce` of the scene.
 mbs_export::BodyOptions read_body(const Table& root, const Scene& scene);
 
+/// [response]; needs the mesh, the couplings, the interface and the resultants of `scene`.
+std::optional<mbs_export::ResponseOptions> read_response(const Table& root, const Scene& scene);
+
 /// [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
 
@@ -116,6 +119,10 @@ std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 
 /// The groups of a scene's mesh, its rings among them; empty for a mesh file that was not read yet.
 std::vector<std::string> group_names(const Scene& scene);
+
+/// What may be held, loaded or observed in the FE model: groups, rings and couplings; empty where
+/// the mesh file was not read yet.
+std::vector<std::string> named_sets(const Scene& scene);
 
 /// Those groups that are surfaces, or lines of a generated beam.
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);

@@ -28,11 +28,21 @@ std::string read_name(const Table& root)
   return name;
 }
 
-/// A scene for `chladni static` or `chladni modes` alone needs no reduction.
+/// Whether [response] asks the FE model.
+bool answers_by_fe_model(const Table& root)
+{
+  if (!root.has("response")) return false;
+  const Table response = root.table("response");
+  return response.has("of") && response.text("of") == "fe";
+}
+
+/// A scene for `chladni static`, `chladni modes` or responses of the FE model alone needs no
+/// reduction.
 bool is_reduced(const Table& root, const Scene& scene, Purpose purpose)
 {
   if (root.has("interface") || root.has("reduce")) return true;
-  return purpose == Purpose::everything && !scene.static_solution && !scene.natural_modes;
+  return purpose == Purpose::everything && !scene.static_solution && !scene.natural_modes &&
+         !answers_by_fe_model(root);
 }
 
 /// The table "reduce", or of the list "spring" the second one, "spring[2]".
@@ -88,6 +98,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.sylvester = read_sylvester(root);
   }
   scene.body = read_body(root, scene);
+  scene.response = read_response(root, scene);
   scene.squeal = read_squeal(root, scene);
   scene.radiation = read_radiation(root);
   scene.sound = read_sound(root, scene);

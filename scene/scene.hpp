@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mbs_export/body_options.hpp"
+#include "mbs_export/responses/response_options.hpp"
 #include "mesh/mesh_options.hpp"
 #include "plate/load_options.hpp"
 #include "plate/plate_options.hpp"
@@ -90,6 +91,7 @@ struct Scene {
   bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
   std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
   mbs_export::BodyOptions body;
+  std::optional<mbs_export::ResponseOptions> response;
   std::optional<squeal::SquealOptions> squeal;
   bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate
   std::optional<sound::SoundOptions> sound;

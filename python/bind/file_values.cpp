@@ -10,6 +10,7 @@
 #include "files/hdf5_contents.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/responses/response_file.hpp"
 #include "python/bind/text.hpp"
 #include "squeal/brake/radiation.hpp"
 #include "squeal/results/result_file.hpp"
@@ -73,6 +74,8 @@ void check(const files::Reader& file, const std::string& format)
     mbs_export::read_body(file);
   else if (format == mbs_export::reduced_format)
     mbs_export::read_reduced(file);
+  else if (format == mbs_export::response_format)
+    mbs_export::read_responses(file);
   else if (format == squeal::results_format)
     squeal::read_results(file);
   else if (format == "chladni-radiation")

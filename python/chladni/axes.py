@@ -110,7 +110,22 @@ _OF_SOUND: _Rows = [
     (r"loudness/\w+/\w+", ("speed",), {"speed": "speeds"}),
 ]
 _OF_RADIATION: _Rows = [(r"\w+", ("mode",), {"mode": "mode_numbers"})]
+_OF_RESPONSES: _Rows = [
+    (r"frequencies", ("frequency",), {}),
+    (r"loads/positions", ("load", "xyz"), {"load": "names"}),
+    (r"loads/\w+", ("load",), {}),
+    (r"outputs/positions", ("output", "xyz"), {"output": "names"}),
+    (r"outputs/\w+", ("output",), {}),
+    (r"responses/[^/]+/H_(re|im)", ("frequency", "output"), {"frequency": "/frequencies", "output": "/outputs/names"}),
+    (r"section_force_names", ("section",), {}),
+    (r"section_forces/[^/]+/(kinds|units)", ("kind",), {}),
+    (r"section_forces/[^/]+/elements", ("point",), {}),
+    (r"section_forces/[^/]+/positions", ("point", "xyz"), {"point": "elements"}),
+    (r"section_forces/[^/]+/axes", ("point", "axis_component"), {"point": "elements"}),
+    (r"section_forces/[^/]+/responses/[^/]+/r_(re|im)", ("frequency", "point_kind"), {"frequency": "/frequencies"}),
+]
 _AXES: dict[str, _Rows] = {
+    "chladni-response": _OF_RESPONSES,
     "chladni-sound": _OF_SOUND,
     "chladni-radiation": _OF_RADIATION,
     "chladni-squeal": _OF_RESULTS,

@@ -121,10 +121,10 @@ class Group:
 
 
 class File(Group):
-    """A file that was read and checked: a modal body, a reduced system, results of squeal, of radiation or of sound.
+    """A file that was read and checked: a modal body, a reduced system, frequency responses, results of squeal, of radiation or of sound.
 
     Attributes:
-        format: "chladni-body", "chladni-reduced", "chladni-squeal", "chladni-radiation" or "chladni-sound"
+        format: "chladni-body", "chladni-reduced", "chladni-response", "chladni-squeal", "chladni-radiation" or "chladni-sound"
         path: of the file
         units: unit of each number, by the name of its dataset
         notes: what is to be told of the brake, where it was made by `Scene.squeal`
@@ -186,7 +186,7 @@ def _grouped(members: dict[str, Any]) -> dict[str, Any]:
 
 
 def open_file(path: str | os.PathLike) -> File:
-    """Reads a `*.body.h5`, `*.reduced.h5`, `*.squeal.h5`, `*.radiation.h5` or `*.sound.h5`.
+    """Reads a `*.body.h5`, `*.reduced.h5`, `*.response.h5`, `*.squeal.h5`, `*.radiation.h5` or `*.sound.h5`.
 
     Raises `chladni.Error` with the words of the programs where it is none or is damaged.
     """

@@ -14,6 +14,7 @@ ELSEWHERE = {
     "library": "../install/install.py",
     "plugin": "plugin.py",
     "python": "../python/CMakeLists.txt",
+    "response": "response.py",
     "read_body.py": "../cli/chladni_export_test.cpp",
     "thesis_disc": "thesis_disc.py",
 }

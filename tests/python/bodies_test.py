@@ -68,6 +68,36 @@ class Run(unittest.TestCase):
         self.assertEqual(len(self.scene.run().body.modes.frequencies), 12)
 
 
+class Responses(unittest.TestCase):
+    def test_are_arrays_over_frequencies_and_outputs(self):
+        place = {"at": "track", "dofs": ["z"]}
+        tap = {**place, "near": [0.13, 0.0, 0.0]}
+        scene = disc(reduce={"method": "craig-bampton", "modes": 10, "resultants": ["disc"]},
+                     response={"loads": [tap], "outputs": [place], "from_Hz": 100.0, "to_Hz": 900.0, "count": 9, "loss_factor": 0.01,
+                               "section_forces": ["disc"]})  # fmt: skip
+        with tempfile.TemporaryDirectory() as folder:
+            run = scene.run(folder)
+            (Path(folder) / "scene.toml").write_text(scene.text)
+            subprocess.run([PROGRAMS / "chladni", "response", f"{folder}/scene.toml", "--output", folder], check=True, capture_output=True)
+            responses = chladni.open(f"{folder}/small.response.h5")
+            (load,) = responses.loads.names
+            H = responses[f"responses/{load}/H"]
+            self.assertEqual((H.dims, H.unit, H.shape), (("frequency", "output"), "m/N", (9, 24)))
+            # The driving point, mode by mode.
+            modes = run.body.modes
+            row = 6 * list(run.body.attachment.node_numbers).index(responses.loads.node_numbers[0]) + 2
+            b, omega = modes.attachment_displacements[row], modes.frequencies.values
+            Omega = responses.frequencies[4]
+            exact = (b**2 / ((1 + 0.01j) * omega**2 - Omega**2)).sum()
+            np.testing.assert_allclose(H.sel(frequency=Omega, output=load), exact, rtol=1e-12)
+            for name, array in arrays_of(responses):
+                with self.subTest(name):
+                    self.assertNotIn("axis_0", array.dims)
+                    for dim, along in array.coords.items():
+                        self.assertEqual(array.shape[array.dims.index(dim)], len(along))
+            self.assertIn("receptance", responses.describe())
+
+
 class MatFile(unittest.TestCase):
     def test_holds_the_body(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -721,7 +721,8 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: accuracy, body, "
        "coupling, "
-       "interface, load, mass, material, mesh, model, modes, name, reduce, section, sound, "
+       "interface, load, mass, material, mesh, model, modes, name, reduce, response, section, "
+       "sound, "
        "spring, squeal, static, support, title"},
       {"count = 60", "count = 60, colour = 3",
        "scene.toml:36: squeal.speeds.colour is not a key here; allowed: count, from_km_h, "

@@ -269,6 +269,7 @@ function drawPage() {
   document.getElementById("key-figures").textContent = key.filter(Boolean).join(" · ");
   if (page.modes) drawModes(page);
   if (page.groups) drawGroups(page);
+  if (page.responses) drawResponses(page.responses);
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
   if (page.unstable_modes) section("modes-of-squeal", "Unstable modes", unstableModesTable(page), figures(...unstableModesFigures(page)));
   if (page.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(page)));

@@ -1,0 +1,230 @@
+#include "mbs_export/measured/measured_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "common/error.hpp"
+#include "mbs_export/measured/universal_lines.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::Vector3d;
+using Complex = std::complex<double>;
+
+/// Datasets of other things that do not change what shapes mean: trace lines and the header.
+constexpr std::array passed_over{82, 151};
+
+/// A node as the file gives it.
+struct FileNode {
+  Vector3d position;  ///< in the unit of the file
+  std::int64_t defined_in, displaced_in;
+};
+using FileNodes = std::map<std::int64_t, FileNode>;
+
+/// One dataset 55.
+struct FileShape {
+  std::size_t line;
+  std::string name;
+  double f_Hz;
+  std::vector<std::int64_t> nodes;
+  std::vector<Complex> motion;  ///< three of each node
+};
+
+void add_node(FileNodes& nodes, const RecordReader& records, const std::vector<std::int64_t>& label,
+              const std::vector<double>& x)
+{
+  const FileNode node{{x[0], x[1], x[2]}, label[1], label[2]};
+  if (!nodes.emplace(label[0], node).second)
+    records.fail(fmt::format("node {} is there twice", label[0]));
+}
+
+/// Dataset 15: a line for each node, 4I10, 3E13.5.
+void read_nodes_15(FileNodes& nodes, RecordReader& records, const UniversalDataset& dataset)
+{
+  constexpr std::size_t columns = 40;
+  for (const std::string& line : dataset.lines) {
+    const std::vector<std::int64_t> label = records.integers("a node", 4);
+    UniversalDataset place{dataset.number, dataset.first_line, {}};
+    place.lines.push_back(line.size() > columns ? line.substr(columns) : "");
+    const std::filesystem::path nowhere;
+    RecordReader coordinates(nowhere, place);
+    try {
+      add_node(nodes, records, label, coordinates.reals("coordinates", 3, 13, 3));
+    } catch (const Error&) {
+      records.fail(
+          "expected four whole numbers of 10 columns and three coordinates of 13, of a node "
+          "that is there once");
+    }
+  }
+}
+
+/// Dataset 2411: two lines for each node.
+void read_nodes_2411(FileNodes& nodes, RecordReader& records)
+{
+  while (!records.at_end()) {
+    const std::vector<std::int64_t> label = records.integers("a node", 4);
+    add_node(nodes, records, label, records.reals("coordinates", 3, 25, 3));
+  }
+}
+
+/// Metres of a unit of length: record 2 of dataset 164 has what divides lengths of the file.
+double read_metres(RecordReader& records)
+{
+  records.line("units");
+  const double per_metre = records.reals("factors of length, force and temperature", 3, 25, 3)[0];
+  if (!(per_metre > 0.0)) records.fail("the factor of lengths is not positive");
+  return 1.0 / per_metre;
+}
+
+/// What record 6 says of the values.
+struct ShapeKind {
+  bool is_complex_mode, has_complex_values;
+  std::size_t n_values;  ///< of each node
+};
+
+ShapeKind read_kind(RecordReader& records)
+{
+  const std::vector<std::int64_t> fields = records.integers("record 6", 6);
+  const auto refuse = [&](const std::string& what) { records.fail("record 6: " + what); };
+  const std::int64_t analysis = fields[1], characteristic = fields[2], type = fields[4],
+                     n = fields[5];
+  if (analysis != 2 && analysis != 3)
+    refuse(fmt::format("analysis type {}; modes are 2 (normal) or 3 (complex)", analysis));
+  if (!(characteristic == 2 && n == 3) && !(characteristic == 3 && n == 6)) {
+    refuse(
+        fmt::format("data characteristic {} with {} values for each node; shapes have 2 with 3 "
+                    "translations, or 3 with 6 components",
+                    characteristic, n));
+  }
+  if (type != 2 && type != 5)
+    refuse(fmt::format("data type {}; shapes are 2 (real) or 5 (complex)", type));
+  return {analysis == 3, type == 5, static_cast<std::size_t>(n)};
+}
+
+/// Records 7 and 8: the numbers of integers and reals that follow, and these.
+double read_frequency(RecordReader& records, const ShapeKind& kind)
+{
+  const std::vector<std::int64_t> counts = records.integers("record 7", 2);
+  if (counts[1] < (kind.is_complex_mode ? 2 : 1) || counts[1] > 6)
+    records.fail(fmt::format("record 7 announces {} numbers of a mode", counts[1]));
+  const std::vector<double> of_mode =
+      records.reals("record 8", static_cast<std::size_t>(counts[1]), 13, 6);
+  if (!kind.is_complex_mode) return of_mode[0];
+  return std::abs(Complex(of_mode[0], of_mode[1])) / (2.0 * std::numbers::pi);
+}
+
+FileShape read_shape(RecordReader& records, const UniversalDataset& dataset)
+{
+  FileShape shape{.line = dataset.first_line, .name = {}, .f_Hz = 0.0, .nodes = {}, .motion = {}};
+  for (int k = 0; k < 5; ++k) {
+    const std::string& line = records.line("a line of words");
+    if (k == 0) shape.name = line.substr(0, line.find_last_not_of(" \r") + 1);
+  }
+  const ShapeKind kind = read_kind(records);
+  shape.f_Hz = read_frequency(records, kind);
+  if (!(shape.f_Hz >= 0.0)) records.fail("record 8: the frequency is negative");
+  const std::size_t parts = kind.has_complex_values ? 2 : 1;
+  std::set<std::int64_t> seen;
+  while (!records.at_end()) {
+    shape.nodes.push_back(records.integers("the number of a node", 1)[0]);
+    if (!seen.insert(shape.nodes.back()).second)
+      records.fail(fmt::format("node {} is there twice", shape.nodes.back()));
+    const std::vector<double> values =
+        records.reals("values of a node", parts * kind.n_values, 13, 6);
+    for (std::size_t c = 0; c < 3; ++c)
+      shape.motion.emplace_back(values[parts * c], parts == 2 ? values[2 * c + 1] : 0.0);
+  }
+  if (shape.nodes.empty()) records.fail("has no nodes");
+  return shape;
+}
+
+/// What a file holds.
+struct Contents {
+  FileNodes nodes;
+  std::vector<FileShape> shapes;
+  std::optional<double> metres;
+  bool has_systems = false;
+};
+
+Contents contents_of(const std::filesystem::path& path)
+{
+  Contents contents;
+  for (const UniversalDataset& dataset : read_universal_datasets(path)) {
+    RecordReader records(path, dataset);
+    if (dataset.number == 15)
+      read_nodes_15(contents.nodes, records, dataset);
+    else if (dataset.number == 2411)
+      read_nodes_2411(contents.nodes, records);
+    else if (dataset.number == 55)
+      contents.shapes.push_back(read_shape(records, dataset));
+    else if (dataset.number == 164)
+      contents.metres = read_metres(records);
+    else if (dataset.number == 18 || dataset.number == 2420)
+      contents.has_systems = true;
+    else if (std::ranges::find(passed_over, dataset.number) == passed_over.end())
+      records.fail("is none that this program reads: modes (55), nodes (15, 2411) and units (164)");
+  }
+  return contents;
+}
+
+/// The node of the first shape, in metres and in the axes of the model.
+MeasuredNode node_of(const std::filesystem::path& path, const Contents& contents,
+                     std::int64_t number, double metres)
+{
+  const auto found = contents.nodes.find(number);
+  if (found == contents.nodes.end()) {
+    throw Error(fmt::format("{}: a shape has node {}, and no dataset 15 or 2411 says where that is",
+                            path.string(), number));
+  }
+  const FileNode& node = found->second;
+  const auto is_global = [](std::int64_t system) { return system == 0 || system == 1; };
+  if (contents.has_systems && (!is_global(node.defined_in) || !is_global(node.displaced_in))) {
+    throw Error(
+        fmt::format("{}: node {} has a coordinate system of its own ({}, {}); write nodes "
+                    "and shapes in the global one",
+                    path.string(), number, node.defined_in, node.displaced_in));
+  }
+  return {number, metres * node.position};
+}
+
+}  // namespace
+
+MeasuredModes read_measured_modes(const std::filesystem::path& path, std::optional<double> metres)
+{
+  const Contents contents = contents_of(path);
+  if (contents.shapes.empty())
+    throw Error(fmt::format("{}: has no mode shapes (dataset 55)", path.string()));
+  const std::optional<double> unit = contents.metres ? contents.metres : metres;
+  if (!unit) {
+    throw Error(fmt::format("{}: does not say its unit of length (dataset 164); give --length-unit",
+                            path.string()));
+  }
+  const std::vector<std::int64_t>& nodes = contents.shapes.front().nodes;
+  MeasuredModes modes{
+      .nodes = {},
+      .f_Hz = Eigen::VectorXd(std::ssize(contents.shapes)),
+      .names = {},
+      .shapes = Eigen::MatrixXcd(3 * std::ssize(nodes), std::ssize(contents.shapes))};
+  for (const std::int64_t number : nodes)
+    modes.nodes.push_back(node_of(path, contents, number, *unit));
+  for (Index k = 0; k < modes.f_Hz.size(); ++k) {
+    const FileShape& shape = contents.shapes[static_cast<std::size_t>(k)];
+    if (shape.nodes != nodes) {
+      throw Error(fmt::format("{}:{}: dataset 55: mode {} has other nodes than the first one",
+                              path.string(), shape.line, k + 1));
+    }
+    modes.f_Hz[k] = shape.f_Hz;
+    modes.names.push_back(shape.name);
+    modes.shapes.col(k) =
+        Eigen::Map<const Eigen::VectorXcd>(shape.motion.data(), 3 * std::ssize(nodes));
+  }
+  return modes;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "mbs_export/responses/frequency_responses.hpp"
+
+namespace chladni::mbs_export {
+
+/// A table (RFC 4180): a row for each frequency in Hz, two columns for each output and load, real
+/// and imaginary part, whose headings tell both and the unit: "tip.z / hub.z re, m/N". Numbers have
+/// all their digits.
+std::string csv_of(const FrequencyResponses& responses);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,199 @@
+#include "mbs_export/responses/response_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "mbs_export/files/file_parts.hpp"
+#include "mbs_export/files/provenance.hpp"
+
+namespace chladni::mbs_export {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd;
+
+constexpr std::int64_t version = 1;
+
+void write_points(files::Writer& file, const std::string& group,
+                  const std::vector<ResponsePoint>& points)
+{
+  std::vector<std::string> names;
+  std::vector<std::int64_t> components, nodes;
+  MatrixXd positions(std::ssize(points), 3);
+  for (const ResponsePoint& point : points) {
+    positions.row(std::ssize(names)) = point.position.transpose();
+    names.push_back(file_parts::link_name(point.name));
+    components.push_back(point.component);
+    nodes.push_back(point.node);
+  }
+  file.write(group + "/names", names);
+  file.write(group + "/components", std::span<const std::int64_t>(components), "1");
+  file.write(group + "/node_numbers", std::span<const std::int64_t>(nodes), "1");
+  file.write(group + "/positions", positions, "m");
+}
+
+std::vector<ResponsePoint> read_points(const files::Reader& file, const std::string& group)
+{
+  const std::vector<std::string> names = file.texts(group + "/names");
+  const Index n = std::ssize(names);
+  if (n == 0) file.fail(group + "/names", "names nothing");
+  const std::vector<int> components = file_parts::read_indices(file, group + "/components", 6, n);
+  const std::vector<std::int64_t> nodes = file.integers(group + "/node_numbers", n);
+  const MatrixXd positions = file.matrix(group + "/positions", {n, 3});
+  std::vector<ResponsePoint> points;
+  std::set<std::string> seen;
+  for (Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!seen.insert(names[at]).second)
+      file.fail(group + "/names", "names '" + names[at] + "' twice");
+    points.push_back({names[at], components[at], nodes[at], positions.row(i).transpose()});
+  }
+  return points;
+}
+
+/// The units of all outputs for one load, each once: "m/N, rad/N".
+std::string units_of(const FrequencyResponses& responses, const ResponsePoint& load)
+{
+  std::string units;
+  std::set<std::string> seen;
+  for (const ResponsePoint& output : responses.outputs) {
+    const std::string unit = unit_of(responses.quantity, output, load);
+    if (seen.insert(unit).second) units += fmt::format("{}{}", units.empty() ? "" : ", ", unit);
+  }
+  return units;
+}
+
+void write_complex(files::Writer& file, const std::string& name, const MatrixXcd& values,
+                   const std::string& unit)
+{
+  file.write(name + "_re", MatrixXd(values.real()), unit);
+  file.write(name + "_im", MatrixXd(values.imag()), unit);
+}
+
+MatrixXcd read_complex(const files::Reader& file, const std::string& name, files::Shape shape)
+{
+  MatrixXcd values(shape.rows, shape.cols);
+  values.real() = file.matrix(name + "_re", shape);
+  values.imag() = file.matrix(name + "_im", shape);
+  return values;
+}
+
+std::string force_group(const SectionForceResponses& one)
+{
+  return "section_forces/" + file_parts::link_name(one.points.name) + "/";
+}
+
+void write_section_forces(files::Writer& file, const FrequencyResponses& responses)
+{
+  std::vector<std::string> names;
+  for (const SectionForceResponses& one : responses.section_forces) {
+    const std::string group = force_group(one);
+    names.push_back(one.points.name);
+    file.write(group + "kinds", one.points.kinds);
+    file.write(group + "units", one.points.units);
+    file.write(group + "elements", std::span<const std::int64_t>(one.points.elements), "1");
+    file.write(group + "positions", MatrixXd(one.points.positions), "m");
+    file.write(group + "axes", MatrixXd(one.points.axes), "1");
+    for (std::size_t l = 0; l < responses.loads.size(); ++l) {
+      const ResponsePoint& load = responses.loads[l];
+      write_complex(file, group + "responses/" + load.name + "/r", one.r[l],
+                    fmt::format("units of the kinds per {}", load.component < 3 ? "N" : "N m"));
+    }
+  }
+  if (!names.empty()) file.write("section_force_names", names);
+}
+
+SectionForceResponses read_section_force(const files::Reader& file, const std::string& name,
+                                         const FrequencyResponses& responses)
+{
+  SectionForceResponses one;
+  one.points.name = name;
+  const std::string group = force_group(one);
+  one.points.kinds = file.texts(group + "kinds");
+  one.points.units = file.texts(group + "units");
+  if (one.points.kinds.empty() || one.points.kinds.size() != one.points.units.size())
+    file.fail(group + "units", "expected a unit for each kind");
+  one.points.positions = file.matrix(group + "positions", {files::any, 3});
+  const Index n_points = one.points.positions.rows();
+  one.points.elements = file.integers(group + "elements", n_points);
+  one.points.axes = file.matrix(group + "axes", {n_points, 9});
+  const files::Shape shape{responses.Omega.size(), n_points * std::ssize(one.points.kinds)};
+  for (const ResponsePoint& load : responses.loads)
+    one.r.push_back(read_complex(file, group + "responses/" + load.name + "/r", shape));
+  return one;
+}
+
+/// The value of an enumeration whose name a dataset holds.
+template <class Value, std::size_t n>
+Value read_word(const files::Reader& file, const std::string& name,
+                const std::array<Value, n>& values)
+{
+  const std::string word = file.text(name);
+  for (const Value value : values)
+    if (name_of(value) == word) return value;
+  file.fail(name, "has '" + word + "', which is none of its words");
+}
+
+}  // namespace
+
+void write_responses(const std::filesystem::path& path, const FrequencyResponses& responses)
+{
+  files::Writer file(path.string());
+  file.attribute("/", "format", response_format);
+  file.attribute("/", "version", version);
+  file.attribute("/", "title", responses.title);
+  file.write("model", name_of(responses.model));
+  file.write("quantity", name_of(responses.quantity));
+  file.write("damping", responses.damping);
+  file.write("loss_factor", responses.loss_factor, "1");
+  file.write("frequencies", responses.Omega, "rad/s");
+  write_points(file, "loads", responses.loads);
+  write_points(file, "outputs", responses.outputs);
+  for (std::size_t l = 0; l < responses.loads.size(); ++l) {
+    const ResponsePoint& load = responses.loads[l];
+    write_complex(file, "responses/" + load.name + "/H", responses.H[l], units_of(responses, load));
+  }
+  write_section_forces(file, responses);
+  file_parts::write_provenance(file, responses.provenance);
+  file.commit();
+}
+
+FrequencyResponses read_responses(const std::filesystem::path& path)
+{
+  return read_responses(files::Reader(path.string()));
+}
+
+FrequencyResponses read_responses(const files::Reader& file)
+{
+  using enum ResponseModel;
+  using enum ResponseQuantity;
+  file.expect_format(response_format, version);
+  FrequencyResponses responses{
+      .title = file.text_attribute("/", "title"),
+      .model = read_word(file, "model", std::array{body, reduced, fe}),
+      .quantity = read_word(file, "quantity", std::array{receptance, mobility, accelerance}),
+      .Omega = file.vector("frequencies"),
+      .loss_factor = file.real("loss_factor"),
+      .damping = file.text("damping"),
+      .loads = read_points(file, "loads"),
+      .outputs = read_points(file, "outputs"),
+      .H = {},
+      .section_forces = {},
+      .provenance = file_parts::read_provenance(file)};
+  const Eigen::VectorXd& Omega = responses.Omega;
+  if (Omega.size() < 2 || Omega[0] < 0.0 ||
+      std::ranges::adjacent_find(Omega, std::ranges::greater_equal{}) != Omega.end())
+    file.fail("frequencies", "expected two or more frequencies of zero or more that ascend");
+  for (const ResponsePoint& load : responses.loads) {
+    responses.H.push_back(read_complex(file, "responses/" + load.name + "/H",
+                                       {Omega.size(), std::ssize(responses.outputs)}));
+  }
+  if (file.contains("section_force_names"))
+    for (const std::string& name : file.texts("section_force_names"))
+      responses.section_forces.push_back(read_section_force(file, name, responses));
+  return responses;
+}
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "files/hdf5.hpp"
+#include "mbs_export/responses/frequency_responses.hpp"
+
+namespace chladni::mbs_export {
+
+inline constexpr auto response_format = "chladni-response";
+
+/// Writes `*.response.h5` under a temporary name and renames it.
+/// @throws chladni::Error when the file cannot be written.
+void write_responses(const std::filesystem::path& path, const FrequencyResponses& responses);
+
+/// @throws chladni::Error naming file and dataset for what is missing, of the wrong kind, or
+///         contradicts the rest.
+FrequencyResponses read_responses(const std::filesystem::path& path);
+FrequencyResponses read_responses(const files::Reader& file);
+
+}  // namespace chladni::mbs_export

@@ -1,0 +1,116 @@
+#include "report/describe_responses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "report/quantities.hpp"
+
+namespace chladni::report {
+namespace {
+
+using mbs_export::FrequencyResponses;
+using mbs_export::ResponsePoint;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// A load, an output, and its largest amplitude.
+struct Found {
+  std::size_t load, output;
+  Peak peak;
+};
+
+std::vector<Found> all_peaks(const FrequencyResponses& responses)
+{
+  std::vector<Found> all;
+  for (std::size_t l = 0; l < responses.loads.size(); ++l)
+    for (std::size_t o = 0; o < responses.outputs.size(); ++o)
+      all.push_back({l, o, peak_of(responses, l, static_cast<Eigen::Index>(o))});
+  return all;
+}
+
+Json names_of(const std::vector<ResponsePoint>& points)
+{
+  std::vector<Json> names;
+  for (const ResponsePoint& point : points) names.emplace_back(point.name);
+  return Json::array(names);
+}
+
+std::string unit_of_peak(const FrequencyResponses& responses, const Found& found)
+{
+  return unit_of(responses.quantity, responses.outputs[found.output], responses.loads[found.load]);
+}
+
+}  // namespace
+
+Peak peak_of(const FrequencyResponses& responses, std::size_t load, Eigen::Index output)
+{
+  Eigen::Index at = 0;
+  const double amplitude = responses.H[load].col(output).cwiseAbs().maxCoeff(&at);
+  return {.amplitude = amplitude, .f_Hz = responses.Omega[at] / two_pi};
+}
+
+TextTable describe(const FrequencyResponses& responses)
+{
+  TextTable table = quantities();
+  table.rows.push_back({"model", name_of(responses.model), ""});
+  table.rows.push_back({"quantity", name_of(responses.quantity), ""});
+  table.rows.push_back({"damping", responses.damping, ""});
+  add(table, "loss factor", responses.loss_factor, "");
+  add_count(table, "frequencies", responses.Omega.size());
+  add(table, "first frequency", responses.Omega[0] / two_pi, "Hz");
+  add(table, "last frequency", responses.Omega[responses.Omega.size() - 1] / two_pi, "Hz");
+  add_count(table, "loads", std::ssize(responses.loads));
+  add_count(table, "outputs", std::ssize(responses.outputs));
+  for (const mbs_export::SectionForceResponses& one : responses.section_forces) {
+    add_count(table, "points with section forces of " + one.points.name,
+              one.points.positions.rows());
+  }
+  return table;
+}
+
+TextTable list_peaks(const FrequencyResponses& responses)
+{
+  constexpr std::size_t most = 40;
+  std::vector<Found> all = all_peaks(responses);
+  const std::size_t n = all.size();
+  if (n > most) {
+    std::ranges::stable_sort(all, std::ranges::greater{},
+                             [](const Found& found) { return found.peak.amplitude; });
+    all.resize(most);
+  }
+  TextTable table{.header = {"output / load", "largest", "unit", "at, Hz"}, .rows = {}};
+  for (const Found& found : all) {
+    table.rows.push_back({printable(fmt::format("{} / {}", responses.outputs[found.output].name,
+                                                responses.loads[found.load].name)),
+                          fmt::format("{:.6g}", found.peak.amplitude),
+                          unit_of_peak(responses, found), fmt::format("{:.6g}", found.peak.f_Hz)});
+  }
+  if (n > most) table.rows.push_back({fmt::format("and {} more", n - most), "", "", ""});
+  return table;
+}
+
+std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
+{
+  std::vector<Json> peaks;
+  for (const Found& found : all_peaks(responses)) {
+    peaks.push_back(Json::object({{"load", responses.loads[found.load].name},
+                                  {"output", responses.outputs[found.output].name},
+                                  {"unit", unit_of_peak(responses, found)},
+                                  {"amplitude", found.peak.amplitude},
+                                  {"frequency_Hz", found.peak.f_Hz}}));
+  }
+  const double first = responses.Omega[0], last = responses.Omega[responses.Omega.size() - 1];
+  return {{"model", name_of(responses.model)},
+          {"quantity", name_of(responses.quantity)},
+          {"damping", responses.damping},
+          {"loss_factor", responses.loss_factor},
+          {"frequencies_Hz", Json::array({Json(first / two_pi), Json(last / two_pi)})},
+          {"n_frequencies", responses.Omega.size()},
+          {"loads", names_of(responses.loads)},
+          {"outputs", names_of(responses.outputs)},
+          {"peaks", Json::array(peaks)}};
+}
+
+}  // namespace chladni::report

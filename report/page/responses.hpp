@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "mbs_export/responses/frequency_responses.hpp"
+
+namespace chladni::report {
+
+/// Frequency responses as a page: amplitude and phase of the outputs for each load, and tables. Of
+/// many outputs the 24 largest are drawn, which the page then says.
+std::string responses_page(const mbs_export::FrequencyResponses& responses);
+
+}  // namespace chladni::report
