@@ -38,7 +38,7 @@ struct ImportArguments {
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.
 struct QualityChoice {
   bool quality = false;     ///< report the shapes of the elements
-  std::string length_unit;  ///< what 1 is in a deck without a scene
+  std::string length_unit;  ///< what 1 is in a file without a scene that does not tell it
 };
 
 /// What `chladni sound` takes besides.

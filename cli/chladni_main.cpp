@@ -104,7 +104,7 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 
 void declare_length_unit(CLI::App& app, std::string& unit)
 {
-  app.add_option("--length-unit", unit, "what 1 is in the deck")
+  app.add_option("--length-unit", unit, "what 1 is in a deck, .unv, .med or .vtu")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
 }
@@ -140,8 +140,8 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
-      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step or "
-      "a deck");
+      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step, "
+      ".unv, .med, .vtu or a deck");
   declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   for (const char* reader : {"body", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);

@@ -10,6 +10,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+find_library(ZLIB_LIBRARY z REQUIRED)  # arrays of .vtu meshes are packed
 
 # For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE. An
 # interpreter without sanitizers loads no module with them.
@@ -33,6 +34,7 @@ if(CHLADNI_FE)
   pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)  # formulas of the position
   find_library(GMSH_LIBRARY gmsh REQUIRED)
   find_library(METIS_LIBRARY metis REQUIRED)
+  find_library(EXPAT_LIBRARY expat REQUIRED)  # the XML of .vtu meshes
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
   find_library(MUMPS_LIBRARY dmumps REQUIRED)
   # Complex equations of the sound field, beside the real PETSc.
