@@ -17,6 +17,7 @@
 #include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/exudyn.hpp"
+#include "mbs_export/formats/fmu.hpp"
 #include "mbs_export/formats/matlab.hpp"
 #include "mbs_export/formats/matrix_market.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
@@ -168,8 +169,20 @@ mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& so
   return make_body_of(*source.scene, read_reduced_of(arguments, source));
 }
 
+Exported export_fmu(const ExportArguments& arguments, const Source& source)
+{
+  const path file = target_of(arguments, source, ".fmu");
+  const auto made = formats::fmu(
+      body_of(arguments, source),
+      {.version = arguments.fmi == "3" ? formats::FmiVersion::v3 : formats::FmiVersion::v2,
+       .sets = arguments.nodes,
+       .identifier = formats::fmu_identifier(file.stem().string())});
+  return {{write(file, made.archive)}, made.notes};
+}
+
 Exported export_as(const ExportArguments& arguments, const Source& source)
 {
+  if (arguments.format == "fmu") return export_fmu(arguments, source);
   if (arguments.format == "mat") {
     const std::string text = formats::matlab_body(body_of(arguments, source));
     return {{write(target_of(arguments, source, ".mat"), text)}, {}};
@@ -215,9 +228,9 @@ void export_and_report(const ExportArguments& arguments)
 
 const std::vector<std::string>& export_formats()
 {
-  static const std::vector<std::string> names{
-      "nastran-dmig",  "nastran-op4", "matrix-market", "mbdyn",
-      "mbdyn-develop", "sid",         "exudyn",        "mat"};
+  static const std::vector<std::string> names{"nastran-dmig", "nastran-op4",   "matrix-market",
+                                              "mbdyn",        "mbdyn-develop", "sid",
+                                              "exudyn",       "mat",           "fmu"};
   return names;
 }
 
@@ -231,6 +244,12 @@ const std::vector<std::string>& sid_gyroscopic_orders()
 {
   static const std::vector<std::string> names{"by-mode", "by-axis"};
   return names;
+}
+
+const std::vector<std::string>& fmi_versions()
+{
+  static const std::vector<std::string> versions{"2", "3"};
+  return versions;
 }
 
 void export_command(const ChladniArguments& arguments)

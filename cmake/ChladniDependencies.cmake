@@ -10,7 +10,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
-find_library(ZLIB_LIBRARY z REQUIRED)  # arrays of .vtu meshes are packed
+find_library(ZLIB_LIBRARY z REQUIRED)  # FMUs are zip archives; arrays of .vtu meshes are packed
 
 # For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE. An
 # interpreter without sanitizers loads no module with them.

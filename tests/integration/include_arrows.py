@@ -34,7 +34,8 @@ ALLOWED = {
     "plate/assembly": ("common", "mesh", "plate/"),
     "reduce": LINEAR,
     "cyclic": (*LINEAR, "reduce"),
-    "mbs_export": BODIES,
+    "fmu": ("common",),
+    "mbs_export": (*BODIES, "fmu"),
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
     "squeal": BODIES,
@@ -63,6 +64,7 @@ OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
 HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {
     "files": HEAVY,
+    "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
     "linear/dense": HEAVY,
     "linear": ("gmsh.h",),
     "reduce": ("gmsh.h", "metis.h"),
