@@ -98,7 +98,7 @@ class Reader {
     constexpr std::size_t length = 80;  // MED_LNAME_SIZE
     Families found;
     for (const std::string& family : file_.members(name)) {
-      const std::string path = name + "/" + family;
+      const std::string path = fmt::format("{}/{}", name, family);
       std::vector<std::string>& groups = found[file_.integer_attribute(path, "NUM")];
       if (file_.has(path + "/GRO/NOM")) groups = file_.texts(path + "/GRO/NOM", length);
       std::erase(groups, "");

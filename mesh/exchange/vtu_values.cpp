@@ -29,7 +29,8 @@ void copy_bytes(const std::string& bytes, std::vector<To>& values)
   for (std::size_t i = 0; i < values.size(); ++i) {
     From value{};
     std::memcpy(&value, bytes.data() + i * sizeof(From), sizeof(From));
-    values[i] = static_cast<To>(value);
+    // Signed numbers of one byte are numbers here, not characters.
+    values[i] = static_cast<To>(value);  // NOLINT(bugprone-signed-char-misuse)
   }
 }
 
