@@ -1,5 +1,6 @@
 #include "fmu/component.hpp"
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -44,31 +45,57 @@ std::string path_of(const std::string& location)
 
 }  // namespace
 
-ModalModel model_at(const std::string& location, const std::string& token)
+std::string resource(const std::string& location, const std::string& file)
 {
-  const std::string path = path_of(location) + "/" + model_file;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("cannot open " + path + ", the body of this FMU");
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  ModalModel model = unpacked(bytes);
-  if (model.token == token) return model;
-  throw Error(path + " is of another export than modelDescription.xml: its token is " +
-              model.token + ", not " + token);
+  std::string path = path_of(location);
+  path += "/" + file;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error("cannot open " + path + ", the model of this FMU");
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void check_states(const Instance& instance, std::size_t n)
+void check_token(const std::string& of_model, const std::string& of_description)
 {
-  if (n == static_cast<std::size_t>(2 * instance.model().n_modes())) return;
-  throw Error("the FMU has " + std::to_string(2 * instance.model().n_modes()) +
-              " continuous states, not " + std::to_string(n));
+  if (of_model == of_description) return;
+  throw Error(
+      "the model of this FMU is of another export than modelDescription.xml: its token is " +
+      of_model + ", not " + of_description);
 }
 
-void keep_state(const Instance& instance, void** state)
+void check_states(const Simulation& simulation, std::size_t n)
+{
+  const auto n_states = simulation.continuous_states().size();
+  if (n == static_cast<std::size_t>(n_states)) return;
+  throw Error("the FMU has " + std::to_string(n_states) + " continuous states, not " +
+              std::to_string(n));
+}
+
+void keep_state(const Simulation& simulation, void** state)
 {
   if (*state == nullptr)
-    *state = new State(instance.state());
+    *state = new Eigen::VectorXd(simulation.snapshot());
   else
-    *static_cast<State*>(*state) = instance.state();
+    *static_cast<Eigen::VectorXd*>(*state) = simulation.snapshot();
+}
+
+std::size_t size_of_state(const Simulation& simulation)
+{
+  return static_cast<std::size_t>(simulation.snapshot().size()) * sizeof(double);
+}
+
+void state_to_bytes(const Simulation& simulation, const void* state, void* bytes, std::size_t n)
+{
+  if (n < size_of_state(simulation)) throw Error("there is no room for the bytes of a state");
+  std::memcpy(bytes, static_cast<const Eigen::VectorXd*>(state)->data(), size_of_state(simulation));
+}
+
+void* state_from_bytes(const Simulation& simulation, const void* bytes, std::size_t n)
+{
+  if (n != size_of_state(simulation)) throw Error("the bytes of a state are of another FMU");
+  auto state = std::make_unique<Eigen::VectorXd>(simulation.snapshot().size());
+  std::memcpy(state->data(), bytes, n);
+  if (!state->allFinite()) throw Error("the bytes of a state hold what is no finite number");
+  return state.release();
 }
 
 }  // namespace chladni::fmu

@@ -31,7 +31,7 @@ const char* fmi2GetVersion()
 Status fmi2SetDebugLogging(void* c, Boolean /*on*/, std::size_t /*n*/,
                            const char* const* /*categories*/)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 void* fmi2Instantiate(const char* name, Type /*type*/, const char* guid, const char* resources,
@@ -50,7 +50,7 @@ void* fmi2Instantiate(const char* name, Type /*type*/, const char* guid, const c
   succeeds(tell, [&] {
     if (guid == nullptr || resources == nullptr)
       throw Error("fmi2Instantiate needs the GUID and the location of the resources");
-    made = new Component{.instance = Instance(model_at(resources, guid)), .tell = tell};
+    made = new Component{.simulation = simulation_at(resources, guid), .tell = tell};
   });
   return made;
 }
@@ -63,41 +63,40 @@ void fmi2FreeInstance(void* c)
 Status fmi2SetupExperiment(void* c, Boolean /*has_tolerance*/, double /*tolerance*/,
                            double start_time, Boolean /*has_stop*/, double /*stop*/)
 {
-  return done<Status>(
-      c, [&](Instance& instance) { instance.set_value(References::time, start_time); });
+  return done<Status>(c, [&](Simulation& simulation) { simulation.set_time(start_time); });
 }
 
 Status fmi2EnterInitializationMode(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi2ExitInitializationMode(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi2Terminate(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi2Reset(void* c)
 {
-  return done<Status>(c, [](Instance& instance) { instance.reset(); });
+  return done<Status>(c, [](Simulation& simulation) { simulation.reset(); });
 }
 
 Status fmi2GetReal(void* c, const Reference* references, std::size_t n, double* values)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    std::ranges::copy(instance.values({references, n}), values);
+  return done<Status>(c, [&](Simulation& simulation) {
+    std::ranges::copy(simulation.values({references, n}), values);
   });
 }
 
 Status fmi2SetReal(void* c, const Reference* references, std::size_t n, const double* values)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    for (std::size_t i = 0; i < n; ++i) instance.set_value(references[i], values[i]);
+  return done<Status>(c, [&](Simulation& simulation) {
+    for (std::size_t i = 0; i < n; ++i) simulation.set_value(references[i], values[i]);
   });
 }
 
@@ -133,47 +132,49 @@ Status fmi2SetString(void* c, const Reference*, std::size_t n, const char* const
 
 Status fmi2GetFMUstate(void* c, void** state)
 {
-  return done<Status>(c, [&](Instance& instance) { keep_state(instance, state); });
+  return done<Status>(c, [&](Simulation& simulation) { keep_state(simulation, state); });
 }
 
 Status fmi2SetFMUstate(void* c, void* state)
 {
-  return done<Status>(c,
-                      [&](Instance& instance) { instance.set_state(*static_cast<State*>(state)); });
+  return done<Status>(c, [&](Simulation& simulation) {
+    simulation.restore(*static_cast<Eigen::VectorXd*>(state));
+  });
 }
 
 Status fmi2FreeFMUstate(void* c, void** state)
 {
-  return done<Status>(c, [&](Instance&) {
+  return done<Status>(c, [&](Simulation&) {
     if (state == nullptr) return;
-    delete static_cast<State*>(*state);
+    delete static_cast<Eigen::VectorXd*>(*state);
     *state = nullptr;
   });
 }
 
-Status fmi2SerializedFMUstateSize(void* c, void*, std::size_t*)
+Status fmi2SerializedFMUstateSize(void* c, void*, std::size_t* size)
 {
-  return not_provided<Status>(c, "fmi2SerializedFMUstateSize");
+  return done<Status>(c, [&](Simulation& simulation) { *size = size_of_state(simulation); });
 }
 
-Status fmi2SerializeFMUstate(void* c, void*, char*, std::size_t)
+Status fmi2SerializeFMUstate(void* c, void* state, char* bytes, std::size_t size)
 {
-  return not_provided<Status>(c, "fmi2SerializeFMUstate");
+  return done<Status>(
+      c, [&](Simulation& simulation) { state_to_bytes(simulation, state, bytes, size); });
 }
 
-Status fmi2DeSerializeFMUstate(void* c, const char*, std::size_t, void**)
+Status fmi2DeSerializeFMUstate(void* c, const char* bytes, std::size_t size, void** state)
 {
-  return not_provided<Status>(c, "fmi2DeSerializeFMUstate");
+  return done<Status>(
+      c, [&](Simulation& simulation) { *state = state_from_bytes(simulation, bytes, size); });
 }
 
 Status fmi2GetDirectionalDerivative(void* c, const Reference* unknowns, std::size_t n_unknowns,
                                     const Reference* knowns, std::size_t n_knowns,
                                     const double* change, double* derivatives)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    State direction = instance.no_change();
-    for (std::size_t i = 0; i < n_knowns; ++i) instance.add_change(direction, knowns[i], change[i]);
-    std::ranges::copy(instance.directional_derivatives({unknowns, n_unknowns}, direction),
+  return done<Status>(c, [&](Simulation& simulation) {
+    std::ranges::copy(simulation.directional_derivatives({unknowns, n_unknowns},
+                                                         {{knowns, n_knowns}, {change, n_knowns}}),
                       derivatives);
   });
 }

@@ -19,65 +19,65 @@ extern "C" {
 
 Status fmi2EnterEventMode(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi2NewDiscreteStates(void* c, EventInfo* info)
 {
-  return done<Status>(c, [&](Instance&) { *info = {}; });
+  return done<Status>(c, [&](Simulation&) { *info = {}; });
 }
 
 Status fmi2EnterContinuousTimeMode(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi2CompletedIntegratorStep(void* c, Boolean /*no_earlier_state*/, Boolean* enter_event_mode,
                                    Boolean* terminate)
 {
-  return done<Status>(c, [&](Instance&) { *enter_event_mode = *terminate = 0; });
+  return done<Status>(c, [&](Simulation&) { *enter_event_mode = *terminate = 0; });
 }
 
 Status fmi2SetTime(void* c, double time)
 {
-  return done<Status>(c, [&](Instance& instance) { instance.set_value(References::time, time); });
+  return done<Status>(c, [&](Simulation& simulation) { simulation.set_time(time); });
 }
 
 Status fmi2SetContinuousStates(void* c, const double* x, std::size_t n)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    check_states(instance, n);
-    instance.set_continuous_states(Eigen::Map<const Eigen::VectorXd>(x, Eigen::Index(n)));
+  return done<Status>(c, [&](Simulation& simulation) {
+    check_states(simulation, n);
+    simulation.set_continuous_states(Eigen::Map<const Eigen::VectorXd>(x, Eigen::Index(n)));
   });
 }
 
 Status fmi2GetDerivatives(void* c, double* derivatives, std::size_t n)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    check_states(instance, n);
-    std::ranges::copy(instance.derivatives(), derivatives);
+  return done<Status>(c, [&](Simulation& simulation) {
+    check_states(simulation, n);
+    std::ranges::copy(simulation.derivatives(), derivatives);
   });
 }
 
 Status fmi2GetEventIndicators(void* c, double*, std::size_t n)
 {
-  return done<Status>(c, [&](Instance&) {
+  return done<Status>(c, [&](Simulation&) {
     if (n > 0) throw Error("the FMU has no event indicators");
   });
 }
 
 Status fmi2GetContinuousStates(void* c, double* x, std::size_t n)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    check_states(instance, n);
-    std::ranges::copy(instance.continuous_states(), x);
+  return done<Status>(c, [&](Simulation& simulation) {
+    check_states(simulation, n);
+    std::ranges::copy(simulation.continuous_states(), x);
   });
 }
 
 Status fmi2GetNominalsOfContinuousStates(void* c, double* nominals, std::size_t n)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    check_states(instance, n);
+  return done<Status>(c, [&](Simulation& simulation) {
+    check_states(simulation, n);
     std::fill_n(nominals, n, 1.0);
   });
 }
@@ -95,9 +95,9 @@ Status fmi2GetRealOutputDerivatives(void* c, const Reference*, std::size_t, cons
 
 Status fmi2DoStep(void* c, double time, double step, Boolean /*no_earlier_state*/)
 {
-  return done<Status>(c, [&](Instance& instance) {
-    instance.set_value(References::time, time);
-    instance.advance(step);
+  return done<Status>(c, [&](Simulation& simulation) {
+    simulation.set_time(time);
+    simulation.advance(step);
   });
 }
 
@@ -108,13 +108,13 @@ Status fmi2CancelStep(void* c)
 
 Status fmi2GetStatus(void* c, StatusKind /*kind*/, Status*)
 {
-  return done<Status>(c, [](Instance&) {}) == Status::ok ? Status::discard : Status::error;
+  return done<Status>(c, [](Simulation&) {}) == Status::ok ? Status::discard : Status::error;
 }
 
 Status fmi2GetRealStatus(void* c, StatusKind kind, double* value)
 {
   if (kind != last_successful_time) return fmi2GetStatus(c, kind, nullptr);
-  return done<Status>(c, [&](Instance& instance) { *value = instance.state().time; });
+  return done<Status>(c, [&](Simulation& simulation) { *value = simulation.time(); });
 }
 
 Status fmi2GetIntegerStatus(void* c, StatusKind kind, int*)
@@ -125,7 +125,7 @@ Status fmi2GetIntegerStatus(void* c, StatusKind kind, int*)
 Status fmi2GetBooleanStatus(void* c, StatusKind kind, Boolean* value)
 {
   if (kind != terminated) return fmi2GetStatus(c, kind, nullptr);
-  return done<Status>(c, [&](Instance&) { *value = 0; });
+  return done<Status>(c, [&](Simulation&) { *value = 0; });
 }
 
 Status fmi2GetStringStatus(void* c, StatusKind kind, const char**)

@@ -35,7 +35,7 @@ void* instantiated(const char* token, const char* resources, void* environment,
   succeeds(tell, [&] {
     if (token == nullptr || resources == nullptr)
       throw Error("an FMU needs the instantiation token and the path of its resources");
-    made = new Component{.instance = Instance(model_at(resources, token)), .tell = tell};
+    made = new Component{.simulation = simulation_at(resources, token), .tell = tell};
   });
   return made;
 }
@@ -52,7 +52,7 @@ const char* fmi3GetVersion()
 Status fmi3SetDebugLogging(void* c, bool /*on*/, std::size_t /*n*/,
                            const char* const* /*categories*/)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 void* fmi3InstantiateModelExchange(const char* /*name*/, const char* token, const char* resources,
@@ -91,40 +91,39 @@ void fmi3FreeInstance(void* c)
 Status fmi3EnterInitializationMode(void* c, bool /*has_tolerance*/, double /*tolerance*/,
                                    double start_time, bool /*has_stop*/, double /*stop*/)
 {
-  return done<Status>(
-      c, [&](Instance& instance) { instance.set_value(References::time, start_time); });
+  return done<Status>(c, [&](Simulation& simulation) { simulation.set_time(start_time); });
 }
 
 Status fmi3ExitInitializationMode(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi3Terminate(void* c)
 {
-  return done<Status>(c, [](Instance&) {});
+  return done<Status>(c, [](Simulation&) {});
 }
 
 Status fmi3Reset(void* c)
 {
-  return done<Status>(c, [](Instance& instance) { instance.reset(); });
+  return done<Status>(c, [](Simulation& simulation) { simulation.reset(); });
 }
 
 Status fmi3GetFloat64(void* c, const Reference* references, std::size_t n, double* values,
                       std::size_t n_values)
 {
-  return done<Status>(c, [&](Instance& instance) {
+  return done<Status>(c, [&](Simulation& simulation) {
     check_sizes(n, n_values);
-    std::ranges::copy(instance.values({references, n}), values);
+    std::ranges::copy(simulation.values({references, n}), values);
   });
 }
 
 Status fmi3SetFloat64(void* c, const Reference* references, std::size_t n, const double* values,
                       std::size_t n_values)
 {
-  return done<Status>(c, [&](Instance& instance) {
+  return done<Status>(c, [&](Simulation& simulation) {
     check_sizes(n, n_values);
-    for (std::size_t i = 0; i < n; ++i) instance.set_value(references[i], values[i]);
+    for (std::size_t i = 0; i < n; ++i) simulation.set_value(references[i], values[i]);
   });
 }
 
@@ -141,37 +140,40 @@ Status fmi3GetVariableDependencies(void* c, Reference, std::size_t*, Reference*,
 
 Status fmi3GetFMUState(void* c, void** state)
 {
-  return done<Status>(c, [&](Instance& instance) { keep_state(instance, state); });
+  return done<Status>(c, [&](Simulation& simulation) { keep_state(simulation, state); });
 }
 
 Status fmi3SetFMUState(void* c, void* state)
 {
-  return done<Status>(c,
-                      [&](Instance& instance) { instance.set_state(*static_cast<State*>(state)); });
+  return done<Status>(c, [&](Simulation& simulation) {
+    simulation.restore(*static_cast<Eigen::VectorXd*>(state));
+  });
 }
 
 Status fmi3FreeFMUState(void* c, void** state)
 {
-  return done<Status>(c, [&](Instance&) {
+  return done<Status>(c, [&](Simulation&) {
     if (state == nullptr) return;
-    delete static_cast<State*>(*state);
+    delete static_cast<Eigen::VectorXd*>(*state);
     *state = nullptr;
   });
 }
 
-Status fmi3SerializedFMUStateSize(void* c, void*, std::size_t*)
+Status fmi3SerializedFMUStateSize(void* c, void*, std::size_t* size)
 {
-  return not_provided<Status>(c, "fmi3SerializedFMUStateSize");
+  return done<Status>(c, [&](Simulation& simulation) { *size = size_of_state(simulation); });
 }
 
-Status fmi3SerializeFMUState(void* c, void*, std::uint8_t*, std::size_t)
+Status fmi3SerializeFMUState(void* c, void* state, std::uint8_t* bytes, std::size_t size)
 {
-  return not_provided<Status>(c, "fmi3SerializeFMUState");
+  return done<Status>(
+      c, [&](Simulation& simulation) { state_to_bytes(simulation, state, bytes, size); });
 }
 
-Status fmi3DeserializeFMUState(void* c, const std::uint8_t*, std::size_t, void**)
+Status fmi3DeserializeFMUState(void* c, const std::uint8_t* bytes, std::size_t size, void** state)
 {
-  return not_provided<Status>(c, "fmi3DeserializeFMUState");
+  return done<Status>(
+      c, [&](Simulation& simulation) { *state = state_from_bytes(simulation, bytes, size); });
 }
 
 Status fmi3GetDirectionalDerivative(void* c, const Reference* unknowns, std::size_t n_unknowns,
@@ -179,12 +181,11 @@ Status fmi3GetDirectionalDerivative(void* c, const Reference* unknowns, std::siz
                                     const double* seed, std::size_t n_seed, double* sensitivity,
                                     std::size_t n_sensitivity)
 {
-  return done<Status>(c, [&](Instance& instance) {
+  return done<Status>(c, [&](Simulation& simulation) {
     check_sizes(n_knowns, n_seed);
     check_sizes(n_unknowns, n_sensitivity);
-    State direction = instance.no_change();
-    for (std::size_t i = 0; i < n_knowns; ++i) instance.add_change(direction, knowns[i], seed[i]);
-    std::ranges::copy(instance.directional_derivatives({unknowns, n_unknowns}, direction),
+    std::ranges::copy(simulation.directional_derivatives({unknowns, n_unknowns},
+                                                         {{knowns, n_knowns}, {seed, n_knowns}}),
                       sensitivity);
   });
 }

@@ -154,35 +154,57 @@ VectorXd Instance::derivatives() const
   return derivatives;
 }
 
-State Instance::no_change() const
+/// Nothing changes but what is named.
+State Instance::change_along(const Direction& direction) const
 {
-  State change = state_;
-  for (VectorXd* part : {&change.F, &change.q, &change.q_dot, &change.damping_ratios})
-    part->setZero();
-  change.time = change.damping_factor = 0.0;
+  const References& of = references_;
+  const Index n_modes = model_->n_modes();
+  State change{.damping_factor = 0.0,
+               .damping_ratios = VectorXd::Zero(n_modes),
+               .F = VectorXd::Zero(model_->n_dofs()),
+               .q = VectorXd::Zero(n_modes),
+               .q_dot = VectorXd::Zero(n_modes)};
+  for (std::size_t k = 0; k < direction.references.size(); ++k) {
+    const std::uint32_t known = direction.references[k];
+    Index i = 0;
+    if (known == References::time) continue;  // nothing depends on time itself
+    if (i = place(known, of.forces(), model_->n_dofs()); i >= 0)
+      change.F[i] += direction.changes[k];
+    else if (i = place(known, of.q(), n_modes); i >= 0)
+      change.q[i] += direction.changes[k];
+    else if (i = place(known, of.q_dot(), n_modes); i >= 0)
+      change.q_dot[i] += direction.changes[k];
+    else
+      throw Error("the variable with the value reference " + std::to_string(known) +
+                  " is neither a state nor an input");
+  }
   return change;
 }
 
-void Instance::add_change(State& change, std::uint32_t known, double value) const
+/// The model is linear in states and inputs.
+std::vector<double> Instance::directional_derivatives(std::span<const std::uint32_t> unknowns,
+                                                      const Direction& direction) const
 {
-  const References& of = references_;
-  Index i = 0;
-  if (known == References::time) return;  // nothing depends on time itself
-  if (i = place(known, of.forces(), model_->n_dofs()); i >= 0)
-    change.F[i] += value;
-  else if (i = place(known, of.q(), model_->n_modes()); i >= 0)
-    change.q[i] += value;
-  else if (i = place(known, of.q_dot(), model_->n_modes()); i >= 0)
-    change.q_dot[i] += value;
-  else
-    throw Error("the variable with the value reference " + std::to_string(known) +
-                " is neither a state nor an input");
+  return values_in(change_along(direction), unknowns);
 }
 
-std::vector<double> Instance::directional_derivatives(std::span<const std::uint32_t> unknowns,
-                                                      const State& change) const
+VectorXd Instance::snapshot() const
 {
-  return values_in(change, unknowns);
+  VectorXd all(2 + 3 * model_->n_modes() + model_->n_dofs());
+  all << state_.time, state_.damping_factor, state_.damping_ratios, state_.F, state_.q,
+      state_.q_dot;
+  return all;
+}
+
+void Instance::restore(const VectorXd& snapshot)
+{
+  const Index n_modes = model_->n_modes(), n_dofs = model_->n_dofs();
+  state_ = {.time = snapshot[0],
+            .damping_factor = snapshot[1],
+            .damping_ratios = snapshot.segment(2, n_modes),
+            .F = snapshot.segment(2 + n_modes, n_dofs),
+            .q = snapshot.segment(2 + n_modes + n_dofs, n_modes),
+            .q_dot = snapshot.tail(n_modes)};
 }
 
 void Instance::advance(double h)

@@ -8,6 +8,7 @@
 
 #include "fmu/modal_model.hpp"
 #include "fmu/propagator.hpp"
+#include "fmu/simulation.hpp"
 
 namespace chladni::fmu {
 
@@ -21,40 +22,29 @@ struct State {
 };
 
 /// A body in a simulation, by the value references of its variables.
-class Instance {
+class Instance final : public Simulation {
  public:
   explicit Instance(ModalModel model);
 
-  const ModalModel& model() const { return *model_; }
   const State& state() const { return state_; }
-  void set_state(const State& state) { state_ = state; }
-  /// At rest, without forces, parameters as at the start.
-  void reset();
 
-  /// @throws chladni::Error for a reference that no variable has.
-  std::vector<double> values(std::span<const std::uint32_t> references) const;
-  /// @throws chladni::Error for a variable that is computed, and for what is no finite number.
-  void set_value(std::uint32_t reference, double value);
-
-  Eigen::VectorXd continuous_states() const;  ///< [2 n_modes] q and q'
-  void set_continuous_states(const Eigen::VectorXd& x);
-  Eigen::VectorXd derivatives() const;  ///< [2 n_modes] q' and q''
-
-  /// The derivatives of the variables `unknowns` in the direction of changes of states and inputs;
-  /// the model is linear in them.
-  /// @param change  states and inputs that change, at their places; parameters are not looked at
+  void reset() override;
+  std::vector<double> values(std::span<const std::uint32_t> references) const override;
+  void set_value(std::uint32_t reference, double value) override;
+  double time() const override { return state_.time; }
+  void set_time(double time) override { set_value(References::time, time); }
+  Eigen::VectorXd continuous_states() const override;  ///< [2 n_modes] q and q'
+  void set_continuous_states(const Eigen::VectorXd& x) override;
+  Eigen::VectorXd derivatives() const override;  ///< [2 n_modes] q' and q''
   std::vector<double> directional_derivatives(std::span<const std::uint32_t> unknowns,
-                                              const State& change) const;
-  /// No change of anything.
-  State no_change() const;
-  /// @throws chladni::Error for a variable that is neither state nor input nor time.
-  void add_change(State& change, std::uint32_t known, double value) const;
-
-  /// Goes on by h > 0 seconds with the forces as they are.
-  void advance(double h);
+                                              const Direction& direction) const override;
+  void advance(double h) override;
+  Eigen::VectorXd snapshot() const override;
+  void restore(const Eigen::VectorXd& snapshot) override;
 
  private:
   Eigen::MatrixXd damping() const;
+  State change_along(const Direction& direction) const;
   Eigen::VectorXd acceleration(const State& state) const;  ///< q''
   std::vector<double> values_in(const State& state,
                                 std::span<const std::uint32_t> references) const;

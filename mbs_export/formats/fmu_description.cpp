@@ -145,16 +145,20 @@ std::string interfaces(const FmuDescription& of, FmiVersion version)
     return fmt::format(
         "  <ModelExchange modelIdentifier=\"{0}\" completedIntegratorStepNotNeeded=\"true\" "
         "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
+        "canSerializeFMUstate=\"true\" "
         "providesDirectionalDerivative=\"true\"/>\n"
         "  <CoSimulation modelIdentifier=\"{0}\" canHandleVariableCommunicationStepSize=\"true\" "
         "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
+        "canSerializeFMUstate=\"true\" "
         "providesDirectionalDerivative=\"true\"/>\n",
         of.identifier);
   }
   return fmt::format(
       "  <ModelExchange modelIdentifier=\"{0}\" canGetAndSetFMUState=\"true\" "
+      "canSerializeFMUState=\"true\" "
       "providesDirectionalDerivatives=\"true\"/>\n"
       "  <CoSimulation modelIdentifier=\"{0}\" canGetAndSetFMUState=\"true\" "
+      "canSerializeFMUState=\"true\" "
       "canHandleVariableCommunicationStepSize=\"true\" providesDirectionalDerivatives=\"true\"/>\n",
       of.identifier);
 }

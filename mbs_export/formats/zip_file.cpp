@@ -98,7 +98,8 @@ std::string zip_archive(const std::vector<ZipEntry>& entries)
     const std::string packed = raw_deflate(entry.bytes);
     const std::string of_entry = fields(entry, packed.size());
     directory += in_directory(entry, of_entry, archive.size());
-    archive += "PK\3\4" + of_entry + entry.name + packed;
+    for (const std::string& part : {std::string("PK\3\4"), of_entry, entry.name, packed})
+      archive += part;
   }
   const auto n = static_cast<std::uint16_t>(entries.size());
   const std::uint32_t begin = size_of(archive.size(), "the directory");

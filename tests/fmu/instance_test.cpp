@@ -92,10 +92,10 @@ TEST(Instance, StepsAnewWhenStepOrDampingChange)
   other.advance(0.03);
   EXPECT_LT((one.continuous_states() - other.continuous_states()).norm(), 1e-9);
   one.set_value(References::damping_factor, 0.0);
-  const State before = one.state();
+  const VectorXd before = one.snapshot();
   one.advance(0.02);
   Instance fresh(testing::three_modes());
-  fresh.set_state(before);
+  fresh.restore(before);
   fresh.advance(0.02);
   EXPECT_LT((one.continuous_states() - fresh.continuous_states()).norm(), 1e-12);
 }
@@ -107,14 +107,13 @@ TEST(Instance, HasItsDirectionalDerivatives)
                                             of.displacements(), of.velocities() + 1};
   const std::vector<std::uint32_t> knowns{of.forces() + 1, of.q() + 2, of.q_dot() + 1,
                                           References::time};
-  State change = instance.no_change();
+  std::vector<double> changes;
   Instance moved = instance;
-  for (std::size_t i = 0; i < knowns.size(); ++i) {
-    const double step = 0.25 * (double(i) + 1.0);
-    instance.add_change(change, knowns[i], step);
-    moved.set_value(knowns[i], value(instance, knowns[i]) + step);
+  for (const std::uint32_t known : knowns) {
+    changes.push_back(0.25 * (double(changes.size()) + 1.0));
+    moved.set_value(known, value(instance, known) + changes.back());
   }
-  const std::vector<double> found = instance.directional_derivatives(unknowns, change);
+  const std::vector<double> found = instance.directional_derivatives(unknowns, {knowns, changes});
   const std::vector<double> before = instance.values(unknowns), after = moved.values(unknowns);
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     EXPECT_NEAR(found[i], after[i] - before[i], 1e-13 * std::abs(after[i]) + 1e-12);
@@ -129,8 +128,23 @@ TEST(Instance, RefusesWhatIsNoVariable)
   EXPECT_THROW(instance.set_value(of.forces(), std::numeric_limits<double>::infinity()), Error);
   EXPECT_THROW(instance.advance(0.0), Error);
   EXPECT_THROW(instance.advance(-1.0), Error);
-  State change = instance.no_change();
-  EXPECT_THROW(instance.add_change(change, References::damping_factor, 1.0), Error);
+  const std::vector<std::uint32_t> parameter{References::damping_factor};
+  const std::vector<double> one{1.0};
+  EXPECT_THROW(instance.directional_derivatives({}, {parameter, one}), Error);
+}
+
+TEST(Instance, ComesBackToWhatWasKept)
+{
+  Instance instance = moving();
+  instance.set_value(References::damping_factor, 0.5);
+  instance.set_value(of.damping_ratios() + 2, 0.25);
+  instance.set_time(3.0);
+  const VectorXd kept = instance.snapshot(), derivatives = instance.derivatives();
+  instance.reset();
+  instance.restore(kept);
+  EXPECT_EQ(instance.snapshot(), kept);
+  EXPECT_EQ(instance.derivatives(), derivatives);
+  EXPECT_EQ(instance.time(), 3.0);
 }
 
 TEST(Instance, ComesBackToItsStart)

@@ -304,6 +304,19 @@ def states_are_kept(fmu, body):
     fmu.step(0.0, 1e-3)
     if not np.array_equal(once, fmu.get(body.outputs[0])):
         yield "from a kept state the same step leads elsewhere"
+    size, copy = ctypes.c_size_t(), ctypes.c_void_p()
+    fmu.call(f"Serialized{suffix}Size", state, ctypes.byref(size))
+    stored = ctypes.create_string_buffer(size.value)
+    fmu.call(f"Serialize{suffix}", state, stored, size)
+    word = "DeSerialize" if fmu.version == 2 else "Deserialize"
+    fmu.call(f"{word}{suffix}", stored, size, ctypes.byref(copy))
+    fmu.call(f"Set{suffix}", copy)
+    fmu.step(0.0, 1e-3)
+    if not np.array_equal(once, fmu.get(body.outputs[0])):
+        yield "from a stored state the same step leads elsewhere"
+    fmu.call(f"{word}{suffix}", stored, ctypes.c_size_t(size.value - 8), ctypes.byref(copy), status=3)
+    fmu.messages.clear()
+    fmu.call(f"Free{suffix}", ctypes.byref(copy))
     fmu.call(f"Free{suffix}", ctypes.byref(state))
     if state.value is not None:
         yield "a freed state is not null"

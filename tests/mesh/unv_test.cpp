@@ -39,7 +39,7 @@ std::string groups(const std::string& members)
   return dataset("2467", members);
 }
 
-Mesh mesh_of_text(const std::string& text, MeshOptions options = {})
+Mesh mesh_of_text(const std::string& text, const MeshOptions& options = {})
 {
   return mesh_of(deck_of(unv_mesh(text, 1.0), options), options.line_groups);
 }

@@ -19,7 +19,7 @@ using testing::expect_words;
 using testing::MeshFile;
 using testing::Refusal;
 
-Mesh mesh_of_text(const std::string& text, MeshOptions options = {})
+Mesh mesh_of_text(const std::string& text, const MeshOptions& options = {})
 {
   return mesh_of(deck_of(vtu_mesh(text), options), options.line_groups);
 }
