@@ -108,7 +108,8 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
       "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5\n"
       "  chladni export out/disc.body.h5 --format mat\n"
-      "  chladni export out/disc.body.h5 --format fmu --fmi 3 --nodes track,hub");
+      "  chladni export out/disc.body.h5 --format fmu --fmi 3 --nodes track,hub\n"
+      "  chladni export scene.toml --from out --format fmu-brake --output brake.fmu");
 }
 
 void declare_length_unit(CLI::App& app, std::string& unit)

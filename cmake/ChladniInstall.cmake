@@ -39,7 +39,7 @@ chladni_install_program(squeal squeal)
 if(CHLADNI_FE)
   chladni_export(chladni-fe-targets ${fe_libraries})
   chladni_install_program(chladni fe)
-  install(TARGETS chladni_fmu_binary LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
+  install(TARGETS chladni_fmu_binary chladni_fmu_brake_binary LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   install(TARGETS chladni_mesh_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   set_target_properties(chladni_petsc_plugin PROPERTIES EXPORT_NAME cms)
   install(TARGETS chladni_petsc_plugin EXPORT chladni-plugin-targets

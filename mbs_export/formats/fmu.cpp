@@ -16,19 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The library beside this program as both are built and installed, or where the user says.
-fs::path library()
+/// The library beside this program as both are built and installed, or in the folder that the user
+/// says.
+fs::path library(const std::string& name)
 {
-  if (const char* said = std::getenv("CHLADNI_FMU_LIBRARY")) return said;
-  const fs::path below = fs::path("chladni") / "chladni-fmu.so";
+  if (const char* said = std::getenv("CHLADNI_FMU_LIBRARIES")) return fs::path(said) / name;
+  const fs::path below = fs::path("chladni") / name;
   std::error_code ignored;
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "../libexec";
   for (const fs::path& folder : {here, fs::path(CHLADNI_LIBEXEC_FOLDER)})
     if (fs::exists(folder / below, ignored)) return folder / below;
   throw Error(fmt::format(
-      "the library chladni-fmu.so, which goes into FMUs, is neither in {} nor in {}; install it, "
-      "or set CHLADNI_FMU_LIBRARY to its path",
-      (here / "chladni").lexically_normal().string(),
+      "the library {}, which goes into FMUs, is neither in {} nor in {}; install it, or set "
+      "CHLADNI_FMU_LIBRARIES to its folder",
+      name, (here / "chladni").lexically_normal().string(),
       (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
 }
 
@@ -95,25 +96,37 @@ std::string fmu_identifier(const std::string& name)
   return identifier;
 }
 
+std::string fmu_archive(const FmuParts& parts)
+{
+  const std::string binary =
+      fmt::format("binaries/{}/{}.so", platform(parts.version), parts.identifier);
+  return zip_archive({{.name = "modelDescription.xml", .bytes = parts.description},
+                      {.name = binary, .bytes = bytes_of(library(parts.library))},
+                      {.name = "resources/" + parts.resource, .bytes = parts.model}});
+}
+
+std::string fmu_token(const std::string& model, const std::vector<FmuVariable>& variables)
+{
+  std::string all = model;
+  for (const FmuVariable& variable : variables) all += variable.name + "\n";
+  return digest(all);
+}
+
 Fmu fmu(const ModalBody& body, const FmuOptions& options)
 {
   FmuBody made = fmu_body(body, options.sets);
   const std::vector<FmuVariable> variables = fmu_variables(made);
-  std::string names;
-  for (const FmuVariable& variable : variables) names += variable.name + "\n";
-  made.model.token = digest(chladni::fmu::packed(made.model) + names);
-  const std::string description =
-      fmu_description(variables,
-                      {.name = body.title.empty() ? options.identifier : body.title,
-                       .identifier = options.identifier,
-                       .token = made.model.token},
-                      options.version);
-  const std::string binary =
-      fmt::format("binaries/{}/{}.so", platform(options.version), options.identifier);
-  return {.archive = zip_archive({{.name = "modelDescription.xml", .bytes = description},
-                                  {.name = binary, .bytes = bytes_of(library())},
-                                  {.name = std::string("resources/") + chladni::fmu::model_file,
-                                   .bytes = chladni::fmu::packed(made.model)}}),
+  made.model.token = fmu_token(chladni::fmu::packed(made.model), variables);
+  const std::string& name = body.title.empty() ? options.identifier : body.title;
+  const std::string description = fmu_description(
+      variables, {.name = name, .identifier = options.identifier, .token = made.model.token},
+      options.version);
+  return {.archive = fmu_archive({.version = options.version,
+                                  .identifier = options.identifier,
+                                  .description = description,
+                                  .library = "chladni-fmu.so",
+                                  .resource = chladni::fmu::model_file,
+                                  .model = chladni::fmu::packed(made.model)}),
           .notes = notes_on(body, made)};
 }
 

@@ -21,6 +21,22 @@ struct Fmu {
   std::vector<std::string> notes;
 };
 
+/// A model and what it is in an FMU.
+struct FmuParts {
+  FmiVersion version;
+  std::string identifier, description;  ///< modelDescription.xml
+  std::string library;                  ///< of Chladni: "chladni-fmu.so"
+  std::string resource, model;          ///< the name of the model's file, and its bytes
+};
+
+/// The bytes of the .fmu.
+/// @throws chladni::Error where this machine's library is none for the version of FMI or is not
+///         installed.
+std::string fmu_archive(const FmuParts& parts);
+
+/// What tells an export from another one: a digest of the model and of the names of its variables.
+std::string fmu_token(const std::string& model, const std::vector<FmuVariable>& variables);
+
 /// A name as C has them, of any name.
 std::string fmu_identifier(const std::string& name);
 

@@ -146,21 +146,21 @@ std::string interfaces(const FmuDescription& of, FmiVersion version)
         "  <ModelExchange modelIdentifier=\"{0}\" completedIntegratorStepNotNeeded=\"true\" "
         "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
         "canSerializeFMUstate=\"true\" "
-        "providesDirectionalDerivative=\"true\"/>\n"
+        "providesDirectionalDerivative=\"{1}\"/>\n"
         "  <CoSimulation modelIdentifier=\"{0}\" canHandleVariableCommunicationStepSize=\"true\" "
         "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
         "canSerializeFMUstate=\"true\" "
-        "providesDirectionalDerivative=\"true\"/>\n",
-        of.identifier);
+        "providesDirectionalDerivative=\"{1}\"/>\n",
+        of.identifier, of.has_directional_derivatives);
   }
   return fmt::format(
       "  <ModelExchange modelIdentifier=\"{0}\" canGetAndSetFMUState=\"true\" "
       "canSerializeFMUState=\"true\" "
-      "providesDirectionalDerivatives=\"true\"/>\n"
+      "providesDirectionalDerivatives=\"{1}\"/>\n"
       "  <CoSimulation modelIdentifier=\"{0}\" canGetAndSetFMUState=\"true\" "
       "canSerializeFMUState=\"true\" "
-      "canHandleVariableCommunicationStepSize=\"true\" providesDirectionalDerivatives=\"true\"/>\n",
-      of.identifier);
+      "canHandleVariableCommunicationStepSize=\"true\" providesDirectionalDerivatives=\"{1}\"/>\n",
+      of.identifier, of.has_directional_derivatives);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct FmuDescription {
   std::string name;        ///< of the model, for people
   std::string identifier;  ///< of its library, as C has names
   std::string token;
+  bool has_directional_derivatives = true;
 };
 
 /// modelDescription.xml of a model for model exchange and co-simulation.

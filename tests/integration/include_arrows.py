@@ -35,6 +35,7 @@ ALLOWED = {
     "reduce": LINEAR,
     "cyclic": (*LINEAR, "reduce"),
     "fmu": ("common",),
+    "fmu/brake": (*BODIES, "squeal/brake", "squeal/motion", "squeal", "fmu"),
     "mbs_export": (*BODIES, "fmu"),
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
@@ -54,7 +55,7 @@ ALLOWED = {
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
-    "cases/squeal": (*BODIES, "squeal/", "scene/", "report"),
+    "cases/squeal": (*BODIES, "squeal/", "fmu/", "scene/", "report"),
     "cli": (*MODELS, "scene/", "report/", "cases/"),
     "python": (*MODELS, "scene/", "report/", "cases/"),
 }
@@ -65,6 +66,7 @@ HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h"
 CUTS = {
     "files": HEAVY,
     "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
+    "fmu/brake": (*HEAVY, "fmt", "hdf5", "files"),
     "linear/dense": HEAVY,
     "linear": ("gmsh.h",),
     "reduce": ("gmsh.h", "metis.h"),
