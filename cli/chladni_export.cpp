@@ -196,7 +196,7 @@ Exported export_brake_fmu(const ExportArguments& arguments)
   }
   const scene::Scene scene = scene::read_scene(arguments.source);
   const path file = arguments.output.empty() ? path(scene.name + ".fmu") : path(arguments.output);
-  const auto made = cases::brake_fmu(
+  const auto made = cases::fmu_of_brake(
       scene, {.version = fmi_version(arguments),
               .identifier = formats::fmu_identifier(file.stem().string()),
               .folder = arguments.from,

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "brake_fmu/brake_file.hpp"
+#include "brake_fmu/brake_simulation.hpp"
 #include "cases/squeal/squeal_case.hpp"
 #include "common/error.hpp"
-#include "fmu/brake/brake_file.hpp"
-#include "fmu/brake/brake_simulation.hpp"
 #include "squeal/models/flexible_disc.hpp"
 
 namespace chladni::cases {
@@ -32,7 +32,7 @@ double first_speed(const squeal::StudyOptions& study)
 struct PadVariable {
   const char *symbol, *unit, *description;
 };
-constexpr std::array<PadVariable, fmu::n_pad_outputs> pad_variables{
+constexpr std::array<PadVariable, brake_fmu::n_pad_outputs> pad_variables{
     {{"N", "N", "normal force"},
      {"S", "N", "force along the axis of the pad"},
      {"f_r", "N", "radial friction force on the disc"},
@@ -42,7 +42,7 @@ constexpr std::array<PadVariable, fmu::n_pad_outputs> pad_variables{
 
 class Variables {
  public:
-  explicit Variables(const fmu::BrakeModel& model)
+  explicit Variables(const brake_fmu::BrakeModel& model)
       : model_(model), references_(model.n_modes(), model.pads.n_pads())
   {}
 
@@ -52,7 +52,7 @@ class Variables {
     add({.name = "steps_per_period",
          .description = "steps of co-simulation in a period of the fastest oscillation",
          .kind = Kind::parameter,
-         .start = fmu::usual_steps_per_period});
+         .start = brake_fmu::usual_steps_per_period});
     add_inputs();
     add({.name = "torque",
          .description = "of friction on the disc about its axis",
@@ -80,7 +80,7 @@ class Variables {
          .description = "coefficient of sliding friction",
          .kind = Kind::input,
          .start = model_.friction});
-    const std::vector<double> preloads = fmu::preloads_of(model_.pads);
+    const std::vector<double> preloads = brake_fmu::preloads_of(model_.pads);
     for (std::size_t pad = 0; pad < preloads.size(); ++pad) {
       add({.name = fmt::format("pad[{}].preload", pad + 1),
            .description = "of each pad of the pair",
@@ -133,7 +133,7 @@ class Variables {
          .kind = Kind::derivative,
          .unit = "rad/s",
          .derivative_of = derivative_of_++,
-         .depends_on = {fmu::BrakeReferences::speed}});
+         .depends_on = {brake_fmu::BrakeReferences::speed}});
     const std::size_t first = variables_.size();
     add_modes("q", Kind::derivative, true);
     for (std::size_t i = first; i < variables_.size(); ++i) {
@@ -143,13 +143,13 @@ class Variables {
     add_modes("q_dot", Kind::derivative, true);
   }
 
-  const fmu::BrakeModel& model_;
-  fmu::BrakeReferences references_;
+  const brake_fmu::BrakeModel& model_;
+  brake_fmu::BrakeReferences references_;
   std::uint32_t derivative_of_ = 0;
   std::vector<FmuVariable> variables_;
 };
 
-fmu::BrakeModel brake_model(const squeal::FlexibleDisc& brake)
+brake_fmu::BrakeModel brake_model(const squeal::FlexibleDisc& brake)
 {
   const squeal::SquealOptions& options = brake.options();
   return {.token = {},
@@ -161,7 +161,7 @@ fmu::BrakeModel brake_model(const squeal::FlexibleDisc& brake)
 
 }  // namespace
 
-formats::Fmu brake_fmu(const scene::Scene& scene, const BrakeFmuOptions& options)
+formats::Fmu fmu_of_brake(const scene::Scene& scene, const BrakeFmuOptions& options)
 {
   if (!scene.squeal) {
     throw Error(
@@ -171,9 +171,9 @@ formats::Fmu brake_fmu(const scene::Scene& scene, const BrakeFmuOptions& options
   const SquealFiles files = squeal_files(scene, options.folder, {});
   const auto body = body_for_squeal(scene, files, options.stale);
   SquealCase made = squeal_case(scene, body, files, options.stale);
-  fmu::BrakeModel model = brake_model(*made.brake->body());
+  brake_fmu::BrakeModel model = brake_model(*made.brake->body());
   const std::vector<FmuVariable> variables = Variables(model).all();
-  model.token = formats::fmu_token(fmu::packed(model), variables);
+  model.token = formats::fmu_token(brake_fmu::packed(model), variables);
   const std::string description = formats::fmu_description(variables,
                                                            {.name = scene.title,
                                                             .identifier = options.identifier,
@@ -187,8 +187,8 @@ formats::Fmu brake_fmu(const scene::Scene& scene, const BrakeFmuOptions& options
                                            .identifier = options.identifier,
                                            .description = description,
                                            .library = "chladni-fmu-brake.so",
-                                           .resource = fmu::brake_file,
-                                           .model = fmu::packed(model)}),
+                                           .resource = brake_fmu::brake_file,
+                                           .model = brake_fmu::packed(model)}),
           .notes = std::move(made.notes)};
 }
 

@@ -20,6 +20,6 @@ struct BrakeFmuOptions {
 /// forces and motions of the pads out, angle and modes as states. Contact follows the scene.
 /// @throws chladni::Error when the scene has no disc with a body, its body is missing or of another
 ///         scene, and as mbs_export::formats::fmu_archive.
-mbs_export::formats::Fmu brake_fmu(const scene::Scene& scene, const BrakeFmuOptions& options);
+mbs_export::formats::Fmu fmu_of_brake(const scene::Scene& scene, const BrakeFmuOptions& options);
 
 }  // namespace chladni::cases

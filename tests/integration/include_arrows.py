@@ -35,7 +35,6 @@ ALLOWED = {
     "reduce": LINEAR,
     "cyclic": (*LINEAR, "reduce"),
     "fmu": ("common",),
-    "fmu/brake": (*BODIES, "squeal/brake", "squeal/motion", "squeal", "fmu"),
     "mbs_export": (*BODIES, "fmu"),
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
@@ -49,13 +48,14 @@ ALLOWED = {
                          "squeal/stability"),
     "squeal/cycle": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
                      "squeal/stability", "squeal/transient"),
+    "brake_fmu": (*BODIES, "fmu", "squeal/brake", "squeal/motion", "squeal"),
     "squeal/study": (*BODIES, "squeal/"),
     "sound": (*BODIES, "squeal/"),
     "scene": ("common",),  # and OPTIONS
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
-    "cases/squeal": (*BODIES, "squeal/", "fmu/", "scene/", "report"),
+    "cases/squeal": (*BODIES, "squeal/", "brake_fmu", "scene/", "report"),
     "cli": (*MODELS, "scene/", "report/", "cases/"),
     "python": (*MODELS, "scene/", "report/", "cases/"),
 }
@@ -66,7 +66,7 @@ HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h"
 CUTS = {
     "files": HEAVY,
     "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
-    "fmu/brake": (*HEAVY, "fmt", "hdf5", "files"),
+    "brake_fmu": (*HEAVY, "fmt", "hdf5", "files"),
     "linear/dense": HEAVY,
     "linear": ("gmsh.h",),
     "reduce": ("gmsh.h", "metis.h"),

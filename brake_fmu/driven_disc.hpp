@@ -8,7 +8,7 @@
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/point_shapes.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 
 /// A disc and the pads that it turns between.
 struct BrakeModel {
@@ -79,4 +79,4 @@ class DrivenDisc {
   std::vector<squeal::ContactResult<double>> contacts_;  ///< of each point
 };
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

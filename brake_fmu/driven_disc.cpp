@@ -1,4 +1,4 @@
-#include "fmu/brake/driven_disc.hpp"
+#include "brake_fmu/driven_disc.hpp"
 
 #include <cmath>
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
@@ -137,4 +137,4 @@ DrivenDisc::Rates DrivenDisc::fastest()
   return {std::sqrt(largest_eigenvalue(K)), largest_eigenvalue(D)};
 }
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "fmu/brake/driven_disc.hpp"
+#include "brake_fmu/driven_disc.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 
 /// The name of a brake among the resources of its FMU.
 inline constexpr auto brake_file = "brake.chladni-fmu";
@@ -18,4 +18,4 @@ std::string packed(const BrakeModel& model);
 ///         together.
 BrakeModel unpacked_brake(std::string_view bytes);
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

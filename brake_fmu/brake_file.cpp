@@ -1,4 +1,4 @@
-#include "fmu/brake/brake_file.hpp"
+#include "brake_fmu/brake_file.hpp"
 
 #include <cmath>
 #include <complex>
@@ -7,7 +7,7 @@
 
 #include "common/error.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 namespace {
 
 using Eigen::Index;
@@ -243,4 +243,4 @@ BrakeModel unpacked_brake(std::string_view bytes)
   return model;
 }
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

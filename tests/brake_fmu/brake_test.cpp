@@ -4,13 +4,13 @@
 #include <cmath>
 #include <random>
 
+#include "brake_fmu/brake_file.hpp"
+#include "brake_fmu/brake_simulation.hpp"
 #include "common/error.hpp"
-#include "fmu/brake/brake_file.hpp"
-#include "fmu/brake/brake_simulation.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/motion/rotating_disc.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 namespace {
 
 using Eigen::Index, Eigen::VectorXd;
@@ -220,4 +220,4 @@ TEST(BrakeFile, ThatIsCutOffOrDamagedIsRefused)
 }
 
 }  // namespace
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

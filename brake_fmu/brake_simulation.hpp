@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "fmu/brake/driven_disc.hpp"
+#include "brake_fmu/driven_disc.hpp"
 #include "fmu/simulation.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 
 /// What an FMU tells of a pad, in this order; forces act on the disc.
 enum class PadOutput {
@@ -47,7 +47,7 @@ class BrakeReferences {
 inline constexpr double usual_steps_per_period = 16.0;
 
 /// A brake in a simulation. Its inputs begin as its model has them.
-class BrakeSimulation final : public Simulation {
+class BrakeSimulation final : public fmu::Simulation {
  public:
   explicit BrakeSimulation(BrakeModel model);
 
@@ -61,7 +61,7 @@ class BrakeSimulation final : public Simulation {
   Eigen::VectorXd derivatives() const override;
   /// @throws chladni::Error always: the FMU says that it has none.
   std::vector<double> directional_derivatives(std::span<const std::uint32_t> unknowns,
-                                              const Direction& direction) const override;
+                                              const fmu::Direction& direction) const override;
   /// In steps of the method of order 8 by Dormand and Prince.
   void advance(double h) override;
   Eigen::VectorXd snapshot() const override;
@@ -79,4 +79,4 @@ class BrakeSimulation final : public Simulation {
   Eigen::VectorXd x_;  ///< [1 + 2 n_modes] angle, q, q'
 };
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu

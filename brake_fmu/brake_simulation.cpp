@@ -1,4 +1,4 @@
-#include "fmu/brake/brake_simulation.hpp"
+#include "brake_fmu/brake_simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "common/error.hpp"
 #include "squeal/motion/dop853.hpp"
 
-namespace chladni::fmu {
+namespace chladni::brake_fmu {
 namespace {
 
 using Eigen::Index, Eigen::VectorXd;
@@ -134,7 +134,7 @@ void BrakeSimulation::set_continuous_states(const VectorXd& x)
 }
 
 std::vector<double> BrakeSimulation::directional_derivatives(
-    std::span<const std::uint32_t> /*unknowns*/, const Direction& /*direction*/) const
+    std::span<const std::uint32_t> /*unknowns*/, const fmu::Direction& /*direction*/) const
 {
   throw Error("a brake gives no directional derivatives");
 }
@@ -178,4 +178,4 @@ void BrakeSimulation::restore(const VectorXd& snapshot)
   x_ = snapshot.tail(x_.size());
 }
 
-}  // namespace chladni::fmu
+}  // namespace chladni::brake_fmu
