@@ -23,6 +23,8 @@ struct ExportArguments {
   int superelement = 100;  ///< its number in Nastran
   std::string sid_dialect = "simpack";     ///< one of sid_dialects()
   std::string sid_gyroscopic = "by-mode";  ///< one of sid_gyroscopic_orders()
+  std::string fmi = "2";                   ///< version of FMI: one of fmi_versions()
+  std::vector<std::string> nodes;          ///< sets of attachment nodes of an FMU; empty: all
   std::string json;                        ///< file for the summary; empty for none
   bool stale = false;  ///< a reduced file made before a change of the scene is taken as it is
 };
@@ -38,7 +40,7 @@ struct ImportArguments {
 /// What `chladni mesh` takes besides; SCENE may be a mesh file there.
 struct QualityChoice {
   bool quality = false;     ///< report the shapes of the elements
-  std::string length_unit;  ///< what 1 is in a deck without a scene
+  std::string length_unit;  ///< what 1 is in a file without a scene that does not tell it
 };
 
 /// What `chladni sound` takes besides.
@@ -131,6 +133,7 @@ const std::vector<std::string>& export_formats();
 
 /// The values of --sid-dialect.
 const std::vector<std::string>& sid_dialects();
+const std::vector<std::string>& fmi_versions();
 
 /// The values of --sid-gyroscopic.
 const std::vector<std::string>& sid_gyroscopic_orders();

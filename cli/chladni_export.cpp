@@ -8,6 +8,7 @@
 
 #include "cases/export_limits.hpp"
 #include "cases/ranks.hpp"
+#include "cases/squeal/brake_fmu.hpp"
 #include "cli/chladni_commands.hpp"
 #include "cli/chladni_steps.hpp"
 #include "common/error.hpp"
@@ -17,6 +18,7 @@
 #include "mbs_export/files/reduced_file.hpp"
 #include "mbs_export/formats/export_error.hpp"
 #include "mbs_export/formats/exudyn.hpp"
+#include "mbs_export/formats/fmu.hpp"
 #include "mbs_export/formats/matlab.hpp"
 #include "mbs_export/formats/matrix_market.hpp"
 #include "mbs_export/formats/mbdyn.hpp"
@@ -168,8 +170,43 @@ mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& so
   return make_body_of(*source.scene, read_reduced_of(arguments, source));
 }
 
+formats::FmiVersion fmi_version(const ExportArguments& arguments)
+{
+  return arguments.fmi == "3" ? formats::FmiVersion::v3 : formats::FmiVersion::v2;
+}
+
+Exported export_fmu(const ExportArguments& arguments, const Source& source)
+{
+  const path file = target_of(arguments, source, ".fmu");
+  const auto made = formats::fmu(body_of(arguments, source),
+                                 {.version = fmi_version(arguments),
+                                  .sets = arguments.nodes,
+                                  .identifier = formats::fmu_identifier(file.stem().string())});
+  return {{write(file, made.archive)}, made.notes};
+}
+
+/// The brake of a scene with the body beside the reduced system.
+Exported export_brake_fmu(const ExportArguments& arguments)
+{
+  if (path(arguments.source).extension() == ".h5") {
+    throw Error(
+        fmt::format("{}: an FMU of a brake is made of its scene, whose [squeal] says what "
+                    "holds the disc",
+                    arguments.source));
+  }
+  const scene::Scene scene = scene::read_scene(arguments.source);
+  const path file = arguments.output.empty() ? path(scene.name + ".fmu") : path(arguments.output);
+  const auto made = cases::fmu_of_brake(
+      scene, {.version = fmi_version(arguments),
+              .identifier = formats::fmu_identifier(file.stem().string()),
+              .folder = arguments.from,
+              .stale = arguments.stale ? report::Stale::use : report::Stale::refuse});
+  return {{write(file, made.archive)}, made.notes};
+}
+
 Exported export_as(const ExportArguments& arguments, const Source& source)
 {
+  if (arguments.format == "fmu") return export_fmu(arguments, source);
   if (arguments.format == "mat") {
     const std::string text = formats::matlab_body(body_of(arguments, source));
     return {{write(target_of(arguments, source, ".mat"), text)}, {}};
@@ -187,6 +224,7 @@ Exported export_as(const ExportArguments& arguments, const Source& source)
 /// What the scene asks for in vain is told with its place there.
 Exported export_of(const ExportArguments& arguments)
 {
+  if (arguments.format == "fmu-brake") return export_brake_fmu(arguments);
   const Source source = source_of(arguments);
   try {
     return export_as(arguments, source);
@@ -216,8 +254,8 @@ void export_and_report(const ExportArguments& arguments)
 const std::vector<std::string>& export_formats()
 {
   static const std::vector<std::string> names{
-      "nastran-dmig",  "nastran-op4", "matrix-market", "mbdyn",
-      "mbdyn-develop", "sid",         "exudyn",        "mat"};
+      "nastran-dmig", "nastran-op4", "matrix-market", "mbdyn", "mbdyn-develop",
+      "sid",          "exudyn",      "mat",           "fmu",   "fmu-brake"};
   return names;
 }
 
@@ -231,6 +269,12 @@ const std::vector<std::string>& sid_gyroscopic_orders()
 {
   static const std::vector<std::string> names{"by-mode", "by-axis"};
   return names;
+}
+
+const std::vector<std::string>& fmi_versions()
+{
+  static const std::vector<std::string> versions{"2", "3"};
+  return versions;
 }
 
 void export_command(const ChladniArguments& arguments)

@@ -77,7 +77,7 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
   exported
       ->add_option("SOURCE", arguments.source,
-                   "the scene file, or a *.reduced.h5 (of mat: a *.body.h5)")
+                   "the scene file, or a *.reduced.h5 (of mat, fmu: a *.body.h5)")
       ->required();
   exported->add_option("--format", arguments.format, "format of the other program")
       ->required()
@@ -98,6 +98,14 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
                    "order of the columns of Gr and Ge in SID_FEM")
       ->check(CLI::IsMember(chladni::cli::sid_gyroscopic_orders()))
       ->capture_default_str();
+  exported->add_option("--fmi", arguments.fmi, "version of FMI of an FMU")
+      ->check(CLI::IsMember(chladni::cli::fmi_versions()))
+      ->capture_default_str();
+  exported
+      ->add_option("--nodes", arguments.nodes,
+                   "sets of attachment nodes that an FMU has forces and motions of; else all")
+      ->type_name("SET")
+      ->delimiter(',');
   exported->add_option("--json", arguments.json, "writes the summary for other programs")
       ->type_name("FILE");
   exported->footer(
@@ -105,12 +113,14 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
       "  chladni export scene.toml --from out --format sid --sid-dialect welib\n"
       "  chladni export scene.toml --from out --format exudyn --output disc.exudyn.hdf5\n"
-      "  chladni export out/disc.body.h5 --format mat");
+      "  chladni export out/disc.body.h5 --format mat\n"
+      "  chladni export out/disc.body.h5 --format fmu --fmi 3 --nodes track,hub\n"
+      "  chladni export scene.toml --from out --format fmu-brake --output brake.fmu");
 }
 
 void declare_length_unit(CLI::App& app, std::string& unit)
 {
-  app.add_option("--length-unit", unit, "what 1 is in the deck")
+  app.add_option("--length-unit", unit, "what 1 is in a deck, .unv, .med or .vtu")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
 }
@@ -180,8 +190,8 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
-      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step or "
-      "a deck");
+      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step, "
+      ".unv, .med, .vtu or a deck");
   declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   app.get_subcommand("response")
       ->add_option("--uff", arguments.response.universal_file,

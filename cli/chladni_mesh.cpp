@@ -14,6 +14,7 @@
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mesh/decks/is_deck.hpp"
+#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/repetition.hpp"
@@ -41,15 +42,20 @@ Subject read_subject(const ChladniArguments& arguments)
   const std::string& path = arguments.scene.scene;
   const std::string extension = std::filesystem::path(path).extension().string();
   const std::string& unit = arguments.mesh.length_unit;
-  const bool is_deck = mesh::is_deck(path);
-  if (is_deck && unit.empty()) throw Error(path + ": a deck tells no unit; say --length-unit mm");
-  if (!is_deck && !unit.empty())
-    throw Error(path + ": --length-unit is for decks without a scene; say length_unit in [mesh]");
-  if (is_deck || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
+  const bool has_no_unit = mesh::is_deck(path) || mesh::is_exchange(path);
+  if (has_no_unit && unit.empty())
+    throw Error(path + ": such a file tells no unit; say --length-unit mm");
+  if (!has_no_unit && !unit.empty()) {
+    throw Error(path +
+                ": --length-unit is for decks, .unv, .med and .vtu files without a scene; say "
+                "length_unit in [mesh]");
+  }
+  if (has_no_unit || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;
-    return {.name = std::filesystem::path(path).stem().string(),
-            .title = path,
-            .mesh = {.file = path, .length_unit = is_deck ? metres_of(unit) : 1.0, .trust = trust}};
+    return {
+        .name = std::filesystem::path(path).stem().string(),
+        .title = path,
+        .mesh = {.file = path, .length_unit = has_no_unit ? metres_of(unit) : 1.0, .trust = trust}};
   }
   const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   return {.name = scene.name, .title = scene.title, .mesh = scene.mesh, .scene = scene};

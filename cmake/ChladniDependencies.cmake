@@ -9,7 +9,8 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3 REQUIRED)
 # The serial HDF5, also in `chladni`: files are written by one rank, and `squeal` must not link MPI.
-pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # Debian's name, and HDF5's own
+find_library(ZLIB_LIBRARY z REQUIRED)  # FMUs are zip archives; arrays of .vtu meshes are packed
 
 # For the Python of the system, which has Debian's numpy and petsc4py; another one is chosen by PYTHON_EXECUTABLE. An
 # interpreter without sanitizers loads no module with them.
@@ -28,15 +29,33 @@ endif()
 
 if(CHLADNI_FE)
   find_package(MPI REQUIRED COMPONENTS CXX)
+  # PETSc and SLEPc of one's own, named as their makefiles name them.
+  foreach(package PETSC SLEPC)
+    set(folder $ENV{${package}_DIR})
+    if(NOT folder)
+      continue()
+    endif()
+    if(EXISTS ${folder}/$ENV{PETSC_ARCH}/lib/pkgconfig)
+      set(folder ${folder}/$ENV{PETSC_ARCH})
+    elseif(NOT EXISTS ${folder}/lib/pkgconfig)
+      message(FATAL_ERROR "${package}_DIR is ${folder} and PETSC_ARCH is \"$ENV{PETSC_ARCH}\", but neither "
+                          "${folder}/$ENV{PETSC_ARCH}/lib/pkgconfig nor ${folder}/lib/pkgconfig is there: build it "
+                          "first, or unset ${package}_DIR to take that of the system")
+    endif()
+    set(ENV{PKG_CONFIG_PATH} "${folder}/lib/pkgconfig:$ENV{PKG_CONFIG_PATH}")
+    message(STATUS "${package}_DIR: ${folder}")
+  endforeach()
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)
   pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18)
   pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)  # formulas of the position
   find_library(GMSH_LIBRARY gmsh REQUIRED)
-  find_library(METIS_LIBRARY metis REQUIRED)
+  # Those that PETSc was built with, where it brought its own.
+  find_library(METIS_LIBRARY metis HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)
+  find_library(EXPAT_LIBRARY expat REQUIRED)  # the XML of .vtu meshes
   # The one that PETSc links; its C interface takes an ordering by METIS, which PETSc's does not.
-  find_library(MUMPS_LIBRARY dmumps REQUIRED)
+  find_library(MUMPS_LIBRARY dmumps HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)
   # Complex equations of the sound field, beside the real PETSc.
-  find_library(ZMUMPS_LIBRARY zmumps REQUIRED)
+  find_library(ZMUMPS_LIBRARY zmumps HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)
   # dgemm and dsyrk of the projection; OpenBLAS, since the reference BLAS is five times slower.
   find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 endif()

@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
-set(light_libraries common files dense mbs_export squeal_options squeal)
+set(light_libraries common files dense fmu mbs_export squeal_options squeal)
 set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.
@@ -39,6 +39,7 @@ chladni_install_program(squeal squeal)
 if(CHLADNI_FE)
   chladni_export(chladni-fe-targets ${fe_libraries})
   chladni_install_program(chladni fe)
+  install(TARGETS chladni_fmu_binary chladni_fmu_brake_binary LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   install(TARGETS chladni_mesh_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/chladni COMPONENT fe)
   set_target_properties(chladni_petsc_plugin PROPERTIES EXPORT_NAME cms)
   install(TARGETS chladni_petsc_plugin EXPORT chladni-plugin-targets
@@ -65,6 +66,7 @@ set(light_headers
     mbs_export/files/reduced_file.hpp
     mbs_export/formats/export_error.hpp
     mbs_export/formats/exudyn.hpp
+    mbs_export/formats/fmu.hpp
     mbs_export/formats/matlab.hpp
     mbs_export/formats/mbdyn.hpp
     mbs_export/formats/nastran.hpp
@@ -195,9 +197,9 @@ set(CPACK_DEBIAN_FE_PACKAGE_NAME chladni)
 set(CPACK_DEBIAN_FE_PACKAGE_RECOMMENDS openmpi-bin)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libchladni-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libhdf5-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libhdf5-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS
-    "libpetsc-real-dev, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev")
+    "libpetsc-real-dev, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libmuparser-dev, libopenblas-dev, libexpat1-dev")
 set(CPACK_COMPONENTS_ALL squeal dev)
 if(CHLADNI_FE)
   list(APPEND CPACK_COMPONENTS_ALL fe)

@@ -31,6 +31,39 @@ std::vector<LatticeCell> line_cells(int p, int step)
   return cells;
 }
 
+std::vector<int> quadrilateral_order(int p)
+{
+  const auto place = [&](int i, int j) { return j * (p + 1) + i; };
+  std::vector<int> order{place(0, 0), place(p, 0), place(p, p), place(0, p)};
+  for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
+  for (int j = 1; j < p; ++j) order.push_back(place(p, j));
+  for (int i = 1; i < p; ++i) order.push_back(place(i, p));
+  for (int j = 1; j < p; ++j) order.push_back(place(0, j));
+  for (int j = 1; j < p; ++j)
+    for (int i = 1; i < p; ++i) order.push_back(place(i, j));
+  return order;
+}
+
+/// The inner nodes, up to order 4, are a triangle of order p - 3.
+std::vector<int> triangle_order(int p)
+{
+  const auto place = [&](int i, int j) { return j * (p + 1) - j * (j - 1) / 2 + i; };
+  std::vector<int> order{place(0, 0), place(p, 0), place(0, p)};
+  for (int i = 1; i < p; ++i) order.push_back(place(i, 0));
+  for (int i = 1; i < p; ++i) order.push_back(place(p - i, i));
+  for (int i = 1; i < p; ++i) order.push_back(place(0, p - i));
+  if (p > 2) order.push_back(place(1, 1));
+  if (p > 3) order.insert(order.end(), {place(2, 1), place(1, 2)});
+  return order;
+}
+
+std::vector<int> line_order(int p)
+{
+  std::vector<int> order{0, p};
+  for (int i = 1; i < p; ++i) order.push_back(i);
+  return order;
+}
+
 }  // namespace
 
 std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step)
@@ -92,6 +125,12 @@ std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group)
     }
   }
   return edges;
+}
+
+std::vector<int> corners_first(Shape shape, int order)
+{
+  if (shape == Shape::line) return line_order(order);
+  return shape == Shape::triangle ? triangle_order(order) : quadrilateral_order(order);
 }
 
 }  // namespace chladni::mesh

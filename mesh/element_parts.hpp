@@ -20,4 +20,9 @@ std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element);
 /// Element edges with all their nodes in the group; an edge between two elements counts once.
 std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group);
 
+/// The lattice places of an element's nodes in the order of VTK, up to order 2 also that of most
+/// other formats: corners, then edges, then the inner nodes.
+/// @param order  up to 4
+std::vector<int> corners_first(Shape shape, int order);
+
 }  // namespace chladni::mesh

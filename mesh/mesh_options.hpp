@@ -127,7 +127,8 @@ struct MeshOptions {
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
   std::optional<BeamMeshOptions> beam = {};
-  /// .msh, .geo or .step, resolved against the scene file's folder; the rest is about the file.
+  /// .msh, .geo, .step or of another program, resolved against the scene file's folder; the rest is
+  /// about the file.
   std::optional<std::string> file = {};
   std::optional<int> element_order = {};    ///< not of a .msh, which has its own
   std::optional<double> element_size = {};  ///< m; of a .step, else as Gmsh likes
@@ -137,6 +138,8 @@ struct MeshOptions {
   std::vector<EntityGroup> groups = {};       ///< besides those of the file
   std::vector<RingOptions> rings = {};        ///< nodes must lie there; a .step gets them
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
+  /// Of surfaces with a section; in files whose elements may be of several groups, these count.
+  std::vector<std::string> shell_groups = {};
   int sectors = 1;                            ///< equal ones, of which the file holds one
   bool finds_sectors = false;                 ///< a body that repeats is reduced from one sector
   Coincident coincident_nodes = Coincident::refuse;

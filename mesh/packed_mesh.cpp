@@ -59,6 +59,7 @@ void transfer_options(auto& archive, auto& options)
     a(ring.z);
   });
   archive.each(options.line_groups, [](auto& a, auto& name) { a(name); });
+  archive.each(options.shell_groups, [](auto& a, auto& name) { a(name); });
 }
 
 void transfer_section(auto& archive, auto& section)

@@ -14,6 +14,7 @@
 #include "confinement/system_calls.hpp"
 #include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/read_deck.hpp"
+#include "mesh/exchange/is_exchange.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/packed_mesh.hpp"
 
@@ -43,7 +44,7 @@ fs::path reader_program()
       (CHLADNI_LIBEXEC_FOLDER / fs::path("chladni")).string()));
 }
 
-/// A .msh or a deck takes what its size tells; what a .geo or .step makes, nobody knows.
+/// What holds a mesh takes what its size tells; what a .geo or .step makes, nobody knows.
 confinement::Limits limits_of(const MeshOptions& options)
 {
   std::error_code unknown;
@@ -51,7 +52,8 @@ confinement::Limits limits_of(const MeshOptions& options)
   const std::uint64_t size = unknown ? 0 : found;  // the reader says what is wrong with it
   const std::uint64_t machine =
       std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-  const bool is_mesh = fs::path(*options.file).extension() == ".msh" || is_deck(*options.file);
+  const bool is_mesh = fs::path(*options.file).extension() == ".msh" || is_deck(*options.file) ||
+                       is_exchange(*options.file);
   const double usual = is_mesh ? 60.0 + 4.0 * double(size) / double(MiB) : 900.0;
   const std::uint64_t most = is_mesh ? std::min(1024 * MiB + 64 * size, machine) : machine / 4 * 3;
   return {.memory = options.most_MiB ? std::uint64_t(*options.most_MiB) * MiB : most,
@@ -106,7 +108,9 @@ auto answer_of(const MeshOptions& options, Wanted wanted, auto&& ask, auto&& unp
                                             .most_seconds = limits.seconds,
                                             .most_bytes = limits.memory});
   if (outcome.end != End::exited || outcome.code != 0) {
-    const char* reader = is_deck(*options.file) ? "the reader of decks" : "Gmsh";
+    const char* reader = is_deck(*options.file)       ? "the reader of decks"
+                         : is_exchange(*options.file) ? "its reader"
+                                                      : "Gmsh";
     throw Error(
         fmt::format("mesh file {}: {}", *options.file, sentence_on_end(outcome, limits, reader)));
   }

@@ -8,6 +8,8 @@
 #include "mesh/check_msh.hpp"
 #include "mesh/decks/is_deck.hpp"
 #include "mesh/decks/read_deck.hpp"
+#include "mesh/exchange/is_exchange.hpp"
+#include "mesh/exchange/read_exchange.hpp"
 #include "mesh/gmsh_files.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/mesh_reader.hpp"
@@ -17,24 +19,25 @@ namespace chladni::mesh {
 
 namespace {
 
-enum class Format { msh, geo, step, deck };
+enum class Format { msh, geo, step, deck, exchange };
 
 Format format_of(const std::string& file)
 {
   if (!std::filesystem::is_regular_file(file)) {
     throw Error(fmt::format(
-        "mesh file {} does not exist; give the path of a .msh, .geo, .step, .bdf, .nas, "
-        ".dat or .inp",
+        "mesh file {} does not exist; give the path of a .msh, .geo, .step, .unv, .med, .vtu, "
+        ".bdf, .nas, .dat or .inp",
         file));
   }
   if (is_deck(file)) return Format::deck;
+  if (is_exchange(file)) return Format::exchange;
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension == ".msh") return Format::msh;
   if (extension == ".geo") return Format::geo;
   if (extension == ".step" || extension == ".stp") return Format::step;
   throw Error(
-      fmt::format("mesh file {}: only .msh, .geo and .step files and decks of Nastran (.bdf, .nas, "
-                  ".dat) and Abaqus (.inp) can be read",
+      fmt::format("mesh file {}: only .msh, .geo, .step, .unv, .med and .vtu files and decks of "
+                  "Nastran (.bdf, .nas, .dat) and Abaqus (.inp) can be read",
                   file));
 }
 
@@ -97,9 +100,9 @@ void scale(Mesh& mesh, double metres)
 Mesh read_here(const MeshOptions& options, const std::function<void()>& before_reading)
 {
   const Format format = format_of(*options.file);
-  if (format == Format::deck) {
+  if (format == Format::deck || format == Format::exchange) {
     before_reading();
-    Mesh mesh = deck_mesh(options);
+    Mesh mesh = format == Format::deck ? deck_mesh(options) : exchange_mesh(options);
     scale(mesh, options.length_unit);
     return mesh;
   }

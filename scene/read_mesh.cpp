@@ -25,14 +25,21 @@ bool is_deck(const std::filesystem::path& file)
   return contains({".bdf", ".nas", ".dat", ".inp"}, file.extension().string());
 }
 
+/// Files that carry a mesh and its groups from program to program, and tell no unit either.
+bool is_exchange(const std::filesystem::path& file)
+{
+  return contains({".unv", ".med", ".mmed", ".vtu"}, file.extension().string());
+}
+
 std::string read_file_name(const Table& mesh, const std::string& scene_path)
 {
   const std::filesystem::path file = mesh.text("file");
   const std::string extension = file.extension().string();
-  if (!contains({".msh", ".geo", ".step", ".stp"}, extension) && !is_deck(file)) {
+  if (!contains({".msh", ".geo", ".step", ".stp"}, extension) && !is_deck(file) &&
+      !is_exchange(file)) {
     mesh.refuse("file",
-                "must be a .msh, .geo or .step file, or a deck of Nastran (.bdf, .nas, .dat) or "
-                "Abaqus (.inp)");
+                "must be a .msh, .geo, .step, .unv, .med or .vtu file, or a deck of Nastran (.bdf, "
+                ".nas, .dat) or Abaqus (.inp)");
   }
   return (std::filesystem::path(scene_path).parent_path() / file).lexically_normal().string();
 }
@@ -105,20 +112,20 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   mesh::MeshOptions options{.file = read_file_name(mesh, scene_path)};
   const bool is_msh = options.file->ends_with(".msh");
   const bool is_geo = options.file->ends_with(".geo");
-  const bool is_of_deck = is_deck(*options.file);
-  const bool is_step = !is_msh && !is_geo && !is_of_deck;
+  const bool is_finished = is_deck(*options.file) || is_exchange(*options.file);
+  const bool is_step = !is_msh && !is_geo && !is_finished;
   check_only_for(mesh, "element_order", is_geo || is_step,
                  is_msh ? "a .msh file has its own order; take this key out"
-                        : "a deck has its own order; take this key out");
-  check_only_for(mesh, "groups", !is_of_deck,
-                 "a deck has no surfaces or curves, only its own groups");
+                        : "such a file has its own order; take this key out");
+  check_only_for(mesh, "groups", !is_finished,
+                 "such a file has no surfaces or curves, only its own groups");
   check_only_for(mesh, "element_size", is_step, "is for .step files; a .geo has its own sizes");
   check_only_for(mesh, "parameters", is_geo, "only a .geo file has parameters");
   check_only_for(mesh, "length_unit", !is_step, "a .step file tells its own unit");
   if (mesh.has("element_order")) options.element_order = read_element_order(mesh);
   if (is_step) options.element_size = read_size_of_step(mesh, size);
   if (mesh.has("parameters")) options.parameters = read_parameters(mesh);
-  if (mesh.has("length_unit") || is_of_deck) options.length_unit = read_length_unit(mesh);
+  if (mesh.has("length_unit") || is_finished) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   options.sectors = read_sectors(mesh);
   options.finds_sectors = finds_sectors(mesh);

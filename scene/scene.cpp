@@ -78,6 +78,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   scene.sections = sections.shells;
   scene.beams = sections.beams;
   for (const plate::BeamSection& beam : scene.beams) scene.mesh.line_groups.push_back(beam.group);
+  for (const auto& shell : scene.sections) scene.mesh.shell_groups.push_back(shell.group);
   scene.couplings = read_couplings(root, scene);
   scene.masses = read_masses(root, scene);
   scene.springs = read_springs(root, scene);

@@ -17,7 +17,7 @@ struct DeckElement {
   Shape shape;
   int order;
   std::vector<std::int64_t> nodes;  ///< in lattice order, 0 where the file has none
-  int group;                        ///< index into Deck::groups
+  int group;                        ///< index into Deck::groups, -1 = none
 };
 
 /// A named set of nodes. That of elements holds their nodes only after `mesh_of`.

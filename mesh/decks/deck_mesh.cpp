@@ -53,12 +53,24 @@ std::vector<int> nodes_of(const DeckElement& element, const NodeIndex& index)
   return nodes;
 }
 
+void add_element(Mesh& mesh, const DeckElement& element, const std::vector<int>& nodes)
+{
+  ElementBlock& block = block_of(mesh, element);
+  block.numbers.push_back(element.number);
+  block.group.push_back(element.group);
+  block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+}
+
 void add_elements(Mesh& mesh, const Deck& deck, const NodeIndex& index,
                   const std::vector<std::string>& line_groups)
 {
   std::vector<int> n_left_out(deck.groups.size(), 0);
   for (const DeckElement& element : deck.elements) {
     const std::vector<int> nodes = nodes_of(element, index);
+    if (element.group < 0) {
+      add_element(mesh, element, nodes);
+      continue;
+    }
     Group& group = mesh.groups[static_cast<std::size_t>(element.group)];
     std::ranges::copy_if(nodes, std::back_inserter(group.nodes),
                          [](int node) { return node >= 0; });
@@ -68,10 +80,7 @@ void add_elements(Mesh& mesh, const Deck& deck, const NodeIndex& index,
       ++n_left_out[static_cast<std::size_t>(element.group)];
       continue;
     }
-    ElementBlock& block = block_of(mesh, element);
-    block.numbers.push_back(element.number);
-    block.group.push_back(element.group);
-    block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+    add_element(mesh, element, nodes);
   }
   for (std::size_t i = 0; i < n_left_out.size(); ++i) {
     if (n_left_out[i] == 0) continue;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "mesh/element_parts.hpp"
 #include "report/fe/vtu.hpp"
 
 namespace chladni::report {
@@ -27,7 +28,7 @@ void add_cell(Cells& cells, int type, int group, std::int64_t element)
 
 void add_elements(Cells& cells, const mesh::ElementBlock& block)
 {
-  const std::vector<int> order = vtu_node_order(block.shape, block.order);
+  const std::vector<int> order = mesh::corners_first(block.shape, block.order);
   for (int e = 0; e < block.n_elements(); ++e) {
     for (const int place : order) cells.grid.connectivity.push_back(block.element_nodes(e)[place]);
     add_cell(cells, vtu_cell_type(block.shape, block.order), block.group[e], block.numbers[e]);
@@ -37,7 +38,7 @@ void add_elements(Cells& cells, const mesh::ElementBlock& block)
 void add_edge(Cells& cells, const std::vector<int>& edge, int group)
 {
   const auto order = static_cast<int>(edge.size()) - 1;
-  for (const int place : vtu_node_order(mesh::Shape::line, order))
+  for (const int place : mesh::corners_first(mesh::Shape::line, order))
     cells.grid.connectivity.push_back(edge[place]);
   add_cell(cells, vtu_cell_type(mesh::Shape::line, order), group, 0);
 }

@@ -38,10 +38,6 @@ int vtu_cell_type(mesh::Shape shape, int order);
 /// VTK's number for a cell that is one node.
 inline constexpr int vtu_vertex = 1;
 
-/// For each node of VTK's cell its place in the lattice of mesh::ElementBlock: corners, then edges,
-/// then the inner nodes.
-std::vector<int> vtu_node_order(mesh::Shape shape, int order);
-
 /// The text of a .vtu file: VTK's XML with base64 arrays.
 std::string vtu_text(const VtuGrid& grid);
 

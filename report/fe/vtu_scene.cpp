@@ -4,6 +4,7 @@
 #include <map>
 
 #include "common/eigen_every.hpp"
+#include "mesh/element_parts.hpp"
 #include "plate/sections/profile.hpp"
 #include "plate/sections/sections.hpp"
 
@@ -35,7 +36,7 @@ class Points {
 void add_cell(VtuGrid& grid, Points& points, const mesh::ElementBlock& block, int element)
 {
   const std::span<const int> nodes = block.element_nodes(element);
-  for (const int place : vtu_node_order(block.shape, block.order))
+  for (const int place : mesh::corners_first(block.shape, block.order))
     grid.connectivity.push_back(points.point(nodes[place], block.group[element]));
   grid.offsets.push_back(static_cast<int>(grid.connectivity.size()));
   grid.types.push_back(vtu_cell_type(block.shape, block.order));

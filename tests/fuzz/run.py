@@ -26,6 +26,7 @@ READERS = {
     "scene": "scene files",
     "geo": "what is asked of `.geo` files before Gmsh reads them",
     "deck": "decks of Nastran and Abaqus, as meshes and as declarations",
+    "exchange": "universal files and grids of VTK, as meshes",
     "mesh": "the check of `.msh` files before Gmsh reads them",
 }
 OPTIONS = ("-timeout=20", "-rss_limit_mb=1024", "-malloc_limit_mb=64", "-detect_leaks=0", "-max_len=65536",

@@ -23,8 +23,9 @@ ALLOWED = {
     "linear/cholesky/supernodal": ("common", "linear", "linear/kernels", "linear/cholesky"),
     "linear/lanczos": ("common", "linear", "linear/kernels"),
     "confinement": ("common",),
-    "mesh": ("common", "confinement", "mesh/decks"),
+    "mesh": ("common", "confinement", "mesh/decks", "mesh/exchange"),
     "mesh/decks": ("common", "mesh"),
+    "mesh/exchange": ("common", "files", "mesh", "mesh/decks"),
     "plate": ("common", "mesh"),
     "plate/elements": ("common", "mesh", "plate"),
     "plate/refinement": ("common", "mesh", "plate", "plate/elements"),
@@ -33,7 +34,8 @@ ALLOWED = {
     "plate/assembly": ("common", "mesh", "plate/"),
     "reduce": LINEAR,
     "cyclic": (*LINEAR, "reduce"),
-    "mbs_export": BODIES,
+    "fmu": ("common",),
+    "mbs_export": (*BODIES, "fmu"),
     "reduce_export": (*LINEAR, "files", "reduce", "mbs_export/"),
     "plugin": (*LINEAR, "files", "reduce", "cyclic", "mbs_export/", "reduce_export"),
     "squeal": BODIES,
@@ -46,13 +48,14 @@ ALLOWED = {
                          "squeal/stability"),
     "squeal/cycle": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
                      "squeal/stability", "squeal/transient"),
+    "brake_fmu": (*BODIES, "fmu", "squeal/brake", "squeal/motion", "squeal"),
     "squeal/study": (*BODIES, "squeal/"),
     "sound": (*BODIES, "squeal/"),
     "scene": ("common",),  # and OPTIONS
     "report": (*BODIES, "squeal/", "scene/"),
     "report/fe": (*BODIES, "squeal/", "sound", "mesh", "plate/", "scene/", "report/"),
     "cases": (*MODELS, "scene/", "report/"),
-    "cases/squeal": (*BODIES, "squeal/", "scene/", "report"),
+    "cases/squeal": (*BODIES, "squeal/", "brake_fmu", "scene/", "report"),
     "cli": (*MODELS, "scene/", "report/", "cases/"),
     "python": (*MODELS, "scene/", "report/", "cases/"),
 }
@@ -62,6 +65,8 @@ OPTIONS = re.compile(r"[\w/]+/(\w+_options|friction|cycle_harmonics)\.hpp$")
 HEAVY = ("common/petsc", "common/all_ranks", "petsc", "slepc", "mpi.h", "gmsh.h", "metis.h", "dmumps", "zmumps")
 CUTS = {
     "files": HEAVY,
+    "fmu": (*HEAVY, "fmt", "hdf5", "files"),  # runs in programs of others, where none of it is
+    "brake_fmu": (*HEAVY, "fmt", "hdf5", "files"),
     "linear/dense": HEAVY,
     "linear": ("gmsh.h",),
     "reduce": ("gmsh.h", "metis.h"),

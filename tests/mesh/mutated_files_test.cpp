@@ -106,6 +106,29 @@ TEST_F(MutatedFile, OfAbaqusEndsInASentence)
   expect_sentences("h.inp", golden, with_other_bytes, Trust::owner);
 }
 
+TEST_F(MutatedFile, OfAUniversalFileEndsInASentence)
+{
+  const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/exchange/plate.unv");
+  expect_sentences("i.unv", golden, with_other_numbers, Trust::owner);
+  expect_sentences("j.unv", golden, with_other_bytes, Trust::owner);
+}
+
+TEST_F(MutatedFile, OfVtkEndsInASentence)
+{
+  for (const char* file : {"ascii.vtu", "appended.vtu"}) {
+    const std::string golden =
+        bytes_of(std::string(CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/exchange/") + file);
+    expect_sentences("k.vtu", golden, with_other_numbers, Trust::owner);
+    expect_sentences("l.vtu", golden, with_other_bytes, Trust::owner);
+  }
+}
+
+TEST_F(MutatedFile, OfMedEndsInASentence)
+{
+  const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/data/three_by_two.med");
+  expect_sentences("m.med", golden, with_other_bytes);
+}
+
 TEST_F(MutatedFile, OfNastranEndsInASentence)
 {
   const std::string golden = bytes_of(CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/deck/plate.bdf");

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/element_parts.hpp"
 #include "mesh/generators.hpp"
 #include "report/fe/mesh_drawing.hpp"
 #include "report/fe/mesh_groups.hpp"
@@ -104,7 +105,7 @@ TEST(MeshVtu, HasEachNodeOfAnElementOnce)
       const int n = shape == mesh::Shape::line       ? p + 1
                     : shape == mesh::Shape::triangle ? (p + 1) * (p + 2) / 2
                                                      : (p + 1) * (p + 1);
-      std::vector<int> order = vtu_node_order(shape, p);
+      std::vector<int> order = mesh::corners_first(shape, p);
       std::ranges::sort(order);
       std::vector<int> places(n);
       std::iota(places.begin(), places.end(), 0);

@@ -220,9 +220,8 @@ TEST(SceneMesh, HoldsWhatAFileNeeds)
 TEST(SceneMeshError, NamesWhatAFileDoesNotTake)
 {
   EXPECT_EQ(mesh_error("file = \"a.iges\"\n"),
-            "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo or .step file, or a deck "
-            "of Nastran "
-            "(.bdf, .nas, .dat) or Abaqus (.inp)");
+            "scene.toml:2: mesh.file = \"a.iges\": must be a .msh, .geo, .step, .unv, .med or "
+            ".vtu file, or a deck of Nastran (.bdf, .nas, .dat) or Abaqus (.inp)");
   EXPECT_EQ(mesh_error("file = \"a.msh\"\nelement_order = 2\n"),
             "scene.toml:3: mesh.element_order = 2: a .msh file has its own order; take this key "
             "out");

@@ -1,0 +1,93 @@
+#include "fmu/modal_model.hpp"
+
+#include <cstring>
+
+#include "common/error.hpp"
+
+namespace chladni::fmu {
+namespace {
+
+constexpr std::string_view mark = "chladni-fmu-body 1\n";
+
+void append(std::string& bytes, const void* from, std::size_t n)
+{
+  bytes.append(static_cast<const char*>(from), n);
+}
+
+void append(std::string& bytes, std::uint64_t number)
+{
+  append(bytes, &number, sizeof(number));
+}
+
+void append(std::string& bytes, const Eigen::MatrixXd& values)
+{
+  append(bytes, values.data(), static_cast<std::size_t>(values.size()) * sizeof(double));
+}
+
+class Source {
+ public:
+  explicit Source(std::string_view bytes) : rest_(bytes) {}
+
+  std::string_view take(std::uint64_t n)
+  {
+    if (n > rest_.size()) throw Error(std::string(model_file) + " is cut off");
+    const std::string_view taken = rest_.substr(0, n);
+    rest_.remove_prefix(n);
+    return taken;
+  }
+  /// A number of things of at least eight bytes each, which must all be there.
+  Eigen::Index count()
+  {
+    std::uint64_t number = 0;
+    std::memcpy(&number, take(sizeof(number)).data(), sizeof(number));
+    if (number > rest_.size()) throw Error(std::string(model_file) + " is cut off");
+    return static_cast<Eigen::Index>(number);
+  }
+  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index cols)
+  {
+    const std::uint64_t n = std::uint64_t(rows) * std::uint64_t(cols);
+    if (n > rest_.size()) throw Error(std::string(model_file) + " is cut off");
+    Eigen::MatrixXd values(rows, cols);
+    if (n > 0) std::memcpy(values.data(), take(n * sizeof(double)).data(), n * sizeof(double));
+    if (!values.allFinite()) throw Error(std::string(model_file) + " holds what is no number");
+    return values;
+  }
+  bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+}  // namespace
+
+std::string packed(const ModalModel& model)
+{
+  std::string bytes(mark);
+  append(bytes, std::uint64_t(model.token.size()));
+  bytes += model.token;
+  for (const Eigen::Index n : {model.n_modes(), model.n_dofs(), model.C.rows()})
+    append(bytes, std::uint64_t(n));
+  append(bytes, Eigen::MatrixXd(model.omega));
+  append(bytes, model.C);
+  append(bytes, model.Phi);
+  return bytes;
+}
+
+ModalModel unpacked(std::string_view bytes)
+{
+  if (!bytes.starts_with(mark))
+    throw Error(std::string(model_file) + " is no body of version 1 for an FMU");
+  Source source(bytes.substr(mark.size()));
+  ModalModel model;
+  model.token = source.take(std::uint64_t(source.count()));
+  const Eigen::Index n_modes = source.count(), n_dofs = source.count(), n_damped = source.count();
+  if (n_damped != 0 && n_damped != n_modes)
+    throw Error(std::string(model_file) + ": its damping is not of its modes");
+  model.omega = source.matrix(n_modes, 1);
+  model.C = source.matrix(n_damped, n_damped);
+  model.Phi = source.matrix(n_dofs, n_modes);
+  if (!source.at_end()) throw Error(std::string(model_file) + " is longer than it says");
+  return model;
+}
+
+}  // namespace chladni::fmu

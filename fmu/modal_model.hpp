@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace chladni::fmu {
+
+/// A body of modal coordinates q under forces and moments F at some of its degrees of freedom:
+/// q'' + C q' + diag(omega^2) q = Phi^T F, u = Phi q.
+struct ModalModel {
+  std::string token;      ///< that modelDescription.xml has too: both are of one export
+  Eigen::VectorXd omega;  ///< [n_modes], rad/s
+  Eigen::MatrixXd C;      ///< [n_modes x n_modes], 1/s, or [0 x 0]
+  Eigen::MatrixXd Phi;    ///< [n_dofs x n_modes], m or rad per unit of q
+
+  Eigen::Index n_modes() const { return omega.size(); }
+  Eigen::Index n_dofs() const { return Phi.rows(); }
+};
+
+/// The name of a model among the resources of its FMU.
+inline constexpr auto model_file = "body.chladni-fmu";
+
+/// The model as bytes, numbers in the order of this machine: docs/file_formats.md.
+std::string packed(const ModalModel& model);
+
+/// @throws chladni::Error when the bytes are no such model, or not all of it.
+ModalModel unpacked(std::string_view bytes);
+
+/// Value references of the variables: the groups follow each other, each with a reference for each
+/// degree of freedom or mode.
+class References {
+ public:
+  References(Eigen::Index n_modes, Eigen::Index n_dofs)
+      : n_modes_(static_cast<std::uint32_t>(n_modes)), n_dofs_(static_cast<std::uint32_t>(n_dofs))
+  {}
+  static constexpr std::uint32_t time = 0, damping_factor = 1;
+  std::uint32_t damping_ratios() const { return 2; }
+  std::uint32_t forces() const { return damping_ratios() + n_modes_; }
+  std::uint32_t displacements() const { return forces() + n_dofs_; }
+  std::uint32_t velocities() const { return displacements() + n_dofs_; }
+  std::uint32_t accelerations() const { return velocities() + n_dofs_; }
+  std::uint32_t q() const { return accelerations() + n_dofs_; }
+  std::uint32_t q_dot() const { return q() + n_modes_; }
+  std::uint32_t der_q() const { return q_dot() + n_modes_; }
+  std::uint32_t der_q_dot() const { return der_q() + n_modes_; }
+  std::uint32_t end() const { return der_q_dot() + n_modes_; }
+
+ private:
+  std::uint32_t n_modes_, n_dofs_;
+};
+
+}  // namespace chladni::fmu

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mbs_export/formats/fmu_variables.hpp"
+
+namespace chladni::mbs_export::formats {
+
+enum class FmiVersion { v2, v3 };
+
+/// What a modelDescription.xml says besides its variables.
+struct FmuDescription {
+  std::string name;        ///< of the model, for people
+  std::string identifier;  ///< of its library, as C has names
+  std::string token;
+  bool has_directional_derivatives = true;
+};
+
+/// modelDescription.xml of a model for model exchange and co-simulation.
+/// Source: Modelica Association, Functional Mock-up Interface 2.0.4, section 2.2, and 3.0, section
+/// 2.4.
+std::string fmu_description(const std::vector<FmuVariable>& variables,
+                            const FmuDescription& description, FmiVersion version);
+
+}  // namespace chladni::mbs_export::formats

@@ -1,0 +1,222 @@
+// Names of groups and attributes as the MED library writes them: ENS_MAA meshes, NOE nodes, MAI
+// elements, FAS families, GRO groups, NOD connectivity, COO coordinates.
+#include "mesh/exchange/med.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "common/error.hpp"
+#include "files/foreign_parts.hpp"
+#include "mesh/exchange/med_file.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+using files::shown;
+
+struct Type {
+  Shape shape;
+  int order;
+  std::size_t n_nodes;
+};
+
+const std::map<std::string, Type>& types()
+{
+  static const std::map<std::string, Type> all{
+      {"SE2", {Shape::line, 1, 2}},          {"SE3", {Shape::line, 2, 3}},
+      {"TR3", {Shape::triangle, 1, 3}},      {"TR6", {Shape::triangle, 2, 6}},
+      {"QU4", {Shape::quadrilateral, 1, 4}}, {"QU8", {Shape::quadrilateral, 2, 8}},
+      {"QU9", {Shape::quadrilateral, 2, 9}}};
+  return all;
+}
+
+/// Numbers of families and the groups that each is of.
+using Families = std::map<std::int64_t, std::vector<std::string>>;
+
+class Reader {
+ public:
+  explicit Reader(const std::string& bytes) : file_(bytes) {}
+
+  ExchangeMesh read()
+  {
+    check_version();
+    find_mesh();
+    read_nodes();
+    for (const std::string& type : file_.members(step_ + "/MAI")) read_elements(type);
+    const std::size_t n_fields = file_.members("CHA").size();
+    if (n_fields > 0) mesh_.notes.push_back(fmt::format("{} fields are left out", n_fields));
+    return std::move(mesh_);
+  }
+
+ private:
+  void check_version() const
+  {
+    if (!file_.has("INFOS_GENERALES"))
+      throw Error("it is no MED file: INFOS_GENERALES, its version, is missing");
+    const std::int64_t major = file_.integer_attribute("INFOS_GENERALES", "MAJ");
+    if (major == 3 || major == 4) return;
+    throw Error(fmt::format(
+        "it is of version {} of MED; 3 and 4 are read: convert it with medimport", major));
+  }
+
+  /// The only member of a group.
+  std::string only_member(const std::string& name, const char* what) const
+  {
+    std::vector<std::string> names = file_.members(name);
+    if (names.size() == 1) return names.front();
+    for (std::string& text : names) text = shown(text);
+    throw Error(fmt::format("{}: has {} {} instead of one{}{}", shown(name), names.size(), what,
+                            names.empty() ? "" : ": ", fmt::join(names, ", ")));
+  }
+
+  void find_mesh()
+  {
+    const std::string name = only_member("ENS_MAA", "meshes");
+    const std::string mesh = "ENS_MAA/" + name;
+    if (file_.integer_attribute(mesh, "TYP") != 0) {
+      throw Error(
+          fmt::format("{}: is a structured grid; save it as an unstructured mesh", shown(mesh)));
+    }
+    if (file_.integer_attribute(mesh, "REP") != 0)
+      throw Error(fmt::format("{}: has no Cartesian coordinates", shown(mesh)));
+    dimension_ = file_.integer_attribute(mesh, "ESP");
+    if (dimension_ != 2 && dimension_ != 3) {
+      throw Error(
+          fmt::format("{}: stands in {} dimensions; 2 or 3 are known", shown(mesh), dimension_));
+    }
+    step_ = mesh + "/" + only_member(mesh, "states");
+    of_nodes_ = families("FAS/" + name + "/NOEUD");
+    of_elements_ = families("FAS/" + name + "/ELEME");
+  }
+
+  Families families(const std::string& name) const
+  {
+    constexpr std::size_t length = 80;  // MED_LNAME_SIZE
+    Families found;
+    for (const std::string& family : file_.members(name)) {
+      const std::string path = fmt::format("{}/{}", name, family);
+      std::vector<std::string>& groups = found[file_.integer_attribute(path, "NUM")];
+      if (file_.has(path + "/GRO/NOM")) groups = file_.texts(path + "/GRO/NOM", length);
+      std::erase(groups, "");
+    }
+    return found;
+  }
+
+  /// Values of which there must be `n`; nothing where the file leaves them out.
+  std::optional<std::vector<std::int64_t>> optional_numbers(const std::string& name,
+                                                            std::size_t n) const
+  {
+    if (!file_.has(name)) return std::nullopt;
+    std::vector<std::int64_t> numbers = file_.integers(name);
+    if (numbers.size() == n) return numbers;
+    throw Error(
+        fmt::format("{}: has {} values for {} nodes or elements", shown(name), numbers.size(), n));
+  }
+
+  const std::vector<std::string>& groups_of(const Families& families, std::int64_t family) const
+  {
+    static const std::vector<std::string> none;
+    if (family == 0) return none;
+    const auto found = families.find(family);
+    if (found == families.end()) throw Error(fmt::format("FAS: there is no family {}", family));
+    return found->second;
+  }
+
+  /// Coordinates stand component by component, as all that MED writes.
+  void read_nodes()
+  {
+    const std::string nodes = step_ + "/NOE";
+    const std::vector<double> x = file_.reals(nodes + "/COO");
+    const auto dimension = static_cast<std::size_t>(dimension_);
+    if (x.empty() || x.size() % dimension != 0)
+      throw Error(fmt::format("{}/COO: has {} values", shown(nodes), x.size()));
+    n_nodes_ = x.size() / dimension;
+    const auto numbers = optional_numbers(nodes + "/NUM", n_nodes_);
+    const auto families = optional_numbers(nodes + "/FAM", n_nodes_);
+    for (std::size_t i = 0; i < n_nodes_; ++i) {
+      const std::int64_t number = numbers ? (*numbers)[i] : static_cast<std::int64_t>(i) + 1;
+      if (number < 1 ||
+          !mesh_.nodes
+               .emplace(number, std::array{x[i], x[n_nodes_ + i],
+                                           dimension == 3 ? x[2 * n_nodes_ + i] : 0.0})
+               .second)
+        throw Error(fmt::format("{}/NUM: {} is no number of a node, or is there twice",
+                                shown(nodes), number));
+      node_numbers_.push_back(number);
+      if (!families) continue;
+      for (const std::string& group : groups_of(of_nodes_, (*families)[i]))
+        exchange_group(mesh_, group, Members::nodes).nodes.push_back(number);
+    }
+  }
+
+  const Type& known_type(const std::string& name) const
+  {
+    const auto type = types().find(name);
+    if (type != types().end()) return type->second;
+    static const std::set<std::string> solids{"TE4", "T10", "PY5", "P13", "PE6", "P15",  "P18",
+                                              "HE8", "H20", "H27", "PO6", "POE", "OCT12"};
+    if (solids.contains(name)) throw Error(fmt::format("MAI: {} is {}", name, solids_are_not_read));
+    throw Error(
+        fmt::format("MAI: elements {} are not known; SE2, SE3, TR3, TR6, QU4, QU8, QU9 and PO1 are",
+                    shown(name)));
+  }
+
+  std::vector<std::int64_t> node_indices(const std::string& name) const
+  {
+    std::vector<std::int64_t> nodes = file_.integers(name + "/NOD");
+    for (const std::int64_t node : nodes)
+      if (node < 1 || node > static_cast<std::int64_t>(n_nodes_))
+        throw Error(fmt::format("{}/NOD: there is no node {}", shown(name), node));
+    return nodes;
+  }
+
+  void read_elements(const std::string& type_name)
+  {
+    const std::string name = step_ + "/MAI/" + type_name;
+    const bool is_point = type_name == "PO1";
+    const Type type = is_point ? Type{Shape::line, 0, 1} : known_type(type_name);
+    const std::vector<std::int64_t> nodes = node_indices(name);
+    if (nodes.size() % type.n_nodes != 0)
+      throw Error(fmt::format("{}/NOD: has {} values", shown(name), nodes.size()));
+    const std::size_t n = nodes.size() / type.n_nodes;
+    const auto numbers = optional_numbers(name + "/NUM", n);
+    const auto families = optional_numbers(name + "/FAM", n);
+    for (std::size_t e = 0; e < n; ++e) {
+      std::vector<std::int64_t> of_element;
+      for (std::size_t k = 0; k < type.n_nodes; ++k)
+        of_element.push_back(node_numbers_[static_cast<std::size_t>(nodes[k * n + e] - 1)]);
+      static const std::vector<std::string> none;
+      const auto& groups = families ? groups_of(of_elements_, (*families)[e]) : none;
+      for (const std::string& group : groups)
+        if (is_point)
+          exchange_group(mesh_, group, Members::nodes).nodes.push_back(of_element.front());
+        else
+          exchange_group(mesh_, group, Members::elements).elements.push_back(mesh_.elements.size());
+      if (is_point) continue;
+      const std::int64_t number =
+          numbers ? (*numbers)[e] : static_cast<std::int64_t>(mesh_.elements.size()) + 1;
+      mesh_.elements.push_back(exchange_element(number, type.shape, type.order, of_element));
+    }
+  }
+
+  MedFile file_;
+  ExchangeMesh mesh_;
+  std::string step_;
+  std::int64_t dimension_ = 0;
+  std::size_t n_nodes_ = 0;
+  std::vector<std::int64_t> node_numbers_;
+  Families of_nodes_, of_elements_;
+};
+
+}  // namespace
+
+ExchangeMesh med_mesh(const std::string& bytes)
+{
+  return Reader(bytes).read();
+}
+
+}  // namespace chladni::mesh

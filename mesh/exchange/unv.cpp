@@ -1,0 +1,233 @@
+// The datasets are those of I-deas as the Structural Dynamics Research Laboratory of the University
+// of Cincinnati describes them; descriptors of elements are I-deas's "FE descriptor id".
+#include "mesh/exchange/unv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "common/error.hpp"
+#include "mesh/exchange/unv_words.hpp"
+
+namespace chladni::mesh {
+namespace {
+
+struct Descriptor {
+  Shape shape;
+  int order;
+};
+
+/// What an element is by its FE descriptor; nothing for what is neither line nor surface.
+std::optional<Descriptor> descriptor(std::int64_t id)
+{
+  if (id == 11 || id == 21 || id == 22) return Descriptor{Shape::line, 1};
+  if (id == 23 || id == 24) return Descriptor{Shape::line, 2};
+  if (id == 71) return Descriptor{Shape::quadrilateral, 1};  // of membranes, the two are exchanged
+  if (id == 74) return Descriptor{Shape::triangle, 1};
+  const std::int64_t family = id / 10, kind = id % 10;
+  if (family < 4 || family > 9 || family == 8) return std::nullopt;
+  if (kind == 1) return Descriptor{Shape::triangle, 1};
+  if (kind == 2) return Descriptor{Shape::triangle, 2};
+  if (kind == 4) return Descriptor{Shape::quadrilateral, 1};
+  if (kind == 5) return Descriptor{Shape::quadrilateral, 2};
+  return std::nullopt;
+}
+
+/// Around the edges, as universal files number nodes, to corners first; a node inside stands last.
+std::vector<std::int64_t> corners_before_middles(const std::vector<std::int64_t>& around, int order)
+{
+  if (order == 1) return around;
+  const std::size_t n_on_edges = std::min<std::size_t>(around.size(), 8);
+  std::vector<std::int64_t> nodes;
+  for (std::size_t k = 0; k < n_on_edges; k += 2) nodes.push_back(around[k]);
+  for (std::size_t k = 1; k < n_on_edges; k += 2) nodes.push_back(around[k]);
+  nodes.insert(nodes.end(), around.begin() + std::ptrdiff_t(n_on_edges), around.end());
+  return nodes;
+}
+
+class Reader {
+ public:
+  explicit Reader(double length_unit) : length_unit_(length_unit) {}
+
+  ExchangeMesh read(const std::vector<UnvDataset>& datasets)
+  {
+    static const std::set<std::string> groups{"2435", "2452", "2467", "2477"};
+    for (const UnvDataset& dataset : datasets) {
+      if (dataset.number == "2411") nodes(UnvWords(dataset));
+      if (dataset.number == "2412") elements(UnvWords(dataset));
+      if (dataset.number == "164") units(UnvWords(dataset));
+      if (!groups.contains(dataset.number)) check_is_known(dataset);
+    }
+    for (const UnvDataset& dataset : datasets)
+      if (groups.contains(dataset.number)) read_groups(UnvWords(dataset));
+    add_groups_of_properties();
+    if (n_results_ > 0)
+      mesh_.notes.push_back(fmt::format("{} datasets of results are left out", n_results_));
+    return std::move(mesh_);
+  }
+
+ private:
+  void check_is_known(const UnvDataset& dataset)
+  {
+    // The header, units, and coordinate systems, in which nodes are not given.
+    static const std::set<std::string> known{"2411", "2412", "151", "164", "2420"};
+    static const std::set<std::string> results{"55", "56", "57", "58", "2414"};
+    static const std::set<std::string> older{"15",   "71",   "752",  "780", "781",
+                                             "2417", "2429", "2430", "2432"};
+    if (results.contains(dataset.number)) ++n_results_;
+    if (known.contains(dataset.number) || results.contains(dataset.number)) return;
+    const char* const why =
+        older.contains(dataset.number)
+            ? "an older form of nodes, elements or groups; write them as datasets 2411, 2412 and "
+              "2467"
+            : "it is not known; take it out if the mesh is the same without it";
+    throw Error(fmt::format("line {}: dataset {}: {}", dataset.line, dataset.number, why));
+  }
+
+  void nodes(UnvWords words)
+  {
+    while (!words.at_end()) {
+      const std::int64_t number = words.number("number of a node");
+      for (const char* what : {"coordinate system", "displacement system", "colour"})
+        words.integer(what);
+      std::array<double, 3> x{};
+      for (double& c : x) c = words.real("a coordinate");
+      if (!mesh_.nodes.emplace(number, x).second)
+        words.refuse(fmt::format("node {} is there twice", number));
+    }
+  }
+
+  Descriptor known_descriptor(const UnvWords& words, std::int64_t number, std::int64_t id) const
+  {
+    if (const auto found = descriptor(id)) return *found;
+    const bool is_solid = id >= 101 && id <= 118;
+    if (is_solid) {
+      words.refuse(
+          fmt::format("element {} (descriptor {}) is {}", number, id, solids_are_not_read));
+    }
+    words.refuse(
+        fmt::format("element {} has the descriptor {}; known are beams (11 to 24) and triangles "
+                    "and quadrilaterals of order 1 and 2 of shells, plates, membranes and plane "
+                    "elements (41 to 75, 91 to 95)",
+                    number, id));
+  }
+
+  void elements(UnvWords words)
+  {
+    while (!words.at_end()) {
+      const std::int64_t number = words.number("number of an element");
+      const std::int64_t id = words.integer("FE descriptor");
+      const std::int64_t property = words.integer("physical property");
+      for (const char* what : {"material", "colour"}) words.integer(what);
+      const std::int64_t n_nodes = words.integer("number of nodes");
+      const Descriptor kind = known_descriptor(words, number, id);
+      if (kind.shape == Shape::line)
+        for (const char* what : {"orientation", "cross-section", "cross-section"})
+          words.integer(what);
+      if (n_nodes < 2 || n_nodes > 9)
+        words.refuse(fmt::format("element {} has {} nodes", number, n_nodes));
+      std::vector<std::int64_t> around;
+      for (std::int64_t k = 0; k < n_nodes; ++k) around.push_back(words.number("number of a node"));
+      if (!place_of_.emplace(number, mesh_.elements.size()).second)
+        words.refuse(fmt::format("element {} is there twice", number));
+      try {
+        mesh_.elements.push_back(exchange_element(number, kind.shape, kind.order,
+                                                  corners_before_middles(around, kind.order)));
+      } catch (const Error& error) {
+        words.refuse(error.what());
+      }
+      property_of_.push_back(property);
+    }
+  }
+
+  /// What universal files divide lengths by to have them in metres.
+  void units(UnvWords words)
+  {
+    words.line();
+    const double factor = words.real("a factor of lengths");
+    if (!(factor > 0.0)) words.refuse(fmt::format("{} is no factor of lengths", factor));
+    if (std::abs(1.0 / factor - length_unit_) <= 1e-6 * length_unit_) return;
+    mesh_.notes.push_back(
+        fmt::format("dataset 164 says that 1 is {:.6g} m; taken is what length_unit says, {:.6g} m",
+                    1.0 / factor, length_unit_));
+  }
+
+  void read_groups(UnvWords words)
+  {
+    constexpr int behind_number = 6;
+    while (!words.at_end()) {
+      const std::int64_t number = words.integer("number of a group");
+      for (int k = 0; k < behind_number; ++k) words.integer("a set of a group");
+      const std::int64_t n = words.integer("number of members");
+      std::string name = words.line();
+      if (name.empty()) name = fmt::format("group_{}", number);
+      if (!names_.insert({name, number}).second)
+        words.refuse(fmt::format("group {} \"{}\" is there twice", number, name));
+      read_members(words, name, n);
+    }
+  }
+
+  void read_members(UnvWords& words, const std::string& name, std::int64_t n)
+  {
+    ExchangeGroup group{.name = name};
+    int n_missing = 0;
+    for (std::int64_t k = 0; k < n; ++k) {
+      const std::int64_t type = words.integer("type of a member");
+      const std::int64_t tag = words.number("number of a member");
+      for (const char* what : {"leaf", "component"}) words.integer(what);
+      if (type != 7 && type != 8) {
+        words.refuse(fmt::format(
+            "group \"{}\" has a member of type {}; known are nodes (7) and elements (8)", name,
+            type));
+      }
+      const auto element = place_of_.find(tag);
+      const bool is_there = type == 7 ? mesh_.nodes.contains(tag) : element != place_of_.end();
+      n_missing += is_there ? 0 : 1;
+      if (is_there && type == 7) group.nodes.push_back(tag);
+      if (is_there && type == 8) group.elements.push_back(element->second);
+    }
+    if (n_missing > 0) {
+      mesh_.notes.push_back(fmt::format("group \"{}\": {} of its {} members are not in the file",
+                                        name, n_missing, n));
+    }
+    mesh_.groups.push_back(std::move(group));
+  }
+
+  void add_groups_of_properties()
+  {
+    std::vector<char> is_grouped(mesh_.elements.size(), 0);
+    for (const ExchangeGroup& group : mesh_.groups)
+      for (const std::size_t e : group.elements) is_grouped[e] = 1;
+    std::map<std::pair<std::string, bool>, ExchangeGroup> rest;
+    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+      if (is_grouped[e] != 0) continue;
+      const bool is_line = mesh_.elements[e].shape == Shape::line;
+      const std::string name =
+          fmt::format("property_{}{}", property_of_[e], is_line ? "_lines" : "");
+      rest.emplace(std::pair(name, is_line), ExchangeGroup{.name = name})
+          .first->second.elements.push_back(e);
+    }
+    for (auto& [key, group] : rest) mesh_.groups.push_back(std::move(group));
+  }
+
+  double length_unit_;
+  ExchangeMesh mesh_;
+  std::unordered_map<std::int64_t, std::size_t> place_of_;  ///< of elements by number
+  std::vector<std::int64_t> property_of_;                   ///< by place
+  std::set<std::pair<std::string, std::int64_t>> names_;
+  int n_results_ = 0;
+};
+
+}  // namespace
+
+ExchangeMesh unv_mesh(const std::string& text, double length_unit)
+{
+  return Reader(length_unit).read(unv_datasets(text));
+}
+
+}  // namespace chladni::mesh
