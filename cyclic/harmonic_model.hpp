@@ -13,7 +13,8 @@ namespace chladni::cyclic {
 
 /// The matrices of the assembled sector.
 struct SectorMatrices {
-  SparseRows K, M, C;  ///< C of the dampers, or empty
+  SparseRows K, M;
+  SparseRows C = {}, H = {};  ///< of dampers and of structural damping, or empty
 };
 
 /// Masters that the support holds, as (ring, place, component) of `Master`.
@@ -22,9 +23,9 @@ using IsHeld = std::function<bool(const Master&)>;
 /// One harmonic of the body, reduced: rows are its masters, then modes in exact pairs.
 struct HarmonicModel {
   HarmonicCoordinates coordinates;
-  reduce::Method method;    ///< Craig and Bampton's where there are no masters to be free
-  Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
-  Eigen::VectorXd omega;    ///< [n_modes] rad/s
+  reduce::Method method;       ///< Craig and Bampton's where there are no masters to be free
+  Eigen::MatrixXd K, M, C, H;  ///< of the whole body; C and H as the sector's
+  Eigen::VectorXd omega;       ///< [n_modes] rad/s
   reduce::Certificate certificate;
   /// What was factored: the symmetric half, where the sector has a mirror.
   std::optional<HarmonicCoordinates> half;

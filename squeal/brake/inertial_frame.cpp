@@ -191,6 +191,23 @@ Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::
   return mean;
 }
 
+/// Largest difference of the decay rates of two modes of a pair, each by itself: the distance of
+/// the eigenvalues of the block of C, halved.
+void note_damping_of_pairs(InertialDisc& inertial, const Eigen::MatrixXd& C)
+{
+  for (Eigen::Index i = 0; i < inertial.n_modes(); ++i) {
+    if (inertial.nodal_diameters[static_cast<std::size_t>(i)] == 0) continue;
+    const double half_difference = 0.5 * (C(i, i) - C(i + 1, i + 1));
+    const double across = 0.5 * (C(i, i + 1) + C(i + 1, i));
+    const double spread = std::hypot(half_difference, across);
+    const double mean = 0.25 * (C(i, i) + C(i + 1, i + 1));
+    inertial.damping_spread = std::max(inertial.damping_spread, spread);
+    if (mean > 0.0)
+      inertial.damping_contrast = std::max(inertial.damping_contrast, spread / mean);
+    ++i;
+  }
+}
+
 std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
 {
   const RingHarmonics harmonics = ring_harmonics(disc.rings);
@@ -226,6 +243,12 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
   const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
   inertial.C = averaged_over_angles(inertial, C);
   inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
+  note_damping_of_pairs(inertial, C);
+  if (disc.keeps_asymmetry) {
+    return Complaint{fmt::format("its small differences are kept (asymmetry = \"kept\"), {:.2g} of "
+                                 "the frequencies and {:.2g} 1/s of the damping of a pair",
+                                 inertial.largest_split, inertial.damping_spread)};
+  }
   const double deviation = (C - inertial.C).norm();
   if (deviation > impurity_limit * C.norm())
     return Complaint{

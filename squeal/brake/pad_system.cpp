@@ -9,6 +9,8 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/friction_range.hpp"
+#include "squeal/brake/pad_basis.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/brake/ring_pairs.hpp"
 #include "squeal/derivative.hpp"
@@ -23,13 +25,15 @@ struct PlateFreedom {
   Suspension suspension;
 };
 
-std::vector<PlateFreedom> freedoms(const PadBody& body)
+/// @param shim  behind the plate
+std::vector<PlateFreedom> freedoms(const PadBody& body, const std::optional<Shim>& shim = {})
 {
   std::vector<PlateFreedom> all;
   const std::array translations{body.radial, body.tangential, body.axial};
   for (int i = 0; i < 3; ++i)
     if (const auto& suspension = translations[static_cast<std::size_t>(i)])
-      all.push_back({i, body.mass, *suspension});
+      all.push_back(
+          {i, body.mass, i == 2 && shim ? in_series(*suspension, *shim) : *suspension});
   const std::array rotations{body.about_radial, body.about_tangential, body.about_axial};
   for (int i = 0; i < 3; ++i)
     if (const auto& rotation = rotations[static_cast<std::size_t>(i)])
@@ -63,7 +67,7 @@ Eigen::Index n_coordinates(const PadPair& pad)
 
 void add_pad(PadMatrices& system, const PadPair& pad, Eigen::Index first)
 {
-  const std::vector<PlateFreedom> all = freedoms(*pad.body);
+  const std::vector<PlateFreedom> all = freedoms(*pad.body, pad.shim);
   const auto n = static_cast<Eigen::Index>(all.size());
   const Eigen::Index caliper = first + 2 * n;
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
@@ -106,16 +110,29 @@ PadContact part_of(PadContact contact, int n)
   contact.spring.cubic /= n;
   contact.damping /= n;
   contact.preload /= n;
+  contact.area /= n;
   return contact;
 }
 
-void check(const PadPair& pad, std::size_t i)
+void check(const SquealOptions& options, std::size_t i)
 {
+  const PadPair& pad = options.pads[i];
   if (pad.body && freedoms(*pad.body).empty())
     throw Error(fmt::format("[squeal] pads[{}].body: it has no suspension and so cannot move", i));
   if (pad.caliper && !(pad.body && pad.body->axial)) {
     throw Error(fmt::format(
         "[squeal] pads[{}].caliper: it carries pads by their axial suspension; give body.axial",
+        i));
+  }
+  if (pad.shim && pad.body && !pad.body->axial) {
+    throw Error(fmt::format(
+        "[squeal] pads[{}].shim: it lies behind the axial suspension of the plate; give body.axial",
+        i));
+  }
+  const FrictionLaw law = pad.friction.value_or(options.friction);
+  if (law.table && law.table->pressures.size() > 1 && !pad.area) {
+    throw Error(fmt::format(
+        "[squeal] pads[{}].area: its friction depends on the pressure; give the area of its face",
         i));
   }
 }
@@ -180,6 +197,15 @@ PadMatrices pad_matrices(const SquealOptions& options)
 
 }  // namespace
 
+Eigen::MatrixXd pad_basis(const SquealOptions& options)
+{
+  const PadMatrices matrices = pad_matrices(options);
+  if (matrices.M.size() == 0) return {};
+  // As in pad_system, so that the modes are the same.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
+  return matrices.M.diagonal().cwiseSqrt().asDiagonal() * modes.eigenvectors();
+}
+
 PadSystem pad_system(const SquealOptions& options, double radius)
 {
   return pad_system(options, std::vector<RingPlace>{{options.ring, radius}});
@@ -190,7 +216,7 @@ PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>&
   PadSystem system;
   system.disc_rows = options.planes ? 2 * face_rows : middle_rows;
   for (std::size_t i = 0; i < options.pads.size(); ++i) {
-    check(options.pads[i], i);
+    check(options, i);
     add_points(system, options, i, rings);
   }
   const PadMatrices matrices = pad_matrices(options);
@@ -242,6 +268,7 @@ PairShapes pair_shapes(const Eigen::MatrixXd& S, const PadSystem& pads, const Po
 BrakePoint brake_point(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point,
                        double speed)
 {
+  require_in_table(point.contact, speed);
   return {.contact = point.contact,
           .S = pair_shapes(S, pads, point),
           .at_rest = states_at_rest(point.contact, speed)};
@@ -270,6 +297,7 @@ FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
 PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)
 {
   using Complex = std::complex<double>;
+  require_in_table(pad, speed);
   const RestStates at_rest = states_at_rest(pad, speed);
   const Eigen::MatrixXd D = derivative_at_rest(
       [&](const Eigen::VectorXcd& y) -> Eigen::VectorXcd {
