@@ -50,8 +50,9 @@ void add_gradients(TextTable& table, const squeal::Gradients& gradients)
   }
   for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
     const squeal::GradientRow& row = gradients.rows[i];
-    const double derivative =
-        of_speed ? row.critical_speed.value_or(0.0) : row.growth.size() > 0 ? row.growth[0] : 0.0;
+    const double derivative = of_speed                ? row.critical_speed.value_or(0.0)
+                              : row.growth.size() > 0 ? row.growth[0]
+                                                      : 0.0;
     add(table,
         fmt::format("+1 % of {} moves the {} by", row.key,
                     of_speed ? "critical speed" : "largest growth"),
@@ -62,9 +63,10 @@ void add_gradients(TextTable& table, const squeal::Gradients& gradients)
 Json gradients_json(const squeal::Gradients& gradients)
 {
   std::vector<Json> motions, rows;
-  for (const squeal::GradientMotion& motion : gradients.motions)
-    motions.push_back(Json::object(
-        {{"growth_1_s", motion.growth}, {"frequency_Hz", motion.frequency_Hz}}));
+  for (const squeal::GradientMotion& motion : gradients.motions) {
+    motions.push_back(
+        Json::object({{"growth_1_s", motion.growth}, {"frequency_Hz", motion.frequency_Hz}}));
+  }
   for (const squeal::GradientRow& row : gradients.rows) {
     std::vector<Json> growth(row.growth.begin(), row.growth.end());
     rows.push_back(Json::object({{"key", row.key},

@@ -187,12 +187,11 @@ Sections read_sections(const Table& root, const Scene& scene)
       sections.beams.push_back(read_beam_section(table, group, material));
       continue;
     }
-    sections.shells.push_back(
-        {.group = group,
-         .material = material,
-         .thickness = read_profile(table, "thickness"),
-         .offset = table.has("offset") ? read_profile(table, "offset") : 0.0,
-         .loss_factor = read_loss_factor(table)});
+    sections.shells.push_back({.group = group,
+                               .material = material,
+                               .thickness = read_profile(table, "thickness"),
+                               .offset = table.has("offset") ? read_profile(table, "offset") : 0.0,
+                               .loss_factor = read_loss_factor(table)});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
   return sections;

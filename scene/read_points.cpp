@@ -70,8 +70,10 @@ std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene)
     if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
     if (table.has("damping")) spring.damping = read_by_component(table, "damping");
     if (table.has("loss_factor")) {
-      if (!table.has("stiffness"))
-        table.refuse("loss_factor", "is that of the stiffness; give `stiffness`, or `damping` alone");
+      if (!table.has("stiffness")) {
+        table.refuse("loss_factor",
+                     "is that of the stiffness; give `stiffness`, or `damping` alone");
+      }
       spring.loss_factor = table.number("loss_factor");
     }
     springs.push_back(spring);

@@ -102,10 +102,11 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
     options.model = read_oscillator(squeal);
   options.study = read_study(squeal, StudyOf::model);
   const std::optional<squeal::TransientCase>& transient = options.study.transient;
-  if (transient && (transient->integrator != squeal::IntegratorKind::automatic ||
-                    !transient->is_constant())) {
+  if (transient &&
+      (transient->integrator != squeal::IntegratorKind::automatic || !transient->is_constant())) {
     squeal.refuse("transient",
-                  "integrator, speed_program and preload_program are for a flexible disc; this model takes steps of "
+                  "integrator, speed_program and preload_program are for a flexible disc; this "
+                  "model takes steps of "
                   "order 8 at a constant speed");
   }
   return options;

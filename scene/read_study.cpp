@@ -68,8 +68,9 @@ std::vector<squeal::PreloadPoint> read_preload_program(const Table& transient)
 {
   std::vector<squeal::PreloadPoint> points;
   for (const Table& row : transient.tables("preload_program")) {
-    const double time = points.empty() ? row.number("t_s")
-                                       : row.number("t_s", {.above = points.back().time, .unit = "s"});
+    const double time = points.empty()
+                            ? row.number("t_s")
+                            : row.number("t_s", {.above = points.back().time, .unit = "s"});
     points.push_back({.time = time, .factor = row.number("factor")});
   }
   if (points.empty()) transient.refuse("preload_program", "must hold at least one point");

@@ -25,8 +25,7 @@ squeal::FrictionCurve read_curve(const Table& row)
   const std::vector<double> mu = row.numbers("mu");
   if (mu.empty()) row.refuse("mu", "must hold at least one coefficient");
   if (!row.has("speed_m_s")) {
-    if (mu.size() != 1)
-      row.refuse("mu", "must be one coefficient where the row has no speed_m_s");
+    if (mu.size() != 1) row.refuse("mu", "must be one coefficient where the row has no speed_m_s");
     return squeal::friction_curve({0.0}, mu);
   }
   const std::vector<double> speeds = row.numbers("speed_m_s");
@@ -83,12 +82,12 @@ squeal::FrictionTable table_of(const Table& friction, const std::vector<Measured
       const auto said = [&](const std::vector<double>& axis, std::size_t at, const char* unit) {
         return axis.empty() ? std::string() : fmt::format(" {:.6g} {}", axis[at], unit);
       };
-      friction.refuse("table",
-                      fmt::format("must have one row for each temperature with each pressure; of{}{} "
-                                  "it has {}",
-                                  said(table.temperatures, i / n_p, "degrees Celsius"),
-                                  said(table.pressures, i % n_p, "Pa"),
-                                  std::ranges::count_if(rows, is_meant)));
+      friction.refuse(
+          "table",
+          fmt::format("must have one row for each temperature with each pressure; of{}{} "
+                      "it has {}",
+                      said(table.temperatures, i / n_p, "degrees Celsius"),
+                      said(table.pressures, i % n_p, "Pa"), std::ranges::count_if(rows, is_meant)));
     }
     table.curves.push_back(std::ranges::find_if(rows, is_meant)->curve);
   }
@@ -144,8 +143,8 @@ squeal::FrictionLaw read_friction(const Table& of)
 squeal::FrictionLaw read_plain_friction(const Table& squeal)
 {
   if (squeal.is_table("friction") && squeal.table("friction").has("table")) {
-    squeal.table("friction").refuse(
-        "table", "is for a flexible disc; give this model kinetic, static and decay_speed");
+    squeal.table("friction")
+        .refuse("table", "is for a flexible disc; give this model kinetic, static and decay_speed");
   }
   return read_friction(squeal);
 }

@@ -38,10 +38,10 @@ struct Value {
 Value hermite(double h, double s, const Value& from, const Value& to)
 {
   const double r = 1.0 - s, chord = to.y - from.y;
-  const double y = from.y + chord * s * s * (3.0 - 2.0 * s) +
-                   h * s * r * (from.slope * r - to.slope * s);
-  const double slope = 6.0 * s * r * chord / h + from.slope * r * (1.0 - 3.0 * s) +
-                       to.slope * s * (3.0 * s - 2.0);
+  const double y =
+      from.y + chord * s * s * (3.0 - 2.0 * s) + h * s * r * (from.slope * r - to.slope * s);
+  const double slope =
+      6.0 * s * r * chord / h + from.slope * r * (1.0 - 3.0 * s) + to.slope * s * (3.0 * s - 2.0);
   return {y, slope};
 }
 
@@ -93,7 +93,8 @@ FrictionValue at_temperature(const FrictionTable& table, std::size_t t, const Fr
   const double h = p[i + 1] - p[i], s = (place.pressure - p[i]) / h;
   const auto mu = [&](std::size_t k) { return of(k).y; };
   const auto mu_v = [&](std::size_t k) { return of(k).slope; };
-  const Value value = hermite(h, s, {mu(i), slope_at(p, i, mu)}, {mu(i + 1), slope_at(p, i + 1, mu)});
+  const Value value =
+      hermite(h, s, {mu(i), slope_at(p, i, mu)}, {mu(i + 1), slope_at(p, i + 1, mu)});
   const Value by_speed =
       hermite(h, s, {mu_v(i), slope_at(p, i, mu_v)}, {mu_v(i + 1), slope_at(p, i + 1, mu_v)});
   return {value.y, by_speed.y, value.slope};

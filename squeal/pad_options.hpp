@@ -45,8 +45,8 @@ struct PadGrid {
   std::vector<std::string> opposite_rings = {};
 };
 
-/// A layer with loss behind a pad, in series with the spring of a pad without mass, or with the axial
-/// suspension of the plate: k_s (1 + i eta). Its viscous equivalent is that at one frequency.
+/// A layer with loss behind a pad, in series with the spring of a pad without mass, or with the
+/// axial suspension of the plate: k_s (1 + i eta). Its viscous equivalent is that at one frequency.
 struct Shim {
   double stiffness;     ///< k_s, N/m
   double loss_factor;   ///< eta

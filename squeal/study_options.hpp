@@ -72,8 +72,8 @@ struct DirectCase {
   double speed;  ///< rad/s
 };
 
-/// Derivatives by the keys of the brake of the growth rates at one speed, beside those of the critical
-/// speed.
+/// Derivatives by the keys of the brake of the growth rates at one speed, beside those of the
+/// critical speed.
 struct GradientCase {
   std::optional<double> speed = {};  ///< rad/s; absent: of the critical speed alone
 };

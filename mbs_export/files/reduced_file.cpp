@@ -78,9 +78,10 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   file.write("matrices/mass", reduced.M, "kg, kg m, kg m^2; 1 of fixed-interface modes");
   if (reduced.C.size() > 0)
     file.write("matrices/damping", reduced.C, "N s/m, N s, N m s; 1/s of fixed-interface modes");
-  if (reduced.H.size() > 0)
+  if (reduced.H.size() > 0) {
     file.write("matrices/structural_damping", reduced.H,
                "N/m, N, N m; 1/s^2 of fixed-interface modes");
+  }
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
   write_certificate(file, reduced.certificate);
   file_parts::write_picture(file, reduced.picture, reduced.picture_of_sectors);

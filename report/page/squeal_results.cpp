@@ -231,9 +231,10 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
   if (results.spectrogram)
     members.emplace_back("spectrogram", spectrogram_page(*results.spectrogram));
-  if (results.gradients)
+  if (results.gradients) {
     members.emplace_back("gradients",
                          table_json("what to change", gradients_table(*results.gradients)));
+  }
   if (results.motion_statistics)
     members.emplace_back("statistics", statistics_page(*results.motion_statistics));
   return members;

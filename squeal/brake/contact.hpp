@@ -31,9 +31,9 @@ struct PadContact {
   std::array<PadFace, 2> faces;  ///< of the upper pad, of the lower one
   FrictionLaw friction;
   ContactLaw law;
-  PadSpring spring;  ///< of each pad
-  double damping;    ///< d, N s/m
-  double preload;    ///< N_0, N
+  PadSpring spring;   ///< of each pad
+  double damping;     ///< d, N s/m
+  double preload;     ///< N_0, N
   double area = 0.0;  ///< of the face, m^2; 0: the pressure is not known
 };
 
@@ -74,9 +74,9 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 ///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   z = x + the height of the contact plane
 ///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
 ///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
-/// with mu(v), or mu(v, |S| / area), and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
-/// and v_r are relative to it; that the point then moves on the disc, a term of second order, is
-/// neglected.
+/// with mu(v), or mu(v, |S| / area), and its regularised |v_r| as FrictionLaw has it. Where the
+/// plate of the pad moves, x and v_r are relative to it; that the point then moves on the disc, a
+/// term of second order, is neglected.
 template <class Scalar>
 PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
                            double sigma)

@@ -28,20 +28,19 @@ void require_in_table(const PadContact& pad, double speed)
   for (const PadFace& face : pad.faces) {
     const double slip = std::abs(speed) * face.radius;
     const double v = regularised_speed(law, slip * slip);
-    const std::array bounds{
-        Bound{"sliding at", "m/s", v, range.speed_from, range.speed_to},
-        Bound{"a pressure of", "Pa", p, range.pressure_from, range.pressure_to},
-        Bound{"a temperature of", "degrees Celsius", law.temperature, range.temperature_from,
-              range.temperature_to}};
+    const std::array bounds{Bound{"sliding at", "m/s", v, range.speed_from, range.speed_to},
+                            Bound{"a pressure of", "Pa", p, range.pressure_from, range.pressure_to},
+                            Bound{"a temperature of", "degrees Celsius", law.temperature,
+                                  range.temperature_from, range.temperature_to}};
     for (const Bound& bound : bounds) {
       const double margin = same * std::abs(bound.value);
       if (bound.value >= bound.from - margin && bound.value <= bound.to + margin) continue;
-      throw Error(
-          fmt::format("[squeal] friction.table: {} {:.6g} {} (rotation {:.6g} rad/s, preload {:.6g} "
-                      "N at a point) is beyond its {:.6g} to {:.6g} {}; measure further, or stay "
-                      "within it",
-                      bound.what, bound.value, bound.unit, speed, pad.preload, bound.from, bound.to,
-                      bound.unit));
+      throw Error(fmt::format(
+          "[squeal] friction.table: {} {:.6g} {} (rotation {:.6g} rad/s, preload {:.6g} "
+          "N at a point) is beyond its {:.6g} to {:.6g} {}; measure further, or stay "
+          "within it",
+          bound.what, bound.value, bound.unit, speed, pad.preload, bound.from, bound.to,
+          bound.unit));
     }
   }
 }

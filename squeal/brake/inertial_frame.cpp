@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "squeal/brake/pair_damping.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
@@ -173,39 +174,27 @@ double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
   return split.maxCoeff();
 }
 
-/// Mean over the circumference of exp(-phi D) C exp(phi D), of damping or Coriolis terms, exact
-/// with more than 2 n_max + 1 angles.
-Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+/// With C and G, both averaged, where that may be.
+std::variant<InertialDisc, Complaint> with_damping(InertialDisc inertial, const Disc& disc)
 {
-  const int n_max = *std::ranges::max_element(inertial.nodal_diameters);
-  const int n_angles = 2 * n_max + 2;
-  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(C.rows(), C.cols());
-  for (int k = 0; k < n_angles; ++k) {
-    const double angle = 2.0 * pi * k / n_angles;
-    Eigen::MatrixXd turn = C;
-    for (Eigen::Index i = 0; i < C.cols(); ++i) turn.col(i) = turned(inertial, C.col(i), angle);
-    const Eigen::MatrixXd half = turn.transpose();
-    for (Eigen::Index i = 0; i < C.cols(); ++i)
-      mean.row(i) += turned(inertial, half.col(i), angle).transpose() / n_angles;
+  const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
+  inertial.C = averaged_over_angles(inertial, C);
+  inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
+  const DampingDifference difference = damping_difference(inertial, C);
+  inertial.damping_spread = difference.spread;
+  inertial.damping_contrast = difference.contrast;
+  if (disc.keeps_asymmetry) {
+    return Complaint{
+        fmt::format("its small differences are kept (asymmetry = \"kept\"), {:.2g} of "
+                    "the frequencies and {:.2g} 1/s of the damping of a pair",
+                    inertial.largest_split, inertial.damping_spread)};
   }
-  return mean;
-}
-
-/// Largest difference of the decay rates of two modes of a pair, each by itself: the distance of
-/// the eigenvalues of the block of C, halved.
-void note_damping_of_pairs(InertialDisc& inertial, const Eigen::MatrixXd& C)
-{
-  for (Eigen::Index i = 0; i < inertial.n_modes(); ++i) {
-    if (inertial.nodal_diameters[static_cast<std::size_t>(i)] == 0) continue;
-    const double half_difference = 0.5 * (C(i, i) - C(i + 1, i + 1));
-    const double across = 0.5 * (C(i, i + 1) + C(i + 1, i));
-    const double spread = std::hypot(half_difference, across);
-    const double mean = 0.25 * (C(i, i) + C(i + 1, i + 1));
-    inertial.damping_spread = std::max(inertial.damping_spread, spread);
-    if (mean > 0.0)
-      inertial.damping_contrast = std::max(inertial.damping_contrast, spread / mean);
-    ++i;
-  }
+  const double deviation = (C - inertial.C).norm();
+  if (deviation > impurity_limit * C.norm())
+    return Complaint{
+        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
+                    deviation / C.norm(), impurity_limit)};
+  return inertial;
 }
 
 std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
@@ -240,21 +229,7 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
                                  inertial.largest_split, split_limit)};
   }
-  const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
-  inertial.C = averaged_over_angles(inertial, C);
-  inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
-  note_damping_of_pairs(inertial, C);
-  if (disc.keeps_asymmetry) {
-    return Complaint{fmt::format("its small differences are kept (asymmetry = \"kept\"), {:.2g} of "
-                                 "the frequencies and {:.2g} 1/s of the damping of a pair",
-                                 inertial.largest_split, inertial.damping_spread)};
-  }
-  const double deviation = (C - inertial.C).norm();
-  if (deviation > impurity_limit * C.norm())
-    return Complaint{
-        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
-                    deviation / C.norm(), impurity_limit)};
-  return inertial;
+  return with_damping(std::move(inertial), disc);
 }
 
 }  // namespace

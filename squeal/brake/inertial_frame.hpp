@@ -42,9 +42,9 @@ struct InertialDisc {
   /// Largest difference of the decay rates of the two modes of a pair, 1/s, which the mean over the
   /// circumference takes away.
   double damping_spread = 0.0;
-  double damping_contrast = 0.0;  ///< the same over the mean rate of the pair
-  RingCompliance compliance = {};    ///< as in Disc
-  ModeErrors errors = {};            ///< as in Disc, of the pairs
+  double damping_contrast = 0.0;   ///< the same over the mean rate of the pair
+  RingCompliance compliance = {};  ///< as in Disc
+  ModeErrors errors = {};          ///< as in Disc, of the pairs
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

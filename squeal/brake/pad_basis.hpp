@@ -8,7 +8,8 @@
 namespace chladni::squeal {
 
 /// [n_pad_modes x n_pad_modes] orthogonal: the modes of plates and calipers in their displacements
-/// times the roots of their masses, y = Psi b. Psi diag(omega) Psi^T is the root of their stiffness.
+/// times the roots of their masses, y = Psi b. Psi diag(omega) Psi^T is the root of their
+/// stiffness.
 Eigen::MatrixXd pad_basis(const SquealOptions& options);
 
 /// The state matrix in coordinates that follow the parameters of the pads smoothly, with

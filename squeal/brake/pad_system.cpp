@@ -10,76 +10,13 @@
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/friction_range.hpp"
-#include "squeal/brake/pad_basis.hpp"
+#include "squeal/brake/pad_matrices.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/brake/ring_pairs.hpp"
 #include "squeal/derivative.hpp"
 
 namespace chladni::squeal {
 namespace {
-
-/// One degree of freedom of a plate.
-struct PlateFreedom {
-  int direction;  ///< 0, 1, 2: translation (radial, tangential, axial); 3, 4, 5: rotation about it
-  double inertia;
-  Suspension suspension;
-};
-
-/// @param shim  behind the plate
-std::vector<PlateFreedom> freedoms(const PadBody& body, const std::optional<Shim>& shim = {})
-{
-  std::vector<PlateFreedom> all;
-  const std::array translations{body.radial, body.tangential, body.axial};
-  for (int i = 0; i < 3; ++i)
-    if (const auto& suspension = translations[static_cast<std::size_t>(i)])
-      all.push_back(
-          {i, body.mass, i == 2 && shim ? in_series(*suspension, *shim) : *suspension});
-  const std::array rotations{body.about_radial, body.about_tangential, body.about_axial};
-  for (int i = 0; i < 3; ++i)
-    if (const auto& rotation = rotations[static_cast<std::size_t>(i)])
-      all.push_back({3 + i, rotation->inertia, rotation->suspension});
-  return all;
-}
-
-/// M u'' + C u' + K u = f of plates and calipers.
-struct PadMatrices {
-  Eigen::MatrixXd M, C, K;
-};
-
-void add_spring(PadMatrices& system, const Suspension& spring, Eigen::Index i, Eigen::Index j)
-{
-  for (const auto& [matrix, value] :
-       {std::pair{&system.K, spring.stiffness}, std::pair{&system.C, spring.damping}}) {
-    (*matrix)(i, i) += value;
-    if (j < 0) continue;
-    (*matrix)(j, j) += value;
-    (*matrix)(i, j) -= value;
-    (*matrix)(j, i) -= value;
-  }
-}
-
-/// Coordinates of one pad pair: those of the upper plate, of the lower plate, and the caliper.
-Eigen::Index n_coordinates(const PadPair& pad)
-{
-  if (!pad.body) return 0;
-  return 2 * static_cast<Eigen::Index>(freedoms(*pad.body).size()) + (pad.caliper ? 1 : 0);
-}
-
-void add_pad(PadMatrices& system, const PadPair& pad, Eigen::Index first)
-{
-  const std::vector<PlateFreedom> all = freedoms(*pad.body, pad.shim);
-  const auto n = static_cast<Eigen::Index>(all.size());
-  const Eigen::Index caliper = first + 2 * n;
-  for (Eigen::Index i = 0; i < 2 * n; ++i) {
-    const PlateFreedom& freedom = all[static_cast<std::size_t>(i % n)];
-    system.M(first + i, first + i) = freedom.inertia;
-    const bool on_caliper = pad.caliper && freedom.direction == 2;
-    add_spring(system, freedom.suspension, first + i, on_caliper ? caliper : -1);
-  }
-  if (!pad.caliper) return;
-  system.M(caliper, caliper) = pad.caliper->mass;
-  add_spring(system, pad.caliper->axial, caliper, -1);
-}
 
 /// A point of the face of a pad, in the axes of the pad: (radial, tangential, axial).
 struct FacePoint {
@@ -181,30 +118,7 @@ void add_plate_motion(PadSystem& system, const SquealOptions& options,
   }
 }
 
-PadMatrices pad_matrices(const SquealOptions& options)
-{
-  Eigen::Index n = 0;
-  for (const PadPair& pad : options.pads) n += n_coordinates(pad);
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
-  PadMatrices system{zero, zero, zero};
-  Eigen::Index first = 0;
-  for (const PadPair& pad : options.pads) {
-    if (pad.body) add_pad(system, pad, first);
-    first += n_coordinates(pad);
-  }
-  return system;
-}
-
 }  // namespace
-
-Eigen::MatrixXd pad_basis(const SquealOptions& options)
-{
-  const PadMatrices matrices = pad_matrices(options);
-  if (matrices.M.size() == 0) return {};
-  // As in pad_system, so that the modes are the same.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.K, matrices.M);
-  return matrices.M.diagonal().cwiseSqrt().asDiagonal() * modes.eigenvectors();
-}
 
 PadSystem pad_system(const SquealOptions& options, double radius)
 {

@@ -154,10 +154,11 @@ std::vector<FrictionLaw*> laws_of(SquealOptions& options, MapParameter parameter
 {
   if (!parameter.name.starts_with(of_pads)) return {&options.friction};
   std::vector<FrictionLaw*> laws;
-  for (std::size_t i = 0; i < options.pads.size(); ++i)
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
     if ((parameter.pad == 0 || i + 1 == static_cast<std::size_t>(parameter.pad)) &&
         options.pads[i].friction)
       laws.push_back(&*options.pads[i].friction);
+  }
   return laws;
 }
 
@@ -194,9 +195,9 @@ SquealOptions with_parameter(SquealOptions options, MapParameter parameter, doub
       set_parameter(set_in_pads(options, row, parameter.pad, value), parameter, row.unit * value);
       return options;
     }
-  set_parameter(name == "thickness" ? set_thickness(options, value)
-                                    : set_plane(options, name, value),
-                parameter, value);
+  set_parameter(
+      name == "thickness" ? set_thickness(options, value) : set_plane(options, name, value),
+      parameter, value);
   return options;
 }
 

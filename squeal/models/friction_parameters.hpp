@@ -14,8 +14,8 @@ namespace chladni::squeal {
 /// @return absent where the law has no such key
 std::optional<double> friction_value(const FrictionLaw& law, std::string_view key);
 
-/// The law with another value of a key that it has; the others keep theirs, so that "kinetic" leaves
-/// "static" where it is.
+/// The law with another value of a key that it has; the others keep theirs, so that "kinetic"
+/// leaves "static" where it is.
 /// @throws chladni::Error when the kinetic coefficient would exceed the static one.
 FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double value);
 

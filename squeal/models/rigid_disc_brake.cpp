@@ -145,16 +145,11 @@ using Places = std::vector<std::pair<std::string_view, double*>>;
 
 Places places_in(RigidDisc& disc)
 {
-  return {{"friction", &disc.friction.kinetic},
-          {"preload", &disc.preload},
-          {"stiffness", &disc.spring.linear},
-          {"damping", &disc.damping},
-          {"thickness", &disc.thickness},
-          {"rigid_disc.diametral_inertia", &disc.Theta},
-          {"rigid_disc.axial_inertia", &disc.Phi},
-          {"rigid_disc.stiffness", &disc.k_t},
-          {"rigid_disc.damping", &disc.d_t},
-          {"rigid_disc.pad_radius", &disc.radius}};
+  return {{"friction", &disc.friction.kinetic},    {"preload", &disc.preload},
+          {"stiffness", &disc.spring.linear},      {"damping", &disc.damping},
+          {"thickness", &disc.thickness},          {"rigid_disc.diametral_inertia", &disc.Theta},
+          {"rigid_disc.axial_inertia", &disc.Phi}, {"rigid_disc.stiffness", &disc.k_t},
+          {"rigid_disc.damping", &disc.d_t},       {"rigid_disc.pad_radius", &disc.radius}};
 }
 
 }  // namespace

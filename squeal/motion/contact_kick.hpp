@@ -43,10 +43,10 @@ class ContactKick {
   /// @param preload  factor of that of all pads
   void press(double preload);
 
-  double speed_;         ///< at the last kick, rad/s
-  double first_speed_;   ///< of the equilibrium, rad/s
+  double speed_;          ///< at the last kick, rad/s
+  double first_speed_;    ///< of the equilibrium, rad/s
   double preload_ = 1.0;  ///< at the last kick
-  Eigen::MatrixXd G_;  ///< of the disc; see Disc
+  Eigen::MatrixXd G_;     ///< of the disc; see Disc
   PointShapes shapes_;
   PadSystem pads_;
   std::vector<BrakePoint> points_;            ///< at this instant; at rest at the first speed

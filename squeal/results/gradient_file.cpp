@@ -64,8 +64,7 @@ Gradients read_gradients(const files::Reader& file)
   const Eigen::VectorXd values = file.vector("gradients/values", n);
   Eigen::VectorXd critical, growth, f_Hz;
   Eigen::MatrixXd by_value(n, 0);
-  if (gradients.critical_speed)
-    critical = file.vector("gradients/critical_speed_by_value", n);
+  if (gradients.critical_speed) critical = file.vector("gradients/critical_speed_by_value", n);
   if (file.contains("gradients/growth")) {
     growth = file.vector("gradients/growth");
     f_Hz = file.vector("gradients/frequency", growth.size());
@@ -74,12 +73,12 @@ Gradients read_gradients(const files::Reader& file)
   for (Index j = 0; j < growth.size(); ++j) gradients.motions.push_back({growth[j], f_Hz[j]});
   for (Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    gradients.rows.push_back({.key = keys[at],
-                              .unit = units[at],
-                              .value = values[i],
-                              .critical_speed = critical.size() > 0 ? std::optional(critical[i])
-                                                                    : std::nullopt,
-                              .growth = by_value.row(i)});
+    gradients.rows.push_back(
+        {.key = keys[at],
+         .unit = units[at],
+         .value = values[i],
+         .critical_speed = critical.size() > 0 ? std::optional(critical[i]) : std::nullopt,
+         .growth = by_value.row(i)});
   }
   return gradients;
 }

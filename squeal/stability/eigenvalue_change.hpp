@@ -5,9 +5,9 @@
 
 namespace chladni::squeal {
 
-/// How an eigenvalue of A moves with A, by its left and right eigenvectors: d lambda = l^T dA r with
-/// l^T r = 1. True of simple eigenvalues; where two meet, l^T r = 0 before it is made 1, and the
-/// derivative is infinite.
+/// How an eigenvalue of A moves with A, by its left and right eigenvectors: d lambda = l^T dA r
+/// with l^T r = 1. True of simple eigenvalues; where two meet, l^T r = 0 before it is made 1, and
+/// the derivative is infinite.
 class EigenvalueChange {
  public:
   /// Of the eigenvalue nearest to `expected`.

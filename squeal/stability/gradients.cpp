@@ -136,7 +136,8 @@ std::optional<CriticalOscillation> critical_oscillation(const Brake& brake, cons
   const auto critical = critical_speed(stability_over_speed(A, range));
   if (!critical) return std::nullopt;
   const double speed = critical->speed, h = step * speed;
-  const EigenvalueChange change(matrix_of(brake, speed), Complex(0.0, 2.0 * pi * critical->frequency_Hz));
+  const EigenvalueChange change(matrix_of(brake, speed),
+                                Complex(0.0, 2.0 * pi * critical->frequency_Hz));
   const MatrixXd dA = (matrix_of(brake, speed + h) - matrix_of(brake, speed - h)) / (2.0 * h);
   const double by_speed = change.of(dA).real();
   return CriticalOscillation{*critical, change, by_speed};

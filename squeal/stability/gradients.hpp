@@ -15,7 +15,8 @@ namespace chladni::squeal {
 /// dA/dp are central differences over 1e-5 of the value, of second order, so that they err by some
 /// 1e-10 of the derivative; of a value of zero one-sided ones of second order over 1e-5 of what
 /// changes A by as much as it is.
-/// @throws chladni::Error where there is neither a critical speed in the range nor a speed of growth
+/// @throws chladni::Error where there is neither a critical speed in the range nor a speed of
+/// growth
 ///         rates, and for a disc that is not axisymmetric.
 Gradients gradients(const Brake& brake, const StudyOptions& options);
 

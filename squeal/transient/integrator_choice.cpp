@@ -162,9 +162,10 @@ IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& i
                           const SquealOptions& options, const TransientCase& run)
 {
   if (!run.is_constant()) {
-    return {IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
-            0.0,
-            run.speed_program.empty() ? "it follows a preload program" : "it follows a speed program"};
+    return {
+        IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
+        0.0,
+        run.speed_program.empty() ? "it follows a preload program" : "it follows a speed program"};
   }
   if (is_stiff(disc, options, run.speed)) {
     return {IntegratorKind::generalised_alpha, 0, 0.0,

@@ -45,15 +45,34 @@ Eigen::VectorXd pooled(const Eigen::VectorXd& lines, Index width)
   return largest;
 }
 
+/// The amplitudes of window k, and its strongest lines.
+void add_window(Spectrogram& result, Index k, const Spectrum& window, double to_Hz)
+{
+  const Index n = (window.frequency_Hz.array() <= to_Hz).count();
+  const Index width = (n + frequencies_max - 1) / frequencies_max;
+  const Eigen::VectorXd amplitude = pooled(window.amplitude.head(n), width);
+  if (k == 0) {
+    const Index n_f = amplitude.size();
+    result.frequency_Hz = window.frequency_Hz[1] * double(width) *
+                          Eigen::VectorXd::LinSpaced(n_f, 0.0, double(n_f - 1));
+    result.amplitude.resize(result.t.size(), n_f);
+  }
+  result.amplitude.row(k) = amplitude;
+  const auto n_peaks = std::min<Index>(n_lines, std::ssize(window.peaks));
+  for (Index j = 0; j < n_peaks; ++j) {
+    result.line_Hz(k, j) = window.peaks[std::size_t(j)].frequency_Hz;
+    result.line_amplitude(k, j) = window.peaks[std::size_t(j)].amplitude;
+  }
+}
+
 }  // namespace
 
 Spectrogram spectrogram(const Transient& run)
 {
   const std::vector<double>& v = run.history.pad_velocity;
   if (v.size() < samples_min) {
-    throw Error(
-        fmt::format("spectrogram: the history has {} samples; simulate at least {} of them",
-                    v.size(), samples_min));
+    throw Error(fmt::format("spectrogram: the history has {} samples; simulate at least {} of them",
+                            v.size(), samples_min));
   }
   const std::size_t length = window_of(v.size());
   const auto n_t = std::min<Index>(windows_max, Index((v.size() - length) / (length / 4)) + 1);
@@ -68,26 +87,12 @@ Spectrogram spectrogram(const Transient& run)
   for (Index k = 0; k < n_t; ++k) {
     const std::size_t first =
         n_t > 1 ? (v.size() - length) * std::size_t(k) / std::size_t(n_t - 1) : 0;
-    const Spectrum of_window = spectrum(std::span(v).subspan(first, length), step);
-    const Index n = (of_window.frequency_Hz.array() <= run.band.to_Hz).count();
-    const Index width = (n + frequencies_max - 1) / frequencies_max;
-    if (k == 0) {
-      const Index n_f = (n + width - 1) / width;
-      result.frequency_Hz = of_window.frequency_Hz[1] * double(width) *
-                            Eigen::VectorXd::LinSpaced(n_f, 0.0, double(n_f - 1));
-      result.amplitude.resize(n_t, n_f);
-    }
-    result.amplitude.row(k) = pooled(of_window.amplitude.head(n), width);
+    const std::span window = std::span(v).subspan(first, length);
     result.t[k] = run.history.t[first] + 0.5 * double(length - 1) * step;
     result.speed[k] = speed_at(run, result.t[k]);
-    result.envelope[k] = 0.0;
-    for (std::size_t i = first; i < first + length; ++i)
-      result.envelope[k] = std::max(result.envelope[k], std::abs(v[i]));
-    const auto n_peaks = std::min<Index>(n_lines, std::ssize(of_window.peaks));
-    for (Index j = 0; j < n_peaks; ++j) {
-      result.line_Hz(k, j) = of_window.peaks[std::size_t(j)].frequency_Hz;
-      result.line_amplitude(k, j) = of_window.peaks[std::size_t(j)].amplitude;
-    }
+    result.envelope[k] =
+        std::abs(*std::ranges::max_element(window, {}, [](double x) { return std::abs(x); }));
+    add_window(result, k, spectrum(window, step), run.band.to_Hz);
   }
   return result;
 }

@@ -46,8 +46,8 @@ TEST(LossFactors, OfOneMaterialGiveLambdaOfTheClosedForm)
   ReducedSystem wheel = test::wheel();
   wheel.H = eta * wheel.K;
   const ModalBody body = make_body(wheel, held());
-  const MatrixXcd A = MatrixXd(body.omega.cwiseAbs2().asDiagonal()).cast<Complex>() +
-                      Complex(0.0, 1.0) * body.H;
+  const MatrixXcd A =
+      MatrixXd(body.omega.cwiseAbs2().asDiagonal()).cast<Complex>() + Complex(0.0, 1.0) * body.H;
   for (Index i = 0; i < body.n_modes(); ++i) {
     const Complex expected = body.omega[i] * body.omega[i] * Complex(1.0, eta);
     EXPECT_LT((A.eigenvalues().array() - expected).abs().minCoeff(), 1e-9 * std::abs(expected));
@@ -104,8 +104,8 @@ TEST(ViscousEquivalent, HasTheEigenvaluesOfSmallLossFactorsToFirstOrder)
     A.bottomLeftCorner(4, 4).diagonal() = -omega.cwiseAbs2();
     A.bottomRightCorner(4, 4) = -C;
     const VectorXcd of_C = A.eigenvalues();
-    const MatrixXcd K = MatrixXd(omega.cwiseAbs2().asDiagonal()).cast<Complex>() +
-                        Complex(0.0, 1.0) * H_eta;
+    const MatrixXcd K =
+        MatrixXd(omega.cwiseAbs2().asDiagonal()).cast<Complex>() + Complex(0.0, 1.0) * H_eta;
     double largest = 0.0;
     for (const Complex& square : VectorXcd(K.eigenvalues())) {
       const Complex lambda = Complex(0.0, 1.0) * std::sqrt(square);
@@ -130,9 +130,8 @@ TEST(DampingRatios, OverTheFrequencyAreLinearAndEndWithTheirTable)
   const double last = f[f.size() - 1];
   options.damping = {.type = Damping::Type::modal, .ratios = {0.001, 0.005}, .at_Hz = {0.0, last}};
   const ModalBody body = make_body(wheel, options);
-  for (Index i = 0; i < f.size(); ++i) {
+  for (Index i = 0; i < f.size(); ++i)
     EXPECT_NEAR(0.5 * body.C(i, i) / body.omega[i], 0.001 + 0.004 * f[i] / last, 1e-12);
-  }
   options.damping.at_Hz = {0.0, 0.5 * last};
   const std::string complaint = files::test::error_of([&] { make_body(wheel, options); });
   EXPECT_NE(complaint.find("damping.ratio: mode"), std::string::npos) << complaint;

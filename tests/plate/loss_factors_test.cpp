@@ -35,7 +35,8 @@ mesh::Mesh beam_mesh()
 System system_of(const mesh::Mesh& mesh, const Structure& structure)
 {
   const int n_ranks = petsc::size(PETSC_COMM_WORLD);
-  return assemble(mesh, structure, make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks),
+  return assemble(mesh, structure,
+                  make_dof_map(mesh, {}, mesh::node_owners(mesh, n_ranks), n_ranks),
                   PETSC_COMM_WORLD);
 }
 

@@ -54,12 +54,14 @@ Scene scene_of(const std::string& text)
 TEST(LossFactorsOfAScene, AreThoseOfMaterialSectionAndSpring)
 {
   EXPECT_EQ(scene_of(disc).body.damping.type, mbs_export::Damping::Type::none);
-  const std::string lossy = replaced(disc, "density = 6300.0", "density = 6300.0\nloss_factor = 0.01");
+  const std::string lossy =
+      replaced(disc, "density = 6300.0", "density = 6300.0\nloss_factor = 0.01");
   const Scene scene = scene_of(lossy);
   EXPECT_EQ(scene.sections[0].material.loss_factor, 0.01);
   EXPECT_FALSE(scene.sections[0].loss_factor);
   EXPECT_EQ(scene.body.damping.type, mbs_export::Damping::Type::matrix);
-  const std::string section = replaced(lossy, "thickness = 0.02\n", "thickness = 0.02\nloss_factor = 0.0\n");
+  const std::string section =
+      replaced(lossy, "thickness = 0.02\n", "thickness = 0.02\nloss_factor = 0.0\n");
   EXPECT_EQ(scene_of(section).sections[0].loss_factor, 0.0);
   EXPECT_EQ(scene_of(section).body.damping.type, mbs_export::Damping::Type::none);
   const std::string spring = replaced(disc, "[interface]",
@@ -93,12 +95,15 @@ std::string with_table(const std::string& rows, const std::string& more = "")
   return replaced(disc, "friction = 0.6", "friction = { " + more + "table = [" + rows + "] }");
 }
 
-const std::string hot = "{ temperature_C = 200, pressure_Pa = 1e6, speed_m_s = [0.1, 5], mu = [0.4, 0.3] }";
-const std::string cold = "{ temperature_C = 100, pressure_Pa = 1e6, speed_m_s = [0.1, 5], mu = [0.5, 0.6] }";
+const std::string hot =
+    "{ temperature_C = 200, pressure_Pa = 1e6, speed_m_s = [0.1, 5], mu = [0.4, 0.3] }";
+const std::string cold =
+    "{ temperature_C = 100, pressure_Pa = 1e6, speed_m_s = [0.1, 5], mu = [0.5, 0.6] }";
 
 TEST(MeasuredFriction, HasACurveAtEachPressureOfEachTemperature)
 {
-  const Scene scene = scene_of(with_table(hot + ", " + cold, "temperature_C = 150.0, factor = 1.1, "));
+  const Scene scene =
+      scene_of(with_table(hot + ", " + cold, "temperature_C = 150.0, factor = 1.1, "));
   const squeal::FrictionLaw& law = scene.squeal->friction;
   ASSERT_TRUE(law.table);
   EXPECT_EQ(law.kinetic, 1.1);
@@ -122,7 +127,8 @@ TEST(MeasuredFriction, IsRefusedWithTheKeyAndTheRange)
   expect(with_table(both), "squeal.friction.temperature_C is missing");
   expect(with_table(both, "temperature_C = 150.0, kinetic = 0.4, "), "take this key out");
   expect(with_table(hot + ", " + hot, "temperature_C = 200.0, "), "it has 2");
-  expect(with_table(hot + ", " + replaced(cold, "1e6", "2e6"), "temperature_C = 150.0, "), "it has 0");
+  expect(with_table(hot + ", " + replaced(cold, "1e6", "2e6"), "temperature_C = 150.0, "),
+         "it has 0");
   expect(with_table(replaced(hot, "[0.1, 5]", "[5, 0.1]"), "temperature_C = 200.0, "),
          "must be larger than the one before");
   expect(with_table(replaced(hot, "[0.4, 0.3]", "[0.4]"), "temperature_C = 200.0, "),
@@ -145,12 +151,14 @@ TEST(FrictionOfAPad, IsItsOwn)
 
 TEST(ShimOfAPad, IsBehindItsPlate)
 {
-  const std::string shim = replaced(disc, "preload = 2000.0",
-                                    "preload = 2000.0, shim = { stiffness = 4e7, loss_factor = 0.3, "
-                                    "frequency_Hz = 1700.0 }");
+  const std::string shim =
+      replaced(disc, "preload = 2000.0",
+               "preload = 2000.0, shim = { stiffness = 4e7, loss_factor = 0.3, "
+               "frequency_Hz = 1700.0 }");
   EXPECT_EQ(scene_of(shim).squeal->pads[0].shim->loss_factor, 0.3);
-  EXPECT_NE(error_of(replaced(shim, "shim =", "body = { mass = 0.3, radial = { stiffness = 1e6, "
-                                              "damping = 0.0 } }, shim ="))
+  EXPECT_NE(error_of(replaced(shim, "shim =",
+                              "body = { mass = 0.3, radial = { stiffness = 1e6, "
+                              "damping = 0.0 } }, shim ="))
                 .find("give body.axial"),
             std::string::npos);
   EXPECT_NE(error_of(replaced(shim, "frequency_Hz = 1700.0", "frequency_Hz = 0.0"))
@@ -164,8 +172,7 @@ TEST(PreloadProgramOfAScene, AscendsInTime)
     return replaced(disc, "initial_pad_displacement = 1e-6",
                     "initial_pad_displacement = 1e-6, preload_program = [" + points + "]");
   };
-  const Scene scene =
-      scene_of(with("{ t_s = 0.0, factor = 0.1 }, { t_s = 0.5, factor = 1.0 }"));
+  const Scene scene = scene_of(with("{ t_s = 0.0, factor = 0.1 }, { t_s = 0.5, factor = 1.0 }"));
   ASSERT_EQ(scene.squeal->study.transient->preload_program.size(), 2u);
   EXPECT_EQ(scene.squeal->study.transient->preload_program[1].factor, 1.0);
   EXPECT_FALSE(scene.squeal->study.transient->is_constant());
@@ -188,7 +195,8 @@ TEST(GradientsOfAScene, HaveASpeed)
 {
   const std::string asked = replaced(disc, "[\"eigenvalues\"]", "[\"gradients\"]");
   EXPECT_FALSE(scene_of(asked).squeal->study.gradients);
-  const std::string at = replaced(asked, "friction = 0.6", "friction = 0.6\ngradients = { speed_rad_s = 20.0 }");
+  const std::string at =
+      replaced(asked, "friction = 0.6", "friction = 0.6\ngradients = { speed_rad_s = 20.0 }");
   EXPECT_EQ(scene_of(at).squeal->study.gradients->speed, 20.0);
 }
 

@@ -55,9 +55,10 @@ double error_of(int n)
   const FrictionTable table = sampled(n, n, {100.0, 200.0});
   double largest = 0.0;
   for (const double v : equally_spaced(0.7, 5.3, 57))
-    for (const double p : equally_spaced(6e5, 3.5e6, 41))
-      largest = std::max(largest,
-                         std::abs(friction_at(table, 150.0, {v, p}).mu - law(v, p, 150.0)));
+    for (const double p : equally_spaced(6e5, 3.5e6, 41)) {
+      largest =
+          std::max(largest, std::abs(friction_at(table, 150.0, {v, p}).mu - law(v, p, 150.0)));
+    }
   return largest;
 }
 
@@ -82,8 +83,8 @@ TEST(FrictionTable, HasItsPointsAndIsLinearInTheTemperature)
 TEST(FrictionTable, IsMonotoneOverTheSpeedWhereItsPointsAre)
 {
   // A step between flat parts, where splines overshoot.
-  const FrictionTable table{.curves = {friction_curve({0.0, 1.0, 1.1, 2.0, 5.0},
-                                                      {0.5, 0.5, 0.3, 0.3, 0.29})}};
+  const FrictionTable table{
+      .curves = {friction_curve({0.0, 1.0, 1.1, 2.0, 5.0}, {0.5, 0.5, 0.3, 0.3, 0.29})}};
   double last = 0.5;
   for (const double v : equally_spaced(0.0, 5.0, 1001)) {
     const FrictionValue value = friction_at(table, 20.0, {v, 0.0});
@@ -116,7 +117,8 @@ TEST(FrictionTable, GivesComplexStepsItsDerivatives)
       .temperature = 130.0};
   using Complex = std::complex<double>;
   const FrictionValue value = friction_at(*measured.table, 130.0, {2.1, 1.1e6});
-  const Complex by_speed = friction_coefficient(measured, Complex(2.1, complex_step), Complex(1.1e6));
+  const Complex by_speed =
+      friction_coefficient(measured, Complex(2.1, complex_step), Complex(1.1e6));
   const Complex by_pressure =
       friction_coefficient(measured, Complex(2.1), Complex(1.1e6, complex_step));
   EXPECT_NEAR(by_speed.imag() / complex_step, 1.2 * value.by_speed, 1e-15);
@@ -156,15 +158,15 @@ TEST(FrictionTable, LinearisesTheContactAsDifferencesOfItsForceDo)
     step[j] = h;
     rate_step[j] = h_rate;
     const Eigen::VectorXd by_motion = (force(step, zero) - force(-step, zero)) / (2.0 * h);
-    const Eigen::VectorXd by_rate = (force(zero, rate_step) - force(zero, -rate_step)) / (2.0 * h_rate);
+    const Eigen::VectorXd by_rate =
+        (force(zero, rate_step) - force(zero, -rate_step)) / (2.0 * h_rate);
     largest = std::max(largest, (by_motion - exact.D_a.col(j)).norm() / exact.D_a.norm());
     largest = std::max(largest, (by_rate - exact.D_p.col(j)).norm() / exact.D_p.norm());
   }
   EXPECT_LT(largest, 1e-7);
   // The pressure takes part: without it the same pad has another linearisation.
   PadContact without = pad;
-  without.friction.kinetic =
-      friction_at(*pad.friction.table, 150.0, {speed * ring_radius, 1e6}).mu;
+  without.friction.kinetic = friction_at(*pad.friction.table, 150.0, {speed * ring_radius, 1e6}).mu;
   without.friction.table.reset();
   EXPECT_GT((pair_derivatives(without, speed, middle_rows).D_a - exact.D_a).norm(),
             1e-4 * exact.D_a.norm());
@@ -236,8 +238,7 @@ TEST(Shim, InSeriesIsTheComplexSpringAtItsFrequency)
   const double omega = 2.0 * pi * 1700.0;
   using Complex = std::complex<double>;
   // Compliances add.
-  const Complex compliance =
-      1.0 / Complex(6e6, omega * 40.0) + 1.0 / (4e7 * Complex(1.0, 0.3));
+  const Complex compliance = 1.0 / Complex(6e6, omega * 40.0) + 1.0 / (4e7 * Complex(1.0, 0.3));
   EXPECT_LT(std::abs(compliance * Complex(both.stiffness, omega * both.damping) - 1.0), 1e-14);
   // One that is far stiffer than the lining leaves it as it is.
   const Suspension stiff = in_series({6e6, 40.0}, {6e18, 1.0, 1700.0});

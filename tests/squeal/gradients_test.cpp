@@ -40,19 +40,17 @@ SquealOptions rich_options()
                        .about_tangential = RotarySuspension{1e-4, {2e3, 0.05}}};
   plate.caliper = Caliper{.mass = 3.0, .axial = {4e6, 10.0}};
   plate.shim = Shim{.stiffness = 4e7, .loss_factor = 0.1, .frequency_Hz = 1700.0};
-  const FrictionTable table{
-      .temperatures = {100.0, 300.0},
-      .pressures = {2e5, 1e6, 2e6},
-      .curves = {friction_curve({0.01, 3.0, 12.0}, {0.5, 0.47, 0.44}),
-                 friction_curve({0.01, 3.0, 12.0}, {0.49, 0.46, 0.43}),
-                 friction_curve({0.01, 3.0, 12.0}, {0.48, 0.44, 0.41}),
-                 friction_curve({0.01, 3.0, 12.0}, {0.45, 0.43, 0.41}),
-                 friction_curve({0.01, 3.0, 12.0}, {0.44, 0.42, 0.4}),
-                 friction_curve({0.01, 3.0, 12.0}, {0.43, 0.4, 0.38})}};
+  const FrictionTable table{.temperatures = {100.0, 300.0},
+                            .pressures = {2e5, 1e6, 2e6},
+                            .curves = {friction_curve({0.01, 3.0, 12.0}, {0.5, 0.47, 0.44}),
+                                       friction_curve({0.01, 3.0, 12.0}, {0.49, 0.46, 0.43}),
+                                       friction_curve({0.01, 3.0, 12.0}, {0.48, 0.44, 0.41}),
+                                       friction_curve({0.01, 3.0, 12.0}, {0.45, 0.43, 0.41}),
+                                       friction_curve({0.01, 3.0, 12.0}, {0.44, 0.42, 0.4}),
+                                       friction_curve({0.01, 3.0, 12.0}, {0.43, 0.4, 0.38})}};
   PadPair light{.angle = 2.0, .stiffness = 5e6, .damping = 0.0, .preload = 1500.0};
-  light.friction = FrictionLaw{.kinetic = 1.0,
-                               .table = std::make_shared<const FrictionTable>(table),
-                               .temperature = 170.0};
+  light.friction = FrictionLaw{
+      .kinetic = 1.0, .table = std::make_shared<const FrictionTable>(table), .temperature = 170.0};
   light.area = 2e-3;
   options.pads.push_back(light);
   options.study.speeds = {.from = 2.0, .to = 80.0, .count = 60};
@@ -182,8 +180,9 @@ TEST(Gradients, OfFrequenciesAreCentralDifferences)
           return critical_speed_near(over, found);
         },
         f_Hz);
-    EXPECT_NEAR(*row->critical_speed, critical.value,
-                1e-6 * std::abs(critical.value) + critical.doubt + 1e-7 * *found.critical_speed / f_Hz);
+    EXPECT_NEAR(
+        *row->critical_speed, critical.value,
+        1e-6 * std::abs(critical.value) + critical.doubt + 1e-7 * *found.critical_speed / f_Hz);
     const Complex lambda = eigenvalue_of(found.motions[0]);
     const Difference growth =
         difference([&](double x) { return growth_near(A(x, 40.0), lambda); }, f_Hz);
@@ -234,9 +233,10 @@ TEST(Gradients, StandByFallingEffectOfOnePerCent)
   SquealOptions options = rich_options();
   const Gradients found = gradients(FlexibleDisc(damped_disc(), options), options.study);
   EXPECT_TRUE(found.motions.empty());
-  for (std::size_t i = 1; i < found.rows.size(); ++i)
+  for (std::size_t i = 1; i < found.rows.size(); ++i) {
     EXPECT_GE(effect_of_one_per_cent(found, found.rows[i - 1]),
               effect_of_one_per_cent(found, found.rows[i]));
+  }
 }
 
 TEST(Gradients, WithoutACriticalSpeedNeedASpeed)
@@ -246,8 +246,7 @@ TEST(Gradients, WithoutACriticalSpeedNeedASpeed)
   options.pads.pop_back();
   options.study.speeds = {.from = 10.0, .to = 11.0, .count = 3};
   const FlexibleDisc brake(damped_disc(), options);
-  const std::string complaint =
-      files::test::error_of([&] { gradients(brake, options.study); });
+  const std::string complaint = files::test::error_of([&] { gradients(brake, options.study); });
   EXPECT_NE(complaint.find("no critical speed within [squeal] speeds, 10 to 11 rad/s"),
             std::string::npos);
   options.study.gradients = GradientCase{.speed = 40.0};

@@ -62,9 +62,8 @@ FrictionLaw measured()
   const FrictionTable table{.temperatures = {0.0, 200.0},
                             .pressures = {0.0, 1e9},
                             .curves = {curve(0.5), curve(0.4), curve(0.45), curve(0.3)}};
-  return {.kinetic = 1.0,
-          .table = std::make_shared<const FrictionTable>(table),
-          .temperature = 50.0};
+  return {
+      .kinetic = 1.0, .table = std::make_shared<const FrictionTable>(table), .temperature = 50.0};
 }
 
 /// Brakes that have all parameters of a body together: one cannot have two laws of friction.
@@ -106,8 +105,7 @@ TEST(Parameters, OfABodyChangeItsStateMatrix)
       const Eigen::MatrixXd A = brake.state_matrix(8.0);
       const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
       // Modes of the pads come with any sign: their spectra are compared.
-      change =
-          std::max(change, (changed.eigenvalues() - A.eigenvalues()).norm() / A.norm());
+      change = std::max(change, (changed.eigenvalues() - A.eigenvalues()).norm() / A.norm());
     }
     EXPECT_GT(change, 1e-9) << row.name;
     ++n;
@@ -121,9 +119,9 @@ TEST(Parameters, OfABrakeAreThoseThatItsSceneGives)
   for (const ParameterValue& one : brakes_of_a_body()[1].parameters())
     keys.push_back(key_of(one.parameter));
   const auto has = [&](const char* key) { return std::ranges::find(keys, key) != keys.end(); };
-  for (const char* key : {"friction.factor", "friction.temperature_C", "thickness",
-                          "pads[1].friction.static", "pads[2].angle_deg", "pads[2].shim.stiffness",
-                          "pads[1].body.about_axial.inertia"})
+  for (const char* key :
+       {"friction.factor", "friction.temperature_C", "thickness", "pads[1].friction.static",
+        "pads[2].angle_deg", "pads[2].shim.stiffness", "pads[1].body.about_axial.inertia"})
     EXPECT_TRUE(has(key)) << key;
   for (const char* key : {"friction", "friction.static", "pads[2].friction", "contact_planes[1]",
                           "pads[1].friction.factor"})
