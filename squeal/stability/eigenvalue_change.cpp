@@ -1,5 +1,7 @@
 #include "squeal/stability/eigenvalue_change.hpp"
 
+#include <utility>
+
 #include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
