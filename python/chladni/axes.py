@@ -34,7 +34,7 @@ _OF_RESULTS: _Rows = [
     (r"stability_map/values", ("value",), {}),
     (r"stability_map/speeds", ("speed",), {}),
     (r"stability_map/\w+", ("value", "speed"), {"value": "values", "speed": "speeds"}),
-    (r"spectrogram/lines/\w+", ("t", "line"), {"t": "t"}),
+    (r"spectrogram/lines/\w+", ("t", "line"), {"t": "/spectrogram/t"}),
     (r"spectrogram/amplitude", ("t", "frequency"), {"t": "t", "frequency": "frequency"}),
     (r"spectrogram/frequency", ("frequency",), {}),
     (r"spectrogram/\w+", ("t",), {"t": "t"}),

@@ -47,8 +47,11 @@ Json spectrogram_page(const squeal::Spectrogram& spectrogram)
     const Eigen::VectorXd f_Hz =
         weak.select(std::numeric_limits<double>::quiet_NaN(), of.line_Hz.col(j));
     lines.push_back(rounded(f_Hz));
-    orders.push_back(rounded(
-        Eigen::VectorXd(2.0 * std::numbers::pi * f_Hz.array() / of.speed.array().max(1e-9))));
+    // A disc that nearly stands has no orders.
+    const auto turns = of.speed.array() > 1e-3 * of.speed.maxCoeff();
+    const Eigen::VectorXd order = 2.0 * std::numbers::pi * f_Hz.cwiseQuotient(of.speed);
+    orders.push_back(
+        rounded(Eigen::VectorXd(turns.select(order, std::numeric_limits<double>::quiet_NaN()))));
   }
   Eigen::VectorXd t = some(of.t, every_t);
   return Json::object({{"map_t", rounded(t)},

@@ -3,7 +3,7 @@
 function orderFigures({spectrogram}) {
   const {map_t, t, speed, envelope, frequency_Hz, level_dB, range_dB, line_Hz, line_order} = spectrogram;
   const time = {label: "time, s"};
-  const lines = values => values.map((one, k) => ({x: t, y: one, colour: k % 6, line: false, marker: "circle",
+  const lines = values => values.map((one, k) => ({x: t, y: one.map(v => v ?? NaN), colour: k % 6, line: false, marker: "circle",
                                                    name: k ? `line ${k + 1}` : "strongest line"}));
   return [
     heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz}, z: level_dB, unit: "dB",
