@@ -99,9 +99,14 @@ reduce::HarmonicModel damped_model(const scene::Scene& scene, const SupportedMod
                       "the FE model knows no modes to damp; take \"rayleigh\", or "
                       "response.loss_factor without it");
   }
-  if (damping.type == Damping::Type::matrix && model.system.C == nullptr)
-    scene::refuse_key(scene, "body.damping.type", "'matrix' needs dampers, and the model has none");
-  if (damping.type == Damping::Type::matrix) damped.C = model.system.C;
+  if (damping.type == Damping::Type::matrix) {
+    damped.C = model.system.C;
+    damped.H = model.system.H;
+    if (damped.C == nullptr && damped.H == nullptr) {
+      scene::refuse_key(scene, "body.damping.type",
+                        "'matrix' needs dampers or loss factors, and the model has none");
+    }
+  }
   if (damping.type == Damping::Type::rayleigh) {
     damped.alpha = damping.alpha;
     damped.beta = damping.beta;

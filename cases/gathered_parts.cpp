@@ -71,9 +71,9 @@ void transfer_part(auto& archive, auto& part, auto& omega)
   archive(part.order);
   archive(part.n_coordinates);
   archive(part.masters);
-  for (auto* A :
-       {&part.K, &part.M, &part.C, &omega, &part.interface.x, &part.interface.y, &part.picture.x,
-        &part.picture.y, &part.sector.x, &part.sector.y, &part.deviating.x, &part.deviating.y})
+  for (auto* A : {&part.K, &part.M, &part.C, &part.H, &omega, &part.interface.x, &part.interface.y,
+                  &part.picture.x, &part.picture.y, &part.sector.x, &part.sector.y,
+                  &part.deviating.x, &part.deviating.y})
     transfer(archive, *A);
   transfer_mass(archive, part.mass);
   transfer_certificate(archive, part.certificate);

@@ -89,6 +89,7 @@ mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const Sector
                                         });
   whole.K = whole.M = MatrixXd::Zero(n, n);
   if (!parts.empty() && parts.front().C.size() > 0) whole.C = MatrixXd::Zero(n, n);
+  if (!parts.empty() && parts.front().H.size() > 0) whole.H = MatrixXd::Zero(n, n);
   whole.fixed_interface_frequencies = VectorXd(n - n_m);
   MatrixXd& motion = whole.ring_motion->displacements;
   motion = MatrixXd::Zero(6 * std::ssize(whole.attachment_nodes), n);
@@ -97,6 +98,7 @@ mbs_export::ReducedSystem unfolded(mbs_export::ReducedSystem whole, const Sector
     whole.K(places[p], places[p]) = part.K;
     whole.M(places[p], places[p]) = part.M;
     if (whole.C.size() > 0) whole.C(places[p], places[p]) = part.C;
+    if (whole.H.size() > 0) whole.H(places[p], places[p]) = part.H;
     for (Index k = 0; k < part.omega.size(); ++k) {
       whole.fixed_interface_frequencies[places[p][part.masters.size() + std::size_t(k)] - n_m] =
           part.omega[k];

@@ -12,9 +12,9 @@ namespace chladni::cases {
 struct HarmonicPart {
   int order = 0;
   std::int64_t n_coordinates = 0;
-  std::vector<int> masters;  ///< `master_index` of each
-  Eigen::MatrixXd K, M, C;   ///< masters, then modes
-  Eigen::VectorXd omega;     ///< rad/s, of the modes
+  std::vector<int> masters;    ///< `master_index` of each
+  Eigen::MatrixXd K, M, C, H;  ///< masters, then modes
+  Eigen::VectorXd omega;       ///< rad/s, of the modes
   reduce::Certificate certificate;
   cyclic::SectorMotion interface;  ///< rows: six components of each interface node of the sector
   cyclic::SectorMotion picture;    ///< rows: x, y, z of each node of the sector's picture

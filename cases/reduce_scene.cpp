@@ -141,6 +141,7 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
                          .n_modes = n_modes,
                          .modes_residual = residual};
   if (fe.system.C != nullptr) reduced.system.C = projected(reduced, fe.system.C);
+  if (fe.system.H != nullptr) reduced.system.H = projected(reduced, fe.system.H);
   return reduced;
 }
 

@@ -29,11 +29,14 @@ using Eigen::Index, Eigen::MatrixXd;
 
 cyclic::SectorMatrices matrices_of(const SectorModel& model, MPI_Comm comm)
 {
-  return {
-      .K = cyclic::sparse_rows(model.system.K),
-      .M = cyclic::sparse_rows(model.system.M),
-      .C = model.system.C != nullptr ? cyclic::sparse_rows(model.system.C) : cyclic::SparseRows(),
-      .comm = comm};
+  const auto rows = [](Mat A) {
+    return A != nullptr ? cyclic::sparse_rows(A) : cyclic::SparseRows();
+  };
+  return {.K = rows(model.system.K),
+          .M = rows(model.system.M),
+          .C = rows(model.system.C),
+          .H = rows(model.system.H),
+          .comm = comm};
 }
 
 std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
@@ -45,7 +48,8 @@ std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
   for (int node = 0; node < dofs.n_nodes(); ++node)
     if (!dofs.is_dependent(node) && dofs.number(node) >= 0)
       positions.row(dofs.number(node)) = dofs.position(node);
-  return cyclic::find_mirror(model.dofs, positions, {&matrices.K, &matrices.M, &matrices.C});
+  return cyclic::find_mirror(model.dofs, positions,
+                             {&matrices.K, &matrices.M, &matrices.C, &matrices.H});
 }
 
 double certified_up_to(const reduce::ReduceOptions& wanted)

@@ -101,6 +101,7 @@ HarmonicPart part_of(const cyclic::HarmonicModel& harmonic, const SectorModel& m
                     .K = harmonic.K,
                     .M = harmonic.M,
                     .C = harmonic.C,
+                    .H = harmonic.H,
                     .omega = harmonic.omega,
                     .certificate = harmonic.certificate,
                     .interface = interface_motion(harmonic, model),

@@ -94,7 +94,7 @@ plate::Structure structure_with(const scene::Scene& scene, const SectorParts& pa
 
 /// K, M and C of the sector, and what its mass needs.
 struct AssembledParts {
-  SparseRows K, M, C;
+  SparseRows K, M, C, H;
   std::array<SparseRows, 6> S = {};  ///< as MassIntegrals::products, without zz
   double mass = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -112,8 +112,10 @@ AssembledParts assembled(const scene::Scene& scene, const SectorModel& model,
       plate::assemble(model.mesh, structure, model.system.dofs, PETSC_COMM_SELF);
   AssembledParts found{.K = cyclic::sparse_rows(system.K),
                        .M = cyclic::sparse_rows(system.M),
-                       .C = SparseRows(model.dofs.n_dofs(), model.dofs.n_dofs())};
+                       .C = SparseRows(model.dofs.n_dofs(), model.dofs.n_dofs()),
+                       .H = SparseRows(model.dofs.n_dofs(), model.dofs.n_dofs())};
   if (system.C != nullptr) found.C = cyclic::sparse_rows(system.C);
+  if (system.H != nullptr) found.H = cyclic::sparse_rows(system.H);
   if (!scene.mass_integrals) return found;
   const plate::MassModel mass =
       plate::mass_model(model.mesh, structure, model.system.dofs, PETSC_COMM_SELF);
@@ -141,6 +143,7 @@ AssembledParts difference(const AssembledParts& a, const AssembledParts& b)
   AssembledParts d{.K = difference(a.K, b.K),
                    .M = difference(a.M, b.M),
                    .C = difference(a.C, b.C),
+                   .H = difference(a.H, b.H),
                    .mass = a.mass - b.mass,
                    .first = a.first - b.first,
                    .second = a.second - b.second,
@@ -176,6 +179,7 @@ DeviatingSector compressed(const AssembledParts& d, int sector, const std::vecto
                             .K = compressed(d.K, rows),
                             .M = compressed(d.M, rows),
                             .C = compressed(d.C, rows),
+                            .H = compressed(d.H, rows),
                             .mass = std::nullopt};
   if (d.displacement.size() == 0 || d.M.nonZeros() == 0) return deviating;
   deviating.mass = {.mass = d.mass,
@@ -205,7 +209,8 @@ SectorDeviations sector_deviations(const scene::Scene& scene, const SectorModel&
     if (!known.contains(key)) {
       known.emplace(key,
                     difference(assembled(scene, model, parts_of(scene, sector, count)), perfect));
-      for (const SparseRows* A : {&known[key].K, &known[key].M, &known[key].C}) add_rows(*A, rows);
+      for (const SparseRows* A : {&known[key].K, &known[key].M, &known[key].C, &known[key].H})
+        add_rows(*A, rows);
     }
     keys.emplace_back(sector, std::move(key));
   }
@@ -240,6 +245,14 @@ MatrixXd symmetric_form_in(const SparseRows& A, const MatrixXd& U)
 {
   const MatrixXd form = form_in(A, U);
   return 0.5 * (form + form.transpose());
+}
+
+/// Of a form that the perfect body may not have at all.
+void add_damping(MatrixXd& whole, const SparseRows& A, const MatrixXd& U)
+{
+  if (A.nonZeros() == 0) return;
+  if (whole.size() == 0) whole = MatrixXd::Zero(U.cols(), U.cols());
+  whole += symmetric_form_in(A, U);
 }
 
 /// S_kl in the global axes, of all k and l but z and z.
@@ -323,7 +336,8 @@ void take(mbs_export::ReducedSystem& whole, const OwnModes& own)
   const Index n_m = whole.n_masters(), n_q = own.omega.size();
   whole.K = form_in(whole.K, own.T);
   whole.M = form_in(whole.M, own.T);
-  if (whole.C.size() > 0) whole.C = form_in(whole.C, own.T);
+  for (MatrixXd* A : {&whole.C, &whole.H})
+    if (A->size() > 0) *A = form_in(*A, own.T);
   whole.K.topRightCorner(n_m, n_q).setZero();
   whole.K.bottomLeftCorner(n_q, n_m).setZero();
   whole.K.bottomRightCorner(n_q, n_q) = own.omega.cwiseAbs2().asDiagonal();
@@ -350,10 +364,8 @@ MatrixXd add_deviations(mbs_export::ReducedSystem& whole, const SectorDeviations
     const MatrixXd dM = symmetric_form_in(deviating.M, U);
     whole.K += symmetric_form_in(deviating.K, U);
     whole.M += dM;
-    if (deviating.C.nonZeros() > 0) {
-      if (whole.C.size() == 0) whole.C = MatrixXd::Zero(n, n);
-      whole.C += symmetric_form_in(deviating.C, U);
-    }
+    add_damping(whole.C, deviating.C, U);
+    add_damping(whole.H, deviating.H, U);
     if (deviating.mass) {
       add_mass(*whole.mass_integrals, *deviating.mass, U, dM,
                cyclic::turn_of_sector(deviating.sector, count));

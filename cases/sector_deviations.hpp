@@ -25,7 +25,7 @@ struct DeviatingMass {
 /// What the deviations of one sector add to its matrices, in the axes of that sector.
 struct DeviatingSector {
   int sector;
-  cyclic::SparseRows K, M, C;  ///< [n_rows squared]
+  cyclic::SparseRows K, M, C, H;  ///< [n_rows squared]
   std::optional<DeviatingMass> mass;
 };
 

@@ -201,7 +201,7 @@ SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh)
       mesh, {.couplings = scene.couplings, .components = scene.components, .rings = {}}, owners, 1);
   SectorModel model{.mesh = std::move(mesh),
                     .masses = {},
-                    .system = {.K = {}, .M = {}, .C = {}, .dofs = dofs},
+                    .system = {.K = {}, .M = {}, .C = {}, .H = {}, .dofs = dofs},
                     .dofs = {},
                     .interface = {}};
   check_means(scene, model);

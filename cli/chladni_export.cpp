@@ -144,6 +144,7 @@ std::vector<std::string> export_matrices(const ExportArguments& arguments, const
   const std::string stem = named.string();
   std::vector<std::string> files{write(stem + ".K.mtx", texts.K), write(stem + ".M.mtx", texts.M)};
   if (!texts.C.empty()) files.push_back(write(stem + ".C.mtx", texts.C));
+  if (!texts.H.empty()) files.push_back(write(stem + ".H.mtx", texts.H));
   files.push_back(write(stem + ".coordinates.csv", texts.coordinates));
   return files;
 }
@@ -155,6 +156,11 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
   const mbs_export::Damping damping =
       source.scene ? source.scene->body.damping : mbs_export::Damping{};
   std::vector<std::string> notes = cases::damping_left_out(arguments.format, damping, 0);
+  if (reduced.H.size() > 0 && arguments.format != "matrix-market") {
+    notes.emplace_back(
+        "the structural damping (loss factors) is left out: this file holds K, M and the dampers; "
+        "--format matrix-market writes it");
+  }
   if (arguments.format == "nastran-op4")
     return {export_superelement(arguments, source, reduced), std::move(notes)};
   if (arguments.format == "matrix-market")

@@ -84,14 +84,14 @@ MatrixXd commuting(const MatrixXd& A, const QuarterTurn& J)
 void unfold(HarmonicModel& model)
 {
   const MasterHalves masters = master_halves(model.coordinates, *model.half);
-  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+  for (MatrixXd* A : {&model.K, &model.M, &model.C, &model.H})
     if (A->size() > 0) *A = unfolded_form(*A, masters);
   const Index n = model.omega.size();
   model.W = MatrixXd::Identity(n, n);
   model.omega = model.omega.transpose().replicate<2, 1>().reshaped().eval();
   model.certificate = unfolded_certificate(model.certificate);
   const QuarterTurn J = quarter_turn(model.coordinates, model.omega.size());
-  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+  for (MatrixXd* A : {&model.K, &model.M, &model.C, &model.H})
     if (A->size() > 0) *A = commuting(*A, J);
 }
 
@@ -113,7 +113,7 @@ void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
     model.omega = std::move(pairs.omega);
   }
   const QuarterTurn J = quarter_turn(c, model.omega.size());
-  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+  for (MatrixXd* A : {&model.K, &model.M, &model.C, &model.H})
     if (A->size() > 0) *A = commuting(in_pairs(*A, n_m, model.W), J);
 }
 
@@ -121,7 +121,7 @@ void make_pairs(HarmonicModel& model, const SectorMatrices& sector)
 void leave_out_modes(HarmonicModel& model)
 {
   const Index n_m = model.n_masters();
-  for (MatrixXd* A : {&model.K, &model.M, &model.C})
+  for (MatrixXd* A : {&model.K, &model.M, &model.C, &model.H})
     if (A->size() > 0) *A = A->topLeftCorner(n_m, n_m).eval();
   model.W = MatrixXd(model.W.rows(), 0);
   model.omega.resize(0);
@@ -193,6 +193,7 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                       .K = reduction.model.K(places, places),
                       .M = reduction.model.M(places, places),
                       .C = {},
+                      .H = {},
                       .omega = Eigen::Map<const VectorXd>(reduction.model.omega.data(),
                                                           std::ssize(reduction.model.omega)),
                       .certificate = std::move(reduction.certificate),
@@ -201,12 +202,15 @@ HarmonicModel reduce_harmonic(const SectorMatrices& sector, HarmonicCoordinates 
                       .basis = std::move(reduction.Q_CB),
                       .places = std::move(places),
                       .W = {}};
-  if (sector.C.size() > 0) {
-    const petsc::Matrix C =
-        as_matrix(harmonic_form(sector.C, model.solved()), Symmetry::symmetric, sector.comm);
-    model.C = reduce::project_form(model.basis, reduce::split(C, model.body.dofs))(model.places,
+  const auto projected = [&](const SparseRows& A) -> MatrixXd {
+    if (A.size() == 0) return {};
+    const petsc::Matrix form =
+        as_matrix(harmonic_form(A, model.solved()), Symmetry::symmetric, sector.comm);
+    return reduce::project_form(model.basis, reduce::split(form, model.body.dofs))(model.places,
                                                                                    model.places);
-  }
+  };
+  model.C = projected(sector.C);
+  model.H = projected(sector.H);
   phases.begin("pairs");
   make_pairs(model, sector);
   phases.end();

@@ -13,7 +13,8 @@ namespace chladni::cyclic {
 
 /// The matrices of the assembled sector.
 struct SectorMatrices {
-  SparseRows K, M, C;  ///< C of the dampers, or empty
+  SparseRows K, M;
+  SparseRows C = {}, H = {};  ///< of dampers and of structural damping, or empty
   /// Of the ranks that reduce a harmonic together; each has the matrices of the sector.
   MPI_Comm comm = PETSC_COMM_SELF;
 };
@@ -38,9 +39,9 @@ struct HarmonicGoal {
 /// One harmonic of the body, reduced: rows are its masters, then modes in exact pairs.
 struct HarmonicModel {
   HarmonicCoordinates coordinates;
-  reduce::Method method;    ///< Craig and Bampton's where there are no masters to be free
-  Eigen::MatrixXd K, M, C;  ///< of the whole body; C as the sector's
-  Eigen::VectorXd omega;    ///< [n_modes] rad/s
+  reduce::Method method;       ///< Craig and Bampton's where there are no masters to be free
+  Eigen::MatrixXd K, M, C, H;  ///< of the whole body; C and H as the sector's
+  Eigen::VectorXd omega;       ///< [n_modes] rad/s
   reduce::Certificate certificate;
   /// What was factored: the symmetric half, where the sector has a mirror.
   std::optional<HarmonicCoordinates> half;

@@ -38,9 +38,11 @@ struct InterfaceModes {
 struct Damping {
   enum class Type { none, modal, rayleigh, matrix };
   Type type = Type::none;
-  std::vector<double> ratios = {};  ///< modal: one for all modes or one for each
-  double alpha = 0.0;               ///< Rayleigh, 1/s
-  double beta = 0.0;                ///< Rayleigh, s
+  std::vector<double> ratios =
+      {};  ///< modal: one for all modes, one for each, or as many as `at_Hz`
+  std::vector<double> at_Hz = {};  ///< modal: ascending; linear between; empty: not by frequency
+  double alpha = 0.0;              ///< Rayleigh, 1/s
+  double beta = 0.0;               ///< Rayleigh, s
 };
 
 /// "none", "modal", "rayleigh", "matrix".

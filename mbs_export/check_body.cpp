@@ -127,13 +127,16 @@ void add_inertia(std::vector<Check>& checks, const ModalBody& body)
 
 void add_damping(std::vector<Check>& checks, const ModalBody& body)
 {
-  if (body.C.size() == 0) return;
-  checks.push_back(bounded("symmetry of C", check_parts::asymmetry(body.C), 1e-8,
-                           "largest |A_ij - A_ji| over sqrt(A_ii A_jj)"));
-  const VectorXd c = check_parts::relative_eigenvalues(body.C);
-  const double negative = c.size() > 0 ? std::max(0.0, -c[0]) : 0.0;
-  checks.push_back({"definiteness of C", negative <= 1e-8 ? Verdict::pass : Verdict::warn, negative,
-                    1e-8, "a negative eigenvalue feeds energy into the body"});
+  for (const auto& [name, A] : {std::pair{"C", &body.C}, std::pair{"H", &body.H}}) {
+    if (A->size() == 0) continue;
+    checks.push_back(bounded(std::string("symmetry of ") + name, check_parts::asymmetry(*A), 1e-8,
+                             "largest |A_ij - A_ji| over sqrt(A_ii A_jj)"));
+    const VectorXd c = check_parts::relative_eigenvalues(*A);
+    const double negative = c.size() > 0 ? std::max(0.0, -c[0]) : 0.0;
+    checks.push_back({std::string("definiteness of ") + name,
+                      negative <= 1e-8 ? Verdict::pass : Verdict::warn, negative, 1e-8,
+                      "a negative eigenvalue feeds energy into the body"});
+  }
 }
 
 double difference(const MatrixXd& A, const MatrixXd& B)

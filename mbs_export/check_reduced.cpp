@@ -275,7 +275,7 @@ std::vector<Check> check_reduced(const ReducedSystem& reduced)
   const std::string meaning = "largest |A_ij - A_ji| over sqrt(A_ii A_jj)";
   for (const auto& [name, A] :
        {std::pair{"symmetry of K", &reduced.K}, std::pair{"symmetry of M", &reduced.M},
-        std::pair{"symmetry of C", &reduced.C}})
+        std::pair{"symmetry of C", &reduced.C}, std::pair{"symmetry of H", &reduced.H}})
     if (A->size() > 0) checks.push_back(bounded(name, check_parts::asymmetry(*A), 1e-8, meaning));
   add_definiteness(checks, reduced);
   add_rigid_motions(checks, reduced);

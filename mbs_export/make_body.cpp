@@ -6,9 +6,11 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "common/eigen_every.hpp"
 #include "mbs_export/attachment_motion.hpp"
+#include "mbs_export/body_damping.hpp"
 #include "mbs_export/body_option_error.hpp"
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
@@ -145,36 +147,6 @@ BodyModes merge(const HeldModes& modes, const ModeSelection& selection, const In
   return body;
 }
 
-/// C_m in the final coordinates, [n_modes x n_modes] or [0 x 0].
-MatrixXd damping_matrix(const ReducedSystem& reduced, const BodyModes& modes,
-                        const Damping& damping)
-{
-  const Index n = modes.omega.size();
-  switch (damping.type) {
-    case Damping::Type::none:
-      return {};
-    case Damping::Type::rayleigh:
-      return VectorXd(damping.alpha + damping.beta * modes.omega.array().square()).asDiagonal();
-    case Damping::Type::matrix:
-      if (reduced.C.size() == 0) {
-        throw BodyOptionError("damping.type",
-                              "'matrix' needs a reduced damping matrix, and this system has none");
-      }
-      return modes.T.transpose() * reduced.C * modes.T;
-    case Damping::Type::modal:
-      break;
-  }
-  if (damping.ratios.size() != 1 && Index(damping.ratios.size()) != n) {
-    throw BodyOptionError("damping.ratio",
-                          fmt::format("{} ratios for {} modes; give one for all or one for each",
-                                      damping.ratios.size(), n));
-  }
-  const VectorXd zeta = damping.ratios.size() == 1
-                            ? VectorXd(VectorXd::Constant(n, damping.ratios[0]))
-                            : VectorXd(Eigen::Map<const VectorXd>(damping.ratios.data(), n));
-  return VectorXd(2.0 * zeta.array() * modes.omega.array()).asDiagonal();
-}
-
 std::vector<ResultantModes> resultants_in_modes(std::vector<ResultantModes> resultants,
                                                 const MatrixXd& T)
 {
@@ -185,10 +157,12 @@ std::vector<ResultantModes> resultants_in_modes(std::vector<ResultantModes> resu
 ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, const BodyModes& modes)
 {
   const RigidInertia rigid = rigid_inertia(reduced);
+  BodyDamping damping = body_damping(reduced, {modes.omega, modes.T}, options.damping);
   ModalBody body{.title = reduced.title,
                  .kinds = modes.kinds,
                  .omega = modes.omega,
-                 .C = damping_matrix(reduced, modes, options.damping),
+                 .C = std::move(damping.C),
+                 .H = std::move(damping.H),
                  .attachment_nodes = reduced.attachment_nodes,
                  .sets = reduced.sets,
                  .fixed = options.fixed,

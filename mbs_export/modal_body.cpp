@@ -9,6 +9,15 @@
 
 namespace chladni::mbs_export {
 
+Eigen::VectorXd loss_factors(const ModalBody& body)
+{
+  if (body.H.size() == 0) return {};
+  Eigen::VectorXd eta = Eigen::VectorXd::Zero(body.n_modes());
+  for (Eigen::Index i = 0; i < eta.size(); ++i)
+    if (body.omega[i] > 0.0) eta[i] = body.H(i, i) / (body.omega[i] * body.omega[i]);
+  return eta;
+}
+
 const ContactRing& find_ring(const ModalBody& body, const std::string& name)
 {
   const auto found = std::ranges::find(body.rings, name, &ContactRing::name);

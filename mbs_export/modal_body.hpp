@@ -65,7 +65,11 @@ struct ModalBody {
   std::string title;
   std::vector<ModeKind> kinds;  ///< [n_modes]
   Eigen::VectorXd omega;        ///< [n_modes], rad/s, ascending
-  Eigen::MatrixXd C;            ///< [n_modes x n_modes], 1/s, or [0 x 0]
+  /// [n_modes x n_modes], 1/s, or [0 x 0]; with the viscous equivalent of `H` (body_damping.hpp)
+  Eigen::MatrixXd C;
+  /// [n_modes x n_modes] structural damping, diag(omega^2) + i H at a harmonic motion, 1/s^2, or
+  /// [0 x 0]
+  Eigen::MatrixXd H = {};
   std::vector<AttachmentNode> attachment_nodes;
   std::vector<AttachmentSet> sets;
   std::vector<std::string> fixed;    ///< what the scene holds, e.g. "hub", "hub.z"
@@ -89,6 +93,9 @@ struct ModalBody {
 
   Eigen::Index n_modes() const { return omega.size(); }
 };
+
+/// phi^T H phi / phi^T K phi of each mode, 1; zero of modes without stiffness, empty without H.
+Eigen::VectorXd loss_factors(const ModalBody& body);
 
 /// @throws chladni::Error naming the rings that exist.
 const ContactRing& find_ring(const ModalBody& body, const std::string& name);

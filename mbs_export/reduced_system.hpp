@@ -98,11 +98,14 @@ struct ReducedSystem {
   std::string title;
   std::vector<AttachmentNode> attachment_nodes;
   std::vector<AttachmentSet> sets;
-  std::vector<MasterDof> masters;               ///< [n_m]
-  std::optional<RingMotion> ring_motion = {};   ///< absent where each master is a DOF of a node
-  Eigen::MatrixXd K;                            ///< [n_FE x n_FE], N/m, N, N m
-  Eigen::MatrixXd M;                            ///< [n_FE x n_FE], kg, kg m, kg m^2
-  Eigen::MatrixXd C;                            ///< [n_FE x n_FE] or [0 x 0] when undamped
+  std::vector<MasterDof> masters;              ///< [n_m]
+  std::optional<RingMotion> ring_motion = {};  ///< absent where each master is a DOF of a node
+  Eigen::MatrixXd K;                           ///< [n_FE x n_FE], N/m, N, N m
+  Eigen::MatrixXd M;                           ///< [n_FE x n_FE], kg, kg m, kg m^2
+  Eigen::MatrixXd C;                           ///< [n_FE x n_FE] or [0 x 0] when undamped
+  /// [n_FE x n_FE] structural damping, sum of eta_e K_e of elements and springs, or [0 x 0]: K + i
+  /// H at a harmonic motion; as K.
+  Eigen::MatrixXd H = {};
   Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
   Picture picture;                              ///< empty when the scene wants none
   /// The rows of the picture's transformation, which is empty then: many times as large.

@@ -9,11 +9,12 @@
 
 namespace chladni::plate {
 
-/// Isotropic, linearly elastic.
+/// Isotropic, linearly elastic, with structural damping: E (1 + i eta) at a harmonic motion.
 struct Material {
-  double young;    ///< Pa
-  double poisson;  ///< -1 < nu < 0.5
-  double density;  ///< kg/m^3
+  double young;              ///< Pa
+  double poisson;            ///< -1 < nu < 0.5
+  double density;            ///< kg/m^3
+  double loss_factor = 0.0;  ///< eta >= 0
 };
 
 /// What a profile runs over: a coordinate of the model, or the distance from its z axis.
@@ -47,6 +48,7 @@ struct ShellSection {
   Material material;
   Profile thickness;     ///< m
   Profile offset = 0.0;  ///< m, from the mesh to the mid-surface along the normals of the elements
+  std::optional<double> loss_factor = {};  ///< eta >= 0 in place of that of the material
 };
 
 enum class BeamTheory { bernoulli_euler, timoshenko };
@@ -67,6 +69,7 @@ struct BeamSection {
   bool has_rotary_inertia = true;       ///< rho I_y and rho I_z of the bending rotations
   std::optional<std::array<double, 3>>  ///< needed unless y and z are alike
       orientation = {};
+  std::optional<double> loss_factor = {};  ///< eta >= 0 in place of that of the material
 };
 
 /// A rigid body on each node of a group, or on the reference node of a coupling.
@@ -86,6 +89,7 @@ struct Spring {
   std::optional<std::string> to = {};  ///< absent: the ground; then each node of the group has one
   std::array<double, 6> stiffness = {};  ///< N/m, N m/rad
   std::array<double, 6> damping = {};    ///< N s/m, N m s/rad
+  double loss_factor = 0.0;              ///< eta >= 0 of the stiffness
 };
 
 /// What a body is made of.

@@ -179,10 +179,13 @@ HarmonicResponse::HarmonicResponse(const HarmonicModel& model, const FreeDofs& f
 {
   const petsc::Matrix K = free_block(model.K, free), M = free_block(model.M, free);
   const petsc::Matrix C = model.C == nullptr ? petsc::Matrix() : free_block(model.C, free);
-  const petsc::Matrix pattern = union_of(K, M, C);
+  const petsc::Matrix H = model.H == nullptr ? petsc::Matrix() : free_block(model.H, free);
+  const petsc::Matrix undamped = union_of(K, M, C);
+  const petsc::Matrix pattern = union_of(undamped, undamped, H);
   K_ = spread(K, pattern);
   M_ = spread(M, pattern);
   if (model.C != nullptr) C_ = spread(C, pattern);
+  if (model.H != nullptr) H_ = spread(H, pattern);
   A_ = blocks_on(pattern, width_);
   const FreeRows rows(free, K_);
   E_ = load_columns(A_, width_, rows, loads);
@@ -203,11 +206,15 @@ void HarmonicResponse::set_values(double Omega)
   std::vector<PetscInt> columns;
   for (PetscInt row = first; row < last; ++row) {
     const std::vector<double> K = row_values(K_, row, columns), M = row_values(M_, row, columns);
-    const bool damps = factors_.C != nullptr;
-    const std::vector<double> C = damps ? row_values(C_, row, columns) : std::vector<double>();
     std::vector<Complex> a(K.size());
-    for (std::size_t k = 0; k < a.size(); ++k)
-      a[k] = of_K * K[k] + of_M * M[k] + (damps ? of_C * C[k] : 0.0);
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] = of_K * K[k] + of_M * M[k];
+    const auto add = [&](Mat A, Complex factor) {
+      if (A == nullptr) return;
+      const std::vector<double> values = row_values(A, row, columns);
+      for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * values[k];
+    };
+    add(C_, of_C);
+    add(H_, Complex(0.0, 1.0));
     insert_row(A_, width_, row, columns, a);
   }
   petsc::check(MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY));

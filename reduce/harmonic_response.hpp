@@ -9,15 +9,19 @@
 
 namespace chladni::reduce {
 
-/// A(Omega) = K (1 + i eta) + i Omega (C + alpha M + beta K) - Omega^2 M.
+/// A(Omega) = K (1 + i eta) + i H + i Omega (C + alpha M + beta K) - Omega^2 M.
 struct HarmonicModel {
   Mat K, M;
   Mat C = nullptr;           ///< of dampers, or none
+  Mat H = nullptr;           ///< structural damping by loss factors of parts, or none
   double loss_factor = 0.0;  ///< eta
   double alpha = 0.0;        ///< 1/s
   double beta = 0.0;         ///< s
 
-  bool is_damped() const { return C != nullptr || loss_factor > 0.0 || alpha > 0.0 || beta > 0.0; }
+  bool is_damped() const
+  {
+    return C != nullptr || H != nullptr || loss_factor > 0.0 || alpha > 0.0 || beta > 0.0;
+  }
 };
 
 /// A load, or a motion that is asked for: sum_k weights[k] u[dofs[k]]. The same on every rank.
@@ -63,9 +67,9 @@ class HarmonicResponse {
   void check_resonance(double Omega, Mat V) const;
   Eigen::MatrixXcd outputs_of(Mat V) const;
 
-  PetscInt width_;           ///< numbers for each DOF: 1 undamped, 2 damped
-  petsc::Matrix K_, M_, C_;  ///< of the free DOFs, all with the pattern of their sum
-  HarmonicModel factors_;    ///< eta, alpha and beta
+  PetscInt width_;               ///< numbers for each DOF: 1 undamped, 2 damped
+  petsc::Matrix K_, M_, C_, H_;  ///< of the free DOFs, all with the pattern of their sum
+  HarmonicModel factors_;        ///< eta, alpha and beta
   petsc::Matrix A_, E_;
   petsc::LinearSolver solver_;  ///< once there was a frequency
   linear::OptionSource source_;

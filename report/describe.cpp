@@ -9,6 +9,9 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/error.hpp"
 #include "files/hdf5.hpp"
@@ -152,10 +155,18 @@ TextTable describe(const mbs_export::ModalBody& body)
 TextTable list_modes(const mbs_export::ModalBody& body)
 {
   TextTable table{.header = {"mode", "frequency, Hz", "kind"}, .rows = {}};
+  if (body.C.size() > 0) table.header.emplace_back("damping ratio");
+  const Eigen::VectorXd eta = mbs_export::loss_factors(body);
+  if (eta.size() > 0) table.header.emplace_back("loss factor");
   for (Eigen::Index i = 0; i < body.n_modes(); ++i) {
-    table.rows.push_back({fmt::format("{}", i + 1),
-                          fmt::format("{:.4f}", body.omega[i] / (2.0 * pi)),
-                          name_of(body.kinds[static_cast<std::size_t>(i)])});
+    std::vector<std::string> row{fmt::format("{}", i + 1),
+                                 fmt::format("{:.4f}", body.omega[i] / (2.0 * pi)),
+                                 name_of(body.kinds[static_cast<std::size_t>(i)])};
+    const bool is_elastic = body.omega[i] > 0.0;
+    if (body.C.size() > 0)
+      row.push_back(is_elastic ? fmt::format("{:.3g}", 0.5 * body.C(i, i) / body.omega[i]) : "");
+    if (eta.size() > 0) row.push_back(is_elastic ? fmt::format("{:.3g}", eta[i]) : "");
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

@@ -18,7 +18,7 @@ TextTable describe(const squeal::SquealResults& results);
 /// "rigid", "constrained" or "interface".
 std::string name_of(mbs_export::ModeKind kind);
 
-/// The frequencies of a body's modes with their kinds.
+/// The frequencies of a body's modes with their kinds, and what damps each of them.
 TextTable list_modes(const mbs_export::ModalBody& body);
 
 /// Size against error of a selection by tolerance, and what became of it; empty when a body's modes

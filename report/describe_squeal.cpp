@@ -9,6 +9,7 @@
 
 #include "report/describe.hpp"
 #include "report/describe_cycles.hpp"
+#include "report/describe_gradients.hpp"
 #include "report/describe_rotation.hpp"
 #include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
@@ -256,6 +257,7 @@ TextTable describe(const squeal::SquealResults& results)
   if (results.rotation_stability)
     add_rotation_stability(table, *results.rotation_stability, results.wheel_radius);
   if (results.mode_sensitivity) add_sensitivity(table, *results.mode_sensitivity);
+  if (results.gradients) add_gradients(table, *results.gradients);
   for (const squeal::Growth& growth : results.growth) add_growth(table, growth);
   if (results.transient) add_transient(table, *results.transient);
   if (results.motion_statistics) add_statistics(table, *results.motion_statistics);

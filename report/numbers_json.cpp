@@ -12,6 +12,11 @@ Json numbers_json(const Eigen::VectorXd& values)
   return Json::array(numbers);
 }
 
+Json optional_json(const std::optional<double>& x)
+{
+  return x ? Json(*x) : Json();
+}
+
 Json frequencies_json(const Eigen::VectorXd& omega)
 {
   return numbers_json(omega / (2.0 * std::numbers::pi));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "report/json.hpp"
 
@@ -8,6 +9,9 @@ namespace chladni::report {
 
 /// Numbers as a JSON array.
 Json numbers_json(const Eigen::VectorXd& values);
+
+/// A number, or null.
+Json optional_json(const std::optional<double>& x);
 
 /// Angular frequencies in rad/s as a JSON array in Hz.
 Json frequencies_json(const Eigen::VectorXd& omega);

@@ -4,7 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "report/describe_gradients.hpp"
 #include "report/describe_stability.hpp"
+#include "report/numbers_json.hpp"
 #include "squeal/stability/rotation_stability.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "squeal/transient/growth_rate.hpp"
@@ -174,11 +176,6 @@ Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
   return Json::array(searches);
 }
 
-Json optional_json(const std::optional<double>& x)
-{
-  return x ? Json(*x) : Json();
-}
-
 Json budget_json(const squeal::ErrorBudget& budget)
 {
   return Json::object({{"mesh", optional_json(budget.mesh)},
@@ -278,6 +275,7 @@ std::vector<Json::Member> results_json(const squeal::SquealResults& results)
   if (results.spectrum) members.emplace_back("spectrum_peaks", peaks_json(*results.spectrum));
   if (results.mode_sensitivity)
     members.emplace_back("mode_sensitivity", sensitivity_json(*results.mode_sensitivity));
+  if (results.gradients) members.emplace_back("gradients", gradients_json(*results.gradients));
   if (!results.growth.empty()) members.emplace_back("growth", growth_json(results.growth));
   if (results.transient) {
     const auto& rate = results.transient->growth_rate;

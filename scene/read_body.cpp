@@ -107,11 +107,24 @@ InterfaceModes read_interface_mode(const Table& mode, const Scene& scene)
           .space = read_space(mode, kind, scene.reduce.method)};
 }
 
-/// One ratio for all modes, or one for each.
-std::vector<double> read_ratios(const Table& damping)
+/// One ratio for all modes, one for each, or a table over the frequency.
+void read_ratios(Damping& damping, const Table& table)
 {
-  if (damping.has("ratio") && damping.is_list("ratio")) return damping.numbers("ratio");
-  return {damping.number("ratio")};
+  if (!table.has("ratio") || !table.is_table("ratio")) {
+    damping.ratios = table.has("ratio") && table.is_list("ratio")
+                         ? table.numbers("ratio")
+                         : std::vector{table.number("ratio")};
+    return;
+  }
+  const Table ratio = table.table("ratio");
+  damping.at_Hz = ratio.numbers("at_Hz");
+  damping.ratios = ratio.numbers("values");
+  if (damping.at_Hz.size() < 2) ratio.refuse("at_Hz", "must hold at least two frequencies");
+  for (std::size_t i = 1; i < damping.at_Hz.size(); ++i)
+    if (damping.at_Hz[i] <= damping.at_Hz[i - 1])
+      ratio.refuse_element("at_Hz", i, "must be larger than the one before");
+  if (damping.ratios.size() != damping.at_Hz.size())
+    ratio.refuse("values", "must be as many as the numbers of at_Hz");
 }
 
 Damping read_damping(const Table& body)
@@ -123,7 +136,7 @@ Damping read_damping(const Table& body)
                                                       {"modal", Damping::Type::modal},
                                                       {"rayleigh", Damping::Type::rayleigh},
                                                       {"matrix", Damping::Type::matrix}});
-  if (damping.type == Damping::Type::modal) damping.ratios = read_ratios(table);
+  if (damping.type == Damping::Type::modal) read_ratios(damping, table);
   if (damping.type == Damping::Type::rayleigh) {
     damping.alpha = table.number("alpha");
     damping.beta = table.number("beta");

@@ -64,6 +64,17 @@ std::optional<squeal::Caliper> read_caliper(const Table& pad,
   return squeal::Caliper{.mass = table.number("mass"), .axial = read_suspension(table, "N/m")};
 }
 
+std::optional<squeal::Shim> read_shim(const Table& pad, const std::optional<squeal::PadBody>& body)
+{
+  if (!pad.has("shim")) return std::nullopt;
+  if (body && !body->axial)
+    pad.refuse("shim", "lies behind the axial suspension of the plate: give body.axial");
+  const Table table = pad.table("shim");
+  return squeal::Shim{.stiffness = table.number("stiffness"),
+                      .loss_factor = table.number("loss_factor"),
+                      .frequency_Hz = table.number("frequency_Hz")};
+}
+
 /// The rings of a grid, or pairs of them where each contact plane has its own.
 void read_grid_rings(squeal::PadGrid& grid, const Table& table, RingsOf of)
 {
@@ -117,7 +128,10 @@ squeal::PadPair read_pad(const Table& pad, RingsOf of)
           .cubic_stiffness = spring.cubic,
           .grid = read_grid(pad, of),
           .body = body,
-          .caliper = read_caliper(pad, body)};
+          .caliper = read_caliper(pad, body),
+          .shim = read_shim(pad, body),
+          .friction = pad.has("friction") ? std::optional(read_friction(pad)) : std::nullopt,
+          .area = pad.has("area") ? std::optional(pad.number("area")) : std::nullopt};
 }
 
 }  // namespace

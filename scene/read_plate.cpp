@@ -13,7 +13,8 @@ plate::Material read_material(const Table& material)
 {
   return {.young = material.number("young"),
           .poisson = material.number("poisson"),
-          .density = material.number("density")};
+          .density = material.number("density"),
+          .loss_factor = material.has("loss_factor") ? material.number("loss_factor") : 0.0};
 }
 
 std::map<std::string, plate::Material> read_materials(const Table& root)
@@ -41,6 +42,12 @@ const plate::Material& read_material_of(const Table& section,
   std::vector<std::string> names;
   for (const auto& [name, material] : materials) names.push_back(name);
   section.refuse("material", no_such_name("material", section.text("material"), names));
+}
+
+std::optional<double> read_loss_factor(const Table& section)
+{
+  if (!section.has("loss_factor")) return std::nullopt;
+  return section.number("loss_factor");
 }
 
 plate::Coupling read_coupling(const Table& table, const std::vector<std::string>& groups)
@@ -110,6 +117,7 @@ plate::BeamSection read_beam_section(const Table& section, const std::string& gr
         section.choice<bool>("rotary_inertia", {{"full", true}, {"none", false}});
   }
   beam.orientation = read_orientation(section);
+  beam.loss_factor = read_loss_factor(section);
   const bool alike = beam.I_y == beam.I_z && beam.shear_factor_y == beam.shear_factor_z;
   if (!beam.orientation && !alike) {
     section.refuse("I_y",
@@ -183,11 +191,11 @@ Sections read_sections(const Table& root, const Scene& scene)
       sections.beams.push_back(read_beam_section(table, group, material));
       continue;
     }
-    sections.shells.push_back(
-        {.group = group,
-         .material = material,
-         .thickness = read_profile(table, "thickness"),
-         .offset = table.has("offset") ? read_profile(table, "offset") : 0.0});
+    sections.shells.push_back({.group = group,
+                               .material = material,
+                               .thickness = read_profile(table, "thickness"),
+                               .offset = table.has("offset") ? read_profile(table, "offset") : 0.0,
+                               .loss_factor = read_loss_factor(table)});
   }
   if (taken.empty()) root.refuse("section", "must hold at least one section");
   return sections;

@@ -61,6 +61,11 @@ plate::Spring read_spring(const Table& table, const Scene& scene)
     table.refuse("at", "the spring needs `stiffness` or `damping`, like { z = 1e6 }");
   if (table.has("stiffness")) spring.stiffness = read_by_component(table, "stiffness");
   if (table.has("damping")) spring.damping = read_by_component(table, "damping");
+  if (table.has("loss_factor")) {
+    if (!table.has("stiffness"))
+      table.refuse("loss_factor", "is that of the stiffness; give `stiffness`, or `damping` alone");
+    spring.loss_factor = table.number("loss_factor");
+  }
   return spring;
 }
 

@@ -134,6 +134,10 @@ std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene&
   options.contact = read_contact(squeal);
   options.pads = read_pads(squeal);
   check_grids(squeal, scene);
+  if (squeal.has("asymmetry")) {
+    options.keeps_asymmetry =
+        squeal.choice<bool>("asymmetry", {{"averaged", false}, {"kept", true}});
+  }
   options.study = read_study(squeal, StudyOf::body);
   options.study.rotation_method = read_rotation_method(squeal);
   return options;

@@ -32,7 +32,7 @@ squeal::RigidDiscStudy read_rigid_disc(const Table& squeal)
 {
   const Table table = squeal.table("rigid_disc");
   const Table pad = read_only_pad(squeal);
-  const squeal::FrictionLaw friction = read_friction(squeal);
+  const squeal::FrictionLaw friction = read_plain_friction(squeal);
   squeal::RigidDiscStudy study{.disc = {.Theta = table.number("diametral_inertia"),
                                         .Phi = table.number("axial_inertia"),
                                         .k_t = table.number("stiffness"),
@@ -67,7 +67,7 @@ squeal::Oscillator read_oscillator(const Table& squeal)
                                 .contact_stiffness = stiffness("contact_stiffness"),
                                 .preload = table.number("preload"),
                                 .radius = table.number("radius"),
-                                .friction = read_friction(squeal),
+                                .friction = read_plain_friction(squeal),
                                 .law = read_contact(squeal)};
   if (!(oscillator.k_xy * oscillator.k_xy < oscillator.k_x * oscillator.k_y)) {
     table.refuse("stiffness_coupling",
@@ -102,10 +102,11 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
     options.model = read_oscillator(squeal);
   options.study = read_study(squeal, StudyOf::model);
   const std::optional<squeal::TransientCase>& transient = options.study.transient;
-  if (transient && (transient->integrator != squeal::IntegratorKind::automatic ||
-                    !transient->speed_program.empty())) {
+  if (transient &&
+      (transient->integrator != squeal::IntegratorKind::automatic || !transient->is_constant())) {
     squeal.refuse("transient",
-                  "integrator and speed_program are for a flexible disc; this model takes steps of "
+                  "integrator, speed_program and preload_program are for a flexible disc; this "
+                  "model takes steps of "
                   "order 8 at a constant speed");
   }
   return options;

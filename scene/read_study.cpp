@@ -63,6 +63,20 @@ std::vector<squeal::SpeedPoint> read_speed_program(const Table& transient, doubl
   return points;
 }
 
+/// Times rise; before the first point the preload is that of the first.
+std::vector<squeal::PreloadPoint> read_preload_program(const Table& transient)
+{
+  std::vector<squeal::PreloadPoint> points;
+  for (const Table& row : transient.tables("preload_program")) {
+    const double time = points.empty()
+                            ? row.number("t_s")
+                            : row.number("t_s", {.above = points.back().time, .unit = "s"});
+    points.push_back({.time = time, .factor = row.number("factor")});
+  }
+  if (points.empty()) transient.refuse("preload_program", "must hold at least one point");
+  return points;
+}
+
 /// The keys of one end of the range.
 struct SpeedKeys {
   std::string_view rad_s, rpm, km_h;
@@ -113,7 +127,15 @@ std::optional<squeal::TransientCase> read_transient(const Table& squeal)
   if (table.has("growth_error_1_s")) transient.growth_error = table.number("growth_error_1_s");
   if (table.has("speed_program"))
     transient.speed_program = read_speed_program(table, transient.speed);
+  if (table.has("preload_program")) transient.preload_program = read_preload_program(table);
   return transient;
+}
+
+/// squeal.gradients
+std::optional<squeal::GradientCase> read_gradients(const Table& squeal)
+{
+  if (!squeal.has("gradients")) return std::nullopt;
+  return squeal::GradientCase{.speed = squeal.table("gradients").number("speed_rad_s")};
 }
 
 /// squeal.growth
@@ -145,6 +167,7 @@ squeal::StudyOptions read_study(const Table& squeal, StudyOf of)
                              .growth = read_growth(squeal)};
   study.limit_cycle_direct = read_direct(squeal, study.transient);
   study.map = read_map(squeal, of);
+  study.gradients = read_gradients(squeal);
   study.critical = read_critical(squeal, of);
   study.stability = read_stability(squeal, study.speeds, of);
   if (of == StudyOf::body) study.sound = read_wav(squeal);

@@ -59,6 +59,22 @@ std::optional<Table> table_at(const Table& table, std::string_view step)
   return tables[place - 1];
 }
 
+template <class Section>
+bool is_lossy(const Section& section)
+{
+  return section.loss_factor.value_or(section.material.loss_factor) > 0.0;
+}
+
+/// Whether the model has dampers or loss factors.
+bool damps(const Scene& scene)
+{
+  return std::ranges::any_of(scene.sections, is_lossy<plate::ShellSection>) ||
+         std::ranges::any_of(scene.beams, is_lossy<plate::BeamSection>) ||
+         std::ranges::any_of(scene.springs, [](const plate::Spring& spring) {
+           return spring.damping != std::array<double, 6>{} || spring.loss_factor > 0.0;
+         });
+}
+
 /// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the
 /// mesh file.
 Scene read_tables(const Table& root, Scene scene, Purpose purpose)
@@ -103,13 +119,9 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   scene.squeal = read_squeal(root, scene);
   scene.radiation = read_radiation(root);
   scene.sound = read_sound(root, scene);
-  // Dampers of the model are not lost when the body says nothing of damping.
-  const auto damps = [](const plate::Spring& spring) {
-    return spring.damping != std::array<double, 6>{};
-  };
+  // Dampers and loss factors of the model are not lost when the body says nothing of damping.
   const bool said = root.has("body") && root.table("body").has("damping");
-  if (!said && std::ranges::any_of(scene.springs, damps))
-    scene.body.damping.type = mbs_export::Damping::Type::matrix;
+  if (!said && damps(scene)) scene.body.damping.type = mbs_export::Damping::Type::matrix;
   root.refuse_unknown_keys();
   scene.notes = root.notes();
   return scene;

@@ -11,9 +11,12 @@
 /// What the readers of [squeal] share, whichever model it asks for.
 namespace chladni::scene {
 
-/// squeal.friction: one coefficient, or a table with `kinetic`, `static`, `decay_speed` and
-/// `regularisation`.
-squeal::FrictionLaw read_friction(const Table& squeal);
+/// `friction` of [squeal] or of a pad: one coefficient, or a table with `kinetic`, `static`,
+/// `decay_speed` and `regularisation`, or with measured values in `table`.
+squeal::FrictionLaw read_friction(const Table& of);
+
+/// The same for a model that cannot take measured values.
+squeal::FrictionLaw read_plain_friction(const Table& squeal);
 
 /// squeal.contact; unilateral when it is missing.
 squeal::ContactLaw read_contact(const Table& squeal);

@@ -15,7 +15,7 @@ struct Analysis {
 };
 
 /// All analyses, in the order in which messages and documents list them.
-inline constexpr std::array<Analysis, 14> analyses{{
+inline constexpr std::array<Analysis, 16> analyses{{
     {"eigenvalues", "speeds", "", false},
     {"critical-speed", "speeds", "", false},
     {"stability", "speeds", "", false},
@@ -28,8 +28,10 @@ inline constexpr std::array<Analysis, 14> analyses{{
     {"stability-map", "map", "", false},
     {"critical-values", "critical", "", false},
     {"spectrum", "transient", "", true},
+    {"spectrogram", "transient", "", true},
     {"mode-sensitivity", "speeds", "", true},
     {"rotation-stability", "speeds", "", true},
+    {"gradients", "speeds", "", false},
 }};
 
 /// The analysis of this name; null when there is none.

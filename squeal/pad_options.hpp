@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "squeal/friction.hpp"
+
 namespace chladni::squeal {
 
 /// A spring and a damper side by side.
@@ -43,6 +45,17 @@ struct PadGrid {
   std::vector<std::string> opposite_rings = {};
 };
 
+/// A layer with loss behind a pad, in series with the spring of a pad without mass, or with the
+/// axial suspension of the plate: k_s (1 + i eta). Its viscous equivalent is that at one frequency.
+struct Shim {
+  double stiffness;     ///< k_s, N/m
+  double loss_factor;   ///< eta
+  double frequency_Hz;  ///< at which spring and damper together are those of the layers
+};
+
+/// Spring and damper that at the frequency of the shim have the stiffness of both in series.
+Suspension in_series(const Suspension& spring, const Shim& shim);
+
 /// One pad pair: an upper and a lower pad on one vertical axis; massless unless it has a body.
 struct PadPair {
   double angle;                  ///< inertial angle of the axis, rad
@@ -53,6 +66,9 @@ struct PadPair {
   std::optional<PadGrid> grid = {};
   std::optional<PadBody> body = {};
   std::optional<Caliper> caliper = {};  ///< needs a body with an axial suspension
+  std::optional<Shim> shim = {};
+  std::optional<FrictionLaw> friction = {};  ///< of this pair; absent: that of the brake
+  std::optional<double> area = {};           ///< of the face of each pad, m^2; for its pressure
 };
 
 }  // namespace chladni::squeal

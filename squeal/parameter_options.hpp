@@ -41,9 +41,25 @@ inline constexpr std::array parameters = {
     ParameterRow{"stiffness", "N/m", false, ParameterOf::any},
     ParameterRow{"damping", "N s/m", true, ParameterOf::any},
     ParameterRow{"thickness", "m"},
+    ParameterRow{"contact_planes[1]", "m", true},
+    ParameterRow{"contact_planes[2]", "m", true},
+    ParameterRow{"friction.kinetic", "1", true},
     ParameterRow{"friction.static", "1", true},
     ParameterRow{"friction.decay_speed", "m/s"},
     ParameterRow{"friction.regularisation", "m/s", true},
+    ParameterRow{"friction.temperature_C", "degrees Celsius", true},
+    ParameterRow{"friction.factor", "1", true},
+    ParameterRow{"pads.friction", "1", true},
+    ParameterRow{"pads.friction.kinetic", "1", true},
+    ParameterRow{"pads.friction.static", "1", true},
+    ParameterRow{"pads.friction.decay_speed", "m/s"},
+    ParameterRow{"pads.friction.regularisation", "m/s", true},
+    ParameterRow{"pads.friction.temperature_C", "degrees Celsius", true},
+    ParameterRow{"pads.friction.factor", "1", true},
+    ParameterRow{"pads.area", "m^2"},
+    ParameterRow{"pads.shim.stiffness", "N/m"},
+    ParameterRow{"pads.shim.loss_factor", "1", true},
+    ParameterRow{"pads.shim.frequency_Hz", "Hz"},
     ParameterRow{"pads.angle_deg", "degrees", true},
     ParameterRow{"pads.grid.sector_deg", "degrees"},
     ParameterRow{"pads.body.mass", "kg"},
@@ -77,6 +93,15 @@ inline constexpr std::array parameters = {
     ParameterRow{"oscillator.stiffness_coupling", "N/m", true, ParameterOf::oscillator},
     ParameterRow{"oscillator.damping_along", "N s/m", true, ParameterOf::oscillator},
     ParameterRow{"oscillator.damping_normal", "N s/m", true, ParameterOf::oscillator},
+    ParameterRow{"oscillator.contact_stiffness", "N/m", false, ParameterOf::oscillator},
+    ParameterRow{"oscillator.preload", "N", false, ParameterOf::oscillator},
+    ParameterRow{"oscillator.radius", "m", false, ParameterOf::oscillator},
+};
+
+/// A parameter that a brake has, and its value.
+struct ParameterValue {
+  MapParameter parameter;
+  double value;  ///< in the unit of its row
 };
 
 /// The row of this name; null when there is none.

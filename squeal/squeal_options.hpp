@@ -50,6 +50,9 @@ struct SquealOptions {
   FrictionLaw friction;
   ContactLaw contact = ContactLaw::unilateral;
   std::vector<PadPair> pads;
+  /// Small differences within pairs of modes, of frequency or damping, are not averaged: the disc
+  /// has no inertial frame, however small they are.
+  bool keeps_asymmetry = false;
   StudyOptions study;
 };
 

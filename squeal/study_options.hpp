@@ -31,6 +31,12 @@ struct SpeedPoint {
   double speed;  ///< rad/s
 };
 
+/// A point of a program of the preload.
+struct PreloadPoint {
+  double time;    ///< s
+  double factor;  ///< of the preload of all pads
+};
+
 /// A transient from a small initial displacement of the pads at rest in the inertial frame.
 struct TransientCase {
   double speed;                     ///< rad/s
@@ -43,6 +49,10 @@ struct TransientCase {
   double growth_error = 1e-3;  ///< that the integration may add to a growth rate, 1/s
   /// Speeds to follow, linear between points that begin at t = 0 with `speed`; empty: constant.
   std::vector<SpeedPoint> speed_program = {};
+  /// Preload to follow, linear between points that begin at t = 0; empty: constant.
+  std::vector<PreloadPoint> preload_program = {};
+
+  bool is_constant() const { return speed_program.empty() && preload_program.empty(); }
 };
 
 /// Growth of the pad velocity over a short transient at each of several speeds.
@@ -60,6 +70,12 @@ enum class RotationMethod {
 /// A limit cycle that is found without a transient.
 struct DirectCase {
   double speed;  ///< rad/s
+};
+
+/// Derivatives by the keys of the brake of the growth rates at one speed, beside those of the
+/// critical speed.
+struct GradientCase {
+  std::optional<double> speed = {};  ///< rad/s; absent: of the critical speed alone
 };
 
 /// Growth rates over the speeds of the study and over one more parameter, equally spaced.
@@ -108,6 +124,7 @@ struct StudyOptions {
   std::optional<DirectCase> limit_cycle_direct = {};
   RotationMethod rotation_method = RotationMethod::hill;
   std::optional<MapCase> map = {};
+  std::optional<GradientCase> gradients = {};
   std::vector<CriticalCase> critical = {};
   std::optional<StabilityCase> stability = {};  ///< absent: over `speeds`, all frequencies
   std::optional<SoundCase> sound = {};

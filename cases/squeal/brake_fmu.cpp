@@ -149,14 +149,31 @@ class Variables {
   std::vector<FmuVariable> variables_;
 };
 
+/// The coefficient is an input of the FMU, one for all pads.
+void require_one_friction(const squeal::PadSystem& pads)
+{
+  const squeal::FrictionLaw& first = pads.points.front().contact.friction;
+  for (const squeal::PointPair& point : pads.points) {
+    const squeal::FrictionLaw& law = point.contact.friction;
+    if (!law.table && law.kinetic == first.kinetic && law.rise == first.rise) continue;
+    throw Error(
+        "squeal.friction: an FMU of a brake has one coefficient of friction for all pads as its "
+        "input; tables, and pads with a friction of their own, have no place in it");
+  }
+}
+
 brake_fmu::BrakeModel brake_model(const squeal::FlexibleDisc& brake)
 {
   const squeal::SquealOptions& options = brake.options();
-  return {.token = {},
-          .disc = brake.disc(),
-          .pads = squeal::pad_system(options, squeal::ring_places(brake.disc())),
-          .friction = options.friction.kinetic,
-          .speed = first_speed(options.study)};
+  brake_fmu::BrakeModel model{
+      .token = {},
+      .disc = brake.disc(),
+      .pads = squeal::pad_system(options, squeal::ring_places(brake.disc())),
+      .friction = 0.0,
+      .speed = first_speed(options.study)};
+  require_one_friction(model.pads);
+  model.friction = model.pads.points.front().contact.friction.kinetic;
+  return model;
 }
 
 }  // namespace

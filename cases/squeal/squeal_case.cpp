@@ -99,6 +99,22 @@ std::shared_ptr<const squeal::FlexibleDisc> complete_disc(const mbs_export::Moda
       squeal::make_disc(body, squeal::ring_choice(options), {}), options);
 }
 
+/// What the mean over the circumference takes from pairs whose modes decay differently.
+std::optional<std::string> note_of_damping(const squeal::FlexibleDisc& brake)
+{
+  if (!brake.is_autonomous()) return std::nullopt;
+  const squeal::InertialDisc& disc = brake.inertial();
+  // One ratio for both differs as their frequencies do.
+  constexpr double worth_telling = 1e-3;
+  if (!(disc.damping_contrast > worth_telling + 2.0 * disc.largest_split)) return std::nullopt;
+  return fmt::format(
+      "the two modes of a pair decay at rates that differ by up to {:.3g} 1/s; the inertial frame "
+      "takes their mean, so that a growth rate may lack up to half of that; squeal.asymmetry = "
+      "\"kept\" keeps them, with the analyses \"stability\", \"critical-speed\" and "
+      "\"rotation-stability\"",
+      disc.damping_spread);
+}
+
 }  // namespace
 
 SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export::ModalBody>& body,
@@ -110,9 +126,10 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   if (scene.radiation)
     disc = squeal::with_radiation(std::move(disc), read_radiation_of(scene, files, stale));
   std::vector<std::string> notes = squeal::notes_of(disc);
-  return {.brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
-                                                          complete_disc(*body, options)),
-          .notes = std::move(notes)};
+  auto brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
+                                                      complete_disc(*body, options));
+  if (const auto note = note_of_damping(*brake)) notes.push_back(*note);
+  return {.brake = std::move(brake), .notes = std::move(notes)};
 }
 
 const squeal::StudyOptions& study_of(const scene::Scene& scene)

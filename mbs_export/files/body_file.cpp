@@ -125,6 +125,10 @@ void write_modes(files::Writer& file, const ModalBody& body)
   file.write("modes/frequencies", body.omega, "rad/s");
   file.write("modes/kinds", kinds);
   if (body.C.size() > 0) file.write("modes/damping", body.C, "1/s");
+  if (body.H.size() > 0) {
+    file.write("modes/structural_damping", body.H, "1/s^2");
+    file.write("modes/loss_factors", loss_factors(body), "1");
+  }
   file.write("modes/attachment_displacements", body.attachment_modes, "m, rad per unit of q");
   const RowOrder order = row_order(Index(body.attachment_nodes.size()));
   file.write("modes/row_nodes", std::span<const std::int64_t>(order.nodes), "1");
@@ -264,10 +268,14 @@ ModalBody read_body(const files::Reader& file)
   check_row_order(file, n_nodes);
   MatrixXd C;
   if (file.contains("modes/damping")) C = file.matrix("modes/damping", {n, n});
+  MatrixXd H;
+  if (file.contains("modes/structural_damping"))
+    H = file.matrix("modes/structural_damping", {n, n});
   return {.title = file.text_attribute("/", "title"),
           .kinds = read_kinds(file, n),
           .omega = std::move(omega),
           .C = std::move(C),
+          .H = std::move(H),
           .attachment_nodes = std::move(nodes),
           .sets = std::move(sets),
           .fixed = file.texts("fixed"),

@@ -78,6 +78,10 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   file.write("matrices/mass", reduced.M, "kg, kg m, kg m^2; 1 of fixed-interface modes");
   if (reduced.C.size() > 0)
     file.write("matrices/damping", reduced.C, "N s/m, N s, N m s; 1/s of fixed-interface modes");
+  if (reduced.H.size() > 0) {
+    file.write("matrices/structural_damping", reduced.H,
+               "N/m, N, N m; 1/s^2 of fixed-interface modes");
+  }
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
   file_parts::write_sector_harmonics(file, reduced.sector_harmonics);
   write_certificate(file, reduced.certificate);
@@ -107,6 +111,9 @@ ReducedSystem read_reduced(const files::Reader& file)
     file.fail("masters", "are none, and there is no fixed-interface mode: nothing to read");
   MatrixXd C;
   if (file.contains("matrices/damping")) C = file.matrix("matrices/damping", {n, n});
+  MatrixXd H;
+  if (file.contains("matrices/structural_damping"))
+    H = read_symmetric(file, "matrices/structural_damping", n);
   auto ring_motion = read_ring_motion(file, {6 * Index(nodes.size()), Index(masters.size())}, n);
   return {.title = file.text_attribute("/", "title"),
           .attachment_nodes = std::move(nodes),
@@ -116,6 +123,7 @@ ReducedSystem read_reduced(const files::Reader& file)
           .K = read_symmetric(file, "matrices/stiffness", n),
           .M = read_symmetric(file, "matrices/mass", n),
           .C = std::move(C),
+          .H = std::move(H),
           .fixed_interface_frequencies = std::move(frequencies),
           .picture = file_parts::read_picture(file, n),
           .sector_harmonics = file_parts::read_sector_harmonics(file, n),

@@ -91,6 +91,7 @@ std::string matlab_body(const ModalBody& body)
                    {"frequencies", mat_array(MatrixXd(body.omega))},
                    {"kinds", mat_array(kinds_of(body))},
                    {"damping", mat_array(body.C)},
+                   {"structural_damping", mat_array(body.H)},
                    {"attachment_displacements", mat_array(body.attachment_modes)},
                    {"row_nodes", mat_array(MatrixXd(rows_of(body).col(0)))},
                    {"row_components", mat_array(MatrixXd(rows_of(body).col(1)))},

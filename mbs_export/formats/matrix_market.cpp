@@ -76,10 +76,12 @@ std::string list_of_coordinates(const ReducedSystem& reduced)
 
 MatrixMarket matrix_market(const ReducedSystem& reduced)
 {
-  return {.K = symmetric_array(reduced.K, "stiffness"),
-          .M = symmetric_array(reduced.M, "mass"),
-          .C = reduced.C.size() > 0 ? symmetric_array(reduced.C, "damping") : std::string(),
-          .coordinates = list_of_coordinates(reduced)};
+  return {
+      .K = symmetric_array(reduced.K, "stiffness"),
+      .M = symmetric_array(reduced.M, "mass"),
+      .C = reduced.C.size() > 0 ? symmetric_array(reduced.C, "damping") : std::string(),
+      .H = reduced.H.size() > 0 ? symmetric_array(reduced.H, "structural damping") : std::string(),
+      .coordinates = list_of_coordinates(reduced)};
 }
 
 }  // namespace chladni::mbs_export::formats

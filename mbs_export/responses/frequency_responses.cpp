@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mbs_export/body_damping.hpp"
 #include "mbs_export/responses/response_option_error.hpp"
 
 namespace chladni::mbs_export {
@@ -57,14 +58,27 @@ MatrixXd rows_of(const ModalBody& body, const std::vector<ResponseDof>& dofs)
   return rows;
 }
 
-/// (1 + i eta) diag(k) + i Omega C - Omega^2 I
+/// The damping of a body without the viscous equivalent of H.
+MatrixXd viscous_part(const ModalBody& body)
+{
+  if (body.H.size() == 0) return body.C;
+  return body.C - viscous_equivalent(body.H, body.omega);
+}
+
+bool is_diagonal(const MatrixXd& A)
+{
+  return A.size() == 0 || A.isDiagonal(0.0);
+}
+
+/// (1 + i eta) diag(k) + i H + i Omega C - Omega^2 I
 class DynamicStiffness {
  public:
   DynamicStiffness(const ModalBody& body, double loss_factor)
       : k_(body.omega.array().square()),
-        C_(body.C),
+        C_(viscous_part(body)),
+        H_(body.H),
         loss_factor_(loss_factor),
-        is_diagonal_(body.C.size() == 0 || body.C.isDiagonal(0.0))
+        is_diagonal_(is_diagonal(C_) && is_diagonal(H_))
   {}
 
   /// The amplitudes of the modes, [n_modes x n_loads].
@@ -74,6 +88,7 @@ class DynamicStiffness {
     VectorXcd d = k_ * Complex(1.0, loss_factor_) - VectorXcd::Constant(k_.size(), Omega * Omega);
     if (is_diagonal_) {
       if (C_.size() > 0) d += Complex(0.0, Omega) * C_.diagonal();
+      if (H_.size() > 0) d += Complex(0.0, 1.0) * H_.diagonal();
       for (Index i = 0; i < d.size(); ++i)
         if (!(std::abs(d[i]) > resonant * size[i])) refuse_resonance(Omega, i);
       return d.cwiseInverse().asDiagonal() * B.cast<Complex>();
@@ -98,7 +113,9 @@ class DynamicStiffness {
   {
     if (Omega == 0.0 && k_.size() > 0 && k_[0] == 0.0) refuse_resonance(Omega, 0);
     const VectorXd scale = (k_.array() + Omega * Omega).sqrt().inverse();
-    MatrixXcd A = Complex(0.0, Omega) * C_;
+    MatrixXcd A = MatrixXcd::Zero(k_.size(), k_.size());
+    if (C_.size() > 0) A += Complex(0.0, Omega) * C_;
+    if (H_.size() > 0) A += Complex(0.0, 1.0) * H_;
     A.diagonal() += d;
     A = scale.asDiagonal() * A * scale.asDiagonal();
     const Eigen::PartialPivLU<MatrixXcd> factor(A);
@@ -111,7 +128,8 @@ class DynamicStiffness {
   }
 
   VectorXd k_;
-  const MatrixXd& C_;
+  MatrixXd C_;
+  const MatrixXd& H_;
   double loss_factor_;
   bool is_diagonal_;
 };

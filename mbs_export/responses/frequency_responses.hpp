@@ -59,8 +59,9 @@ ResponsePoint point_of(const NamedNodes& model, const ResponseDof& dof);
 std::string name_of(ResponseModel model);
 std::string name_of(ResponseQuantity quantity);
 
-/// H = U ((1 + i eta) diag(omega^2) + i Omega C - Omega^2 I)^-1 B of a body, which may hold all
-/// modes of a reduced system. Without a coupling by C each mode responds by itself; else one
+/// U ((1 + i eta) diag(omega^2) + i H + i Omega C - Omega^2 I)^-1 B of a body, which may hold all
+/// modes of a reduced system, H its structural damping and C without the viscous equivalent of it.
+/// Without a coupling by C and H each mode responds by itself; else one
 /// equation of all modes is solved at each frequency.
 /// @throws ResponseOptionError for a place that the body does not have, a load on what does not
 ///         move, an unknown group of section forces, and a frequency at which an undamped mode is

@@ -47,11 +47,15 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
   const std::vector<PointElement> points = point_elements(mesh, structure, dofs);
   const NodeVectors normals = mean_normals(mesh);
   const BlockPattern pattern = element_pattern(mesh, points, dofs, rank);
-  BlockRows K(pattern), M(pattern);
+  const bool is_lossy = has_loss_factors(structure);
+  BlockRows K(pattern), M(pattern), H(pattern);
   for_owned_elements(mesh, dofs, rank, [&](const mesh::ElementBlock& block, int e, const auto&) {
-    auto [matrices, arms] = element_matrices(mesh, block, e, {sections, structure, normals});
+    const ElementContext context{sections, structure, normals};
+    auto [matrices, arms] = element_matrices(mesh, block, e, context);
     const ElementMotion motion = element_motion(dofs, block.element_nodes(e), arms);
     const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
+    const double eta = is_lossy ? loss_factor(block, e, context) : 0.0;
+    if (eta > 0.0) add_symmetric(H, eta * matrices.K, motion, dofs, places);
     add_symmetric(K, std::move(matrices.K), motion, dofs, places);
     add_symmetric(M, std::move(matrices.M), motion, dofs, places);
   });
@@ -59,11 +63,14 @@ System assemble(const mesh::Mesh& mesh, const Structure& structure, DofMap dofs,
     const ElementMotion motion = element_motion(dofs, point.nodes, {});
     const std::vector<std::ptrdiff_t> places = block_places(pattern, motion.numbers);
     if (point.K.size() > 0) add_symmetric(K, point.K, motion, dofs, places);
+    if (point.K.size() > 0 && point.loss_factor > 0.0)
+      add_symmetric(H, point.loss_factor * point.K, motion, dofs, places);
     if (point.M.size() > 0) add_symmetric(M, point.M, motion, dofs, places);
   }
   return {.K = K.to_matrix(comm, round_off),
           .M = M.to_matrix(comm, round_off),
           .C = damping_matrix(points, dofs, comm),
+          .H = is_lossy ? H.to_matrix(comm, round_off) : petsc::Matrix(),
           .dofs = std::move(dofs)};
 }
 

@@ -45,7 +45,8 @@ int only_node(const mesh::Mesh& mesh, const DofMap& dofs, const std::string& nam
 template <typename MatrixOf>
 PointElement spring_element(std::vector<int> nodes, const Spring& spring, const MatrixOf& matrix_of)
 {
-  PointElement element{.nodes = std::move(nodes), .K = {}, .M = {}, .C = {}};
+  PointElement element{
+      .nodes = std::move(nodes), .K = {}, .M = {}, .C = {}, .loss_factor = spring.loss_factor};
   if (any(spring.stiffness)) element.K = matrix_of(spring.stiffness);
   if (any(spring.damping)) element.C = matrix_of(spring.damping);
   return element;

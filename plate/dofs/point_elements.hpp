@@ -13,7 +13,8 @@ namespace chladni::plate {
 /// What a lumped mass, or a spring with its damper, adds at its one or two nodes.
 struct PointElement {
   std::vector<int> nodes;
-  Eigen::MatrixXd K, M, C;  ///< [6 n squared]; empty where nothing is added
+  Eigen::MatrixXd K, M, C;   ///< [6 n squared]; empty where nothing is added
+  double loss_factor = 0.0;  ///< of K
 };
 
 /// Of all masses and springs, in their order.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/error.hpp"
 #include "plate/elements/beam_element.hpp"
 #include "plate/elements/shell_element.hpp"
@@ -38,6 +40,12 @@ void check_thickness(const mesh::Mesh& mesh, const ShellSection& section)
         "section of group \"{}\": the thickness \"{}\" is {:.6g} m at node {}; it must be > 0",
         section.group, section.thickness.formula, t, mesh.node_numbers[node]));
   }
+}
+
+template <class Section>
+double loss_factor_of(const Section& section)
+{
+  return section.loss_factor.value_or(section.material.loss_factor);
 }
 
 /// The axes of all beams of a line are defined.
@@ -82,6 +90,22 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
       .matrices = shell_matrices(block.shape, block.order, shell, section.material), .arms = {}};
   if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
   return placed;
+}
+
+double loss_factor(const mesh::ElementBlock& block, int element, const ElementContext& context)
+{
+  const int index = index_of_section(context.sections, block, element);
+  return kind_of(block) == Kind::beam ? loss_factor_of(context.structure.beams[index])
+                                      : loss_factor_of(context.structure.shells[index]);
+}
+
+bool has_loss_factors(const Structure& structure)
+{
+  const auto is_lossy = [](const auto& section) { return loss_factor_of(section) > 0.0; };
+  return std::ranges::any_of(structure.shells, is_lossy) ||
+         std::ranges::any_of(structure.beams, is_lossy) ||
+         std::ranges::any_of(structure.springs,
+                             [](const Spring& spring) { return spring.loss_factor > 0.0; });
 }
 
 }  // namespace chladni::plate

@@ -38,4 +38,10 @@ struct PlacedMatrices {
 PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                 int element, const ElementContext& context);
 
+/// eta of an element: that of its section, or else of the material.
+double loss_factor(const mesh::ElementBlock& block, int element, const ElementContext& context);
+
+/// Whether anything of the structure has structural damping.
+bool has_loss_factors(const Structure& structure);
+
 }  // namespace chladni::plate

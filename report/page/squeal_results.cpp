@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "report/describe_gradients.hpp"
 #include "report/page/headline.hpp"
 #include "report/page/motion_statistics.hpp"
 #include "report/page/numbers.hpp"
+#include "report/page/order_tracks.hpp"
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "squeal/transient/growth_rate.hpp"
@@ -227,6 +229,12 @@ std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
   if (results.limit_cycle_branch && !results.limit_cycle_branch->points.empty())
     members.emplace_back("branch", branch_json(*results.limit_cycle_branch));
   if (results.spectrum) members.emplace_back("spectrum", spectrum_json(*results.spectrum));
+  if (results.spectrogram)
+    members.emplace_back("spectrogram", spectrogram_page(*results.spectrogram));
+  if (results.gradients) {
+    members.emplace_back("gradients",
+                         table_json("what to change", gradients_table(*results.gradients)));
+  }
   if (results.motion_statistics)
     members.emplace_back("statistics", statistics_page(*results.motion_statistics));
   return members;

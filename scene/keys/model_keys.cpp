@@ -10,6 +10,8 @@ constexpr Admissible second_moment{.above = 0.0, .unit = "m^4"};
 constexpr Admissible shear_factor{.above = 0.0, .at_most = 1.0};
 constexpr Admissible stiffness{.at_least = 0.0, .unit = "N/m, N m/rad"};
 constexpr Admissible damping{.at_least = 0.0, .unit = "N s/m, N m s/rad"};
+constexpr Admissible loss_factor{
+    .at_least = 0.0, .usual_to = 2.0, .usually = "it is a pure number, 2 times a damping ratio"};
 constexpr std::string_view components = "x | y | z | rx | ry | rz";
 
 constexpr Key model_rows[] = {
@@ -36,6 +38,7 @@ constexpr Key model_rows[] = {
       .usual_from = 1.0,
       .usual_to = 3e4,
       .usually = "it is in kg/m^3, and a steel has 7850"}},
+    {"material.*.loss_factor", number, "0", "[structural damping](damping.md)", loss_factor},
     {"section", tables, "required",
      "[sections](sections_and_couplings.md), one for each group of elements"},
     {"section.group", text, "required", "group of the mesh"},
@@ -59,6 +62,8 @@ constexpr Key model_rows[] = {
     {"section.offset.over", word, "required", "what the table runs over", {}, "x | y | z | radius"},
     {"section.offset.at", numbers, "required", "ascending", place},
     {"section.offset.values", numbers, "required", "as many", place},
+    {"section.loss_factor", number, "that of the material",
+     "[structural damping](damping.md) of this section", loss_factor},
     {"section.theory", word, "timoshenko", "beam", {}, "timoshenko | bernoulli-euler"},
     {"section.area", number, "required", "beam", {.above = 0.0, .unit = "m^2"}},
     {"section.I_y", number, "required", "beam: int z^2 dA", second_moment},
@@ -86,6 +91,8 @@ constexpr Key model_rows[] = {
     {"spring.stiffness.*", number, "0", "x, y, z, rx, ry, rz", stiffness},
     {"spring.damping", table, "or `stiffness`", "by component"},
     {"spring.damping.*", number, "0", "x, y, z, rx, ry, rz", damping},
+    {"spring.loss_factor", number, "0", "[structural damping](damping.md) of its stiffness",
+     loss_factor},
     {"deviation", tables, "none", "[what some sectors have other](sectors.md#deviations)"},
     {"deviation.type", word, "required", "what deviates", {}, "section | mass | spring"},
     {"deviation.sectors",
@@ -121,6 +128,8 @@ constexpr Key model_rows[] = {
     {"deviation.stiffness.*", number, "0", "x, y, z, rx, ry, rz", {.unit = "N/m, N m/rad"}},
     {"deviation.damping", table, "or `stiffness`", "spring: by component; more, or less"},
     {"deviation.damping.*", number, "0", "x, y, z, rx, ry, rz", {.unit = "N s/m, N m s/rad"}},
+    {"deviation.loss_factor", number, "0", "spring: structural damping of its stiffness",
+     loss_factor},
     {"support", tables, "none", "of [`static` and `modes`](static_and_modes.md)"},
     {"support.group", text, "required", "group, ring or coupling"},
     {"support.type",

@@ -10,6 +10,15 @@
 
 namespace chladni::squeal {
 
+inline double real_part(double x)
+{
+  return x;
+}
+inline double real_part(const std::complex<double>& x)
+{
+  return x.real();
+}
+
 /// Where one of the two pads of a pair touches the disc at rest.
 struct PadFace {
   double radius;    ///< of the ring under the pad, m
@@ -22,24 +31,24 @@ struct PadContact {
   std::array<PadFace, 2> faces;  ///< of the upper pad, of the lower one
   FrictionLaw friction;
   ContactLaw law;
-  PadSpring spring;  ///< of each pad
-  double damping;    ///< d, N s/m
-  double preload;    ///< N_0, N
+  PadSpring spring;   ///< of each pad
+  double damping;     ///< d, N s/m
+  double preload;     ///< N_0, N
+  double area = 0.0;  ///< of the face, m^2; 0: the pressure is not known
 };
+
+/// |S| over the area, Pa.
+template <class Scalar>
+Scalar pressure_of(const PadContact& pad, const Scalar& S)
+{
+  if (!(pad.area > 0.0)) return Scalar(0.0);
+  return real_part(S) < 0.0 ? Scalar(-S / pad.area) : Scalar(S / pad.area);
+}
 
 /// The face of the pad above (sigma = 1) or below (sigma = -1).
 inline const PadFace& face_of(const PadContact& pad, double sigma)
 {
   return pad.faces[sigma > 0.0 ? 0 : 1];
-}
-
-inline double real_part(double x)
-{
-  return x;
-}
-inline double real_part(const std::complex<double>& x)
-{
-  return x.real();
 }
 
 /// g and S of the contact law: the sign of N in the friction force, and the pad force along the
@@ -65,9 +74,9 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 ///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   z = x + the height of the contact plane
 ///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
 ///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
-/// with mu(v) and its regularised |v_r| as FrictionLaw has it. Where the plate of the pad moves, x
-/// and v_r are relative to it; that the point then moves on the disc, a term of second order, is
-/// neglected.
+/// with mu(v), or mu(v, |S| / area), and its regularised |v_r| as FrictionLaw has it. Where the
+/// plate of the pad moves, x and v_r are relative to it; that the point then moves on the disc, a
+/// term of second order, is neglected.
 template <class Scalar>
 PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
                            double sigma)
@@ -88,7 +97,7 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
   const auto [S, g] = axial_force<Scalar>(
       pad.law, pad.preload + sigma * (force(pad.spring, Scalar(lift - plate.z)) +
                                       pad.damping * (z_dot - plate.z_dot)));
-  const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v) / v;
+  const Scalar g_mu_by_v = g * friction_coefficient(pad.friction, v, pressure_of(pad, S)) / v;
   const Scalar N = S / (1.0 / s + sigma * g_mu_by_v * v_z);
   return {lift + face.plane,
           z_dot,

@@ -55,6 +55,7 @@ struct Disc {
   std::vector<int> still = {};  ///< 1-based, of modes left out: no pad sees them
   ModeErrors errors = {};
   std::vector<ModeFigure> figures = {};  ///< [n_modes], or empty where nothing is known of them
+  bool keeps_asymmetry = false;          ///< see SquealOptions
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

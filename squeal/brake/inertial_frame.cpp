@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "squeal/brake/pair_damping.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 
 namespace chladni::squeal {
@@ -173,22 +174,27 @@ double largest_split(const Disc& disc, const std::vector<HarmonicSpace>& spaces)
   return split.maxCoeff();
 }
 
-/// Mean over the circumference of exp(-phi D) C exp(phi D), of damping or Coriolis terms, exact
-/// with more than 2 n_max + 1 angles.
-Eigen::MatrixXd averaged_over_angles(const InertialDisc& inertial, const Eigen::MatrixXd& C)
+/// With C and G, both averaged, where that may be.
+std::variant<InertialDisc, Complaint> with_damping(InertialDisc inertial, const Disc& disc)
 {
-  const int n_max = *std::ranges::max_element(inertial.nodal_diameters);
-  const int n_angles = 2 * n_max + 2;
-  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(C.rows(), C.cols());
-  for (int k = 0; k < n_angles; ++k) {
-    const double angle = 2.0 * pi * k / n_angles;
-    Eigen::MatrixXd turn = C;
-    for (Eigen::Index i = 0; i < C.cols(); ++i) turn.col(i) = turned(inertial, C.col(i), angle);
-    const Eigen::MatrixXd half = turn.transpose();
-    for (Eigen::Index i = 0; i < C.cols(); ++i)
-      mean.row(i) += turned(inertial, half.col(i), angle).transpose() / n_angles;
+  const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
+  inertial.C = averaged_over_angles(inertial, C);
+  inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
+  const DampingDifference difference = damping_difference(inertial, C);
+  inertial.damping_spread = difference.spread;
+  inertial.damping_contrast = difference.contrast;
+  if (disc.keeps_asymmetry) {
+    return Complaint{
+        fmt::format("its small differences are kept (asymmetry = \"kept\"), {:.2g} of "
+                    "the frequencies and {:.2g} 1/s of the damping of a pair",
+                    inertial.largest_split, inertial.damping_spread)};
   }
-  return mean;
+  const double deviation = (C - inertial.C).norm();
+  if (deviation > impurity_limit * C.norm())
+    return Complaint{
+        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
+                    deviation / C.norm(), impurity_limit)};
+  return inertial;
 }
 
 std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
@@ -223,15 +229,7 @@ std::variant<InertialDisc, Complaint> try_inertial_disc(const Disc& disc)
     return Complaint{fmt::format("the frequencies of a pair differ by {:.2g} (allowed: {})",
                                  inertial.largest_split, split_limit)};
   }
-  const Eigen::MatrixXd C = inertial.R.transpose() * disc.C * inertial.R;
-  inertial.C = averaged_over_angles(inertial, C);
-  inertial.G = averaged_over_angles(inertial, inertial.R.transpose() * disc.G * inertial.R);
-  const double deviation = (C - inertial.C).norm();
-  if (deviation > impurity_limit * C.norm())
-    return Complaint{
-        fmt::format("its damping changes around the circumference by {:.2g} (allowed: {})",
-                    deviation / C.norm(), impurity_limit)};
-  return inertial;
+  return with_damping(std::move(inertial), disc);
 }
 
 }  // namespace

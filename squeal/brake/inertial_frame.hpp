@@ -39,8 +39,12 @@ struct InertialDisc {
   Eigen::MatrixXd R;                 ///< orthogonal: q = R a when the two frames coincide
   double largest_split;              ///< of the frequencies of a pair, relative
   double largest_impurity;           ///< of the mode shapes on the ring, relative; see below
-  RingCompliance compliance = {};    ///< as in Disc
-  ModeErrors errors = {};            ///< as in Disc, of the pairs
+  /// Largest difference of the decay rates of the two modes of a pair, 1/s, which the mean over the
+  /// circumference takes away.
+  double damping_spread = 0.0;
+  double damping_contrast = 0.0;   ///< the same over the mean rate of the pair
+  RingCompliance compliance = {};  ///< as in Disc
+  ModeErrors errors = {};          ///< as in Disc, of the pairs
 
   Eigen::Index n_modes() const { return omega.size(); }
 };

@@ -9,73 +9,14 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/friction_range.hpp"
+#include "squeal/brake/pad_matrices.hpp"
 #include "squeal/brake/pads.hpp"
 #include "squeal/brake/ring_pairs.hpp"
 #include "squeal/derivative.hpp"
 
 namespace chladni::squeal {
 namespace {
-
-/// One degree of freedom of a plate.
-struct PlateFreedom {
-  int direction;  ///< 0, 1, 2: translation (radial, tangential, axial); 3, 4, 5: rotation about it
-  double inertia;
-  Suspension suspension;
-};
-
-std::vector<PlateFreedom> freedoms(const PadBody& body)
-{
-  std::vector<PlateFreedom> all;
-  const std::array translations{body.radial, body.tangential, body.axial};
-  for (int i = 0; i < 3; ++i)
-    if (const auto& suspension = translations[static_cast<std::size_t>(i)])
-      all.push_back({i, body.mass, *suspension});
-  const std::array rotations{body.about_radial, body.about_tangential, body.about_axial};
-  for (int i = 0; i < 3; ++i)
-    if (const auto& rotation = rotations[static_cast<std::size_t>(i)])
-      all.push_back({3 + i, rotation->inertia, rotation->suspension});
-  return all;
-}
-
-/// M u'' + C u' + K u = f of plates and calipers.
-struct PadMatrices {
-  Eigen::MatrixXd M, C, K;
-};
-
-void add_spring(PadMatrices& system, const Suspension& spring, Eigen::Index i, Eigen::Index j)
-{
-  for (const auto& [matrix, value] :
-       {std::pair{&system.K, spring.stiffness}, std::pair{&system.C, spring.damping}}) {
-    (*matrix)(i, i) += value;
-    if (j < 0) continue;
-    (*matrix)(j, j) += value;
-    (*matrix)(i, j) -= value;
-    (*matrix)(j, i) -= value;
-  }
-}
-
-/// Coordinates of one pad pair: those of the upper plate, of the lower plate, and the caliper.
-Eigen::Index n_coordinates(const PadPair& pad)
-{
-  if (!pad.body) return 0;
-  return 2 * static_cast<Eigen::Index>(freedoms(*pad.body).size()) + (pad.caliper ? 1 : 0);
-}
-
-void add_pad(PadMatrices& system, const PadPair& pad, Eigen::Index first)
-{
-  const std::vector<PlateFreedom> all = freedoms(*pad.body);
-  const auto n = static_cast<Eigen::Index>(all.size());
-  const Eigen::Index caliper = first + 2 * n;
-  for (Eigen::Index i = 0; i < 2 * n; ++i) {
-    const PlateFreedom& freedom = all[static_cast<std::size_t>(i % n)];
-    system.M(first + i, first + i) = freedom.inertia;
-    const bool on_caliper = pad.caliper && freedom.direction == 2;
-    add_spring(system, freedom.suspension, first + i, on_caliper ? caliper : -1);
-  }
-  if (!pad.caliper) return;
-  system.M(caliper, caliper) = pad.caliper->mass;
-  add_spring(system, pad.caliper->axial, caliper, -1);
-}
 
 /// A point of the face of a pad, in the axes of the pad: (radial, tangential, axial).
 struct FacePoint {
@@ -106,16 +47,29 @@ PadContact part_of(PadContact contact, int n)
   contact.spring.cubic /= n;
   contact.damping /= n;
   contact.preload /= n;
+  contact.area /= n;
   return contact;
 }
 
-void check(const PadPair& pad, std::size_t i)
+void check(const SquealOptions& options, std::size_t i)
 {
+  const PadPair& pad = options.pads[i];
   if (pad.body && freedoms(*pad.body).empty())
     throw Error(fmt::format("[squeal] pads[{}].body: it has no suspension and so cannot move", i));
   if (pad.caliper && !(pad.body && pad.body->axial)) {
     throw Error(fmt::format(
         "[squeal] pads[{}].caliper: it carries pads by their axial suspension; give body.axial",
+        i));
+  }
+  if (pad.shim && pad.body && !pad.body->axial) {
+    throw Error(fmt::format(
+        "[squeal] pads[{}].shim: it lies behind the axial suspension of the plate; give body.axial",
+        i));
+  }
+  const FrictionLaw law = pad.friction.value_or(options.friction);
+  if (law.table && law.table->pressures.size() > 1 && !pad.area) {
+    throw Error(fmt::format(
+        "[squeal] pads[{}].area: its friction depends on the pressure; give the area of its face",
         i));
   }
 }
@@ -164,20 +118,6 @@ void add_plate_motion(PadSystem& system, const SquealOptions& options,
   }
 }
 
-PadMatrices pad_matrices(const SquealOptions& options)
-{
-  Eigen::Index n = 0;
-  for (const PadPair& pad : options.pads) n += n_coordinates(pad);
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
-  PadMatrices system{zero, zero, zero};
-  Eigen::Index first = 0;
-  for (const PadPair& pad : options.pads) {
-    if (pad.body) add_pad(system, pad, first);
-    first += n_coordinates(pad);
-  }
-  return system;
-}
-
 }  // namespace
 
 PadSystem pad_system(const SquealOptions& options, double radius)
@@ -190,7 +130,7 @@ PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>&
   PadSystem system;
   system.disc_rows = options.planes ? 2 * face_rows : middle_rows;
   for (std::size_t i = 0; i < options.pads.size(); ++i) {
-    check(options.pads[i], i);
+    check(options, i);
     add_points(system, options, i, rings);
   }
   const PadMatrices matrices = pad_matrices(options);
@@ -242,6 +182,7 @@ PairShapes pair_shapes(const Eigen::MatrixXd& S, const PadSystem& pads, const Po
 BrakePoint brake_point(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point,
                        double speed)
 {
+  require_in_table(point.contact, speed);
   return {.contact = point.contact,
           .S = pair_shapes(S, pads, point),
           .at_rest = states_at_rest(point.contact, speed)};
@@ -270,6 +211,7 @@ FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed)
 PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows)
 {
   using Complex = std::complex<double>;
+  require_in_table(pad, speed);
   const RestStates at_rest = states_at_rest(pad, speed);
   const Eigen::MatrixXd D = derivative_at_rest(
       [&](const Eigen::VectorXcd& y) -> Eigen::VectorXcd {

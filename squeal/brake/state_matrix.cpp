@@ -1,6 +1,7 @@
 #include "squeal/brake/state_matrix.hpp"
 
 #include "squeal/brake/contact_compliance.hpp"
+#include "squeal/brake/pad_basis.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/point_shapes.hpp"
 
@@ -32,6 +33,18 @@ Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& opti
   Eigen::MatrixXd A(2 * n, 2 * n);
   A << -speed * brake.D, omega, -omega - K * by_omega, -speed * brake.D - C;
   return A;
+}
+
+Eigen::MatrixXd smooth_state_matrix(const InertialDisc& disc, const SquealOptions& options,
+                                    double speed)
+{
+  const Eigen::MatrixXd A = state_matrix(disc, options, speed), Psi = pad_basis(options);
+  const Eigen::Index n = A.rows() / 2, m = Psi.rows();
+  if (m == 0) return A;
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(2 * n, 2 * n);
+  T.block(n - m, n - m, m, m) = Psi;
+  T.bottomRightCorner(m, m) = Psi;
+  return T * A * T.transpose();
 }
 
 }  // namespace chladni::squeal

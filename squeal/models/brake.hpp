@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "squeal/motion/autonomous_motion.hpp"
 #include "squeal/study_options.hpp"
@@ -35,6 +36,9 @@ class Brake {
 
   /// The same brake with one parameter at another value, for all its pads if it is one of pads.
   virtual std::unique_ptr<Brake> with(MapParameter parameter, double value) const = 0;
+
+  /// The parameters that it has, with those of each pad pair by itself, and their values.
+  virtual std::vector<ParameterValue> parameters() const { return {}; }
 
   /// x' = f(x; speed) with switching contact, for the search of periodic motions.
   /// @throws chladni::Error with the reason when there is none.

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include "common/error.hpp"
+#include "squeal/models/friction_parameters.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -50,6 +53,12 @@ double* of_caliper(PadPair& pad)
   return pad.caliper ? &(pad.caliper->axial.*value) : nullptr;
 }
 
+template <auto value>
+double* of_shim(PadPair& pad)
+{
+  return pad.shim ? &((*pad.shim).*value) : nullptr;
+}
+
 constexpr auto k = &Suspension::stiffness, d = &Suspension::damping;
 
 constexpr std::array pad_rows = {
@@ -60,6 +69,10 @@ constexpr std::array pad_rows = {
     PadRow{"pads.grid.sector_deg",
            [](PadPair& pad) { return pad.grid ? &pad.grid->sector : nullptr; },
            std::numbers::pi / 180.0},
+    PadRow{"pads.area", [](PadPair& pad) { return pad.area ? &*pad.area : nullptr; }},
+    PadRow{"pads.shim.stiffness", of_shim<&Shim::stiffness>},
+    PadRow{"pads.shim.loss_factor", of_shim<&Shim::loss_factor>},
+    PadRow{"pads.shim.frequency_Hz", of_shim<&Shim::frequency_Hz>},
     PadRow{"pads.body.mass", of_body<&PadBody::mass>},
     PadRow{"pads.body.height", of_body<&PadBody::height>},
     PadRow{"pads.body.radial.stiffness", of_translation<&PadBody::radial, k>},
@@ -116,40 +129,98 @@ double* set_thickness(SquealOptions& options, double value)
   return &options.thickness;
 }
 
-double* place_in(SquealOptions& options, std::string_view name)
+/// One of the heights of the planes, which the distance between them follows.
+double* set_plane(SquealOptions& options, std::string_view name, double value)
 {
-  FrictionLaw& law = options.friction;
-  if (name == "friction") return &law.kinetic;
-  if (name == "friction.decay_speed") return law.rise > 0.0 ? &law.decay_speed : nullptr;
-  if (name == "friction.regularisation") return &law.regularisation;
-  return nullptr;
+  if (!options.planes || !options.planes->heights) return nullptr;
+  auto& heights = *options.planes->heights;
+  double& height = heights[name == "contact_planes[1]" ? 0 : 1];
+  height = value;
+  options.thickness = heights[1] - heights[0];
+  return &height;
+}
+
+constexpr std::string_view of_brake = "friction", of_pads = "pads.friction";
+
+/// "static" of "friction.static" or "pads.friction.static", "" of the law itself.
+std::string_view friction_key(std::string_view name)
+{
+  name.remove_prefix((name.starts_with(of_pads) ? of_pads : of_brake).size());
+  return name.empty() ? name : name.substr(1);
+}
+
+/// Laws of the brake or, of all pads or of one, those that they have themselves.
+std::vector<FrictionLaw*> laws_of(SquealOptions& options, MapParameter parameter)
+{
+  if (!parameter.name.starts_with(of_pads)) return {&options.friction};
+  std::vector<FrictionLaw*> laws;
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
+    if ((parameter.pad == 0 || i + 1 == static_cast<std::size_t>(parameter.pad)) &&
+        options.pads[i].friction)
+      laws.push_back(&*options.pads[i].friction);
+  }
+  return laws;
+}
+
+SquealOptions with_friction(SquealOptions options, MapParameter parameter, double value)
+{
+  const std::string_view key = friction_key(parameter.name);
+  double set = 0.0, *found = nullptr;
+  for (FrictionLaw* law : laws_of(options, parameter)) {
+    if (!friction_value(*law, key)) continue;
+    *law = with_friction_value(*law, key, value);
+    found = &set;
+  }
+  set_parameter(found, parameter, value);
+  return options;
+}
+
+void add_own_friction(std::vector<ParameterValue>& values, const FrictionLaw& law, int pad)
+{
+  for (const ParameterRow& row : parameters)
+    if (row.name.starts_with(of_pads) && is_said_by(law, friction_key(row.name)))
+      values.push_back({{row.name, pad}, *friction_value(law, friction_key(row.name))});
 }
 
 }  // namespace
 
 SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value)
 {
-  if (parameter.name == "friction.static") {
-    FrictionLaw& law = options.friction;
-    if (value < law.kinetic) {
-      throw Error(
-          fmt::format("[squeal] friction.static = {:.6g} is below friction.kinetic = {:.6g}; "
-                      "begin the range there",
-                      value, law.kinetic));
-    }
-    set_parameter(law.rise > 0.0 ? &law.rise : nullptr, parameter, value - law.kinetic);
-    return options;
-  }
+  const std::string_view name = parameter.name;
+  if (name.starts_with(of_brake) || name.starts_with(of_pads))
+    return with_friction(std::move(options), parameter, value);
   for (const PadRow& row : pad_rows)
     if (row.name == parameter.name) {
       require_one_pad_to_turn(parameter);
       set_parameter(set_in_pads(options, row, parameter.pad, value), parameter, row.unit * value);
       return options;
     }
-  double* const at = parameter.name == "thickness" ? set_thickness(options, value)
-                                                   : place_in(options, parameter.name);
-  set_parameter(at, parameter, value);
+  set_parameter(
+      name == "thickness" ? set_thickness(options, value) : set_plane(options, name, value),
+      parameter, value);
   return options;
+}
+
+std::vector<ParameterValue> parameter_values(SquealOptions options)
+{
+  std::vector<ParameterValue> values;
+  const auto has_its_own = [](const PadPair& pad) { return pad.friction.has_value(); };
+  if (!std::ranges::all_of(options.pads, has_its_own))
+    values = friction_parameters(options.friction);
+  if (options.planes && options.planes->heights) {
+    values.push_back({{"contact_planes[1]"}, (*options.planes->heights)[0]});
+    values.push_back({{"contact_planes[2]"}, (*options.planes->heights)[1]});
+  } else {
+    values.push_back({{"thickness"}, options.thickness});
+  }
+  for (std::size_t i = 0; i < options.pads.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    for (const PadRow& row : pad_rows)
+      if (const double* const at = row.at(options.pads[i]))
+        values.push_back({{row.name, number}, *at / row.unit});
+    if (options.pads[i].friction) add_own_friction(values, *options.pads[i].friction, number);
+  }
+  return values;
 }
 
 }  // namespace chladni::squeal

@@ -7,9 +7,19 @@
 
 namespace chladni::squeal {
 
+namespace {
+
+Disc that_keeps(Disc disc, bool asymmetry)
+{
+  disc.keeps_asymmetry = asymmetry;
+  return disc;
+}
+
+}  // namespace
+
 FlexibleDisc::FlexibleDisc(Disc disc, SquealOptions options,
                            std::shared_ptr<const FlexibleDisc> complete)
-    : disc_(std::make_shared<const Disc>(std::move(disc))),
+    : disc_(std::make_shared<const Disc>(that_keeps(std::move(disc), options.keeps_asymmetry))),
       inertial_(std::make_shared<const std::optional<InertialDisc>>(find_inertial_disc(*disc_))),
       options_(std::move(options)),
       complete_(std::move(complete))

@@ -31,6 +31,7 @@ class FlexibleDisc final : public Brake {
   bool is_autonomous() const override { return inertial_->has_value(); }
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
+  std::vector<ParameterValue> parameters() const override { return parameter_values(options_); }
   /// The same disc between other pads.
   /// @param options  which ask for the same rings and modes of the body
   std::unique_ptr<FlexibleDisc> between(SquealOptions options) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "squeal/derivative.hpp"
+#include "squeal/models/friction_parameters.hpp"
 #include "squeal/models/model_motion.hpp"
 
 namespace chladni::squeal {
@@ -127,24 +128,50 @@ Eigen::MatrixXd OscillatorBrake::state_matrix(double speed) const
                             size());
 }
 
+namespace {
+
+using Places = std::vector<std::pair<std::string_view, double*>>;
+
+/// By the keys of the scene; the first ones are names that all brakes share.
+Places places_in(Oscillator& o)
+{
+  return {{"friction", &o.friction.kinetic},
+          {"preload", &o.preload},
+          {"stiffness", &o.contact_stiffness},
+          {"oscillator.mass", &o.mass},
+          {"oscillator.stiffness_along", &o.k_x},
+          {"oscillator.stiffness_normal", &o.k_y},
+          {"oscillator.stiffness_coupling", &o.k_xy},
+          {"oscillator.damping_along", &o.d_x},
+          {"oscillator.damping_normal", &o.d_y},
+          {"oscillator.contact_stiffness", &o.contact_stiffness},
+          {"oscillator.preload", &o.preload},
+          {"oscillator.radius", &o.radius}};
+}
+
+}  // namespace
+
 std::unique_ptr<Brake> OscillatorBrake::with(MapParameter parameter, double value) const
 {
   Oscillator changed = o_;
-  const std::array<std::pair<std::string_view, double*>, 9> places{
-      {{"friction", &changed.friction.kinetic},
-       {"preload", &changed.preload},
-       {"stiffness", &changed.contact_stiffness},
-       {"oscillator.mass", &changed.mass},
-       {"oscillator.stiffness_along", &changed.k_x},
-       {"oscillator.stiffness_normal", &changed.k_y},
-       {"oscillator.stiffness_coupling", &changed.k_xy},
-       {"oscillator.damping_along", &changed.d_x},
-       {"oscillator.damping_normal", &changed.d_y}}};
+  if (is_of_law(parameter)) {
+    changed.friction = with_friction_parameter(changed.friction, parameter, value);
+    return std::make_unique<OscillatorBrake>(changed);
+  }
   double* at = nullptr;
-  for (const auto& [name, place] : places)
+  for (const auto& [name, place] : places_in(changed))
     if (name == parameter.name && parameter.pad == 0) at = place;
   set_parameter(at, parameter, value);
   return std::make_unique<OscillatorBrake>(changed);
+}
+
+std::vector<ParameterValue> OscillatorBrake::parameters() const
+{
+  Oscillator o = o_;
+  std::vector<ParameterValue> values = friction_parameters(o.friction);
+  for (const auto& [name, place] : places_in(o))
+    if (name.starts_with("oscillator.")) values.push_back({{name}, *place});
+  return values;
 }
 
 std::unique_ptr<AutonomousMotion> OscillatorBrake::motion(double speed) const

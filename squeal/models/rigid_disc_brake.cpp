@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "squeal/derivative.hpp"
+#include "squeal/models/friction_parameters.hpp"
 #include "squeal/models/model_motion.hpp"
 
 namespace chladni::squeal {
@@ -138,26 +139,44 @@ Eigen::MatrixXd RigidDiscBrake::state_matrix(double speed) const
       .topLeftCorner<4, 4>();
 }
 
+namespace {
+
+using Places = std::vector<std::pair<std::string_view, double*>>;
+
+Places places_in(RigidDisc& disc)
+{
+  return {{"friction", &disc.friction.kinetic},    {"preload", &disc.preload},
+          {"stiffness", &disc.spring.linear},      {"damping", &disc.damping},
+          {"thickness", &disc.thickness},          {"rigid_disc.diametral_inertia", &disc.Theta},
+          {"rigid_disc.axial_inertia", &disc.Phi}, {"rigid_disc.stiffness", &disc.k_t},
+          {"rigid_disc.damping", &disc.d_t},       {"rigid_disc.pad_radius", &disc.radius}};
+}
+
+}  // namespace
+
 std::unique_ptr<Brake> RigidDiscBrake::with(MapParameter parameter, double value) const
 {
   RigidDiscStudy changed = study_;
-  RigidDisc& disc = changed.disc;
-  const std::array<std::pair<std::string_view, double*>, 10> places{
-      {{"friction", &disc.friction.kinetic},
-       {"preload", &disc.preload},
-       {"stiffness", &disc.spring.linear},
-       {"damping", &disc.damping},
-       {"thickness", &disc.thickness},
-       {"rigid_disc.diametral_inertia", &disc.Theta},
-       {"rigid_disc.axial_inertia", &disc.Phi},
-       {"rigid_disc.stiffness", &disc.k_t},
-       {"rigid_disc.damping", &disc.d_t},
-       {"rigid_disc.pad_radius", &disc.radius}}};
+  if (is_of_law(parameter)) {
+    changed.disc.friction = with_friction_parameter(changed.disc.friction, parameter, value);
+    return std::make_unique<RigidDiscBrake>(changed);
+  }
   double* at = nullptr;
-  for (const auto& [name, place] : places)
-    if (name == parameter.name && parameter.pad == 0) at = place;
+  for (const auto& [name, place] : places_in(changed.disc))
+    if (name == parameter.name && parameter.pad <= 1) at = place;
   set_parameter(at, parameter, value);
   return std::make_unique<RigidDiscBrake>(changed);
+}
+
+std::vector<ParameterValue> RigidDiscBrake::parameters() const
+{
+  RigidDisc disc = study_.disc;
+  std::vector<ParameterValue> values = friction_parameters(disc.friction);
+  for (const auto& [name, place] : places_in(disc)) {
+    const bool is_of_pad = name == "preload" || name == "stiffness" || name == "damping";
+    if (name != "friction") values.push_back({{name, is_of_pad ? 1 : 0}, *place});
+  }
+  return values;
 }
 
 std::unique_ptr<AutonomousMotion> RigidDiscBrake::motion(double speed) const

@@ -4,6 +4,7 @@ namespace chladni::squeal {
 
 ContactKick::ContactKick(const Disc& disc, const SquealOptions& options, double speed)
     : speed_(speed),
+      first_speed_(speed),
       G_(disc.G.isZero(0.0) ? Eigen::MatrixXd() : disc.G),
       shapes_(disc),
       pads_(pad_system(options, ring_places(disc))),
@@ -22,6 +23,7 @@ const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, cons
                                                              double step)
 {
   speed_ = turn.speed;
+  press(turn.preload);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::MatrixXd& S = shapes_.at(pads_.points[i], turn.angle);
     points_[i].S.topLeftCorner(S.rows(), S.cols()) = S;
@@ -31,6 +33,16 @@ const std::vector<ContactResult<double>>& ContactKick::apply(ModalState& x, cons
   x.v += step * force(v_mid_);
   of_pads_ = by_pad(pads_, contacts_);
   return of_pads_;
+}
+
+void ContactKick::press(double preload)
+{
+  if (preload == preload_) return;
+  preload_ = preload;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points_[i].contact.preload = preload * pads_.points[i].contact.preload;
+    points_[i].at_rest = states_at_rest(points_[i].contact, first_speed_);
+  }
 }
 
 Eigen::MatrixXd ContactKick::contact_stiffness() const

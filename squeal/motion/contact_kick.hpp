@@ -39,8 +39,14 @@ class ContactKick {
   /// Q at the rates `v` with the shapes of this instant.
   const Eigen::VectorXd& force(const Eigen::VectorXd& v);
 
-  double speed_;       ///< at the last kick, rad/s
-  Eigen::MatrixXd G_;  ///< of the disc; see Disc
+  /// The motion is counted from the sliding equilibrium of this preload, which the faces wear to.
+  /// @param preload  factor of that of all pads
+  void press(double preload);
+
+  double speed_;          ///< at the last kick, rad/s
+  double first_speed_;    ///< of the equilibrium, rad/s
+  double preload_ = 1.0;  ///< at the last kick
+  Eigen::MatrixXd G_;     ///< of the disc; see Disc
   PointShapes shapes_;
   PadSystem pads_;
   std::vector<BrakePoint> points_;            ///< at this instant; at rest at the first speed

@@ -29,7 +29,8 @@ double heat(const PadContact& pad, const PadState<double>& state)
 {
   const double v = regularised_speed(pad.friction, state.slip_speed * state.slip_speed);
   const double N = pad.law == ContactLaw::signed_force ? state.N : std::abs(state.N);
-  return friction_coefficient(pad.friction, v) * N * state.slip_speed * state.slip_speed / v;
+  return friction_coefficient(pad.friction, v, pressure_of(pad, state.S)) * N * state.slip_speed *
+         state.slip_speed / v;
 }
 
 /// Powers of a point pair on disc and plates, W; see SlidingDisc::Power.

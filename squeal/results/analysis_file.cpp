@@ -117,6 +117,32 @@ void write_spectrum(Writer& file, const Spectrum& spectrum)
   file.write("spectrum/peaks/amplitude", amplitudes, "m/s");
 }
 
+void write_spectrogram(Writer& file, const Spectrogram& spectrogram)
+{
+  file.write("spectrogram/t", spectrogram.t, "s");
+  file.write("spectrogram/speed", spectrogram.speed, "rad/s");
+  file.write("spectrogram/envelope", spectrogram.envelope, "m/s");
+  file.write("spectrogram/frequency", spectrogram.frequency_Hz, "Hz");
+  file.write("spectrogram/amplitude", spectrogram.amplitude, "m/s");
+  file.write("spectrogram/lines/frequency", spectrogram.line_Hz, "Hz");
+  file.write("spectrogram/lines/amplitude", spectrogram.line_amplitude, "m/s");
+}
+
+Spectrogram read_spectrogram(const Reader& file)
+{
+  const Eigen::VectorXd t = read_some(file, "spectrogram/t");
+  const Eigen::VectorXd f_Hz = read_some(file, "spectrogram/frequency");
+  const Eigen::Index n = t.size();
+  const Eigen::MatrixXd line_Hz = file.matrix("spectrogram/lines/frequency", {.rows = n});
+  return {.t = t,
+          .speed = file.vector("spectrogram/speed", n),
+          .envelope = file.vector("spectrogram/envelope", n),
+          .frequency_Hz = f_Hz,
+          .amplitude = file.matrix("spectrogram/amplitude", {n, f_Hz.size()}),
+          .line_Hz = line_Hz,
+          .line_amplitude = file.matrix("spectrogram/lines/amplitude", {n, line_Hz.cols()})};
+}
+
 Spectrum read_spectrum(const Reader& file)
 {
   const Eigen::VectorXd frequency = read_some(file, "spectrum/frequency");

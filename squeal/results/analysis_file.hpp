@@ -17,6 +17,9 @@ std::vector<CriticalValue> read_critical_values(const files::Reader& file);
 void write_spectrum(files::Writer& file, const Spectrum& spectrum);
 Spectrum read_spectrum(const files::Reader& file);
 
+void write_spectrogram(files::Writer& file, const Spectrogram& spectrogram);
+Spectrogram read_spectrogram(const files::Reader& file);
+
 /// The group /limit_cycle_direct/energy of a result file.
 void write_energy(files::Writer& file, const CycleEnergy& energy);
 CycleEnergy read_energy(const files::Reader& file);

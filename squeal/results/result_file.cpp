@@ -10,6 +10,7 @@
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/results/cycle_file.hpp"
 #include "squeal/results/file_checks.hpp"
+#include "squeal/results/gradient_file.hpp"
 #include "squeal/results/rotation_file.hpp"
 #include "squeal/results/sensitivity_file.hpp"
 #include "squeal/results/stability_file.hpp"
@@ -152,6 +153,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.map) write_map(file, *results.map);
   if (results.rotation_stability) write_rotation_stability(file, *results.rotation_stability);
   if (results.mode_sensitivity) write_sensitivity(file, *results.mode_sensitivity);
+  if (results.gradients) write_gradients(file, *results.gradients);
   for (std::size_t i = 0; i < results.growth.size(); ++i)
     write_growth(file, fmt::format("growth/{}", i + 1), results.growth[i]);
   if (results.transient) write_transient(file, *results.transient);
@@ -159,6 +161,7 @@ void write_results(const std::filesystem::path& path, const SquealResults& resul
   if (results.limit_cycle_direct) write_direct(file, *results.limit_cycle_direct);
   if (results.limit_cycle_branch) write_branch(file, *results.limit_cycle_branch);
   if (results.spectrum) write_spectrum(file, *results.spectrum);
+  if (results.spectrogram) write_spectrogram(file, *results.spectrogram);
   if (results.motion_statistics) write_statistics(file, *results.motion_statistics);
   if (results.failure) file.write("failure", *results.failure);
   if (!results.missing.empty()) file.write("missing", results.missing);
@@ -183,6 +186,7 @@ SquealResults read_results(const Reader& file)
   if (file.contains("critical/speed")) results.critical_speed = read_critical_speed(file);
   results.critical_values = read_critical_values(file);
   if (file.contains("spectrum")) results.spectrum = read_spectrum(file);
+  if (file.contains("spectrogram")) results.spectrogram = read_spectrogram(file);
   if (file.contains("motion_statistics")) results.motion_statistics = read_statistics(file);
   if (file.contains("failure")) results.failure = file.text("failure");
   if (file.contains("missing")) results.missing = file.texts("missing");
@@ -192,6 +196,7 @@ SquealResults read_results(const Reader& file)
   if (file.contains("rotation_stability"))
     results.rotation_stability = read_rotation_stability(file);
   if (file.contains("mode_sensitivity")) results.mode_sensitivity = read_sensitivity(file);
+  if (file.contains("gradients")) results.gradients = read_gradients(file);
   for (int i = 1; file.contains(fmt::format("growth/{}", i)); ++i)
     results.growth.push_back(read_growth(file, fmt::format("growth/{}", i)));
   if (file.contains("transient")) results.transient = read_transient(file);

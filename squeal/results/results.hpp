@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "squeal/results/cycle_results.hpp"
+#include "squeal/results/gradient_results.hpp"
 #include "squeal/results/signal_results.hpp"
 #include "squeal/results/stability_results.hpp"
 #include "squeal/results/stability_table.hpp"
@@ -28,12 +29,14 @@ struct SquealResults {
   std::optional<StabilityMap> map;
   std::optional<RotationStability> rotation_stability;
   std::optional<ModeSensitivity> mode_sensitivity;
+  std::optional<Gradients> gradients;
   std::vector<Growth> growth;
   std::optional<Transient> transient;
   std::optional<LimitCycle> limit_cycle;
   std::optional<DirectLimitCycle> limit_cycle_direct;
   std::optional<LimitCycleBranch> limit_cycle_branch;
   std::optional<Spectrum> spectrum;
+  std::optional<Spectrogram> spectrogram;
   std::optional<MotionStatistics> motion_statistics;
   /// Why an analysis failed after others had succeeded; nothing was done after it.
   std::optional<std::string> failure;

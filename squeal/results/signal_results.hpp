@@ -51,4 +51,17 @@ struct MotionStatistics {
   std::vector<Line> lines;  ///< by falling amplitude; those above a hundredth of the strongest
 };
 
+/// The pad velocity of a transient over time and frequency, with the rotation of the disc: what a
+/// run-up or a braking shows. Windows overlap by three quarters.
+struct Spectrogram {
+  Eigen::VectorXd t;             ///< [n_t] middle of each window, s
+  Eigen::VectorXd speed;         ///< [n_t] of rotation there, rad/s
+  Eigen::VectorXd envelope;      ///< [n_t] largest pad velocity in the window, m/s
+  Eigen::VectorXd frequency_Hz;  ///< [n_f]
+  Eigen::MatrixXd amplitude;     ///< [n_t x n_f] m/s, the largest of the lines about a frequency
+  /// [n_t x n_lines] the strongest lines of each window by falling amplitude; zero where there are
+  /// fewer
+  Eigen::MatrixXd line_Hz, line_amplitude;
+};
+
 }  // namespace chladni::squeal

@@ -2,32 +2,22 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <initializer_list>
 #include <numbers>
 
-#include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/state_matrix.hpp"
+#include "squeal/stability/eigenvalue_change.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_search.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-using Complex = std::complex<double>;
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXcd;
+using Eigen::Index, Eigen::MatrixXd;
 
 /// Relative; central differences of the state matrix are exact to its square.
 constexpr double step = 1e-5;
-
-VectorXcd eigenvector(const MatrixXd& A, const Complex& expected)
-{
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  Index at = 0;
-  (solver.eigenvalues().array() - expected).abs().minCoeff(&at);
-  return solver.eigenvectors().col(at);
-}
 
 /// Where the errors of W, W_r, W_t, V_r and V_t stand in ModeErrors::mesh_shapes: a radial slope is
 /// a rotation about the circumferential direction.
@@ -37,14 +27,12 @@ constexpr std::array<Index, 5> rows_of_functions{2, 4, 3, 0, 1};
 class CriticalGrowth {
  public:
   CriticalGrowth(const FlexibleDisc& brake, const CriticalSpeed& critical)
-      : disc_(brake.inertial()), options_(brake.options()), speed_(critical.speed)
-  {
-    const MatrixXd A = state_matrix(disc_, options_, speed_);
-    const Complex lambda(0.0, 2.0 * std::numbers::pi * critical.frequency_Hz);
-    right_ = eigenvector(A, lambda);
-    left_ = eigenvector(A.transpose(), lambda);
-    left_ /= left_.cwiseProduct(right_).sum();
-  }
+      : disc_(brake.inertial()),
+        options_(brake.options()),
+        speed_(critical.speed),
+        lambda_(state_matrix(disc_, options_, speed_),
+                {0.0, 2.0 * std::numbers::pi * critical.frequency_Hz})
+  {}
 
   /// Of the growth, by the speed; 1/s for each rad/s.
   double by_speed() const
@@ -88,14 +76,13 @@ class CriticalGrowth {
 
   double change(const MatrixXd& to, const MatrixXd& from) const
   {
-    const MatrixXd difference = to - from;
-    return left_.cwiseProduct(difference * right_).sum().real();
+    return lambda_.of(to - from).real();
   }
 
   const InertialDisc& disc_;
   const SquealOptions& options_;
   double speed_;
-  VectorXcd right_, left_;
+  EigenvalueChange lambda_;
 };
 
 /// The sum over all modes and pairs of error times sensitivity, without sign, as a speed; rad/s.

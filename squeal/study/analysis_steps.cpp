@@ -8,6 +8,7 @@
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/parallel.hpp"
 #include "squeal/stability/error_budget.hpp"
+#include "squeal/stability/gradients.hpp"
 #include "squeal/stability/hopf.hpp"
 #include "squeal/stability/mode_sensitivity.hpp"
 #include "squeal/stability/mode_shapes.hpp"
@@ -16,6 +17,7 @@
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/stability/unstable_modes.hpp"
 #include "squeal/transient/motion_statistics.hpp"
+#include "squeal/transient/spectrogram.hpp"
 #include "squeal/transient/spectrum.hpp"
 
 namespace chladni::squeal {
@@ -79,6 +81,11 @@ void find_mode_sensitivity(const Study& study, SquealResults& results, const Kee
   results.mode_sensitivity = mode_sensitivity(body.inertial(), body.options());
 }
 
+void find_gradients(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.gradients = gradients(study.brake, study.options);
+}
+
 void find_rotation_stability(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
   const FlexibleDisc& body = *study.brake.body();
@@ -108,6 +115,11 @@ void find_transient(const Study& study, SquealResults& results, const Keeping& k
 void find_spectrum(const Study& /*study*/, SquealResults& results, const Keeping& /*keeping*/)
 {
   results.spectrum = spectrum(results.transient->tail.pad_velocity, results.transient->step);
+}
+
+void find_spectrogram(const Study& /*study*/, SquealResults& results, const Keeping& /*keeping*/)
+{
+  results.spectrogram = spectrogram(*results.transient);
 }
 
 void find_motion_statistics(const Study& /*study*/, SquealResults& results,
@@ -144,10 +156,15 @@ std::span<const AnalysisStep> analysis_steps()
       {"critical-values", 2.0, {}, find_critical_values},
       {"stability-map", 10.0, {}, find_map},
       {"mode-sensitivity", 10.0, {}, find_mode_sensitivity},
+      {"gradients", 3.0, {}, find_gradients},
       {"rotation-stability", 20.0, {}, find_rotation_stability},
       {"growth", 40.0, {}, find_growth},
-      {"transient", 60.0, {"limit-cycle", "motion-statistics", "spectrum"}, find_transient},
+      {"transient",
+       60.0,
+       {"limit-cycle", "motion-statistics", "spectrum", "spectrogram"},
+       find_transient},
       {"spectrum", 1.0, {}, find_spectrum},
+      {"spectrogram", 1.0, {}, find_spectrogram},
       {"motion-statistics", 1.0, {}, find_motion_statistics},
       {"limit-cycle", 1.0, {}, find_limit_cycle},
       {"limit-cycle-direct", 10.0, {}, find_limit_cycle_direct},

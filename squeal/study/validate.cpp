@@ -107,8 +107,8 @@ void validate_transient(const StudyOptions& study)
 {
   if (!study.transient) {
     throw Error(
-        "[squeal] analyses: \"transient\", \"limit-cycle\", \"motion-statistics\" and "
-        "\"spectrum\" need `transient = { ... }`");
+        "[squeal] analyses: \"transient\", \"limit-cycle\", \"motion-statistics\", "
+        "\"spectrum\" and \"spectrogram\" need `transient = { ... }`");
   }
   require_positive(study.transient->speed, "transient.speed_rad_s");
   require_positive(study.transient->duration, "transient.duration_s");
@@ -226,6 +226,14 @@ void validate_analyses(const StudyOptions& study)
   }
 }
 
+void validate_friction(const FrictionLaw& law, const std::string& key)
+{
+  require_not_negative(law.kinetic, key);
+  require_not_negative(law.rise, key + ".static minus " + key + ".kinetic");
+  require_positive(law.decay_speed, key + ".decay_speed");
+  require_not_negative(law.regularisation, key + ".regularisation");
+}
+
 void validate_brake(const SquealOptions& options)
 {
   require_positive(options.thickness, "thickness");
@@ -233,10 +241,10 @@ void validate_brake(const SquealOptions& options)
     require_positive((*options.planes->heights)[1] - (*options.planes->heights)[0],
                      "contact_planes: the second minus the first");
   }
-  require_not_negative(options.friction.kinetic, "friction");
-  require_not_negative(options.friction.rise, "friction.static minus friction.kinetic");
-  require_positive(options.friction.decay_speed, "friction.decay_speed");
-  require_not_negative(options.friction.regularisation, "friction.regularisation");
+  validate_friction(options.friction, "friction");
+  for (std::size_t i = 0; i < options.pads.size(); ++i)
+    if (options.pads[i].friction)
+      validate_friction(*options.pads[i].friction, fmt::format("pads[{}].friction", i));
   validate_modes(options.modes);
   validate_pads(options);
 }
@@ -263,6 +271,8 @@ void validate(const Brake& brake, const StudyOptions& study)
   if (needs(study, "growth")) validate_growth(study);
   if (needs(study, "limit_cycle_direct")) validate_direct(study);
   if (needs(study, "map")) validate_map(study);
+  if (asks_for(study, "gradients") && study.gradients && study.gradients->speed)
+    require_positive(*study.gradients->speed, "gradients.speed_rad_s");
   if (asks_for(study, "stability")) {
     validate_stability(study);
     if (body) require_band_of(body->disc(), stability_case(study));

@@ -148,7 +148,11 @@ bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
 {
   const double sliding = run.speed * disc.rings.front().radius;
   const ModalState start = transient_start(disc, inertial, run, options.pads.front().angle);
-  if (options.friction.kinetic == 0.0 || surface_speed(disc, options.thickness, start) < sliding)
+  const auto rubs = [&](const PadPair& pad) {
+    return pad.friction.value_or(options.friction).kinetic > 0.0;
+  };
+  if (std::ranges::none_of(options.pads, rubs) ||
+      surface_speed(disc, options.thickness, start) < sliding)
     return false;
   return is_stiff(disc, with_friction_at_rest(options, disc, run.speed), 0.0);
 }
@@ -157,9 +161,11 @@ bool sticks(const Disc& disc, const std::optional<InertialDisc>& inertial,
 IntegratorChoice cheapest(const Disc& disc, const std::optional<InertialDisc>& inertial,
                           const SquealOptions& options, const TransientCase& run)
 {
-  if (!run.speed_program.empty()) {
-    return {IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
-            0.0, "it follows a speed program"};
+  if (!run.is_constant()) {
+    return {
+        IntegratorKind::splitting, steps_for(IntegratorKind::splitting, inertial, options, run),
+        0.0,
+        run.speed_program.empty() ? "it follows a preload program" : "it follows a speed program"};
   }
   if (is_stiff(disc, options, run.speed)) {
     return {IntegratorKind::generalised_alpha, 0, 0.0,
@@ -236,11 +242,11 @@ IntegratorChoice choose_integrator(const Disc& disc, const std::optional<Inertia
         "transient: the integrator \"exponential\" needs an axisymmetric disc with both modes of "
         "each pair; take \"auto\" or \"splitting\"");
   }
-  if (!run.speed_program.empty() && run.integrator != IntegratorKind::automatic &&
+  if (!run.is_constant() && run.integrator != IntegratorKind::automatic &&
       run.integrator != IntegratorKind::splitting)
     throw Error(
-        fmt::format("transient: the integrator \"{}\" needs a constant speed; a speed_program "
-                    "needs \"splitting\"",
+        fmt::format("transient: the integrator \"{}\" needs a constant speed and preload; a "
+                    "speed_program or preload_program needs \"splitting\"",
                     name_of(run.integrator)));
   IntegratorChoice choice{run.integrator, 0, 0.0, ""};
   if (run.integrator == IntegratorKind::automatic) choice = cheapest(disc, inertial, options, run);

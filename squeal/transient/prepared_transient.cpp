@@ -8,6 +8,8 @@
 
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/friction_range.hpp"
+#include "squeal/brake/pad_system.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/contact_kick.hpp"
 #include "squeal/transient/integrator_choice.hpp"
@@ -16,6 +18,22 @@
 
 namespace chladni::squeal {
 namespace {
+
+/// Each point of the programs lies in the tables of friction.
+void check_tables(const PadSystem& pads, const TransientCase& run)
+{
+  std::vector<double> speeds{run.speed}, preloads{1.0};
+  for (const SpeedPoint& point : run.speed_program) speeds.push_back(point.speed);
+  for (const PreloadPoint& point : run.preload_program) preloads.push_back(point.factor);
+  if (!run.preload_program.empty()) preloads.erase(preloads.begin());
+  for (const PointPair& point : pads.points)
+    for (const double speed : speeds)
+      for (const double preload : preloads) {
+        PadContact contact = point.contact;
+        contact.preload *= preload;
+        require_in_table(contact, speed);
+      }
+}
 
 void check_speed_program(const FrictionLaw& friction, const TransientCase& run)
 {
@@ -70,6 +88,9 @@ PreparedTransient prepared_with_body(const FlexibleDisc& brake, const TransientC
   if (options.pads.empty()) throw Error("transient: no pads");
   check_transient(run, disc.omega.maxCoeff());
   check_speed_program(options.friction, run);
+  for (const PadPair& pad : options.pads)
+    if (pad.friction) check_speed_program(*pad.friction, run);
+  check_tables(pad_system(options, ring_places(disc)), run);
   const std::optional<InertialDisc>& inertial = brake.find_inertial();
   const IntegratorChoice choice = choose_integrator(disc, inertial, options, run);
   const RecordingPlan plan =
@@ -94,9 +115,10 @@ PreparedTransient prepared_lumped(const LumpedBrake& brake, const TransientCase&
     throw Error(
         "transient: a model without a body has the integrator \"dormand-prince\" alone; leave "
         "integrator out");
-  if (!run.speed_program.empty()) {
+  if (!run.is_constant()) {
     throw Error(
-        "transient: a model without a body turns at a constant speed; leave speed_program out");
+        "transient: a model without a body turns at a constant speed and preload; leave "
+        "speed_program and preload_program out");
   }
   const RecordingPlan plan = recording_plan(run, frequencies_of(brake, run.speed),
                                             run.steps_per_period.value_or(lumped_steps_per_period));

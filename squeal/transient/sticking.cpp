@@ -18,8 +18,13 @@ Eigen::ArrayXd amplitudes(const Harmonics& f)
 
 SquealOptions with_friction_at_rest(SquealOptions options, const Disc& disc, double speed)
 {
-  if (options.friction.regularisation == 0.0)
-    options.friction.regularisation = creep * std::abs(speed) * disc.rings.front().radius;
+  const auto regularise = [&](FrictionLaw& law) {
+    if (law.regularisation == 0.0)
+      law.regularisation = creep * std::abs(speed) * disc.rings.front().radius;
+  };
+  regularise(options.friction);
+  for (PadPair& pad : options.pads)
+    if (pad.friction) regularise(*pad.friction);
   return options;
 }
 

@@ -31,9 +31,10 @@ constexpr double slow_sliding = 1e-2, slow_multiple = 10.0;
 
 std::string warning_of_sliding(const Transient& run, const SquealOptions& options)
 {
-  const double eps = options.friction.regularisation;
+  const FrictionLaw law = options.pads.front().friction.value_or(options.friction);
+  const double eps = law.regularisation;
   const double limit = eps > 0.0 ? slow_multiple * eps : slow_sliding;
-  if (run.slip_speed_min >= limit || options.friction.kinetic == 0.0 ||
+  if (run.slip_speed_min >= limit || law.kinetic == 0.0 ||
       run.integrator == name_of(IntegratorKind::generalised_alpha))
     return {};
   return fmt::format(
@@ -145,7 +146,7 @@ Transient transient(const Brake& brake, const TransientCase& run, const Keeping&
   Transient result = result_of(recording);
   result.finished = bounded;
   if (const FlexibleDisc* body = brake.body()) result.mode_numbers = body->disc().mode_numbers;
-  if (run.speed_program.empty())
+  if (run.is_constant())
     result.growth_rate = growth_rate(result.envelope, linear_part * brake.rest_compression());
   else
     result.speed = turn_at(run, run.duration).speed;

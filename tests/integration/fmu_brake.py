@@ -103,8 +103,11 @@ def of_version(chladni, folder, scene, version, expected):
 def bad_input(chladni, folder, scene):
     plain = folder / "plain.toml"
     plain.write_text(scene.read_text().replace(SQUEAL, ""))
+    table = folder / "table.toml"
+    table.write_text(scene.read_text().replace("friction = 0.6\n", "") + "[squeal.friction]\n"
+                     "[[squeal.friction.table]]\nspeed_m_s = [0.0, 1.0, 50.0]\nmu = [0.7, 0.6, 0.5]\n")
     elsewhere = folder / "elsewhere"
-    for words, expected in (((plain, "--from", folder), "[squeal]"), ((scene, "--from", elsewhere), "chladni run"),
+    for words, expected in (((plain, "--from", folder), "[squeal]"), ((table, "--from", folder), "one coefficient"), ((scene, "--from", elsewhere), "chladni run"),
                             ((folder / "disc.body.h5",), "made of its scene")):  # fmt: skip
         done = start(chladni, "export", *words, "--format", "fmu-brake", "--output", folder / "bad.fmu")
         if done.returncode == 0 or expected not in done.stderr or (folder / "bad.fmu").exists():

@@ -209,6 +209,18 @@ def check_damping(program, mpirun, folder, checks):
         checks.holds(f"{name}: is the response real?", (np.abs(fe.imag).max() == 0) == (name == "no damping"))
 
 
+def check_loss_factors(program, mpirun, folder, checks):
+    """A loss factor of the material is one of the response: K (1 + i eta), not the viscous equivalent that squeal takes."""
+    beam = Case(program, mpirun, folder, BEAM + RESPONSE, "beam").made()
+    of_response = {model: beam.responses(of(model))[3][0] for model in ("body", "reduced", "fe")}
+    changes = (("density = 1.0", "density = 1.0\nloss_factor = 0.02"), ("count = 61\nloss_factor = 0.02", "count = 61"))
+    beam.made(*changes)
+    for model, expected in of_response.items():
+        for ranks in (1, 2) if model == "fe" else (1,):
+            found = beam.responses(*changes, of(model), ranks=ranks)[3][0]
+            checks.below(f"loss factor of the material in {model} on {ranks} rank(s)", difference(found, expected), 1e-9)
+
+
 def check_quantities(program, mpirun, folder, checks):
     beam = Case(program, mpirun, folder, BEAM + RESPONSE, "beam").made()
     for model in ("body", "fe"):
@@ -491,7 +503,7 @@ def main(program, mpirun, chromium=None):
         print("\ncheck_page")
         with tempfile.TemporaryDirectory() as folder:
             check_page(program, mpirun, folder, checks, chromium)
-    for check in (check_beam, check_damping, check_quantities, check_section_forces, check_disc, check_fe_places, check_files,
+    for check in (check_beam, check_damping, check_loss_factors, check_quantities, check_section_forces, check_disc, check_fe_places, check_files,
                   check_universal_file, check_mac, check_example, check_mistakes, check_stale):  # fmt: skip
         print(f"\n{check.__name__}")
         with tempfile.TemporaryDirectory() as folder:

@@ -248,7 +248,7 @@ TEST(Scene, VariesAKeyOfOnePad)
       "map = { parameter = \"pads[2].stiffness\", from = 1e6, to = 9e6, count = 100 }\n";
   EXPECT_EQ(parse_scene(disc + map, "scene.toml").squeal->study.map->parameter,
             (squeal::MapParameter{"stiffness", 2}));
-  const std::string none = error_of(disc + replaced(map, "pads[2].stiffness", "pads[2].friction"));
+  const std::string none = error_of(disc + replaced(map, "pads[2].stiffness", "pads[2].rubbing"));
   EXPECT_NE(none.find("that of one pad alone is called like \"pads[1].stiffness\""),
             std::string::npos)
       << none;

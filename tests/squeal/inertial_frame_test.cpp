@@ -132,6 +132,27 @@ TEST(InertialDisc, KeepsRotationallySymmetricDamping)
   EXPECT_NE(complaint(disc_on_ring(body, "track", {})).find("damping changes"), std::string::npos);
 }
 
+TEST(InertialDisc, TellsHowDifferentlyTheModesOfAPairDecay)
+{
+  // A small pair beside a strongly damped one: 2 % of the whole hides 60 % of the pair.
+  auto body = analytic_body({kirchhoff_2(), turned_pair()});
+  body.C = Eigen::Vector4d{500.0, 500.0, 7.0, 4.0}.asDiagonal();
+  const InertialDisc disc = inertial_disc(disc_on_ring(body, "track", {}));
+  EXPECT_NEAR(disc.damping_spread, 1.5, 1e-9);
+  EXPECT_NEAR(disc.damping_contrast, 1.5 / 2.75, 1e-9);
+  EXPECT_NEAR(disc.C(2, 2), 5.5, 1e-9);  // what the frame takes
+}
+
+TEST(InertialDisc, IsNoneWhereDifferencesAreKept)
+{
+  auto body = analytic_body({kirchhoff_2(), turned_pair()});
+  body.C = Eigen::Vector4d{500.0, 500.0, 7.0, 4.0}.asDiagonal();
+  Disc disc = disc_on_ring(body, "track", {});
+  disc.keeps_asymmetry = true;
+  EXPECT_FALSE(find_inertial_disc(disc));
+  EXPECT_NE(complaint(disc).find("1.5 1/s of the damping of a pair"), std::string::npos);
+}
+
 /// Columns of the shapes and of the modes replaced by combinations of them, as an eigen-solver may
 /// return modes of one frequency.
 mbs_export::ModalBody mixed(mbs_export::ModalBody body, const Eigen::MatrixXd& by)

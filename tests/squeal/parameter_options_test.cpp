@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
@@ -15,6 +18,7 @@
 #include "squeal/models/rigid_disc_brake.hpp"
 #include "squeal/stability/eigenvalue_branches.hpp"
 #include "squeal/stability/unstable_modes.hpp"
+#include "tests/squeal/linked_rings.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -51,21 +55,93 @@ std::string complaint(const Brake& brake, MapParameter parameter, double value)
   return "";
 }
 
+/// mu over pressure, speed and temperature.
+FrictionLaw measured()
+{
+  const auto curve = [](double mu) { return friction_curve({1e-3, 3.0}, {mu, 0.9 * mu}); };
+  const FrictionTable table{.temperatures = {0.0, 200.0},
+                            .pressures = {0.0, 1e9},
+                            .curves = {curve(0.5), curve(0.4), curve(0.45), curve(0.3)}};
+  return {
+      .kinetic = 1.0, .table = std::make_shared<const FrictionTable>(table), .temperature = 50.0};
+}
+
+/// Brakes that have all parameters of a body together: one cannot have two laws of friction.
+std::vector<FlexibleDisc> brakes_of_a_body()
+{
+  const Disc disc = disc_of({kirchhoff_2(), kirchhoff_3()});
+  SquealOptions falling = full_options(), by_table = full_options();
+  falling.pads.front().friction = measured();
+  by_table.friction = measured();
+  by_table.pads.front().friction = FrictionLaw{.kinetic = 0.4, .rise = 0.2, .decay_speed = 0.5};
+  for (SquealOptions* options : {&falling, &by_table}) {
+    options->pads.front().area = 1e-3;
+    options->pads.front().shim = Shim{.stiffness = 4e7, .loss_factor = 0.2, .frequency_Hz = 2e3};
+    PadPair other = options->pads.front();
+    other.angle = 2.0;
+    other.friction.reset();
+    options->pads.push_back(other);
+  }
+  SquealOptions planes = full_options();
+  planes.planes = ContactPlanes{.heights = {{-0.011, 0.01}}};
+  planes.thickness = 0.021;
+  return {FlexibleDisc(disc, falling), FlexibleDisc(disc, by_table),
+          FlexibleDisc(make_disc(linked_body({kirchhoff_2(), kirchhoff_3()}, {0.003}),
+                                 ring_choice(on_rings(planes, "ring 1", *planes.planes)), {}),
+                       on_rings(planes, "ring 1", *planes.planes))};
+}
+
 TEST(Parameters, OfABodyChangeItsStateMatrix)
 {
-  const FlexibleDisc brake(disc_of({kirchhoff_2(), kirchhoff_3()}), full_options());
-  const Eigen::MatrixXd A = brake.state_matrix(8.0);
+  const std::vector<FlexibleDisc> brakes = brakes_of_a_body();
   int n = 0;
   for (const ParameterRow& row : parameters) {
     if (row.of != ParameterOf::body && row.of != ParameterOf::any) continue;
     if (row.name == "pads.angle_deg") continue;  // of one of several pads: the next tests
-    const double value = row.name == "friction" ? 0.3 : row.name == "friction.static" ? 0.9 : 0.07;
-    const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
-    // Modes of the pads come with any sign: their spectra are compared.
-    EXPECT_GT((changed.eigenvalues() - A.eigenvalues()).norm(), 1e-9 * A.norm()) << row.name;
+    const double value = row.name == "friction" ? 0.3 : row.name.ends_with("static") ? 0.9 : 0.07;
+    double change = 0.0;
+    for (const FlexibleDisc& brake : brakes) {
+      if (!complaint(brake, {row.name}, value).empty()) continue;
+      const Eigen::MatrixXd A = brake.state_matrix(8.0);
+      const Eigen::MatrixXd changed = brake.with({row.name}, value)->state_matrix(8.0);
+      // Modes of the pads come with any sign: their spectra are compared.
+      change = std::max(change, (changed.eigenvalues() - A.eigenvalues()).norm() / A.norm());
+    }
+    EXPECT_GT(change, 1e-9) << row.name;
     ++n;
   }
-  EXPECT_EQ(n, 29);
+  EXPECT_EQ(n, 45);
+}
+
+TEST(Parameters, OfABrakeAreThoseThatItsSceneGives)
+{
+  std::vector<std::string> keys;
+  for (const ParameterValue& one : brakes_of_a_body()[1].parameters())
+    keys.push_back(key_of(one.parameter));
+  const auto has = [&](const char* key) { return std::ranges::find(keys, key) != keys.end(); };
+  for (const char* key :
+       {"friction.factor", "friction.temperature_C", "thickness", "pads[1].friction.static",
+        "pads[2].angle_deg", "pads[2].shim.stiffness", "pads[1].body.about_axial.inertia"})
+    EXPECT_TRUE(has(key)) << key;
+  for (const char* key : {"friction", "friction.static", "pads[2].friction", "contact_planes[1]",
+                          "pads[1].friction.factor"})
+    EXPECT_FALSE(has(key)) << key;
+  for (const ParameterValue& one : brakes_of_a_body()[1].parameters()) {
+    if (key_of(one.parameter) != "pads[2].angle_deg") continue;
+    EXPECT_NEAR(one.value, 2.0 * 180.0 / pi, 1e-12);
+  }
+}
+
+TEST(Parameters, OfTheKineticCoefficientLeaveTheStaticOne)
+{
+  const FlexibleDisc brake(disc_of({kirchhoff_3()}), full_options());
+  SquealOptions options = full_options();
+  options.friction.kinetic = 0.5;
+  options.friction.rise = 0.6 - 0.5;
+  EXPECT_EQ(brake.with({"friction.kinetic"}, 0.5)->state_matrix(8.0),
+            FlexibleDisc(disc_of({kirchhoff_3()}), options).state_matrix(8.0));
+  EXPECT_NE(complaint(brake, {"friction.kinetic"}, 0.7).find("is below friction.kinetic"),
+            std::string::npos);
 }
 
 TEST(Parameters, AreThoseOfTheScene)
@@ -121,7 +197,7 @@ TEST(Parameters, OfPadsThatAreNotThereAreRefused)
   EXPECT_NE(complaint(brake, {"pads.angle_deg"}, 10.0).find("pads[2].angle_deg"),
             std::string::npos);
   for (const std::string_view key :
-       {"pads[0].stiffness", "pads[x].stiffness", "pads[1].friction", "pads[1]", "pads[1].",
+       {"pads[0].stiffness", "pads[x].stiffness", "pads[1].rubbing", "pads[1]", "pads[1].",
         "pads[99999999999].stiffness", "pads.stiffness", "pads[1].pads.body.mass"})
     EXPECT_FALSE(parameter_of(key)) << key;
 }

@@ -273,9 +273,11 @@ function drawPage() {
   if (page.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(page)));
   if (page.unstable_modes) section("modes-of-squeal", "Unstable modes", unstableModesTable(page), figures(...unstableModesFigures(page)));
   if (page.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(page)));
+  if (page.gradients) section("gradients", "What to change", gradientsTable(page));
   if (page.map) section("map", "Stability map", figures(...mapFigures(page)));
   const cycles = cycleFigures(page);
   if (cycles.length || cycle) section("limit-cycle", "Limit cycle", cycleTable(page), figures(...cycles));
+  if (page.spectrogram) section("orders", "Spectrogram and order tracks", figures(...orderFigures(page)));
   if (page.statistics) drawStatistics(page);
   const errors = [page.modes && estimateFigure(page.modes), page.selection && selectionFigure(page.selection),
                   benchmark && benchmarkFigure(benchmark)].filter(Boolean);

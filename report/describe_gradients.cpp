@@ -1,0 +1,85 @@
+#include "report/describe_gradients.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "report/numbers_json.hpp"
+#include "report/quantities.hpp"
+
+namespace chladni::report {
+namespace {
+
+constexpr std::size_t rows_told = 20;
+
+/// "+0.012" of a change by +1 %
+std::string change_by_one_per_cent(double value, double derivative)
+{
+  return fmt::format("{:+.3g}", 0.01 * value * derivative);
+}
+
+}  // namespace
+
+TextTable gradients_table(const squeal::Gradients& gradients)
+{
+  TextTable table{.header = {"what to change by +1 %", "value", "unit"}, .rows = {}};
+  if (gradients.critical_speed) table.header.emplace_back("critical speed, rad/s");
+  for (const squeal::GradientMotion& motion : gradients.motions)
+    table.header.push_back(fmt::format("growth of {:.5g} Hz, 1/s", motion.frequency_Hz));
+  for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
+    const squeal::GradientRow& row = gradients.rows[i];
+    std::vector<std::string> cells{row.key, fmt::format("{:.6g}", row.value), row.unit};
+    if (gradients.critical_speed)
+      cells.push_back(change_by_one_per_cent(row.value, row.critical_speed.value_or(0.0)));
+    for (const double growth : row.growth)
+      cells.push_back(change_by_one_per_cent(row.value, growth));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+void add_gradients(TextTable& table, const squeal::Gradients& gradients)
+{
+  const bool of_speed = gradients.critical_speed.has_value();
+  if (of_speed) add(table, "critical speed (gradients)", *gradients.critical_speed, "rad/s");
+  if (gradients.speed && !gradients.motions.empty()) {
+    add(table, fmt::format("largest growth at {:.6g} rad/s (gradients)", *gradients.speed),
+        gradients.motions.front().growth, "1/s");
+  }
+  for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
+    const squeal::GradientRow& row = gradients.rows[i];
+    const double derivative = of_speed                ? row.critical_speed.value_or(0.0)
+                              : row.growth.size() > 0 ? row.growth[0]
+                                                      : 0.0;
+    add(table,
+        fmt::format("+1 % of {} moves the {} by", row.key,
+                    of_speed ? "critical speed" : "largest growth"),
+        0.01 * row.value * derivative, of_speed ? "rad/s" : "1/s");
+  }
+}
+
+Json gradients_json(const squeal::Gradients& gradients)
+{
+  std::vector<Json> motions, rows;
+  for (const squeal::GradientMotion& motion : gradients.motions) {
+    motions.push_back(
+        Json::object({{"growth_1_s", motion.growth}, {"frequency_Hz", motion.frequency_Hz}}));
+  }
+  for (const squeal::GradientRow& row : gradients.rows) {
+    std::vector<Json> growth(row.growth.begin(), row.growth.end());
+    rows.push_back(Json::object({{"key", row.key},
+                                 {"unit", row.unit},
+                                 {"value", row.value},
+                                 {"critical_speed_by_value", optional_json(row.critical_speed)},
+                                 {"growth_by_value", Json::array(std::move(growth))}}));
+  }
+  return Json::object({{"critical_speed_rad_s", optional_json(gradients.critical_speed)},
+                       {"critical_frequency_Hz", optional_json(gradients.critical_frequency_Hz)},
+                       {"speed_rad_s", optional_json(gradients.speed)},
+                       {"motions", Json::array(std::move(motions))},
+                       {"rows", Json::array(std::move(rows))}});
+}
+
+}  // namespace chladni::report

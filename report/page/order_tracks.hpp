@@ -1,0 +1,11 @@
+#pragma once
+
+#include "report/json.hpp"
+#include "squeal/results/signal_results.hpp"
+
+namespace chladni::report {
+
+/// The spectrogram in decibels, coarse enough for a page, and the orders of its lines.
+Json spectrogram_page(const squeal::Spectrogram& spectrogram);
+
+}  // namespace chladni::report

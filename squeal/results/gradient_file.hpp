@@ -1,0 +1,14 @@
+#pragma once
+
+#include "files/hdf5.hpp"
+#include "squeal/results/gradient_results.hpp"
+
+/// The group `gradients` of a result file.
+namespace chladni::squeal {
+
+void write_gradients(files::Writer& file, const Gradients& gradients);
+
+/// @throws chladni::Error when the group is damaged.
+Gradients read_gradients(const files::Reader& file);
+
+}  // namespace chladni::squeal

@@ -1,0 +1,203 @@
+#include "squeal/stability/gradients.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/brake/pad_basis.hpp"
+#include "squeal/models/flexible_disc.hpp"
+#include "squeal/stability/eigenvalue_change.hpp"
+#include "squeal/stability/stability.hpp"
+#include "squeal/stability/stability_search.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index, Eigen::MatrixXd;
+
+constexpr double pi = std::numbers::pi, step = 1e-5;
+
+/// A number of the brake, and the state matrix with another value of it.
+struct Variable {
+  std::string key, unit;
+  double value;
+  std::function<MatrixXd(double value, double speed)> A;
+};
+
+/// In coordinates in which it can be differentiated.
+MatrixXd matrix_of(const Brake& brake, double speed)
+{
+  if (const FlexibleDisc* body = brake.body())
+    return smooth_state_matrix(body->inertial(), body->options(), speed);
+  return brake.state_matrix(speed);
+}
+
+std::vector<Variable> parameters_of(const Brake& brake)
+{
+  std::vector<Variable> variables;
+  for (const auto& [parameter, value] : brake.parameters()) {
+    variables.push_back({.key = key_of(parameter),
+                         .unit = std::string(find_parameter(parameter.name)->unit),
+                         .value = value,
+                         .A = [&brake, parameter = parameter](double x, double speed) {
+                           return matrix_of(*brake.with(parameter, x), speed);
+                         }});
+  }
+  return variables;
+}
+
+/// "frequency of the pair with 3 nodal diameters at 1686.2 Hz"
+std::string name_of_mode(int nodal_diameters, double f_Hz)
+{
+  if (nodal_diameters == 0) return fmt::format("frequency of the mode at {:.6g} Hz", f_Hz);
+  return fmt::format("frequency of the pair with {} nodal diameters at {:.6g} Hz", nodal_diameters,
+                     f_Hz);
+}
+
+std::vector<Variable> frequencies_of(const FlexibleDisc& brake)
+{
+  const InertialDisc& disc = brake.inertial();
+  std::vector<Variable> variables;
+  Index size = 1;
+  for (Index i = 0; i < disc.n_modes(); i += size) {
+    const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
+    size = n > 0 ? 2 : 1;
+    const double f_Hz = disc.omega[i] / (2.0 * pi);
+    variables.push_back({.key = name_of_mode(n, f_Hz),
+                         .unit = "Hz",
+                         .value = f_Hz,
+                         .A = [&brake, &disc, i, size](double x, double speed) {
+                           InertialDisc changed = disc;
+                           changed.omega.segment(i, size).setConstant(2.0 * pi * x);
+                           return smooth_state_matrix(changed, brake.options(), speed);
+                         }});
+  }
+  return variables;
+}
+
+/// dA/dp at the value zero, where A may not be defined below it:
+/// (-3 A(0) + 4 A(h) - A(2 h)) / (2 h).
+MatrixXd derivative_at_zero(const Variable& p, double speed)
+{
+  const MatrixXd A = p.A(0.0, speed);
+  double h = 1e-6;
+  constexpr double largest = 1e12;
+  while (h < largest && (p.A(h, speed) - A).norm() < step * A.norm()) h *= 10.0;
+  return (4.0 * p.A(h, speed) - 3.0 * A - p.A(2.0 * h, speed)) / (2.0 * h);
+}
+
+/// dA/dp
+MatrixXd derivative(const Variable& p, double speed)
+{
+  if (p.value == 0.0) return derivative_at_zero(p, speed);
+  const double h = step * std::abs(p.value);
+  return (p.A(p.value + h, speed) - p.A(p.value - h, speed)) / (2.0 * h);
+}
+
+/// The least stable motion, then all others that grow by more than rounding, by falling growth.
+std::vector<EigenvalueChange> motions_at(const MatrixXd& A)
+{
+  const Eigen::VectorXcd lambda = A.eigenvalues();
+  std::vector<Complex> upper;
+  for (const Complex& one : lambda)
+    if (one.imag() >= 0.0) upper.push_back(one);
+  std::ranges::sort(upper, std::ranges::greater(), [](const Complex& one) { return one.real(); });
+  constexpr double rounding = 1e-12;
+  const double largest = lambda.cwiseAbs().maxCoeff();
+  std::vector<EigenvalueChange> motions;
+  for (const Complex& one : upper) {
+    if (!motions.empty() && !(one.real() > rounding * largest)) break;
+    EigenvalueChange motion(A, one);
+    if (motions.empty() || one.real() > rounding * largest * motion.condition())
+      motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+/// The critical oscillation, and how its growth changes with the speed.
+struct CriticalOscillation {
+  CriticalSpeed at;
+  EigenvalueChange change;
+  double by_speed;  ///< d Re(lambda) / d Omega, 1
+};
+
+std::optional<CriticalOscillation> critical_oscillation(const Brake& brake, const SpeedRange& range)
+{
+  const StateMatrixAt A = state_matrix_at(brake);
+  const auto critical = critical_speed(stability_over_speed(A, range));
+  if (!critical) return std::nullopt;
+  const double speed = critical->speed, h = step * speed;
+  const EigenvalueChange change(matrix_of(brake, speed),
+                                Complex(0.0, 2.0 * pi * critical->frequency_Hz));
+  const MatrixXd dA = (matrix_of(brake, speed + h) - matrix_of(brake, speed - h)) / (2.0 * h);
+  const double by_speed = change.of(dA).real();
+  return CriticalOscillation{*critical, change, by_speed};
+}
+
+void require_something(const std::optional<CriticalOscillation>& critical,
+                       const StudyOptions& options)
+{
+  if (critical || options.gradients) return;
+  throw Error(
+      fmt::format("gradients: there is no critical speed within [squeal] speeds, {:.6g} to {:.6g} "
+                  "rad/s; take another range, or give gradients = {{ speed_rad_s = ... }} for "
+                  "those of growth rates",
+                  options.speeds.from, options.speeds.to));
+}
+
+}  // namespace
+
+double effect_of_one_per_cent(const Gradients& gradients, const GradientRow& row)
+{
+  const double change = 0.01 * std::abs(row.value);
+  if (gradients.critical_speed && row.critical_speed) return change * std::abs(*row.critical_speed);
+  return row.growth.size() > 0 ? change * std::abs(row.growth[0]) : 0.0;
+}
+
+Gradients gradients(const Brake& brake, const StudyOptions& options)
+{
+  const auto critical = critical_oscillation(brake, options.speeds);
+  require_something(critical, options);
+  Gradients result;
+  if (critical) {
+    result.critical_speed = critical->at.speed;
+    result.critical_frequency_Hz = critical->at.frequency_Hz;
+  }
+  std::vector<EigenvalueChange> motions;
+  if (options.gradients) {
+    result.speed = options.gradients->speed;
+    motions = motions_at(matrix_of(brake, *result.speed));
+  }
+  for (const EigenvalueChange& motion : motions)
+    result.motions.push_back({motion.lambda().real(), motion.lambda().imag() / (2.0 * pi)});
+  std::vector<Variable> variables = parameters_of(brake);
+  if (const FlexibleDisc* body = brake.body())
+    for (Variable& frequency : frequencies_of(*body)) variables.push_back(std::move(frequency));
+  for (const Variable& p : variables) {
+    GradientRow row{.key = p.key, .unit = p.unit, .value = p.value};
+    if (critical) {
+      const double by_value = critical->change.of(derivative(p, critical->at.speed)).real();
+      row.critical_speed = -by_value / critical->by_speed;
+    }
+    row.growth.resize(std::ssize(motions));
+    const MatrixXd dA = result.speed ? derivative(p, *result.speed) : MatrixXd();
+    for (Index i = 0; i < row.growth.size(); ++i)
+      row.growth[i] = motions[static_cast<std::size_t>(i)].of(dA).real();
+    result.rows.push_back(std::move(row));
+  }
+  std::ranges::stable_sort(result.rows, std::ranges::greater(), [&](const GradientRow& row) {
+    return effect_of_one_per_cent(result, row);
+  });
+  return result;
+}
+
+}  // namespace chladni::squeal
