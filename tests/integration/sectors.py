@@ -479,6 +479,35 @@ def certified_responses(programs):
             1e-7 < error <= bound < 3.4e-4 and bound < 50 * error and of_body == bound and abs(up_to / (2e4 * np.pi / 2) - 1) < 1e-12)
 
 
+def shared(programs, mpirun):
+    """Harmonics that several ranks share, with a mirror and without: as on one rank."""
+    plain = DISC.format(sectors="sectors = 8", method="craig-bampton", **ANNULUS)
+    twisted_scene = MEANS.format(sectors="sectors = 6", means="")
+    for name, scene, geo in (("a disc", plain, None), ("a twisted disc", twisted_scene, patched(1, twist=0.1))):
+        found = {}
+        for ranks, each in ((1, None), (3, 2), (4, 2)):
+            text = scene if each is None else changed(scene, ("[reduce]", f"[reduce]\nranks_per_harmonic = {each}"))
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder)
+                (path / "scene.toml").write_text(text)
+                if geo:
+                    (path / "disc.geo").write_text(geo)
+                summary(programs / "chladni", "run", path / "scene.toml", "--output", path, mpirun=mpirun, ranks=ranks)
+                with h5py.File(next(path.glob("*.reduced.h5"))) as file:
+                    n = len(file["masters/kind"])
+                    arrays = [file["matrices/stiffness"][:n, :n], file["matrices/mass"][:n, :n], file["certificate/frequencies"][()],
+                              file["fixed_interface_frequencies"][()], file["mass_integrals/displacement"][:, :n]]
+                    harmonics = np.sort(file["sectors/harmonics"][()])
+                with h5py.File(next(path.glob("*.body.h5"))) as file:
+                    of_modes = file["sectors/harmonics"][()]
+                found[ranks] = arrays, harmonics, of_modes
+        for ranks in (3, 4):
+            off = max(np.abs(a - b).max() / np.abs(b).max() for a, b in zip(found[ranks][0], found[1][0]))
+            same_harmonics = all(np.array_equal(a, b) for a, b in zip(found[ranks][1:], found[1][1:]))
+            yield f"{name} by {ranks} ranks, two or more for a harmonic: equal to {off:.1e}", off < 1e-9 and same_harmonics
+        yield f"{name}: each mode of the body is of one harmonic", found[1][2].min() >= 0
+
+
 def refused(programs):
     """What does not repeat is named."""
     good = DISC.format(sectors="sectors = 8", method="craig-bampton", **ANNULUS)
@@ -487,7 +516,8 @@ def refused(programs):
             (("inertia = [1e-4, 1e-4", "inertia = [1e-4, 3e-4"), "does not look the same from each sector"),
             (('pattern = "structured"', 'pattern = "unstructured"'), "structured"),
             (("sectors = 8", "sectors = 2"), "sectors"),
-            (("sectors = 8", 'sectors = "eight"'), "auto")):
+            (("sectors = 8", 'sectors = "eight"'), "auto"),
+            (("[reduce]", "[reduce]\nranks_per_harmonic = 0"), "ranks_per_harmonic")):
         with tempfile.TemporaryDirectory() as name:
             scene = Path(name) / "scene.toml"
             scene.write_text(changed(good, change))
@@ -505,7 +535,7 @@ def main(programs, mpirun):
         for line, holds in same(programs, shape, sectors, launcher):
             print(line if holds else f"FAILED: {line}")
             good = good and holds
-    for line, holds in [*exact(programs), *found(programs), *means(programs), *twisted(programs), *mistuned(programs), *certified_responses(programs), *refused(programs)]:
+    for line, holds in [*exact(programs), *found(programs), *means(programs), *twisted(programs), *mistuned(programs), *certified_responses(programs), *shared(programs, mpirun), *refused(programs)]:
         print(line if holds else f"FAILED: {line}")
         good = good and holds
     return good
