@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -94,9 +95,11 @@ reduce::ResponseLoads loads_of(const reduce::ReducedModel& model, const std::vec
       mbs_export::reference_response(modes.omega, modes.X(loaded, every).transpose(), forces,
                                      tolerance),
       tolerance);
+  // A force at a node of a ring is a sum of these columns, whose errors add up.
+  const double together = std::sqrt(static_cast<double>(loaded.size()));
   reduce::ResponseLoads loads{.F = MatrixXd::Zero(model.n_masters, std::ssize(loaded)),
                               .Omega = sizes.Omega,
-                              .size = sizes.size};
+                              .size = sizes.size / together};
   for (std::size_t j = 0; j < loaded.size(); ++j)
     loads.F(loaded[j], Index(j)) = sizes.unit[Index(j)];
   return loads;

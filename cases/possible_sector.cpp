@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/harmonic_responses.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/sector_checks.hpp"
 #include "common/error.hpp"
@@ -80,14 +79,17 @@ void refuse_what_does_not_turn(const scene::Scene& scene, const mesh::Mesh& whol
     require_turning(spring.at, "spring at", turns_with_sectors(spring));
 }
 
-/// What a scene with `accuracy` that does not speak of sectors would not have from one: errors
-/// under its support and of its responses, element numbers of section forces.
-bool loses_nothing(const scene::Scene& scene, const SectorModel& sector)
+/// A scene with `accuracy` chooses all that it does not say, but not what its masters are: those of
+/// a sector are harmonics, which not every format can hold.
+void tell_of_sectors(const scene::Scene& scene, const mesh::Mesh& whole, int least)
 {
-  const SectorSupport support = sector_support(scene, sector);
-  if (support.names != scene.body.fixed || !scene.resultants.groups.empty()) return false;
-  return !scene.body.keep.tolerance ||
-         harmonic_responses(scene, sector, described_whole(scene, sector), support).has_value();
+  if (!scene.accuracy || whole.sectors.count > 1) return;
+  if (const int count = mesh::n_repetitions(whole); count >= least) {
+    report::tell_note(fmt::format(
+        "the body repeats {} times about the z axis: sectors = \"auto\" in [mesh] would reduce it "
+        "from one sector, at a part of the cost",
+        count));
+  }
 }
 
 }  // namespace
@@ -95,8 +97,10 @@ bool loses_nothing(const scene::Scene& scene, const SectorModel& sector)
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole)
 {
   constexpr int least = 3;
-  const bool is_asked = scene.mesh.finds_sectors;
-  if (!is_asked && !scene.accuracy) return std::nullopt;
+  if (!scene.mesh.finds_sectors) {
+    tell_of_sectors(scene, whole, least);
+    return std::nullopt;
+  }
   std::optional<SectorModel> sector;
   std::string found;
   try {
@@ -106,13 +110,12 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
     mesh::Mesh first = mesh::one_sector(whole, count);
     refuse_groups_in_parts(scene, first);
     sector = sector_model(scene, std::move(first));
-    if (!is_asked && !loses_nothing(scene, *sector)) return std::nullopt;
     found = fmt::format("sectors: the body repeats {} times and is reduced from one sector", count);
   } catch (const Error& error) {
     sector.reset();
     found = fmt::format("{}; the whole body is reduced", error.what());
   }
-  if (is_asked || sector) report::tell_note(found);
+  report::tell_note(found);
   return sector;
 }
 

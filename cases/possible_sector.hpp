@@ -9,8 +9,8 @@
 namespace chladni::cases {
 
 /// With mesh.sectors = "auto": one sector of a body that repeats, if the scene can be reduced from
-/// it, assembled. What was found, or why the whole body is taken, is told on stderr. With
-/// `accuracy` too, where nothing is lost by it.
+/// it, assembled. What was found, or why the whole body is taken, is told on stderr, and
+/// with `accuracy` that there could be sectors.
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole);
 
 /// What is reduced.

@@ -147,6 +147,7 @@ class Harmonics {
   std::vector<HarmonicPart> reduced()
   {
     std::vector<HarmonicPart> parts;
+    std::size_t n_done = 0;
     for (const int order : groups_.own()) {
       cyclic::SectorMotion motion;
       agree_in_group();
@@ -156,13 +157,13 @@ class Harmonics {
         attempt(order,
                 [&] { parts.back().mass = described_.mass->of_harmonic(order, lent_.motions()); });
       }
-      linear::report_progress(double(parts.size()) / double(groups_.own().size()));
+      if (!groups_.speaks()) parts.clear();
+      linear::report_progress(double(++n_done) / double(groups_.own().size()));
     }
     on_all_ranks(PETSC_COMM_WORLD, [&] {
       if (failure_) std::rethrow_exception(failure_);
       return 0;
     });
-    if (!groups_.speaks()) parts.clear();
     return parts;
   }
 

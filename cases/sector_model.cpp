@@ -38,6 +38,12 @@ bool names_axis(const SectorModel& model, const std::string& what, const std::st
 {
   const std::vector<int> nodes = model.system.dofs.named_nodes(model.mesh, name);
   if (nodes.size() == 1 && is_on_axis(model, nodes[0])) return true;
+  if (std::ranges::any_of(nodes, [&](int node) { return is_on_axis(model, node); })) {
+    throw Error(fmt::format(
+        "sectors: {} at \"{}\" stands at nodes on the axis and others, so that it would count in "
+        "each sector; give the node on the axis a group of its own",
+        what, name));
+  }
   for (const auto& [low, high] : model.mesh.sectors.pairs) {
     if (std::ranges::find(nodes, high) == nodes.end()) continue;
     throw Error(fmt::format(

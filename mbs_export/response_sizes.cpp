@@ -1,5 +1,6 @@
 #include "mbs_export/response_sizes.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "common/eigen_every.hpp"
@@ -37,12 +38,22 @@ Index nearest(const VectorXd& Omega, double one)
   return place;
 }
 
+/// Of the frequencies of the reference that are nearest to each; where there are none, of the two
+/// on both sides.
 MatrixXd least_sizes(const ReferenceResponse& reference, const VectorXd& Omega)
 {
-  MatrixXd least = reference.size.rowwise().maxCoeff().replicate(1, Omega.size());
-  for (Index g = 0; g < reference.Omega.size(); ++g) {
-    auto around = least.col(nearest(Omega, reference.Omega[g]));
-    around = around.cwiseMin(reference.size.col(g)).eval();
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  MatrixXd least = MatrixXd::Constant(reference.size.rows(), Omega.size(), unknown);
+  const auto lower = [&](Index place, Index g) {
+    least.col(place) = least.col(place).cwiseMin(reference.size.col(g)).eval();
+  };
+  const Index n = reference.Omega.size();
+  for (Index g = 0; g < n; ++g) lower(nearest(Omega, reference.Omega[g]), g);
+  for (Index place = 0; place < Omega.size(); ++place) {
+    if (least.rows() == 0 || least(0, place) < unknown) continue;
+    const Index above = (reference.Omega.array() < Omega[place]).count();
+    if (above > 0) lower(place, above - 1);
+    if (above < n) lower(place, above);
   }
   return least;
 }

@@ -140,8 +140,8 @@ struct MeshOptions {
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
   /// Of surfaces with a section; in files whose elements may be of several groups, these count.
   std::vector<std::string> shell_groups = {};
-  int sectors = 1;                            ///< equal ones, of which the file holds one
-  bool finds_sectors = false;                 ///< a body that repeats is reduced from one sector
+  int sectors = 1;             ///< equal ones, of which the file holds one
+  bool finds_sectors = false;  ///< a body that repeats is reduced from one sector
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
   Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh

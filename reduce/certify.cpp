@@ -41,8 +41,9 @@ double lambda_left_out(const ReduceOptions& options, const ReducedModel& model)
 /// Of a part of a body, whose range is that of the body, whatever the part has in it.
 std::optional<double> end_of_counts(const ReduceOptions& options, const ReducedModel& model)
 {
-  if (!options.may_have_none) return std::nullopt;
-  return certified_range(options, model).lambda_max;
+  const double lambda = certified_range(options, model).lambda_max;
+  if (!options.may_have_none || !std::isfinite(lambda)) return std::nullopt;
+  return lambda;
 }
 
 }  // namespace

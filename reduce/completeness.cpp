@@ -161,14 +161,16 @@ EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
 namespace {
 
 /// Above Ritz value k and its partners; but for a range that is longer or ends before the first
-/// one.
+/// one, unless the next Ritz value is so near to the end that its eigenvalue may be below.
 double end_of_range(const ReducedSpectrum& ritz, std::size_t k)
 {
+  constexpr double near = 1.02;
   const double above = shift_above(ritz.lambda, k);
   if (!ritz.ends_at) return above;
-  const std::ptrdiff_t n = n_below(ritz.lambda, *ritz.ends_at);
-  if (n == 0) return *ritz.ends_at;
-  return std::cmp_less_equal(n, k) ? std::max(above, *ritz.ends_at) : above;
+  const auto n = static_cast<std::size_t>(n_below(ritz.lambda, *ritz.ends_at));
+  const bool is_gap = n == ritz.lambda.size() || ritz.lambda[n] > near * *ritz.ends_at;
+  if (n == 0) return is_gap ? *ritz.ends_at : ritz.lambda[0] / (near * near);
+  return n <= k && is_gap ? std::max(above, *ritz.ends_at) : above;
 }
 
 }  // namespace

@@ -73,13 +73,13 @@ Json gradients_json(const squeal::Gradients& gradients)
                                  {"unit", row.unit},
                                  {"value", row.value},
                                  {"critical_speed_by_value", optional_json(row.critical_speed)},
-                                 {"growth_by_value", Json::array(std::move(growth))}}));
+                                 {"growth_by_value", Json::array(growth)}}));
   }
   return Json::object({{"critical_speed_rad_s", optional_json(gradients.critical_speed)},
                        {"critical_frequency_Hz", optional_json(gradients.critical_frequency_Hz)},
                        {"speed_rad_s", optional_json(gradients.speed)},
-                       {"motions", Json::array(std::move(motions))},
-                       {"rows", Json::array(std::move(rows))}});
+                       {"motions", Json::array(motions)},
+                       {"rows", Json::array(rows)}});
 }
 
 }  // namespace chladni::report

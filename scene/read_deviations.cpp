@@ -42,7 +42,11 @@ plate::ShellSection read_deviating_section(const Table& table, const Table& root
   if (!table.has("material") && !table.has("thickness"))
     table.refuse("group", "the deviation needs `thickness` or `material`");
   if (table.has("material")) section.material = read_material_of(table, root);
-  if (table.has("thickness")) section.thickness = read_profile(table, "thickness");
+  if (table.has("thickness")) {
+    section.thickness = read_profile(table, "thickness");
+    if (section.thickness == own->thickness)
+      table.refuse("thickness", "is that of the group's section; nothing deviates");
+  }
   return section;
 }
 

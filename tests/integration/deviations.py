@@ -177,6 +177,8 @@ def refused(programs):
             (sector, '[[deviation]]\ntype = "mass"\nat = "bolt"\nmass = 0.1\n', "sectors"),
             (sector, '[[deviation]]\ntype = "mass"\nsectors = [1]\nat = "track"\nmass = 0.1\n', "cut edge"),
             (sector, '[[deviation]]\ntype = "spring"\nsectors = [1]\nat = "hub"\nstiffness = { z = 1.0 }\n', "[[spring]]"),
+            (sector, '[[deviation]]\ntype = "mass"\nsectors = [1]\nat = "bolt"\nmass = -100.0\n', "no positive stiffness or mass"),
+            (sector, section.replace("0.021", "0.02"), "nothing deviates"),
             ("", section, "needs a number of `sectors`"),
             ('sectors = "auto"', section, "needs a number of `sectors`")):
         with tempfile.TemporaryDirectory() as name:
