@@ -720,7 +720,7 @@ TEST(SceneError, NamesAnUnknownKeyAndTheNearestOnes)
        "pattern, rings, sectors"},
       {"[body]", "[boddy]",
        "scene.toml:27: boddy is not a key here; did you mean body? allowed: accuracy, body, "
-       "coupling, "
+       "coupling, deviation, "
        "interface, load, mass, material, mesh, model, modes, name, reduce, response, section, "
        "sound, "
        "spring, squeal, static, support, title"},
