@@ -20,6 +20,7 @@
 #include "cyclic/mirror.hpp"
 #include "cyclic/sparse_rows.hpp"
 #include "reduce_export/reduced_system.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cases {
 
@@ -105,7 +106,13 @@ mbs_export::ReducedSystem whole_body(const scene::Scene& scene, const SectorMode
   MatrixXd T;
   if (!deviations.sectors.empty()) {
     phases.begin("deviations");
-    on_first_rank([&] { T = add_deviations(whole, deviations, parts, model.dofs.count); });
+    on_first_rank([&] {
+      T = add_deviations(whole, deviations, parts, model.dofs.count);
+      report::tell_note(
+          "deviations: errors of frequencies are not estimated, and modes are not counted; both "
+          "are "
+          "known of the body without its [[deviation]] tables alone");
+    });
   }
   for (HarmonicPart& part : parts) {
     part.sector = {};
