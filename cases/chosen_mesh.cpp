@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "cases/mesh_frequencies.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/mesh_search.hpp"
 #include "cases/ranks.hpp"
@@ -36,8 +37,7 @@ void refuse_sectors(const scene::Scene& scene)
 MeshErrors errors_of(const scene::Scene& scene, double up_to_Hz,
                      const linear::SolverOptions& solver)
 {
-  const SupportedModel model = assemble_supported(scene, mesh_on_all_ranks(scene));
-  return errors_up_to(scene, model, two_pi * up_to_Hz, solver);
+  return MeshFrequencies(scene, mesh_on_all_ranks(scene)).errors_up_to(two_pi * up_to_Hz, solver);
 }
 
 /// Of what the scene's body wants to be right.

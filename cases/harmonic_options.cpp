@@ -1,7 +1,5 @@
 #include "cases/harmonic_options.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <numbers>
 
@@ -12,20 +10,6 @@
 namespace chladni::cases {
 
 namespace {
-
-/// All ranks' numbers in one list.
-std::vector<double> joined(const std::vector<double>& own)
-{
-  const auto n = static_cast<int>(own.size());
-  const auto ranks = static_cast<std::size_t>(n_ranks());
-  std::vector<int> sizes(ranks), starts(ranks, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, PETSC_COMM_WORLD);
-  for (std::size_t r = 1; r < sizes.size(); ++r) starts[r] = starts[r - 1] + sizes[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
-  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE,
-                 PETSC_COMM_WORLD);
-  return all;
-}
 
 /// The frequency below which the whole body has so many modes of the method, Hz, both of a pair
 /// with it.

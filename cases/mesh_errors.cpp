@@ -3,23 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <map>
 
+#include "cases/refined_errors.hpp"
 #include "common/eigen_every.hpp"
 #include "plate/assembly/recovery.hpp"
-#include "plate/refinement/refined_mesh.hpp"
-#include "plate/sections/profile.hpp"
 #include "reduce/improved_modes.hpp"
 
 namespace chladni::cases {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-
-/// DOFs of a model whose elements are halved, for the better estimate, at four times its size.
-constexpr int most_halved = 20'000;
 
 /// Motions of all nodes in the modes, those of the mesh and then the reference nodes.
 /// @return [6 n_nodes x k]
@@ -50,20 +44,6 @@ MatrixXd dof_rows(const plate::DofMap& dofs, const MatrixXd& motions,
     if (row >= 0) rows.row(i) = motions.row(row);
   }
   return rows;
-}
-
-/// The mode of another model for each of the given ones: pairs that are most alike.
-std::vector<Index> by_shapes(MatrixXd shares)
-{
-  std::vector<Index> mode_of(static_cast<std::size_t>(shares.rows()), 0);
-  for (Index k = 0; k < shares.rows(); ++k) {
-    Index shape = 0, mode = 0;
-    shares.maxCoeff(&shape, &mode);
-    mode_of[static_cast<std::size_t>(shape)] = mode;
-    shares.row(shape).setConstant(-1.0);
-    shares.col(mode).setConstant(-1.0);
-  }
-  return mode_of;
 }
 
 /// Root sums of squares of the radial, circumferential and axial displacements of some nodes, and
@@ -109,34 +89,12 @@ CommonNodes interface_nodes(const scene::Scene& scene, const mesh::Mesh& one,
   return common;
 }
 
-/// The relative differences of the components that a mode moves.
-/// @param one, other  [6 x k]
-MatrixXd differences(const MatrixXd& one, const MatrixXd& other)
-{
-  constexpr double still = 1e-3;  // of the largest component, and of what other modes do
-  MatrixXd relative = MatrixXd::Zero(6, one.cols());
-  for (Index c = 0; c < 6; ++c) {
-    const auto of_kind = one.middleRows<3>(c < 3 ? 0 : 3);
-    const double most = of_kind.maxCoeff();
-    for (Index j = 0; j < one.cols(); ++j)
-      if (one(c, j) > still * std::max(most, of_kind.col(j).maxCoeff()))
-        relative(c, j) = std::abs(other(c, j) / one(c, j) - 1.0);
-  }
-  return relative;
-}
-
 /// Modes of a model as another starts from them.
 struct KnownModes {
   const mesh::Mesh& mesh;
   const MatrixXd& motions;  ///< [6 n_nodes x k]
   Index n_rigid;
   double mu;  ///< rad^2/s^2, as improved_modes
-};
-
-/// What a refined mesh tells of the elastic modes, in the order of the known ones.
-struct RefinedModes {
-  VectorXd omega;   ///< [k] rad/s
-  MatrixXd shapes;  ///< [6 x k] differences from the known ones
 };
 
 RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
@@ -165,78 +123,6 @@ RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
   const MatrixXd of_known = sizes_at(known.mesh, common.one, known.motions);
   found.shapes = differences(of_known.rightCols(std::ssize(mode_of)), of_other(every, mode_of));
   return found;
-}
-
-/// Of the finer model, from the differences to a finer and to a coarser one: they go on as a
-/// geometric series, or as a slow one that is cut.
-VectorXd extrapolated(const VectorXd& to_finer, const VectorXd& to_coarser)
-{
-  constexpr double slowest = 0.5;
-  VectorXd errors = to_finer;
-  for (Index i = 0; i < errors.size(); ++i)
-    if (to_coarser[i] > 0.0) errors[i] /= 1.0 - std::min(to_finer[i] / to_coarser[i], slowest);
-  return errors;
-}
-
-/// The modes of a refinement, in the order of those of the model.
-using ModesOn = std::function<RefinedModes(plate::RefinedMesh)>;
-
-VectorXd relative_distance(const VectorXd& omega, const VectorXd& other)
-{
-  return (other - omega).cwiseAbs().cwiseQuotient(omega);
-}
-
-/// The least thickness of the shells at each node: free edges have a layer of that width, where the
-/// twisting moment of a thin plate becomes its shear force.
-std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mesh)
-{
-  std::vector<double> least(mesh.positions.size(), std::numeric_limits<double>::infinity());
-  for (const plate::ShellSection& section : scene.sections)
-    for (const int node : mesh::find_group(mesh, section.group).nodes) {
-      const auto n = static_cast<std::size_t>(node);
-      least[n] = std::min(least[n], plate::value_at(section.thickness, mesh.positions[n]));
-    }
-  return least;
-}
-
-/// Of each mode the frequency that is further from that of the model.
-VectorXd further(const VectorXd& omega, const VectorXd& one, const VectorXd& other)
-{
-  return ((one - omega).cwiseAbs().array() < (other - omega).cwiseAbs().array()).select(other, one);
-}
-
-/// Elements of half the size lack next to nothing where modes are smooth, and a quarter of the
-/// error where it goes with the square of the size. The layer at free edges, where it is thinner
-/// than half of the elements there, is asked for by elements cut at its width.
-void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const ModesOn& modes,
-                    MeshErrors& found)
-{
-  constexpr double left = 0.25;
-  const int order = mesh.blocks.front().order;
-  RefinedModes finer = modes(plate::refined(mesh, {.parts = 2, .order = order}));
-  found.finer = std::move(finer.omega);
-  found.shape_errors = finer.shapes / (1.0 - left);
-  const std::vector<double> rows = thicknesses(scene, mesh);
-  if (plate::has_wide_edges(mesh, rows)) {
-    plate::RefinedMesh cut = plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = rows});
-    if (plate::keeps_points(mesh, cut.mesh))
-      found.finer = further(found.omega, found.finer, modes(std::move(cut)).omega);
-  }
-  found.errors = relative_distance(found.omega, found.finer) / (1.0 - left);
-}
-
-void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found)
-{
-  const int order = mesh.blocks.front().order;
-  RefinedModes finer = modes(plate::refined(mesh, {.parts = 1, .order = order + 1}));
-  found.finer = std::move(finer.omega);
-  found.shape_errors = std::move(finer.shapes);
-  found.errors = relative_distance(found.omega, found.finer);
-  if (order == 1) return;
-  plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
-  if (!plate::keeps_points(mesh, coarser.mesh)) return;
-  found.errors =
-      extrapolated(found.errors, relative_distance(found.omega, modes(std::move(coarser)).omega));
 }
 
 }  // namespace

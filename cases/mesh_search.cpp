@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cases/mesh_frequencies.hpp"
 #include "cases/mesh_scene.hpp"
 #include "common/error.hpp"
 
@@ -16,49 +17,12 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// The elastic modes up to a frequency (rad/s), and the next one where there is one.
-reduce::NaturalModes modes_up_to(const SupportedModel& model, double omega,
-                                 const linear::SolverOptions& solver)
-{
-  const int n_rigid = plate::n_free_motions(model.free);
-  const reduce::FreeDofs free = reduce::free_dofs(model.system.K, model.held);
-  const int most =
-      std::max(1, (model.system.dofs.n_dofs() - static_cast<int>(model.held.size())) / 3);
-  for (int n = std::min(n_rigid + 24, most);; n = std::min(2 * n, most)) {
-    reduce::NaturalModes modes = reduce::natural_modes(
-        model.system.K, model.system.M, free, {.n_modes = n, .n_rigid = n_rigid, .solver = solver});
-    if (n == most || modes.lambda.back() > omega * omega) return modes;
-  }
-}
-
-/// The modes up to a frequency; the first elastic one in any case.
-reduce::NaturalModes modes_in_range(const SupportedModel& model, double omega,
-                                    const linear::SolverOptions& solver)
-{
-  reduce::NaturalModes modes = modes_up_to(model, omega, solver);
-  const int n_rigid = plate::n_free_motions(model.free);
-  const auto in_range = static_cast<int>(
-      std::ranges::count_if(modes.lambda, [&](double lambda) { return lambda <= omega * omega; }));
-  modes.lambda.resize(static_cast<std::size_t>(
-      std::min(std::max(in_range, n_rigid + 1), static_cast<int>(modes.lambda.size()))));
-  return modes;
-}
-
 /// The largest error against known frequencies, by their order.
-double error_against(const Eigen::VectorXd& known, const SupportedModel& model,
+double error_against(const Eigen::VectorXd& known, const MeshFrequencies& frequencies,
                      const linear::SolverOptions& solver)
 {
-  const int n_rigid = plate::n_free_motions(model.free);
-  const reduce::NaturalModes modes = reduce::natural_modes(
-      model.system.K, model.system.M, reduce::free_dofs(model.system.K, model.held),
-      {.n_modes = n_rigid + static_cast<int>(known.size()), .n_rigid = n_rigid, .solver = solver});
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < known.size(); ++i) {
-    const double omega =
-        std::sqrt(std::max(modes.lambda[static_cast<std::size_t>(n_rigid + i)], 0.0));
-    largest = std::max(largest, std::abs(omega / known[i] - 1.0));
-  }
-  return largest;
+  const Eigen::VectorXd omega = frequencies.like(known, solver);
+  return (omega.cwiseQuotient(known).array() - 1.0).abs().maxCoeff();
 }
 
 /// A mesh that was tried.
@@ -149,24 +113,24 @@ class Search {
     return share_of_finer * error_of_first_ < 0.3 * target_;
   }
 
-  /// A model of the scene on a mesh of this size, which is rounded.
-  SupportedModel model_of(MeshSize& size) const
+  /// On a mesh of this size, which is rounded.
+  MeshFrequencies frequencies_on(MeshSize& size) const
   {
     size.size = rounded(size.size);
     scene::Scene scene = scene_;
     set_size(scene.mesh, size);
-    return assemble_supported(scene, mesh_on_all_ranks(scene));
+    return {scene, mesh_on_all_ranks(scene)};
   }
 
   /// With an estimate of its error.
   Trial tried(MeshSize size)
   {
-    const SupportedModel model = model_of(size);
-    if (const Trial* same = same_mesh(size, model, true)) return *same;
-    MeshErrors errors = errors_up_to(scene_, model, two_pi * scene_.accuracy->up_to_Hz, solver_);
+    const MeshFrequencies frequencies = frequencies_on(size);
+    if (const Trial* same = same_mesh(size, frequencies, true)) return *same;
+    MeshErrors errors = frequencies.errors_up_to(two_pi * scene_.accuracy->up_to_Hz, solver_);
     const double largest = errors.largest();
     return kept({.size = size,
-                 .n_dofs = model.system.dofs.n_dofs(),
+                 .n_dofs = frequencies.n_dofs(),
                  .error = largest,
                  .errors = std::move(errors)});
   }
@@ -174,21 +138,21 @@ class Search {
   /// Its error against the known frequencies.
   Trial compared(MeshSize size)
   {
-    const SupportedModel model = model_of(size);
-    if (const Trial* same = same_mesh(size, model, false)) return *same;
+    const MeshFrequencies frequencies = frequencies_on(size);
+    if (const Trial* same = same_mesh(size, frequencies, false)) return *same;
     return kept({.size = size,
-                 .n_dofs = model.system.dofs.n_dofs(),
-                 .error = error_against(known_, model, solver_),
+                 .n_dofs = frequencies.n_dofs(),
+                 .error = error_against(known_, frequencies, solver_),
                  .errors = {}});
   }
 
   /// A trial of a mesh with as many elements, which takes the size for its own: generators round
   /// their numbers.
-  const Trial* same_mesh(const MeshSize& size, const SupportedModel& model, bool estimated)
+  const Trial* same_mesh(const MeshSize& size, const MeshFrequencies& frequencies, bool estimated)
   {
     const auto found = std::ranges::find_if(trials_, [&](const Trial& trial) {
       return trial.size.order == size.order && trial.size.edge_row == size.edge_row &&
-             trial.n_dofs == model.system.dofs.n_dofs() && is_estimated(trial) == estimated;
+             trial.n_dofs == frequencies.n_dofs() && is_estimated(trial) == estimated;
     });
     if (found == trials_.end()) return nullptr;
     found->size = size;
@@ -262,12 +226,6 @@ class Search {
 };
 
 }  // namespace
-
-MeshErrors errors_up_to(const scene::Scene& scene, const SupportedModel& model, double omega,
-                        const linear::SolverOptions& solver)
-{
-  return mesh_errors(scene, model, modes_in_range(model, omega, solver), solver);
-}
 
 FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver)
 {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/harmonic_responses.hpp"
 #include "cases/mesh_scene.hpp"
 #include "cases/sector_checks.hpp"
 #include "common/error.hpp"
@@ -79,44 +80,46 @@ void refuse_what_does_not_turn(const scene::Scene& scene, const mesh::Mesh& whol
     require_turning(spring.at, "spring at", turns_with_sectors(spring));
 }
 
-/// A scene with `accuracy` chooses all that it does not say, but not what its masters are: those of
-/// a sector are harmonics, which not every format can hold.
-void tell_of_sectors(const scene::Scene& scene, const mesh::Mesh& whole, int least)
+/// Whether one sector would tell all that the whole body's reduction does: errors under its support
+/// and of its responses, element numbers of section forces.
+bool loses_nothing(const scene::Scene& scene, const SectorModel& sector)
 {
-  if (!scene.accuracy || whole.sectors.count > 1) return;
-  if (const int count = mesh::n_repetitions(whole); count >= least) {
-    report::tell_note(fmt::format(
-        "the body repeats {} times about the z axis: sectors = \"auto\" in [mesh] would reduce it "
-        "from one sector, at a part of the cost",
-        count));
-  }
+  const SectorSupport support = sector_support(scene, sector);
+  if (support.names != scene.body.fixed || !scene.resultants.groups.empty()) return false;
+  return !scene.body.keep.tolerance ||
+         harmonic_responses(scene, sector, described_whole(scene, sector), support).has_value();
 }
 
 }  // namespace
 
+SectorModel sector_of(const scene::Scene& scene, const mesh::Mesh& whole, int count)
+{
+  refuse_what_does_not_turn(scene, whole, count);
+  mesh::Mesh first = mesh::one_sector(whole, count);
+  refuse_groups_in_parts(scene, first);
+  return sector_model(scene, std::move(first));
+}
+
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole)
 {
-  constexpr int least = 3;
-  if (!scene.mesh.finds_sectors) {
-    tell_of_sectors(scene, whole, least);
-    return std::nullopt;
-  }
-  std::optional<SectorModel> sector;
-  std::string found;
+  using mesh::SectorSearch;
+  const SectorSearch search = scene.mesh.sector_search;
+  if (search == SectorSearch::none) return std::nullopt;
   try {
     const int count = mesh::n_repetitions(whole);
-    if (count < least) throw Error("sectors: the mesh does not repeat about the z axis");
-    refuse_what_does_not_turn(scene, whole, count);
-    mesh::Mesh first = mesh::one_sector(whole, count);
-    refuse_groups_in_parts(scene, first);
-    sector = sector_model(scene, std::move(first));
-    found = fmt::format("sectors: the body repeats {} times and is reduced from one sector", count);
+    if (count < least_sectors) throw Error("sectors: the mesh does not repeat about the z axis");
+    SectorModel sector = sector_of(scene, whole, count);
+    const bool is_asked = search == SectorSearch::asked;
+    if (!is_asked && !loses_nothing(scene, sector)) return std::nullopt;
+    report::tell_note(
+        fmt::format("sectors: the body repeats {} times and is reduced from one sector{}", count,
+                    is_asked ? "" : "; sectors = 1 in [mesh] would take the whole body"));
+    return sector;
   } catch (const Error& error) {
-    sector.reset();
-    found = fmt::format("{}; the whole body is reduced", error.what());
+    if (search == SectorSearch::asked)
+      report::tell_note(fmt::format("{}; the whole body is reduced", error.what()));
+    return std::nullopt;
   }
-  report::tell_note(found);
-  return sector;
 }
 
 MeshedScene meshed_scene(const scene::Scene& scene)

@@ -8,9 +8,16 @@
 
 namespace chladni::cases {
 
-/// With mesh.sectors = "auto": one sector of a body that repeats, if the scene can be reduced from
-/// it, assembled. What was found, or why the whole body is taken, is told on stderr, and
-/// with `accuracy` that there could be sectors.
+/// Fewer repetitions about the axis are none.
+constexpr int least_sectors = 3;
+
+/// One sector of a mesh that repeats so often, assembled.
+/// @throws chladni::Error for a scene that cannot be reduced from it.
+SectorModel sector_of(const scene::Scene& scene, const mesh::Mesh& whole, int count);
+
+/// As the sector search of the scene's mesh says: one sector of a body that repeats, if the scene
+/// can be reduced from it, assembled. What was found is told on stderr, and to who asked why the
+/// whole body is taken.
 std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh::Mesh& whole);
 
 /// What is reduced.

@@ -37,6 +37,19 @@ double largest_of_ranks(double x)
   return reduce_over_ranks(x, MPI_MAX);
 }
 
+std::vector<double> joined(const std::vector<double>& own)
+{
+  const auto n = static_cast<int>(own.size());
+  const auto ranks = static_cast<std::size_t>(n_ranks());
+  std::vector<int> sizes(ranks), starts(ranks, 0);
+  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  for (std::size_t r = 1; r < sizes.size(); ++r) starts[r] = starts[r - 1] + sizes[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
+  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE,
+                 PETSC_COMM_WORLD);
+  return all;
+}
+
 void on_first_rank(const std::function<void()>& work)
 {
   chladni::on_first_rank(PETSC_COMM_WORLD, work);

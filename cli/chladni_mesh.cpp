@@ -86,13 +86,12 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
 /// A body that repeats costs less than it seems.
 void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
 {
-  if (subject.mesh.finds_sectors || mesh.sectors.count > 1) return;
+  if (subject.mesh.sector_search != mesh::SectorSearch::none || mesh.sectors.count > 1) return;
   const int count = mesh::n_repetitions(mesh);
   if (count < 3) return;
   fmt::print(
       "note: the body repeats {} times about the z axis: mesh.sectors = \"auto\" reduces it from "
-      "one "
-      "sector, at a fraction of the cost\n",
+      "one sector, at a fraction of the cost\n",
       count);
 }
 

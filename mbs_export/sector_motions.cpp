@@ -50,18 +50,6 @@ SectorHarmonics in_coordinates(const SectorHarmonics& harmonics, const MatrixXd&
   return of_T;
 }
 
-MatrixXd rows_of_sector(const SectorMotions& motions, int sector)
-{
-  MatrixXd rows = MatrixXd::Zero(motions.rows_of_sector(), motions.n_coordinates);
-  for (const SectorMotions::Harmonic& h : motions.harmonics) {
-    const std::int64_t turns = std::int64_t{h.order} * sector;
-    rows(every, h.columns) += in_phase(h.x, h.y, angle_of(turns, motions));
-  }
-  turn(rows, angle_of(sector, motions));
-  if (motions.T.size() > 0) rows *= motions.T;
-  return rows;
-}
-
 MatrixXd in_coordinates(const SectorMotions& motions, const MatrixXd& T_whole)
 {
   const MatrixXd T = motions.T.size() > 0 ? motions.T * T_whole : T_whole;

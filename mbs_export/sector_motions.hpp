@@ -37,9 +37,6 @@ struct SectorMotions {
   Eigen::Index rows_of_sector() const { return harmonics.empty() ? 0 : harmonics[0].x.rows(); }
 };
 
-/// The rows of one sector, [3 n x n_coordinates].
-Eigen::MatrixXd rows_of_sector(const SectorMotions& motions, int sector);
-
 /// The rows of all sectors times T, of which none is made without it.
 /// @param T  [n_coordinates x m]
 /// @return [3 n n_sectors x m]

@@ -108,6 +108,13 @@ struct BeamMeshOptions {
 /// What becomes of nodes of unconnected elements of a file that stand at one place.
 enum class Coincident { refuse, merge, keep };
 
+/// Whether a body that repeats about the z axis is reduced from one sector of its mesh.
+enum class SectorSearch {
+  none,
+  where_nothing_is_lost,  ///< of the errors and the section forces that the whole body would have
+  asked
+};
+
 /// A group of the points, curves or surfaces of a file's geometry.
 struct EntityGroup {
   std::string name;
@@ -140,8 +147,8 @@ struct MeshOptions {
   std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
   /// Of surfaces with a section; in files whose elements may be of several groups, these count.
   std::vector<std::string> shell_groups = {};
-  int sectors = 1;             ///< equal ones, of which the file holds one
-  bool finds_sectors = false;  ///< a body that repeats is reduced from one sector
+  int sectors = 1;  ///< equal ones, of which the file holds one
+  SectorSearch sector_search = SectorSearch::none;
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
   Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh

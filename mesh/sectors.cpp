@@ -79,8 +79,9 @@ double shortest(const Mesh& mesh, const std::vector<Segment>& segments)
 }
 
 /// Corners of the boundary that a turn takes onto the boundary, but onto no node.
+/// @param is_known  nodes with a partner, of either edge
 void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>& segments,
-                                    const std::vector<bool>& is_low)
+                                    const std::vector<bool>& is_known)
 {
   constexpr double on_edge = 0.05;  // of a side: cut edges are hardly bent over one element
   int worst = -1;
@@ -90,7 +91,7 @@ void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   for (const int node : ends) {
-    if (is_low[node] || is_on_axis(mesh.positions[node], outer_radius(mesh))) continue;
+    if (is_known[node] || is_on_axis(mesh.positions[node], outer_radius(mesh))) continue;
     const Point x = turned(mesh.sectors, mesh.positions[node]);
     for (const Segment& segment : segments) {
       const double length = distance(mesh.positions[segment[0]], mesh.positions[segment[1]]);
@@ -170,7 +171,9 @@ void find_sector_edges(Mesh& mesh, int count)
     mesh.sectors.pairs.push_back({node, high});
   }
   refuse_wider_mesh(mesh, is_low);
-  refuse_edges_that_do_not_match(mesh, segments, is_low);
+  std::vector<bool> is_known = is_low;
+  for (const auto& [low, high] : mesh.sectors.pairs) is_known[high] = true;
+  refuse_edges_that_do_not_match(mesh, segments, is_known);
   if (mesh.sectors.pairs.empty()) {
     throw Error(fmt::format(
         "sectors = {}: no node of the mesh meets another one after a turn by {:.6g} degrees about "

@@ -224,15 +224,9 @@ mesh::MeshOptions read_generator(const Table& mesh, Size size)
   const Read read = mesh.choice<Read>(
       "generator",
       {{"annulus",
-        [](const Table& t, Size s, mesh::MeshOptions& o) {
-          o.annulus = read_annulus(t, s);
-          o.finds_sectors = finds_sectors(t);
-        }},
+        [](const Table& t, Size s, mesh::MeshOptions& o) { o.annulus = read_annulus(t, s); }},
        {"hat_disc",
-        [](const Table& t, Size s, mesh::MeshOptions& o) {
-          o.hat_disc = read_hat_disc(t, s);
-          o.finds_sectors = finds_sectors(t);
-        }},
+        [](const Table& t, Size s, mesh::MeshOptions& o) { o.hat_disc = read_hat_disc(t, s); }},
        {"pad", [](const Table& t, Size s, mesh::MeshOptions& o) { o.pad = read_pad(t, s); }},
        {"rectangle",
         [](const Table& t, Size s, mesh::MeshOptions& o) { o.rectangle = read_rectangle(t, s); }},

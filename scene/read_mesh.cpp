@@ -128,7 +128,6 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   if (mesh.has("length_unit") || is_finished) options.length_unit = read_length_unit(mesh);
   if (mesh.has("groups")) options.groups = read_entity_groups(mesh);
   options.sectors = read_sectors(mesh);
-  options.finds_sectors = finds_sectors(mesh);
   if (mesh.has("coincident_nodes")) options.coincident_nodes = read_coincident_nodes(mesh);
   if (mesh.has("merge_tolerance")) options.merge_tolerance = mesh.number("merge_tolerance");
   std::vector<std::string> taken;
@@ -137,11 +136,22 @@ mesh::MeshOptions read_file(const Table& mesh, Size size, const std::string& sce
   return options;
 }
 
+mesh::SectorSearch read_sector_search(const Table& root, const Table& mesh)
+{
+  if (mesh.has("sectors"))
+    return finds_sectors(mesh) ? mesh::SectorSearch::asked : mesh::SectorSearch::none;
+  return root.has("accuracy") ? mesh::SectorSearch::where_nothing_is_lost
+                              : mesh::SectorSearch::none;
+}
+
 }  // namespace
 
 int read_sectors(const Table& mesh)
 {
-  return mesh.has("sectors") && !finds_sectors(mesh) ? mesh.integer("sectors") : 1;
+  if (!mesh.has("sectors") || finds_sectors(mesh)) return 1;
+  const int sectors = mesh.integer("sectors");
+  if (sectors == 2) mesh.refuse("sectors", "must be 1, for the whole body, or 3 and more");
+  return sectors;
 }
 
 bool finds_sectors(const Table& mesh)
@@ -178,8 +188,12 @@ mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path)
 {
   const Table mesh = root.table("mesh");
   const Size size = root.has("accuracy") ? Size::chosen : Size::given;
-  if (mesh.only_one_of({"generator", "file"}) == "generator") return read_generator(mesh, size);
-  return read_file(mesh, size, scene_path);
+  const bool is_file = mesh.only_one_of({"generator", "file"}) == "file";
+  mesh::MeshOptions options =
+      is_file ? read_file(mesh, size, scene_path) : read_generator(mesh, size);
+  if (options.file || options.annulus || options.hat_disc)
+    options.sector_search = read_sector_search(root, mesh);
+  return options;
 }
 
 const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh)

@@ -52,8 +52,7 @@ Attachment read_attachment(const files::Reader& file)
   return attachment;
 }
 
-void write_picture(files::Writer& file, const Picture& picture,
-                   const std::optional<SectorMotions>& motions)
+void write_picture(files::Writer& file, const Picture& picture)
 {
   if (picture.positions.rows() == 0) return;
   files::IntegerMatrix cells(Index(picture.cells.size()), 4);
@@ -62,15 +61,11 @@ void write_picture(files::Writer& file, const Picture& picture,
       cells(i, k) = picture.cells[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
   file.write("picture/positions", picture.positions, "m");
   file.write("picture/cells", cells, "1");
-  const std::string name = "picture/displacements", unit = "m per unit of each coordinate";
-  if (!motions) return file.write(name, picture.transformation, unit);
-  const Index n = motions->rows_of_sector();
-  const auto sector = [&](Index row) { return rows_of_sector(*motions, int(row / n)); };
-  file.write(name, {.rows = n * motions->n_sectors, .cols = motions->n_coordinates, .from = sector},
-             unit);
+  if (picture.transformation.size() > 0)
+    file.write("picture/displacements", picture.transformation, "m per unit of each coordinate");
 }
 
-Picture read_picture(const files::Reader& file, Index n_columns)
+Picture read_surface(const files::Reader& file)
 {
   if (!file.contains("picture")) return {};
   Picture picture;
@@ -83,7 +78,16 @@ Picture read_picture(const files::Reader& file, Index n_columns)
     picture.cells.push_back(
         {int(cells(i, 0)), int(cells(i, 1)), int(cells(i, 2)), int(cells(i, 3))});
   }
-  picture.transformation = file.matrix("picture/displacements", {3 * n, n_columns});
+  return picture;
+}
+
+Picture read_picture(const files::Reader& file, Index n_columns)
+{
+  Picture picture = read_surface(file);
+  if (file.contains("picture")) {
+    picture.transformation =
+        file.matrix("picture/displacements", {3 * picture.positions.rows(), n_columns});
+  }
   return picture;
 }
 

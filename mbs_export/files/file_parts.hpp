@@ -20,12 +20,21 @@ void write_attachment(files::Writer& file, const std::vector<AttachmentNode>& no
                       const std::vector<AttachmentSet>& sets);
 Attachment read_attachment(const files::Reader& file);
 
-/// Nothing is written for an empty picture.
-/// @param motions  of the nodes, where the picture has no transformation
-void write_picture(files::Writer& file, const Picture& picture,
-                   const std::optional<SectorMotions>& motions = {});
+/// Nothing is written for an empty picture, and of one without a transformation the surface alone.
+void write_picture(files::Writer& file, const Picture& picture);
+/// The picture without its transformation.
+Picture read_surface(const files::Reader& file);
 /// @param n_columns  that `transformation` must have
 Picture read_picture(const files::Reader& file, Eigen::Index n_columns);
+
+/// Group `picture/sectors`, which stands for `picture/displacements`: the motion of the nodes of
+/// one sector in each harmonic.
+void write_sector_motions(files::Writer& file, const std::optional<SectorMotions>& motions);
+/// None where the picture of the file has displacements.
+/// @param n_points   nodes of the whole picture
+/// @param n_columns  coordinates of the whole body
+std::optional<SectorMotions> read_sector_motions(const files::Reader& file, Eigen::Index n_points,
+                                                 Eigen::Index n_columns);
 
 /// `resultant_names` and a group `resultants/NAME` for each; nothing is written when there are
 /// none.

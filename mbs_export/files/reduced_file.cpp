@@ -85,7 +85,8 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   file.write("fixed_interface_frequencies", reduced.fixed_interface_frequencies, "rad/s");
   file_parts::write_sector_harmonics(file, reduced.sector_harmonics);
   write_certificate(file, reduced.certificate);
-  file_parts::write_picture(file, reduced.picture, reduced.picture_of_sectors);
+  file_parts::write_picture(file, reduced.picture);
+  file_parts::write_sector_motions(file, reduced.picture_of_sectors);
   file_parts::write_resultants(file, reduced.resultants);
   file_parts::write_mass_integrals(file, reduced.mass_integrals);
   file_parts::write_provenance(file, reduced.provenance);
@@ -114,6 +115,9 @@ ReducedSystem read_reduced(const files::Reader& file)
   MatrixXd H;
   if (file.contains("matrices/structural_damping"))
     H = read_symmetric(file, "matrices/structural_damping", n);
+  Picture picture = file.contains("picture/sectors") ? file_parts::read_surface(file)
+                                                     : file_parts::read_picture(file, n);
+  auto picture_of_sectors = file_parts::read_sector_motions(file, picture.positions.rows(), n);
   auto ring_motion = read_ring_motion(file, {6 * Index(nodes.size()), Index(masters.size())}, n);
   return {.title = file.text_attribute("/", "title"),
           .attachment_nodes = std::move(nodes),
@@ -125,7 +129,8 @@ ReducedSystem read_reduced(const files::Reader& file)
           .C = std::move(C),
           .H = std::move(H),
           .fixed_interface_frequencies = std::move(frequencies),
-          .picture = file_parts::read_picture(file, n),
+          .picture = std::move(picture),
+          .picture_of_sectors = std::move(picture_of_sectors),
           .sector_harmonics = file_parts::read_sector_harmonics(file, n),
           .certificate = read_certificate(file),
           .resultants = file_parts::read_resultants(file, n),

@@ -127,6 +127,12 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
 
 void require_writable(const ReducedSystem& reduced)
 {
+  if (reduced.ring_motion && reduced.sector_harmonics) {
+    throw ExportError(
+        "mesh.sectors",
+        "Nastran: its grids have displacements as coordinates, not the harmonics of sectors; write "
+        "sectors = 1 for the mesh of the whole body and reduce again");
+  }
   if (reduced.ring_motion) {
     throw ExportError(
         "interface.rings",

@@ -86,6 +86,9 @@ _OF_BODIES: _Rows = [
 _OF_REDUCED: _Rows = [
     (r"matrices/\w+", ("coordinate", "coordinate_2"), {}),
     (r"picture/displacements", ("point_component", "coordinate"), {}),
+    (r"picture/sectors/[xy]", ("point_component_of_sector", "column"), {"column": "coordinates"}),
+    (r"picture/sectors/transformation", ("coordinate", "coordinate_2"), {}),
+    (r"picture/sectors/(harmonics|coordinates)", ("column",), {"column": "coordinates"}),
     (r"resultants/[^/]+/modes", ("point_kind", "coordinate"), {}),
     (r"mass_integrals/displacement_\w\w", ("coordinate", "coordinate_2"), {}),
     (r"mass_integrals/displacement", ("xyz", "coordinate"), {}),

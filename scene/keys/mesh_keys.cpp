@@ -88,10 +88,11 @@ constexpr Key mesh_rows[] = {
      "width of one row of elements along the edges", length},
     {"mesh.sectors",
      integer,
-     "1",
-     "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed; \"auto\": "
-     "as many as the mesh of the whole body has; [sectors](sectors.md)",
-     {.at_least = 3, .at_most = 1e4}},
+     "1; with `accuracy` what \"auto\" finds, where nothing is lost",
+     "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed, 3 or more; "
+     "1: the whole body; \"auto\": as many as the mesh of the whole body has; "
+     "[sectors](sectors.md)",
+     {.at_least = 1, .at_most = 1e4}},
     {"mesh.rings", tables, "none", "circles with nodes exactly on them"},
     {"mesh.rings.name", text, "required", "by which the scene speaks of it"},
     {"mesh.rings.radius", number, "required", "about the z axis", length},

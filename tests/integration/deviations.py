@@ -88,7 +88,9 @@ class Body:
             assert done.returncode == 0, done.stderr
             self.told = "errors of frequencies are not estimated" in done.stderr
             with h5py.File(path / "disc.body.h5") as file:
-                self.omega = np.sort(file["modes/frequencies"][()])
+                omega, W = file["modes/frequencies"][()], file["rings/track/displacement"][()]
+            self.omega = np.sort(omega)
+            self.flexibility = W / omega**2 @ W.T  # of the ring's nodes along the axis: where a deviation stands
             with h5py.File(path / "disc.reduced.h5") as file:
                 self.integrals = {key: file[f"mass_integrals/{key}"][()] for key in ("mass", "first_moment", "second_moment")}
                 self.certified = "certificate/frequencies" in file and len(file["certificate/frequencies"])
@@ -123,6 +125,9 @@ def sections(programs, mpirun):
             same_mass(ours, full) < 1e-10)
         yield "no certificate, which would be the perfect disc's, and a note of it", not ours.certified and ours.told
         yield from ((line, False) for line in ours.failed)
+    moved_there = np.abs(perfect.flexibility - full.flexibility).max()
+    off_there = np.abs(ours.flexibility - full.flexibility).max() / moved_there
+    yield f"it stands where it should: {off_there:.1e} of the change of the ring's flexibility off", off_there < 0.1
     ratio = off[0] / off[1]
     yield f"a patch that deviates by 2 % and 1 %: moves frequencies by {moved[0]:.1e} and {moved[1]:.1e}, error {off[0]:.1e} "\
         f"and {off[1]:.1e}, ratio {ratio:.1f}", off[0] < 0.03 * moved[0] and 3.8 < ratio < 4.2

@@ -156,6 +156,29 @@ def same_forces(name, part, whole):
         yield f"{name}: {kind} of all sectors under forces at the ring equal to {off:.1e}", off < 1e-7
 
 
+def drawn_motion(case):
+    """Where the nodes of the picture are, and how they move for forces along the axis at the ring."""
+    x, U, omega, W = case.read("body", "picture/positions", "picture/displacements", "modes/frequencies", "rings/track/displacement")
+    return x, (U / omega**2 @ W.T).reshape(len(x), 3, -1)
+
+
+def same_picture(programs, name, part, whole):
+    """The file of the reduced system holds the motion of one sector, by which the next program draws all."""
+    x, reference = drawn_motion(whole)
+    y, motion = drawn_motion(part)  # those of the cut edges are drawn with both sectors
+    node_at = {tuple(place): i for i, place in enumerate(np.round(x, 7) + 0.0)}
+    nodes = [node_at.get(tuple(place)) for place in np.round(y, 7) + 0.0]
+    met = None not in nodes and set(nodes) == set(range(len(x)))
+    off = np.abs(motion - reference[nodes]).max() / np.abs(reference).max() if met else np.inf
+    yield f"{name}: {len(x)} nodes of the picture move alike to {off:.1e}", off < 1e-7
+    with h5py.File(next(part.path.glob("*.reduced.h5"))) as file:
+        stored = file["picture/sectors/x"].shape[0] + file["picture/sectors/y"].shape[0]
+        yield f"{name}: {stored} rows of {3 * len(y)} stand in the file", stored < 3 * len(y) and "displacements" not in file["picture"]
+    summary(programs / "chladni", "body", part.path / "scene.toml", "--output", part.path)
+    off = np.abs(drawn_motion(part)[1] - motion).max() / np.abs(motion).max()
+    yield f"{name}: a body made of the file moves alike to {off:.1e}", off < 1e-12
+
+
 def same(programs, shape, sectors, mpirun):
     """Frequencies, matrices at the ring, response and critical speed of sector and whole body."""
     name, shape = shape["generator"], {"method": "craig-bampton"} | shape
@@ -183,6 +206,7 @@ def same(programs, shape, sectors, mpirun):
     yield f"{name}: flexibility of the ring equal to {off:.1e}", off < 1e-8
     yield from same_integrals(name, part, whole, n)
     yield from same_forces(name, part, whole)
+    yield from same_picture(programs, name, part, whole)
     off = worst(part.squeal["critical_speed_rad_s"], whole.squeal["critical_speed_rad_s"])
     yield f"{name}: critical speed equal to {off:.1e}", off < 1e-8
     (omega,) = part.read("reduced", "fixed_interface_frequencies")

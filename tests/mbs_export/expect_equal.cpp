@@ -140,6 +140,26 @@ void expect_equal_list(const std::vector<Value>& a, const std::vector<Value>& b)
   for (std::size_t i = 0; i < a.size(); ++i) expect_equal(a[i], b[i]);
 }
 
+void expect_equal(const SectorMotions& a, const SectorMotions& b)
+{
+  EXPECT_EQ(a.n_sectors, b.n_sectors);
+  EXPECT_EQ(a.n_coordinates, b.n_coordinates);
+  EXPECT_EQ(a.T, b.T);
+  ASSERT_EQ(a.harmonics.size(), b.harmonics.size());
+  for (std::size_t i = 0; i < a.harmonics.size(); ++i) {
+    EXPECT_EQ(a.harmonics[i].order, b.harmonics[i].order);
+    EXPECT_EQ(a.harmonics[i].x, b.harmonics[i].x);
+    EXPECT_EQ(a.harmonics[i].y, b.harmonics[i].y);
+    EXPECT_EQ(a.harmonics[i].columns, b.harmonics[i].columns);
+  }
+}
+
+void expect_equal(const SectorHarmonics& a, const SectorHarmonics& b)
+{
+  EXPECT_EQ(a.n_sectors, b.n_sectors);
+  EXPECT_EQ(a.order, b.order);
+}
+
 template <class Value>
 void expect_equal_if_any(const std::optional<Value>& a, const std::optional<Value>& b)
 {
@@ -172,6 +192,8 @@ void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
   EXPECT_EQ(a.C, b.C);
   EXPECT_EQ(a.fixed_interface_frequencies, b.fixed_interface_frequencies);
   expect_equal(a.picture, b.picture);
+  expect_equal_if_any(a.picture_of_sectors, b.picture_of_sectors);
+  expect_equal_if_any(a.sector_harmonics, b.sector_harmonics);
   expect_equal(a.certificate, b.certificate);
   expect_equal_list(a.resultants, b.resultants);
   expect_equal_if_any(a.mass_integrals, b.mass_integrals);

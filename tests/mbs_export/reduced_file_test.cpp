@@ -67,10 +67,28 @@ ReducedSystem complete_system()
   return system;
 }
 
+/// As of three sectors with one node each, whose motion is that of the first sector.
+ReducedSystem system_of_sectors()
+{
+  ReducedSystem system = complete_system();
+  const Eigen::Index n = system.K.cols();
+  const auto random = [](Eigen::Index cols) { return Eigen::MatrixXd::Random(3, cols).eval(); };
+  system.picture.transformation.resize(0, 0);
+  system.picture_of_sectors = {
+      .n_sectors = 3,
+      .n_coordinates = n,
+      .harmonics = {{.order = 0, .x = random(2), .y = random(2), .columns = {5, 0}},
+                    {.order = 1, .x = random(3), .y = random(3), .columns = {1, 2, n - 1}}},
+      .T = Eigen::MatrixXd::Random(n, n)};
+  system.sector_harmonics = {.n_sectors = 3, .order = std::vector<int>(std::size_t(n), 1)};
+  return system;
+}
+
 TEST(ReducedFile, ReturnsWhatWasWrittenBitByBit)
 {
   const ScratchFolder folder;
-  for (const ReducedSystem& system : {complete_system(), test::reduced_beam(30, 10)}) {
+  for (const ReducedSystem& system :
+       {complete_system(), system_of_sectors(), test::reduced_beam(30, 10)}) {
     write_reduced(folder.file("a.reduced.h5"), system);
     expect_equal(read_reduced(folder.file("a.reduced.h5")), system);
   }
@@ -131,6 +149,30 @@ TEST(ReducedFile, IsRefusedWhenItsContentMakesNoSense)
       error_after(folder, [](System& s) { s.fixed_interface_frequencies.setConstant(1, -1.0); }),
       "fixed_interface_frequencies");
   EXPECT_EQ(error_after(folder, [](System& s) { s.K(0, 1) *= 1.0 + 1e-13; }), "");
+}
+
+TEST(ReducedFile, IsRefusedWhenThePictureOfSectorsMakesNoSense)
+{
+  const ScratchFolder folder;
+  const auto error = [&](auto damage) {
+    return error_after(folder, [&](ReducedSystem& s) {
+      s = system_of_sectors();
+      damage(*s.picture_of_sectors);
+    });
+  };
+  using Motions = SectorMotions;
+  EXPECT_EQ(error([](Motions&) {}), "");
+  expect_mention(error([](Motions& m) { m.n_sectors = 4; }),
+                 "picture/sectors/count: is 4, of a picture of 3 nodes");
+  expect_mention(error([](Motions& m) { m.n_sectors = 1; }), "picture/sectors/count: is 1");
+  expect_mention(error([](Motions& m) { m.harmonics[1].order = 2; }),
+                 "picture/sectors/harmonics: has 2, expected 0 .. 1");
+  expect_mention(error([](Motions& m) { std::swap(m.harmonics[0], m.harmonics[1]); }),
+                 "picture/sectors/harmonics: has 0, expected 1 .. 1");
+  expect_mention(error([](Motions& m) { m.harmonics[0].columns[1] = m.n_coordinates; }),
+                 "picture/sectors/coordinates: has the index 78, expected 0 .. 77");
+  expect_mention(error([](Motions& m) { m.T.resize(3, 3); }),
+                 "picture/sectors/transformation: has shape [3 x 3], expected [78 x 78]");
 }
 
 TEST(ReducedFile, IsNotWrittenWithANameThatNoFileCanHold)

@@ -25,27 +25,41 @@ SectorMotions six_nodes()
   return motions;
 }
 
+/// Along and about the axis of one diameter, as in six_nodes().
+MatrixXd expected_of_sector(int j)
+{
+  const double phi = std::numbers::pi * j / 3.0;
+  MatrixXd rows = MatrixXd::Zero(3, 3);
+  rows.col(0) << std::cos(phi) * std::cos(phi), std::cos(phi) * std::sin(phi), 0.0;
+  rows.col(1) << 0.0, 0.0, 1.0;
+  rows.col(2) << std::sin(phi) * std::cos(phi), std::sin(phi) * std::sin(phi), 0.0;
+  return rows;
+}
+
 TEST(SectorMotions, TurnWithTheSectorsInTheirPhases)
 {
-  for (int j = 0; j < 6; ++j) {
-    const double phi = std::numbers::pi * j / 3.0;
-    MatrixXd expected = MatrixXd::Zero(3, 3);
-    expected.col(0) << std::cos(phi) * std::cos(phi), std::cos(phi) * std::sin(phi), 0.0;
-    expected.col(1) << 0.0, 0.0, 1.0;
-    expected.col(2) << std::sin(phi) * std::cos(phi), std::sin(phi) * std::sin(phi), 0.0;
-    EXPECT_LT((rows_of_sector(six_nodes(), j) - expected).norm(), 1e-15) << j;
-  }
+  const MatrixXd whole = in_coordinates(six_nodes(), MatrixXd::Identity(3, 3));
+  ASSERT_EQ(whole.rows(), 18);
+  for (int j = 0; j < 6; ++j)
+    EXPECT_LT((whole.middleRows(3 * j, 3) - expected_of_sector(j)).norm(), 1e-15) << j;
 }
 
 TEST(SectorMotions, InOtherCoordinatesAreTheRowsTimesThese)
 {
   const MatrixXd T = MatrixXd::Random(3, 4);
   const MatrixXd whole = in_coordinates(six_nodes(), T);
-  ASSERT_EQ(whole.rows(), 18);
-  for (int j = 0; j < 6; ++j) {
-    const MatrixXd expected = rows_of_sector(six_nodes(), j) * T;
-    EXPECT_LT((whole.middleRows(3 * j, 3) - expected).norm(), 1e-15) << j;
-  }
+  for (int j = 0; j < 6; ++j)
+    EXPECT_LT((whole.middleRows(3 * j, 3) - expected_of_sector(j) * T).norm(), 1e-15) << j;
+}
+
+TEST(SectorMotions, OfCoordinatesThatOthersCombine)
+{
+  const MatrixXd T = MatrixXd::Random(3, 3);
+  SectorMotions motions = six_nodes();
+  motions.T = T;
+  const MatrixXd whole = in_coordinates(motions, MatrixXd::Identity(3, 3));
+  for (int j = 0; j < 6; ++j)
+    EXPECT_LT((whole.middleRows(3 * j, 3) - expected_of_sector(j) * T).norm(), 1e-15) << j;
 }
 
 }  // namespace

@@ -62,6 +62,18 @@ TEST(OneSector, OfAWholeDiscIsTheGeneratorsSector)
   EXPECT_NEAR(top_ours, top_theirs, 1e-12);
 }
 
+TEST(OneSector, MayBeNarrowBesideItsSides)
+{
+  AnnulusOptions wide = disc();
+  wide.inner_radius = 0.025;
+  wide.outer_radius = 0.162;
+  wide.rings = {{.name = "track", .radius = 0.13, .nodes = 60}};
+  wide.element_size = 0.05;
+  const Mesh sector = one_sector(annulus(wide), 60);
+  EXPECT_EQ(sector.blocks[0].n_elements(), 3) << "two within the ring, one without";
+  EXPECT_EQ(sector.sectors.pairs.size(), 7u);
+}
+
 /// A disc whose sectors have vanes, radial plates on one side of it.
 Mesh disc_with_vanes(double first_angle, int n_vanes)
 {

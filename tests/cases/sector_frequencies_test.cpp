@@ -1,0 +1,132 @@
+#include "cases/sector_frequencies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "cases/mesh_scene.hpp"
+#include "cases/mesh_search.hpp"
+
+namespace chladni::cases {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// @param mesh  keys of [mesh] with the groups of its shells
+scene::Scene disc(const std::string& mesh, const std::vector<std::string>& groups,
+                  const std::string& held)
+{
+  std::string text = "[mesh]\n" + mesh + R"(
+element_order = 2
+pattern = "structured"
+rings = [{ name = "track", radius = 0.13, nodes = 24 }]
+[material.iron]
+young = 9.15915e10
+poisson = 0.3
+density = 6300.0
+[interface]
+nodes = ["track", "hub"]
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = ")" + held + R"("
+[[mass]]
+at = "hub"
+mass = 0.4
+inertia = [1e-4, 1e-4, 2e-4, 0.0, 0.0, 0.0]
+[reduce]
+method = "craig-bampton"
+modes = 10
+)";
+  for (const std::string& group : groups) {
+    text += "[[section]]\ntype = \"shell\"\nmaterial = \"iron\"\nthickness = 0.02\ngroup = \"" +
+            group + "\"\n";
+  }
+  return scene::parse_scene(text, "scene.toml");
+}
+
+scene::Scene annulus(double element_size)
+{
+  return disc(
+      "generator = \"annulus\"\ninner_radius = 0.025\nouter_radius = 0.162\nelement_size = " +
+          std::to_string(element_size),
+      {"disc"}, "inner_edge");
+}
+
+scene::Scene hat()
+{
+  return disc(
+      "generator = \"hat_disc\"\nouter_radius = 0.162\nwall_radius = 0.09\ntop_radius = 0.085\n"
+      "hub_radius = 0.03\nheight = 0.05\nelement_size = 0.04",
+      {"disc", "wall", "flange"}, "hub_edge");
+}
+
+scene::Scene held(scene::Scene scene, const std::vector<int>& components = {0, 1, 2, 3, 4, 5})
+{
+  scene.supports = {{.group = "hub", .components = components}};
+  return scene;
+}
+
+/// The errors of the whole body, all of one sector's beside them.
+void expect_same(const scene::Scene& scene, double up_to_Hz)
+{
+  const mesh::Mesh mesh = mesh_on_all_ranks(scene);
+  const auto sector = SectorFrequencies::find(scene, mesh);
+  ASSERT_TRUE(sector.has_value());
+  const SupportedModel whole = assemble_supported(scene, mesh);
+  EXPECT_EQ(sector->n_dofs(), whole.system.dofs.n_dofs());
+  const MeshErrors ours = sector->errors_up_to(two_pi * up_to_Hz, {});
+  const Eigen::Index n = ours.omega.size();
+  ASSERT_GT(n, 10);
+  const int n_rigid = plate::n_free_motions(whole.free);
+  const reduce::NaturalModes modes = reduce::natural_modes(
+      whole.system.K, whole.system.M, reduce::free_dofs(whole.system.K, whole.held),
+      {.n_modes = n_rigid + int(n), .n_rigid = n_rigid});
+  const MeshErrors theirs = mesh_errors(scene, whole, modes);
+  ASSERT_EQ(theirs.omega.size(), n);
+  EXPECT_LT((ours.omega - theirs.omega).cwiseQuotient(theirs.omega).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LE(ours.omega[n - 1], two_pi * up_to_Hz);
+  EXPECT_GT(ours.largest(), 1e-5);
+  // The whole's finer modes are one inverse iteration from its own: off by squares of differences.
+  EXPECT_LT((ours.errors - theirs.errors).cwiseAbs().maxCoeff(), 0.03 * theirs.largest());
+  EXPECT_LT((ours.finer - theirs.finer).cwiseQuotient(theirs.finer).cwiseAbs().maxCoeff(),
+            0.03 * theirs.largest());
+  ASSERT_EQ(ours.shape_errors.cols(), n);
+  const double most = theirs.shape_errors.maxCoeff();
+  EXPECT_GT(most, 1e-6);
+  EXPECT_LT((ours.shape_errors - theirs.shape_errors).cwiseAbs().maxCoeff(), 0.1 * most);
+  EXPECT_LT((sector->up_to(two_pi * up_to_Hz, {}) - ours.omega).cwiseAbs().maxCoeff(),
+            1e-8 * ours.omega[n - 1]);
+}
+
+TEST(SectorFrequencies, OfAHeldDiscAreThoseOfTheWhole)
+{
+  expect_same(held(annulus(0.03)), 6000.0);
+}
+
+TEST(SectorFrequencies, OfAFreeHatAreThoseOfTheWhole)
+{
+  expect_same(hat(), 6000.0);
+}
+
+TEST(SectorFrequencies, OfAHeldHatAreThoseOfTheWhole)
+{
+  expect_same(held(hat()), 6000.0);
+}
+
+TEST(SectorFrequencies, AreNotThoseOfASupportThatDoesNotTurn)
+{
+  const auto finds = [](const scene::Scene& scene) {
+    return SectorFrequencies::find(scene, mesh_on_all_ranks(scene)).has_value();
+  };
+  EXPECT_TRUE(finds(held(annulus(0.03))));
+  EXPECT_FALSE(finds(held(annulus(0.03), {0, 1})));  // which leaves some rigid-body motions
+  scene::Scene in_x = held(annulus(0.03));
+  in_x.supports.push_back({.group = "track", .components = {0}});
+  EXPECT_FALSE(finds(in_x));
+  in_x.supports.back().components = {0, 1};
+  EXPECT_TRUE(finds(in_x));
+}
+
+}  // namespace
+}  // namespace chladni::cases
