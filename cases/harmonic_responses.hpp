@@ -17,7 +17,8 @@ struct HarmonicResponses {
 /// Those of `[body] keep` with a tolerance, of which a third is the reduction's. What a force at a
 /// node of a ring causes is a sum over the harmonics, whose squares add up: where each keeps the
 /// tolerance of its own responses, all together do. Nothing without a tolerance, by another method
-/// than the mixed interface, under a support that harmonics do not know by themselves, for moments,
+/// than the mixed interface, under a support that harmonics do not know by themselves or that holds
+/// all interface nodes, for moments,
 /// and for forces on rings of which some harmonics are no masters, or in one direction of the
 /// plane.
 /// @param whole  `described_whole`

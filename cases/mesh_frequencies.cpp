@@ -58,7 +58,13 @@ MeshFrequencies::MeshFrequencies(const scene::Scene& scene, mesh::Mesh mesh)
       mesh_(std::make_unique<const mesh::Mesh>(std::move(mesh))),
       sector_(SectorFrequencies::find(scene, *mesh_))
 {
-  if (!sector_) whole_ = assemble_supported(scene, *mesh_);
+  if (!sector_) whole();
+}
+
+const SupportedModel& MeshFrequencies::whole()
+{
+  if (!whole_) whole_ = assemble_supported(scene_, *mesh_);
+  return *whole_;
 }
 
 int MeshFrequencies::n_dofs() const
@@ -67,10 +73,10 @@ int MeshFrequencies::n_dofs() const
 }
 
 Eigen::VectorXd MeshFrequencies::like(const Eigen::VectorXd& known,
-                                      const linear::SolverOptions& solver) const
+                                      const linear::SolverOptions& solver)
 {
   const Eigen::Index n = known.size();
-  if (!sector_) return lowest_of(*whole_, n, solver);
+  if (!sector_) return lowest_of(whole(), n, solver);
   constexpr double step = 1.1, most = 10.0;
   for (double share = 1.02; share < most; share *= step) {
     const Eigen::VectorXd found = sector_->up_to(share * known[n - 1], solver);
@@ -79,10 +85,12 @@ Eigen::VectorXd MeshFrequencies::like(const Eigen::VectorXd& known,
   throw Error("a coarse mesh has too few modes");
 }
 
-MeshErrors MeshFrequencies::errors_up_to(double omega, const linear::SolverOptions& solver) const
+MeshErrors MeshFrequencies::errors_up_to(double omega, const linear::SolverOptions& solver)
 {
-  if (sector_) return sector_->errors_up_to(omega, solver);
-  return mesh_errors(scene_, *whole_, modes_in_range(*whole_, omega, solver), solver);
+  if (sector_) {
+    if (std::optional<MeshErrors> found = sector_->errors_up_to(omega, solver)) return *found;
+  }
+  return mesh_errors(scene_, whole(), modes_in_range(whole(), omega, solver), solver);
 }
 
 }  // namespace chladni::cases

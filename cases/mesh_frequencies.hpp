@@ -22,15 +22,17 @@ class MeshFrequencies {
   /// The lowest elastic ones, as many as are known of another mesh of the body.
   /// @param known  [n] ascending, rad/s, as those returned
   /// @throws chladni::Error when the mesh has fewer.
-  Eigen::VectorXd like(const Eigen::VectorXd& known, const linear::SolverOptions& solver) const;
+  Eigen::VectorXd like(const Eigen::VectorXd& known, const linear::SolverOptions& solver);
   /// Of the elastic ones up to a frequency (rad/s), of the first in any case.
-  MeshErrors errors_up_to(double omega, const linear::SolverOptions& solver) const;
+  MeshErrors errors_up_to(double omega, const linear::SolverOptions& solver);
 
  private:
+  const SupportedModel& whole();
+
   scene::Scene scene_;
   std::unique_ptr<const mesh::Mesh> mesh_;  ///< at one place, where the sector finds it
   std::optional<SectorFrequencies> sector_;
-  std::optional<SupportedModel> whole_;  ///< without a sector
+  std::optional<SupportedModel> whole_ = {};  ///< where it was needed
 };
 
 }  // namespace chladni::cases

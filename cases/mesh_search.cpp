@@ -18,7 +18,7 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// The largest error against known frequencies, by their order.
-double error_against(const Eigen::VectorXd& known, const MeshFrequencies& frequencies,
+double error_against(const Eigen::VectorXd& known, MeshFrequencies& frequencies,
                      const linear::SolverOptions& solver)
 {
   const Eigen::VectorXd omega = frequencies.like(known, solver);
@@ -125,7 +125,7 @@ class Search {
   /// With an estimate of its error.
   Trial tried(MeshSize size)
   {
-    const MeshFrequencies frequencies = frequencies_on(size);
+    MeshFrequencies frequencies = frequencies_on(size);
     if (const Trial* same = same_mesh(size, frequencies, true)) return *same;
     MeshErrors errors = frequencies.errors_up_to(two_pi * scene_.accuracy->up_to_Hz, solver_);
     const double largest = errors.largest();
@@ -138,7 +138,7 @@ class Search {
   /// Its error against the known frequencies.
   Trial compared(MeshSize size)
   {
-    const MeshFrequencies frequencies = frequencies_on(size);
+    MeshFrequencies frequencies = frequencies_on(size);
     if (const Trial* same = same_mesh(size, frequencies, false)) return *same;
     return kept({.size = size,
                  .n_dofs = frequencies.n_dofs(),

@@ -7,7 +7,9 @@
 
 #include "cases/harmonic_responses.hpp"
 #include "cases/mesh_scene.hpp"
+#include "cases/response_goal.hpp"
 #include "cases/sector_checks.hpp"
+#include "cases/size_of_mesh.hpp"
 #include "common/error.hpp"
 #include "mesh/repetition.hpp"
 #include "mesh/sectors.hpp"
@@ -80,14 +82,19 @@ void refuse_what_does_not_turn(const scene::Scene& scene, const mesh::Mesh& whol
     require_turning(spring.at, "spring at", turns_with_sectors(spring));
 }
 
-/// Whether one sector would tell all that the whole body's reduction does: errors under its support
-/// and of its responses, element numbers of section forces.
-bool loses_nothing(const scene::Scene& scene, const SectorModel& sector)
+/// What the file of the whole body would tell and that of one sector not; empty where there is
+/// nothing.
+std::string lost_by(const scene::Scene& scene, const SectorModel& sector)
 {
+  if (!has_size(scene.mesh)) return "the node numbers of the mesh file";
+  if (!scene.resultants.groups.empty()) return "the element numbers of section forces";
   const SectorSupport support = sector_support(scene, sector);
-  if (support.names != scene.body.fixed || !scene.resultants.groups.empty()) return false;
-  return !scene.body.keep.tolerance ||
-         harmonic_responses(scene, sector, described_whole(scene, sector), support).has_value();
+  if (support.names != scene.body.fixed) return "errors under the support of [body]";
+  const bool certifies_responses = may_keep_responses(scene) && scene.ring_harmonics.empty();
+  if (!certifies_responses ||
+      harmonic_responses(scene, sector, described_whole(scene, sector), support))
+    return "";
+  return "the certificate of responses";
 }
 
 }  // namespace
@@ -110,7 +117,13 @@ std::optional<SectorModel> possible_sector(const scene::Scene& scene, const mesh
     if (count < least_sectors) throw Error("sectors: the mesh does not repeat about the z axis");
     SectorModel sector = sector_of(scene, whole, count);
     const bool is_asked = search == SectorSearch::asked;
-    if (!is_asked && !loses_nothing(scene, sector)) return std::nullopt;
+    if (const std::string lost = is_asked ? "" : lost_by(scene, sector); !lost.empty()) {
+      report::tell_note(fmt::format(
+          "sectors: the body repeats {} times; from one sector, which sectors = \"auto\" in [mesh] "
+          "would take, {} would be lost: the whole body is reduced",
+          count, lost));
+      return std::nullopt;
+    }
     report::tell_note(
         fmt::format("sectors: the body repeats {} times and is reduced from one sector{}", count,
                     is_asked ? "" : "; sectors = 1 in [mesh] would take the whole body"));

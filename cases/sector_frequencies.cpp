@@ -173,6 +173,7 @@ std::optional<SectorFrequencies> SectorFrequencies::find(const scene::Scene& sce
                                                          const mesh::Mesh& whole)
 {
   constexpr int all = 6;
+  if (scene.mesh.sector_search == mesh::SectorSearch::none) return std::nullopt;
   try {
     const int count = mesh::n_repetitions(whole);
     if (count < least_sectors) return std::nullopt;
@@ -205,7 +206,8 @@ VectorXd SectorFrequencies::up_to(double omega, const linear::SolverOptions& sol
   return frequencies_of(modes_up_to(*sector_, omega, n_rigid_ > 0, solver));
 }
 
-MeshErrors SectorFrequencies::errors_up_to(double omega, const linear::SolverOptions& solver) const
+std::optional<MeshErrors> SectorFrequencies::errors_up_to(double omega,
+                                                          const linear::SolverOptions& solver) const
 {
   const std::vector<ModesOfHarmonic> known = modes_up_to(*sector_, omega, n_rigid_ > 0, solver);
   const InterfaceOf interface {
@@ -219,12 +221,16 @@ MeshErrors SectorFrequencies::errors_up_to(double omega, const linear::SolverOpt
     return refined_modes({*sector_, known}, other, solve, interface);
   };
   MeshErrors found{.omega = frequencies_of(known), .errors = {}, .shape_errors = {}, .finer = {}};
-  if (found.omega.size() == 0) return {};
+  if (found.omega.size() == 0) return MeshErrors{};
   const bool is_large = sector_->model.dofs.n_dofs() > most_halved;
-  if (is_large && plate::can_rise(*whole_))
-    find_by_orders(*whole_, modes_on, found);
-  else
-    find_by_halves(scene_, *whole_, modes_on, found);
+  try {
+    if (is_large && plate::can_rise(*whole_))
+      find_by_orders(*whole_, modes_on, found);
+    else
+      find_by_halves(scene_, *whole_, modes_on, found);
+  } catch (const Error&) {  // of a refined mesh, on all ranks alike
+    return std::nullopt;
+  }
   return found;
 }
 

@@ -15,7 +15,8 @@ namespace chladni::cases {
 class SectorFrequencies {
  public:
   /// Nothing for a body that does not repeat, one that its supports leave some of the rigid-body
-  /// motions, and a scene that cannot be reduced from one sector.
+  /// motions, and a scene that cannot be reduced from one sector, or where sectors are not looked
+  /// for.
   /// @param scene  with the supports under which the frequencies are meant
   /// @param whole  outlives this
   /// @note   Collective on all ranks, as all of this header.
@@ -28,8 +29,9 @@ class SectorFrequencies {
   /// @return ascending, rad/s, those of a pair twice
   Eigen::VectorXd up_to(double omega, const linear::SolverOptions& solver) const;
 
-  /// Of the elastic ones up to a frequency (rad/s), of the first in any case, as `mesh_errors`.
-  MeshErrors errors_up_to(double omega, const linear::SolverOptions& solver) const;
+  /// Of the elastic ones up to a frequency (rad/s), of the first in any case, as `mesh_errors`;
+  /// nothing where a refined mesh does not repeat: the digits of a mesh file may not suffice.
+  std::optional<MeshErrors> errors_up_to(double omega, const linear::SolverOptions& solver) const;
 
  private:
   SectorFrequencies(scene::Scene scene, const mesh::Mesh& whole, int count)

@@ -84,6 +84,21 @@ void leave_out_above(std::vector<ModesOfHarmonic>& own, double omega)
   }
 }
 
+/// A support that a mirror changes leaves nothing of it.
+void keep_mirror_of_support(cyclic::SectorDofs& dofs, const std::vector<bool>& is_held)
+{
+  if (!dofs.mirror) return;
+  const std::size_t n_c = dofs.components.size();
+  for (std::size_t block = 0; block < dofs.mirror->image.size(); ++block) {
+    const auto image = std::size_t(dofs.mirror->image[block]);
+    for (std::size_t i = 0; i < n_c; ++i) {
+      if (is_held[block * n_c + i] == is_held[image * n_c + i]) continue;
+      dofs.mirror.reset();
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 SupportedSector supported_sector(const scene::Scene& scene, SectorModel model)
@@ -97,6 +112,7 @@ SupportedSector supported_sector(const scene::Scene& scene, SectorModel model)
   for (const int dof : plate::held_dofs(sector.model.mesh, dofs, scene.supports))
     sector.is_held[std::size_t(dof)] = true;
   if (!turns(dofs, sector.is_held)) throw Error("sectors: the support does not turn with them");
+  keep_mirror_of_support(sector.model.dofs, sector.is_held);
   return sector;
 }
 

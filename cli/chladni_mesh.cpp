@@ -86,7 +86,7 @@ void write_picture(const PictureFiles& files, const Subject& subject, const mesh
 /// A body that repeats costs less than it seems.
 void tell_of_sectors(const Subject& subject, const mesh::Mesh& mesh)
 {
-  if (subject.mesh.sector_search != mesh::SectorSearch::none || mesh.sectors.count > 1) return;
+  if (subject.mesh.sector_search == mesh::SectorSearch::asked || mesh.sectors.count > 1) return;
   const int count = mesh::n_repetitions(mesh);
   if (count < 3) return;
   fmt::print(

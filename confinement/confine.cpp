@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <new>
 
+#include "confinement/errand.hpp"
 #include "confinement/system_calls.hpp"
 
 namespace chladni::confinement {
@@ -78,11 +80,20 @@ void forbid_changes_by_landlock()
   close(static_cast<int>(ruleset));
 }
 
+/// Whether nobody is left to read the answer of an errand: who started it may have ended before
+/// this process was bound to that end.
+bool is_left_alone()
+{
+  pollfd answer{answer_descriptor, 0, 0};
+  return ::poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR) != 0;
+}
+
 }  // namespace
 
 void confine(const Limits& limits)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (is_left_alone()) _exit(exit_left_alone);
   std::set_new_handler([] { _exit(exit_out_of_memory); });
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, 1 << 20);  // of files in memory; of others there are none

@@ -1,5 +1,7 @@
 #include "mesh/repetition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <numeric>
 #include <optional>
 
+#include "common/error.hpp"
 #include "mesh/node_grid.hpp"
 #include "mesh/sectors.hpp"
 
@@ -46,6 +49,8 @@ class Images {
     }
     takes_nodes_ = true;
   }
+
+  bool take_nodes_to_nodes() const { return takes_nodes_; }
 
   bool take_mesh_to_itself() const
   {
@@ -245,7 +250,14 @@ Mesh one_sector(const Mesh& mesh, int count)
   const NodeGrid grid(mesh.positions, meeting(mesh));
   const Images turned(mesh, grid, turn_by_one_of(count));
   std::vector<std::vector<int>> images;
-  for (const ElementBlock& block : mesh.blocks) images.push_back(turned.of(block));
+  for (const ElementBlock& block : mesh.blocks) {
+    if (turned.take_nodes_to_nodes()) images.push_back(turned.of(block));
+    if (images.empty() || std::ssize(images.back()) != block.n_elements()) {
+      throw Error(
+          fmt::format("sectors = {}: a turn by {:.6g} degrees does not take the mesh to itself",
+                      count, 360.0 / count));
+    }
+  }
   Cut cut = cut_at(mesh, std::move(images), 0.0);
   if (const auto start = start_of_own_image(mesh, grid, count, cut); start && *start != 0.0)
     cut = cut_at(mesh, std::move(cut.turned), *start);

@@ -13,6 +13,7 @@ int n_repetitions(const Mesh& mesh);
 /// the one with the least angle from the x axis on, or from a plane on that makes the sector its
 /// own image. The cut follows the sides of elements.
 /// @param count  that many at least: `n_repetitions`, or a divisor of it
+/// @throws chladni::Error for a mesh that does not repeat so often.
 Mesh one_sector(const Mesh& mesh, int count);
 
 }  // namespace chladni::mesh

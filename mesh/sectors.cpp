@@ -78,12 +78,14 @@ double shortest(const Mesh& mesh, const std::vector<Segment>& segments)
   return least;
 }
 
-/// Corners of the boundary that a turn takes onto the boundary, but onto no node.
+/// Corners of the boundary that a turn to either side takes onto the boundary, but onto no node.
 /// @param is_known  nodes with a partner, of either edge
 void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>& segments,
                                     const std::vector<bool>& is_known)
 {
-  constexpr double on_edge = 0.05;  // of a side: cut edges are hardly bent over one element
+  constexpr double of_side = 0.05;  // cut edges are hardly bent over one element
+  constexpr double of_width = 0.1;  // of the sector: a corner within it is on no cut edge
+  const double turn = 2.0 * std::numbers::pi / mesh.sectors.count;
   int worst = -1;
   double largest = 0.0;
   std::vector<int> ends;
@@ -92,15 +94,19 @@ void refuse_edges_that_do_not_match(const Mesh& mesh, const std::vector<Segment>
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   for (const int node : ends) {
     if (is_known[node] || is_on_axis(mesh.positions[node], outer_radius(mesh))) continue;
-    const Point x = turned(mesh.sectors, mesh.positions[node]);
-    for (const Segment& segment : segments) {
-      const double length = distance(mesh.positions[segment[0]], mesh.positions[segment[1]]);
-      if (distance_to(mesh, segment, x) > on_edge * length) continue;
-      const double miss = std::min(distance(mesh.positions[segment[0]], x),
-                                   distance(mesh.positions[segment[1]], x));
-      if (miss > largest) {
-        largest = miss;
-        worst = node;
+    const Point& here = mesh.positions[node];
+    const double width = turn * std::hypot(here[0], here[1]);
+    for (const int to : {1, -1}) {
+      const Point x = turned(mesh.sectors, here, to);
+      for (const Segment& segment : segments) {
+        const double length = distance(mesh.positions[segment[0]], mesh.positions[segment[1]]);
+        if (distance_to(mesh, segment, x) > std::min(of_side * length, of_width * width)) continue;
+        const double miss = std::min(distance(mesh.positions[segment[0]], x),
+                                     distance(mesh.positions[segment[1]], x));
+        if (miss > largest) {
+          largest = miss;
+          worst = node;
+        }
       }
     }
   }

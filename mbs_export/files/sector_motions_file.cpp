@@ -65,6 +65,7 @@ std::optional<SectorMotions> read_sector_motions(const files::Reader& file, Inde
               fmt::format("is {}, of a picture of {} nodes", motions.n_sectors, n_points));
   }
   const std::vector<int> orders = read_orders(file, motions.n_sectors);
+  if (orders.empty()) file.fail("picture/sectors/harmonics", "is empty");
   const Index n = Index(orders.size()), n_rows = 3 * n_points / motions.n_sectors;
   const std::vector<int> coordinates =
       read_indices(file, "picture/sectors/coordinates", n_columns, n);

@@ -128,10 +128,10 @@ std::string spoint_card(const ReducedSystem& reduced, const NastranNumbers& numb
 void require_writable(const ReducedSystem& reduced)
 {
   if (reduced.ring_motion && reduced.sector_harmonics) {
-    throw ExportError(
-        "mesh.sectors",
-        "Nastran: its grids have displacements as coordinates, not the harmonics of sectors; write "
-        "sectors = 1 for the mesh of the whole body and reduce again");
+    throw ExportError("mesh.sectors",
+                      "Nastran: its grids have displacements as coordinates, not the harmonics of "
+                      "sectors; mesh the "
+                      "whole body, with sectors = 1 if it was found to repeat, and reduce again");
   }
   if (reduced.ring_motion) {
     throw ExportError(

@@ -25,6 +25,7 @@
 #include <thread>
 #include <vector>
 
+#include "confinement/errand.hpp"
 #include "confinement/system_calls.hpp"
 
 namespace chladni::confinement {
@@ -62,6 +63,24 @@ std::optional<Offence> offence_by(const std::function<bool()>& act)
 std::string in_scratch(const std::string& name)
 {
   return (std::filesystem::temp_directory_path() / ("chladni_confined_" + name)).string();
+}
+
+TEST(Confined, EndsWhereWhoeverStartedItHasEndedBefore)
+{
+  std::array<int, 2> ends{-1, -1};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  close(ends[0]);  // nobody reads
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(ends[1], answer_descriptor);
+    confine(ample);
+    _exit(did_it);
+  }
+  close(ends[1]);
+  int status = -1;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), exit_left_alone);
 }
 
 TEST(Confined, ReadsComputesAndHandsOver)

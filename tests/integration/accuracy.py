@@ -125,6 +125,40 @@ def refuses_mesh_file(programs, folder):
     return "plate.msh has an error of" in said
 
 
+BODY = """
+[[coupling]]
+type = "rigid"
+name = "hub"
+group = "inner_edge"
+[interface]
+nodes = ["hub", "track"]
+[body]
+fixed = ["hub"]
+keep = { modes = 10 }
+"""
+
+
+def takes_a_sector(programs, folder):
+    """A disc that repeats is reduced from one sector, unless the scene says otherwise or something would be lost."""
+    good, found = True, {}
+    disc = ANNULUS.replace(HELD.format(group="inner_edge"), "").replace(
+        "[mesh]", '[mesh]\nrings = [{ name = "track", radius = 0.13, nodes = 24 }]')
+    for name, change, one_sector in (("sector", ("", ""), True), ("whole", ("[mesh]", "[mesh]\nsectors = 1"), False),
+                                     ("forces", ("[interface]", '[reduce]\nresultants = ["disc"]\n[interface]'), False)):
+        scene = f'name = "{name}"\naccuracy = {{ error = 1e-3, up_to_Hz = {UP_TO_HZ} }}\n{disc}{BODY}'.replace(*change)
+        (folder / f"{name}.toml").write_text(scene)
+        said = run(programs / "chladni", "reduce", folder / f"{name}.toml", "--output", folder)
+        found[name] = summary(programs / "chladni", "reduce", folder / f"{name}.toml", "--output", folder)
+        print(f"{name}: reduced from one sector: {'reduced from one sector' in said}, {found[name]['n_dofs']} DOFs")
+        good &= ("reduced from one sector; sectors = 1 in [mesh] would" in said) == one_sector
+    ours, theirs = (found[name]["certified_frequencies_Hz"] for name in ("sector", "whole"))
+    off = max(abs(a / b - 1) for a, b in zip(ours, theirs))
+    print(f"of {len(ours)} and {len(theirs)} certified frequencies those of the sector are off by {off:.1e}")
+    said = run(programs / "chladni", "reduce", folder / "forces.toml", "--output", folder, "--overwrite")
+    good &= "the element numbers of section forces would be lost" in said
+    return good and off < 1e-3 and found["sector"]["n_dofs"] == found["whole"]["n_dofs"] == found["forces"]["n_dofs"]
+
+
 def main(programs):
     good = True
     print(f"{'model':18} {'accuracy':>9} {'error':>9} {'DOFs':>7}")
@@ -139,6 +173,7 @@ def main(programs):
             found, n_dofs = frequencies(programs, folder, text, 3e-3, 40)
             good &= check(model, found, fine, 3e-3, n_dofs)
         good &= refuses_mesh_file(programs, folder)
+        good &= takes_a_sector(programs, folder)
     return 0 if good else 1
 
 

@@ -171,6 +171,11 @@ TEST(ReducedFile, IsRefusedWhenThePictureOfSectorsMakesNoSense)
                  "picture/sectors/harmonics: has 0, expected 1 .. 1");
   expect_mention(error([](Motions& m) { m.harmonics[0].columns[1] = m.n_coordinates; }),
                  "picture/sectors/coordinates: has the index 78, expected 0 .. 77");
+  expect_mention(error([](Motions& m) {
+                   for (auto& h : m.harmonics)
+                     h = {.order = 0, .x = h.x.leftCols(0), .y = h.y.leftCols(0), .columns = {}};
+                 }),
+                 "picture/sectors/harmonics: is empty");
   expect_mention(error([](Motions& m) { m.T.resize(3, 3); }),
                  "picture/sectors/transformation: has shape [3 x 3], expected [78 x 78]");
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/error.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/sectors.hpp"
 
@@ -72,6 +73,14 @@ TEST(OneSector, MayBeNarrowBesideItsSides)
   const Mesh sector = one_sector(annulus(wide), 60);
   EXPECT_EQ(sector.blocks[0].n_elements(), 3) << "two within the ring, one without";
   EXPECT_EQ(sector.sectors.pairs.size(), 7u);
+}
+
+TEST(OneSector, OfAMeshThatDoesNotRepeatIsNone)
+{
+  Mesh moved = annulus(disc());
+  moved.positions[7][2] += 1e-4;
+  EXPECT_THROW(one_sector(moved, 16), Error);
+  EXPECT_THROW(one_sector(annulus(disc()), 7), Error);
 }
 
 /// A disc whose sectors have vanes, radial plates on one side of it.

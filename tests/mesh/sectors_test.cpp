@@ -67,6 +67,22 @@ TEST(Sector, NamesTheDistanceOfEdgesThatDoNotMatch)
   EXPECT_NE(message.find("0.002 m away"), std::string::npos) << message;
 }
 
+TEST(Sector, NamesANodeOfTheSecondEdgeThatTheFirstDoesNotHave)
+{
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 1.5, 0}, {0, 1, 0}};
+  mesh.node_numbers = {1, 2, 3, 4, 5};
+  mesh.groups = {{.name = "disc", .dimension = 2, .nodes = {0, 1, 2, 3, 4}}};
+  mesh.blocks = {{.shape = Shape::triangle,
+                  .order = 1,
+                  .nodes_per_element = 3,
+                  .numbers = {1, 2, 3},
+                  .nodes = {0, 1, 3, 1, 2, 3, 0, 3, 4},
+                  .group = {0, 0, 0}}};
+  const std::string message = message_of(mesh, 4);
+  EXPECT_NE(message.find("do not match: node 4 (0, 1.5, 0), turned"), std::string::npos) << message;
+}
+
 TEST(Sector, IsRefusedWhereTheMeshIsWider)
 {
   const Mesh mesh = annulus(annulus_of(12));
