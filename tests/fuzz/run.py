@@ -23,10 +23,12 @@ READERS = {
     "reduced": "damaged `*.reduced.h5`, then `check_reduced`",
     "squeal": "damaged `*.squeal.h5`, then what `squeal info` and `squeal report` make of it",
     "radiation": "damaged `*.radiation.h5`, then the damping of a disc",
+    "measured": "measured modes in universal files (dataset 55), `chladni mac`",
     "scene": "scene files",
     "geo": "what is asked of `.geo` files before Gmsh reads them",
     "deck": "decks of Nastran and Abaqus, as meshes and as declarations",
     "exchange": "universal files and grids of VTK, as meshes",
+    "med": "damaged MED files, as meshes",
     "mesh": "the check of `.msh` files before Gmsh reads them",
 }
 OPTIONS = ("-timeout=20", "-rss_limit_mb=1024", "-malloc_limit_mb=64", "-detect_leaks=0", "-max_len=65536",
