@@ -184,18 +184,18 @@ Taylor centrifugal(const ModalBody& body, SidDialect dialect)
 Taylor translational(const ModalBody& body)
 {
   const Index n = body.n_modes();
-  Taylor Ct{.M0 = body.mass_integrals->displacement.transpose()};
+  Taylor C_t{.M0 = body.mass_integrals->displacement.transpose()};
   const std::array<MatrixXd, 3> K{stiffening_of(body, "acceleration_x"),
                                   stiffening_of(body, "acceleration_y"),
                                   stiffening_of(body, "acceleration_z")};
   const auto is_zero = [](const MatrixXd& A) { return A.isZero(0.0); };
-  if (std::ranges::all_of(K, is_zero)) return Ct;
-  Ct.M1 = for_each_mode(n, [&](Index j) {
+  if (std::ranges::all_of(K, is_zero)) return C_t;
+  C_t.M1 = for_each_mode(n, [&](Index j) {
     MatrixXd M1(n, 3);
     for (Index c = 0; c < 3; ++c) M1.col(c) = K[std::size_t(c)].col(j);
     return M1;
   });
-  return Ct;
+  return C_t;
 }
 
 /// Cr(q) = int phi x~... to first order: Cr1_m(i, c) = int (phi_m x phi_i)_c dm, and Ge = 2 Cr1.
@@ -213,7 +213,7 @@ Rotational rotational(const FloatingBody& floating, const MassIntegrals& integra
                    .Gr = {MatrixXd(3, 3 * n)}};
   for (int c = 0; c < 3; ++c) {
     const MatrixXd cross = cross_product(integrals, c);
-    const MatrixXd K = stiffening_of(floating.body, stiffening_loads[std::size_t(6 + c)]);
+    const MatrixXd K = stiffening_of(floating.body, stiffening_loads[6 + std::size_t(c)]);
     for (Index m = 0; m < n; ++m) {
       terms.Cr.M1[std::size_t(m)].col(c) = cross.row(m).transpose() + K.col(m);
       terms.G_e.M0.col(3 * m + c) = 2.0 * cross.row(m).transpose();

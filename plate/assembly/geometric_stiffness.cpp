@@ -67,13 +67,14 @@ MatrixXd stress_stiffness(const LoadedElement& of, const VectorXd& u_e)
 void add_arms(const LoadedElement& of, const NodeVectors& offsets, const VectorXd& u_e,
               MatrixXd& K_e)
 {
-  const auto& [model, block, element, motions, load] = of;
+  const MassModel& model = of.model;
   const std::span<const int> nodes = of.nodes();
   const auto follows = [&](int node) { return model.dofs.is_dependent(node); };
   if (offsets.size() == 0 && std::ranges::none_of(nodes, follows)) return;
   const ElementContext context{model.sections, model.structure, model.normals};
-  const VectorXd forces = element_matrices(model.mesh, block, element, context).matrices.K * u_e -
-                          element_moments(element_points(model, block, element).points) * load;
+  const VectorXd forces =
+      element_matrices(model.mesh, of.block, of.element, context).matrices.K * u_e -
+      element_moments(element_points(model, of.block, of.element).points) * of.load;
   for (Index i = 0; i < std::ssize(nodes); ++i) {
     Vector3d arm = coupling_arm(model.dofs, nodes[i]);
     if (offsets.size() > 0) arm += offsets.row(i).transpose();

@@ -77,7 +77,7 @@ def main(programs, seconds, table, *readers):
     table.write_text(
         "# Fuzzing\n\nWritten by `./dev fuzz SECONDS`: libFuzzer with the address and undefined-behaviour sanitizers. A reader may "
         "return, or refuse with a\nclear error, and take no more than 64 MiB at once. What once broke a reader is in "
-        "`tests/fuzz/corpus` and replayed by `DamagedFiles.*`\nand `DamagedResults.*`, which also do some of the damage, always "
+        "`tests/fuzz/corpus` and replayed by `DamagedFiles.*`,\n`DamagedResults.*` and `DamagedMed.*`, which also do some of the damage, always "
         "the same, in every run of the tests. Files of HDF5 are damaged dataset by\ndataset and sealed; a process of its own tries "
         "each of them first, since a seal gives no privileges, so that what is tested are our own checks.\n\n"
         "| reader of | inputs | CPU seconds | branches reached | outcome |\n| --- | --- | --- | --- | --- |\n"
