@@ -143,6 +143,22 @@ def the_known_numbers(programs, folder):
     expect("in-plane at 40 rad/s without stiffening, 15.5 Hz", without - 15.5, 0.05)
 
 
+def free_beams(programs, folder):
+    """A free body accelerates with its centre: it is stretched about that, wherever the axis is."""
+    free = changed(BEAM, ('fixed = ["root"]', "fixed = []"))
+    found = []
+    for name, start in (("far", 3.0), ("centred", -0.5)):
+        moved = changed(free, ("start = [0.0", f"start = [{start}"), ("end = [1.0", f"end = [{start + 1.0}"))
+        reduced, body = files(programs, folder / name, moved)
+        with h5py.File(reduced) as system, h5py.File(body) as modes:
+            expect(f"{name}: a free body has it too", int("stiffening" not in modes), 0)
+            masters = slice(12)  # whose coordinates do not depend on the signs of modes
+            found.append({load: system[f"stiffening/{load}"][masters, masters] for load in ("omega_zz", "acceleration_x")})
+    size = np.abs(found[1]["omega_zz"]).max()
+    expect("a free beam far from the axis is one about its centre", np.abs(found[0]["omega_zz"] - found[1]["omega_zz"]).max() / size, 1e-7)
+    expect("a fall stretches nothing", max(np.abs(one["acceleration_x"]).max() for one in found) / size, 1e-7)
+
+
 DISC = """title = "Free spinning disc"
 
 [mesh]
@@ -253,6 +269,7 @@ def main(programs, mpirun):
         folder = Path(name)
         body = rotating_beam(programs, folder)
         the_known_numbers(programs, folder)
+        free_beams(programs, folder)
         spinning_disc(programs, folder, mpirun)
         in_files(programs, folder, body)
         refusals(programs, folder)
