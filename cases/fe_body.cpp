@@ -25,14 +25,6 @@ std::string name_of_dof(const FeModel& fe, PetscInt dof)
   return "";
 }
 
-/// Whether the rigid-body motions are those of the nodes, and no spring resists them.
-bool geometry_tells_motions(const scene::Scene& scene, const FeModel& fe)
-{
-  const bool is_free = std::ranges::all_of(
-      scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
-  return is_free && !fe.system.dofs.has_combined_motions();
-}
-
 /// For other programs: -cms_view_stiffness binary:K.petsc, -cms_view_mass, -cms_view_masters, and
 /// what else PETSc's viewers know.
 void view_from_options(const FeModel& fe)
@@ -51,6 +43,13 @@ void view_from_options(const FeModel& fe)
 }
 
 }  // namespace
+
+bool geometry_tells_motions(const scene::Scene& scene, const FeModel& fe)
+{
+  const bool is_free = std::ranges::all_of(
+      scene.springs, [](const plate::Spring& spring) { return spring.to.has_value(); });
+  return is_free && !fe.system.dofs.has_combined_motions();
+}
 
 reduce::Body body_of(const scene::Scene& scene, FeModel& fe)
 {

@@ -88,6 +88,7 @@ std::string lost_by(const scene::Scene& scene, const SectorModel& sector)
 {
   if (!has_size(scene.mesh)) return "the node numbers of the mesh file";
   if (!scene.resultants.groups.empty()) return "the element numbers of section forces";
+  if (!scene.stiffening.empty()) return "the geometric stiffness";
   const SectorSupport support = sector_support(scene, sector);
   if (support.names != scene.body.fixed) return "errors under the support of [body]";
   const bool certifies_responses = may_keep_responses(scene) && scene.ring_harmonics.empty();

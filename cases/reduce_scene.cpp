@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/chosen_mesh.hpp"
+#include "cases/described_system.hpp"
 #include "cases/enrich_scene.hpp"
 #include "cases/fe_body.hpp"
 #include "cases/mass_integrals.hpp"
@@ -16,6 +17,7 @@
 #include "cases/response_goal.hpp"
 #include "cases/scene_support.hpp"
 #include "cases/section_forces.hpp"
+#include "cases/stiffening.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "files/file_digest.hpp"
@@ -46,13 +48,15 @@ FeModel assemble_scene(const scene::Scene& scene, mesh::Mesh mesh)
 
 reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::SolverOptions& solver)
 {
-  // Of mass integrals: 64 columns of the product of a matrix with Psi and Phi; of these, and of Psi
-  // and Phi, the rows that move in one direction; that matrix and its block of the slaves.
+  // Of mass integrals and stiffening: 64 columns of the product of a matrix with Psi and Phi; of
+  // these, and of Psi and Phi, the rows that move in one direction; that matrix and its block of
+  // the slaves.
   constexpr double moving_rows = 0.4, block = 64.0;
   constexpr reduce::WorkAfterwards in_integrals{.columns = block * (1.0 + moving_rows),
                                                 .columns_for_each_kept = moving_rows,
                                                 .matrices = 2.0};
-  reduce::WorkAfterwards later = scene.mass_integrals ? in_integrals : reduce::WorkAfterwards{};
+  const bool projects = scene.mass_integrals || !scene.stiffening.empty();
+  reduce::WorkAfterwards later = projects ? in_integrals : reduce::WorkAfterwards{};
   if (may_keep_responses(scene)) {
     // K_ss^-1 of the inertia of each column, and blocks of these; for each load, which are one
     // direction of the nodes, a shape, its part in the basis, its products with K and M, K_ss^-1.
@@ -67,42 +71,6 @@ reduce::ReductionOptions options_of(const scene::Scene& scene, const linear::Sol
           .later = later};
 }
 
-/// The system that is written without its matrices.
-mbs_export::ReducedSystem described(const scene::Scene& scene, const FeModel& fe)
-{
-  mbs_export::ReducedSystem system;
-  system.title = scene.title;
-  system.sets = fe.attachments.sets;
-  for (std::size_t i = 0; i < fe.attachments.nodes.size(); ++i) {
-    const int node = fe.attachments.nodes[i];
-    const Eigen::Vector3d x = fe.system.dofs.position(node);
-    system.attachment_nodes.push_back({.number = node_number(fe.mesh, fe.system.dofs, node),
-                                       .position = {x[0], x[1], x[2]},
-                                       .drilling_axis = fe.attachments.drilling_axes[i]});
-  }
-  system.masters = fe.attachments.masters;
-  if (!fe.system.dofs.harmonic_rings().empty()) {
-    const MatrixXd F = master_shapes(fe.attachments, fe.system.dofs);
-    system.ring_motion = {.shapes = F, .displacements = F};  // of the masters alone
-  }
-  return system;
-}
-
-/// The supports of the scene's body that hold masters: those that hold nodes of a ring of harmonics
-/// leave a residual that the certificate does not know.
-std::vector<std::string> certified_support(const scene::Scene& scene, const FeModel& fe)
-{
-  std::vector<std::string> support;
-  for (const std::string& fixed : scene.body.fixed) {
-    const bool is_master = std::ranges::none_of(fe.attachments.sets, [&](const auto& set) {
-      const bool is_meant = fixed == set.name || fixed.substr(0, fixed.rfind('.')) == set.name;
-      return is_meant && has_ring_nodes(fe.attachments, fe.system.dofs, set);
-    });
-    if (is_master) support.push_back(fixed);
-  }
-  return support;
-}
-
 bool finds_modes(const reduce::Reduction& reduction)
 {
   return reduction.choice.method == reduce::Method::craig_bampton;
@@ -112,7 +80,7 @@ SceneReduction reduce_model(const scene::Scene& scene, FeModel& fe,
                             const linear::SolverOptions& solver, Phases& phases)
 {
   reduce::ReductionOptions options = options_of(scene, solver);
-  mbs_export::ReducedSystem system = described(scene, fe);
+  mbs_export::ReducedSystem system = described_system(scene, fe);
   reduce::FactoredBody body = reduce::factored(body_of(scene, fe), options, phases);
   const SceneSupport support(system, body.masters, certified_support(scene, fe));
   const std::optional<SceneResponses> responses =
@@ -223,8 +191,14 @@ ReduceSummary reduce_meshed(const scene::Scene& scene, const SaidOfSolvers& solv
   }
   phases.begin("assembly");
   FeModel fe = assemble_scene(scene, std::move(meshed.mesh));
+  const StressedStates stressed = stressed_states(scene, fe, solvers.options, phases);
   SceneReduction reduced = reduce_model(scene, fe, solvers.options, phases);
   reduced = with_what_bodies_need(scene, fe, std::move(reduced), phases);
+  if (!stressed.loads.empty()) {
+    phases.begin("stiffening");
+    reduced.system.stiffening = stiffening(scene, fe, reduced, stressed);
+    phases.end();
+  }
   mbs_export::ReducedSystem& system = reduced.system;
   system.provenance = provenance(scene, solvers, fe.mesh);
   return {.reduced = std::move(system),

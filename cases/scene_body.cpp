@@ -22,6 +22,18 @@ mbs_export::ModalBody made_body(const scene::Scene& scene, const mbs_export::Red
   }
 }
 
+/// Stiffening belongs to the support that the stress was computed with.
+void add_note_of_stiffening(const mbs_export::ModalBody& body,
+                            const mbs_export::ReducedSystem& reduced,
+                            std::vector<std::string>& notes)
+{
+  if (!reduced.stiffening || body.stiffening) return;
+  notes.push_back(fmt::format(
+      "the body has no geometric stiffening: the reduced system has that of fixed = [{}]; reduce "
+      "the scene again to have it for this support",
+      fmt::join(reduced.stiffening->fixed, ", ")));
+}
+
 /// Modes beyond the last one that the reduction has an error estimate for are kept where a
 /// frequency asks for them, but told.
 std::vector<std::string> notes_of(const scene::Scene& scene, const mbs_export::ModalBody& body,
@@ -45,6 +57,7 @@ SceneBody scene_body(const scene::Scene& scene, const mbs_export::ReducedSystem&
 {
   mbs_export::ModalBody body = made_body(scene, reduced);
   std::vector<std::string> notes = notes_of(scene, body, reduced.certificate);
+  add_note_of_stiffening(body, reduced, notes);
   if (scene.squeal && body.n_free_rigid > 0) {
     scene::refuse_key(
         scene, "body.fixed",

@@ -46,6 +46,8 @@ if(CHLADNI_FE)
     message(STATUS "${package}_DIR: ${folder}")
   endforeach()
   pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc>=3.18)
+  include(PetscConfiguration)
+  check_petsc_configuration("${PETSC_INCLUDE_DIRS}")
   pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18)
   pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)  # formulas of the position
   find_library(GMSH_LIBRARY gmsh REQUIRED)

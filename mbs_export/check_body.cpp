@@ -191,6 +191,7 @@ std::vector<Check> check_body(const ModalBody& body)
     checks.push_back(check_parts::check_mass_integrals(
         *body.mass_integrals, MatrixXd::Identity(body.n_modes(), body.n_modes())));
   }
+  if (body.stiffening) checks.push_back(check_parts::check_stiffening(*body.stiffening));
   add_rings(checks, body);
   return checks;
 }

@@ -89,6 +89,17 @@ Check check_mass_integrals(const MassIntegrals& integrals, const MatrixXd& M)
                  "S_xx + S_yy + S_zz against M over sqrt(M_ii M_jj)");
 }
 
+Check check_stiffening(const Stiffening& stiffening)
+{
+  double largest = 0.0;
+  for (const MatrixXd& K : stiffening.K) {
+    const double size = K.cwiseAbs().maxCoeff();
+    if (size != 0.0) largest = std::max(largest, (K - K.transpose()).cwiseAbs().maxCoeff() / size);
+  }
+  return bounded("geometric stiffness", largest, 1e-10,
+                 "largest |A_ij - A_ji| over the largest entry of each matrix");
+}
+
 double characteristic_length(const std::vector<AttachmentNode>& nodes)
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -31,6 +31,9 @@ Check check_inertia(const Eigen::Matrix3d& inertia);
 /// S_xx + S_yy + S_zz against the mass matrix M of the same coordinates.
 Check check_mass_integrals(const MassIntegrals& integrals, const Eigen::MatrixXd& M);
 
+/// Symmetry of the matrices of each load.
+Check check_stiffening(const Stiffening& stiffening);
+
 /// Root mean square distance of the attachment nodes from their centre, m; 1 for a single point.
 double characteristic_length(const std::vector<AttachmentNode>& nodes);
 

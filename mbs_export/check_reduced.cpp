@@ -282,6 +282,7 @@ std::vector<Check> check_reduced(const ReducedSystem& reduced)
   add_fixed_interface_modes(checks, reduced);
   add_free_modes(checks, reduced);
   add_mass_integrals(checks, reduced);
+  if (reduced.stiffening) checks.push_back(check_parts::check_stiffening(*reduced.stiffening));
   add_ring_motion(checks, reduced);
   return checks;
 }

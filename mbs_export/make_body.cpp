@@ -182,6 +182,8 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
     body.sector_harmonics = in_coordinates(*reduced.sector_harmonics, reduced.M, modes.T);
   if (reduced.mass_integrals)
     body.mass_integrals = in_coordinates(*reduced.mass_integrals, modes.T);
+  if (reduced.stiffening && reduced.stiffening->fixed == options.fixed)
+    body.stiffening = in_coordinates(*reduced.stiffening, modes.T);
   body.rings = contact_rings(reduced, body.attachment_modes);
   return body;
 }

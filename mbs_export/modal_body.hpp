@@ -86,7 +86,9 @@ struct ModalBody {
   Preparation preparation = {};
   std::vector<ResultantModes> resultants = {};       ///< in the modes, N or the like per unit of q
   std::optional<MassIntegrals> mass_integrals = {};  ///< phi_i: mode shapes, m per unit of q
-  std::optional<SelectionTable> selection = {};      ///< when a tolerance chose the modes
+  /// Where the reduced system has it for `fixed`; 1 or 1/m per unit of the factor of each load.
+  std::optional<Stiffening> stiffening = {};
+  std::optional<SelectionTable> selection = {};          ///< when a tolerance chose the modes
   std::optional<SectorHarmonics> sector_harmonics = {};  ///< of a body of equal sectors
   Certificate certificate = {};  ///< of the reduced system; for the body where it is `fixed` alike
   Provenance provenance;

@@ -10,6 +10,7 @@
 #include "mbs_export/certificate.hpp"
 #include "mbs_export/mass_integrals.hpp"
 #include "mbs_export/sector_motions.hpp"
+#include "mbs_export/stiffening.hpp"
 
 namespace chladni::mbs_export {
 
@@ -114,6 +115,7 @@ struct ReducedSystem {
   Certificate certificate = {};
   std::vector<ResultantModes> resultants = {};
   std::optional<MassIntegrals> mass_integrals = {};  ///< absent for matrices without geometry
+  std::optional<Stiffening> stiffening = {};         ///< where the scene asks for it
   Provenance provenance;
 
   Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }

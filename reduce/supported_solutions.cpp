@@ -186,6 +186,19 @@ StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
   return solution;
 }
 
+petsc::Matrix static_solutions(Mat K, Mat F, const FreeDofs& free,
+                               const linear::SolverOptions& options)
+{
+  const petsc::Matrix K_ff = free_block(K, free);
+  const linear::Factorization factor = linear::factorize(K_ff, options);
+  petsc::Matrix F_f;
+  petsc::check(MatCreateSubMatrix(F, free.indices, nullptr, MAT_INITIAL_MATRIX, F_f.put()));
+  const PetscInt n = linear::LocalRows(F).n_cols();
+  const petsc::Matrix U_f = linear::uninitialized_dense(K_ff, n);
+  petsc::check(MatMatSolve(factor.factor(), F_f, U_f));
+  return of_all_dofs(U_f, free, K, n);
+}
+
 NaturalModes natural_modes(Mat K, Mat M, const FreeDofs& free, const NaturalModesOptions& options)
 {
   const petsc::Matrix K_ff = free_block(K, free);

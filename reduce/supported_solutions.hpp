@@ -34,6 +34,14 @@ struct StaticSolution {
 StaticSolution static_solution(Mat K, Vec f, const FreeDofs& free,
                                const linear::SolverOptions& options = {});
 
+/// U of K U = F with U = 0 at the held DOFs, for several loads: one factorisation by Cholesky.
+/// @param F  [n_DOFs x n] dense
+/// @return [n_DOFs x n] dense
+/// @note   Collective on the communicator of `K`.
+/// @throws linear::FreeMotion when K of the free DOFs is not positive definite.
+petsc::Matrix static_solutions(Mat K, Mat F, const FreeDofs& free,
+                               const linear::SolverOptions& options = {});
+
 /// K x = lambda M x on the free DOFs, X^T M X = I, lambda ascending.
 struct NaturalModes {
   std::vector<double> lambda;  ///< [n] rad^2/s^2; rigid-body motions first, with round-off's lambda

@@ -102,6 +102,13 @@ void add_harmonics(TextTable& table, const mbs_export::ReducedSystem& reduced)
   }
 }
 
+void add_stiffening(TextTable& table, const std::optional<mbs_export::Stiffening>& stiffening)
+{
+  if (!stiffening) return;
+  table.rows.push_back(
+      {"geometric stiffness by", fmt::format("{}", fmt::join(stiffening->loads, " ")), ""});
+}
+
 }  // namespace
 
 std::string name_of(mbs_export::ModeKind kind)
@@ -130,6 +137,7 @@ TextTable describe(const mbs_export::ReducedSystem& reduced)
     add(table, "lowest of them", f_Hz.minCoeff(), "Hz");
     add(table, "highest of them", f_Hz.maxCoeff(), "Hz");
   }
+  add_stiffening(table, reduced.stiffening);
   add_picture(table, reduced.picture);
   return table;
 }
@@ -148,6 +156,7 @@ TextTable describe(const mbs_export::ModalBody& body)
   add_count(table, "contact rings", static_cast<Eigen::Index>(body.rings.size()));
   add(table, "mass", body.mass, "kg");
   add(table, "moment of inertia about z", body.inertia(2, 2), "kg m^2");
+  add_stiffening(table, body.stiffening);
   add_picture(table, body.picture);
   return table;
 }

@@ -238,6 +238,32 @@ bool read_mass_integrals(const Table& root)
   return !table || !table->has("mass_integrals") || table->truth("mass_integrals");
 }
 
+std::vector<std::string> read_stiffening(const Table& root, const Scene& scene)
+{
+  const std::optional<Table> table = optional_table(root);
+  if (!table || !table->has("stiffening")) return {};
+  if (root.table("mesh").has("sectors")) {
+    table->refuse("stiffening",
+                  "is not available for bodies of equal sectors; take one of the two out");
+  }
+  for (const int c : {0, 1, 2}) {
+    if (std::ranges::find(scene.components, c) == scene.components.end()) {
+      table->refuse("stiffening",
+                    "needs x, y and z in model.dofs: without them the inertia stretches nothing");
+    }
+  }
+  static const std::vector<std::string> known{
+      "spin-x", "spin-y", "spin-z", "spin", "angular-acceleration", "acceleration"};
+  std::vector<std::string> motions = table->texts("stiffening");
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (!contains(known, motions[i]))
+      table->refuse_element("stiffening", i, "must be one of " + quoted_list(known));
+    if (std::find(motions.begin(), motions.begin() + i, motions[i]) != motions.begin() + i)
+      table->refuse_element("stiffening", i, "is named twice");
+  }
+  return motions;
+}
+
 std::optional<bool> read_sylvester(const Table& root)
 {
   const std::optional<Table> table = optional_table(root);

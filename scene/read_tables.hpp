@@ -70,8 +70,8 @@ std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
 
 /// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
-/// `mass_integrals`, `mesh_errors`, `ranks_per_harmonic` and `sylvester`; with `accuracy` by its
-/// tolerance.
+/// `mass_integrals`, `mesh_errors`, `ranks_per_harmonic`, `stiffening` and `sylvester`; with
+/// `accuracy` by its tolerance.
 reduce::ReduceOptions read_reduce(const Table& root, const std::optional<Accuracy>& accuracy);
 
 /// [reduce] ranks_per_harmonic
@@ -88,6 +88,9 @@ PictureChoice read_pictures(const Table& root);
 
 /// [reduce] mass_integrals
 bool read_mass_integrals(const Table& root);
+
+/// [reduce] stiffening; needs the components of `scene`.
+std::vector<std::string> read_stiffening(const Table& root, const Scene& scene);
 
 /// [reduce] sylvester
 std::optional<bool> read_sylvester(const Table& root);

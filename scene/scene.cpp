@@ -112,6 +112,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
     scene.resultants = read_resultants(root, scene);
     scene.pictures = read_pictures(root);
     scene.mass_integrals = read_mass_integrals(root);
+    scene.stiffening = read_stiffening(root, scene);
     scene.sylvester = read_sylvester(root);
   }
   scene.body = read_body(root, scene);

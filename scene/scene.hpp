@@ -87,8 +87,9 @@ struct Scene {
   reduce::ReduceOptions reduce;
   /// Of a body of equal sectors; without it as many as there are for each harmonic.
   std::optional<int> ranks_per_harmonic;
-  bool mesh_errors = false;       ///< estimate what the mesh lets the body's frequencies be off
-  bool mass_integrals = true;     ///< of a moving frame: Coriolis and centrifugal forces
+  bool mesh_errors = false;    ///< estimate what the mesh lets the body's frequencies be off
+  bool mass_integrals = true;  ///< of a moving frame: Coriolis and centrifugal forces
+  std::vector<std::string> stiffening;  ///< words: motions whose stress is to stiffen the body
   std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
   mbs_export::BodyOptions body;
   std::optional<mbs_export::ResponseOptions> response;

@@ -239,6 +239,7 @@ void write_body(const std::string& path, const ModalBody& body)
   write_vtkhdf(file, body);
   file_parts::write_resultants(file, body.resultants);
   file_parts::write_mass_integrals(file, body.mass_integrals);
+  file_parts::write_stiffening(file, body.stiffening);
   file.write("rigid_body/mass", body.mass, "kg");
   file.write("rigid_body/centre_of_mass", body.centre_of_mass, "m");
   file.write("rigid_body/inertia", body.inertia, "kg m^2");
@@ -292,6 +293,7 @@ ModalBody read_body(const files::Reader& file)
           .preparation = read_preparation(file),
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),
+          .stiffening = file_parts::read_stiffening(file, n),
           .selection = read_selection(file),
           .sector_harmonics = file_parts::read_sector_harmonics(file, n),
           .certificate = read_certificate(file),

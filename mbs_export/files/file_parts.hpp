@@ -7,6 +7,7 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/mass_integrals.hpp"
 #include "mbs_export/reduced_system.hpp"
+#include "mbs_export/stiffening.hpp"
 
 /// The groups that the files of a reduced system and of a modal body have in common.
 namespace chladni::mbs_export::file_parts {
@@ -46,6 +47,11 @@ std::vector<ResultantModes> read_resultants(const files::Reader& file, Eigen::In
 void write_mass_integrals(files::Writer& file, const std::optional<MassIntegrals>& integrals);
 /// @param n  number of coordinates
 std::optional<MassIntegrals> read_mass_integrals(const files::Reader& file, Eigen::Index n);
+
+/// Group `stiffening`; nothing is written when there is none.
+void write_stiffening(files::Writer& file, const std::optional<Stiffening>& stiffening);
+/// @param n  number of coordinates
+std::optional<Stiffening> read_stiffening(const files::Reader& file, Eigen::Index n);
 
 /// Group `sectors`; nothing is written where there are none.
 void write_sector_harmonics(files::Writer& file, const std::optional<SectorHarmonics>& harmonics);

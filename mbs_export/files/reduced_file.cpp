@@ -89,6 +89,7 @@ void write_reduced(const std::string& path, const ReducedSystem& reduced)
   file_parts::write_sector_motions(file, reduced.picture_of_sectors);
   file_parts::write_resultants(file, reduced.resultants);
   file_parts::write_mass_integrals(file, reduced.mass_integrals);
+  file_parts::write_stiffening(file, reduced.stiffening);
   file_parts::write_provenance(file, reduced.provenance);
   file.commit();
 }
@@ -135,6 +136,7 @@ ReducedSystem read_reduced(const files::Reader& file)
           .certificate = read_certificate(file),
           .resultants = file_parts::read_resultants(file, n),
           .mass_integrals = file_parts::read_mass_integrals(file, n),
+          .stiffening = file_parts::read_stiffening(file, n),
           .provenance = file_parts::read_provenance(file)};
 }
 

@@ -23,6 +23,7 @@ ReducedSystem with_all_coordinates(ReducedSystem reduced)
   const Index n = reduced.K.rows();
   reduced.resultants.clear();
   reduced.mass_integrals.reset();
+  reduced.stiffening.reset();
   reduced.picture_of_sectors.reset();
   reduced.picture = {};
   reduced.picture.positions.setZero(1, 3);
@@ -50,6 +51,8 @@ ModalBody elastic_part(const ModalBody& body, Index n_rigid)
 void add_from_reduced(ModalBody& elastic, const ReducedSystem& reduced, const MatrixXd& T)
 {
   if (reduced.mass_integrals) elastic.mass_integrals = in_coordinates(*reduced.mass_integrals, T);
+  if (reduced.stiffening && reduced.stiffening->fixed == elastic.fixed)
+    elastic.stiffening = in_coordinates(*reduced.stiffening, T);
   elastic.picture = picture_in(reduced, T);
 }
 

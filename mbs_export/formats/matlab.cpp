@@ -83,6 +83,17 @@ std::vector<MatFields> rings_of(const ModalBody& body)
   return rings;
 }
 
+/// The matrix of each load.
+std::vector<MatFields> stiffening_of(const Stiffening& stiffening)
+{
+  std::vector<MatFields> loads;
+  for (std::size_t i = 0; i < stiffening.loads.size(); ++i) {
+    loads.push_back(
+        {{"load", mat_array(stiffening.loads[i])}, {"matrix", mat_array(stiffening.K[i])}});
+  }
+  return loads;
+}
+
 }  // namespace
 
 std::string matlab_body(const ModalBody& body)
@@ -104,6 +115,8 @@ std::string matlab_body(const ModalBody& body)
                    {"free_frequencies", mat_array(MatrixXd(body.free_frequencies))},
                    {"free_rigid_modes", scalar(body.n_rigid)}};
   for (auto& field : nodes_of(body)) fields.push_back(std::move(field));
+  if (body.stiffening)
+    fields.emplace_back("stiffening", mat_array(stiffening_of(*body.stiffening)));
   return mat_file("MATLAB 5.0 MAT-file, a modal body of Chladni in SI units", "body",
                   mat_array(std::vector<MatFields>{std::move(fields)}));
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "mbs_export/formats/export_error.hpp"
@@ -128,6 +129,21 @@ std::string invariant_groups(const FloatingBody& floating)
          rows(invariant_5(integrals)) + group(18, "INVARIANT 9") + rows(invariant_9(integrals));
 }
 
+/// The factors of MBDyn's record group 19 are those of `stiffening_loads`, counted from 1.
+std::string stiffening_group(const ModalBody& body)
+{
+  if (!body.stiffening || body.stiffening->loads.empty()) return "";
+  const Stiffening& stiffening = *body.stiffening;
+  std::string text =
+      group(19, "MODAL STRESS STIFFENING MATRICES: NUMBER, LOAD AND MATRIX OF EACH") +
+      fmt::format("{}\n", stiffening.loads.size());
+  for (std::size_t i = 0; i < stiffening.loads.size(); ++i) {
+    const auto load = std::ranges::find(stiffening_loads, stiffening.loads[i]);
+    text += fmt::format("{}\n", load - stiffening_loads.begin() + 1) + rows(stiffening.K[i]);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
@@ -142,7 +158,7 @@ std::string mbdyn_fem(const FloatingBody& floating, MbdynVersion version)
   }
   std::string text =
       header(body, version) + node_groups(body) + mode_group(body) + matrix_groups(body);
-  if (version == MbdynVersion::develop) text += invariant_groups(floating);
+  if (version == MbdynVersion::develop) text += invariant_groups(floating) + stiffening_group(body);
   return text + "** END OF FILE\n";
 }
 

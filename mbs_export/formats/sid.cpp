@@ -135,9 +135,30 @@ Taylor inertia(const MassIntegrals& integrals, SidDialect dialect)
   return J;
 }
 
-/// int phi_i . (omega x (omega x (x + sum phi_j q_j))) dm by the six products of omega.
-Taylor centrifugal(const MassIntegrals& integrals, SidDialect dialect)
+/// K_sigma q of a load is a force that the first order of its coefficients holds; zero where the
+/// body has no such matrix.
+MatrixXd stiffening_of(const ModalBody& body, const std::string& load)
 {
+  if (body.stiffening &&
+      std::ranges::find(body.stiffening->loads, load) != body.stiffening->loads.end())
+    return stiffening_by(*body.stiffening, load);
+  return MatrixXd::Zero(body.n_modes(), body.n_modes());
+}
+
+/// The load of omega_k omega_l.
+const std::string& load_of_product(int k, int l)
+{
+  for (std::size_t i = 0; i < product_axes.size(); ++i)
+    if (product_axes[i] == std::pair{k, l} || product_axes[i] == std::pair{l, k})
+      return stiffening_loads[i];
+  return stiffening_loads.front();
+}
+
+/// int phi_i . (omega x (omega x (x + sum phi_j q_j))) dm by the six products of omega, and the
+/// geometric stiffness by the stress of these forces.
+Taylor centrifugal(const ModalBody& body, SidDialect dialect)
+{
+  const MassIntegrals& integrals = *body.mass_integrals;
   using Pairs = std::array<std::pair<int, int>, 6>;
   const Pairs axes = dialect == SidDialect::simpack
                          ? Pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}}
@@ -148,7 +169,8 @@ Taylor centrifugal(const MassIntegrals& integrals, SidDialect dialect)
   Taylor O_e{.M0 = MatrixXd(n, 6), .M1 = std::vector<MatrixXd>(std::size_t(n), MatrixXd(n, 6))};
   for (Index c = 0; c < 6; ++c) {
     const auto [k, l] = axes[std::size_t(c)];
-    const MatrixXd both = k == l ? MatrixXd(S(k, k) - M) : MatrixXd(S(k, l) + S(l, k));
+    const MatrixXd of_mass = k == l ? MatrixXd(S(k, k) - M) : MatrixXd(S(k, l) + S(l, k));
+    const MatrixXd both = of_mass + stiffening_of(body, load_of_product(k, l));
     for (Index j = 0; j < n; ++j) {
       const Eigen::Matrix3d C4 = position_tilde_shape(integrals, j);
       O_e.M0(j, c) = k == l ? C4(k, k) : C4(k, l) + C4(l, k);
@@ -158,7 +180,26 @@ Taylor centrifugal(const MassIntegrals& integrals, SidDialect dialect)
   return O_e;
 }
 
+/// Ct(q) to first order: its factor is the acceleration of the frame, whose stress stiffens.
+Taylor translational(const ModalBody& body)
+{
+  const Index n = body.n_modes();
+  Taylor C_t{.M0 = body.mass_integrals->displacement.transpose()};
+  const std::array<MatrixXd, 3> K{stiffening_of(body, "acceleration_x"),
+                                  stiffening_of(body, "acceleration_y"),
+                                  stiffening_of(body, "acceleration_z")};
+  const auto is_zero = [](const MatrixXd& A) { return A.isZero(0.0); };
+  if (std::ranges::all_of(K, is_zero)) return C_t;
+  C_t.M1 = for_each_mode(n, [&](Index j) {
+    MatrixXd M1(n, 3);
+    for (Index c = 0; c < 3; ++c) M1.col(c) = K[std::size_t(c)].col(j);
+    return M1;
+  });
+  return C_t;
+}
+
 /// Cr(q) = int phi x~... to first order: Cr1_m(i, c) = int (phi_m x phi_i)_c dm, and Ge = 2 Cr1.
+/// The stress of angular accelerations stiffens by Cr1 too.
 struct Rotational {
   Taylor Cr, G_e, Gr;
 };
@@ -172,8 +213,9 @@ Rotational rotational(const FloatingBody& floating, const MassIntegrals& integra
                    .Gr = {MatrixXd(3, 3 * n)}};
   for (int c = 0; c < 3; ++c) {
     const MatrixXd cross = cross_product(integrals, c);
+    const MatrixXd K = stiffening_of(floating.body, stiffening_loads[6 + std::size_t(c)]);
     for (Index m = 0; m < n; ++m) {
-      terms.Cr.M1[std::size_t(m)].col(c) = cross.row(m).transpose();
+      terms.Cr.M1[std::size_t(m)].col(c) = cross.row(m).transpose() + K.col(m);
       terms.G_e.M0.col(3 * m + c) = 2.0 * cross.row(m).transpose();
     }
   }
@@ -240,13 +282,13 @@ std::string sid_fem(const FloatingBody& floating, const SidOptions& options)
   sid.taylor("mdCM", {integrals.first,
                       for_each_mode(n, [&](Index j) { return integrals.displacement.col(j); })});
   sid.taylor("J", inertia(integrals, options.dialect));
-  sid.taylor("Ct", {integrals.displacement.transpose()});
+  sid.taylor("Ct", translational(body));
   const Rotational terms = rotational(floating, integrals);
   sid.taylor("Cr", terms.Cr);
   sid.taylor("Me", {MatrixXd::Identity(n, n)});
   sid.taylor("Gr", in_order(terms.Gr, options.gyroscopic));
   sid.taylor("Ge", in_order(terms.G_e, options.gyroscopic));
-  sid.taylor("Oe", centrifugal(integrals, options.dialect));
+  sid.taylor("Oe", centrifugal(body, options.dialect));
   sid.taylor("ksigma", {MatrixXd::Zero(n, 1)});
   sid.taylor("Ke", {MatrixXd(body.omega.cwiseAbs2().asDiagonal())});
   sid.taylor("De", {body.C.size() > 0 ? body.C : MatrixXd::Zero(n, n)});

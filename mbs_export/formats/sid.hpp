@@ -22,8 +22,9 @@ struct SidOptions {
 
 /// A body as Standard Input Data (*.SID_FEM) in the frame of the mesh: shapes at the attachment
 /// nodes, the inertia and its change with the deformation to first order, gyroscopic and
-/// centrifugal matrices. Without geometric stiffening, so ksigma is zero and Oe, Ct are those of
-/// the mass alone. Gr has no first order.
+/// centrifugal matrices. The geometric stiffening that the body has (stiffening.hpp) is in the
+/// first order of Oe, Cr and Ct; ksigma, the force of a stress without motion, is zero. Gr has no
+/// first order.
 /// @throws chladni::Error when the body has no mass integrals or no elastic mode.
 std::string sid_fem(const FloatingBody& floating, const SidOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "common/error.hpp"
 #include "files/foreign_parts.hpp"
+#include "files/hdf5_dataset.hpp"
 
 namespace chladni::mesh {
 namespace {
@@ -48,8 +49,10 @@ Dataset open_dataset(hid_t file, const std::string& name)
   if (!foreign.empty()) refuse(name, foreign);
   Handle space{H5Dget_space(id.get()), H5Sclose};
   const hssize_t n = H5Sget_simple_extent_npoints(space.get());
-  constexpr hssize_t most = 1LL << 31;
-  if (n < 0 || n > most) refuse(name, "has more values than can be counted");
+  hsize_t file_size = 0;
+  H5Fget_filesize(file, &file_size);
+  if (n != 0 && !files::plausible_shape(id.get(), creation.get(), file_size))
+    refuse(name, "claims more values than the file can hold; the file is damaged or cut off");
   return {std::move(id), std::move(space), static_cast<hsize_t>(n)};
 }
 

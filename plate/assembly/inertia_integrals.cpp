@@ -6,8 +6,8 @@
 
 #include "common/eigen_every.hpp"
 #include "plate/assembly/element_motion.hpp"
+#include "plate/assembly/element_points.hpp"
 #include "plate/dofs/point_elements.hpp"
-#include "plate/elements/mass_points.hpp"
 #include "plate/sections/directors.hpp"
 
 namespace chladni::plate {
@@ -16,31 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr Index n_moments = 12;
-
-/// Mass points of an element, and how its DOFs follow from the active ones.
-struct PlacedPoints {
-  MassPoints points;
-  NodeVectors arms;  ///< [n x 3] from the nodes of the mesh, m; empty where they stand there
-};
-
-PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& block, int element)
-{
-  const int group = block.group[element];
-  const NodeVectors x = element_positions(model.mesh, block, element);
-  if (block.shape == mesh::Shape::line) {
-    return {.points = beam_mass_points(x, model.structure.beams[model.sections.beam[group]]),
-            .arms = {}};
-  }
-  const ShellSection& section = model.structure.shells[model.sections.shell[group]];
-  const ShellNodes shell = shell_nodes(model.mesh, block, element, model.normals, section);
-  PlacedPoints placed{
-      .points = shell_mass_points(block.shape, block.order, shell, section.material.density),
-      .arms = {}};
-  if (section.offset != Profile(0.0)) placed.arms = shell.x - x;
-  return placed;
-}
 
 /// Calls visit(mass points, motion, is counted here) for all elements and masses that have to do
 /// with numbers of this rank; each is counted on one rank alone.
@@ -65,19 +40,6 @@ void for_owned_points(const MassModel& model, const Visit& visit)
     const Eigen::Vector3d x = model.dofs.position(nodes[0]);
     visit(rigid_mass_points(model.masses[i], x), motion, counts(motion.numbers));
   }
-}
-
-/// [6 n_nodes x 12]: sum over the points of (1, x) u_l.
-MatrixXd element_moments(const MassPoints& points)
-{
-  MatrixXd moments(points.N[0].cols(), n_moments);
-  for (Index l = 0; l < 3; ++l) {
-    const StrainRows& N_l = points.N[static_cast<std::size_t>(l)];
-    moments.col(l) = N_l.transpose() * points.dm;
-    for (Index k = 0; k < 3; ++k)
-      moments.col(3 + 3 * k + l) = N_l.transpose() * points.dm.cwiseProduct(points.x.col(k));
-  }
-  return moments;
 }
 
 /// A dense matrix of zeros with the rows of the system.

@@ -93,6 +93,7 @@ _OF_REDUCED: _Rows = [
     (r"mass_integrals/displacement_\w\w", ("coordinate", "coordinate_2"), {}),
     (r"mass_integrals/displacement", ("xyz", "coordinate"), {}),
     (r"mass_integrals/position_displacement", ("xyz_xyz", "coordinate"), {}),
+    (r"stiffening/(omega|alpha|acceleration)_\w+", ("coordinate", "coordinate_2"), {}),
 ]
 _OF_MODAL: _Rows = [
     (r"picture/displacements", ("point_component", "mode"), {"mode": "/modes/frequencies"}),
@@ -100,6 +101,7 @@ _OF_MODAL: _Rows = [
     (r"mass_integrals/displacement_\w\w", ("mode", "mode_2"), {}),
     (r"mass_integrals/displacement", ("xyz", "mode"), {"mode": "/modes/frequencies"}),
     (r"mass_integrals/position_displacement", ("xyz_xyz", "mode"), {"mode": "/modes/frequencies"}),
+    (r"stiffening/(omega|alpha|acceleration)_\w+", ("mode", "mode_2"), {}),
 ]
 _OF_SOUND: _Rows = [
     (r"circumferential_harmonics", ("harmonic",), {}),

@@ -1,5 +1,5 @@
 // Do the readers of universal files and of grids of VTK end in anything but a mesh or an error that
-// says what is wrong? MED files are left to libhdf5, in the process that reads meshes.
+// says what is wrong? MED files have a fuzzer of their own.
 #include <string>
 
 #include "common/error.hpp"

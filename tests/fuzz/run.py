@@ -23,10 +23,12 @@ READERS = {
     "reduced": "damaged `*.reduced.h5`, then `check_reduced`",
     "squeal": "damaged `*.squeal.h5`, then what `squeal info` and `squeal report` make of it",
     "radiation": "damaged `*.radiation.h5`, then the damping of a disc",
+    "measured": "measured modes in universal files (dataset 55), `chladni mac`",
     "scene": "scene files",
     "geo": "what is asked of `.geo` files before Gmsh reads them",
     "deck": "decks of Nastran and Abaqus, as meshes and as declarations",
     "exchange": "universal files and grids of VTK, as meshes",
+    "med": "damaged MED files, as meshes",
     "mesh": "the check of `.msh` files before Gmsh reads them",
 }
 OPTIONS = ("-timeout=20", "-rss_limit_mb=1024", "-malloc_limit_mb=64", "-detect_leaks=0", "-max_len=65536",
@@ -75,7 +77,7 @@ def main(programs, seconds, table, *readers):
     table.write_text(
         "# Fuzzing\n\nWritten by `./dev fuzz SECONDS`: libFuzzer with the address and undefined-behaviour sanitizers. A reader may "
         "return, or refuse with a\nclear error, and take no more than 64 MiB at once. What once broke a reader is in "
-        "`tests/fuzz/corpus` and replayed by `DamagedFiles.*`\nand `DamagedResults.*`, which also do some of the damage, always "
+        "`tests/fuzz/corpus` and replayed by `DamagedFiles.*`,\n`DamagedResults.*` and `DamagedMed.*`, which also do some of the damage, always "
         "the same, in every run of the tests. Files of HDF5 are damaged dataset by\ndataset and sealed; a process of its own tries "
         "each of them first, since a seal gives no privileges, so that what is tested are our own checks.\n\n"
         "| reader of | inputs | CPU seconds | branches reached | outcome |\n| --- | --- | --- | --- | --- |\n"

@@ -222,7 +222,12 @@ def bad_med_files_are_refused(chladni, folder):
         del file[f"{step}/MAI/QU4/NOD"]
         file[f"{step}/MAI/QU4/NOD"] = np.ones(80)
 
+    def claimed(file):  # and never written: nothing of it is stored
+        del file[f"{step}/NOE/NUM"]
+        file.create_dataset(f"{step}/NOE/NUM", shape=(2**31 - 1,), dtype=np.int32)
+
     cases = {
+        "more values than there are": (claimed, ("NOE/NUM", "claims more values than the file can hold")),
         "solids": (renamed, ("TE4", "solid element", "mid-surface")),
         "polygons": (lambda file: file.create_group(f"{step}/MAI/POG"), ("POG", "not known")),
         "no such node": (filled(f"{step}/MAI/QU4/NOD", 9999), ("QU4/NOD", "no node 9999")),

@@ -15,6 +15,13 @@ void expect_equal(const MassIntegrals& a, const MassIntegrals& b)
   for (std::size_t i = 0; i < a.products.size(); ++i) EXPECT_EQ(a.products[i], b.products[i]);
 }
 
+void expect_equal(const Stiffening& a, const Stiffening& b)
+{
+  EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.loads, b.loads);
+  EXPECT_EQ(a.K, b.K);
+}
+
 void expect_equal(const ResultantModes& a, const ResultantModes& b)
 {
   EXPECT_EQ(a.name, b.name);
@@ -197,6 +204,7 @@ void expect_equal(const ReducedSystem& a, const ReducedSystem& b)
   expect_equal(a.certificate, b.certificate);
   expect_equal_list(a.resultants, b.resultants);
   expect_equal_if_any(a.mass_integrals, b.mass_integrals);
+  expect_equal_if_any(a.stiffening, b.stiffening);
   expect_equal(a.provenance, b.provenance);
 }
 
@@ -222,6 +230,7 @@ void expect_equal(const ModalBody& a, const ModalBody& b)
   expect_equal(a.preparation, b.preparation);
   expect_equal_list(a.resultants, b.resultants);
   expect_equal_if_any(a.mass_integrals, b.mass_integrals);
+  expect_equal_if_any(a.stiffening, b.stiffening);
   expect_equal_if_any(a.selection, b.selection);
   expect_equal(a.certificate, b.certificate);
   expect_equal(a.provenance, b.provenance);

@@ -298,6 +298,22 @@ TEST(Scene, TakesValuesInsteadOfDefaults)
   EXPECT_EQ(scene.squeal->contact, squeal::ContactLaw::unilateral);
 }
 
+TEST(Scene, SaysWhichMotionsStiffenTheBody)
+{
+  const auto with = [](const std::string& words) {
+    return replaced(disc, "[body]", "stiffening = [" + words + "]\n[body]");
+  };
+  EXPECT_TRUE(parse_scene(disc, "scene.toml").stiffening.empty());
+  EXPECT_EQ(parse_scene(with("\"spin-z\", \"acceleration\""), "scene.toml").stiffening,
+            (std::vector<std::string>{"spin-z", "acceleration"}));
+  EXPECT_NE(error_of(with("\"spin-w\"")).find("must be one of \"spin-x\""), std::string::npos);
+  EXPECT_NE(error_of(with("\"spin\", \"spin\"")).find("is named twice"), std::string::npos);
+  const std::string planar = replaced(with("\"spin\""), "[interface]",
+                                      "[model]\ndofs = [\"z\", \"rx\", \"ry\"]\n[interface]");
+  EXPECT_NE(error_of(planar).find("needs x, y and z in model.dofs"), std::string::npos)
+      << error_of(planar);
+}
+
 TEST(Scene, SaysWhereInterfaceModesAndResultantsComeFrom)
 {
   using Space = mbs_export::InterfaceModes::Space;

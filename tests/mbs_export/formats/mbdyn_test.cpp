@@ -286,6 +286,31 @@ TEST(FloatingBody, NeedsAllSixRigidMotions)
   EXPECT_NE(text.find("2 of the 6"), std::string::npos) << text;
 }
 
+TEST(MbdynFem, HasTheStiffeningOfEachLoadByItsNumber)
+{
+  FloatingBody floating = test::version_1_floating();
+  const Index n = floating.body.n_modes();
+  MatrixXd K(n, n), L = MatrixXd::Identity(n, n);
+  for (Index i = 0; i < K.size(); ++i) K(i) = 1.0 / double(3 + i);
+  floating.body.stiffening = {
+      .fixed = {}, .loads = {"omega_zz", "acceleration_y"}, .K = {K + K.transpose(), L}};
+  const std::string text = mbdyn_fem(floating, MbdynVersion::develop);
+  const std::size_t group = text.find("** RECORD GROUP 19");
+  ASSERT_NE(group, std::string::npos);
+  std::istringstream file(text.substr(text.find('\n', group)));
+  int count = 0, first = 0, second = 0;
+  file >> count >> first;
+  EXPECT_EQ(read_rows(file, n, n), MatrixXd(K + K.transpose()));
+  file >> second;
+  EXPECT_EQ(read_rows(file, n, n), L);
+  EXPECT_EQ(count, 2);
+  EXPECT_EQ(first, 3);    // omega_z^2, after omega_x^2 and omega_y^2
+  EXPECT_EQ(second, 11);  // after six products and three angular accelerations
+  // The older reader knows no such group.
+  EXPECT_EQ(mbdyn_fem(test::version_1_floating(), MbdynVersion::develop).find("GROUP 19"),
+            std::string::npos);
+}
+
 TEST(MbdynFem, IsTheSameTextAsBefore)
 {
   // The three masses of MBDyn's manual on the y axis with two modes, as a body of its own.

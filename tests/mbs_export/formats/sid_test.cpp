@@ -269,6 +269,31 @@ TEST(SidFem, HasTheForcesOfAMovingFrame)
   }
 }
 
+TEST(SidFem, HasTheStiffeningInTheFirstOrderOfTheCoefficientsOfItsLoads)
+{
+  FloatingBody floating = held_wheel();
+  const Index n = floating.body.n_modes();
+  const SidFile without = read_sid(sid_fem(floating, {}), SidDialect::simpack);
+  Stiffening stiffening;
+  for (std::size_t i = 0; i < stiffening_loads.size(); ++i) {
+    const VectorXd v = VectorXd::LinSpaced(n, 1.0, 2.0 + double(i));
+    stiffening.loads.push_back(stiffening_loads[i]);
+    stiffening.K.emplace_back(v * v.transpose());
+  }
+  floating.body.stiffening = stiffening;
+  const SidFile with = read_sid(sid_fem(floating, {}), SidDialect::simpack);
+  // xx, yy, zz, xy, yz, xz of the angular velocity, then its rate and the acceleration
+  const std::array<const char*, 3> blocks{"Oe", "Cr", "Ct"};
+  const std::array<Index, 3> first{0, 6, 9};
+  for (std::size_t b = 0; b < 3; ++b) {
+    const MatrixXd added = with.blocks.at(blocks[b]).at(q) - without.blocks.at(blocks[b]).at(q);
+    for (Index c = 0; c < added.cols(); ++c) {
+      const VectorXd expected = stiffening.K[std::size_t(first[b] + c)] * q;
+      EXPECT_LT((added.col(c) - expected).norm(), 1e-13 * expected.norm()) << blocks[b] << c;
+    }
+  }
+}
+
 TEST(SidFem, HasTheTorqueOfAVibratingBodyInASpinningFrame)
 {
   const FloatingBody floating = held_wheel();
