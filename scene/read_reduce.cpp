@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/read_mesh_parts.hpp"
 #include "scene/read_tables.hpp"
 
 namespace chladni::scene {
@@ -242,7 +243,7 @@ std::vector<std::string> read_stiffening(const Table& root, const Scene& scene)
 {
   const std::optional<Table> table = optional_table(root);
   if (!table || !table->has("stiffening")) return {};
-  if (root.table("mesh").has("sectors")) {
+  if (const Table mesh = root.table("mesh"); finds_sectors(mesh) || read_sectors(mesh) > 1) {
     table->refuse("stiffening",
                   "is not available for bodies of equal sectors; take one of the two out");
   }
