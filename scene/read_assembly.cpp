@@ -129,6 +129,8 @@ void read_disc(AssemblyOptions& options, const Table& squeal)
     options.thickness = z[1] - z[0];
   }
   if (squeal.has("slopes_from")) options.slopes_from = squeal.texts("slopes_from");
+  if (squeal.has("convection"))
+    options.convection = squeal.choice<bool>("convection", {{"kept", true}, {"left out", false}});
 }
 
 }  // namespace

@@ -73,6 +73,9 @@ struct AssemblyOptions {
   std::optional<std::array<double, 2>> planes = {};
   std::vector<std::string> slopes_from = {};  ///< as in SquealOptions
   FrictionLaw friction;
+  /// Whether the disc moves under the parts as it turns: without, friction slides over a disc whose
+  /// matrices stand still, as many finite-element programs have it.
+  bool convection = true;
 };
 
 }  // namespace chladni::squeal

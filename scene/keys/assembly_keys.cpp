@@ -99,6 +99,13 @@ constexpr Key assembly_rows[] = {
     {"squeal.disc", text, "required for an assembly", "the part that turns, about the z axis"},
     {"squeal.rings", texts, "required for an assembly",
      "rings of the disc, whose radii enclose those of all faces"},
+    {"squeal.convection",
+     word,
+     "kept",
+     "terms of a disc that moves under the pads as it turns; without them friction slides over a disc "
+     "that stands still",
+     {},
+     "kept | left out"},
 };
 
 }  // namespace

@@ -160,6 +160,7 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
                .C = modes.C,
                .points = {},
                .linings = {},
+               .convection = options.convection,
                .notes = notes_of(disc)};
   const DiscFaces faces = disc_faces(options, all.disc);
   const std::vector<Eigen::Index> first = first_coordinates(placed.parts);
@@ -187,9 +188,12 @@ Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> lining
   omega << all.disc.omega, all.omega;
   Eigen::MatrixXd K = omega.cwiseAbs2().asDiagonal();
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(n, n), D = C;
-  C.topLeftCorner(n_disc, n_disc) = all.disc.C + 2.0 * speed * all.disc.G;
+  C.topLeftCorner(n_disc, n_disc) = all.disc.C;
   C.bottomRightCorner(n_b, n_b) = all.C;
-  D.topLeftCorner(n_disc, n_disc) = all.disc.D;
+  if (all.convection) {
+    C.topLeftCorner(n_disc, n_disc) += 2.0 * speed * all.disc.G;
+    D.topLeftCorner(n_disc, n_disc) = all.disc.D;
+  }
   for (const AssemblyPoint& point : all.points) {
     const FaceDerivatives F =
         face_derivatives(pad_of(point, linings[point.contact]), point.sigma,

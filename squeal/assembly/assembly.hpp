@@ -43,6 +43,7 @@ struct Assembly {
   Eigen::MatrixXd C;      ///< [n_b x n_b] 1/s
   std::vector<AssemblyPoint> points;
   std::vector<Lining> linings;
+  bool convection = true;          ///< see AssemblyOptions
   std::vector<std::string> notes;  ///< what a user should know of it, a sentence each
 
   Eigen::Index n_coordinates() const { return disc.n_modes() + omega.size(); }
