@@ -97,7 +97,8 @@ bool is_of(Step step, std::string_view key, const Values& values)
     case Step::body:
       return table == "body";
     case Step::squeal:
-      return table == "squeal" || is_of_assembly(table) || (is_damped_by_sound(values) && is_of_radiation(key));
+      return table == "squeal" || is_of_assembly(table) ||
+             (is_damped_by_sound(values) && is_of_radiation(key));
     case Step::radiation:
       return is_of_radiation(key);
     case Step::reduction:

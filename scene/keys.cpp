@@ -12,7 +12,7 @@ using Rows = std::span<const Key>;
 std::array<Rows, 8> all_rows()
 {
   return {mesh_keys(),   model_keys(), reduction_keys(), response_keys(),
-          squeal_keys(), brake_keys(), assembly_keys(), sound_keys()};
+          squeal_keys(), brake_keys(), assembly_keys(),  sound_keys()};
 }
 
 /// Splits "a.b.c" into "a" and "b.c".

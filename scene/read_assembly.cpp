@@ -63,7 +63,8 @@ std::array<PartNodes, 2> read_ends(const Table& table, const AssemblyOptions& op
   const PartNodes first = read_nodes(table, "between", ends[0], options);
   if (ends[1] == "ground") return {first, PartNodes{}};
   const PartNodes second = read_nodes(table, "between", ends[1], options);
-  if (first.part == second.part) table.refuse("between", "must name two parts, or one and the ground");
+  if (first.part == second.part)
+    table.refuse("between", "must name two parts, or one and the ground");
   return {first, second};
 }
 
@@ -95,11 +96,10 @@ FaceQuantity read_quantity(const Table& table, std::string_view whole, std::stri
 squeal::FaceContact read_face(const Table& table, const AssemblyOptions& options)
 {
   using squeal::NodeShares;
-  squeal::FaceContact contact{
-      .face = read_nodes(table, "face", table.text("face"), options),
-      .height = table.number("height"),
-      .stiffness = read_quantity(table, "stiffness", "stiffness_per_area"),
-      .preload = read_quantity(table, "preload", "pressure")};
+  squeal::FaceContact contact{.face = read_nodes(table, "face", table.text("face"), options),
+                              .height = table.number("height"),
+                              .stiffness = read_quantity(table, "stiffness", "stiffness_per_area"),
+                              .preload = read_quantity(table, "preload", "pressure")};
   if (table.has("damping") || table.has("damping_per_area"))
     contact.damping = read_quantity(table, "damping", "damping_per_area");
   if (table.has("shares")) {

@@ -104,9 +104,9 @@ void check_linear(const Table& squeal, const squeal::StudyOptions& study)
                                         "stability-map", "critical-values", "gradients"};
   for (std::size_t i = 0; i < study.analyses.size(); ++i)
     if (!contains(linear, study.analyses[i])) {
-      squeal.refuse_element("analyses", i,
-                            "is none of an assembly, whose contact is linear: it has " +
-                                quoted_list(linear));
+      squeal.refuse_element(
+          "analyses", i,
+          "is none of an assembly, whose contact is linear: it has " + quoted_list(linear));
     }
 }
 

@@ -12,9 +12,9 @@ namespace chladni::squeal {
 /// A modal body of an assembly, and where it stands in the brake.
 struct PartOptions {
   std::string name;
-  std::string body;                   ///< file, as seen from the folder of the results
-  std::array<double, 3> position{};   ///< of the origin of its mesh, m
-  std::array<double, 3> rotation{};   ///< about x, then y, then z of the brake, rad
+  std::string body;                  ///< file, as seen from the folder of the results
+  std::array<double, 3> position{};  ///< of the origin of its mesh, m
+  std::array<double, 3> rotation{};  ///< about x, then y, then z of the brake, rad
 };
 
 /// A set of attachment nodes of a part; the ground has no name.
@@ -28,8 +28,8 @@ struct PartNodes {
 /// What joins two sets of nodes, or one set and the ground, node by node. Components are 0, 1, 2 =
 /// displacement along x, y, z of the brake and 3, 4, 5 = rotation about them.
 struct JointOptions {
-  std::array<PartNodes, 2> ends;  ///< the first one is a part's
-  std::vector<int> rigid;         ///< components that both ends share; empty: springs
+  std::array<PartNodes, 2> ends;      ///< the first one is a part's
+  std::vector<int> rigid;             ///< components that both ends share; empty: springs
   std::array<double, 6> stiffness{};  ///< of each pair of nodes, N/m or N m
   std::array<double, 6> damping{};    ///< of each pair of nodes, N s/m or N m s
   double span = 0.0;                  ///< that two nodes may be apart and are joined over, m
@@ -52,9 +52,9 @@ enum class NodeShares {
 struct FaceContact {
   PartNodes face;
   double height;  ///< of the nodes above the contact plane: half of the plate and the lining, m
-  FaceQuantity stiffness;        ///< N/m, or N/m^3
-  FaceQuantity damping{0.0};     ///< N s/m, or N s/m^3
-  FaceQuantity preload;          ///< N, or Pa
+  FaceQuantity stiffness;     ///< N/m, or N/m^3
+  FaceQuantity damping{0.0};  ///< N s/m, or N s/m^3
+  FaceQuantity preload;       ///< N, or Pa
   NodeShares shares = NodeShares::by_area;
   std::optional<FrictionLaw> friction = {};  ///< absent: that of the brake
 };

@@ -97,7 +97,8 @@ std::optional<mbs_export::ModalBody> body_for_squeal(const scene::Scene& scene,
 
 namespace {
 
-/// The files of an assembly's parts, as seen from the folder of the results; none for another model.
+/// The files of an assembly's parts, as seen from the folder of the results; none for another
+/// model.
 std::vector<path> part_files(const squeal::ModelOptions& model, const SquealFiles& files)
 {
   std::vector<path> bodies;
@@ -206,10 +207,10 @@ squeal::RunOrigin squeal_origin(const scene::Scene& scene,
   origin.versions = body ? fmt::format("squeal {}; body: {}", report::version, origin.versions)
                          : fmt::format("squeal {}", report::version);
   origin.scene_file = scene_file;
-  return {std::move(origin),
-          inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path(),
-                    scene.squeal_model ? part_files(*scene.squeal_model, files)
-                                       : std::vector<path>())};
+  return {
+      std::move(origin),
+      inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path(),
+                scene.squeal_model ? part_files(*scene.squeal_model, files) : std::vector<path>())};
 }
 
 }  // namespace chladni::cases

@@ -55,7 +55,7 @@ constexpr Key squeal_rows[] = {
     {"squeal.model",
      word,
      "flexible disc",
-     "the others need no mesh; an assembly takes [bodies of other scenes](assembly.md)",
+     "the others need no mesh; an assembly takes [bodies of other scenes](several_bodies.md)",
      {},
      "flexible disc | rigid disc | oscillator | assembly"},
     {"squeal.ring", text, "required",

@@ -37,12 +37,11 @@ struct Placed {
 Placed placed_parts(const AssemblyOptions& options, std::span<const ModalBody> bodies)
 {
   Placed all{.parts = {}, .disc = nullptr};
-  for (std::size_t i = 0; i < options.parts.size(); ++i) {
+  for (std::size_t i = 0; i < options.parts.size(); ++i)
     if (options.parts[i].name == options.disc)
       all.disc = &bodies[i];
     else
       all.parts.push_back(placed(options.parts[i], bodies[i]));
-  }
   if (!all.disc) throw Error(fmt::format("squeal.disc: there is no part \"{}\"", options.disc));
   return all;
 }
@@ -51,9 +50,10 @@ double total(const FaceQuantity& quantity, double area, const std::string& key)
 {
   if (!quantity.per_area) return quantity.value;
   if (area > 0.0) return quantity.value * area;
-  throw Error(fmt::format("{}: its nodes lie on one circle, which encloses no area; give stiffness, "
-                          "damping and preload of the whole face",
-                          key));
+  throw Error(
+      fmt::format("{}: its nodes lie on one circle, which encloses no area; give stiffness, "
+                  "damping and preload of the whole face",
+                  key));
 }
 
 Lining lining_of(const AssemblyOptions& options, const FaceContact& contact, double area,
@@ -93,8 +93,7 @@ void add_points(Assembly& all, const std::vector<FaceNode>& nodes, std::size_t c
     const Eigen::MatrixXd on_disc = disc_shapes(all.disc, node);
     Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, on_disc.cols() + 3);
     S.topLeftCorner(n_disc, on_disc.cols()) = on_disc;
-    S.bottomRightCorner(n - n_disc, 3) =
-        part.second.transpose() * face_motion(part.first, node);
+    S.bottomRightCorner(n - n_disc, 3) = part.second.transpose() * face_motion(part.first, node);
     all.points.push_back({contact, node.sigma, node.place, node.share, node.area, std::move(S)});
   }
 }
@@ -195,9 +194,8 @@ Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> lining
     D.topLeftCorner(n_disc, n_disc) = all.disc.D;
   }
   for (const AssemblyPoint& point : all.points) {
-    const FaceDerivatives F =
-        face_derivatives(pad_of(point, linings[point.contact]), point.sigma,
-                         static_cast<int>(point.S.cols()), speed);
+    const FaceDerivatives F = face_derivatives(pad_of(point, linings[point.contact]), point.sigma,
+                                               static_cast<int>(point.S.cols()), speed);
     const Eigen::MatrixXd stiff = point.S * F.by_motion, damping = point.S * F.by_rate;
     K.noalias() -= stiff * point.S.transpose();
     C.noalias() -= damping * point.S.transpose();

@@ -34,8 +34,8 @@ struct AssemblyPoint {
   Eigen::MatrixXd S;
 };
 
-/// A disc between parts on their joints, in the inertial frame, without contact. The coordinates are
-/// those of the disc, then the modes of the joined parts, b'' + C b' + diag(omega^2) b = f, all
+/// A disc between parts on their joints, in the inertial frame, without contact. The coordinates
+/// are those of the disc, then the modes of the joined parts, b'' + C b' + diag(omega^2) b = f, all
 /// counted from the sliding equilibrium with the preload of each lining shared as its area is.
 struct Assembly {
   InertialDisc disc;

@@ -35,7 +35,8 @@ double side_of(const FaceContact& contact, const Part& part, const DiscFaces& di
   if (gap.cwiseAbs().maxCoeff(&worst) <= touching * contact.height) return sigma;
   throw Error(fmt::format(
       "{}.face: {} does not touch the disc: with height = {:.6g} m its face {} by up to {:.6g} m "
-      "(the contact plane is z = {:.6g} m, its nodes lie at z = {:.6g} to {:.6g} m); check position "
+      "(the contact plane is z = {:.6g} m, its nodes lie at z = {:.6g} to {:.6g} m); check "
+      "position "
       "and rotation_deg of part \"{}\", its height, and that its mesh is in m",
       key, name_of(contact, part), contact.height,
       gap[worst] > 0.0 ? "is away from it" : "reaches into it", std::abs(gap[worst]), plane,
@@ -159,8 +160,9 @@ Eigen::MatrixXd disc_shapes(const InertialDisc& disc, const FaceNode& node)
   Eigen::MatrixXd S;
   for (Eigen::Index j = 0; j < node.ring_parts.size(); ++j) {
     if (node.ring_parts[j] == 0.0) continue;
-    const Eigen::MatrixXd of_ring = node.ring_parts[j] * matrix_of(shapes_at(
-        disc, disc.rings[static_cast<std::size_t>(j)], node.angle));
+    const Eigen::MatrixXd of_ring =
+        node.ring_parts[j] *
+        matrix_of(shapes_at(disc, disc.rings[static_cast<std::size_t>(j)], node.angle));
     if (S.size() == 0)
       S = of_ring;
     else

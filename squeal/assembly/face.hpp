@@ -12,13 +12,13 @@ namespace chladni::squeal {
 
 /// A node of a lining on the disc.
 struct FaceNode {
-  int node;                   ///< of the part
-  double height;              ///< of the node above the contact plane, m
-  double angle;               ///< rad
-  double sigma;               ///< 1 above the disc, -1 below it
-  PadFace place;              ///< on the disc
-  double share;               ///< of stiffness, damping and preload of the face; all sum to 1
-  double area;                ///< m^2, 0 where the face has none
+  int node;                    ///< of the part
+  double height;               ///< of the node above the contact plane, m
+  double angle;                ///< rad
+  double sigma;                ///< 1 above the disc, -1 below it
+  PadFace place;               ///< on the disc
+  double share;                ///< of stiffness, damping and preload of the face; all sum to 1
+  double area;                 ///< m^2, 0 where the face has none
   Eigen::VectorXd ring_parts;  ///< [n_rings] of what the rings of the disc do there; they sum to 1
 };
 
@@ -28,11 +28,12 @@ struct DiscFaces {
   std::array<double, 2> planes;  ///< z of the lower and of the upper contact plane, m
 };
 
-/// The nodes of a face on the disc. The disc does between its rings what the polynomial in r through
-/// the nearest four of them says.
+/// The nodes of a face on the disc. The disc does between its rings what the polynomial in r
+/// through the nearest four of them says.
 /// @param key  of the scene: "contact[2]"
 /// @throws chladni::Error naming the key, for a set that the part does not have, a face that does
-///         not touch a contact plane or lies beyond the rings (by how much), and nodes without area.
+///         not touch a contact plane or lies beyond the rings (by how much), and nodes without
+///         area.
 std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                                  const DiscFaces& disc, const std::string& key);
 

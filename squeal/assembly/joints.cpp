@@ -99,8 +99,7 @@ std::vector<Eigen::MatrixXd> relative_motions(const Places& places, const JointO
     if (!grounded) point = 0.5 * (point + b.positions.col(second));
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(6, places.first.back());
     motion.middleCols(places.first[i], a.n_modes()) += motion_at(a, first, point);
-    if (!grounded)
-      motion.middleCols(places.first[j], b.n_modes()) -= motion_at(b, second, point);
+    if (!grounded) motion.middleCols(places.first[j], b.n_modes()) -= motion_at(b, second, point);
     motions.push_back(std::move(motion));
   }
   return motions;

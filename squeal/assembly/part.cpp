@@ -42,9 +42,8 @@ const std::vector<int>& nodes_of(const Part& part, const std::string& set, const
   if (found != part.sets.end() && !found->nodes.empty()) return found->nodes;
   std::vector<std::string> names;
   for (const auto& other : part.sets) names.push_back(other.name);
-  throw Error(
-      fmt::format("{}: part \"{}\" ({}) has no attachment nodes \"{}\"; it has: \"{}\"", key,
-                  part.name, part.file, set, fmt::join(names, "\", \"")));
+  throw Error(fmt::format("{}: part \"{}\" ({}) has no attachment nodes \"{}\"; it has: \"{}\"",
+                          key, part.name, part.file, set, fmt::join(names, "\", \"")));
 }
 
 Eigen::MatrixXd motion_at(const Part& part, int node, const Eigen::Vector3d& point)

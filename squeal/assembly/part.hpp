@@ -13,10 +13,10 @@ namespace chladni::squeal {
 struct Part {
   std::string name;
   std::string file;
-  Eigen::VectorXd omega;                       ///< [n] rad/s, 0 of rigid-body motions
-  Eigen::MatrixXd C;                           ///< [n x n] 1/s, zero when undamped
-  Eigen::Matrix3Xd positions;                  ///< [3 x n_nodes] of the attachment nodes, m
-  Eigen::MatrixXd Phi;                         ///< [6 n_nodes x n] u and theta of each node
+  Eigen::VectorXd omega;       ///< [n] rad/s, 0 of rigid-body motions
+  Eigen::MatrixXd C;           ///< [n x n] 1/s, zero when undamped
+  Eigen::Matrix3Xd positions;  ///< [3 x n_nodes] of the attachment nodes, m
+  Eigen::MatrixXd Phi;         ///< [6 n_nodes x n] u and theta of each node
   std::vector<mbs_export::AttachmentSet> sets;
 
   Eigen::Index n_modes() const { return omega.size(); }

@@ -29,8 +29,7 @@ const Lining* first_of_brake(const std::vector<Lining>& linings)
 }  // namespace
 
 AssemblyBrake::AssemblyBrake(Assembly assembly)
-    : assembly_(std::make_shared<const Assembly>(std::move(assembly))),
-      linings_(assembly_->linings)
+    : assembly_(std::make_shared<const Assembly>(std::move(assembly))), linings_(assembly_->linings)
 {}
 
 Eigen::MatrixXd AssemblyBrake::state_matrix(double speed) const
@@ -57,7 +56,8 @@ std::unique_ptr<Brake> AssemblyBrake::with(MapParameter parameter, double value)
 std::vector<ParameterValue> AssemblyBrake::parameters() const
 {
   std::vector<ParameterValue> values;
-  if (const Lining* lining = first_of_brake(linings_)) values = friction_parameters(lining->friction);
+  if (const Lining* lining = first_of_brake(linings_))
+    values = friction_parameters(lining->friction);
   for (const LiningRow& row : lining_rows) {
     const double first = linings_.front().*row.value;
     if (std::ranges::all_of(linings_, [&](const Lining& l) { return l.*row.value == first; }))

@@ -3,7 +3,7 @@
 Usage: assembly.py PROGRAM_DIR
 """
 
-import json
+import re
 import shutil
 import sys
 import tempfile
@@ -12,33 +12,48 @@ from pathlib import Path
 
 import h5py
 import numpy
-from running import changed, run
+from running import changed, run, start
 from whole_brake import Body, Brake
 
 EXAMPLE = Path(__file__).parents[2] / "examples/brake"
-BAND_HZ = 5000.0
-# All modes with the masters held, those with mass: the whole of the finite elements.
-COMPLETE = {"disc": 1560, "pad": 150, "caliper": 132}
+BAND_HZ = 3000.0
 
 
 
 
-def with_modes(name, modes, interface=""):
+
+def body_text(name, modes, interface_modes=(), reduced=None):
+    """A body of the example that keeps so many modes, without damping; beside them IRM of these nodes and components."""
     text = (EXAMPLE / f"{name}.toml").read_text()
-    begin = text.index("keep = ")
-    end = text.index("\n", begin)
-    return text[:begin] + f"keep = {{ modes = {modes} }}\n{interface}" + text[end:]
+    rows = [f'{{ kind = "irm", at = "{at}", dofs = {list(dofs)} }}' for at, dofs in interface_modes]
+    head = text[: text.index("keep = ")]
+    if reduced:
+        head = re.sub(r"\nmodes = \d+", f"\nmodes = {reduced}", head)
+    return head + f"keep = {{ modes = {modes} }}\ninterface_modes = [{', '.join(rows)}]\n"
 
 
-def frm(*rows):
-    return "interface_modes = [" + ", ".join(rows) + "]"
+def undamped(name):
+    return re.sub(r"\ndamping = .*", "", (EXAMPLE / f"{name}.toml").read_text())
+
+
+def with_response_modes():
+    return {name: undamped(name) for name in ("disc", "pad", "caliper")}
 
 
 def modes_alone():
-    return {"disc": with_modes("disc", 24), "pad": with_modes("pad", 13), "caliper": with_modes("caliper", 10)}
+    """As many coordinates."""
+    return {"disc": body_text("disc", 14), "pad": body_text("pad", 18), "caliper": body_text("caliper", 20)}
 
 
-BODIES = {"modes alone": modes_alone}
+def many():
+    """All that the reductions of plates and caliper have, and all that the linings do to the disc slowly."""
+    rings = [(ring, ("z", "rx", "ry")) for ring in ("inner", "track", "outer")]
+    return {"disc": body_text("disc", 30, rings), "pad": body_text("pad", 120), "caliper": body_text("caliper", 38)}
+
+
+# The largest relative error that each may have below BAND_HZ. Many coordinates differ from the finite elements by what the
+# reductions lack; of few, the errors are those of plates and disc under a lining, which modes of free plates do not know.
+CASES = {"many": (many, 1e-3), "response modes": (with_response_modes, 8e-3), "modes alone": (modes_alone, 0.05)}
 
 
 def text_without(text, table):
@@ -52,16 +67,23 @@ def make_bodies(programs, folder, bodies):
 
 
 def complete_bodies(programs, folder):
-    """The files of the bodies with all their modes."""
+    """The files of the bodies with all modes that have mass while the masters are held."""
     files = {}
-    for name, modes in COMPLETE.items():
+    for name in ("disc", "pad", "caliper"):
         text = text_without((EXAMPLE / f"{name}.toml").read_text(), "body")
         kept = next(line for line in text.splitlines() if line.startswith("modes = "))
-        (folder / f"complete_{name}.toml").write_text(text.replace(kept, f"modes = {modes}"))
-        run(programs / "chladni", "reduce", folder / f"complete_{name}.toml", "--output", folder / "complete")
+        scene, asked = folder / f"complete_{name}.toml", "100000"
+        for _ in range(3):
+            # Asked for too many, the program says how many slaves there are, then how many modes.
+            scene.write_text(text.replace(kept, f"modes = {asked}"))
+            done = start(programs / "chladni", "reduce", scene, "--output", folder / "complete", "--overwrite")
+            if done.returncode == 0:
+                break
+            (asked,) = re.findall(r"modes asked of (\d+) slaves|(\d+) of \d+ modes found", done.stderr)[0:1]
+            asked = "".join(asked)
+        else:
+            sys.exit(f"FAILED: no complete basis of {name}: {done.stderr}")
         files[name] = folder / "complete" / f"{name}.reduced.h5"
-        with h5py.File(files[name]) as f:
-            assert len(f["fixed_interface_frequencies"]) == modes
     return files
 
 
@@ -124,6 +146,18 @@ def distinct(values):
     return numpy.array(kept)
 
 
+def seen_by_friction(values):
+    """Modes of the disc in its plane, which no pad on its middle surface feels, keep their zero real part."""
+    return numpy.array([value for value in values if abs(value.real) > 1e-7 * abs(value)])
+
+
+def compared_scene():
+    """The example at two speeds, with a disc whose matrices stand still."""
+    text = (EXAMPLE / "scene.toml").read_text()
+    analyses = next(line for line in text.splitlines() if line.startswith("analyses = "))
+    return changed(text, ('model = "assembly"', 'model = "assembly"\nconvection = "left out"'), ("count = 16", "count = 2"), (analyses, 'analyses = ["eigenvalues"]'))
+
+
 def errors_of(values, exact):
     """Relative distance of each exact eigenvalue of the band from the nearest one that was found."""
     return numpy.array([abs(values - one).min() / abs(one) for one in exact])
@@ -134,20 +168,24 @@ def main(programs):
         folder = Path(name)
         for file in EXAMPLE.glob("*"):
             shutil.copy(file, folder)
-        text = changed((EXAMPLE / "scene.toml").read_text(), ('model = "assembly"', 'model = "assembly"\nconvection = "left out"'))
+        text = compared_scene()
         scene = tomllib.loads(text)
         speed = scene["squeal"]["speeds"]["from_rad_s"]
         brake = whole_brake(complete_bodies(programs, folder), scene, speed)
-        shifts = [2j * numpy.pi * f for f in (600.0, 1800.0, 3000.0, 4200.0)]
-        exact = distinct(brake.eigenvalues(shifts, 24))
+        shifts = [2j * numpy.pi * f for f in (500.0, 1300.0, 2100.0, 2900.0)]
+        exact = seen_by_friction(distinct(brake.eigenvalues(shifts, 20)))
         print(f"finite elements: {len(brake.K)} coordinates, {len(exact)} eigenvalues up to {BAND_HZ:g} Hz")
-        for what, bodies in BODIES.items():
+        largest = {}
+        for what, (bodies, limit) in CASES.items():
             make_bodies(programs, folder, bodies())
             values = eigenvalues_of(programs, folder, text)
             errors = errors_of(values, exact)
-            print(what, len(values), "coordinates, errors", errors.max(), numpy.median(errors))
-            for one, error in zip(exact, errors, strict=True):
-                print(f"   {one / (2 * numpy.pi):.3f} {error:.1e}")
+            largest[what] = errors.max()
+            print(f"{what}: {len(values)} coordinates, errors {errors.max():.1e} at most, median {numpy.median(errors):.1e}")
+            if not errors.max() < limit:
+                sys.exit(f"FAILED: {what}: {errors.max():.2e} is not below {limit}")
+        if not 3 * largest["response modes"] < largest["modes alone"]:
+            sys.exit("FAILED: response modes do not reduce the largest error by three")
 
 
 if __name__ == "__main__":

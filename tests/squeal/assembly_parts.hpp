@@ -14,8 +14,8 @@ namespace chladni::squeal::test {
 
 /// Mass and principal moments of inertia of a rigid plate.
 struct RigidPlate {
-  double mass;                ///< kg
-  Eigen::Vector3d inertia;    ///< kg m^2
+  double mass;              ///< kg
+  Eigen::Vector3d inertia;  ///< kg m^2
 };
 
 /// A free rigid plate as a body of six modes: a node "centre" in its centre of mass at the origin,

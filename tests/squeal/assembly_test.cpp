@@ -163,8 +163,8 @@ Eigen::MatrixXd kernel(const Eigen::MatrixXd& B)
   return Eigen::FullPivLU<Eigen::MatrixXd>(B).kernel();
 }
 
-/// Eigenvalues of the brake whose points do not leave the faces: z = T y with B T = 0, and the forces
-/// P n at the points do no work on L, L^T P = 0.
+/// Eigenvalues of the brake whose points do not leave the faces: z = T y with B T = 0, and the
+/// forces P n at the points do no work on L, L^T P = 0.
 Eigen::VectorXcd rigid_contact(const Assembly& all, double mu)
 {
   std::vector<Lining> soft = all.linings;
@@ -311,8 +311,8 @@ TEST(Assembly, SaysWhatDoesNotFit)
             std::string::npos)
       << error_of(options);
   options = two_plates();
-  options.joints.push_back({.ends = {PartNodes{"upper", "centre"}, PartNodes{"lower", "centre"}},
-                            .rigid = {2}});
+  options.joints.push_back(
+      {.ends = {PartNodes{"upper", "centre"}, PartNodes{"lower", "centre"}}, .rigid = {2}});
   EXPECT_NE(error_of(options).find("joint[3].between: nodes of \"upper.centre\" and "
                                    "\"lower.centre\" are 0.04 m apart"),
             std::string::npos)
