@@ -92,8 +92,10 @@ ModelChoice read_choice(const Table& root)
 /// Tables of an assembly in the scene of another model are a slip of `model`.
 void refuse_parts(const Table& root)
 {
+  // Not by has(), which would let messages about other keys name these.
+  const std::vector<std::string> there = root.names();
   for (const char* key : {"part", "joint", "contact"})
-    if (root.has(key))
+    if (contains(there, key))
       root.refuse(key, "belongs to an assembly: give [squeal] with model = \"assembly\"");
 }
 
