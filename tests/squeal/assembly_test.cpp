@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "assembly_parts.hpp"
 #include "common/error.hpp"
+#include "squeal/assembly/joints.hpp"
 #include "squeal/assembly/node_areas.hpp"
 #include "squeal/models/assembly_brake.hpp"
 
@@ -223,9 +225,6 @@ TEST(Assembly, JoinsRigidlyWhatStiffSpringsTendTo)
   const auto bodies = bodies_of_two_plates();
   const Eigen::MatrixXd A = matrix_of(options, bodies);
   EXPECT_EQ(A.rows(), 2 * (4 + 12 - 3));
-  // Said twice it is the same.
-  options.joints.push_back(options.joints.back());
-  EXPECT_LT(largest_distance(spectrum(A), spectrum(matrix_of(options, bodies))), 1e-6);
   const auto distance = [&](double k) {
     AssemblyOptions stiff = two_plates();
     JointOptions spring = options.joints.back();
@@ -237,6 +236,54 @@ TEST(Assembly, JoinsRigidlyWhatStiffSpringsTendTo)
   const double far = distance(1e11), near = distance(1e12);
   EXPECT_LT(near, 1.0);
   EXPECT_NEAR(far / near, 10.0, 0.5);
+}
+
+/// The coordinates of a plate_body that turns about the origin by a unit of `theta`.
+Eigen::VectorXd turned_about_origin(const PartOptions& options, const Part& part,
+                                    const Eigen::Vector3d& theta)
+{
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(options.rotation[0], Eigen::Vector3d::UnitX()).matrix();
+  Eigen::VectorXd q(6);
+  q << std::sqrt(plate.mass) * (R.transpose() * theta.cross(part.positions.col(0))),
+      plate.inertia.cwiseSqrt().cwiseProduct(R.transpose() * theta);
+  return q;
+}
+
+TEST(Joints, AreWithoutForceInTwoPartsThatTurnAsOne)
+{
+  const auto body = plate_body(plate, {});
+  PartOptions upper = part_at("upper", 0.1, 0.4), lower = part_at("lower", 0.0, 1.3);
+  upper.position[1] = 0.05;
+  const std::vector<Part> parts{placed(upper, body), placed(lower, body)};
+  JointOptions joint = suspension_of("upper");
+  joint.ends[1] = {"lower", "centre"};
+  joint.span = 0.2;
+  const JoinedParts all = joined(parts, std::vector{joint});
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d theta = Eigen::Vector3d::Unit(axis);
+    Eigen::VectorXd q(12);
+    q << turned_about_origin(upper, parts[0], theta), turned_about_origin(lower, parts[1], theta);
+    EXPECT_LT((all.K * q).norm(), 1e-12 * all.K.norm() * q.norm());
+  }
+  EXPECT_EQ(all.B.rows(), 0);
+}
+
+TEST(Joints, ThatAskForTheSameTwiceAskOnce)
+{
+  // Nodes of two plates that move alike in all components follow what their centres do.
+  AssemblyOptions options = two_plates();
+  options.joints.push_back({.ends = {PartNodes{"upper", "centre"}, PartNodes{"lower", "centre"}},
+                            .rigid = {0, 1, 2, 3, 4, 5},
+                            .span = 0.05});
+  const auto bodies = bodies_of_two_plates();
+  const Eigen::MatrixXd once = matrix_of(options, bodies);
+  EXPECT_EQ(once.rows(), 2 * (4 + 12 - 6));
+  options.joints.push_back(options.joints.back());
+  for (PartNodes& nodes : options.joints.back().ends) nodes.set = "face";
+  const Eigen::MatrixXd twice = matrix_of(options, bodies);
+  ASSERT_EQ(twice.rows(), once.rows());
+  EXPECT_LT(largest_distance(spectrum(once), spectrum(twice)), 1e-6);
 }
 
 TEST(Assembly, GivesItsLiningsTheValuesOfASquareMetreTimesTheirArea)
