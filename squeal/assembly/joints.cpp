@@ -35,13 +35,18 @@ double size_of(const Part& part)
 void check_distance(const JointOptions& joint, const std::string& key, const Part& a, const Part& b,
                     double distance)
 {
-  if (distance <= joint.span + placement * std::max(size_of(a), size_of(b))) return;
+  const double size = std::max(size_of(a), size_of(b));
+  if (distance <= joint.span + placement * size) return;
+  // No joint is longer than the parts that it joins.
+  const std::string bridge =
+      distance > size
+          ? std::string()
+          : fmt::format(", or give span = {:.3g} to join them rigidly over that distance",
+                        1.1 * distance);
   throw Error(fmt::format(
       "{}: nodes of \"{}\" and \"{}\" are {:.6g} m apart; move a part by its position ({} and {} "
-      "may have other units or origins), or give span = {:.3g} to join them rigidly over that "
-      "distance",
-      key, name_of(joint.ends[0]), name_of(joint.ends[1]), distance, a.file, b.file,
-      1.1 * distance));
+      "may have other units or origins){}",
+      key, name_of(joint.ends[0]), name_of(joint.ends[1]), distance, a.file, b.file, bridge));
 }
 
 /// Each node of the first set with the nearest one of the second set.
