@@ -104,7 +104,7 @@ scene::Scene read_study(const RunArguments& arguments)
   if (!(arguments.checkpoint_interval >= 0.0))
     throw Error("--checkpoint: give the seconds between two states of a transient, 0 or more");
   if (scene.squeal_model && !arguments.body_file.empty())
-    throw Error(fmt::format("{}: squeal.model needs no body; leave out --body", scene.path));
+    throw Error(fmt::format("{}: squeal.model needs no --body; leave it out", scene.path));
   tell_notes(scene);
   return scene;
 }

@@ -85,6 +85,11 @@ bool is_damped_by_sound(const Values& values)
   return found != values.end() && found->second == "true";
 }
 
+bool is_of_assembly(std::string_view table)
+{
+  return table == "part" || table == "joint" || table == "contact";
+}
+
 bool is_of(Step step, std::string_view key, const Values& values)
 {
   const std::string_view table = key.substr(0, key.find_first_of(".["));
@@ -92,7 +97,8 @@ bool is_of(Step step, std::string_view key, const Values& values)
     case Step::body:
       return table == "body";
     case Step::squeal:
-      return table == "squeal" || (is_damped_by_sound(values) && is_of_radiation(key));
+      return table == "squeal" || is_of_assembly(table) ||
+             (is_damped_by_sound(values) && is_of_radiation(key));
     case Step::radiation:
       return is_of_radiation(key);
     case Step::reduction:
@@ -100,7 +106,7 @@ bool is_of(Step step, std::string_view key, const Values& values)
   }
   static const std::set<std::string_view> others{
       "name", "title", "body", "squeal", "sound", "static", "modes", "support", "load", "response"};
-  return !others.contains(table) || is_of_reduction(key, values);
+  return (!others.contains(table) && !is_of_assembly(table)) || is_of_reduction(key, values);
 }
 
 Values values_of(Step step, const toml::table& scene)

@@ -9,10 +9,10 @@ namespace {
 
 using Rows = std::span<const Key>;
 
-std::array<Rows, 7> all_rows()
+std::array<Rows, 8> all_rows()
 {
   return {mesh_keys(),   model_keys(), reduction_keys(), response_keys(),
-          squeal_keys(), brake_keys(), sound_keys()};
+          squeal_keys(), brake_keys(), assembly_keys(),  sound_keys()};
 }
 
 /// Splits "a.b.c" into "a" and "b.c".
@@ -130,6 +130,7 @@ that you choose, or each of several. What must hold between keys is said by the 
          table_text("Frequency responses", response_keys()) +
          table_text("Squeal: study and analyses", squeal_keys()) +
          table_text("Squeal: friction, pads and models without a body", brake_keys()) +
+         table_text("Squeal: assemblies of several bodies", assembly_keys()) +
          table_text("Sound", sound_keys());
 }
 

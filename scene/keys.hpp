@@ -40,6 +40,7 @@ std::span<const Key> reduction_keys();
 std::span<const Key> response_keys();
 std::span<const Key> squeal_keys();
 std::span<const Key> brake_keys();
+std::span<const Key> assembly_keys();
 std::span<const Key> sound_keys();
 
 /// The row of a key; null for one that no table has.

@@ -7,7 +7,7 @@ namespace {
 using squeal::Drive;
 using squeal::RigidEquations;
 
-enum class ModelChoice { flexible_disc, rigid_disc, oscillator };
+enum class ModelChoice { flexible_disc, rigid_disc, oscillator, assembly };
 
 /// The only pad pair of a rigid disc; its angle does not matter.
 Table read_only_pad(const Table& squeal)
@@ -85,7 +85,31 @@ ModelChoice read_choice(const Table& root)
   if (!squeal.has("model")) return ModelChoice::flexible_disc;
   return squeal.choice<ModelChoice>("model", {{"flexible disc", ModelChoice::flexible_disc},
                                               {"rigid disc", ModelChoice::rigid_disc},
-                                              {"oscillator", ModelChoice::oscillator}});
+                                              {"oscillator", ModelChoice::oscillator},
+                                              {"assembly", ModelChoice::assembly}});
+}
+
+/// Tables of an assembly in the scene of another model are a slip of `model`.
+void refuse_parts(const Table& root)
+{
+  // Not by has(), which would let messages about other keys name these.
+  const std::vector<std::string> there = root.names();
+  for (const char* key : {"part", "joint", "contact"})
+    if (contains(there, key))
+      root.refuse(key, "belongs to an assembly: give [squeal] with model = \"assembly\"");
+}
+
+/// An assembly has small motions about sliding alone.
+void check_linear(const Table& squeal, const squeal::StudyOptions& study)
+{
+  const std::vector<std::string> linear{"eigenvalues",   "critical-speed",  "stability",
+                                        "stability-map", "critical-values", "gradients"};
+  for (std::size_t i = 0; i < study.analyses.size(); ++i)
+    if (!contains(linear, study.analyses[i])) {
+      squeal.refuse_element(
+          "analyses", i,
+          "is none of an assembly, whose contact is linear: it has " + quoted_list(linear));
+    }
 }
 
 }  // namespace
@@ -93,14 +117,18 @@ ModelChoice read_choice(const Table& root)
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
 {
   const ModelChoice choice = read_choice(root);
+  if (choice != ModelChoice::assembly) refuse_parts(root);
   if (choice == ModelChoice::flexible_disc) return std::nullopt;
   const Table squeal = root.table("squeal");
   squeal::ModelOptions options{};
   if (choice == ModelChoice::rigid_disc)
     options.model = read_rigid_disc(squeal);
-  else
+  else if (choice == ModelChoice::oscillator)
     options.model = read_oscillator(squeal);
+  else
+    options.model = read_assembly(root);
   options.study = read_study(squeal, StudyOf::model);
+  if (choice == ModelChoice::assembly) check_linear(squeal, options.study);
   const std::optional<squeal::TransientCase>& transient = options.study.transient;
   if (transient &&
       (transient->integrator != squeal::IntegratorKind::automatic || !transient->is_constant())) {

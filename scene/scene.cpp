@@ -201,8 +201,7 @@ Scene read_meshed_scene(const std::string& path, Purpose purpose)
 {
   Scene scene = read_scene(path, purpose);
   if (!scene.squeal_model) return scene;
-  throw Error(
-      fmt::format("{0}: squeal.model has no mesh and no body: run it with `squeal run {0}`", path));
+  throw Error(fmt::format("{0}: squeal.model has no mesh: run it with `squeal run {0}`", path));
 }
 
 }  // namespace chladni::scene

@@ -96,7 +96,7 @@ struct Scene {
   std::optional<squeal::SquealOptions> squeal;
   bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate
   std::optional<sound::SoundOptions> sound;
-  std::optional<squeal::ModelOptions> squeal_model;  ///< without mesh and body: all else is empty
+  std::optional<squeal::ModelOptions> squeal_model;  ///< without a mesh: all else is empty
 };
 
 /// What a scene is read for; its FE model alone needs neither [interface] nor [reduce].

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/document.hpp"
+#include "squeal/assembly_options.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/squeal_options.hpp"
 #include "squeal/study_options.hpp"
@@ -23,6 +24,9 @@ squeal::ContactLaw read_contact(const Table& squeal);
 
 /// The spring of a pad from its keys `stiffness` and `cubic_stiffness`.
 squeal::PadSpring read_pad_spring(const Table& pad);
+
+/// [[part]], [[joint]], [[contact]] and what [squeal] says of an assembly
+squeal::AssemblyOptions read_assembly(const Table& root);
 
 /// squeal.pads of a flexible disc
 std::vector<squeal::PadPair> read_pads(const Table& squeal);

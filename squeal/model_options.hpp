@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "squeal/assembly_options.hpp"
 #include "squeal/friction.hpp"
 #include "squeal/squeal_options.hpp"
 #include "squeal/study_options.hpp"
@@ -64,9 +65,9 @@ struct Oscillator {
   ContactLaw law = ContactLaw::unilateral;
 };
 
-/// A study of a model that needs no modal body.
+/// A study of a model that needs no mesh: none of a body, or bodies of other scenes.
 struct ModelOptions {
-  std::variant<RigidDiscStudy, Oscillator> model;
+  std::variant<RigidDiscStudy, Oscillator, AssemblyOptions> model;
   StudyOptions study;
 };
 

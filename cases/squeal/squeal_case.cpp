@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "common/error.hpp"
 #include "files/file_digest.hpp"
@@ -12,6 +15,7 @@
 #include "report/version.hpp"
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/radiation.hpp"
+#include "squeal/models/assembly_brake.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/model_brake.hpp"
 
@@ -41,12 +45,15 @@ squeal::Radiation read_radiation_of(const scene::Scene& scene, const SquealFiles
 
 /// Digests of the files that a run reads, and the version of the program: RunOrigin::inputs.
 /// @param body, radiation  empty for none
-std::string inputs_of(const path& body, const path& radiation)
+/// @param parts            of an assembly
+std::string inputs_of(const path& body, const path& radiation, const std::vector<path>& parts)
 {
   std::string inputs = fmt::format("squeal {}", report::version);
   if (!body.empty()) inputs += fmt::format(", body {}", files::file_digest(body.string()));
   if (!radiation.empty())
     inputs += fmt::format(", radiation {}", files::file_digest(radiation.string()));
+  for (const path& part : parts)
+    inputs += fmt::format(", part {}", files::file_digest(part.string()));
   return inputs;
 }
 
@@ -90,6 +97,55 @@ std::optional<mbs_export::ModalBody> body_for_squeal(const scene::Scene& scene,
 
 namespace {
 
+/// The files of an assembly's parts, as seen from the folder of the results; none for another
+/// model.
+std::vector<path> part_files(const squeal::ModelOptions& model, const SquealFiles& files)
+{
+  std::vector<path> bodies;
+  if (const auto* options = std::get_if<squeal::AssemblyOptions>(&model.model))
+    for (const squeal::PartOptions& part : options->parts)
+      bodies.push_back(files.folder / part.body);
+  return bodies;
+}
+
+/// The bodies of an assembly; equal files are read once.
+std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const SquealFiles& files)
+{
+  std::vector<mbs_export::ModalBody> bodies;
+  const std::vector<path> names = part_files(scene.squeal_model.value(), files);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto same = std::ranges::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]);
+    if (const auto j = same - names.begin(); j < std::ptrdiff_t(i)) {
+      bodies.push_back(bodies[static_cast<std::size_t>(j)]);
+      continue;
+    }
+    if (!std::filesystem::exists(names[i])) {
+      throw Error(fmt::format(
+          "{}: part[{}].body: {}: no such file; make it with `chladni run` of that body's scene "
+          "and the same --output",
+          scene.path, i + 1, names[i].string()));
+    }
+    bodies.push_back(mbs_export::read_body(names[i]));
+  }
+  return bodies;
+}
+
+/// A brake without a mesh: a few equations, or bodies of other scenes.
+SquealCase model_case(const scene::Scene& scene, const SquealFiles& files)
+{
+  const squeal::ModelOptions& model = scene.squeal_model.value();
+  SquealCase made;
+  const std::vector<mbs_export::ModalBody> bodies = part_bodies(scene, files);
+  if (bodies.empty()) return {.brake = squeal::model_brake(model), .notes = {}};
+  try {
+    made.brake = squeal::model_brake(model, bodies);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", scene.path, error.what()));
+  }
+  made.notes = dynamic_cast<const squeal::AssemblyBrake&>(*made.brake).assembly().notes;
+  return made;
+}
+
 /// What the modes that a scene leaves out would change: the brake with all of them.
 std::shared_ptr<const squeal::FlexibleDisc> complete_disc(const mbs_export::ModalBody& body,
                                                           const squeal::SquealOptions& options)
@@ -120,7 +176,7 @@ std::optional<std::string> note_of_damping(const squeal::FlexibleDisc& brake)
 SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export::ModalBody>& body,
                        const SquealFiles& files, StaleChoice stale)
 {
-  if (!body) return {.brake = squeal::model_brake(scene.squeal_model.value()), .notes = {}};
+  if (!body) return model_case(scene, files);
   const squeal::SquealOptions& options = scene.squeal.value();
   squeal::Disc disc = squeal::make_disc(*body, squeal::ring_choice(options), options.modes);
   if (scene.radiation)
@@ -151,8 +207,10 @@ squeal::RunOrigin squeal_origin(const scene::Scene& scene,
   origin.versions = body ? fmt::format("squeal {}; body: {}", report::version, origin.versions)
                          : fmt::format("squeal {}", report::version);
   origin.scene_file = scene_file;
-  return {std::move(origin),
-          inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path())};
+  return {
+      std::move(origin),
+      inputs_of(body ? files.body : path(), scene.radiation ? files.radiation : path(),
+                scene.squeal_model ? part_files(*scene.squeal_model, files) : std::vector<path>())};
 }
 
 }  // namespace chladni::cases

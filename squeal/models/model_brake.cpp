@@ -1,12 +1,16 @@
 #include "squeal/models/model_brake.hpp"
 
+#include "squeal/models/assembly_brake.hpp"
 #include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
 
 namespace chladni::squeal {
 
-std::unique_ptr<Brake> model_brake(const ModelOptions& options)
+std::unique_ptr<Brake> model_brake(const ModelOptions& options,
+                                   std::span<const mbs_export::ModalBody> bodies)
 {
+  if (const auto* parts = std::get_if<AssemblyOptions>(&options.model))
+    return std::make_unique<AssemblyBrake>(assembly(*parts, bodies));
   if (const auto* study = std::get_if<RigidDiscStudy>(&options.model))
     return std::make_unique<RigidDiscBrake>(*study);
   return std::make_unique<OscillatorBrake>(std::get<Oscillator>(options.model));

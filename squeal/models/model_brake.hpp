@@ -1,13 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
+#include "mbs_export/modal_body.hpp"
 #include "squeal/model_options.hpp"
 #include "squeal/models/brake.hpp"
 
 namespace chladni::squeal {
 
-/// The brake without a body that a scene asks for.
-std::unique_ptr<Brake> model_brake(const ModelOptions& options);
+/// The brake without a mesh that a scene asks for.
+/// @param bodies  of the parts of an assembly, in their order
+/// @throws chladni::Error as `assembly`.
+std::unique_ptr<Brake> model_brake(const ModelOptions& options,
+                                   std::span<const mbs_export::ModalBody> bodies = {});
 
 }  // namespace chladni::squeal

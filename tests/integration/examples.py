@@ -10,6 +10,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 # Folder or file -> the test that runs it.
 ELSEWHERE = {
     "beam": "beam.py",
+    "brake": "assembly.py",
     "fmu": "fmu.py",
     "hat_disc": "hat_disc.py",
     "library": "../install/install.py",

@@ -662,7 +662,7 @@ TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
   };
   EXPECT_EQ(error_after(rigid_disc, "\"rigid disc\"", "\"rigid disk\""),
             "scene.toml:3: squeal.model = \"rigid disk\": must be one of \"flexible disc\", "
-            "\"rigid disc\", \"oscillator\"");
+            "\"rigid disc\", \"oscillator\", \"assembly\"");
   EXPECT_EQ(error_after(rigid_disc, "axial_inertia = 0.32", "axial_inertia = 0.0"),
             "scene.toml:4: squeal.rigid_disc.axial_inertia = 0: must be > 0 (kg m^2)");
   EXPECT_EQ(error_after(rigid_disc, "static = 0.6", "static = 0.3"),

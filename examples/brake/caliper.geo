@@ -1,0 +1,19 @@
+// The axis of a caliper: from the outer back plate over the edge of the disc to the inner one, in m.
+reach = 0.13;
+bridge = 0.18;
+high = 0.04;
+Point(1) = {reach, 0, high, 1};
+Point(2) = {bridge, 0, high, 1};
+Point(3) = {bridge, 0, 0, 1};
+Point(4) = {bridge, 0, -high, 1};
+Point(5) = {reach, 0, -high, 1};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Transfinite Curve {1 : 4} = 3;
+Physical Curve("arms") = {1, 4};
+Physical Curve("bridge") = {2, 3};
+Physical Point("outer") = {1};
+Physical Point("inner") = {5};
+Physical Point("pins") = {3};

@@ -1,0 +1,112 @@
+#include "scene/keys.hpp"
+
+namespace chladni::scene {
+namespace {
+
+using enum KeyKind;
+
+constexpr Admissible place{.unit = "m", .usual_to = 10.0, .usually = "it is in m; is it in mm?"};
+constexpr Admissible length{
+    .above = 0.0, .unit = "m", .usual_to = 1.0, .usually = "it is in m; is it in mm?"};
+constexpr Admissible not_negative{.at_least = 0.0};
+constexpr Admissible friction{
+    .at_least = 0.0, .usual_to = 2.0, .usually = "it is a pure number, of linings 0.2 to 0.7"};
+
+constexpr Key assembly_rows[] = {
+    {"part", tables, "required for an assembly",
+     "a modal body of the brake; [assembly](several_bodies.md)"},
+    {"part.name", text, "required", "by which joints and contacts name it"},
+    {"part.body", text, "required", "its file, as seen from the folder of --output"},
+    {"part.position", numbers, "[0, 0, 0]", "of the origin of its mesh in the brake", place},
+    {"part.rotation_deg",
+     numbers,
+     "[0, 0, 0]",
+     "about x, then y, then z of the brake, before it is moved",
+     {.unit = "degrees"}},
+    {"joint", tables, "none", "joins nodes of two parts, or of a part and the ground"},
+    {"joint.between", texts, "required",
+     "two of \"PART.SET\" and \"ground\"; sets of several nodes are joined node by node"},
+    {"joint.type",
+     word,
+     "required",
+     "springs and dampers, or the same motion",
+     {},
+     "spring | rigid"},
+    {"joint.dofs", texts, "all six", "components that a rigid joint joins"},
+    {"joint.stiffness", table, "required for springs", "along and about the axes of the brake"},
+    {"joint.stiffness.*", number, "0",
+     "of each pair of nodes; `x`, `y`, `z` N/m, `rx`, `ry`, `rz` N m", not_negative},
+    {"joint.damping", table, "none", "along and about the axes of the brake"},
+    {"joint.damping.*", number, "0",
+     "of each pair of nodes; `x`, `y`, `z` N s/m, `rx`, `ry`, `rz` N m s", not_negative},
+    {"joint.span",
+     number,
+     "nodes in one place",
+     "distance of two nodes that the joint may bridge rigidly",
+     {.at_least = 0.0, .unit = "m"}},
+    {"contact", tables, "required for an assembly", "a lining between a part and the disc"},
+    {"contact.face", text, "required", "\"PART.SET\", the nodes of the face"},
+    {"contact.height", number, "required",
+     "of these nodes above the contact plane: half of the plate and the lining", length},
+    {"contact.stiffness",
+     number,
+     "or stiffness_per_area",
+     "of the whole lining",
+     {.above = 0.0, .unit = "N/m"}},
+    {"contact.stiffness_per_area",
+     number,
+     "or stiffness",
+     "of the lining: Young's modulus under plane strain over its thickness",
+     {.above = 0.0, .unit = "N/m^3"}},
+    {"contact.damping", number, "0", "of the whole lining", {.at_least = 0.0, .unit = "N s/m"}},
+    {"contact.damping_per_area",
+     number,
+     "0",
+     "of the lining",
+     {.at_least = 0.0, .unit = "N s/m^3"}},
+    {"contact.preload", number, "or pressure", "of the whole lining", {.above = 0.0, .unit = "N"}},
+    {"contact.pressure", number, "or preload", "of the lining", {.above = 0.0, .unit = "Pa"}},
+    {"contact.shares",
+     word,
+     "by area",
+     "of the nodes in stiffness, damping and preload",
+     {},
+     "by area | equal"},
+    {"contact.friction", number, "squeal.friction", "of this lining; or a table as there",
+     friction},
+    {"contact.friction.kinetic", number, "required", "of fast sliding", friction},
+    {"contact.friction.static", number, "kinetic", "as there", not_negative},
+    {"contact.friction.decay_speed",
+     number,
+     "required with static",
+     "as there",
+     {.above = 0.0, .unit = "m/s"}},
+    {"contact.friction.regularisation", number, "0", "as there", {.above = 0.0, .unit = "m/s"}},
+    {"contact.friction.table", tables, "or kinetic", "as there"},
+    {"contact.friction.table.temperature_C", number, "none", "as there"},
+    {"contact.friction.table.pressure_Pa", number, "none", "as there", not_negative},
+    {"contact.friction.table.speed_m_s", numbers, "any speed", "as there", not_negative},
+    {"contact.friction.table.mu", numbers, "required", "as there", friction},
+    {"contact.friction.temperature_C", number, "required with temperatures", "as there"},
+    {"contact.friction.factor", number, "1", "as there", not_negative},
+    {"squeal.disc", text, "required for an assembly", "the part that turns, about the z axis"},
+    {"squeal.rings", texts, "required for an assembly",
+     "rings of the disc, whose radii enclose those of all faces"},
+    {"squeal.convection",
+     word,
+     "kept",
+     "terms of a disc that moves under the pads as it turns; without them friction slides over a "
+     "disc "
+     "that stands still",
+     {},
+     "kept | left out"},
+};
+
+}  // namespace
+
+std::span<const Key> assembly_keys()
+{
+  return assembly_rows;
+}
+
+}  // namespace chladni::scene

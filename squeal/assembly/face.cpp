@@ -1,0 +1,186 @@
+#include "squeal/assembly/face.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "common/error.hpp"
+#include "squeal/assembly/node_areas.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+/// A face lies on the disc when its nodes do to this part of its height, and within the rings when
+/// it does to this part of their radius.
+constexpr double touching = 1e-3, within = 1e-4;
+
+std::string name_of(const FaceContact& contact, const Part& part)
+{
+  return fmt::format("\"{}.{}\" ({})", contact.face.part, contact.face.set, part.file);
+}
+
+/// Which contact plane all nodes of a face lie on.
+double side_of(const FaceContact& contact, const Part& part, const DiscFaces& disc,
+               const std::vector<int>& nodes, const std::string& key)
+{
+  const auto& [lower, upper] = disc.planes;
+  const Eigen::RowVectorXd z = part.positions.row(2)(nodes);
+  const double sigma = z.mean() > 0.5 * (lower + upper) ? 1.0 : -1.0;
+  const double plane = sigma > 0.0 ? upper : lower;
+  const Eigen::RowVectorXd gap = (sigma * (z.array() - plane) - contact.height).matrix();
+  Eigen::Index worst = 0;
+  if (gap.cwiseAbs().maxCoeff(&worst) <= touching * contact.height) return sigma;
+  throw Error(fmt::format(
+      "{}.face: {} does not touch the disc: with height = {:.6g} m its face {} by up to {:.6g} m "
+      "(the contact plane is z = {:.6g} m, its nodes lie at z = {:.6g} to {:.6g} m); check "
+      "position "
+      "and rotation_deg of part \"{}\", its height, and that its mesh is in m",
+      key, name_of(contact, part), contact.height,
+      gap[worst] > 0.0 ? "is away from it" : "reaches into it", std::abs(gap[worst]), plane,
+      z.minCoeff(), z.maxCoeff(), part.name));
+}
+
+/// Lagrange's polynomials through the radii of the rings that are nearest, at r.
+Eigen::VectorXd ring_parts(const std::vector<RingPlace>& rings, double r)
+{
+  constexpr std::size_t n_used = 4;
+  std::vector<std::size_t> order(rings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::abs(rings[i].radius - r); });
+  order.resize(std::min(n_used, order.size()));
+  Eigen::VectorXd parts = Eigen::VectorXd::Zero(std::ssize(rings));
+  for (const std::size_t j : order) {
+    double part = 1.0;
+    for (const std::size_t m : order)
+      if (m != j) part *= (r - rings[m].radius) / (rings[j].radius - rings[m].radius);
+    parts[static_cast<Eigen::Index>(j)] = part;
+  }
+  return parts;
+}
+
+void check_radius(const DiscFaces& disc, double r, const std::string& what)
+{
+  const auto [inner, outer] = std::ranges::minmax_element(disc.rings, {}, &RingPlace::radius);
+  const double beyond = std::max(inner->radius - r, r - outer->radius);
+  if (beyond <= within * outer->radius) return;
+  throw Error(
+      fmt::format("{} has a node at the radius {:.6g} m, {:.6g} m beyond the rings of the disc, "
+                  "which lie at {:.6g} to {:.6g} m; name rings in squeal.rings that enclose it",
+                  what, r, beyond, inner->radius, outer->radius));
+}
+
+/// Angles from that of the middle of the face on.
+Eigen::VectorXd angles_about_middle(const Eigen::Matrix3Xd& x)
+{
+  const Eigen::Vector3d mean = x.rowwise().mean();
+  const double middle = std::atan2(mean[1], mean[0]), c = std::cos(middle), s = std::sin(middle);
+  Eigen::VectorXd angles(x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    angles[i] = middle + std::atan2(c * x(1, i) - s * x(0, i), c * x(0, i) + s * x(1, i));
+  return angles;
+}
+
+/// Areas of the nodes; none where all lie on one circle.
+void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, const std::string& what)
+{
+  const Eigen::Index n = std::ssize(nodes);
+  Eigen::VectorXd r(n), angle(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    r[i] = nodes[static_cast<std::size_t>(i)].place.radius;
+    angle[i] = nodes[static_cast<std::size_t>(i)].angle;
+  }
+  const Eigen::VectorXd areas = node_areas(r, angle);
+  const double whole = areas.sum();
+  const bool by_area = contact.shares == NodeShares::by_area;
+  if (!(whole > 0.0) && by_area) {
+    throw Error(fmt::format(
+        "{} has nodes on one line or circle alone, which enclose no area; give shares = \"equal\", "
+        "or a set of nodes over the whole face",
+        what));
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    FaceNode& node = nodes[static_cast<std::size_t>(i)];
+    node.share = by_area ? areas[i] / whole : 1.0 / double(n);
+    node.area = node.share * whole;
+  }
+}
+
+}  // namespace
+
+DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc)
+{
+  DiscFaces faces{.rings = ring_places(disc), .planes = {}};
+  const RingPlace& first = faces.rings.front();
+  for (const RingPlace& ring : faces.rings)
+    if (!(std::abs(ring.height - first.height) <= within * first.radius)) {
+      throw Error(fmt::format(
+          "squeal.rings: \"{}\" lies at z = {:.6g} m, but \"{}\" at {:.6g} m; an assembly takes "
+          "rings of one surface",
+          first.name, first.height, ring.name, ring.height));
+    }
+  const double half = 0.5 * options.thickness;
+  faces.planes = options.planes.value_or(std::array{first.height - half, first.height + half});
+  return faces;
+}
+
+std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
+                                 const DiscFaces& disc, const std::string& key)
+{
+  const std::vector<int>& set = nodes_of(part, contact.face.set, key + ".face");
+  const std::string what = fmt::format("{}.face: {}", key, name_of(contact, part));
+  const double sigma = side_of(contact, part, disc, set, key);
+  const Eigen::Matrix3Xd x = part.positions(Eigen::seqN(0, 3), set);
+  const Eigen::VectorXd angles = angles_about_middle(x);
+  const auto& [lower, upper] = disc.planes;
+  const double plane = sigma > 0.0 ? upper : lower;
+  std::vector<FaceNode> nodes;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const double r = std::hypot(x(0, i), x(1, i));
+    check_radius(disc, r, what);
+    nodes.push_back({.node = set[static_cast<std::size_t>(i)],
+                     .height = contact.height,
+                     .angle = angles[i],
+                     .sigma = sigma,
+                     .place = {.radius = r,
+                               .plane = plane - 0.5 * (lower + upper),
+                               .distance = plane - disc.rings.front().height},
+                     .share = 0.0,
+                     .area = 0.0,
+                     .ring_parts = ring_parts(disc.rings, r)});
+  }
+  put_shares(nodes, contact, what);
+  return nodes;
+}
+
+Eigen::MatrixXd disc_shapes(const InertialDisc& disc, const FaceNode& node)
+{
+  Eigen::MatrixXd S;
+  for (Eigen::Index j = 0; j < node.ring_parts.size(); ++j) {
+    if (node.ring_parts[j] == 0.0) continue;
+    const Eigen::MatrixXd of_ring =
+        node.ring_parts[j] *
+        matrix_of(shapes_at(disc, disc.rings[static_cast<std::size_t>(j)], node.angle));
+    if (S.size() == 0)
+      S = of_ring;
+    else
+      S += of_ring;
+  }
+  return S;
+}
+
+Eigen::MatrixX3d face_motion(const Part& part, const FaceNode& node)
+{
+  const Eigen::Vector3d down(0.0, 0.0, -node.sigma * node.height);
+  const Eigen::MatrixXd motion = motion_at(part, node.node, part.positions.col(node.node) + down);
+  const double c = std::cos(node.angle), s = std::sin(node.angle);
+  Eigen::MatrixX3d polar(part.n_modes(), 3);
+  polar.col(0) = c * motion.row(0) + s * motion.row(1);
+  polar.col(1) = c * motion.row(1) - s * motion.row(0);
+  polar.col(2) = motion.row(2);
+  return polar;
+}
+
+}  // namespace chladni::squeal
