@@ -159,6 +159,29 @@ def free_beams(programs, folder):
     expect("a fall stretches nothing", max(np.abs(one["acceleration_x"]).max() for one in found) / size, 1e-7)
 
 
+def free_bodies_with_arms(programs, folder):
+    """What acts at an arm is the balanced load: a free body follows an acceleration of its frame without stress."""
+    mass = '[[mass]]\nat = "tip"\nmass = 1.0\noffset = [0.3, 0.1, 0.05]\n\n[interface]'
+    beam = changed(BEAM, ('fixed = ["root"]', "fixed = []"), ("[interface]", mass), ("elements = 160", "elements = 20"), ("modes = 60", "modes = 10"))  # fmt: skip
+    far = changed(beam, ("start = [0.0", "start = [3.0"), ("end = [1.0", "end = [4.0"))
+    disc = changed(DISC, ("thickness = 2e-5", "thickness = 0.01\noffset = 0.02"), ("modes = 60", "modes = 10"),
+                   ('["spin-z"]', '["spin-z", "angular-acceleration", "acceleration"]'))  # fmt: skip
+    for name, text, n_nodes in (("mass", beam, 2), ("far mass", far, 2), ("offset", disc, 24)):
+        reduced, _ = files(programs, folder / name.replace(" ", "_"), text)
+        masters = slice(6 * n_nodes)  # whose coordinates do not depend on the signs of modes
+        with h5py.File(reduced) as system:
+            loads = list(system["stiffening/loads"].asstr()[:])
+            K_sigma = {load: system[f"stiffening/{load}"][masters, masters] for load in loads}
+        size = np.abs(K_sigma["omega_zz"]).max()
+        expect(f"{name}: the spin stretches it", float(size == 0.0), 0)
+        for load in (one for one in loads if not one.startswith("omega")):
+            expect(f"{name}: {load} stretches nothing", np.abs(K_sigma[load]).max() / size, 1e-7)
+        if name == "mass":
+            about_the_root = K_sigma["omega_zz"]
+        elif name == "far mass":
+            expect("a free beam with a mass far from the axis", np.abs(K_sigma["omega_zz"] - about_the_root).max() / size, 1e-7)
+
+
 DISC = """title = "Free spinning disc"
 
 [mesh]
@@ -270,6 +293,7 @@ def main(programs, mpirun):
         body = rotating_beam(programs, folder)
         the_known_numbers(programs, folder)
         free_beams(programs, folder)
+        free_bodies_with_arms(programs, folder)
         spinning_disc(programs, folder, mpirun)
         in_files(programs, folder, body)
         refusals(programs, folder)
