@@ -14,6 +14,7 @@
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/stiffening.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
@@ -45,6 +46,16 @@ std::vector<std::string> wanted_loads(const std::vector<std::string>& motions)
   return loads;
 }
 
+/// What [body] holds in vain is told with its place in the scene.
+std::vector<int> held_rows(const scene::Scene& scene, const FeModel& fe)
+{
+  try {
+    return mbs_export::held_dofs(described_system(scene, fe), scene.body.fixed).rows;
+  } catch (const mbs_export::BodyOptionError& error) {
+    scene::refuse_key(scene, "body." + error.key(), error.why());
+  }
+}
+
 /// DOFs that the support of the body holds, ascending.
 std::vector<int> held_dofs(const scene::Scene& scene, const FeModel& fe)
 {
@@ -55,7 +66,7 @@ std::vector<int> held_dofs(const scene::Scene& scene, const FeModel& fe)
         scene.path));
   }
   std::vector<int> held;
-  for (const int row : mbs_export::held_dofs(described_system(scene, fe), scene.body.fixed).rows)
+  for (const int row : held_rows(scene, fe))
     held.push_back(fe.attachments.master_dofs[static_cast<std::size_t>(row)]);
   std::ranges::sort(held);
   return held;

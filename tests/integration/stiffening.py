@@ -262,6 +262,9 @@ def in_files(programs, folder, body):
     expect("MBDyn: the third is that of omega_z^2", third[0] - 3, 0)
     expect("MBDyn: its values", np.abs(third[1:].reshape(n, n) - matrices["omega_zz"]).max(), 1e-12 * abs(third).max())
     run(programs / "chladni", "check", body)
+    for form in ("fmu", "exudyn", "matrix-market"):
+        said = run(programs / "chladni", "export", scene, "--from", folder / "beam", "--format", form, "--output", folder / "out")  # fmt: skip
+        expect(f"{form} has no place for it, and says so", int(f"{form} has no place for it" not in said), 0)
     # The same reduced system, held elsewhere.
     other = folder / "other"
     other.mkdir()
@@ -285,6 +288,13 @@ def refusals(programs, folder):
         expect(f"{name}: refused", int(part not in said), 0)
         expect(f"{name}: by its line", int(f"scene.toml:{line}: reduce.stiffening" not in said), 0)
         expect(f"{name}: once", said.count("reduce.stiffening") - 1, 0)
+    (folder / "support").mkdir()
+    text = changed(BEAM, ('fixed = ["root"]', 'fixed = ["root.rx"]'),
+                   ("[material.any]", '[model]\ndofs = ["x", "y", "z", "ry", "rz"]\n\n[material.any]'))  # fmt: skip
+    (folder / "support/scene.toml").write_text(text)
+    said = run(programs / "chladni", "reduce", folder / "support/scene.toml", "--output", folder / "support", code=1)
+    line = 1 + text[: text.index("fixed =")].count("\n")
+    expect("a support that is none: by its line", int(f"scene.toml:{line}: body.fixed" not in said), 0)
 
 
 def main(programs, mpirun):
