@@ -1,7 +1,9 @@
 #include "cases/export_limits.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -69,6 +71,26 @@ std::vector<std::string> damping_left_out(const std::string& format, const Dampi
         "[body] damping.alpha is left out for the rigid motion: the file has damping for "
         "elastic modes alone"};
   return {};
+}
+
+std::vector<std::string> with_stiffening_left_out(
+    std::vector<std::string> notes, const std::string& format,
+    const std::optional<mbs_export::Stiffening>& there,
+    const std::optional<mbs_export::Stiffening>& written)
+{
+  if (!there) return notes;
+  constexpr std::array<std::string_view, 3> with_a_place{"mbdyn-develop", "sid", "mat"};
+  if (std::ranges::find(with_a_place, format) == with_a_place.end()) {
+    notes.push_back(fmt::format(
+        "the geometric stiffening is left out: {} has no place for it; --format {} writes it",
+        format, fmt::join(with_a_place, ", ")));
+  } else if (!written) {
+    notes.push_back(
+        fmt::format("the geometric stiffening is left out: the reduced system has that of fixed = "
+                    "[{}]; reduce the scene again to have it for this support",
+                    fmt::join(there->fixed, ", ")));
+  }
+  return notes;
 }
 
 }  // namespace chladni::cases

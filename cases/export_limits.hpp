@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,14 @@ namespace chladni::cases {
 /// @param n_free_rigid  rigid motions of the body that its supports leave free
 std::vector<std::string> damping_left_out(const std::string& format,
                                           const mbs_export::Damping& damping, int n_free_rigid);
+
+/// Adds to the notes what geometric stiffening the file of this format goes without: no place for
+/// it, or another support than that of the stress.
+/// @param there    of the reduced system or the body that the file is made of
+/// @param written  that of the body that goes into the file; none for a reduced system
+std::vector<std::string> with_stiffening_left_out(
+    std::vector<std::string> notes, const std::string& format,
+    const std::optional<mbs_export::Stiffening>& there,
+    const std::optional<mbs_export::Stiffening>& written);
 
 }  // namespace chladni::cases

@@ -14,7 +14,8 @@ mbs_export::Stiffening stiffening(const scene::Scene& scene, const FeModel& fe,
   for (std::size_t i = 0; i < stressed.loads.size(); ++i) {
     Vec u = nullptr;
     petsc::check(MatDenseGetColumnVecRead(stressed.U, static_cast<PetscInt>(i), &u));
-    const petsc::Matrix K = plate::geometric_stiffness(model, u, mass_load(stressed.loads[i]));
+    const petsc::Matrix K =
+        plate::geometric_stiffness(model, u, stressed.mass_loads.col(static_cast<Eigen::Index>(i)));
     petsc::check(MatDenseRestoreColumnVecRead(stressed.U, static_cast<PetscInt>(i), &u));
     const Eigen::MatrixXd K_r = projected(reduced, K, linear::FormSymmetry::symmetric);
     stiffening.K.push_back(0.5 * (K_r + K_r.transpose()));

@@ -14,6 +14,7 @@
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
+#include "mbs_export/body_option_error.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/stiffening.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
@@ -45,6 +46,16 @@ std::vector<std::string> wanted_loads(const std::vector<std::string>& motions)
   return loads;
 }
 
+/// What [body] holds in vain is told with its place in the scene.
+std::vector<int> held_rows(const scene::Scene& scene, const FeModel& fe)
+{
+  try {
+    return mbs_export::held_dofs(described_system(scene, fe), scene.body.fixed).rows;
+  } catch (const mbs_export::BodyOptionError& error) {
+    scene::refuse_key(scene, "body." + error.key(), error.why());
+  }
+}
+
 /// DOFs that the support of the body holds, ascending.
 std::vector<int> held_dofs(const scene::Scene& scene, const FeModel& fe)
 {
@@ -55,7 +66,7 @@ std::vector<int> held_dofs(const scene::Scene& scene, const FeModel& fe)
         scene.path));
   }
   std::vector<int> held;
-  for (const int row : mbs_export::held_dofs(described_system(scene, fe), scene.body.fixed).rows)
+  for (const int row : held_rows(scene, fe))
     held.push_back(fe.attachments.master_dofs[static_cast<std::size_t>(row)]);
   std::ranges::sort(held);
   return held;
@@ -88,6 +99,7 @@ petsc::Matrix combined(Mat X, const MatrixXd& S, Mat like)
 
 /// Rigid motions that a support leaves.
 struct FreeMotions {
+  MatrixXd S;             ///< [6 x r] combinations of plate::rigid_motions
   petsc::Matrix R;        ///< [n_DOFs x r] dense
   std::vector<int> pins;  ///< r DOFs that would hold them
 };
@@ -131,7 +143,8 @@ FreeMotions free_motions(const FeModel& fe, const std::vector<int>& held)
     if (components[place % components.size()] >= 3) by_rows.col(i) *= 1e-2 * length;
   }
   const Eigen::ColPivHouseholderQR<MatrixXd> pivots(by_rows);
-  FreeMotions motions{.R = combined(R, scale.asDiagonal() * left, R), .pins = {}};
+  FreeMotions motions{.S = scale.asDiagonal() * left, .R = {}, .pins = {}};
+  motions.R = combined(R, motions.S, R);
   for (Index i = 0; i < left.cols(); ++i) {
     motions.pins.push_back(
         masters[static_cast<std::size_t>(pivots.colsPermutation().indices()[i])]);
@@ -139,25 +152,47 @@ FreeMotions free_motions(const FeModel& fe, const std::vector<int>& held)
   return motions;
 }
 
-/// F <- F - M R (R^T M R)^-1 R^T F: the load on a body that it accelerates.
-void balance(Mat F, Mat M, Mat R)
+/// F <- F - M R q of the load on a body that it accelerates by R q, q = (R^T M R)^-1 R^T F; a
+/// motion without inertia, as that of a line about itself, stays at rest.
+/// @return q [r x n_loads]
+MatrixXd balance(Mat F, Mat M, Mat R)
 {
+  constexpr double round_off = 1e-12;
   const petsc::Matrix M_R = linear::uninitialized_dense(M, linear::LocalRows(R).n_cols());
   linear::SparseProduct(M).apply(R, M_R);
-  const MatrixXd A = linear::inner_product(R, M_R), b = linear::inner_product(R, F);
-  linear::add_product(-1.0, M_R, A.ldlt().solve(b), F);
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> inertia;
+  inertia.setThreshold(round_off);
+  inertia.compute(linear::inner_product(R, M_R));
+  MatrixXd q = inertia.solve(linear::inner_product(R, F));
+  linear::add_product(-1.0, M_R, q, F);
+  return q;
 }
 
-petsc::Matrix loads_on(const scene::Scene& scene, const FeModel& fe,
-                       const std::vector<std::string>& loads)
+/// [12 x n_loads]
+MatrixXd mass_loads(const std::vector<std::string>& loads)
+{
+  MatrixXd factors(12, std::ssize(loads));
+  for (Index i = 0; i < factors.cols(); ++i)
+    factors.col(i) = mass_load(loads[static_cast<std::size_t>(i)]);
+  return factors;
+}
+
+/// Of mass loads [12 x n_loads].
+petsc::Matrix loads_on(const scene::Scene& scene, const FeModel& fe, const MatrixXd& loads)
 {
   const plate::Structure structure = structure_of(scene);
   const plate::MassModel model =
       plate::mass_model(fe.mesh, structure, fe.system.dofs, PETSC_COMM_WORLD);
-  MatrixXd factors(12, std::ssize(loads));
-  for (Index i = 0; i < factors.cols(); ++i)
-    factors.col(i) = mass_load(loads[static_cast<std::size_t>(i)]);
-  return combined(plate::mass_moments(model).displacement, factors, fe.system.K);
+  return combined(plate::mass_moments(model).displacement, loads, fe.system.K);
+}
+
+/// Lets the loads accelerate the body in these motions: their inertia becomes a part of the loads.
+void accelerate(const FeModel& fe, const FreeMotions& motions, Mat F, StressedStates& stressed)
+{
+  const MatrixXd accelerations = motions.S * balance(F, fe.system.M, motions.R);
+  const Eigen::Vector3d centre = plate::centre_of_nodes(fe.system.dofs);
+  for (Index i = 0; i < accelerations.cols(); ++i)
+    stressed.mass_loads.col(i) += inertial_load(accelerations.col(i), centre);
 }
 
 }  // namespace
@@ -184,18 +219,29 @@ Eigen::Vector<double, 12> mass_load(const std::string& load)
   return factors;
 }
 
+Eigen::Vector<double, 12> inertial_load(const Eigen::Vector<double, 6>& acceleration,
+                                        const Eigen::Vector3d& centre)
+{
+  const Eigen::Vector3d alpha = acceleration.tail<3>();
+  Eigen::Vector<double, 12> load;
+  load.head<3>() = alpha.cross(centre) - acceleration.head<3>();
+  for (int k = 0; k < 3; ++k) load.segment<3>(3 + 3 * k) = -alpha.cross(Eigen::Vector3d::Unit(k));
+  return load;
+}
+
 StressedStates stressed_states(const scene::Scene& scene, const FeModel& fe,
                                const linear::SolverOptions& options, Phases& phases)
 {
   if (scene.stiffening.empty()) return {};
   phases.begin("stress of inertia");
-  StressedStates stressed{.loads = wanted_loads(scene.stiffening), .U = {}};
+  StressedStates stressed{.loads = wanted_loads(scene.stiffening), .mass_loads = {}, .U = {}};
+  stressed.mass_loads = mass_loads(stressed.loads);
   std::vector<int> held = held_dofs(scene, fe);
-  const petsc::Matrix F = loads_on(scene, fe, stressed.loads);
+  const petsc::Matrix F = loads_on(scene, fe, stressed.mass_loads);
   if (geometry_tells_motions(scene, fe)) {
     const FreeMotions motions = free_motions(fe, held);
     if (!motions.pins.empty()) {
-      balance(F, fe.system.M, motions.R);
+      accelerate(fe, motions, F, stressed);
       held.insert(held.end(), motions.pins.begin(), motions.pins.end());
       std::ranges::sort(held);
     }

@@ -155,7 +155,9 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
 {
   const mbs_export::Damping damping =
       source.scene ? source.scene->body.damping : mbs_export::Damping{};
-  std::vector<std::string> notes = cases::damping_left_out(arguments.format, damping, 0);
+  std::vector<std::string> notes =
+      cases::with_stiffening_left_out(cases::damping_left_out(arguments.format, damping, 0),
+                                      arguments.format, reduced.stiffening, {});
   if (reduced.H.size() > 0 && arguments.format != "matrix-market") {
     notes.emplace_back(
         "the structural damping (loss factors) is left out: this file holds K, M and the dampers; "
@@ -184,11 +186,14 @@ formats::FmiVersion fmi_version(const ExportArguments& arguments)
 Exported export_fmu(const ExportArguments& arguments, const Source& source)
 {
   const path file = target_of(arguments, source, ".fmu");
-  const auto made = formats::fmu(body_of(arguments, source),
-                                 {.version = fmi_version(arguments),
-                                  .sets = arguments.nodes,
-                                  .identifier = formats::fmu_identifier(file.stem().string())});
-  return {{write(file, made.archive)}, made.notes};
+  const mbs_export::ModalBody body = body_of(arguments, source);
+  const auto made =
+      formats::fmu(body, {.version = fmi_version(arguments),
+                          .sets = arguments.nodes,
+                          .identifier = formats::fmu_identifier(file.stem().string())});
+  return {{write(file, made.archive)},
+          cases::with_stiffening_left_out(made.notes, arguments.format, body.stiffening,
+                                          body.stiffening)};
 }
 
 /// The brake of a scene with the body beside the reduced system.
@@ -223,8 +228,10 @@ Exported export_as(const ExportArguments& arguments, const Source& source)
   if (is_of_reduced) return export_reduced(arguments, source, reduced);
   const formats::FloatingBody floating = floating_body_of(arguments, source, reduced);
   return {{export_floating_body(arguments, source, floating)},
-          cases::damping_left_out(arguments.format, source.scene->body.damping,
-                                  floating.body.n_free_rigid)};
+          cases::with_stiffening_left_out(
+              cases::damping_left_out(arguments.format, source.scene->body.damping,
+                                      floating.body.n_free_rigid),
+              arguments.format, reduced.stiffening, floating.body.stiffening)};
 }
 
 /// What the scene asks for in vain is told with its place there.

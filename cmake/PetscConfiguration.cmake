@@ -2,6 +2,8 @@
 
 # check_petsc_configuration(FOLDERS): those where PETSc's headers are.
 function(check_petsc_configuration folders)
+  list(REMOVE_ITEM folders "")
+  list(REMOVE_DUPLICATES folders)
   find_file(PETSC_CONFIGURATION petscconf.h PATHS ${folders} NO_DEFAULT_PATH NO_CACHE)
   if(NOT PETSC_CONFIGURATION)
     message(FATAL_ERROR "petsc.pc names the folders ${folders}, but none of them has petscconf.h: build PETSC_DIR first, "

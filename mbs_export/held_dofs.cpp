@@ -63,6 +63,12 @@ HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>&
   for (const std::string& text : fixed) {
     const auto [set, component] = parse(reduced, text);
     for (const int node : set.nodes) {
+      if (component >= 0 && !has_component(reduced, node, component)) {
+        throw BodyOptionError(
+            "fixed", fmt::format("'{}': the reduced system has no component {} there; model.dofs "
+                                 "of the scene says which it has",
+                                 text, component_name(component)));
+      }
       for (int c = 0; c < 6; ++c) {
         if (component >= 0 ? c != component : !has_component(reduced, node, c)) continue;
         const int dof = attachment_dof(reduced, node, c);
@@ -82,6 +88,18 @@ HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>&
   if (!held.rows.empty() && held.rows.front() < 0)
     held.forms = reduced.ring_motion->displacements(held.dofs, every);
   return held;
+}
+
+bool are_same_support(const ReducedSystem& reduced, const std::vector<std::string>& one,
+                      const std::vector<std::string>& other)
+{
+  if (one == other) return true;
+  const auto dofs_of = [&](const std::vector<std::string>& fixed) {
+    std::vector<int> dofs = held_dofs(reduced, fixed).dofs;
+    std::ranges::sort(dofs);
+    return dofs;
+  };
+  return dofs_of(one) == dofs_of(other);
 }
 
 }  // namespace chladni::mbs_export

@@ -26,4 +26,10 @@ struct HeldDofs {
 ///         that is not part of the system.
 HeldDofs held_dofs(const ReducedSystem& reduced, const std::vector<std::string>& fixed);
 
+/// Whether two lists, as `held_dofs` takes them, hold the same DOFs: "hub" and "rim", "rim" and
+/// "hub", a node and its six components.
+/// @throws chladni::Error as held_dofs, unless the lists are equal.
+bool are_same_support(const ReducedSystem& reduced, const std::vector<std::string>& one,
+                      const std::vector<std::string>& other);
+
 }  // namespace chladni::mbs_export

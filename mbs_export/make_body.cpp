@@ -15,6 +15,7 @@
 #include "mbs_export/constrained_modes.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/held_body.hpp"
+#include "mbs_export/held_dofs.hpp"
 #include "mbs_export/interface_modes.hpp"
 #include "mbs_export/loaded_dofs.hpp"
 #include "mbs_export/rigid_body.hpp"
@@ -182,7 +183,7 @@ ModalBody assemble(const ReducedSystem& reduced, const BodyOptions& options, con
     body.sector_harmonics = in_coordinates(*reduced.sector_harmonics, reduced.M, modes.T);
   if (reduced.mass_integrals)
     body.mass_integrals = in_coordinates(*reduced.mass_integrals, modes.T);
-  if (reduced.stiffening && reduced.stiffening->fixed == options.fixed)
+  if (reduced.stiffening && are_same_support(reduced, reduced.stiffening->fixed, options.fixed))
     body.stiffening = in_coordinates(*reduced.stiffening, modes.T);
   body.rings = contact_rings(reduced, body.attachment_modes);
   return body;

@@ -75,6 +75,22 @@ bool damps(const Scene& scene)
          });
 }
 
+/// What the notes of the tables leave open: stiffening of beams under a tolerance, which does not
+/// see the error of their stress.
+std::vector<std::string> notes_of(const Table& root, const Scene& scene)
+{
+  std::vector<std::string> notes = root.notes();
+  const bool has_tolerance = scene.reduce.tolerance || scene.body.keep.tolerance;
+  if (has_tolerance && !scene.stiffening.empty() && !scene.beams.empty()) {
+    notes.push_back(fmt::format(
+        "{}: reduce.stiffening: the axial force is constant in each beam; what that takes from the "
+        "stiffened frequencies is no part of the tolerance and goes with the square of the length "
+        "of the beams: shorter ones tell how much it is",
+        scene.path));
+  }
+  return notes;
+}
+
 /// The scene of the tables; `scene` holds text, path and, where they are known, the groups of the
 /// mesh file.
 Scene read_tables(const Table& root, Scene scene, Purpose purpose)
@@ -124,7 +140,7 @@ Scene read_tables(const Table& root, Scene scene, Purpose purpose)
   const bool said = root.has("body") && root.table("body").has("damping");
   if (!said && damps(scene)) scene.body.damping.type = mbs_export::Damping::Type::matrix;
   root.refuse_unknown_keys();
-  scene.notes = root.notes();
+  scene.notes = notes_of(root, scene);
   return scene;
 }
 

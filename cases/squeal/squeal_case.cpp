@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -130,6 +131,19 @@ std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const 
   return bodies;
 }
 
+/// What bodies have but no brake uses.
+void add_note_of_stiffening(std::span<const mbs_export::ModalBody> bodies,
+                            std::vector<std::string>& notes)
+{
+  const auto is_stiffened = [](const mbs_export::ModalBody& body) {
+    return body.stiffening.has_value();
+  };
+  if (std::ranges::none_of(bodies, is_stiffened)) return;
+  notes.emplace_back(
+      "the geometric stiffening (reduce.stiffening) is not used: in a brake a body has its "
+      "stiffness at rest");
+}
+
 /// A brake without a mesh: a few equations, or bodies of other scenes.
 SquealCase model_case(const scene::Scene& scene, const SquealFiles& files)
 {
@@ -143,6 +157,7 @@ SquealCase model_case(const scene::Scene& scene, const SquealFiles& files)
     throw Error(fmt::format("{}: {}", scene.path, error.what()));
   }
   made.notes = dynamic_cast<const squeal::AssemblyBrake&>(*made.brake).assembly().notes;
+  add_note_of_stiffening(bodies, made.notes);
   return made;
 }
 
@@ -185,6 +200,7 @@ SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export
   auto brake = std::make_unique<squeal::FlexibleDisc>(std::move(disc), options,
                                                       complete_disc(*body, options));
   if (const auto note = note_of_damping(*brake)) notes.push_back(*note);
+  add_note_of_stiffening({&*body, 1}, notes);
   return {.brake = std::move(brake), .notes = std::move(notes)};
 }
 

@@ -8,6 +8,7 @@
 
 #include "mbs_export/check_parts.hpp"
 #include "mbs_export/formats/export_error.hpp"
+#include "mbs_export/held_dofs.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/rigid_body.hpp"
 
@@ -51,7 +52,7 @@ ModalBody elastic_part(const ModalBody& body, Index n_rigid)
 void add_from_reduced(ModalBody& elastic, const ReducedSystem& reduced, const MatrixXd& T)
 {
   if (reduced.mass_integrals) elastic.mass_integrals = in_coordinates(*reduced.mass_integrals, T);
-  if (reduced.stiffening && reduced.stiffening->fixed == elastic.fixed)
+  if (reduced.stiffening && are_same_support(reduced, reduced.stiffening->fixed, elastic.fixed))
     elastic.stiffening = in_coordinates(*reduced.stiffening, T);
   elastic.picture = picture_in(reduced, T);
 }

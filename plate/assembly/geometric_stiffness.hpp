@@ -16,7 +16,8 @@ using MassLoad = Eigen::Vector<double, 12>;
 /// It leaves out moments and transverse forces in elements, springs, and the load's change with the
 /// turn of a section (rotary inertia).
 /// @param u     static displacements of the DOFs, as the rows of K; m, rad
-/// @param load  that they are the answer to, beside the forces of supports
+/// @param load  that they are the answer to, beside the forces of supports; with the
+///              inertia of a body that it accelerates
 /// @return AIJ as System::K
 /// @note   Collective on the communicator of the model.
 petsc::Matrix geometric_stiffness(const MassModel& model, Vec u, const MassLoad& load);

@@ -5,18 +5,14 @@
 
 namespace chladni::plate {
 
-namespace {
-
 using Eigen::Vector3d;
 
-Vector3d centre(const DofMap& dofs)
+Vector3d centre_of_nodes(const DofMap& dofs)
 {
   Vector3d sum = Vector3d::Zero();
   for (int node = 0; node < dofs.n_nodes(); ++node) sum += dofs.position(node);
   return sum / static_cast<double>(dofs.n_nodes());
 }
-
-}  // namespace
 
 petsc::Matrix rigid_motions(const System& system)
 {
@@ -28,7 +24,7 @@ petsc::Matrix rigid_motions(const System& system)
   petsc::check(MatCreateDense(petsc::communicator(system.K), n_local, PETSC_DECIDE, PETSC_DETERMINE,
                               6, nullptr, R.put()));
   petsc::check(MatGetOwnershipRange(R, &first, &last));
-  const Vector3d origin = centre(dofs);
+  const Vector3d origin = centre_of_nodes(dofs);
   for (int node = 0; node < dofs.n_nodes(); ++node) {
     if (dofs.number(node) < 0) continue;
     const Matrix6d motion = rigid_arm(dofs.position(node) - origin);

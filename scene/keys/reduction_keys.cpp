@@ -64,7 +64,8 @@ constexpr Key reduction_rows[] = {
     {"reduce.stiffening",
      texts,
      "none",
-     "motions of the frame whose stress stiffens the [body](theory.md) held as `body.fixed` says",
+     "motions of the frame whose stress stiffens the [body](theory.md) held as `body.fixed` says; "
+     "for other programs: `[squeal]` does not use it",
      {},
      "spin-x | spin-y | spin-z | spin | angular-acceleration | acceleration"},
     {"body", table, "free, all modes", "what `chladni body` makes of the reduced system"},

@@ -34,5 +34,17 @@ TEST(MassLoad, OfAllMotionsTogetherIsTheInertialForceOfAMovingFrame)
   }
 }
 
+TEST(InertialLoad, IsThatOfARigidBodyAboutItsCentre)
+{
+  const Vector3d a(5.0, -9.0, 1.0), alpha(2.0, 0.3, -0.6), centre(0.4, 1.7, -0.2);
+  Eigen::Vector<double, 6> acceleration;
+  acceleration << a, alpha;
+  const Eigen::Vector<double, 12> load = inertial_load(acceleration, centre);
+  for (const Vector3d& x : {Vector3d(1, 0, 0), Vector3d(0.3, -2.0, 0.9)}) {
+    const Vector3d expected = -(a + alpha.cross(x - centre));
+    EXPECT_LT((force_at(load, x) - expected).norm(), 1e-14 * expected.norm());
+  }
+}
+
 }  // namespace
 }  // namespace chladni::cases

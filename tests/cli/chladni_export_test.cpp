@@ -258,6 +258,36 @@ TEST(ChladniExport, SaysWhichDampingOfTheBodyIsLeftOut)
   EXPECT_EQ(said("{ type = \"none\" }", "exudyn").find("note:"), std::string::npos);
 }
 
+TEST(ChladniExport, SaysWhichStiffeningIsLeftOut)
+{
+  const Folder folder;
+  mbs_export::ReducedSystem reduced = wheel();
+  const Eigen::MatrixXd K = Eigen::MatrixXd::Identity(reduced.K.rows(), reduced.K.rows());
+  reduced.stiffening = {.fixed = {}, .loads = {"omega_zz"}, .K = {K}};
+  mbs_export::write_reduced(folder.path() / "disc.reduced.h5", reduced);
+  const std::string held = scene_with("").substr(0, scene_with("").find("[squeal]"));
+  const std::string free = replaced(held, "fixed = [\"hub\"]", "fixed = []");
+  const auto said = [&](const std::string& scene, const std::string& format) {
+    write_text(folder.path() / "scene.toml", scene);
+    const Ending ending = run(folder, chladni_program + " export scene.toml --format " + format);
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    return ending.out;
+  };
+  const std::string note = "note: the geometric stiffening is left out";
+  for (const std::string format :
+       {"matrix-market", "nastran-dmig", "nastran-op4", "mbdyn", "exudyn"}) {
+    const std::string text = said(free, format);
+    EXPECT_NE(text.find(note + ": " + format + " has no place for it"), std::string::npos) << text;
+  }
+  for (const std::string format : {"mbdyn-develop", "sid", "mat"})
+    EXPECT_EQ(said(free, format).find(note), std::string::npos) << format;
+  for (const std::string format : {"mbdyn-develop", "sid"}) {
+    const std::string text = said(held, format);
+    EXPECT_NE(text.find(note + ": the reduced system has that of fixed = []"), std::string::npos)
+        << text;
+  }
+}
+
 TEST(ChladniExport, SaysWhatIsMissing)
 {
   const Folder folder;

@@ -46,6 +46,24 @@ TEST(SquealProgram, ReproducesTheSquealOfTheTwoModeDisc)
   EXPECT_EQ(results.critical_speed->speed, number_at(json, "critical_speed_rad_s"));
 }
 
+TEST(SquealProgram, SaysThatTheStiffeningOfItsBodyIsNotUsed)
+{
+  const Folder folder;
+  const std::string scene = example_scene();
+  const std::size_t analyses = scene.find("analyses = ");
+  write_text(folder.path() / "scene.toml",
+             replaced(scene, scene.substr(analyses, scene.find('\n', analyses) - analyses),
+                      "analyses = [\"critical-speed\"]"));
+  mbs_export::ModalBody body = kirchhoff_body();
+  body.stiffening = {
+      .fixed = body.fixed, .loads = {"omega_zz"}, .K = {Eigen::MatrixXd::Identity(2, 2)}};
+  mbs_export::write_body(folder.path() / "disc.body.h5", body);
+  const Ending ending = run(folder, squeal_program + " run scene.toml");
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_EQ(ending.err.find("note: the geometric stiffening (reduce.stiffening) is not used"), 0u)
+      << ending.err;
+}
+
 TEST(SquealProgram, FindsTheLimitCycleWithoutATransient)
 {
   const Folder folder;

@@ -24,12 +24,15 @@ def petsc_folder(folder, uses):
     return arch
 
 
-def configured(source, folder, uses):
-    """What CMake says."""
+def configured(source, folder, uses, searched=None):
+    """What CMake says; `searched` is a variable of the compilers' that names PETSc's headers."""
     folder.mkdir()
     arch = petsc_folder(folder, uses)
     environment = dict(os.environ, PETSC_DIR=str(folder), PETSC_ARCH=arch.name)
-    environment.pop("SLEPC_DIR", None)
+    for name in ("SLEPC_DIR", "PKG_CONFIG_ALLOW_SYSTEM_CFLAGS"):
+        environment.pop(name, None)
+    if searched:
+        environment[searched] = str(arch / "include")
     done = subprocess.run(["cmake", "-G", "Ninja", "-S", source, "-B", folder / "build"], env=environment,
                           capture_output=True, text=True, timeout=100, check=False)  # fmt: skip
     return done.returncode, " ".join((done.stdout + done.stderr).split())
@@ -56,13 +59,18 @@ def main(source):
         folder = Path(name)
         refused = {
             "complex": (["PETSC_USE_COMPLEX", *REAL], ["complex numbers", "--with-scalar-type=complex"]),
+            # pkg-config does not name the folders that compilers search anyway.
+            "CPATH": (["PETSC_USE_COMPLEX", *REAL], ["complex numbers"]),
+            "CPLUS_INCLUDE_PATH": (["PETSC_USE_COMPLEX", *REAL], ["complex numbers"]),
             "64bit": ([*REAL, "PETSC_USE_64BIT_INDICES"], ["64-bit indices", "--with-64-bit-indices"]),
             "single": (["PETSC_USE_REAL_SINGLE"], ["single precision", "--with-precision=single"]),
             "none": (None, ["none of them has petscconf.h"]),
         }
         for case, (uses, words) in refused.items():
-            look = configured if case == "complex" else checked
-            code, said = look(source, folder / case, uses)
+            if case == "complex" or case.endswith("PATH"):
+                code, said = configured(source, folder / case, uses, case if case.endswith("PATH") else None)
+            else:
+                code, said = checked(source, folder / case, uses)
             expect(code != 0, f"{case}: CMake ends with an error", said)
             for word in [*words, str(folder / case / "arch-opt/include")]:
                 expect(word in said, f"{case}: which says {word!r}", said)

@@ -159,6 +159,29 @@ def free_beams(programs, folder):
     expect("a fall stretches nothing", max(np.abs(one["acceleration_x"]).max() for one in found) / size, 1e-7)
 
 
+def free_bodies_with_arms(programs, folder):
+    """What acts at an arm is the balanced load: a free body follows an acceleration of its frame without stress."""
+    mass = '[[mass]]\nat = "tip"\nmass = 1.0\noffset = [0.3, 0.1, 0.05]\n\n[interface]'
+    beam = changed(BEAM, ('fixed = ["root"]', "fixed = []"), ("[interface]", mass), ("elements = 160", "elements = 20"), ("modes = 60", "modes = 10"))  # fmt: skip
+    far = changed(beam, ("start = [0.0", "start = [3.0"), ("end = [1.0", "end = [4.0"))
+    disc = changed(DISC, ("thickness = 2e-5", "thickness = 0.01\noffset = 0.02"), ("modes = 60", "modes = 10"),
+                   ('["spin-z"]', '["spin-z", "angular-acceleration", "acceleration"]'))  # fmt: skip
+    for name, text, n_nodes in (("mass", beam, 2), ("far mass", far, 2), ("offset", disc, 24)):
+        reduced, _ = files(programs, folder / name.replace(" ", "_"), text)
+        masters = slice(6 * n_nodes)  # whose coordinates do not depend on the signs of modes
+        with h5py.File(reduced) as system:
+            loads = list(system["stiffening/loads"].asstr()[:])
+            K_sigma = {load: system[f"stiffening/{load}"][masters, masters] for load in loads}
+        size = np.abs(K_sigma["omega_zz"]).max()
+        expect(f"{name}: the spin stretches it", float(size == 0.0), 0)
+        for load in (one for one in loads if not one.startswith("omega")):
+            expect(f"{name}: {load} stretches nothing", np.abs(K_sigma[load]).max() / size, 1e-7)
+        if name == "mass":
+            about_the_root = K_sigma["omega_zz"]
+        elif name == "far mass":
+            expect("a free beam with a mass far from the axis", np.abs(K_sigma["omega_zz"] - about_the_root).max() / size, 1e-7)
+
+
 DISC = """title = "Free spinning disc"
 
 [mesh]
@@ -239,6 +262,9 @@ def in_files(programs, folder, body):
     expect("MBDyn: the third is that of omega_z^2", third[0] - 3, 0)
     expect("MBDyn: its values", np.abs(third[1:].reshape(n, n) - matrices["omega_zz"]).max(), 1e-12 * abs(third).max())
     run(programs / "chladni", "check", body)
+    for form in ("fmu", "exudyn", "matrix-market"):
+        said = run(programs / "chladni", "export", scene, "--from", folder / "beam", "--format", form, "--output", folder / "out")  # fmt: skip
+        expect(f"{form} has no place for it, and says so", int(f"{form} has no place for it" not in said), 0)
     # The same reduced system, held elsewhere.
     other = folder / "other"
     other.mkdir()
@@ -262,6 +288,13 @@ def refusals(programs, folder):
         expect(f"{name}: refused", int(part not in said), 0)
         expect(f"{name}: by its line", int(f"scene.toml:{line}: reduce.stiffening" not in said), 0)
         expect(f"{name}: once", said.count("reduce.stiffening") - 1, 0)
+    (folder / "support").mkdir()
+    text = changed(BEAM, ('fixed = ["root"]', 'fixed = ["root.rx"]'),
+                   ("[material.any]", '[model]\ndofs = ["x", "y", "z", "ry", "rz"]\n\n[material.any]'))  # fmt: skip
+    (folder / "support/scene.toml").write_text(text)
+    said = run(programs / "chladni", "reduce", folder / "support/scene.toml", "--output", folder / "support", code=1)
+    line = 1 + text[: text.index("fixed =")].count("\n")
+    expect("a support that is none: by its line", int(f"scene.toml:{line}: body.fixed" not in said), 0)
 
 
 def main(programs, mpirun):
@@ -270,6 +303,7 @@ def main(programs, mpirun):
         body = rotating_beam(programs, folder)
         the_known_numbers(programs, folder)
         free_beams(programs, folder)
+        free_bodies_with_arms(programs, folder)
         spinning_disc(programs, folder, mpirun)
         in_files(programs, folder, body)
         refusals(programs, folder)

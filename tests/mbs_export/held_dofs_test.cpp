@@ -34,9 +34,21 @@ TEST(HeldDofs, NameWhatExistsWhenAskedForSomethingElse)
             "fixed: 'hub.w': no component 'w'; there is x, y, z, rx, ry, rz");
   ReducedSystem translations = wheel;
   std::erase_if(translations.masters, [](const MasterDof& dof) { return dof.component == 5; });
-  EXPECT_NE(
-      files::test::error_of([&] { held_dofs(translations, {"hub.rz"}); }).find("component rz"),
-      std::string::npos);
+  EXPECT_EQ(files::test::error_of([&] {
+              held_dofs(translations, {"hub.rz"});
+            }).find("fixed: 'hub.rz': the reduced system has no component rz there"),
+            0u);
+}
+
+TEST(HeldDofs, AreASupportWhateverWordsSayIt)
+{
+  const ReducedSystem wheel = test::wheel();
+  EXPECT_TRUE(are_same_support(wheel, {"hub", "rim.z"}, {"rim.z", "hub"}));
+  EXPECT_TRUE(are_same_support(wheel, {"hub"},
+                               {"hub.rz", "hub.ry", "hub.rx", "hub.z", "hub.y", "hub.x", "hub.x"}));
+  EXPECT_FALSE(are_same_support(wheel, {"hub"}, {"hub.x"}));
+  EXPECT_FALSE(are_same_support(wheel, {"hub"}, {}));
+  EXPECT_FALSE(are_same_support(wheel, {"hub.x"}, {"hub.y"}));
 }
 
 }  // namespace

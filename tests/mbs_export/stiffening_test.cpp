@@ -69,6 +69,9 @@ TEST(Stiffening, GoesWithTheModesOfABodyThatIsHeldAlike)
   BodyOptions on_hub;
   on_hub.fixed = {"hub"};
   EXPECT_TRUE(make_body(wheel, on_hub).stiffening);
+  wheel.stiffening->fixed = {"hub", "rim.z"};
+  on_hub.fixed = {"rim.z", "hub.rx", "hub.ry", "hub.rz", "hub.x", "hub.y", "hub.z"};
+  EXPECT_TRUE(make_body(wheel, on_hub).stiffening);
 }
 
 TEST(Stiffening, IsReadAsItWasWritten)

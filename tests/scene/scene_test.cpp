@@ -839,6 +839,22 @@ resultants = ["beam"]
 fixed = ["start.z"]
 )";
 
+TEST(Scene, SaysThatAToleranceDoesNotSeeTheStressOfBeams)
+{
+  const std::string stiffened =
+      replaced(replaced(beam, "[\"ry\", \"z\"]", "[\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]"),
+               "[body]", "stiffening = [\"spin-y\"]\n[body]");
+  EXPECT_TRUE(parse_scene(stiffened, "beam.toml").notes.empty());
+  const auto with_tolerance = [](const std::string& text) {
+    return parse_scene(replaced(text, "modes = 10\n", "tolerance = 1e-3\nup_to_Hz = 50.0\n"),
+                       "beam.toml");
+  };
+  const Scene scene = with_tolerance(stiffened);
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_EQ(scene.notes[0].find("beam.toml: reduce.stiffening: the axial force is constant"), 0u);
+  EXPECT_TRUE(with_tolerance(replaced(stiffened, "stiffening = [\"spin-y\"]\n", "")).notes.empty());
+}
+
 TEST(Scene, HoldsABeam)
 {
   const Scene scene = parse_scene(beam, "beam.toml");
