@@ -507,17 +507,18 @@ TEST(Joints, SayWhenTheyLockBodiesThatBend)
   JointOptions joint{.ends = {PartNodes{"upper", "face"}, PartNodes{"lower", "face"}},
                      .rigid = {0, 1, 2, 3, 4, 5}};
   const JoinedParts locked = joined(parts, std::vector{joint});
-  ASSERT_EQ(locked.notes.size(), 0u);  // 11 of 22: half
+  ASSERT_EQ(locked.notes.size(), 0u);  // 10 of 22, as below
   joint.ends[1] = {};
+  // x, y, three turns, and z of the five nodes.
   const JoinedParts held = joined(parts, std::vector{joint});
   ASSERT_EQ(held.notes.size(), 1u);
   EXPECT_EQ(
       held.notes[0],
-      "joint[1] takes 11 of the 11 coordinates of \"upper\", which can hardly bend then; join "
+      "joint[1] takes 10 of the 11 coordinates of \"upper\", which can hardly bend then; join "
       "fewer nodes, add interface modes there, or use springs");
   joint.rigid = {0};  // x, and the turn about z that moves the nodes along it
   EXPECT_TRUE(joined(parts, std::vector{joint}).notes.empty());
-  // Bodies that differ are locked more: each bends as the other one does.
+  // Bodies that differ are locked more: x, y, ry, rz, and z and rx of the five nodes.
   auto other = body;
   other.attachment_modes.bottomRightCorner(6 * n_points, n_points).setZero();
   for (Eigen::Index i = 0; i < n_points; ++i) other.attachment_modes(6 * (i + 1) + 3, 6 + i) = 1.0;
@@ -526,7 +527,7 @@ TEST(Joints, SayWhenTheyLockBodiesThatBend)
            .rigid = {0, 1, 2, 3, 4, 5}};
   const JoinedParts rigid = joined(both, std::vector{joint});
   ASSERT_EQ(rigid.notes.size(), 1u);
-  EXPECT_NE(rigid.notes[0].find("takes 16 of the 22 coordinates of \"upper\" and \"lower\""),
+  EXPECT_NE(rigid.notes[0].find("takes 14 of the 22 coordinates of \"upper\" and \"lower\""),
             std::string::npos)
       << rigid.notes[0];
 }
