@@ -76,7 +76,8 @@ squeal::JointOptions read_joint(const Table& table, const AssemblyOptions& optio
   if (table.choice<Type>("type", {{"spring", Type::spring}, {"rigid", Type::rigid}}) ==
       Type::rigid) {
     joint.rigid = {0, 1, 2, 3, 4, 5};
-    if (table.has("dofs")) joint.rigid = read_component_list(table, "dofs");
+    joint.spares_drilling = !table.has("dofs");
+    if (!joint.spares_drilling) joint.rigid = read_component_list(table, "dofs");
     return joint;
   }
   joint.stiffness = read_by_component(table, "stiffness");
@@ -119,6 +120,9 @@ void read_disc(AssemblyOptions& options, const Table& squeal)
     squeal.refuse("disc", no_such_name("part", options.disc, names));
   options.rings = squeal.texts("rings");
   if (options.rings.empty()) squeal.refuse("rings", "must name at least one ring of the disc");
+  for (auto ring = options.rings.begin(); ring != options.rings.end(); ++ring)
+    if (std::find(options.rings.begin(), ring, *ring) != ring)
+      squeal.refuse("rings", fmt::format("names \"{}\" twice", *ring));
   if (squeal.only_one_of({"thickness", "contact_planes"}) == "thickness") {
     options.thickness = squeal.number("thickness");
   } else {

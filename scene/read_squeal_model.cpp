@@ -110,6 +110,8 @@ void check_linear(const Table& squeal, const squeal::StudyOptions& study)
           "analyses", i,
           "is none of an assembly, whose contact is linear: it has " + quoted_list(linear));
     }
+  if (study.transient)
+    squeal.refuse("transient", "is none of an assembly, whose contact is linear; take it out");
 }
 
 }  // namespace

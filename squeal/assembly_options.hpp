@@ -28,8 +28,11 @@ struct PartNodes {
 /// What joins two sets of nodes, or one set and the ground, node by node. Components are 0, 1, 2 =
 /// displacement along x, y, z of the brake and 3, 4, 5 = rotation about them.
 struct JointOptions {
-  std::array<PartNodes, 2> ends;      ///< the first one is a part's
-  std::vector<int> rigid;             ///< components that both ends share; empty: springs
+  std::array<PartNodes, 2> ends;  ///< the first one is a part's
+  std::vector<int> rigid;         ///< components that both ends share; empty: springs
+  /// Of a rigid joint without a choice of components: rotations about the normal of a smooth shell
+  /// stay free.
+  bool spares_drilling = false;
   std::array<double, 6> stiffness{};  ///< of each pair of nodes, N/m or N m
   std::array<double, 6> damping{};    ///< of each pair of nodes, N s/m or N m s
   double span = 0.0;                  ///< that two nodes may be apart and are joined over, m

@@ -109,8 +109,21 @@ std::vector<path> part_files(const squeal::ModelOptions& model, const SquealFile
   return bodies;
 }
 
+/// Nothing that the body of a part was made from has changed in its own scene, where that is at
+/// hand.
+void require_of_own_scene(const path& file, const mbs_export::ModalBody& body, report::Stale stale)
+{
+  if (body.provenance.scene_file.empty()) return;
+  const path own = (file.parent_path() / body.provenance.scene_file).lexically_normal();
+  if (!std::filesystem::is_regular_file(own)) return;
+  report::require_of_scene(scene::read_scene(own.string()),
+                           {.file = file, .what = report::Made::body, .origin = body.provenance},
+                           stale);
+}
+
 /// The bodies of an assembly; equal files are read once.
-std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const SquealFiles& files)
+std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const SquealFiles& files,
+                                               StaleChoice stale)
 {
   std::vector<mbs_export::ModalBody> bodies;
   const std::vector<path> names = part_files(scene.squeal_model.value(), files);
@@ -127,6 +140,7 @@ std::vector<mbs_export::ModalBody> part_bodies(const scene::Scene& scene, const 
           scene.path, i + 1, names[i].string()));
     }
     bodies.push_back(mbs_export::read_body(names[i]));
+    if (stale) require_of_own_scene(names[i], bodies.back(), *stale);
   }
   return bodies;
 }
@@ -145,11 +159,11 @@ void add_note_of_stiffening(std::span<const mbs_export::ModalBody> bodies,
 }
 
 /// A brake without a mesh: a few equations, or bodies of other scenes.
-SquealCase model_case(const scene::Scene& scene, const SquealFiles& files)
+SquealCase model_case(const scene::Scene& scene, const SquealFiles& files, StaleChoice stale)
 {
   const squeal::ModelOptions& model = scene.squeal_model.value();
   SquealCase made;
-  const std::vector<mbs_export::ModalBody> bodies = part_bodies(scene, files);
+  const std::vector<mbs_export::ModalBody> bodies = part_bodies(scene, files, stale);
   if (bodies.empty()) return {.brake = squeal::model_brake(model), .notes = {}};
   try {
     made.brake = squeal::model_brake(model, bodies);
@@ -191,7 +205,7 @@ std::optional<std::string> note_of_damping(const squeal::FlexibleDisc& brake)
 SquealCase squeal_case(const scene::Scene& scene, const std::optional<mbs_export::ModalBody>& body,
                        const SquealFiles& files, StaleChoice stale)
 {
-  if (!body) return model_case(scene, files);
+  if (!body) return model_case(scene, files, stale);
   const squeal::SquealOptions& options = scene.squeal.value();
   squeal::Disc disc = squeal::make_disc(*body, squeal::ring_choice(options), options.modes);
   if (scene.radiation)

@@ -32,7 +32,9 @@ constexpr Key assembly_rows[] = {
      "springs and dampers, or the same motion",
      {},
      "spring | rigid"},
-    {"joint.dofs", texts, "all six", "components that a rigid joint joins"},
+    {"joint.dofs", texts, "all six",
+     "components that a rigid joint joins; without them the rotation about the normal of a smooth "
+     "shell stays free"},
     {"joint.stiffness", table, "required for springs", "along and about the axes of the brake"},
     {"joint.stiffness.*", number, "0",
      "of each pair of nodes; `x`, `y`, `z` N/m, `rx`, `ry`, `rz` N m", not_negative},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -25,7 +26,13 @@ Disc turning_disc(const AssemblyOptions& options, const ModalBody& body)
   const RingChoice rings{.names = options.rings,
                          .in_plane = options.planes.has_value(),
                          .slopes_from = options.slopes_from};
-  return make_disc(body, rings, {.quasi_static_above = std::numeric_limits<double>::infinity()});
+  try {
+    return make_disc(body, rings, {.quasi_static_above = std::numeric_limits<double>::infinity()});
+  } catch (const Error& error) {
+    const auto part = std::ranges::find(options.parts, options.disc, &PartOptions::name);
+    throw Error(
+        fmt::format("squeal.disc: part \"{}\" ({}): {}", part->name, part->body, error.what()));
+  }
 }
 
 /// The parts that do not turn, and the body of the one that does.
@@ -50,20 +57,30 @@ double total(const FaceQuantity& quantity, double area, const std::string& key)
 {
   if (!quantity.per_area) return quantity.value;
   if (area > 0.0) return quantity.value * area;
-  throw Error(
-      fmt::format("{}: its nodes lie on one circle, which encloses no area; give stiffness, "
-                  "damping and preload of the whole face",
-                  key));
+  throw Error(fmt::format(
+      "{}: the area of its nodes is not known (they lie on one line or circle, or reach "
+      "more than a quarter of a turn to a side of their middle); give stiffness, "
+      "damping and preload of the whole face",
+      key));
 }
 
 Lining lining_of(const AssemblyOptions& options, const FaceContact& contact, double area,
                  const std::string& key)
 {
+  const FrictionLaw law = contact.friction.value_or(options.friction);
+  if (law.table && law.table->pressures.size() > 1 && !(area > 0.0)) {
+    throw Error(
+        fmt::format("{}: its friction depends on the pressure, but the area of its nodes is not "
+                    "known (they lie on one line or circle, or reach more than a quarter of a turn "
+                    "to a side of their middle); give the nodes of a face, or a friction table "
+                    "without pressures",
+                    key));
+  }
   return {.area = area,
           .stiffness = total(contact.stiffness, area, key),
           .damping = total(contact.damping, area, key),
           .preload = total(contact.preload, area, key),
-          .friction = contact.friction.value_or(options.friction),
+          .friction = law,
           .has_own_friction = contact.friction.has_value()};
 }
 
@@ -107,6 +124,26 @@ PadContact pad_of(const AssemblyPoint& point, const Lining& lining)
           .damping = point.share * lining.damping,
           .preload = point.share * lining.preload,
           .area = point.area};
+}
+
+/// No node carries two linings.
+void check_apart(const AssemblyOptions& options, std::span<const Part> parts)
+{
+  std::map<std::pair<std::size_t, int>, std::size_t> taken;
+  for (std::size_t i = 0; i < options.contacts.size(); ++i) {
+    const PartNodes& face = options.contacts[i].face;
+    const std::size_t at = part_index(parts, face.part);
+    const std::string key = fmt::format("contact[{}].face", i + 1);
+    for (const int node : nodes_of(parts[at], face.set, key)) {
+      const auto [first, is_new] = taken.try_emplace({at, node}, i);
+      if (is_new || first->second == i) continue;
+      throw Error(fmt::format(
+          "{}: \"{}.{}\" ({}) has nodes of contact[{}].face = \"{}.{}\" too, which would carry two "
+          "linings; give each face once, and sets without common nodes",
+          key, face.part, face.set, parts[at].file, first->second + 1,
+          options.contacts[first->second].face.part, options.contacts[first->second].face.set));
+    }
+  }
 }
 
 /// By what displacements are multiplied to have the size of their rates.
@@ -153,7 +190,9 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
 {
   const Placed placed = placed_parts(options, bodies);
   const Disc disc = turning_disc(options, *placed.disc);
-  const PartModes modes = part_modes(joined(placed.parts, options.joints));
+  check_apart(options, placed.parts);
+  const JoinedParts joints = joined(placed.parts, options.joints);
+  const PartModes modes = part_modes(joints);
   Assembly all{.disc = inertial_disc(disc),
                .omega = modes.omega,
                .C = modes.C,
@@ -161,6 +200,7 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
                .linings = {},
                .convection = options.convection,
                .notes = notes_of(disc)};
+  all.notes.insert(all.notes.end(), joints.notes.begin(), joints.notes.end());
   const DiscFaces faces = disc_faces(options, all.disc);
   const std::vector<Eigen::Index> first = first_coordinates(placed.parts);
   for (std::size_t i = 0; i < options.contacts.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "squeal/assembly/node_areas.hpp"
+#include "squeal/assembly/part_components.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -72,19 +73,32 @@ void check_radius(const DiscFaces& disc, double r, const std::string& what)
                   what, r, beyond, inner->radius, outer->radius));
 }
 
+/// A face around the z axis.
+struct Angles {
+  double middle;           ///< rad
+  Eigen::VectorXd values;  ///< [n] rad, less than half a turn from the middle
+
+  /// Whether it reaches farther than outlines are known: a quarter of a turn to each side.
+  bool is_wide() const
+  {
+    return (values.array() - middle).abs().maxCoeff() > 0.5 * std::numbers::pi * (1.0 + within);
+  }
+};
+
 /// Angles from that of the middle of the face on.
-Eigen::VectorXd angles_about_middle(const Eigen::Matrix3Xd& x)
+Angles angles_about_middle(const Eigen::Matrix3Xd& x)
 {
   const Eigen::Vector3d mean = x.rowwise().mean();
   const double middle = std::atan2(mean[1], mean[0]), c = std::cos(middle), s = std::sin(middle);
   Eigen::VectorXd angles(x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i)
     angles[i] = middle + std::atan2(c * x(1, i) - s * x(0, i), c * x(0, i) + s * x(1, i));
-  return angles;
+  return {middle, angles};
 }
 
-/// Areas of the nodes; none where all lie on one circle.
-void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, const std::string& what)
+/// Areas of the nodes; none where all lie on one line or circle, and of wide faces.
+void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, bool is_wide,
+                const std::string& what)
 {
   const Eigen::Index n = std::ssize(nodes);
   Eigen::VectorXd r(n), angle(n);
@@ -92,9 +106,16 @@ void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, const 
     r[i] = nodes[static_cast<std::size_t>(i)].place.radius;
     angle[i] = nodes[static_cast<std::size_t>(i)].angle;
   }
-  const Eigen::VectorXd areas = node_areas(r, angle);
+  const Eigen::VectorXd areas = is_wide ? Eigen::VectorXd::Zero(n) : node_areas(r, angle);
   const double whole = areas.sum();
   const bool by_area = contact.shares == NodeShares::by_area;
+  if (is_wide && by_area) {
+    throw Error(fmt::format(
+        "{} reaches more than a quarter of a turn to a side of its middle, so that its outline is "
+        "not known; split its nodes into sets of one lining each, or give shares = \"equal\" with "
+        "stiffness, damping and preload of the whole face",
+        what));
+  }
   if (!(whole > 0.0) && by_area) {
     throw Error(fmt::format(
         "{} has nodes on one line or circle alone, which enclose no area; give shares = \"equal\", "
@@ -114,6 +135,15 @@ DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc)
 {
   DiscFaces faces{.rings = ring_places(disc), .planes = {}};
   const RingPlace& first = faces.rings.front();
+  for (auto ring = faces.rings.begin(); ring != faces.rings.end(); ++ring) {
+    const auto same = std::find_if(faces.rings.begin(), ring, [&](const RingPlace& other) {
+      return std::abs(other.radius - ring->radius) <= within * first.radius;
+    });
+    if (same == ring) continue;
+    throw Error(fmt::format(
+        "squeal.rings: \"{}\" and \"{}\" lie on one circle of radius {:.6g} m; name one of them",
+        same->name, ring->name, ring->radius));
+  }
   for (const RingPlace& ring : faces.rings)
     if (!(std::abs(ring.height - first.height) <= within * first.radius)) {
       throw Error(fmt::format(
@@ -131,9 +161,13 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
 {
   const std::vector<int>& set = nodes_of(part, contact.face.set, key + ".face");
   const std::string what = fmt::format("{}.face: {}", key, name_of(contact, part));
+  // Its points move by the tilt of the plate, too; they do not feel it turn about z.
+  require_components(part, contact.face.set, {true, true, true, true, true, false}, key + ".face",
+                     "a face needs displacements and tilts: keep them in the reduced system, or "
+                     "give it nodes of shells or rigid couplings");
   const double sigma = side_of(contact, part, disc, set, key);
   const Eigen::Matrix3Xd x = part.positions(Eigen::seqN(0, 3), set);
-  const Eigen::VectorXd angles = angles_about_middle(x);
+  const Angles angles = angles_about_middle(x);
   const auto& [lower, upper] = disc.planes;
   const double plane = sigma > 0.0 ? upper : lower;
   std::vector<FaceNode> nodes;
@@ -142,7 +176,7 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
     check_radius(disc, r, what);
     nodes.push_back({.node = set[static_cast<std::size_t>(i)],
                      .height = contact.height,
-                     .angle = angles[i],
+                     .angle = angles.values[i],
                      .sigma = sigma,
                      .place = {.radius = r,
                                .plane = plane - 0.5 * (lower + upper),
@@ -151,7 +185,7 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                      .area = 0.0,
                      .ring_parts = ring_parts(disc.rings, r)});
   }
-  put_shares(nodes, contact, what);
+  put_shares(nodes, contact, angles.is_wide(), what);
   return nodes;
 }
 

@@ -32,13 +32,14 @@ struct DiscFaces {
 /// through the nearest four of them says.
 /// @param key  of the scene: "contact[2]"
 /// @throws chladni::Error naming the key, for a set that the part does not have, a face that does
-///         not touch a contact plane or lies beyond the rings (by how much), and nodes without
-///         area.
+///         not touch a contact plane or lies beyond the rings (by how much), nodes without
+///         area, faces of more than half a turn, and bodies without displacements or tilts
+///         there.
 std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                                  const DiscFaces& disc, const std::string& key);
 
 /// Contact planes of the disc and its rings.
-/// @throws chladni::Error when rings lie at two heights.
+/// @throws chladni::Error when rings lie at two heights, or two of them on one circle.
 DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc);
 
 /// [n x 3 or 5] W, W_r, W_t, V_r, V_t of the disc under a node.

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/assembly/part_components.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -88,34 +92,112 @@ struct Places {
   std::vector<Eigen::Index> first;
 };
 
-/// [6 x n] relative motion of each pair of nodes of a joint, at the point between them.
-std::vector<Eigen::MatrixXd> relative_motions(const Places& places, const JointOptions& joint,
-                                              const std::string& key)
+Components components_of(const JointOptions& joint)
+{
+  Components components{};
+  for (const int c : joint.rigid) components[static_cast<std::size_t>(c)] = true;
+  for (std::size_t c = 0; c < components.size(); ++c)
+    if (joint.stiffness[c] > 0.0 || joint.damping[c] > 0.0) components[c] = true;
+  return components;
+}
+
+/// An end of a joint can take what the joint does to it.
+/// @param arms  [3 x n_pairs] from the nodes to where the joint acts, m
+void check_end(const JointOptions& joint, const PartNodes& end, const Part& part,
+               const Eigen::Matrix3Xd& arms, const std::string& key)
+{
+  const Components components = components_of(joint);
+  Components needed = components;
+  for (const Vector3d& arm : arms.colwise()) {
+    const Components of_node = needed_of_node(components, arm, placement * size_of(part));
+    for (std::size_t c = 0; c < needed.size(); ++c) needed[c] = needed[c] || of_node[c];
+  }
+  require_components(part, end.set, needed, key,
+                     joint.rigid.empty()
+                         ? "take it out of stiffness and damping, or give the body nodes that have "
+                           "it (a rotation carries the joint over its span, too)"
+                         : "name in dofs what both ends have, or give the body nodes that have it "
+                           "(a rotation carries the joint over its span, too)");
+  if (!joint.spares_drilling) refuse_drilling(part, end.set, components, key);
+}
+
+/// What a joint sees of two nodes.
+struct JointMotion {
+  Eigen::MatrixXd motion;               ///< [6 x n] relative, at the point between them
+  Eigen::Matrix<double, 3, 2> normals;  ///< of smooth shells at the nodes, else zero
+};
+
+/// Relative motion of each pair of nodes of a joint.
+std::vector<JointMotion> relative_motions(const Places& places, const JointOptions& joint,
+                                          const std::string& key)
 {
   const std::size_t i = part_index(places.parts, joint.ends[0].part);
   const Part& a = places.parts[i];
   const bool grounded = joint.ends[1].is_ground();
   const std::size_t j = grounded ? i : part_index(places.parts, joint.ends[1].part);
   const Part& b = places.parts[j];
-  std::vector<Eigen::MatrixXd> motions;
-  for (const auto& [first, second] :
-       grounded ? pairs_to_ground(joint, key, a) : pairs_of(joint, key, a, b)) {
+  const std::vector<NodePair> pairs =
+      grounded ? pairs_to_ground(joint, key, a) : pairs_of(joint, key, a, b);
+  std::vector<JointMotion> motions;
+  Eigen::Matrix3Xd arms_a(3, std::ssize(pairs)), arms_b = arms_a;
+  for (const auto& [first, second] : pairs) {
+    const auto at = std::ssize(motions);
     Vector3d point = a.positions.col(first);
     if (!grounded) point = 0.5 * (point + b.positions.col(second));
-    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(6, places.first.back());
-    motion.middleCols(places.first[i], a.n_modes()) += motion_at(a, first, point);
-    if (!grounded) motion.middleCols(places.first[j], b.n_modes()) -= motion_at(b, second, point);
-    motions.push_back(std::move(motion));
+    JointMotion pair{.motion = Eigen::MatrixXd::Zero(6, places.first.back()), .normals = {}};
+    pair.normals << a.drilling.col(first), Vector3d::Zero();
+    pair.motion.middleCols(places.first[i], a.n_modes()) += motion_at(a, first, point);
+    arms_a.col(at) = point - a.positions.col(first);
+    if (!grounded) {
+      pair.motion.middleCols(places.first[j], b.n_modes()) -= motion_at(b, second, point);
+      pair.normals.col(1) = b.drilling.col(second);
+      arms_b.col(at) = point - b.positions.col(second);
+    }
+    motions.push_back(std::move(pair));
   }
+  check_end(joint, joint.ends[0], a, arms_a, key);
+  if (!grounded) check_end(joint, joint.ends[1], b, arms_b, key);
   return motions;
 }
 
-void add_rigid(JoinedParts& all, const Eigen::MatrixXd& motion, const std::vector<int>& components)
+/// What a rigid joint sets to zero of the relative motion of two nodes.
+Eigen::MatrixXd rigid_rows(const JointOptions& joint, const JointMotion& pair)
 {
-  for (const int c : components) {
-    all.B.conservativeResize(all.B.rows() + 1, all.K.cols());
-    all.B.bottomRows<1>() = motion.row(c);
+  if (!joint.spares_drilling) return pair.motion(joint.rigid, every);
+  const Eigen::Matrix3Xd axes = axes_without_drilling(pair.normals);
+  Eigen::MatrixXd rows(3 + axes.cols(), pair.motion.cols());
+  rows << pair.motion.topRows<3>(), axes.transpose() * pair.motion.bottomRows<3>();
+  return rows;
+}
+
+void append(Eigen::MatrixXd& B, const Eigen::MatrixXd& rows)
+{
+  B.conservativeResize(B.rows() + rows.rows(), rows.cols());
+  B.bottomRows(rows.rows()) = rows;
+}
+
+/// Says so where a rigid joint holds more of bodies that bend than it leaves.
+/// @param B     [n_rigid x n] of the joint
+/// @param name  "joint[1]"
+std::optional<std::string> note_of_locking(const Places& places, const JointOptions& joint,
+                                           const Eigen::MatrixXd& B, const std::string& name)
+{
+  Eigen::Index n = 0;
+  std::string names;
+  bool bends = false;
+  for (const PartNodes& end : joint.ends) {
+    if (end.is_ground()) continue;
+    const Part& part = places.parts[part_index(places.parts, end.part)];
+    n += part.n_modes();
+    bends = bends || (part.omega.array() > 0.0).any();
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : " and ", part.name);
   }
+  const Eigen::Index taken = B.cols() - null_space(B).cols();
+  if (!bends || 2 * taken <= n) return std::nullopt;
+  return fmt::format(
+      "{} takes {} of the {} coordinates of {}, which can hardly bend then; join fewer nodes, add "
+      "interface modes there, or use springs",
+      name, taken, n, names);
 }
 
 }  // namespace
@@ -138,7 +220,10 @@ JoinedParts joined(std::span<const Part> parts, std::span<const JointOptions> jo
 {
   const Places places{parts, first_coordinates(parts)};
   const Eigen::Index n = places.first.back();
-  JoinedParts all{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd(0, n)};
+  JoinedParts all{.K = Eigen::MatrixXd::Zero(n, n),
+                  .C = Eigen::MatrixXd::Zero(n, n),
+                  .B = Eigen::MatrixXd(0, n),
+                  .notes = {}};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
     const Eigen::Index at = places.first[i], m = part.n_modes();
@@ -149,12 +234,15 @@ JoinedParts joined(std::span<const Part> parts, std::span<const JointOptions> jo
     const JointOptions& joint = joints[i];
     const Eigen::Map<const Eigen::Vector<double, 6>> k(joint.stiffness.data());
     const Eigen::Map<const Eigen::Vector<double, 6>> d(joint.damping.data());
-    for (const Eigen::MatrixXd& motion :
-         relative_motions(places, joint, fmt::format("joint[{}].between", i + 1))) {
-      add_rigid(all, motion, joint.rigid);
-      all.K += motion.transpose() * k.asDiagonal() * motion;
-      all.C += motion.transpose() * d.asDiagonal() * motion;
+    const std::string name = fmt::format("joint[{}]", i + 1);
+    Eigen::MatrixXd B(0, n);
+    for (const JointMotion& pair : relative_motions(places, joint, name + ".between")) {
+      if (!joint.rigid.empty()) append(B, rigid_rows(joint, pair));
+      all.K += pair.motion.transpose() * k.asDiagonal() * pair.motion;
+      all.C += pair.motion.transpose() * d.asDiagonal() * pair.motion;
     }
+    append(all.B, B);
+    if (const auto note = note_of_locking(places, joint, B, name)) all.notes.push_back(*note);
   }
   return all;
 }

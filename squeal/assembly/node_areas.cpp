@@ -1,6 +1,9 @@
 #include "squeal/assembly/node_areas.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace chladni::squeal {
@@ -58,6 +61,14 @@ Polygon nearer(const Polygon& polygon, const Point& own, const Point& other)
   return part;
 }
 
+double area_of(const Polygon& polygon)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    sum += 0.5 * cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return sum;
+}
+
 /// The integral of x over a polygon.
 double moment_of(const Polygon& polygon)
 {
@@ -69,26 +80,52 @@ double moment_of(const Polygon& polygon)
   return sum;
 }
 
+/// Nodes in a plane, in which a polygon has some area.
+struct Plane {
+  Polygon points, hull;
+  std::function<double(const Polygon&)> area;
+
+  double whole() const { return area(hull); }
+};
+
+Plane plane_of(Polygon points, std::function<double(const Polygon&)> area)
+{
+  Polygon hull = hull_of(points);
+  return {std::move(points), std::move(hull), std::move(area)};
+}
+
+/// What of the hull is nearer to each point than to the others.
+Eigen::VectorXd cells(const Plane& plane)
+{
+  Eigen::VectorXd areas(std::ssize(plane.points));
+  for (std::size_t i = 0; i < plane.points.size(); ++i) {
+    Polygon cell = plane.hull;
+    for (std::size_t j = 0; j < plane.points.size() && !cell.empty(); ++j)
+      if (j != i) cell = nearer(cell, plane.points[i], plane.points[j]);
+    areas[static_cast<Eigen::Index>(i)] = plane.area(cell);
+  }
+  return areas;
+}
+
 }  // namespace
 
 Eigen::VectorXd node_areas(const Eigen::VectorXd& radii, const Eigen::VectorXd& angles)
 {
   const double R = radii.mean();
-  Polygon points;
-  for (Eigen::Index i = 0; i < radii.size(); ++i) points.emplace_back(radii[i], R * angles[i]);
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(radii.size());
-  if (points.size() < 3) return areas;
-  const Polygon hull = hull_of(points);
-  // On a line rounding alone leaves some area.
-  if (!(moment_of(hull) > 1e-9 * R * R * R)) return areas;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    Polygon cell = hull;
-    for (std::size_t j = 0; j < points.size() && !cell.empty(); ++j)
-      if (j != i) cell = nearer(cell, points[i], points[j]);
-    // The integral of r dr dtheta.
-    areas[static_cast<Eigen::Index>(i)] = moment_of(cell) / R;
+  Polygon polar, straight;
+  for (Eigen::Index i = 0; i < radii.size(); ++i) {
+    polar.emplace_back(radii[i], R * angles[i]);
+    straight.emplace_back(radii[i] * std::cos(angles[i]), radii[i] * std::sin(angles[i]));
   }
-  return areas;
+  if (polar.size() < 3) return Eigen::VectorXd::Zero(radii.size());
+  // The integral of r dr dtheta.
+  const Plane of_sector =
+      plane_of(std::move(polar), [R](const Polygon& p) { return moment_of(p) / R; });
+  const Plane of_plate = plane_of(std::move(straight), area_of);
+  const Plane& taken = of_plate.whole() < of_sector.whole() ? of_plate : of_sector;
+  // On a line rounding alone leaves some area.
+  if (!(taken.whole() > 1e-9 * R * R)) return Eigen::VectorXd::Zero(radii.size());
+  return cells(taken);
 }
 
 }  // namespace chladni::squeal

@@ -26,10 +26,14 @@ Part placed(const PartOptions& options, const mbs_export::ModalBody& body)
             .C = body.C.size() > 0 ? body.C : Eigen::MatrixXd::Zero(n, n),
             .positions = Eigen::Matrix3Xd(3, n_nodes),
             .Phi = Eigen::MatrixXd(6 * n_nodes, n),
+            .R = R,
+            .moves = (body.attachment_modes.array() != 0.0).rowwise().any().reshaped(6, n_nodes),
+            .drilling = Eigen::Matrix3Xd(3, n_nodes),
             .sets = body.sets};
   for (Eigen::Index i = 0; i < n_nodes; ++i) {
     const auto& node = body.attachment_nodes[static_cast<std::size_t>(i)];
     part.positions.col(i) = origin + R * node.position;
+    part.drilling.col(i) = R * node.drilling_axis;
     for (const Eigen::Index row : {6 * i, 6 * i + 3})
       part.Phi.middleRows<3>(row) = R * body.attachment_modes.middleRows<3>(row);
   }

@@ -17,6 +17,12 @@ struct Part {
   Eigen::MatrixXd C;           ///< [n x n] 1/s, zero when undamped
   Eigen::Matrix3Xd positions;  ///< [3 x n_nodes] of the attachment nodes, m
   Eigen::MatrixXd Phi;         ///< [6 n_nodes x n] u and theta of each node
+  Eigen::Matrix3d R;           ///< from the axes of the body to those of the brake
+  /// [6 x n_nodes] whether any mode moves a node so, in the axes of the body
+  Eigen::Array<bool, 6, Eigen::Dynamic> moves;
+  /// [3 x n_nodes] normals of smooth shells, which resist the rotation about them by a numerical
+  /// stiffness alone; else zero
+  Eigen::Matrix3Xd drilling;
   std::vector<mbs_export::AttachmentSet> sets;
 
   Eigen::Index n_modes() const { return omega.size(); }

@@ -1,7 +1,12 @@
 #include "squeal/models/assembly_brake.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "common/error.hpp"
@@ -26,10 +31,36 @@ const Lining* first_of_brake(const std::vector<Lining>& linings)
   return found == linings.end() ? nullptr : &*found;
 }
 
+/// Whether all linings have one value, up to the rounding of areas.
+bool is_shared(const std::vector<Lining>& linings, double Lining::*value)
+{
+  constexpr double rounding = 1e-9;
+  const double first = linings.front().*value;
+  return std::ranges::all_of(linings, [&](const Lining& lining) {
+    return std::abs(lining.*value - first) <= rounding * std::abs(first);
+  });
+}
+
+/// Says what `gradients` leaves out.
+Assembly with_notes(Assembly assembly)
+{
+  std::vector<std::string_view> own;
+  for (const LiningRow& row : lining_rows)
+    if (!is_shared(assembly.linings, row.value)) own.push_back(row.name);
+  if (!own.empty()) {
+    assembly.notes.push_back(
+        fmt::format("linings differ in {}: gradients leave it out, and a range of it sets all "
+                    "linings alike",
+                    fmt::join(own, " and in ")));
+  }
+  return assembly;
+}
+
 }  // namespace
 
 AssemblyBrake::AssemblyBrake(Assembly assembly)
-    : assembly_(std::make_shared<const Assembly>(std::move(assembly))), linings_(assembly_->linings)
+    : assembly_(std::make_shared<const Assembly>(with_notes(std::move(assembly)))),
+      linings_(assembly_->linings)
 {}
 
 Eigen::MatrixXd AssemblyBrake::state_matrix(double speed) const
@@ -47,9 +78,13 @@ std::unique_ptr<Brake> AssemblyBrake::with(MapParameter parameter, double value)
     return changed;
   }
   const auto row = std::ranges::find(lining_rows, parameter.name, &LiningRow::name);
-  const bool has_it = row != lining_rows.end() && parameter.pad == 0;
-  for (Lining& lining : changed->linings_)
-    set_parameter(has_it ? &(lining.*(row->value)) : nullptr, parameter, value);
+  if (row == lining_rows.end() || parameter.pad != 0) {
+    throw Error(fmt::format(
+        "[squeal] \"{}\" cannot vary in an assembly, whose parameters are the friction of the "
+        "brake, and stiffness, damping and preload of all linings",
+        key_of(parameter)));
+  }
+  for (Lining& lining : changed->linings_) lining.*(row->value) = value;
   return changed;
 }
 
@@ -58,11 +93,8 @@ std::vector<ParameterValue> AssemblyBrake::parameters() const
   std::vector<ParameterValue> values;
   if (const Lining* lining = first_of_brake(linings_))
     values = friction_parameters(lining->friction);
-  for (const LiningRow& row : lining_rows) {
-    const double first = linings_.front().*row.value;
-    if (std::ranges::all_of(linings_, [&](const Lining& l) { return l.*row.value == first; }))
-      values.push_back({{row.name}, first});
-  }
+  for (const LiningRow& row : lining_rows)
+    if (is_shared(linings_, row.value)) values.push_back({{row.name}, linings_.front().*row.value});
   return values;
 }
 

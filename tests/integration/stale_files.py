@@ -90,6 +90,23 @@ OF_BODY = (
 )
 
 
+# Another scene, whose part is the body of the disc.
+BRAKE = """
+name = "brake"
+part = [{ name = "disc", body = "disc.body.h5" }, { name = "pad", body = "disc.body.h5" }]
+contact = [{ face = "pad.lining", height = 0.01, stiffness = 1e6, preload = 1.0 }]
+
+[squeal]
+model = "assembly"
+disc = "disc"
+rings = ["track"]
+thickness = 0.02
+friction = 0.6
+speeds = { from_rad_s = 3.14159, to_rad_s = 62.8319, count = 5 }
+analyses = ["eigenvalues"]
+"""
+
+
 class Folder:
     """One in which the disc went through both programs."""
 
@@ -127,6 +144,18 @@ def check_body(folder):
     if OF_BODY[2][1] not in words:
         sys.exit(f"FAILED: chladni export does not say {OF_BODY[2][1]!r}:\n{words}")
     run(*export, "--stale")
+
+
+def check_part(folder):
+    """The body of an assembly's part, of which the scene that made it has changed."""
+    brake = folder.folder / "brake.toml"
+    brake.write_text(BRAKE)
+    older, key, missing = "disc.body.h5 was made before", OF_BODY[1][1], 'no attachment nodes "lining"'
+    for change, words, is_stale in (("", (), False), (OF_BODY[1][0], (), True), (OF_BODY[1][0], ("--stale",), True)):
+        folder.scene.write_text(changed(DISC, change) if change else DISC)
+        said = folder.run("squeal", "run", *words, code=1, scene=brake)
+        if (older in said and key in said) != is_stale or (missing in said) != (not is_stale or bool(words)):
+            sys.exit(f"FAILED: squeal run {' '.join(words)} of an assembly says of its part:\n{said}")
 
 
 def check_results(folder):
@@ -252,6 +281,8 @@ if __name__ == "__main__":
         check_spelling(disc)
         disc = Folder(programs, Path(root) / "disc")
         check_body(disc)
+        disc = Folder(programs, Path(root) / "disc")
+        check_part(disc)
         disc = Folder(programs, Path(root) / "disc")
         check_results(disc)
         disc = Folder(programs, Path(root) / "disc")

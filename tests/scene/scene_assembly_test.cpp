@@ -72,6 +72,8 @@ TEST(SceneAssembly, HasPartsJointsAndLinings)
   EXPECT_EQ(options.joints[0].stiffness, (std::array<double, 6>{2e7, 0.0, 0.0, 0.0, 0.0, 3.0}));
   EXPECT_EQ(options.joints[0].damping[1], 5.0);
   EXPECT_EQ(options.joints[1].rigid, (std::vector{2, 0}));
+  EXPECT_FALSE(options.joints[1].spares_drilling);
+  EXPECT_TRUE(options_of(replaced(brake, "dofs = [\"z\", \"x\"]", "")).joints[1].spares_drilling);
   EXPECT_EQ(options.joints[1].span, 0.02);
   ASSERT_EQ(options.contacts.size(), 1u);
   EXPECT_TRUE(options.contacts[0].stiffness.per_area);
@@ -104,6 +106,9 @@ TEST(SceneAssembly, SaysWhichKeyIsWrong)
        "is that of the disc, which turns about the z axis of its own mesh"},
       {"[\"eigenvalues\"]", "[\"eigenvalues\", \"limit-cycle-branch\"]",
        "is none of an assembly, whose contact is linear"},
+      {"analyses = [", "transient = { speed_rad_s = 3.0, duration_s = 1.0 }\nanalyses = [",
+       "transient is none of an assembly"},
+      {"[\"inner\", \"outer\"]", "[\"inner\", \"inner\"]", "names \"inner\" twice"},
       {"model = \"assembly\"", "", "belongs to an assembly"},
       {"span = 0.02", "span = 0.02\nstiffness = { x = 1.0 }", "joint[2].stiffness"},
   };
