@@ -597,6 +597,18 @@ TEST(Assembly, RefusesTheAreaOfAFaceThatSurroundsTheDisc)
   options.contacts[0].shares = NodeShares::by_area;
   EXPECT_NE(error_of(options, bodies).find("more than a quarter of a turn"), std::string::npos)
       << error_of(options, bodies);
+  // Nor is that of two pads opposite each other known, in one set.
+  std::vector<Eigen::Vector3d> both;
+  for (const double turn : {0.0, pi})
+    for (const double radius : {0.12, 0.14})
+      for (const double angle : {-0.2, 0.0, 0.2}) {
+        both.emplace_back(radius * std::cos(turn + angle) - ring_radius,
+                          radius * std::sin(turn + angle), 0.0);
+      }
+  const auto opposite = plate_body(plate, both);
+  const std::vector<mbs_export::ModalBody> others{disc_with_two_rings(), opposite, opposite};
+  EXPECT_NE(error_of(options, others).find("more than a quarter of a turn"), std::string::npos)
+      << error_of(options, others);
 }
 
 TEST(Assembly, SharesParametersThatDifferByRoundingAlone)
