@@ -108,8 +108,8 @@ void check_end(const JointOptions& joint, const PartNodes& end, const Part& part
 {
   const Components components = components_of(joint);
   Components needed = components;
-  for (const Vector3d& arm : arms.colwise()) {
-    const Components of_node = needed_of_node(components, arm, placement * size_of(part));
+  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
+    const Components of_node = needed_of_node(components, arms.col(i), placement * size_of(part));
     for (std::size_t c = 0; c < needed.size(); ++c) needed[c] = needed[c] || of_node[c];
   }
   require_components(part, end.set, needed, key,

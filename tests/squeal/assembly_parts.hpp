@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "common/error.hpp"
 #include "mbs_export/modal_body.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/assembly/assembly.hpp"
@@ -54,6 +56,85 @@ inline std::vector<Eigen::Vector3d> sector_points(double r, double sector, int n
     points.emplace_back(r * std::cos(turn) - ring_radius, r * std::sin(turn), z);
   }
   return points;
+}
+
+inline constexpr double speed = 18.0, sector = 0.5, height = 0.01, half_disc = 0.01;
+inline constexpr int n_points = 5;
+
+inline const RigidPlate plate{.mass = 0.3, .inertia = {1.5e-4, 1e-4, 2e-4}};
+
+/// What holds the plate of today's pads and, as a joint, those of an assembly.
+inline const std::array<double, 6> stiffness{3e7, 2e7, 5e6, 3e3, 2e3, 2e4};
+inline const std::array<double, 6> damping{20.0, 20.0, 30.0, 0.05, 0.05, 0.05};
+
+inline PartOptions part_at(const std::string& name, double z, double rotation_x = 0.0)
+{
+  return {.name = name,
+          .body = name + ".body.h5",
+          .position = {ring_radius, 0.0, z},
+          .rotation = {rotation_x, 0.0, 0.0}};
+}
+
+inline JointOptions suspension_of(const std::string& part)
+{
+  return {.ends = {PartNodes{part, "centre"}, PartNodes{}},
+          .rigid = {},
+          .stiffness = stiffness,
+          .damping = damping};
+}
+
+inline FaceContact lining_of(const std::string& part)
+{
+  return {.face = {part, "face"},
+          .height = height,
+          .stiffness = {6e6},
+          .damping = {4.0},
+          .preload = {2000.0},
+          .shares = NodeShares::equal};
+}
+
+/// A disc between two rigid plates, the second one turned over.
+inline AssemblyOptions two_plates()
+{
+  const double z = half_disc + height;
+  return {.parts = {{.name = "disc", .body = "disc.body.h5"},
+                    part_at("upper", z),
+                    part_at("lower", -z, pi)},
+          .joints = {suspension_of("upper"), suspension_of("lower")},
+          .contacts = {lining_of("upper"), lining_of("lower")},
+          .disc = "disc",
+          .rings = {"track"},
+          .thickness = 2.0 * half_disc,
+          .friction = {.kinetic = 0.6}};
+}
+
+inline std::vector<mbs_export::ModalBody> bodies_of_two_plates()
+{
+  const auto face = plate_body(plate, sector_points(ring_radius, sector, n_points));
+  return {analytic_body({kirchhoff_3(), kirchhoff_2()}), face, face};
+}
+
+inline mbs_export::ModalBody disc_with_two_rings()
+{
+  auto body = analytic_body({kirchhoff_3()});
+  for (const double radius : {0.12, 0.14}) {
+    body.rings.push_back(body.rings.front());
+    body.rings.back().name = radius < 0.13 ? "inner" : "outer";
+    body.rings.back().radius = radius;
+  }
+  return body;
+}
+
+inline std::string error_of(
+    const AssemblyOptions& options,
+    const std::vector<mbs_export::ModalBody>& bodies = bodies_of_two_plates())
+{
+  try {
+    assembly(options, bodies);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 /// The largest distance of an eigenvalue of `expected` from the nearest one of `values`, 1/s.

@@ -18,7 +18,6 @@
 #include "common/error.hpp"
 #include "squeal/assembly/joints.hpp"
 #include "squeal/assembly/node_areas.hpp"
-#include "squeal/friction_table.hpp"
 #include "squeal/models/assembly_brake.hpp"
 
 namespace chladni::squeal {
@@ -26,82 +25,15 @@ namespace {
 
 using namespace test;
 
-constexpr double speed = 18.0, sector = 0.5, height = 0.01, half_disc = 0.01;
-constexpr int n_points = 5;
-
-const RigidPlate plate{.mass = 0.3, .inertia = {1.5e-4, 1e-4, 2e-4}};
-
-/// What holds the plate of today's pads and, as a joint, those of an assembly.
-const std::array<double, 6> stiffness{3e7, 2e7, 5e6, 3e3, 2e3, 2e4};
-const std::array<double, 6> damping{20.0, 20.0, 30.0, 0.05, 0.05, 0.05};
-
 Eigen::VectorXcd spectrum(const Eigen::MatrixXd& A)
 {
   return A.eigenvalues();
-}
-
-PartOptions part_at(const std::string& name, double z, double rotation_x = 0.0)
-{
-  return {.name = name,
-          .body = name + ".body.h5",
-          .position = {ring_radius, 0.0, z},
-          .rotation = {rotation_x, 0.0, 0.0}};
-}
-
-JointOptions suspension_of(const std::string& part)
-{
-  return {.ends = {PartNodes{part, "centre"}, PartNodes{}},
-          .rigid = {},
-          .stiffness = stiffness,
-          .damping = damping};
-}
-
-FaceContact lining_of(const std::string& part)
-{
-  return {.face = {part, "face"},
-          .height = height,
-          .stiffness = {6e6},
-          .damping = {4.0},
-          .preload = {2000.0},
-          .shares = NodeShares::equal};
-}
-
-/// A disc between two rigid plates, the second one turned over.
-AssemblyOptions two_plates()
-{
-  const double z = half_disc + height;
-  return {.parts = {{.name = "disc", .body = "disc.body.h5"},
-                    part_at("upper", z),
-                    part_at("lower", -z, pi)},
-          .joints = {suspension_of("upper"), suspension_of("lower")},
-          .contacts = {lining_of("upper"), lining_of("lower")},
-          .disc = "disc",
-          .rings = {"track"},
-          .thickness = 2.0 * half_disc,
-          .friction = {.kinetic = 0.6}};
-}
-
-std::vector<mbs_export::ModalBody> bodies_of_two_plates()
-{
-  const auto face = plate_body(plate, sector_points(ring_radius, sector, n_points));
-  return {analytic_body({kirchhoff_3(), kirchhoff_2()}), face, face};
 }
 
 Eigen::MatrixXd matrix_of(const AssemblyOptions& options,
                           const std::vector<mbs_export::ModalBody>& bodies)
 {
   return AssemblyBrake(assembly(options, bodies)).state_matrix(speed);
-}
-
-std::string error_of(const AssemblyOptions& options,
-                     const std::vector<mbs_export::ModalBody>& bodies = bodies_of_two_plates())
-{
-  try {
-    assembly(options, bodies);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Assembly, OfRigidPlatesIsADiscBetweenPads)
@@ -288,17 +220,6 @@ TEST(Joints, ThatAskForTheSameTwiceAskOnce)
   EXPECT_LT(largest_distance(spectrum(once), spectrum(twice)), 1e-6);
 }
 
-mbs_export::ModalBody disc_with_two_rings()
-{
-  auto body = analytic_body({kirchhoff_3()});
-  for (const double radius : {0.12, 0.14}) {
-    body.rings.push_back(body.rings.front());
-    body.rings.back().name = radius < 0.13 ? "inner" : "outer";
-    body.rings.back().radius = radius;
-  }
-  return body;
-}
-
 TEST(Assembly, GivesItsLiningsTheValuesOfASquareMetreTimesTheirArea)
 {
   // Two circles of points, which enclose the sector between them.
@@ -406,197 +327,6 @@ TEST(NodeAreas, SumToTheSectorAndAreThoseOfTheTrapezoidalRule)
   EXPECT_NEAR(areas[4], 0.15 * (0.135 * 0.135 - 0.11 * 0.11) / 2.0, 1e-15);
   EXPECT_NEAR(areas[0], 0.05 * (0.11 * 0.11 - 0.1 * 0.1) / 2.0, 1e-15);
   EXPECT_NEAR(areas[8], 0.1 * (0.15 * 0.15 - 0.135 * 0.135) / 2.0, 1e-15);
-}
-
-/// Without what a body does not have: row `component` of all nodes is zero.
-mbs_export::ModalBody without(mbs_export::ModalBody body, int component)
-{
-  for (Eigen::Index i = 0; i < std::ssize(body.attachment_nodes); ++i)
-    body.attachment_modes.row(6 * i + component).setZero();
-  return body;
-}
-
-TEST(Assembly, RefusesFacesAndJointsOfBodiesThatLackAComponent)
-{
-  std::vector<mbs_export::ModalBody> bodies = bodies_of_two_plates();
-  bodies[2] = without(bodies[2], 4);
-  // The joint asks for ry of its node.
-  EXPECT_NE(error_of(two_plates(), bodies)
-                .find("joint[2].between: the modes of \"lower.centre\" (lower.body.h5) have no "
-                      "component ry there"),
-            std::string::npos)
-      << error_of(two_plates(), bodies);
-  AssemblyOptions options = two_plates();
-  options.joints[1].stiffness[4] = options.joints[1].damping[4] = 0.0;
-  EXPECT_NE(error_of(options, bodies)
-                .find("contact[2].face: the modes of \"lower.face\" (lower.body.h5) have no "
-                      "component ry there"),
-            std::string::npos)
-      << error_of(options, bodies);
-  bodies[2] = without(bodies_of_two_plates()[2], 0);
-  options.joints[1].stiffness[0] = options.joints[1].damping[0] = 0.0;
-  EXPECT_NE(error_of(options, bodies).find("have no component x there"), std::string::npos)
-      << error_of(options, bodies);
-  // About z neither turns its face, and no joint of this one.
-  bodies[2] = without(bodies_of_two_plates()[2], 5);
-  options.joints[1] = suspension_of("lower");
-  options.joints[1].stiffness[5] = options.joints[1].damping[5] = 0.0;
-  EXPECT_EQ(error_of(options, bodies).find("have no component"), std::string::npos)
-      << error_of(options, bodies);
-}
-
-TEST(Joints, NeedRotationsToReachOverTheirSpan)
-{
-  const auto body = without(plate_body(plate, {}), 4);
-  const std::vector<Part> parts{placed(part_at("upper", 0.02), body),
-                                placed(part_at("lower", 0.0), body)};
-  JointOptions joint{.ends = {PartNodes{"upper", "centre"}, PartNodes{"lower", "centre"}},
-                     .rigid = {},
-                     .span = 0.03};
-  joint.stiffness = {0.0, 1e6, 1e6, 0.0, 0.0, 0.0};
-  EXPECT_NO_THROW(joined(parts, std::vector{joint}));
-  // Over a span along z, x follows the rotation about y.
-  joint.stiffness[0] = 1e6;
-  EXPECT_THROW(joined(parts, std::vector{joint}), Error);
-}
-
-TEST(Joints, LeaveTheRotationAboutTheNormalOfAShellAlone)
-{
-  auto shell = plate_body(plate, {});
-  shell.attachment_nodes[0].drilling_axis = Eigen::Vector3d::UnitZ();
-  // Turned by a quarter about x, its normal is -y of the brake.
-  const std::vector<Part> parts{placed(part_at("upper", 0.0, 0.5 * pi), shell),
-                                placed(part_at("lower", 0.0), plate_body(plate, {}))};
-  JointOptions joint{.ends = {PartNodes{"upper", "centre"}, PartNodes{"lower", "centre"}},
-                     .rigid = {0, 1, 2, 3, 4, 5},
-                     .spares_drilling = true};
-  const Eigen::MatrixXd B = joined(parts, std::vector{joint}).B;
-  ASSERT_EQ(B.rows(), 5);
-  // It turns about the normal, and about no other axis of its own.
-  EXPECT_LT(B.col(5).norm(), 1e-9);
-  for (const int axis : {3, 4}) EXPECT_GT(B.col(axis).norm(), 1.0);
-  const auto error = [&] {
-    try {
-      joined(parts, std::vector{joint});
-    } catch (const Error& refused) {
-      return std::string(refused.what());
-    }
-    return std::string();
-  };
-  joint.spares_drilling = false;
-  EXPECT_NE(error().find("joint[1].between: ry of \"upper.centre\" (upper.body.h5) turns nodes "
-                         "about the normal of a smooth shell"),
-            std::string::npos)
-      << error();
-  joint.rigid = {0, 3, 5};
-  EXPECT_EQ(error(), "");
-  joint.rigid.clear();
-  joint.stiffness = {1e6, 0.0, 0.0, 0.0, 1e3, 0.0};
-  EXPECT_NE(error().find("ry of \"upper.centre\""), std::string::npos) << error();
-  joint.stiffness[4] = 0.0;
-  EXPECT_EQ(error(), "");
-}
-
-/// A plate whose face nodes move along z alone in modes of their own as well, as many as there are.
-mbs_export::ModalBody bending_plate(const std::vector<Eigen::Vector3d>& face)
-{
-  mbs_export::ModalBody body = plate_body(plate, face);
-  const Eigen::Index n = std::ssize(face), rows = body.attachment_modes.rows();
-  body.attachment_modes.conservativeResize(rows, 6 + n);
-  body.attachment_modes.rightCols(n).setZero();
-  for (Eigen::Index i = 0; i < n; ++i) body.attachment_modes(6 * (i + 1) + 2, 6 + i) = 1.0;
-  body.omega.conservativeResize(6 + n);
-  body.omega.tail(n).setConstant(2.0 * pi * 2000.0);
-  body.kinds.resize(static_cast<std::size_t>(6 + n), mbs_export::ModeKind::constrained);
-  return body;
-}
-
-TEST(Joints, SayWhenTheyLockBodiesThatBend)
-{
-  const auto body = bending_plate(sector_points(ring_radius, sector, n_points));
-  const std::vector<Part> parts{placed(part_at("upper", 0.0), body),
-                                placed(part_at("lower", 0.0), body)};
-  JointOptions joint{.ends = {PartNodes{"upper", "face"}, PartNodes{"lower", "face"}},
-                     .rigid = {0, 1, 2, 3, 4, 5}};
-  const JoinedParts locked = joined(parts, std::vector{joint});
-  ASSERT_EQ(locked.notes.size(), 0u);  // 10 of 22, as below
-  joint.ends[1] = {};
-  // x, y, three turns, and z of the five nodes.
-  const JoinedParts held = joined(parts, std::vector{joint});
-  ASSERT_EQ(held.notes.size(), 1u);
-  EXPECT_EQ(
-      held.notes[0],
-      "joint[1] takes 10 of the 11 coordinates of \"upper\", which can hardly bend then; join "
-      "fewer nodes, add interface modes there, or use springs");
-  joint.rigid = {0};  // x, and the turn about z that moves the nodes along it
-  EXPECT_TRUE(joined(parts, std::vector{joint}).notes.empty());
-  // Bodies that differ are locked more: x, y, ry, rz, and z and rx of the five nodes.
-  auto other = body;
-  other.attachment_modes.bottomRightCorner(6 * n_points, n_points).setZero();
-  for (Eigen::Index i = 0; i < n_points; ++i) other.attachment_modes(6 * (i + 1) + 3, 6 + i) = 1.0;
-  const std::vector<Part> both{parts[0], placed(part_at("lower", 0.0), other)};
-  joint = {.ends = {PartNodes{"upper", "face"}, PartNodes{"lower", "face"}},
-           .rigid = {0, 1, 2, 3, 4, 5}};
-  const JoinedParts rigid = joined(both, std::vector{joint});
-  ASSERT_EQ(rigid.notes.size(), 1u);
-  EXPECT_NE(rigid.notes[0].find("takes 14 of the 22 coordinates of \"upper\" and \"lower\""),
-            std::string::npos)
-      << rigid.notes[0];
-}
-
-TEST(Assembly, RefusesNodesOfTwoLiningsAndRingsOnOneCircle)
-{
-  AssemblyOptions options = two_plates();
-  options.contacts.push_back(lining_of("upper"));
-  EXPECT_NE(error_of(options).find("contact[3].face: \"upper.face\" (upper.body.h5) has nodes of "
-                                   "contact[1].face = \"upper.face\" too"),
-            std::string::npos)
-      << error_of(options);
-  std::vector<mbs_export::ModalBody> bodies = bodies_of_two_plates();
-  bodies[0].rings.push_back(bodies[0].rings.front());
-  bodies[0].rings.back().name = "again";
-  options = two_plates();
-  options.rings = {"track", "again"};
-  EXPECT_NE(error_of(options, bodies)
-                .find("squeal.rings: \"track\" and \"again\" lie on one circle of radius 0.13 m"),
-            std::string::npos)
-      << error_of(options, bodies);
-  options.rings = {"inner"};
-  EXPECT_NE(error_of(options).find("squeal.disc: part \"disc\" (disc.body.h5): no contact ring"),
-            std::string::npos)
-      << error_of(options);
-}
-
-TEST(Assembly, RefusesFrictionByPressureOnAFaceWithoutArea)
-{
-  auto table = std::make_shared<FrictionTable>();
-  table->pressures = {1e5, 1e6};
-  AssemblyOptions options = two_plates();
-  options.friction.table = table;
-  EXPECT_NE(error_of(options).find("contact[1]: its friction depends on the pressure, but the area "
-                                   "of its nodes is not known"),
-            std::string::npos)
-      << error_of(options);
-}
-
-TEST(Assembly, RefusesTheAreaOfAFaceThatSurroundsTheDisc)
-{
-  std::vector<Eigen::Vector3d> face = sector_points(0.12, 2.0 * pi, 24);
-  for (const Eigen::Vector3d& x : sector_points(0.14, 2.0 * pi, 24)) face.push_back(x);
-  const auto plates = plate_body(plate, face);
-  const std::vector<mbs_export::ModalBody> bodies{disc_with_two_rings(), plates, plates};
-  AssemblyOptions options = two_plates();
-  options.rings = {"inner", "outer"};
-  EXPECT_EQ(error_of(options, bodies), "");
-  EXPECT_EQ(assembly(options, bodies).linings[0].area, 0.0);
-  options.contacts[1].preload = {1e6, true};
-  EXPECT_NE(error_of(options, bodies).find("contact[2]: the area of its nodes is not known"),
-            std::string::npos)
-      << error_of(options, bodies);
-  options.contacts[1] = lining_of("lower");
-  options.contacts[0].shares = NodeShares::by_area;
-  EXPECT_NE(error_of(options, bodies).find("more than a quarter of a turn"), std::string::npos)
-      << error_of(options, bodies);
 }
 
 TEST(Assembly, SharesParametersThatDifferByRoundingAlone)
