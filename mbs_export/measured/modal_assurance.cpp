@@ -25,7 +25,7 @@ KnownNodes known_nodes(const ModalBody& body)
               n = n_drawn + std::ssize(body.attachment_nodes);
   KnownNodes known{.positions = MatrixXd(n, 3), .motion = MatrixXd(3 * n, body.n_modes())};
   known.positions.topRows(n_drawn) = body.picture.positions;
-  known.motion.topRows(3 * n_drawn) = body.picture.transformation;
+  if (n_drawn > 0) known.motion.topRows(3 * n_drawn) = body.picture.transformation;
   for (Index i = n_drawn; i < n; ++i) {
     const Index node = i - n_drawn;
     known.positions.row(i) =
