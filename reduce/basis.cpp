@@ -80,7 +80,7 @@ Basis basis_of_own_modes(const FactoredBody& body, const ReductionOptions& optio
   const MixedInterfaceModes modes = mixed_interface_modes(
       whole, basis.Q.Psi, with_modes_of_responses(options), held_rows(body, support, method));
   phases.begin("residual flexibility");
-  if (modes.n_modes() > 0) basis.Q.modes = residual_modes(whole, basis.Q.Psi, modes);
+  if (modes.n_modes() > 0) basis.Q.modes = residual_modes(whole, modes);
   if (method == Method::mixed_interface) {
     basis.exact_up_to = modes.omega.empty() ? 0.0 : modes.omega.back();
     basis.lambda_left_out = modes.lambda_left_out;

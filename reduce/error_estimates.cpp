@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
@@ -127,23 +130,23 @@ ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
           .lambda = {pairs.lambda.begin() + first, pairs.lambda.begin() + last}};
 }
 
-/// Those of the newest block with itself and all before.
-void add_inner_products(const std::vector<petsc::Matrix>& solved, Mat r_s,
+/// r_i^T K_ss^-1 r_j / sqrt(lambda_i lambda_j) of the newest block with itself and all before.
+void add_inner_products(const std::vector<linear::InverseForm>& forms,
                         const std::vector<double>& lambda, MatrixXd& H)
 {
-  PetscInt last = 0;
-  for (const petsc::Matrix& z : solved) last += linear::LocalRows(z).n_cols();
-  const PetscInt newest = last - linear::LocalRows(r_s).n_cols();
-  PetscInt first = 0;
-  for (const petsc::Matrix& z : solved) {
-    const MatrixXd z_r = linear::inner_product(z, r_s);
-    for (PetscInt j = 0; j < z_r.cols(); ++j) {
-      for (PetscInt i = 0; i < z_r.rows(); ++i) {
+  const Mat right = forms.back().right();
+  PetscInt newest = 0, first = 0;
+  for (const linear::InverseForm& form : std::span(forms).first(forms.size() - 1))
+    newest += linear::LocalRows(form.left).n_cols();
+  for (const linear::InverseForm& form : forms) {
+    const MatrixXd products = linear::inner_product(form.left, right);
+    for (PetscInt j = 0; j < products.cols(); ++j) {
+      for (PetscInt i = 0; i < products.rows(); ++i) {
         const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
-        H(first + i, newest + j) = H(newest + j, first + i) = z_r(i, j) / scale;
+        H(first + i, newest + j) = H(newest + j, first + i) = products(i, j) / scale;
       }
     }
-    first += static_cast<PetscInt>(z_r.rows());
+    first += static_cast<PetscInt>(products.rows());
   }
 }
 
@@ -158,24 +161,22 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
   ErrorEstimates estimates;
   const bool with_inner_products = purpose == Purpose::bounds;
   if (with_inner_products) estimates.inner_products = MatrixXd::Zero(n_pairs, n_pairs);
-  std::vector<petsc::Matrix> solved;  // K_ss^-1 r of the pairs so far
+  std::vector<linear::InverseForm> forms;  // of K_ss^-1, on r of the pairs so far
   for (PetscInt first = 0; first < n_pairs; first += most) {
     linear::report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
-    const Residuals of = residuals(system, some);
-    if (!with_inner_products) solved.clear();
-    const petsc::Matrix& z =
-        solved.emplace_back(linear::uninitialized_dense(system.K.ss, some.X.cols()));
-    petsc::check(MatMatSolve(system.K_ss.factor(), of.r_s, z));
-    const std::vector<double> r_z = linear::column_products(of.r_s, z);
-    for (std::size_t i = 0; i < r_z.size(); ++i) {
-      estimates.eta2.push_back(std::max(0.0, r_z[i]) / some.lambda[i]);
+    Residuals of = residuals(system, some);
+    if (!with_inner_products) forms.clear();
+    forms.push_back(linear::inverse_form(system.K_ss.factor(), std::move(of.r_s)));
+    const std::vector<double> squares =
+        linear::column_products(forms.back().left, forms.back().right());
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      estimates.eta2.push_back(std::max(0.0, squares[i]) / some.lambda[i]);
       const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
       estimates.rounding.push_back(4.0 * eps * terms +
                                    2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
     }
-    if (with_inner_products)
-      add_inner_products(solved, of.r_s, pairs.lambda, estimates.inner_products);
+    if (with_inner_products) add_inner_products(forms, pairs.lambda, estimates.inner_products);
   }
   return estimates;
 }

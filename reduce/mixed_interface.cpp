@@ -99,7 +99,19 @@ MatrixXd gram(Mat T, Mat A)
   return linear::inner_product(T, AT);
 }
 
-/// The lengths of columns, from their Gram matrix; 1 where there is none.
+/// Shapes with the forces that hold them, F = K T. Energies are products of the two: K times a
+/// bending shape is rounded by the stretching that the shape does not have.
+struct LoadedShapes {
+  petsc::Matrix T, F;
+};
+
+MatrixXd energies(const LoadedShapes& shapes)
+{
+  const MatrixXd G = linear::inner_product(shapes.T, shapes.F);
+  return 0.5 * (G + G.transpose());
+}
+
+/// The square roots of the diagonal; 1 where there is none.
 std::vector<double> lengths(const MatrixXd& G)
 {
   std::vector<double> lengths;
@@ -108,35 +120,33 @@ std::vector<double> lengths(const MatrixXd& G)
   return lengths;
 }
 
-/// A basis Q of the columns of T with Q^T K Q = I. The first Gram matrix squares the condition of
-/// T, the second one is near I. Directions are left out that are dependent or round-off.
-/// @param sizes  what round-off in the columns of T is relative to
-petsc::Matrix orthonormal_basis(Mat T, const std::vector<double>& sizes, Mat K)
+petsc::Matrix combined(Mat X, const MatrixXd& S)
 {
-  constexpr double dependent = 1e-6;   // of the columns' lengths: what a Gram matrix resolves
-  constexpr double round_off = 1e-10;  // of their sizes: six digits of a direction
-  petsc::Matrix Q;
-  for (int pass = 0; pass < 2; ++pass) {
-    const Mat from = pass == 0 ? T : Mat(Q);
-    const MatrixXd G = gram(from, K);
-    std::vector<double> units = lengths(G);
-    for (std::size_t i = 0; i < units.size() && pass == 0; ++i)
-      units[i] = std::max(units[i], round_off / dependent * sizes[i]);
-    const linear::Orthonormalisation o =
-        linear::orthonormalisation(G, units, dependent, petsc::communicator(K));
-    petsc::Matrix orthonormal = linear::uninitialized_dense(K, o.to_Q.cols());
-    petsc::check(MatZeroEntries(orthonormal));
-    linear::add_product(1.0, from, o.to_Q, orthonormal);
-    Q = std::move(orthonormal);
-  }
-  return Q;
+  petsc::Matrix XS = linear::uninitialized_dense(X, S.cols());
+  petsc::check(MatZeroEntries(XS));
+  linear::add_product(1.0, X, S, XS);
+  return XS;
 }
 
-/// Ritz vectors of (K_ss, M_ss) among the columns of T, from M x = mu K x, which keeps the lowest
-/// accurate.
-FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const WholeSystem& body)
+/// A basis of the shapes with energies I. The first Gram matrix squares the condition of the
+/// shapes, the second one is near I. Directions that are dependent are left out.
+LoadedShapes orthonormal(LoadedShapes shapes)
 {
-  const petsc::Matrix Q = orthonormal_basis(T, sizes, body.K_blocks.ss);
+  constexpr double dependent = 1e-6;  // of the columns' lengths: what a Gram matrix resolves
+  for (int pass = 0; pass < 2; ++pass) {
+    const MatrixXd G = energies(shapes);
+    const linear::Orthonormalisation o =
+        linear::orthonormalisation(G, lengths(G), dependent, petsc::communicator(shapes.T));
+    shapes = {.T = combined(shapes.T, o.to_Q), .F = combined(shapes.F, o.to_Q)};
+  }
+  return shapes;
+}
+
+/// Ritz vectors of (K_ss, M_ss) among some shapes, from M x = mu K x, which keeps the lowest
+/// accurate.
+FixedInterfaceModes ritz_modes(LoadedShapes shapes, const WholeSystem& body)
+{
+  const petsc::Matrix Q = orthonormal(std::move(shapes)).T;
   const linear::SymmetricEigen ritz =
       linear::symmetric_eigen(gram(Q, body.M_blocks.ss), petsc::communicator(Q));
   const auto n = static_cast<PetscInt>(ritz.values.size());
@@ -149,9 +159,7 @@ FixedInterfaceModes ritz_modes(Mat T, const std::vector<double>& sizes, const Wh
     modes.omega.push_back(1.0 / std::sqrt(ritz.values[at]));
   }
   V = V.leftCols(std::ssize(modes.omega)).eval();
-  modes.Phi = linear::uninitialized_dense(body.K_blocks.ss, V.cols());
-  petsc::check(MatZeroEntries(modes.Phi));
-  linear::add_product(1.0, Q, V, modes.Phi);
+  modes.Phi = combined(Q, V);
   return modes;
 }
 
@@ -174,26 +182,15 @@ MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
   return modes;
 }
 
-FixedInterfaceModes residual_modes(const WholeSystem& body, Mat Psi,
-                                   const MixedInterfaceModes& modes)
+FixedInterfaceModes residual_modes(const WholeSystem& body, const MixedInterfaceModes& modes)
 {
-  petsc::Matrix T;  // X_s - Psi X_m, in the first columns K_ss^-1 (M_ss X_s + M_sm X_m)
-  petsc::check(MatDuplicate(modes.X_s, MAT_COPY_VALUES, T.put()));
-  std::vector<double> sizes = lengths(gram(T, body.K_blocks.ss));  // before the difference
-  linear::add_product(-1.0, Psi, modes.X_m, T);
-  if (modes.n_rigid > 0) {
-    const MatrixXd R_m = modes.X_m.leftCols(modes.n_rigid);
-    const linear::ColumnRange inertia(T, 0, modes.n_rigid);
-    const petsc::Matrix R_s = linear::uninitialized_dense(body.K_blocks.ss, modes.n_rigid);
-    petsc::check(
-        MatCopy(linear::ColumnRange(modes.X_s, 0, modes.n_rigid), R_s, SAME_NONZERO_PATTERN));
-    linear::SparseProduct(body.M_blocks.ss).apply(R_s, inertia);
-    linear::add_sparse_product(body.M_blocks.sm, R_m, inertia);
-    petsc::check(MatMatSolve(body.K_ss.factor(), inertia, R_s));
-    petsc::check(MatCopy(R_s, inertia, SAME_NONZERO_PATTERN));
-    std::ranges::copy(lengths(gram(R_s, body.K_blocks.ss)), sizes.begin());
-  }
-  return ritz_modes(T, sizes, body);
+  const PetscInt n = linear::LocalRows(modes.X_s).n_cols();
+  LoadedShapes shapes{.T = linear::uninitialized_dense(body.K_blocks.ss, n),
+                      .F = linear::uninitialized_dense(body.K_blocks.ss, n)};
+  linear::SparseProduct(body.M_blocks.ss).apply(modes.X_s, shapes.F);
+  linear::add_sparse_product(body.M_blocks.sm, modes.X_m, shapes.F);
+  petsc::check(MatMatSolve(body.K_ss.factor(), shapes.F, shapes.T));
+  return ritz_modes(std::move(shapes), body);
 }
 
 MatrixXd macneal_mass(const CraigBamptonBasis& Q, const Blocks& M, const MixedInterfaceModes& modes)

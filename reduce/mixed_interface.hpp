@@ -41,15 +41,15 @@ MixedInterfaceModes mixed_interface_modes(const WholeSystem& body, Mat Psi,
 
 /// The basis of Herting and Hintz, and where no master is held Rubin's: the modes of the body, the
 /// constraint modes of the held masters and the residual flexibility of the free ones. The latter
-/// two and the modes are statically complete, so that Psi lies in that space, and next to it the
-/// inertia-relief shapes K_ss^-1 (M_ss X_s + M_sm X_m) of the rigid-body motions and X_s - Psi X_m
-/// of the elastic modes. Ritz vectors of (K_ss, M_ss) among these take the place of fixed-interface
+/// two and the modes are statically complete, so that the constraint modes Psi lie in that space,
+/// and next to them the shapes T = K_ss^-1 (M_ss X_s + M_sm X_m) in which inertia deforms the body
+/// with all masters held: of an elastic mode lambda T = X_s - Psi X_m, without the digits that the
+/// difference loses. Ritz vectors of (K_ss, M_ss) among these take the place of fixed-interface
 /// modes: the reduced model has the form of Craig and Bampton, with the frequencies of the modes X.
 /// @return Phi [n_s x k], omega: square roots of the Ritz values
 /// Source: Herting, Finite Elem. Anal. Des. 1 (1985) 153; Hintz, AIAA J. 13 (1975) 1007; Rubin,
 /// AIAA J. 13 (1975) 995; Craig and Chang, AIAA J. 14 (1976) 1633.
-FixedInterfaceModes residual_modes(const WholeSystem& body, Mat Psi,
-                                   const MixedInterfaceModes& modes);
+FixedInterfaceModes residual_modes(const WholeSystem& body, const MixedInterfaceModes& modes);
 
 /// MacNeal's mass on Rubin's basis: that of the free modes alone, M_r = Z^T Z with Z = X^T M Q;
 /// residual flexibility is massless. No Galerkin projection: frequencies may be too low.

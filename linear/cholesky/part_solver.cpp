@@ -4,22 +4,11 @@
 #include <memory>
 #include <string_view>
 
-#include "linear/cholesky/cholesky_callbacks.hpp"
 #include "linear/cholesky/cholesky_types.hpp"
 #include "linear/cholesky/local_array.hpp"
-#include "linear/cholesky/supernodal/supernodal_factor.hpp"
+#include "linear/cholesky/supernodal_of.hpp"
 
 namespace chladni::linear {
-
-namespace {
-
-/// The factor of our own that solves, or null.
-SupernodalFactor* supernodal_of(Mat factor)
-{
-  return is_ours(factor) ? dynamic_cast<SupernodalFactor*>(&factor_of(factor).active()) : nullptr;
-}
-
-}  // namespace
 
 bool solves_for_parts(Mat factor)
 {

@@ -1,12 +1,13 @@
 #include "linear/kernels/parted_form.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>
 
-#include "linear/kernels/decoupled_rows.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/form_parts.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
 
@@ -25,35 +26,6 @@ PetscInt n_columns_of(Mat X)
   return n;
 }
 
-/// Some rows of this rank, counted from its first.
-std::vector<PetscInt> local_rows(IS rows, Mat A)
-{
-  PetscInt first = 0, n = 0;
-  const PetscInt* global = nullptr;
-  petsc::check(MatGetOwnershipRange(A, &first, nullptr));
-  petsc::check(ISGetLocalSize(rows, &n));
-  petsc::check(ISGetIndices(rows, &global));
-  std::vector<PetscInt> local;
-  for (PetscInt i = 0; i < n; ++i) local.push_back(global[i] - first);
-  petsc::check(ISRestoreIndices(rows, &global));
-  return local;
-}
-
-/// The columns of X that are not zero in some rows, the same on every rank.
-std::vector<PetscInt> columns_in(const LocalRows& X, const std::vector<PetscInt>& rows,
-                                 MPI_Comm comm)
-{
-  std::vector<int> is_there(X.n_cols(), 0);
-  for (PetscInt j = 0; j < X.n_cols(); ++j)
-    is_there[j] = std::ranges::any_of(rows, [&](PetscInt i) { return X(i, j) != 0.0; }) ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, is_there.data(), static_cast<int>(is_there.size()), MPI_INT, MPI_MAX,
-                comm);
-  std::vector<PetscInt> columns;
-  for (PetscInt j = 0; j < X.n_cols(); ++j)
-    if (is_there[j] != 0) columns.push_back(j);
-  return columns;
-}
-
 /// Columns with the rows of a part.
 struct Columns {
   petsc::Matrix own;              ///< empty where they are all
@@ -61,17 +33,17 @@ struct Columns {
   std::vector<PetscInt> numbers;  ///< among all
 };
 
-Columns taken(Mat X, const std::vector<PetscInt>& rows, Mat part)
+Columns taken(Mat X, const FormPart& part, std::size_t number, Mat A_part)
 {
   const LocalRows all(X);
-  Columns some{
-      .own = {}, .values = nullptr, .numbers = columns_in(all, rows, petsc::communicator(X))};
-  some.own = uninitialized_dense(part, std::ssize(some.numbers));
+  Columns some{.own = uninitialized_dense(A_part, std::ssize(part.columns[number])),
+               .values = nullptr,
+               .numbers = part.columns[number]};
   some.values = some.own;
   PetscScalar* to = nullptr;
   petsc::check(MatDenseGetArrayWrite(some.values, &to));
   for (const PetscInt j : some.numbers)
-    for (const PetscInt i : rows) *to++ = all(i, j);
+    for (const PetscInt i : part.rows) *to++ = all(i, j);
   petsc::check(MatDenseRestoreArrayWrite(some.values, &to));
   return some;
 }
@@ -99,9 +71,9 @@ MatrixXd form(Mat X, Mat A, Mat Y)
   return F;
 }
 
-/// visit(j, first, A X) for some columns from the first on of each part X_j of X.
+/// visit(j, first, A X_j) for some columns from the first on of each X_j.
 template <typename Visit>
-void for_products(const std::vector<Columns>& X, Mat A, const Visit& visit)
+void for_products(std::span<const Columns> X, Mat A, const Visit& visit)
 {
   const SparseProduct product(A);
   for (std::size_t j = 0; j < X.size(); ++j) {
@@ -116,7 +88,7 @@ void for_products(const std::vector<Columns>& X, Mat A, const Visit& visit)
   }
 }
 
-/// Adds what some columns of all are with each other, in the upper triangle.
+/// Adds what all columns are with each other, in the upper triangle.
 void add_symmetric(MatrixXd& F, const std::vector<Columns>& X, Mat A)
 {
   for_products(X, A, [&](std::size_t j, PetscInt first, Mat A_X) {
@@ -124,6 +96,21 @@ void add_symmetric(MatrixXd& F, const std::vector<Columns>& X, Mat A)
     const std::span right(X[j].numbers.data() + first, std::size_t(n));
     for (std::size_t i = 0; i <= j; ++i) {
       const auto n_left = i == j ? first + n : static_cast<PetscInt>(X[i].numbers.size());
+      F(std::span(X[i].numbers.data(), std::size_t(n_left)), right) +=
+          inner_product(ColumnRange(X[i].values, 0, n_left), A_X);
+    }
+  });
+}
+
+/// Adds [X_1 X_2 ...]^T A X_1 for a symmetric A: the upper triangle of the first block, all of the
+/// others.
+void add_leading(MatrixXd& F, const std::vector<Columns>& X, Mat A)
+{
+  for_products(std::span(X).first(1), A, [&](std::size_t /*j*/, PetscInt first, Mat A_X) {
+    const PetscInt n = n_columns_of(A_X);
+    const std::span right(X[0].numbers.data() + first, std::size_t(n));
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      const auto n_left = i == 0 ? first + n : static_cast<PetscInt>(X[i].numbers.size());
       F(std::span(X[i].numbers.data(), std::size_t(n_left)), right) +=
           inner_product(ColumnRange(X[i].values, 0, n_left), A_X);
     }
@@ -177,60 +164,74 @@ void add_unsymmetric(MatrixXd& F, const std::vector<Columns>& X, Mat A)
   });
 }
 
-/// work(A of the set, its rows) for each set in which A has entries other than zero.
+/// work(columns of each X with the rows of a part, A of the part) for each part of A; the numbers
+/// of columns count over all X.
 template <typename Work>
-void for_parts(const std::vector<petsc::IndexSet>& sets, Mat A, const Work& work)
+void for_parts(std::span<const Mat> X, Mat A, const Work& work)
 {
-  for (const petsc::IndexSet& rows : sets) {
-    petsc::Matrix part;
-    PetscReal largest = 0.0;
-    petsc::check(MatCreateSubMatrix(A, rows, rows, MAT_INITIAL_MATRIX, part.put()));
-    petsc::check(MatNorm(part, NORM_INFINITY, &largest));
-    if (largest > 0.0) work(part, local_rows(rows, A));
+  std::vector<PetscInt> first{0};
+  for (const Mat some : X) first.push_back(first.back() + n_columns_of(some));
+  const auto numbered = [&](std::vector<Columns> columns) {
+    for (std::size_t i = 0; i < X.size(); ++i)
+      for (PetscInt& number : columns[i].numbers) number += first[i];
+    return columns;
+  };
+  const std::vector<FormPart> parts = form_parts(A, X);
+  if (parts.empty()) {
+    std::vector<Columns> all;
+    for (const Mat some : X) all.push_back(all_of(some));
+    work(numbered(std::move(all)), A);
+  }
+  for (const FormPart& part : parts) {
+    const petsc::Matrix A_part = matrix_of(part, A);
+    std::vector<Columns> columns;
+    for (std::size_t i = 0; i < X.size(); ++i) columns.push_back(taken(X[i], part, i, A_part));
+    work(numbered(std::move(columns)), A_part);
   }
 }
 
-void add(MatrixXd& F, const Columns& X, const Columns& Y, const MatrixXd& part)
+PetscInt n_columns_of_all(std::span<const Mat> X)
 {
-  for (Eigen::Index j = 0; j < part.cols(); ++j)
-    for (Eigen::Index i = 0; i < part.rows(); ++i) F(X.numbers[i], Y.numbers[j]) += part(i, j);
+  PetscInt n = 0;
+  for (const Mat some : X) n += n_columns_of(some);
+  return n;
 }
 
 }  // namespace
 
 MatrixXd parted_form(Mat X, Mat A, Mat Y)
 {
-  const std::vector<petsc::IndexSet> sets = decoupled_rows(A, A);
-  if (sets.empty()) return form(X, A, Y);
-  MatrixXd F = MatrixXd::Zero(n_columns_of(X), n_columns_of(Y));
-  for_parts(sets, A, [&](Mat part, const std::vector<PetscInt>& rows) {
-    const Columns left = taken(X, rows, part), right = taken(Y, rows, part);
-    add(F, left, right, form(left.values, part, right.values));
+  const PetscInt n_X = n_columns_of(X);
+  MatrixXd F = MatrixXd::Zero(n_X, n_columns_of(Y));
+  for_parts(std::array{X, Y}, A, [&](const std::vector<Columns>& columns, Mat part) {
+    const Columns &left = columns[0], &right = columns[1];
+    std::vector<PetscInt> of_Y = right.numbers;
+    for (PetscInt& number : of_Y) number -= n_X;
+    F(left.numbers, of_Y) += form(left.values, part, right.values);
   });
   return F;
 }
 
 MatrixXd parted_form(std::span<const Mat> X, Mat A, FormSymmetry symmetry)
 {
-  std::vector<PetscInt> first{0};
-  for (const Mat part : X) first.push_back(first.back() + n_columns_of(part));
-  MatrixXd F = MatrixXd::Zero(first.back(), first.back());
-  const auto add_of = [&](Mat part, const auto& columns_of) {
-    std::vector<Columns> columns;
-    for (std::size_t i = 0; i < X.size(); ++i) {
-      columns.push_back(columns_of(X[i]));
-      for (PetscInt& number : columns.back().numbers) number += first[i];
-    }
+  const PetscInt n = n_columns_of_all(X);
+  MatrixXd F = MatrixXd::Zero(n, n);
+  for_parts(X, A, [&](const std::vector<Columns>& columns, Mat part) {
     if (symmetry == FormSymmetry::symmetric) return add_symmetric(F, columns, part);
     add_unsymmetric(F, columns, part);
-  };
-  const std::vector<petsc::IndexSet> sets = decoupled_rows(A, A);
-  if (sets.empty()) add_of(A, all_of);
-  for_parts(sets, A, [&](Mat part, const std::vector<PetscInt>& rows) {
-    add_of(part, [&](Mat all) { return taken(all, rows, part); });
   });
   if (symmetry == FormSymmetry::symmetric) return F.selfadjointView<Eigen::Upper>();
   sum_over_ranks(values_of(F), petsc::communicator(A));
+  return F;
+}
+
+MatrixXd leading_columns_of_form(std::span<const Mat> X, Mat A)
+{
+  const PetscInt n_first = n_columns_of(X.front());
+  MatrixXd F = MatrixXd::Zero(n_columns_of_all(X), n_first);
+  for_parts(X, A,
+            [&](const std::vector<Columns>& columns, Mat part) { add_leading(F, columns, part); });
+  F.topRows(n_first) = MatrixXd(F.topRows(n_first).selfadjointView<Eigen::Upper>());
   return F;
 }
 

@@ -9,6 +9,7 @@
 #include "common/petsc_compat.hpp"
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/factorization.hpp"
+#include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
@@ -164,6 +165,18 @@ TEST_P(CholeskyType, SolvesABlockOfColumns)
   SparseProduct(A).apply(X, B);
   petsc::check(MatMatSolve(factorization.factor(), B, solution));
   EXPECT_LT(difference(solution, X), round_off);
+}
+
+TEST_P(CholeskyType, GivesTheFormOfTheInverse)
+{
+  const petsc::Matrix A = membranes(20);
+  const Factorization factorization(A);
+  petsc::Matrix B = columns(A, 5), solution = uninitialized_dense(A, 5);
+  petsc::check(MatMatSolve(factorization.factor(), B, solution));
+  const Eigen::MatrixXd expected = inner_product(B, solution);
+  const InverseForm form = inverse_form(factorization.factor(), std::move(B));
+  const Eigen::MatrixXd found = inner_product(form.left, form.right());
+  EXPECT_LT((found - expected).norm(), round_off * expected.norm());
 }
 
 TEST_P(CholeskyType, SolvesWhereZerosStandOnOneSideOnly)

@@ -10,6 +10,7 @@
 #include "linear/cholesky/factorization.hpp"
 #include "linear/cholesky/part_solver.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/form_parts.hpp"
 #include "linear/kernels/gather.hpp"
 #include "linear/kernels/parted_form.hpp"
 #include "linear/kernels/sparse_product.hpp"
@@ -156,6 +157,29 @@ TEST(PartedForm, IsThatOfTheWhole)
     const Eigen::MatrixXd F = parted_form(std::array<Mat, 2>{X, Y}, A, symmetry);
     EXPECT_LT((F - of_all).norm(), 1e-14 * of_all.norm());
   }
+  const Eigen::MatrixXd leading = leading_columns_of_form(std::array<Mat, 2>{X, Y}, A);
+  EXPECT_LT((leading - of_all.leftCols(80)).norm(), 1e-14 * of_all.norm());
+  EXPECT_EQ(leading.topRows(80), Eigen::MatrixXd(leading.topRows(80).transpose()));
+}
+
+TEST(FormParts, AreOneWhereTheColumnsAreTheSame)
+{
+  const petsc::Matrix A = chains(301, 3);
+  const petsc::Matrix X = columns_of_chains(A, 80);
+  petsc::Matrix Y = uninitialized_dense(A, 7);  // without entries in the third chain
+  petsc::check(MatZeroEntries(Y));
+  PetscInt first = 0, last = 0;
+  petsc::check(MatGetOwnershipRange(A, &first, &last));
+  for (PetscInt i = first; i < last; ++i)
+    for (PetscInt j = 0; j < 7; ++j)
+      if (i % 3 != 2) petsc::check(MatSetValue(Y, i, j, 1.0 + j, INSERT_VALUES));
+  testing::finish(Y);
+  EXPECT_EQ(form_parts(A, std::array<Mat, 1>{X}).size(), 3u);
+  const std::vector<FormPart> parts = form_parts(A, std::array<Mat, 1>{Y});
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].columns[0].size(), 7u);
+  EXPECT_TRUE(parts[1].columns[0].empty());
+  EXPECT_TRUE(std::ranges::is_sorted(parts[0].rows));
 }
 
 TEST(PartedForm, KnowsEntriesOnOneSideOfTheDiagonalAndRowsWithoutAny)

@@ -9,6 +9,7 @@
 #include "reduce/basis_rows.hpp"
 #include "reduce/partition.hpp"
 #include "reduce/project_form.hpp"
+#include "reduce/rigid_constraint_modes.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace chladni::reduce {
@@ -56,6 +57,50 @@ TEST(ConstraintModes, InterpolateLinearlyBetweenTheEnds)
   for (PetscInt i = 0; i < n; ++i) {
     EXPECT_NEAR(Q(i, 1), double(i) / (n - 1), round_off);
     EXPECT_NEAR(Q(i, 0) + Q(i, 1), 1.0, round_off);  // rigid translation
+  }
+}
+
+/// Two free chains of n masses that lie into each other, and their translations as a sum and as a
+/// difference.
+struct TwoChains {
+  petsc::Matrix K = linear::testing::empty(2 * n), R;
+
+  TwoChains()
+  {
+    petsc::check(
+        MatCreateDense(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2 * n, 2, nullptr, R.put()));
+    PetscInt first = 0, last = 0;
+    petsc::check(MatGetOwnershipRange(K, &first, &last));
+    for (PetscInt i = first; i < last; ++i) {
+      petsc::check(MatSetValue(K, i, i, (i > 1) + (i + 2 < 2 * n), INSERT_VALUES));
+      if (i > 1) petsc::check(MatSetValue(K, i, i - 2, -1.0, INSERT_VALUES));
+      if (i + 2 < 2 * n) petsc::check(MatSetValue(K, i, i + 2, -1.0, INSERT_VALUES));
+      petsc::check(MatSetValue(R, i, 0, 1.0, INSERT_VALUES));
+      petsc::check(MatSetValue(R, i, 1, i % 2 == 0 ? 1.0 : -1.0, INSERT_VALUES));
+    }
+    linear::testing::finish(K);
+    linear::testing::finish(R);
+  }
+};
+
+TEST(RigidConstraintModes, CarryMotionsExactlyAndKeepTheZerosOfWhatIsNotCoupled)
+{
+  const TwoChains chains;
+  const DofPartition dofs = partition(chains.K, master_set(chains.K, {0, 1, 2 * n - 2, 2 * n - 1}));
+  const Blocks K = split(chains.K, dofs);
+  petsc::Matrix Psi = constraint_modes(linear::factorize(K.ss), K);
+  petsc::check(MatScale(Psi, 1.0 + 1e-9));  // an error that the correction has to take out
+  const CraigBamptonBasis Q{
+      .Psi = with_rigid_motions(std::move(Psi), {.R = chains.R, .dofs = dofs, .K = K}),
+      .modes = {}};
+  std::vector<PetscInt> all(2 * n);
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::MatrixXd rows = basis_rows(Q, dofs, all);
+  for (PetscInt i = 0; i < 2 * n; ++i) {
+    const PetscInt own = i % 2, other = 1 - own;  // columns 0 and 2 belong to the first chain
+    EXPECT_NEAR(rows(i, own) + rows(i, own + 2), 1.0, 1e-15) << i;
+    EXPECT_EQ(rows(i, other), 0.0) << i;
+    EXPECT_EQ(rows(i, other + 2), 0.0) << i;
   }
 }
 

@@ -61,7 +61,7 @@ TEST(MixedInterfaceModes, BeginWithTheRigidMotion)
 TEST(Rubin, KeepsTheModesThatItIsMadeOf)
 {
   ReducedChain reduced;
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Two masters, the modes, and the inertia relief of one rigid motion.
   ASSERT_EQ(model.K.rows(), 2 + n_modes + 1);
@@ -73,7 +73,7 @@ TEST(Rubin, KeepsTheModesThatItIsMadeOf)
 TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
 {
   ReducedChain reduced;
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // Receptance of the first mass to a force on it, full model: sum over all modes.
   const auto receptance = [](double omega2) {
@@ -100,7 +100,7 @@ TEST(Rubin, IsStaticallyCompleteAndDynamicallyToSecondOrder)
 TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 {
   ReducedChain reduced;
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   const Eigen::Index n_r = model.K.rows();  // the first mass is held
   const MatrixXd K = model.K.bottomRightCorner(n_r - 1, n_r - 1);
@@ -125,7 +125,7 @@ TEST(Rubin, HasCertifiedFrequenciesUnderASupport)
 TEST(MacNeal, KeepsTheModesAndGivesTheRestNoMass)
 {
   ReducedChain reduced;
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, reduced.free);
+  reduced.Q.modes = residual_modes(reduced.body, reduced.free);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   const MatrixXd M = macneal_mass(reduced.Q, reduced.M, reduced.free);
   const std::vector<double> lambda = eigenvalues(model.K, M);
@@ -179,7 +179,7 @@ TEST(MixedInterface, KeepsTheModesUnderItsSupport)
   ReducedChain reduced;
   const MixedInterfaceModes modes =
       mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  reduced.Q.modes = residual_modes(reduced.body, modes);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   ASSERT_EQ(model.K.rows(), 2 + n_modes);
   const std::vector<double> lambda = eigenvalues_with_end_held(model);
@@ -192,7 +192,7 @@ TEST(MixedInterface, IsExactUnderForcesAtEachMasterAndOtherSupports)
   ReducedChain reduced;
   const MixedInterfaceModes modes =
       mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0});
-  reduced.Q.modes = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  reduced.Q.modes = residual_modes(reduced.body, modes);
   const ReducedModel model = project(reduced.Q, reduced.K, reduced.M);
   // The spring between both masters, 23 of stiffness 1 in series.
   EXPECT_NEAR(model.K(0, 0), 1.0 / 23.0, 1e-14);
@@ -207,7 +207,7 @@ TEST(MixedInterface, WithAllMastersHeldIsCraigAndBampton)
   ReducedChain reduced;
   const MixedInterfaceModes modes =
       mixed_interface_modes(reduced.body, reduced.Q.Psi, {.modes = n_modes}, {0, 1});
-  const FixedInterfaceModes residual = residual_modes(reduced.body, reduced.Q.Psi, modes);
+  const FixedInterfaceModes residual = residual_modes(reduced.body, modes);
   const FixedInterfaceModes fixed =
       fixed_interface_modes(reduced.K_ss, reduced.M.ss, {.modes = n_modes});
   ASSERT_EQ(residual.omega.size(), fixed.omega.size());

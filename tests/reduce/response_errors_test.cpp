@@ -37,7 +37,7 @@ struct LoadedChain {
 
   ReducedModel reduced()
   {
-    Q.modes = residual_modes(body, Q.Psi, modes);
+    Q.modes = residual_modes(body, modes);
     return project(Q, K, M);
   }
   GrowingBasis growing() { return {.K_ss = K_ss, .K = K, .M = M, .Q_CB = Q, .model = model}; }

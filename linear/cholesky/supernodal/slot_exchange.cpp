@@ -12,29 +12,39 @@ namespace chladni::linear {
 
 namespace {
 
-/// Columns first to first + n of some rows, eight numbers for each row, filled up with zeros.
-void pack(LocalColumns X, PetscInt first, const std::vector<int>& rows, double* to)
+/// Columns first to first + 7 of some rows into rows of a panel, filled up with zeros. Rows ascend,
+/// so that columns are read as they stand in memory, and each row of the panel is one cache line.
+/// @param slot  of each of the rows, by its number
+template <typename Slot>
+void pack(LocalColumns X, PetscInt first, const std::vector<int>& rows, const Slot& slot,
+          double* panel)
 {
   const PetscInt n = std::min<PetscInt>(panel_width, X.n_columns - first);
   const double* from = X.values + std::size_t(first) * X.leading_dimension;
-  for (const int row : rows) {
-    for (PetscInt c = 0; c < n; ++c) to[c] = from[row + std::size_t(c) * X.leading_dimension];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    double* to = panel + std::size_t(slot(i)) * panel_width;
+    for (PetscInt c = 0; c < n; ++c) to[c] = from[rows[i] + std::size_t(c) * X.leading_dimension];
     for (PetscInt c = n; c < panel_width; ++c) to[c] = 0.0;
-    to += panel_width;
   }
 }
 
 /// @param columns  of X, at most as many as a panel has
-void unpack(const double* from, std::span<const int> columns, const std::vector<int>& rows,
-            LocalColumns X)
+template <typename Slot>
+void unpack(const double* panel, const Slot& slot, std::span<const int> columns,
+            const std::vector<int>& rows, LocalColumns X)
 {
   std::array<double*, panel_width> to{};
   for (std::size_t c = 0; c < columns.size(); ++c)
     to[c] = X.values + std::size_t(columns[c]) * X.leading_dimension;
-  for (const int row : rows) {
-    for (std::size_t c = 0; c < columns.size(); ++c) to[c][row] = from[c];
-    from += panel_width;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double* from = panel + std::size_t(slot(i)) * panel_width;
+    for (std::size_t c = 0; c < columns.size(); ++c) to[c][rows[i]] = from[c];
   }
+}
+
+std::size_t same(std::size_t i)
+{
+  return i;
 }
 
 void put(const double* from, const std::vector<int>& slots, double* panel)
@@ -75,8 +85,6 @@ SlotExchange::SlotExchange(const RowRange& here, const std::vector<int>& owner,
     row_counts_.push_back(static_cast<int>(rows.size()));
     rows_.insert(rows_.end(), rows.begin(), rows.end());
   }
-  // In the order of slots a single rank has nothing left to do where these stand side by side.
-  if (n_ranks == 1) std::ranges::sort(rows_, {}, [&](int row) { return slot[row]; });
   MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
   row_starts_ = offsets(row_counts_);
   slot_starts_ = offsets(slot_counts_);
@@ -85,29 +93,26 @@ SlotExchange::SlotExchange(const RowRange& here, const std::vector<int>& owner,
                 slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
   for (int& row : slots_) row = slot[row];
   for (int& row : rows_) row -= first;
-  const auto n = std::ssize(slots_);
-  stands_in_place_ = n_ranks == 1 && n > 0 && slots_.back() - slots_.front() == n - 1;
-}
-
-double* SlotExchange::place_in(double* panel) const
-{
-  return panel + std::size_t(slots_.front()) * panel_width;
 }
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 {
+  const auto own_slot = [&](std::size_t i) { return slots_[i]; };
+  const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
-  std::vector<double> out(stands_in_place_ ? 0 : rows_.size() * panel_width),
-      in(stands_in_place_ ? 0 : slots_.size() * panel_width),
-      common(common_rows_.size() * panel_width);
+  std::vector<double> out(is_alone ? 0 : rows_.size() * panel_width),
+      in(is_alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     double* panel = panels.values + p * panels.stride;
-    pack(X, first, rows_, stands_in_place_ ? place_in(panel) : out.data());
-    if (stands_in_place_) continue;
+    if (is_alone) {
+      pack(X, first, rows_, own_slot, panel);
+      continue;
+    }
+    pack(X, first, rows_, same, out.data());
     MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
                   slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
     put(in.data(), slots_, panel);
-    pack(X, first, common_rows_, common.data());
+    pack(X, first, common_rows_, same, common.data());
     put(common.data(), common_slots_, panel);
     for (const int slot : other_common_slots_)
       std::fill_n(panel + std::size_t(slot) * panel_width, panel_width, 0.0);
@@ -116,23 +121,26 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
 
 void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const
 {
+  const auto own_slot = [&](std::size_t i) { return slots_[i]; };
+  const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
-  std::vector<double> in(stands_in_place_ ? 0 : rows_.size() * panel_width),
-      out(stands_in_place_ ? 0 : slots_.size() * panel_width),
-      common(common_rows_.size() * panel_width);
+  std::vector<double> in(is_alone ? 0 : rows_.size() * panel_width),
+      out(is_alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p) {
     double* panel = panels.values + p * panels.stride;
     const std::size_t first = std::size_t(p) * panel_width;
     const auto some =
         columns.subspan(first, std::min<std::size_t>(panel_width, columns.size() - first));
-    if (!stands_in_place_) {
-      get(panel, slots_, out.data());
-      MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
-                    row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
-      get(panel, common_slots_, common.data());
-      unpack(common.data(), some, common_rows_, X);
+    if (is_alone) {
+      unpack(panel, own_slot, some, rows_, X);
+      continue;
     }
-    unpack(stands_in_place_ ? place_in(panel) : in.data(), some, rows_, X);
+    get(panel, slots_, out.data());
+    MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
+                  row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
+    get(panel, common_slots_, common.data());
+    unpack(common.data(), same, some, common_rows_, X);
+    unpack(in.data(), same, some, rows_, X);
   }
 }
 

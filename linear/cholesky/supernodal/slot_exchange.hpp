@@ -31,12 +31,9 @@ class SlotExchange {
   void to_rows(Panels panels, std::span<const int> columns, LocalColumns X) const;
 
  private:
-  double* place_in(double* panel) const;
-
   MPI_Comm comm_ = MPI_COMM_NULL;
-  bool stands_in_place_ = false;  ///< one rank, and its slots stand side by side
-  std::vector<int> rows_;         ///< of this rank in the matrix, by the rank that eliminates them
-  std::vector<int> slots_;        ///< of this rank in the panels, by the rank that has their rows
+  std::vector<int> rows_;   ///< of this rank in the matrix, by the rank that eliminates them
+  std::vector<int> slots_;  ///< of this rank in the panels, by the rank that has their rows
   std::vector<int> row_counts_, slot_counts_, row_starts_, slot_starts_;  ///< rows
   std::vector<int> common_rows_, common_slots_;  ///< rows of this rank that all eliminate
   std::vector<int> other_common_slots_;          ///< of rows of other ranks

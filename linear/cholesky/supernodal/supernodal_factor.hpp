@@ -50,6 +50,8 @@ class SupernodalFactor : public CholeskyFactor {
   /// X <- A^-1 X for the rows of a part alone.
   void solve(const SupernodalPart& part, LocalColumns X);
   void solve(const SparseColumns& B, LocalColumns X) override;
+  /// X <- D^(-1/2) L^-1 X of a positive definite matrix, in the order of its rows.
+  void solve_half(LocalColumns X);
   Memory forecast() const override;
   FactorSize size() const override;
   std::string description() const override;
@@ -72,7 +74,10 @@ class SupernodalFactor : public CholeskyFactor {
   void solve_block(const SparseColumns& B, const std::vector<int>& columns,
                    const std::vector<std::vector<int>>& trees, LocalColumns X);
   void sum_common(const std::vector<int>& supernodes, Panels X) const;
+  void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
+  template <typename Sweep>
+  void in_panels(const SlotExchange& exchange, LocalColumns X, const Sweep& sweep);
   TiledColumns tiles(int s) const;
   Panels panels(std::size_t n_columns);
 

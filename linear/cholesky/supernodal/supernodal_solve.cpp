@@ -134,32 +134,56 @@ void SupernodalFactor::sum_common(const std::vector<int>& supernodes, Panels X) 
   }
 }
 
-/// X <- A^-1 X in some trees.
+/// X <- L^-1 X in some trees.
 /// @param is_active  [n_supernodes] of own supernodes: right-hand sides are not zero
-void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
-                             const std::vector<char>& is_active) const
+void SupernodalFactor::sweep_forward(Panels X, const Supernodes& trees,
+                                     const std::vector<char>& is_active) const
 {
   for (const int s : trees.own)
     if (is_active[s] != 0) solve_forward(tiles(s), X);
   if (petsc::size(comm_) > 1) sum_common(trees.common, X);
   for (const int s : trees.common) solve_forward(tiles(s), X);
+}
+
+/// X <- A^-1 X
+void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
+                             const std::vector<char>& is_active) const
+{
+  sweep_forward(X, trees, is_active);
   for (const std::vector<int>* some : {&trees.common, &trees.own})
     for (auto s = some->rbegin(); s != some->rend(); ++s) solve_backward(tiles(*s), X);
 }
 
-void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
+/// X <- what `sweep` makes of it in panels, some columns at a time.
+template <typename Sweep>
+void SupernodalFactor::in_panels(const SlotExchange& exchange, LocalColumns X, const Sweep& sweep)
 {
   const LogEvent event(Event::solution);
-  const std::vector<char> all(tree_.n_supernodes(), 1);
   std::vector<int> columns(X.n_columns);
   std::iota(columns.begin(), columns.end(), 0);
   for (PetscInt first = 0; first < X.n_columns; first += most_columns) {
     const PetscInt n = std::min(most_columns, X.n_columns - first);
     const Panels block = panels(n);
-    part.exchange.to_slots(X, first, block);
-    sweep(block, part.supernodes, all);
-    part.exchange.to_rows(block, std::span(columns).subspan(first, n), X);
+    exchange.to_slots(X, first, block);
+    sweep(block);
+    exchange.to_rows(block, std::span(columns).subspan(first, n), X);
   }
+}
+
+void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
+{
+  const std::vector<char> all(tree_.n_supernodes(), 1);
+  in_panels(part.exchange, X, [&](Panels block) { sweep(block, part.supernodes, all); });
+}
+
+void SupernodalFactor::solve_half(LocalColumns X)
+{
+  const std::vector<char> all(tree_.n_supernodes(), 1);
+  in_panels(whole_.exchange, X, [&](Panels block) {
+    sweep_forward(block, whole_.supernodes, all);
+    for (const std::vector<int>* some : {&whole_.supernodes.own, &whole_.supernodes.common})
+      for (const int s : *some) scale_by_root(tiles(s), block);
+  });
 }
 
 /// The trees that each column is in: its roots, ascending.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "linear/kernels/tile_kernels.hpp"
 
@@ -104,17 +105,18 @@ void solve_forward(const TiledColumns& L, Panels X)
 
 namespace {
 
-/// X <- D^-1 X
-void scale(const TiledColumns& L, Panels X)
+/// Multiplies each row of X in the columns of L by a factor made of the entry of D^-1.
+template <typename Factor>
+void scale(const TiledColumns& L, Panels X, const Factor& factor)
 {
   const double* triangle = L.values;
   for (int first = 0; first < L.n_columns; first += tile_rows) {
     triangle += std::size_t(first) * tile_rows;
     for (int i = 0; i < std::min(tile_rows, L.n_columns - first); ++i) {
-      const double inverse = triangle[i * tile_rows + i];
+      const double by = factor(triangle[i * tile_rows + i]);
       for (int p = 0; p < X.n_panels; ++p) {
         double* x = X.values + p * X.stride + std::size_t(L.first + first + i) * panel_width;
-        for (int k = 0; k < panel_width; ++k) x[k] *= inverse;
+        for (int k = 0; k < panel_width; ++k) x[k] *= by;
       }
     }
     triangle += triangle_size;
@@ -123,9 +125,14 @@ void scale(const TiledColumns& L, Panels X)
 
 }  // namespace
 
+void scale_by_root(const TiledColumns& L, Panels X)
+{
+  scale(L, X, [](double inverse) { return std::sqrt(inverse); });
+}
+
 void solve_backward(const TiledColumns& L, Panels X)
 {
-  scale(L, X);
+  scale(L, X, [](double inverse) { return inverse; });
   const TileKernels& kernels = tile_kernels();
   TileRows rows;
   const auto n_below = static_cast<int>(L.below.size());

@@ -36,4 +36,7 @@ void solve_forward(const TiledColumns& L, Panels X);
 /// X <- L^-T D^-1 X
 void solve_backward(const TiledColumns& L, Panels X);
 
+/// X <- D^(-1/2) X for positive D.
+void scale_by_root(const TiledColumns& L, Panels X);
+
 }  // namespace chladni::linear
