@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/cholesky/sylvester.hpp"
+#include "linear/kernels/shifted.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
 #include "linear/lanczos/block_basis.hpp"
 #include "reduce/indefinite_factor.hpp"

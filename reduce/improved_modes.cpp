@@ -5,6 +5,7 @@
 #include "linear/cholesky/factorization.hpp"
 #include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/shifted.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
 namespace chladni::reduce {
@@ -44,7 +45,7 @@ ImprovedModes improved_modes(Mat K, Mat M, const FreeDofs& free, const ShapesNea
 {
   petsc::Matrix A = free_block(K, free);
   const petsc::Matrix M_ff = free_block(M, free);
-  if (mu != 0.0) petsc::check(MatAXPY(A, mu, M_ff, DIFFERENT_NONZERO_PATTERN));
+  if (mu != 0.0) A = linear::shifted(A, M_ff, -mu);
   const linear::Factorization factor = linear::factorize(A, options);
   const petsc::Matrix MX = linear::sparse_product(M_ff, free_rows(shapes, free, A));
   const petsc::Matrix Y = linear::uninitialized_dense(A, shapes.n_shapes);

@@ -5,6 +5,7 @@
 
 #include "linear/cholesky/factorization.hpp"
 #include "linear/kernels/dense_matrices.hpp"
+#include "linear/kernels/shifted.hpp"
 #include "linear/lanczos/block_lanczos.hpp"
 
 namespace chladni::reduce {
@@ -16,15 +17,6 @@ petsc::Matrix free_block(Mat A, const FreeDofs& free)
   petsc::Matrix block;
   petsc::check(MatCreateSubMatrix(A, free.indices, free.indices, MAT_INITIAL_MATRIX, block.put()));
   return block;
-}
-
-/// K + mu M
-petsc::Matrix with_mass(Mat K, Mat M, double mu)
-{
-  petsc::Matrix A;
-  petsc::check(MatDuplicate(K, MAT_COPY_VALUES, A.put()));
-  petsc::check(MatAXPY(A, mu, M, DIFFERENT_NONZERO_PATTERN));
-  return A;
 }
 
 /// The least K_ii / M_ii of the rows with mass: about the square of the wave speed over the
@@ -64,7 +56,7 @@ Shifted shifted(Mat K, Mat M, double mu, const linear::SolverOptions& options)
   constexpr double step = 1e3;
   constexpr int attempts = 4;
   for (int attempt = 1;; ++attempt, mu *= step) {
-    petsc::Matrix A = with_mass(K, M, mu);
+    petsc::Matrix A = linear::shifted(K, M, -mu);
     try {
       linear::Factorization factor = linear::factorize(A, options);
       return {.A = std::move(A), .factor = std::move(factor), .mu = mu};

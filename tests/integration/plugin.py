@@ -154,7 +154,8 @@ def class_of_the_compiled_example(plugin):
     rows = [line.split() for line in without[without.index("true error") :].splitlines()[1:9]]
     yield expect("MacNeal's modes have no estimate", len(rows) == 8 and all(row[3:] == ["-"] for row in rows), rows)
     helped = plugin.run([plugin.examples / "membrane", "-help", "-log_view", "-cms_sylvester",
-                         "-cms_pc_factor_mat_solver_type", "mumps-metis"])  # fmt: skip
+                         "-cms_pc_factor_mat_solver_type", "mumps-metis",
+                         "-cms_sylvester_pc_factor_mat_solver_type", "mumps"])  # fmt: skip
     for words in ("-cms_type", "-cms_nmodes", "-cms_cutoff", "-cms_tol", "-cms_view",
                   "-cms_monitor", "-cms_memory", "-cms_modes_solver", "-cms_lanczos_block_size",
                   "-cms_lanczos_subspace", "-cms_lanczos_tolerance", "-cms_pc_type",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "chain.hpp"
@@ -10,6 +11,7 @@
 #include "linear/cholesky/elimination_order.hpp"
 #include "linear/cholesky/factorization.hpp"
 #include "linear/cholesky/inverse_form.hpp"
+#include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 
@@ -266,6 +268,30 @@ TEST_P(CholeskyType, SolvesIndefiniteMatricesAsWellAsDefiniteOnes)
     factor.factorize(A);
     EXPECT_LT(factor.backward_error(A), 1e-14) << shift;
   }
+}
+
+PivotSigns pivot_signs_of_chain(double shift)
+{
+  const petsc::Matrix A = shifted_chain(shift);
+  petsc::Vector size;
+  petsc::check(MatCreateVecs(A, size.put(), nullptr));
+  petsc::check(VecSet(size, 2.0 + std::abs(shift)));  // of the middle masses
+  SupernodalFactor factor(PETSC_COMM_WORLD);
+  factor.analyze(A);
+  return factor.pivot_signs(A, size);
+}
+
+TEST(PivotSigns, TellTheInertiaAndWhatItIsWorth)
+{
+  const PivotSigns definite = pivot_signs_of_chain(-0.1);
+  EXPECT_EQ(definite.n_negative, 0);
+  EXPECT_NEAR(definite.growth, 1.0, 1e-12);  // sum_j L_ij^2 D_jj = A_ii
+  const PivotSigns negative = pivot_signs_of_chain(4.5);
+  EXPECT_EQ(negative.n_negative, 801);
+  EXPECT_LE(negative.growth, 1.0);
+  EXPECT_EQ(pivot_signs_of_chain(2.0 + 1e-3).n_negative, 401);
+  EXPECT_GT(pivot_signs_of_chain(2.0 + 1e-9).growth, 1e8);
+  EXPECT_TRUE(std::isinf(pivot_signs_of_chain(2.0).growth));
 }
 
 TEST_P(CholeskyType, SolvesNegativeDefiniteMatrices)

@@ -44,6 +44,14 @@ TEST(EigenvaluesBelow, CountsWithoutTheHeldDofs)
   EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, sigma, {n - 1, 0}), 9);
 }
 
+TEST(EigenvaluesBelow, AreCountedWherePivotsVanishOrNearlySo)
+{
+  // The first pivots are 2 - sigma; of 2 - 2 cos(k pi / 801) those up to k = 400 are below.
+  const linear::testing::Chain chain = linear::testing::free_chain(801);
+  for (const double sigma : {2.0 - 1e-12, 2.0 - 1e-15, 2.0, 2.0 + 1e-9, 2.0 + 1e-5})
+    EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, sigma), 401) << sigma;
+}
+
 TEST(ConditionEstimate, IsExactForTheChainBetweenFixedEnds)
 {
   const linear::testing::Chain chain = linear::testing::free_chain(n + 1);

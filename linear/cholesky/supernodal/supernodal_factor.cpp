@@ -1,6 +1,7 @@
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -121,7 +122,7 @@ void SupernodalFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
-  eliminate(A);
+  eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
 }
 
 /// Pivots of one sign, positive or negative, need no choice.
@@ -137,7 +138,7 @@ void SupernodalFactor::keep(const Fronts& fronts, int s)
               tiles_.get() + tile_starts_[s]);
 }
 
-void SupernodalFactor::eliminate(Mat A)
+void SupernodalFactor::eliminate(Mat A, const Visit& visit)
 {
   std::vector<char> is_needed(tree_.row.size());
   for (std::size_t p = 0; p < slot_.size(); ++p) is_needed[tree_.row[p]] = slot_[p] != -1;
@@ -145,13 +146,13 @@ void SupernodalFactor::eliminate(Mat A)
   Fronts fronts(tree_, rows.rows());
   error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
   n_negative_ = 0;
-  int n_negative = on_all_ranks(comm_, [&] { return eliminate_own(fronts); });
+  int n_negative = on_all_ranks(comm_, [&] { return eliminate_own(fronts, visit); });
   int n_failed = n_negative < 0 ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, comm_);
   MPI_Allreduce(MPI_IN_PLACE, &n_negative, 1, MPI_INT, MPI_SUM, comm_);
   if (n_failed > 0) return;
   for (const int s : whole_.supernodes.common) {
-    const int n = eliminate_common(fronts, s);
+    const int n = eliminate_common(fronts, s, visit);
     if (n < 0) return;
     n_negative += n;
   }
@@ -160,20 +161,20 @@ void SupernodalFactor::eliminate(Mat A)
 }
 
 /// The number of negative pivots, -1 where one vanishes.
-int SupernodalFactor::eliminate_own(Fronts& fronts)
+int SupernodalFactor::eliminate_own(Fronts& fronts, const Visit& visit) const
 {
   int n_negative = 0;
   for (const int s : whole_.supernodes.own) {
     const int n = fronts.eliminate(s);
     if (n < 0) return -1;
     n_negative += n;
-    keep(fronts, s);
+    visit(fronts, s);
   }
   return n_negative;
 }
 
 /// On all ranks alike, with what the children left on one of them.
-int SupernodalFactor::eliminate_common(Fronts& fronts, int s)
+int SupernodalFactor::eliminate_common(Fronts& fronts, int s, const Visit& visit) const
 {
   for (int child = 0; child < s; ++child) {
     if (tree_.parent[child] != s || owner_[child] == all_ranks) continue;
@@ -183,8 +184,46 @@ int SupernodalFactor::eliminate_common(Fronts& fronts, int s)
       MPI_Bcast(values + j * n, static_cast<int>(n), MPI_DOUBLE, owner_[child], comm_);
   }
   const int n_negative = fronts.eliminate(s);
-  if (n_negative >= 0) keep(fronts, s);
+  if (n_negative >= 0) visit(fronts, s);
   return n_negative;
+}
+
+/// Adds L_ij^2 |D_jj| of the columns of a supernode to the sums of their rows.
+void SupernodalFactor::add_squares(const Fronts& fronts, int s, std::vector<double>& sums) const
+{
+  const std::span<const int> below = tree_.below(s);
+  const int w = tree_.n_columns(s), first = tree_.first_column[s];
+  const double* L = fronts.columns();
+  for (int j = 0; j < w; ++j, L += std::size_t(w) + below.size()) {
+    const double size = std::abs(L[j]);
+    sums[tree_.row[first + j]] += size;
+    for (int i = j + 1; i < w; ++i) sums[tree_.row[first + i]] += L[i] * L[i] * size;
+    for (std::size_t i = 0; i < below.size(); ++i)
+      sums[tree_.row[below[i]]] += L[w + i] * L[w + i] * size;
+  }
+}
+
+PivotSigns SupernodalFactor::pivot_signs(Mat A, Vec size_of_diagonal)
+{
+  const LogEvent event(Event::factorization);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<double> sums(tree_.row.size(), 0.0);
+  eliminate(A, [&](const Fronts& fronts, int s) {
+    const bool is_others = owner_[s] == all_ranks && rank_ != 0;
+    if (!is_others) add_squares(fronts, s, sums);
+  });
+  if (error_ != MAT_FACTOR_NOERROR) return {.n_negative = 0, .growth = infinite};
+  sum_over_ranks(sums, comm_);
+  PetscInt first = 0, last = 0;
+  const PetscScalar* sizes = nullptr;
+  petsc::check(VecGetOwnershipRange(size_of_diagonal, &first, &last));
+  petsc::check(VecGetArrayRead(size_of_diagonal, &sizes));
+  double growth = 0.0;
+  for (PetscInt i = first; i < last; ++i)
+    if (sums[i] > 0.0) growth = std::max(growth, sums[i] / std::max(sizes[i - first], 0.0));
+  petsc::check(VecRestoreArrayRead(size_of_diagonal, &sizes));
+  MPI_Allreduce(MPI_IN_PLACE, &growth, 1, MPI_DOUBLE, MPI_MAX, comm_);
+  return {.n_negative = n_negative_, .growth = std::isfinite(growth) ? growth : infinite};
 }
 
 }  // namespace chladni::linear

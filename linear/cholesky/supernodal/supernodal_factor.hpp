@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,6 +25,14 @@ struct SupernodalPart {
   SlotExchange exchange;
 };
 
+/// What the pivots of A = L D L^T tell without a choice of pivots.
+struct PivotSigns {
+  PetscInt n_negative;
+  /// The largest sum over j of L_ij^2 |D_jj| in units of what A_ii is made of: 1 of a definite
+  /// matrix, infinite where a pivot vanishes. By as much the elimination magnifies round-off.
+  double growth;
+};
+
 /// Sparse factor L D L^T of our own for many right-hand sides: nested dissection by METIS,
 /// multifrontal elimination without pivoting, and triangular solutions that read the factor as it
 /// stands in memory, tile by tile, once for all columns of a block. Whole subtrees belong to one
@@ -38,6 +47,10 @@ class SupernodalFactor : public CholeskyFactor {
   MatFactorError error() const override { return error_; }
   PetscInt n_negative_pivots() const override { return n_negative_; }
   bool is_reliable() const override;
+  /// Eliminates an analysed A of any inertia; nothing is kept.
+  /// @param size_of_diagonal  terms of each A_ii without their signs
+  /// @note   Collective.
+  PivotSigns pivot_signs(Mat A, Vec size_of_diagonal);
   void release() override { tiles_.reset(); }
   /// All of them: it chooses which go together.
   PetscInt columns_at_a_time() const override { return std::numeric_limits<int>::max(); }
@@ -64,10 +77,13 @@ class SupernodalFactor : public CholeskyFactor {
   int supernode_of_row(PetscInt row) const;
   Supernodes of_trees(const std::vector<char>& roots) const;
   SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
-  void eliminate(Mat A);
-  int eliminate_own(Fronts& fronts);
-  int eliminate_common(Fronts& fronts, int s);
+  /// What is done with the columns of a supernode that has been eliminated.
+  using Visit = std::function<void(const Fronts& fronts, int s)>;
+  void eliminate(Mat A, const Visit& visit);
+  int eliminate_own(Fronts& fronts, const Visit& visit) const;
+  int eliminate_common(Fronts& fronts, int s, const Visit& visit) const;
   void keep(const Fronts& fronts, int s);
+  void add_squares(const Fronts& fronts, int s, std::vector<double>& sums) const;
   std::vector<std::vector<int>> trees_of(const SparseColumns& B) const;
   std::vector<char> take(const SparseColumns& B, const std::vector<int>& columns,
                          Panels block) const;
