@@ -88,7 +88,9 @@ std::vector<report::Json::Member> reduction_json(const ReduceSummary& summary)
           {"factor_cpu_s", summary.factorization.cpu_s},
           {"modes_residual", summary.modes_residual},
           {"factor_operations", summary.factor.operations},
-          {"factor_entries", summary.factor.entries}};
+          {"factor_entries", summary.factor.entries},
+          {"factor_operations_of_rank", summary.factor.operations_of_rank},
+          {"factor_entries_of_rank", summary.factor.entries_of_rank}};
 }
 
 }  // namespace chladni::cases

@@ -40,9 +40,10 @@ class CountPlan {
   MPI_Comm comm_;
 };
 
-/// What MUMPS takes for a factor with pivoting and its copies of the matrix, in multiples of the
-/// entries of ours.
-inline constexpr double entries_of_counting_factor = 4.4;
+/// What an elimination takes whose columns are not kept, in multiples of the entries of a factor.
+/// Where MUMPS has to count, which keeps a factor with pivoting and copies of the matrix, it is 4.4
+/// times the entries; whether it will have to is not known before.
+inline constexpr double entries_of_counting_factor = 1.0;
 
 /// What a reduction has found.
 struct Reduced {

@@ -18,10 +18,10 @@ CountPlan::CountPlan(const FactoredBody& body, const ReductionOptions& options)
 
 double CountPlan::share(PetscInt n_modes) const
 {
-  // Two counts are made, each by one more elimination; MUMPS, which takes the place of our own where
-  // pivots must be chosen, takes about four times as long. Block Lanczos takes 3.2 vectors for each
-  // mode.
-  constexpr double of_both_counts = 2.5, vectors_for_mode = 3.2;
+  // Two counts are made, each by an order, an elimination without a factor and K - sigma M, which
+  // together take two to three times as long as the operations of a factor do. Block Lanczos takes
+  // 3.2 vectors for each mode.
+  constexpr double of_both_counts = 5.0, vectors_for_mode = 3.2;
   const double n_vectors = vectors_for_mode * n_modes;
   const double solutions = 4.0 * factor_.entries * (0.5 * n_masters_ + n_vectors + n_modes);
   const double products = n_slaves_ * (n_masters_ * n_masters_ + 2.0 * n_masters_ * n_modes +

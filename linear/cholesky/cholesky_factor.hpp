@@ -30,6 +30,8 @@ struct LocalColumns {
 struct FactorSize {
   double operations;  ///< floating-point, of the factorisation
   double entries;     ///< of the triangle
+  /// Of the rank that has most, with what it repeats; 0 where the package does not tell.
+  double operations_of_rank = 0.0, entries_of_rank = 0.0;
 };
 
 /// What there is for a factor, and what must go beside it.

@@ -66,36 +66,50 @@ void check_every_pivot(Mat factor, const OptionSource& source)
                   source.prefix, control));
 }
 
-/// The largest K_jj / M_jj of all rows.
-double stiffest(Mat K, Mat M)
-{
+/// Diagonals of K and M in the rows that are counted.
+struct Diagonals {
   petsc::Vector k, m;
-  petsc::check(MatCreateVecs(K, nullptr, k.put()));
-  petsc::check(MatCreateVecs(M, nullptr, m.put()));
-  petsc::check(MatGetDiagonal(K, k));
-  petsc::check(MatGetDiagonal(M, m));
-  petsc::check(VecPointwiseDivide(k, k, m));  // 0 where M_jj is
+};
+
+/// @param rows  null: all of them
+petsc::Vector diagonal(Mat A, IS rows)
+{
+  petsc::Vector all;
+  petsc::check(MatCreateVecs(A, nullptr, all.put()));
+  petsc::check(MatGetDiagonal(A, all));
+  if (rows == nullptr) return all;
+  petsc::Vector some;
+  Vec view = nullptr;
+  petsc::check(VecGetSubVector(all, rows, &view));
+  petsc::check(VecDuplicate(view, some.put()));
+  petsc::check(VecCopy(view, some));
+  petsc::check(VecRestoreSubVector(all, rows, &view));
+  return some;
+}
+
+/// The largest K_jj / M_jj.
+double stiffest(const Diagonals& diagonals)
+{
+  petsc::Vector ratio;
+  petsc::check(VecDuplicate(diagonals.k, ratio.put()));
+  petsc::check(VecPointwiseDivide(ratio, diagonals.k, diagonals.m));  // 0 where M_jj is
   PetscReal largest = 0.0;
-  petsc::check(VecMax(k, nullptr, &largest));
+  petsc::check(VecMax(ratio, nullptr, &largest));
   return largest;
 }
 
 /// Refuses a sigma so far above all stiffness that none of it is left in K - sigma M: where M is
 /// singular the signs of the pivots would be those of round-off.
-void check_stiffness_is_seen(Mat K, Mat M, double sigma)
+void check_stiffness_is_seen(const Diagonals& diagonals, double sigma)
 {
   constexpr double two_digits = 100.0 * std::numeric_limits<double>::epsilon();
-  if (two_digits * sigma <= stiffest(K, M)) return;
+  if (two_digits * sigma <= stiffest(diagonals)) return;
   throw Error(fmt::format(
       "eigenvalues_below: at sigma = {:.3e} rad^2/s^2 no digits of K are left in K - "
       "sigma M; the mass of a coordinate is round-off: ask for a range that ends lower, "
       "or for no count",
       sigma));
 }
-
-}  // namespace
-
-namespace {
 
 /// Whether the solver that counts was chosen by an option.
 bool is_chosen(const OptionSource& own)
@@ -119,17 +133,14 @@ bool is_chosen(const OptionSource& own)
 /// signs are as good. They are those of A + E with |x^T E x| up to growth eps sum_j (K_jj + sigma
 /// M_jj) x_j^2, which moves eigenvalues near sigma by growth eps (1 + max K_jj / (sigma M_jj)),
 /// relatively; shifts stand 3e-5 and more from all of them.
-std::optional<PetscInt> n_negative_without_choice(Mat A, Mat K, Mat M, double sigma)
+std::optional<PetscInt> n_negative_without_choice(Mat A, const Diagonals& diagonals, double sigma)
 {
   constexpr double eps = std::numeric_limits<double>::epsilon(), harmless = 1e-6;
-  const double round_off = eps * (1.0 + stiffest(K, M) / sigma);
+  const double round_off = eps * (1.0 + stiffest(diagonals) / sigma);
   if (!(round_off < harmless)) return std::nullopt;
-  petsc::Vector size, of_mass;
-  petsc::check(MatCreateVecs(K, nullptr, size.put()));
-  petsc::check(VecDuplicate(size, of_mass.put()));
-  petsc::check(MatGetDiagonal(K, size));
-  petsc::check(MatGetDiagonal(M, of_mass));
-  petsc::check(VecAXPY(size, sigma, of_mass));
+  petsc::Vector size;
+  petsc::check(VecDuplicate(diagonals.k, size.put()));
+  petsc::check(VecWAXPY(size, sigma, diagonals.m, diagonals.k));
   SupernodalFactor factor(petsc::communicator(A));
   factor.analyze(A);
   const PivotSigns signs = factor.pivot_signs(A, size);
@@ -171,20 +182,24 @@ PetscInt n_negative_by_mumps(Mat A, double sigma, const OptionSource& own)
 
 PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source)
 {
-  check_stiffness_is_seen(K, M, sigma);
-  const petsc::Matrix A = shifted(K, M, sigma);
-  const OptionSource own = source.part("sylvester_");
-  if (!is_chosen(own))
-    if (const auto n = n_negative_without_choice(as_aij(A), K, M, sigma)) return *n;
-  return n_negative_by_mumps(A, sigma, own);
+  return eigenvalues_below(K, M, sigma, {}, source);
 }
 
 PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
                            const OptionSource& source)
 {
-  if (held.empty()) return eigenvalues_below(K, M, sigma, source);
-  const petsc::IndexSet rows = free_rows(K, held);
-  return eigenvalues_below(submatrix(K, rows), submatrix(M, rows), sigma, source);
+  const petsc::IndexSet rows = held.empty() ? petsc::IndexSet() : free_rows(K, held);
+  const Diagonals diagonals{.k = diagonal(K, rows), .m = diagonal(M, rows)};
+  check_stiffness_is_seen(diagonals, sigma);
+  petsc::Matrix A = shifted(K, M, sigma);
+  if (rows) {
+    A = submatrix(A, rows);
+    petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+  }
+  const OptionSource own = source.part("sylvester_");
+  if (!is_chosen(own))
+    if (const auto n = n_negative_without_choice(as_aij(A), diagonals, sigma)) return *n;
+  return n_negative_by_mumps(A, sigma, own);
 }
 
 }  // namespace chladni::linear

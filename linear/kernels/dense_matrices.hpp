@@ -18,9 +18,10 @@ inline std::span<double> values_of(Eigen::MatrixXd& A)
 /// @note   Collective.
 void sum_over_ranks(std::span<double> values, MPI_Comm comm);
 
-/// Any number of values <- those of rank 0.
+/// Any number of values <- those of rank 0, or of another one.
 /// @note   Collective.
 void broadcast_numbers(std::span<double> values, MPI_Comm comm);
+void broadcast_numbers(std::span<double> values, int from, MPI_Comm comm);
 
 /// The value of the first rank, for decisions: ranks on unlike processors may differ in the last
 /// bit.

@@ -30,6 +30,7 @@ class Fronts {
   /// What is left for the parent of s: lower triangle [n_below x n_below], by columns. Exists from
   /// the elimination of s to that of its parent, or from this call on.
   double* left_over(int s);
+  const std::vector<int>& children(int s) const { return children_[s]; }
 
  private:
   void add_entries(int s);

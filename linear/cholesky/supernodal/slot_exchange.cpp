@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/kernels/gather.hpp"
 #include "linear/kernels/tile_kernels.hpp"
 
@@ -61,29 +60,19 @@ void get(const double* panel, const std::vector<int>& slots, double* to)
 
 }  // namespace
 
-SlotExchange::SlotExchange(const RowRange& here, const std::vector<int>& owner,
-                           const std::vector<int>& slot)
+SlotExchange::SlotExchange(const RowRange& here, const std::vector<RowSlot>& rows)
     : comm_(here.comm)
 {
-  const PetscInt first = here.first, last = here.last;
-  const int n_ranks = petsc::size(comm_);
+  const int n_ranks = petsc::size(comm_), rank = petsc::rank(comm_);
   std::vector<std::vector<int>> rows_of_rank(n_ranks);
-  for (PetscInt row = first; row < last; ++row) {
-    if (owner[row] != all_ranks) {
-      rows_of_rank[owner[row]].push_back(row);
-    } else {
-      common_rows_.push_back(row - first);
-      common_slots_.push_back(slot[row]);
-    }
-  }
-  for (std::size_t row = 0; row < owner.size(); ++row) {
-    const bool is_elsewhere = std::cmp_less(row, first) || std::cmp_greater_equal(row, last);
-    if (owner[row] == all_ranks && is_elsewhere) other_common_slots_.push_back(slot[row]);
+  for (PetscInt row = here.first; row < here.last; ++row) {
+    const RankGroup& group = rows[row].group;
+    rows_of_rank[group.has(rank) ? rank : group.first].push_back(row);
   }
   slot_counts_.resize(n_ranks);
-  for (const std::vector<int>& rows : rows_of_rank) {
-    row_counts_.push_back(static_cast<int>(rows.size()));
-    rows_.insert(rows_.end(), rows.begin(), rows.end());
+  for (const std::vector<int>& some : rows_of_rank) {
+    row_counts_.push_back(static_cast<int>(some.size()));
+    rows_.insert(rows_.end(), some.begin(), some.end());
   }
   MPI_Alltoall(row_counts_.data(), 1, MPI_INT, slot_counts_.data(), 1, MPI_INT, comm_);
   row_starts_ = offsets(row_counts_);
@@ -91,8 +80,14 @@ SlotExchange::SlotExchange(const RowRange& here, const std::vector<int>& owner,
   slots_.resize(slot_starts_.back());
   MPI_Alltoallv(rows_.data(), row_counts_.data(), row_starts_.data(), MPI_INT, slots_.data(),
                 slot_counts_.data(), slot_starts_.data(), MPI_INT, comm_);
-  for (int& row : slots_) row = slot[row];
-  for (int& row : rows_) row -= first;
+  std::vector<char> is_got(rows.size(), 0);
+  for (int& row : slots_) {
+    is_got[row] = 1;
+    row = rows[row].slot;
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row].group.has(rank) && is_got[row] == 0) zero_slots_.push_back(rows[row].slot);
+  for (int& row : rows_) row -= here.first;
 }
 
 void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
@@ -101,7 +96,7 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
   const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
   std::vector<double> out(is_alone ? 0 : rows_.size() * panel_width),
-      in(is_alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
+      in(is_alone ? 0 : slots_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p, first += panel_width) {
     double* panel = panels.values + p * panels.stride;
     if (is_alone) {
@@ -112,9 +107,7 @@ void SlotExchange::to_slots(LocalColumns X, PetscInt first, Panels panels) const
     MPI_Alltoallv(out.data(), row_counts_.data(), row_starts_.data(), row_of_panel, in.data(),
                   slot_counts_.data(), slot_starts_.data(), row_of_panel, comm_);
     put(in.data(), slots_, panel);
-    pack(X, first, common_rows_, same, common.data());
-    put(common.data(), common_slots_, panel);
-    for (const int slot : other_common_slots_)
+    for (const int slot : zero_slots_)
       std::fill_n(panel + std::size_t(slot) * panel_width, panel_width, 0.0);
   }
 }
@@ -125,7 +118,7 @@ void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalCol
   const bool is_alone = petsc::size(comm_) == 1;
   const RowType row_of_panel(panel_width);
   std::vector<double> in(is_alone ? 0 : rows_.size() * panel_width),
-      out(is_alone ? 0 : slots_.size() * panel_width), common(common_rows_.size() * panel_width);
+      out(is_alone ? 0 : slots_.size() * panel_width);
   for (int p = 0; p < panels.n_panels; ++p) {
     double* panel = panels.values + p * panels.stride;
     const std::size_t first = std::size_t(p) * panel_width;
@@ -138,8 +131,6 @@ void SlotExchange::to_rows(Panels panels, std::span<const int> columns, LocalCol
     get(panel, slots_, out.data());
     MPI_Alltoallv(out.data(), slot_counts_.data(), slot_starts_.data(), row_of_panel, in.data(),
                   row_counts_.data(), row_starts_.data(), row_of_panel, comm_);
-    get(panel, common_slots_, common.data());
-    unpack(common.data(), same, some, common_rows_, X);
     unpack(in.data(), same, some, rows_, X);
   }
 }

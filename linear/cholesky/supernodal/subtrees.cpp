@@ -1,7 +1,9 @@
 #include "linear/cholesky/supernodal/subtrees.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace chladni::linear {
 
@@ -12,21 +14,6 @@ double work(const AssemblyTree& tree, int s)
 {
   constexpr double solved_columns = 500.0;
   return tree.n_operations(s) + 4.0 * solved_columns * tree.n_entries(s);
-}
-
-/// The largest first, each to the rank that has least.
-std::vector<int> owners(const std::vector<int>& roots, const std::vector<double>& work_below,
-                        int n_ranks, double& fullest)
-{
-  std::vector<double> load(n_ranks, 0.0);
-  std::vector<int> owner;
-  for (const int root : roots) {
-    const auto least = std::ranges::min_element(load);
-    *least += work_below[root];
-    owner.push_back(static_cast<int>(least - load.begin()));
-  }
-  fullest = *std::ranges::max_element(load);
-  return owner;
 }
 
 /// What hangs together in an assembly tree, and the work in each subtree.
@@ -77,42 +64,92 @@ std::vector<std::vector<int>> solved_apart(const Subtrees& all)
   return groups;
 }
 
-/// Splitting a subtree makes its root everybody's: as long as that shortens the longest path.
-/// @param owner  [n_supernodes] of the roots of subtrees: a rank, if they get one
-void share(std::vector<int> roots, const Subtrees& all, int n_ranks, std::vector<int>& owner)
+/// The two halves of a group.
+std::pair<RankGroup, RankGroup> halves(const RankGroup& group)
 {
-  double common = 0.0, shortest = sum(roots, all.work_below);
-  std::vector<int> best_roots, best;
+  const int middle = group.first + (group.size() + 1) / 2;
+  return {{group.first, middle}, {middle, group.last}};
+}
+
+/// Subtrees for each half of a group, the largest first to the half whose ranks have least.
+struct Halved {
+  std::vector<int> first, second;
+  double path = 0.0;  ///< work of a rank of the half that has most, if it can be shared evenly
+};
+
+Halved halved(const std::vector<int>& roots, const Subtrees& all, const RankGroup& group)
+{
+  const auto [first, second] = halves(group);
+  Halved made;
+  double of_first = 0.0, of_second = 0.0;
+  for (const int root : roots) {
+    const bool is_first = of_first <= of_second;
+    (is_first ? made.first : made.second).push_back(root);
+    (is_first ? of_first : of_second) +=
+        all.work_below[root] / (is_first ? first.size() : second.size());
+  }
+  made.path = std::max(of_first, of_second);
+  return made;
+}
+
+/// Splitting a subtree makes its root a matter of the whole group: as long as that shortens the
+/// longest path. What is left goes to the halves.
+/// @param owner  [n_supernodes] of the roots of subtrees: a rank, and of what stands above them
+void share(std::vector<int> roots, const Subtrees& all, const RankGroup& group,
+           std::vector<RankGroup>& owner)
+{
+  const auto give = [&](int s) { owner[s] = group; };
+  if (group.size() == 1) {
+    std::ranges::for_each(roots, give);
+    return;
+  }
+  double common = 0.0, shortest = std::numeric_limits<double>::infinity();
+  std::vector<int> above, best_above;
+  Halved best;
   while (!roots.empty() && common < shortest) {
     std::ranges::sort(roots, [&](int a, int b) { return all.work_below[a] > all.work_below[b]; });
-    double fullest = 0.0;
-    const std::vector<int> some = owners(roots, all.work_below, n_ranks, fullest);
-    if (common + fullest < shortest) {
-      shortest = common + fullest;
-      best_roots = roots;
-      best = some;
+    Halved now = halved(roots, all, group);
+    if (common + now.path < shortest) {
+      shortest = common + now.path;
+      best = std::move(now);
+      best_above = above;
     }
     const int split = roots.front();
     common += work(all.tree, split);
+    above.push_back(split);
     roots.erase(roots.begin());
     roots.insert(roots.end(), all.children[split].begin(), all.children[split].end());
   }
-  for (std::size_t i = 0; i < best.size(); ++i) owner[best_roots[i]] = best[i];
+  std::ranges::for_each(best_above, give);
+  const auto [first, second] = halves(group);
+  share(std::move(best.first), all, first, owner);
+  share(std::move(best.second), all, second, owner);
 }
 
 }  // namespace
 
-std::vector<int> share_subtrees(const AssemblyTree& tree, int n_ranks)
+std::vector<RankGroup> groups_of(int rank, int n_ranks)
+{
+  std::vector<RankGroup> groups;
+  for (RankGroup group{.first = 0, .last = n_ranks}; group.size() > 1;) {
+    groups.push_back(group);
+    const auto [first, second] = halves(group);
+    group = first.has(rank) ? first : second;
+  }
+  std::ranges::reverse(groups);
+  return groups;
+}
+
+std::vector<RankGroup> share_subtrees(const AssemblyTree& tree, int n_ranks)
 {
   const int n = tree.n_supernodes();
-  if (n_ranks == 1) return std::vector<int>(n, 0);
-  std::vector<int> owner(n, all_ranks);
+  const RankGroup everybody{.first = 0, .last = n_ranks}, nobody{.first = 0, .last = 0};
+  if (n_ranks == 1) return std::vector<RankGroup>(n, everybody);
+  std::vector<RankGroup> owner(n, nobody);
   const Subtrees all = subtrees(tree);
-  for (const std::vector<int>& roots : solved_apart(all)) share(roots, all, n_ranks, owner);
-  for (int s = n - 1; s >= 0; --s) {  // from the roots of subtrees down
-    const int parent = tree.parent[s];
-    if (parent != -1 && owner[parent] != all_ranks) owner[s] = owner[parent];
-  }
+  for (const std::vector<int>& roots : solved_apart(all)) share(roots, all, everybody, owner);
+  for (int s = n - 1; s >= 0; --s)  // from the roots of subtrees down
+    if (owner[s] == nobody) owner[s] = owner[tree.parent[s]];
   return owner;
 }
 

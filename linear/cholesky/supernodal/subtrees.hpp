@@ -6,14 +6,25 @@
 
 namespace chladni::linear {
 
-/// The rank of every rank's own subtrees.
-inline constexpr int all_ranks = -1;
+/// Ranks first .. last - 1, which eliminate some supernodes alike.
+struct RankGroup {
+  int first, last;
 
-/// Who eliminates which supernode: whole subtrees by one rank, what stands above them by all. Each
-/// tree of a good part of the work is shared out by itself, so that it can be solved without the
-/// others.
-/// @return [n_supernodes] a rank, or all_ranks.
-/// Source: Geist and Ng, Int. J. Parallel Programming 18 (1989) 291.
-std::vector<int> share_subtrees(const AssemblyTree& tree, int n_ranks);
+  int size() const { return last - first; }
+  bool has(int rank) const { return first <= rank && rank < last; }
+  bool operator==(const RankGroup&) const = default;
+};
+
+/// The groups of more than one rank that a rank belongs to, the smallest first: all ranks, the half
+/// of them that it is in, and so on.
+std::vector<RankGroup> groups_of(int rank, int n_ranks);
+
+/// Who eliminates which supernode. All ranks take what parts a tree into two subtrees for one half
+/// of them each, and so on down to whole subtrees of single ranks; a front is repeated on no other
+/// ranks than those whose subtrees hang below it. Each tree of a good part of the work is shared
+/// out by itself, so that it can be solved without the others.
+/// @return [n_supernodes] one rank, or a group of `groups_of`; a child's is within its parent's.
+/// Source: George, Liu and Ng, Parallel Computing 10 (1989) 287.
+std::vector<RankGroup> share_subtrees(const AssemblyTree& tree, int n_ranks);
 
 }  // namespace chladni::linear

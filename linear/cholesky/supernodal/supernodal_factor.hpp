@@ -9,14 +9,17 @@
 #include "linear/cholesky/supernodal/assembly_tree.hpp"
 #include "linear/cholesky/supernodal/fronts.hpp"
 #include "linear/cholesky/supernodal/slot_exchange.hpp"
+#include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/cholesky/supernodal/tiled_columns.hpp"
 #include "linear/kernels/aligned_numbers.hpp"
 
 namespace chladni::linear {
 
-/// Supernodes of some trees, children first: those of this rank, and those of all ranks.
+/// Supernodes of some trees, children first: those of this rank, and those that it shares with
+/// others, by their groups, the smallest first.
 struct Supernodes {
-  std::vector<int> own, common;
+  std::vector<int> own;
+  std::vector<std::vector<int>> shared;  ///< [groups of this rank]
 };
 
 /// Rows that are coupled to no others: what solves for them.
@@ -36,7 +39,7 @@ struct PivotSigns {
 /// Sparse factor L D L^T of our own for many right-hand sides: nested dissection by METIS,
 /// multifrontal elimination without pivoting, and triangular solutions that read the factor as it
 /// stands in memory, tile by tile, once for all columns of a block. Whole subtrees belong to one
-/// rank; what stands above them is small for plates and shells and is repeated on all.
+/// rank; what stands above them, small for plates and shells, is repeated on the ranks below it.
 class SupernodalFactor : public CholeskyFactor {
  public:
   explicit SupernodalFactor(MPI_Comm comm);
@@ -74,14 +77,20 @@ class SupernodalFactor : public CholeskyFactor {
 
   void number_trees();
   void number_slots();
+  int supernode_at(int position) const;
   int supernode_of_row(PetscInt row) const;
+  void make_groups();
+  void free_groups();
+  int level_of(int s) const;
+  bool is_counted_here(int s) const { return group_[s].first == rank_; }
   Supernodes of_trees(const std::vector<char>& roots) const;
   SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
   /// What is done with the columns of a supernode that has been eliminated.
   using Visit = std::function<void(const Fronts& fronts, int s)>;
   void eliminate(Mat A, const Visit& visit);
   int eliminate_own(Fronts& fronts, const Visit& visit) const;
-  int eliminate_common(Fronts& fronts, int s, const Visit& visit) const;
+  int eliminate_shared(Fronts& fronts, const Visit& visit) const;
+  void take_left_overs(Fronts& fronts, int s) const;
   void keep(const Fronts& fronts, int s);
   void add_squares(const Fronts& fronts, int s, std::vector<double>& sums) const;
   std::vector<std::vector<int>> trees_of(const SparseColumns& B) const;
@@ -89,12 +98,13 @@ class SupernodalFactor : public CholeskyFactor {
                          Panels block) const;
   void solve_block(const SparseColumns& B, const std::vector<int>& columns,
                    const std::vector<std::vector<int>>& trees, LocalColumns X);
-  void sum_common(const std::vector<int>& supernodes, Panels X) const;
+  void sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const;
   void sweep_forward(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   void sweep(Panels X, const Supernodes& trees, const std::vector<char>& is_active) const;
   template <typename Sweep>
   void in_panels(const SlotExchange& exchange, LocalColumns X, const Sweep& sweep);
   TiledColumns tiles(int s) const;
+  TiledColumns tiles_within_group(int s) const;
   Panels panels(std::size_t n_columns);
 
   MPI_Comm comm_ = MPI_COMM_NULL;
@@ -102,10 +112,12 @@ class SupernodalFactor : public CholeskyFactor {
   MatFactorError error_ = MAT_FACTOR_NOERROR;
   PetscInt n_negative_ = 0;
   AssemblyTree tree_;
-  std::vector<int> owner_;                ///< [n_supernodes] a rank or all_ranks
+  std::vector<RankGroup> group_;          ///< [n_supernodes] who eliminates it
+  std::vector<RankGroup> groups_;         ///< of this rank with others, the smallest first
+  std::vector<MPI_Comm> group_comms_;     ///< [groups of this rank]
   std::vector<int> tree_of_;              ///< [n_supernodes] the root above
   std::vector<int> slot_;                 ///< [n positions] row of the panels, -1: not here
-  int n_own_slots_ = 0, n_slots_ = 0;     ///< those of all ranks behind the own ones
+  int n_slots_ = 0;                       ///< shared ones behind the own ones
   std::vector<std::size_t> tile_starts_;  ///< [n_supernodes + 1]
   std::vector<int> below_slots_;          ///< of all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;

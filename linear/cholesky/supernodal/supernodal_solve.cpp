@@ -3,7 +3,6 @@
 #include <numeric>
 #include <span>
 
-#include "linear/cholesky/supernodal/subtrees.hpp"
 #include "linear/cholesky/supernodal/supernodal_factor.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
@@ -49,31 +48,33 @@ void SupernodalFactor::number_trees()
     tree_of_[s] = tree_.parent[s] == -1 ? s : tree_of_[tree_.parent[s]];
 }
 
+int SupernodalFactor::supernode_at(int position) const
+{
+  const auto behind = std::ranges::upper_bound(tree_.first_column, position);
+  return static_cast<int>(behind - tree_.first_column.begin()) - 1;
+}
+
 int SupernodalFactor::supernode_of_row(PetscInt row) const
 {
-  const auto behind = std::ranges::upper_bound(tree_.first_column, tree_.position[row]);
-  return static_cast<int>(behind - tree_.first_column.begin()) - 1;
+  return supernode_at(tree_.position[row]);
 }
 
 Supernodes SupernodalFactor::of_trees(const std::vector<char>& roots) const
 {
-  Supernodes found;
+  Supernodes found{.own = {}, .shared = std::vector<std::vector<int>>(groups_.size())};
   for (int s = 0; s < tree_.n_supernodes(); ++s) {
-    if (roots[tree_of_[s]] == 0) continue;
-    if (owner_[s] == rank_) found.own.push_back(s);
-    if (owner_[s] == all_ranks) found.common.push_back(s);
+    if (roots[tree_of_[s]] == 0 || !group_[s].has(rank_)) continue;
+    (group_[s].size() == 1 ? found.own : found.shared[level_of(s)]).push_back(s);
   }
   return found;
 }
 
 SlotExchange SupernodalFactor::exchange_of(const std::vector<int>& rows, const RowRange& here) const
 {
-  std::vector<int> owner, slot;
-  for (const int row : rows) {
-    owner.push_back(owner_[supernode_of_row(row)]);
-    slot.push_back(slot_[tree_.position[row]]);
-  }
-  return {here, owner, slot};
+  std::vector<RowSlot> slots;
+  for (const int row : rows)
+    slots.push_back({group_[supernode_of_row(row)], slot_[tree_.position[row]]});
+  return {here, slots};
 }
 
 SupernodalPart SupernodalFactor::part(IS rows) const
@@ -117,8 +118,19 @@ Panels SupernodalFactor::panels(std::size_t n_columns)
   return {.values = panel_values_.get(), .stride = stride, .n_panels = n_panels(n_columns)};
 }
 
-/// Sums of the slots that all ranks have, of supernodes that stand side by side in one call.
-void SupernodalFactor::sum_common(const std::vector<int>& supernodes, Panels X) const
+/// The columns of s with those rows below that the same group eliminates: they come first.
+TiledColumns SupernodalFactor::tiles_within_group(int s) const
+{
+  TiledColumns L = tiles(s);
+  const std::span<const int> below = tree_.below(s);
+  std::size_t n = 0;
+  while (n < below.size() && group_[supernode_at(below[n])] == group_[s]) ++n;
+  L.below = L.below.first(n);
+  return L;
+}
+
+/// Sums over a group, of supernodes that stand side by side in one call.
+void SupernodalFactor::sum_slots(const std::vector<int>& supernodes, Panels X, MPI_Comm comm) const
 {
   const auto first_slot = [&](int s) { return slot_[tree_.first_column[s]]; };
   for (std::size_t i = 0; i < supernodes.size();) {
@@ -129,20 +141,26 @@ void SupernodalFactor::sum_common(const std::vector<int>& supernodes, Panels X) 
     const std::size_t n = std::size_t(last - first) * panel_width;
     for (int p = 0; p < X.n_panels; ++p) {
       double* common = X.values + p * X.stride + std::size_t(first) * panel_width;
-      sum_over_ranks(std::span(common, n), comm_);
+      sum_over_ranks(std::span(common, n), comm);
     }
   }
 }
 
-/// X <- L^-1 X in some trees.
+/// X <- L^-1 X in some trees. Over the ranks of a group the slots above it add up to what all
+/// supernodes below have put there: of those that the group eliminates alike the first rank alone
+/// puts something there.
 /// @param is_active  [n_supernodes] of own supernodes: right-hand sides are not zero
 void SupernodalFactor::sweep_forward(Panels X, const Supernodes& trees,
                                      const std::vector<char>& is_active) const
 {
   for (const int s : trees.own)
     if (is_active[s] != 0) solve_forward(tiles(s), X);
-  if (petsc::size(comm_) > 1) sum_common(trees.common, X);
-  for (const int s : trees.common) solve_forward(tiles(s), X);
+  for (std::size_t level = 0; level < trees.shared.size(); ++level) {
+    sum_slots(trees.shared[level], X, group_comms_[level]);
+    const bool goes_on = groups_[level].first == rank_;
+    for (const int s : trees.shared[level])
+      solve_forward(goes_on ? tiles(s) : tiles_within_group(s), X);
+  }
 }
 
 /// X <- A^-1 X
@@ -150,8 +168,11 @@ void SupernodalFactor::sweep(Panels X, const Supernodes& trees,
                              const std::vector<char>& is_active) const
 {
   sweep_forward(X, trees, is_active);
-  for (const std::vector<int>* some : {&trees.common, &trees.own})
-    for (auto s = some->rbegin(); s != some->rend(); ++s) solve_backward(tiles(*s), X);
+  const auto solve_all = [&](const std::vector<int>& supernodes) {
+    for (auto s = supernodes.rbegin(); s != supernodes.rend(); ++s) solve_backward(tiles(*s), X);
+  };
+  std::for_each(trees.shared.rbegin(), trees.shared.rend(), solve_all);
+  solve_all(trees.own);
 }
 
 /// X <- what `sweep` makes of it in panels, some columns at a time.
@@ -181,8 +202,11 @@ void SupernodalFactor::solve_half(LocalColumns X)
   const std::vector<char> all(tree_.n_supernodes(), 1);
   in_panels(whole_.exchange, X, [&](Panels block) {
     sweep_forward(block, whole_.supernodes, all);
-    for (const std::vector<int>* some : {&whole_.supernodes.own, &whole_.supernodes.common})
-      for (const int s : *some) scale_by_root(tiles(s), block);
+    const auto scale = [&](const std::vector<int>& supernodes) {
+      for (const int s : supernodes) scale_by_root(tiles(s), block);
+    };
+    scale(whole_.supernodes.own);
+    std::ranges::for_each(whole_.supernodes.shared, scale);
   });
 }
 
@@ -208,11 +232,11 @@ std::vector<char> SupernodalFactor::take(const SparseColumns& B, const std::vect
   for (std::size_t j = 0; j < columns.size(); ++j) {
     double* panel = block.values + j / panel_width * block.stride;
     for (int k = B.starts[columns[j]]; k < B.starts[columns[j] + 1]; ++k) {
+      const int s = supernode_of_row(B.rows[k]);
+      if (!is_counted_here(s)) continue;
       const int slot = slot_[tree_.position[B.rows[k]]];
-      const bool is_common = slot >= n_own_slots_;
-      if (slot == -1 || (is_common && rank_ != 0)) continue;
       panel[std::size_t(slot) * panel_width + j % panel_width] = B.values[k];
-      is_active[supernode_of_row(B.rows[k])] = 1;
+      is_active[s] = 1;
     }
   }
   for (int s = 0; s < tree_.n_supernodes(); ++s)
