@@ -88,6 +88,7 @@ def script(path, quick_words=("--quick",), full_words=()):
 BENCHMARKS = [
     ("elements", "Elements", elements, "elements"),
     ("scale", "Reduction over size and ranks", script("reduction/scale.py"), "reduction_scale"),
+    ("ranks", "Reduction on many ranks", script("reduction/ranks.py"), "reduction_ranks"),
     ("accuracy", "Accuracy of the reduction",
      script("reduction/accuracy.py", ("--size", "0.03", "--ring", "12", "--modes", "20", "50")),
      "reduction_accuracy"),

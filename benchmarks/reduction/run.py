@@ -19,6 +19,7 @@ ENVIRONMENT = dict(
     OMPI_ALLOW_RUN_AS_ROOT="1",
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
     OMPI_MCA_btl_vader_single_copy_mechanism="none",
+    OMPI_MCA_mpi_yield_when_idle="1",
 )
 
 
@@ -35,7 +36,7 @@ def scene(folder, size, order=3, modes=100):
 
 def reduce(folder, path, ranks=1, options=()):
     """One reduction; returns the summary that the program writes, and its -log_view events."""
-    launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    launcher = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     command = [*launcher, str(CHLADNI), "reduce", str(path), "--output", str(folder),
                "--json", str(folder / "summary.json"), "--", "-log_view", *options]
     done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False)

@@ -22,12 +22,11 @@ PHASES = ["mesh", "assembly", "partition", "factorization", "fixed-interface mod
 
 
 def entries_of(folder, name):
-    """Stored entries of K and M of a disc, and seconds of a factorisation by MUMPS: of a reduction with one mode."""
-    mumps = ("-cms_pc_factor_mat_solver_type", "mumps-metis")
+    """Stored entries of K and M of a disc, of a reduction with one mode."""
     views = ("-cms_view_stiffness", "::ascii_info", "-cms_view_mass", "::ascii_info")
-    found = run.reduce(folder, run.scene(folder, SIZES[name], modes=1), 1, (*mumps, *views))
+    found = run.reduce(folder, run.scene(folder, SIZES[name], modes=1), 1, views)
     K, M = map(int, re.findall(r"total: nonzeros=(\d+)", found["printed"]))
-    return {"K_entries": K, "M_entries": M}, found["phases"]["factorization"]
+    return {"K_entries": K, "M_entries": M}
 
 
 def measure(folder, name, ranks):
@@ -39,14 +38,13 @@ def measure(folder, name, ranks):
              "wall_s": summary["wall_s"], "cpu_s": summary["cpu_s"], "peak_MiB": summary["peak_MiB"], "events": summary["events"]}
     if ranks > 1:
         return entry
-    entries, by_mumps = entries_of(folder / f"{name}-mumps", name)
     sizes = {"slaves": summary["n_dofs"] - summary["n_masters"], "masters": summary["n_masters"], "modes": summary["n_modes"],
-             "pairs": len(summary["eta2"]), "file_bytes": (folder / name / "disc.reduced.h5").stat().st_size, **entries}
-    return {**entry, "mumps_factorization_s": by_mumps, "sizes": sizes}
+             "pairs": len(summary["eta2"]), "file_bytes": (folder / name / "disc.reduced.h5").stat().st_size, **entries_of(folder / f"{name}-entries", name)}
+    return {**entry, "sizes": sizes}
 
 
 def conclusions(runs):
-    """Exponents, ratios to the factorisation, and speed-up of two ranks."""
+    """Exponents, and speed-up of two ranks."""
     single = [r for r in runs if r["ranks"] == 1]
     growth = {
         f"{a['disc']} to {b['disc']}":
@@ -57,13 +55,10 @@ def conclusions(runs):
     if first is not last:
         growth[f"{first['disc']} to {last['disc']}, whole"] = (
             math.log(last["wall_s"] / first["wall_s"]) / math.log(last["dofs"] / first["dofs"]))
-    ratio = {r["disc"]: r["wall_s"] / r["phases_s"]["factorization"] for r in single}
-    by_mumps = {r["disc"]: r["wall_s"] / r["mumps_factorization_s"] for r in single}
     speedup = {r["disc"]: r["wall_s"] / next(q["wall_s"] for q in runs
                                              if q["disc"] == r["disc"] and q["ranks"] == 2)
                for r in single}
-    return {"growth_exponent": growth, "whole_over_factorization": ratio,
-            "whole_over_factorization_by_MUMPS": by_mumps, "speedup_of_two_ranks": speedup}
+    return {"growth_exponent": growth, "speedup_of_two_ranks": speedup}
 
 
 def bounded(runs, rate):
