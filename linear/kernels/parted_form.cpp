@@ -26,93 +26,129 @@ PetscInt n_columns_of(Mat X)
   return n;
 }
 
-/// Columns with the rows of a part.
-struct Columns {
-  petsc::Matrix own;              ///< empty where they are all
-  Mat values;                     ///< dense
-  std::vector<PetscInt> numbers;  ///< among all
+/// Some columns of a dense matrix in the rows of a part. They are copied a few columns, or a few
+/// rows, at a time: all of them would be as large as the constraint modes.
+class PartColumns {
+ public:
+  /// @param rows     of this rank, or null: all of them, and all columns
+  /// @param columns  of X
+  /// @param before   columns of other matrices that count before these
+  PartColumns(Mat X, const std::vector<PetscInt>* rows, std::vector<PetscInt> columns,
+              PetscInt before)
+      : X_(X), rows_(rows), columns_(std::move(columns)), numbers_(columns_)
+  {
+    for (PetscInt& number : numbers_) number += before;
+  }
+
+  PetscInt size() const { return static_cast<PetscInt>(columns_.size()); }
+  /// Numbers of the columns first to last among those of all matrices.
+  std::span<const PetscInt> numbers(PetscInt first, PetscInt last) const
+  {
+    return std::span(numbers_).subspan(first, last - first);
+  }
+  std::span<const PetscInt> numbers() const { return numbers_; }
+
+  /// A times columns first to last.
+  petsc::Matrix times(const SparseProduct& A, PetscInt first, PetscInt last, Mat like) const
+  {
+    petsc::Matrix A_X = uninitialized_dense(like, last - first);
+    if (rows_ == nullptr)
+      A.apply(ColumnRange(X_, first, last), A_X);
+    else
+      A.apply(copied(first, last, like), A_X);
+    return A_X;
+  }
+
+  /// The first n columns transposed times Y, on every rank.
+  MatrixXd inner(PetscInt n, Mat Y) const
+  {
+    if (rows_ == nullptr) return inner_product(ColumnRange(X_, 0, n), Y);
+    constexpr std::size_t piece = 1024;  // rows: these columns in a second-level cache
+    MatrixXd sum = MatrixXd::Zero(n, n_columns_of(Y));
+    {
+      const LocalRows right(Y);
+      for (std::size_t at = 0; at < rows_->size(); at += piece) {
+        const std::size_t n_rows = std::min(piece, rows_->size() - at);
+        const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> of_Y(
+            right.values() + at, Eigen::Index(n_rows), right.n_cols(),
+            Eigen::OuterStride<>(right.leading_dimension()));
+        sum += inner_product(values(std::span(*rows_).subspan(at, n_rows), n), MatrixXd(of_Y));
+      }
+    }
+    sum_over_ranks(values_of(sum), petsc::communicator(X_));
+    return sum;
+  }
+
+  /// Rows of the part, by their places in it, of all columns.
+  MatrixXd at(const std::vector<PetscInt>& places) const
+  {
+    if (rows_ == nullptr) return values(places, size());
+    std::vector<PetscInt> rows;
+    for (const PetscInt place : places) rows.push_back((*rows_)[place]);
+    return values(rows, size());
+  }
+
+ private:
+  MatrixXd values(std::span<const PetscInt> rows, PetscInt n) const
+  {
+    const LocalRows all(X_);
+    MatrixXd some(std::ssize(rows), n);
+    for (PetscInt j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        some(Eigen::Index(i), j) = all(rows[i], columns_[j]);
+    return some;
+  }
+
+  petsc::Matrix copied(PetscInt first, PetscInt last, Mat like) const
+  {
+    const LocalRows all(X_);
+    petsc::Matrix some = uninitialized_dense(like, last - first);
+    PetscScalar* to = nullptr;
+    petsc::check(MatDenseGetArrayWrite(some, &to));
+    for (PetscInt j = first; j < last; ++j)
+      for (const PetscInt i : *rows_) *to++ = all(i, columns_[j]);
+    petsc::check(MatDenseRestoreArrayWrite(some, &to));
+    return some;
+  }
+
+  Mat X_;
+  const std::vector<PetscInt>* rows_;
+  std::vector<PetscInt> columns_, numbers_;
 };
 
-Columns taken(Mat X, const FormPart& part, std::size_t number, Mat A_part)
-{
-  const LocalRows all(X);
-  Columns some{.own = uninitialized_dense(A_part, std::ssize(part.columns[number])),
-               .values = nullptr,
-               .numbers = part.columns[number]};
-  some.values = some.own;
-  PetscScalar* to = nullptr;
-  petsc::check(MatDenseGetArrayWrite(some.values, &to));
-  for (const PetscInt j : some.numbers)
-    for (const PetscInt i : part.rows) *to++ = all(i, j);
-  petsc::check(MatDenseRestoreArrayWrite(some.values, &to));
-  return some;
-}
-
-Columns all_of(Mat X)
-{
-  Columns all{
-      .own = {}, .values = X, .numbers = std::vector<PetscInt>(std::size_t(n_columns_of(X)))};
-  std::iota(all.numbers.begin(), all.numbers.end(), 0);
-  return all;
-}
-
-MatrixXd form(Mat X, Mat A, Mat Y)
-{
-  const PetscInt n = n_columns_of(Y);
-  MatrixXd F(n_columns_of(X), n);
-  const SparseProduct product(A);
-  for (PetscInt first = 0; first < n; first += block_columns) {
-    report_progress(double(first) / n);
-    const PetscInt last = std::min(first + block_columns, n);
-    const petsc::Matrix A_Y = uninitialized_dense(A, last - first);
-    product.apply(ColumnRange(Y, first, last), A_Y);
-    F.middleCols(first, last - first) = inner_product(X, A_Y);
-  }
-  return F;
-}
-
-/// visit(j, first, A X_j) for some columns from the first on of each X_j.
+/// visit(j, first, last, A X_j) for columns first to last of each X_j.
 template <typename Visit>
-void for_products(std::span<const Columns> X, Mat A, const Visit& visit)
+void for_products(std::span<const PartColumns> X, Mat A, const Visit& visit)
 {
   const SparseProduct product(A);
   for (std::size_t j = 0; j < X.size(); ++j) {
-    const auto n = static_cast<PetscInt>(X[j].numbers.size());
-    for (PetscInt first = 0; first < n; first += block_columns) {
-      report_progress(double(first) / n);
-      const PetscInt last = std::min(first + block_columns, n);
-      const petsc::Matrix A_X = uninitialized_dense(A, last - first);
-      product.apply(ColumnRange(X[j].values, first, last), A_X);
-      visit(j, first, A_X);
+    for (PetscInt first = 0; first < X[j].size(); first += block_columns) {
+      report_progress(double(first) / X[j].size());
+      const PetscInt last = std::min(first + block_columns, X[j].size());
+      visit(j, first, last, X[j].times(product, first, last, A));
     }
   }
 }
 
 /// Adds what all columns are with each other, in the upper triangle.
-void add_symmetric(MatrixXd& F, const std::vector<Columns>& X, Mat A)
+void add_symmetric(MatrixXd& F, std::span<const PartColumns> X, Mat A)
 {
-  for_products(X, A, [&](std::size_t j, PetscInt first, Mat A_X) {
-    const PetscInt n = n_columns_of(A_X);
-    const std::span right(X[j].numbers.data() + first, std::size_t(n));
+  for_products(X, A, [&](std::size_t j, PetscInt first, PetscInt last, Mat A_X) {
     for (std::size_t i = 0; i <= j; ++i) {
-      const auto n_left = i == j ? first + n : static_cast<PetscInt>(X[i].numbers.size());
-      F(std::span(X[i].numbers.data(), std::size_t(n_left)), right) +=
-          inner_product(ColumnRange(X[i].values, 0, n_left), A_X);
+      const PetscInt n = i == j ? last : X[i].size();
+      F(X[i].numbers(0, n), X[j].numbers(first, last)) += X[i].inner(n, A_X);
     }
   });
 }
 
 /// Adds [X_1 X_2 ...]^T A X_1 for a symmetric A: the upper triangle of the first block, all of the
 /// others.
-void add_leading(MatrixXd& F, const std::vector<Columns>& X, Mat A)
+void add_leading(MatrixXd& F, std::span<const PartColumns> X, Mat A)
 {
-  for_products(std::span(X).first(1), A, [&](std::size_t /*j*/, PetscInt first, Mat A_X) {
-    const PetscInt n = n_columns_of(A_X);
-    const std::span right(X[0].numbers.data() + first, std::size_t(n));
+  for_products(X.first(1), A, [&](std::size_t /*j*/, PetscInt first, PetscInt last, Mat A_X) {
     for (std::size_t i = 0; i < X.size(); ++i) {
-      const auto n_left = i == 0 ? first + n : static_cast<PetscInt>(X[i].numbers.size());
-      F(std::span(X[i].numbers.data(), std::size_t(n_left)), right) +=
-          inner_product(ColumnRange(X[i].values, 0, n_left), A_X);
+      const PetscInt n = i == 0 ? last : X[i].size();
+      F(X[i].numbers(0, n), X[0].numbers(first, last)) += X[i].inner(n, A_X);
     }
   });
 }
@@ -135,59 +171,62 @@ struct OwnColumns {
   std::vector<PetscInt> numbers;
 };
 
-/// @param numbers  of the columns of X
-OwnColumns own_columns(Mat X, const std::vector<PetscInt>& rows, std::span<const PetscInt> numbers)
+OwnColumns without_zeros(MatrixXd values, std::span<const PetscInt> numbers)
 {
-  const LocalRows all(X);
-  OwnColumns some{.values = MatrixXd(std::ssize(rows), all.n_cols()), .numbers = {}};
-  for (PetscInt j = 0; j < all.n_cols(); ++j) {
-    auto column = some.values.col(std::ssize(some.numbers));
-    for (std::size_t i = 0; i < rows.size(); ++i) column[Eigen::Index(i)] = all(rows[i], j);
-    if (!column.isZero(0.0)) some.numbers.push_back(numbers[std::size_t(j)]);
+  OwnColumns some{.values = std::move(values), .numbers = {}};
+  for (Eigen::Index j = 0; j < some.values.cols(); ++j) {
+    if (some.values.col(j).isZero(0.0)) continue;
+    some.values.col(std::ssize(some.numbers)) = some.values.col(j);
+    some.numbers.push_back(numbers[std::size_t(j)]);
   }
   some.values.conservativeResize(Eigen::NoChange, std::ssize(some.numbers));
   return some;
 }
 
+MatrixXd rows_of(Mat X, const std::vector<PetscInt>& rows)
+{
+  const LocalRows all(X);
+  MatrixXd some(std::ssize(rows), all.n_cols());
+  for (PetscInt j = 0; j < all.n_cols(); ++j)
+    for (std::size_t i = 0; i < rows.size(); ++i) some(Eigen::Index(i), j) = all(rows[i], j);
+  return some;
+}
+
 /// The same of any A, this rank's part of the sum. Where A tells of one direction with another,
 /// half of its rows have no entry and half of the products with it are zero.
-void add_unsymmetric(MatrixXd& F, const std::vector<Columns>& X, Mat A)
+void add_unsymmetric(MatrixXd& F, std::span<const PartColumns> X, Mat A)
 {
   const std::vector<PetscInt> rows = rows_with_entries(A);
   std::vector<OwnColumns> left;
-  for (const Columns& part : X) left.push_back(own_columns(part.values, rows, part.numbers));
-  for_products(X, A, [&](std::size_t j, PetscInt first, Mat A_X) {
-    const OwnColumns right =
-        own_columns(A_X, rows, {X[j].numbers.data() + first, std::size_t(n_columns_of(A_X))});
+  for (const PartColumns& part : X) left.push_back(without_zeros(part.at(rows), part.numbers()));
+  for_products(X, A, [&](std::size_t j, PetscInt first, PetscInt last, Mat A_X) {
+    const OwnColumns right = without_zeros(rows_of(A_X, rows), X[j].numbers(first, last));
     for (const OwnColumns& part : left)
       F(part.numbers, right.numbers) += inner_product(part.values, right.values);
   });
 }
 
-/// work(columns of each X with the rows of a part, A of the part) for each part of A; the numbers
-/// of columns count over all X.
+/// work(columns of each X with the rows of a part, A of the part) for each part of A.
 template <typename Work>
 void for_parts(std::span<const Mat> X, Mat A, const Work& work)
 {
-  std::vector<PetscInt> first{0};
-  for (const Mat some : X) first.push_back(first.back() + n_columns_of(some));
-  const auto numbered = [&](std::vector<Columns> columns) {
-    for (std::size_t i = 0; i < X.size(); ++i)
-      for (PetscInt& number : columns[i].numbers) number += first[i];
+  const std::vector<FormPart> parts = form_parts(A, X);
+  const auto columns_of = [&](const FormPart* part) {
+    std::vector<PartColumns> columns;
+    PetscInt before = 0;
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      std::vector<PetscInt> all(std::size_t(n_columns_of(X[i])));
+      std::iota(all.begin(), all.end(), 0);
+      if (part == nullptr)
+        columns.emplace_back(X[i], nullptr, std::move(all), before);
+      else
+        columns.emplace_back(X[i], &part->rows, part->columns[i], before);
+      before += n_columns_of(X[i]);
+    }
     return columns;
   };
-  const std::vector<FormPart> parts = form_parts(A, X);
-  if (parts.empty()) {
-    std::vector<Columns> all;
-    for (const Mat some : X) all.push_back(all_of(some));
-    work(numbered(std::move(all)), A);
-  }
-  for (const FormPart& part : parts) {
-    const petsc::Matrix A_part = matrix_of(part, A);
-    std::vector<Columns> columns;
-    for (std::size_t i = 0; i < X.size(); ++i) columns.push_back(taken(X[i], part, i, A_part));
-    work(numbered(std::move(columns)), A_part);
-  }
+  if (parts.empty()) work(columns_of(nullptr), A);
+  for (const FormPart& part : parts) work(columns_of(&part), matrix_of(part, A));
 }
 
 PetscInt n_columns_of_all(std::span<const Mat> X)
@@ -201,22 +240,23 @@ PetscInt n_columns_of_all(std::span<const Mat> X)
 
 MatrixXd parted_form(Mat X, Mat A, Mat Y)
 {
-  const PetscInt n_X = n_columns_of(X);
-  MatrixXd F = MatrixXd::Zero(n_X, n_columns_of(Y));
-  for_parts(std::array{X, Y}, A, [&](const std::vector<Columns>& columns, Mat part) {
-    const Columns &left = columns[0], &right = columns[1];
-    std::vector<PetscInt> of_Y = right.numbers;
-    for (PetscInt& number : of_Y) number -= n_X;
-    F(left.numbers, of_Y) += form(left.values, part, right.values);
+  const PetscInt n_X = n_columns_of(X), n_Y = n_columns_of(Y);
+  MatrixXd F = MatrixXd::Zero(n_X, n_X + n_Y);  // behind X^T A X, which is not asked for
+  for_parts(std::array{X, Y}, A, [&](const std::vector<PartColumns>& columns, Mat part) {
+    const PartColumns &left = columns[0], &right = columns[1];
+    for_products(std::span(&right, 1), part,
+                 [&](std::size_t /*j*/, PetscInt first, PetscInt last, Mat A_Y) {
+                   F(left.numbers(), right.numbers(first, last)) += left.inner(left.size(), A_Y);
+                 });
   });
-  return F;
+  return F.rightCols(n_Y);
 }
 
 MatrixXd parted_form(std::span<const Mat> X, Mat A, FormSymmetry symmetry)
 {
   const PetscInt n = n_columns_of_all(X);
   MatrixXd F = MatrixXd::Zero(n, n);
-  for_parts(X, A, [&](const std::vector<Columns>& columns, Mat part) {
+  for_parts(X, A, [&](const std::vector<PartColumns>& columns, Mat part) {
     if (symmetry == FormSymmetry::symmetric) return add_symmetric(F, columns, part);
     add_unsymmetric(F, columns, part);
   });
@@ -229,8 +269,9 @@ MatrixXd leading_columns_of_form(std::span<const Mat> X, Mat A)
 {
   const PetscInt n_first = n_columns_of(X.front());
   MatrixXd F = MatrixXd::Zero(n_columns_of_all(X), n_first);
-  for_parts(X, A,
-            [&](const std::vector<Columns>& columns, Mat part) { add_leading(F, columns, part); });
+  for_parts(X, A, [&](const std::vector<PartColumns>& columns, Mat part) {
+    add_leading(F, columns, part);
+  });
   F.topRows(n_first) = MatrixXd(F.topRows(n_first).selfadjointView<Eigen::Upper>());
   return F;
 }
