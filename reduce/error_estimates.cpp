@@ -165,8 +165,8 @@ ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& p
   for (PetscInt first = 0; first < n_pairs; first += most) {
     linear::report_progress(double(first) / n_pairs);
     const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
-    Residuals of = residuals(system, some);
     if (!with_inner_products) forms.clear();
+    Residuals of = residuals(system, some);
     forms.push_back(linear::inverse_form(system.K_ss.factor(), std::move(of.r_s)));
     const std::vector<double> squares =
         linear::column_products(forms.back().left, forms.back().right());
