@@ -74,11 +74,11 @@ MemoryForecast::MemoryForecast(const Body& body, Mat K_ss, Mat M_ss,
   let_go_MiB_ = keeps ? 0.0 : K_MiB_ + M_MiB_;
 }
 
-/// Pairs are looked at in blocks: their motions and residuals, a product, a solution and the one
-/// before. Bounds keep the solutions of all.
+/// Pairs are looked at in blocks: their motions, their residuals, which become half a solution, and
+/// a product. Bounds keep the half solutions of all.
 double MemoryForecast::columns_in_estimates(double n_modes) const
 {
-  constexpr double block = 32.0, arrays = 5.0, most_pairs = 100.0;
+  constexpr double block = 32.0, arrays = 3.0, most_pairs = 100.0;
   const double kept = options_.count.value_or(false) ? std::min(n_modes, most_pairs) : 0.0;
   return arrays * block + kept;
 }
@@ -102,8 +102,10 @@ double MemoryForecast::beside_MiB(double n_modes) const
       n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
   const double kept = n_masters_ + n_modes;
   const WorkAfterwards& later = options_.later;
-  const double later_MiB =
-      column_MiB_ * (later.columns + later.columns_for_each_kept * kept) + M_MiB_ * later.matrices;
+  // Forms take the columns of a part by themselves, responses all of them.
+  const double columns = kept * (options_.responses ? 1.0 : largest_part_);
+  const double later_MiB = column_MiB_ * (later.columns + later.columns_for_each_kept * columns) +
+                           M_MiB_ * later.matrices;
   return std::max(column_MiB_ * in_search + mass_of_parts_ +
                       (options_.basis.tolerance ? trials_MiB(kept) : 0.0),
                   column_MiB_ * kept +
@@ -115,8 +117,8 @@ linear::SecondFactor MemoryForecast::second(double n_modes) const
 {
   if (!options_.count.value_or(false)) return {};
   return {.entries = entries_of_counting_factor,
-          .beside_MiB =
-              column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) + K_MiB_};  // K - sigma M
+          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) +
+                        2.0 * K_MiB_};  // K - sigma M, and of it the rows that are counted
 }
 
 linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const
