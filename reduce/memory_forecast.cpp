@@ -102,8 +102,8 @@ double MemoryForecast::beside_MiB(double n_modes) const
       n_modes > 0.0 ? there + basis + n_modes + of_parts + blocks_of_lanczos : 0.0;
   const double kept = n_masters_ + n_modes;
   const WorkAfterwards& later = options_.later;
-  // Forms take the columns of a part by themselves, responses all of them.
-  const double columns = kept * (options_.responses ? 1.0 : largest_part_);
+  // Some rows of each column: forms, which take the columns of a part by themselves.
+  const double columns = kept * (later.columns_for_each_kept < 1.0 ? largest_part_ : 1.0);
   const double later_MiB = column_MiB_ * (later.columns + later.columns_for_each_kept * columns) +
                            M_MiB_ * later.matrices;
   return std::max(column_MiB_ * in_search + mass_of_parts_ +
@@ -117,8 +117,8 @@ linear::SecondFactor MemoryForecast::second(double n_modes) const
 {
   if (!options_.count.value_or(false)) return {};
   return {.entries = entries_of_counting_factor,
-          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) +
-                        2.0 * K_MiB_};  // K - sigma M, and of it the rows that are counted
+          // K - sigma M, of it the rows that are counted, and the graphs of their order
+          .beside_MiB = column_MiB_ * (n_masters_ + std::min(n_modes, n_slaves_)) + 3.0 * K_MiB_};
 }
 
 linear::FactorOptions MemoryForecast::at_first(linear::FactorOptions factor) const
