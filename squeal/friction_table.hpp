@@ -11,6 +11,7 @@ struct FrictionCurve {
   std::vector<double> speeds;       ///< m/s, ascending; one for a constant
   std::vector<double> mu;           ///< as many
   std::vector<double> slopes = {};  ///< d mu / d v, s/m; of `friction_curve`
+  int row = 0;                      ///< number of its row in the table of the scene, from 1
 };
 
 FrictionCurve friction_curve(std::vector<double> speeds, std::vector<double> mu);

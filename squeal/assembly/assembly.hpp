@@ -39,7 +39,9 @@ struct AssemblyPoint {
 struct Assembly {
   InertialDisc disc;
   Eigen::VectorXd omega;  ///< [n_b] rad/s; 0 of motions that linings alone hold
+  Eigen::MatrixXd K;      ///< [n_b x n_b] 1/s^2, diag(omega^2), but see `neighbour`
   Eigen::MatrixXd C;      ///< [n_b x n_b] 1/s
+  Eigen::MatrixXd X;      ///< [n x n_b] motions of the parts' own coordinates, X^T X = I
   std::vector<AssemblyPoint> points;
   std::vector<Lining> linings;
   bool convection = true;          ///< see AssemblyOptions
@@ -52,6 +54,15 @@ struct Assembly {
 /// @throws chladni::Error naming the key of the scene, for faces that do not touch the disc, nodes
 ///         that a part does not have, joints that do not meet, and parts that nothing holds.
 Assembly assembly(const AssemblyOptions& options, std::span<const mbs_export::ModalBody> bodies);
+
+/// A brake that differs little from another one, in the coordinates of that one, so that the
+/// difference of the state matrices is a derivative. Masses are I up to the square of the
+/// difference where rigid joints move.
+/// @param about   of the same bodies, joints and linings
+/// @param options  with other numbers for parts, joints, linings and contact planes
+/// @throws chladni::Error as `assembly`, and when rigid joints hold more than they did.
+Assembly neighbour(const Assembly& about, const AssemblyOptions& options,
+                   std::span<const mbs_export::ModalBody> bodies);
 
 /// A of x' = A x about the sliding equilibrium, as `state_matrix` of a disc between pads:
 /// x = (diag(s) z, z'), s the frequencies of disc and parts, or the lowest of the disc where it is

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "squeal/assembly/assembly.hpp"
+#include "squeal/models/assembly_numbers.hpp"
 #include "squeal/models/brake.hpp"
 
 namespace chladni::squeal {
@@ -12,7 +14,9 @@ namespace chladni::squeal {
 /// Copies share the bodies.
 class AssemblyBrake final : public Brake {
  public:
-  explicit AssemblyBrake(Assembly assembly);
+  /// @param bodies  of the parts, in their order
+  /// @throws chladni::Error as `assembly`.
+  AssemblyBrake(const AssemblyOptions& options, std::span<const mbs_export::ModalBody> bodies);
 
   const Assembly& assembly() const { return *assembly_; }
 
@@ -21,11 +25,25 @@ class AssemblyBrake final : public Brake {
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
   /// Those of the friction of the brake, and those of faces which all of them share.
   std::vector<ParameterValue> parameters() const override;
+  /// `assembly_numbers`, and the frequencies of the modes of disc and parts. Left out are places
+  /// and rotations that rigid joints do not allow to change one by one.
+  std::vector<BrakeNumber> further_numbers() const override;
   /// @throws chladni::Error: contact is linear here.
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override;
 
  private:
+  /// Of what it was made.
+  struct Source {
+    AssemblyOptions options;
+    std::vector<mbs_export::ModalBody> bodies;
+  };
+
+  std::unique_ptr<Brake> of(Assembly assembly) const;
+  BrakeNumber number_of(AssemblyNumber number) const;
+  void add_frequencies(std::vector<BrakeNumber>& numbers) const;
+
+  std::shared_ptr<const Source> source_;
   std::shared_ptr<const Assembly> assembly_;
   std::vector<Lining> linings_;
 };

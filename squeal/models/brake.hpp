@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "squeal/motion/autonomous_motion.hpp"
@@ -10,8 +11,20 @@
 
 namespace chladni::squeal {
 
+class Brake;
 class FlexibleDisc;
 class LumpedBrake;
+
+/// A number of a brake that is no MapParameter: a point of a friction table, a spring of a joint,
+/// the frequency of a mode.
+struct BrakeNumber {
+  std::string key;   ///< of the scene, or a name such as "frequency of the mode at 870 Hz"
+  std::string unit;  ///< of the value
+  double value;
+  double step;  ///< a small change of the value, by which to take differences; 0: a part of it
+  /// The brake with another value, in the same coordinates; valid while the brake lives.
+  std::function<std::unique_ptr<Brake>(double value)> with;
+};
 
 /// A of x' = A x about the sliding equilibrium, at a speed (rad/s).
 using StateMatrixAt = std::function<Eigen::MatrixXd(double speed)>;
@@ -39,6 +52,9 @@ class Brake {
 
   /// The parameters that it has, with those of each pad pair by itself, and their values.
   virtual std::vector<ParameterValue> parameters() const { return {}; }
+
+  /// All other numbers on which its small motions depend.
+  virtual std::vector<BrakeNumber> further_numbers() const { return {}; }
 
   /// x' = f(x; speed) with switching contact, for the search of periodic motions.
   /// @throws chladni::Error with the reason when there is none.

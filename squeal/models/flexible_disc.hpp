@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "squeal/brake/disc.hpp"
 #include "squeal/brake/inertial_frame.hpp"
@@ -32,6 +33,8 @@ class FlexibleDisc final : public Brake {
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
   std::vector<ParameterValue> parameters() const override { return parameter_values(options_); }
+  /// Points of friction tables, and the frequency of each mode or pair of the disc.
+  std::vector<BrakeNumber> further_numbers() const override;
   /// The same disc between other pads.
   /// @param options  which ask for the same rings and modes of the body
   std::unique_ptr<FlexibleDisc> between(SquealOptions options) const;
