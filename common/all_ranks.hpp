@@ -12,7 +12,7 @@
 
 namespace chladni {
 
-/// Throws on all ranks what the lowest rank with a complaint complains of.
+/// Throws on all ranks the complaint of the lowest rank that has one.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error with the complaint.
 inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
@@ -37,6 +37,11 @@ inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
 /// @note   Collective on `comm`.
 /// @throws chladni::Error when work() threw on any rank.
 template <typename Work>
+/// Runs work() on each rank. It must not communicate. If it throws on one rank, all ranks throw, so
+/// that none waits for the others.
+/// @return the result of work() on this rank
+/// @note   Collective on `comm`.
+/// @throws chladni::Error when work() threw on any rank.
 auto on_all_ranks(MPI_Comm comm, const Work& work)
 {
   std::optional<std::string> complaint;
@@ -56,6 +61,9 @@ auto on_all_ranks(MPI_Comm comm, const Work& work)
 /// @note   Collective on `comm`.
 /// @throws chladni::Error when work() threw.
 template <typename Work>
+/// Runs work() on the first rank alone. The others wait, and throw what it throws.
+/// @note   Collective on `comm`.
+/// @throws chladni::Error when work() threw.
 void on_first_rank(MPI_Comm comm, const Work& work)
 {
   int rank = 0;
