@@ -32,10 +32,9 @@ inline bool is_out_of_memory(PetscErrorCode code, const char* text)
   return code == PETSC_ERR_MEM || (errno == ENOMEM && is_a_name);
 }
 
-/// What PETSc says of an error: in general, and of this one; its type is another one from 3.25 on.
-template <class Specific>
 /// PETSc's texts of an error: the general one and the specific one, whose type differs from PETSc
 /// 3.25 on.
+template <class Specific>
 struct ErrorTexts {
   const char* text = nullptr;
   Specific* specific = nullptr;

@@ -35,9 +35,8 @@ class Packer {
     (*this)(text.size());
     append(text.data(), text.size());
   }
-  /// Each of them by `transfer(packer, value)`.
-  template <typename T>
   /// Writes each of the values by `transfer(packer, value)`.
+  template <typename T>
   void each(const std::vector<T>& values, auto&& transfer)
   {
     (*this)(values.size());

@@ -32,12 +32,10 @@ inline PetscErrorCode without_memory(MPI_Comm comm)
   return PETSC_ERR_MEM;
 }
 
-/// Runs work() and turns exceptions into PETSc errors: none crosses into C. What the library throws
-/// is thrown on all ranks alike and reported once; memory runs out on one, which ends them all.
-template <class Work>
 /// Runs work() and turns exceptions into PETSc errors, so that none reaches C. Errors of the
 /// library are thrown on all ranks and reported once; memory that runs out on one rank ends all
 /// ranks.
+template <class Work>
 PetscErrorCode guarded(PetscObject object, const char* function, const Work& work) noexcept
 {
   const MPI_Comm comm = object ? PetscObjectComm(object) : PETSC_COMM_SELF;

@@ -13,11 +13,9 @@ namespace chladni::linear {
 /// The C++ object inside one of our factors.
 CholeskyFactor& factor_of(Mat F);
 
-/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error, with the code of the
-/// PETSc call that failed, if one did.
-template <typename Work>
 /// Runs C++ inside a callback of PETSc. An exception becomes a PETSc error, with the code of the
 /// PETSc call that failed, if one did.
+template <typename Work>
 PetscErrorCode guarded(const Work& work)
 {
   try {

@@ -48,10 +48,9 @@ class LocalRows {
   const PetscScalar* values_ = nullptr;
 };
 
-/// visit(global row, global column, value) for each stored entry of the rows of A on this rank.
-template <typename Visit>
 /// Calls visit(global row, global column, value) for each stored entry of the rows of A on this
 /// rank.
+template <typename Visit>
 void for_local_entries(Mat A, const Visit& visit)
 {
   PetscInt first = 0;

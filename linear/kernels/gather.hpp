@@ -53,15 +53,11 @@ inline std::vector<int> counts_of_ranks(std::size_t own, MPI_Comm comm)
   return checked;
 }
 
-/// What all ranks have, in their order; on rank 0 only.
-/// @note   Collective on `comm`.
-/// @throws chladni::Error on all ranks, before anything is allocated, when there is more than a
-///         call of MPI counts.
-template <typename T>
 /// The values of all ranks in their order, on rank 0 only.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error on all ranks, before anything is allocated, when there are more than a
 ///         call of MPI can count.
+template <typename T>
 std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
 {
   const std::vector<int> counts = counts_of_ranks(own.size(), comm);
@@ -72,11 +68,10 @@ std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm com
   return all;
 }
 
-/// The same on all ranks.
-template <typename T>
 /// The values of all ranks in their order, on every rank.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error as `gather`.
+template <typename T>
 std::vector<T> gather_on_all(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
 {
   const std::vector<int> counts = counts_of_ranks(own.size(), comm);

@@ -66,7 +66,7 @@ class BlockRows {
   std::uint64_t components_ = 0;        ///< bit n * i + j: blocks store the entry (i, j)
   std::vector<int> held_;               ///< n * i + j of the stored components, ascending
   std::vector<std::ptrdiff_t> offset_;  ///< [n_blocks + 1] start of each block in the values
-  /// Of each block all n^2 values, or the stored components.
+  /// All n^2 values of each block, or its stored components.
   std::vector<double> values_;
 };
 
