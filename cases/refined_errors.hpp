@@ -18,8 +18,8 @@ struct RefinedModes {
 /// Returns the modes on a refined mesh, in the order of those of the model.
 using ModesOn = std::function<RefinedModes(plate::RefinedMesh)>;
 
-/// The largest number of DOFs of a model whose elements are halved: the estimate is better and
-/// costs four times the size.
+/// The largest number of DOFs of a model whose elements are halved. This estimate is better than
+/// that by orders, but its model is four times as large.
 constexpr int most_halved = 20'000;
 
 /// Estimates errors with elements of half the size. Their error is negligible where modes are

@@ -55,7 +55,7 @@ class Writer {
 
   void group(const std::string& name);
 
-  /// A vector becomes [n], a matrix [rows x cols] as h5py sees it (stored by rows).
+  /// Writes a vector as [n] and a matrix as [rows x cols] in the order of h5py (by rows).
   /// @param unit  "m", "rad/s", ...; "1" for a pure number
   template <class Derived>
   void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)

@@ -47,9 +47,9 @@ struct Completeness {
 EigenvalueCount count_fixed_interface(const std::vector<double>& omega,
                                       const std::function<int(double sigma)>& eigenvalues_below);
 
-/// Counts the eigenvalues up to the last Ritz value with an error estimate. While eigenvalues are
-/// missing, it counts again in gaps of the spectrum at about half and a quarter of that number of
-/// values.
+/// Counts the eigenvalues up to the last Ritz value with an error estimate, number k. While
+/// eigenvalues are missing, it counts again in gaps between values k / 2 and k, then k / 4 and
+/// k / 2, and so on.
 /// @param eigenvalues_below  number of eigenvalues of the full pencil below sigma under the same
 ///                           support; each call costs one factorisation. If it throws
 ///                           SingularShift, a shift close by is tried.
