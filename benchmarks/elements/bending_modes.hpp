@@ -16,9 +16,8 @@ enum class Formulation { family, serendipity };
 struct BendingModes {
   int n_dofs;            ///< DOFs of the free nodes, three per node: deflection and two rotations
   Eigen::VectorXd f_Hz;  ///< [n] natural frequencies, ascending
-  std::vector<int>
-      n_diameters;             ///< [n] nodal diameters, from the deflection of the outermost nodes
-  double assembly_s, modes_s;  ///< CPU time, s; `modes_s` includes the factorisation
+  std::vector<int> n_diameters;  ///< [n] nodal diameters of the modes, from the outermost nodes
+  double assembly_s, modes_s;    ///< CPU time, s; `modes_s` includes the factorisation
 };
 
 /// The lowest `n_modes` bending modes of a plate clamped at the group "inner_edge". In-plane
