@@ -55,8 +55,7 @@ std::optional<StabilityPoint> first_regain(const StabilityProfile& profile);
 /// Classifies the profile.
 Stability stability_of(const StabilityProfile& profile);
 
-/// "stable in the whole range", "unstable in the whole range", "lost within the range" or "regained
-/// within the range".
+/// The stability in words, such as "stable in the whole range" or "lost within the range".
 const char* name_of(Stability stability);
 
 /// Estimated error of a critical speed due to the body, rad/s; unknown parts are absent.
