@@ -61,7 +61,6 @@ report::Cost cost_of_all_ranks(const std::vector<report::PhaseTime>& phases);
 /// @note Collective.
 report::PhaseTime time_of_all_ranks(const report::PhaseTime& time);
 
-/// Writes the summary of a subcommand where --json says.
 /// Writes the JSON summary of a subcommand to the file of --json, if one was given.
 void write_summary(const SceneArguments& arguments,
                    const std::vector<report::Json::Member>& members, const report::Cost& cost);

@@ -18,7 +18,6 @@ TextTable describe(const squeal::SquealResults& results);
 /// "rigid", "constrained" or "interface".
 std::string name_of(mbs_export::ModeKind kind);
 
-/// The frequencies of a body's modes with their kinds, and what damps each of them.
 /// A table of a body's modes: frequency, kind, and what damps each mode.
 TextTable list_modes(const mbs_export::ModalBody& body);
 

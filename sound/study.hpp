@@ -67,7 +67,6 @@ struct Setting {
 /// Callback with the name of the current step and the fraction of it that is done, 0 to 1.
 using StudyProgress = std::function<void(const std::string& step, double part)>;
 
-/// What is told while a study runs.
 /// Callbacks of a running study.
 struct StudyListener {
   StudyProgress progress = {};

@@ -23,7 +23,9 @@ double slope(double r);
 /// @return [n_points x 1] m/s
 Eigen::MatrixXcd disc_velocity(const BodySurface& surface, double rim);
 
-/// The same normal velocity at points of the surface in space, with the factor cos(3 phi).
+/// Normal velocity of the surface at points in space, with the factor cos(3 phi) and the motion of
+/// the rim, for 1 m/s at the rim.
+/// @return [n_points x 1] m/s
 Eigen::MatrixXcd disc_velocity_in_space(const BodySurface& surface);
 
 /// A wave with three nodal diameters at the squeal frequency.

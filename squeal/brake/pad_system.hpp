@@ -21,7 +21,7 @@ struct PointPair {
   PadContact contact;
   /// [n_pad_modes x 3] motion (r, t, z) of the upper plate at the point, by each coordinate.
   Eigen::MatrixX3d upper;
-  Eigen::MatrixX3d lower;  ///< the same of the lower plate
+  Eigen::MatrixX3d lower;  ///< [n_pad_modes x 3] motion of the lower plate
 };
 
 /// All pads of a scene: their contact points, and the modes of plates and calipers on their

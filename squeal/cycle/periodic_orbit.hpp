@@ -16,7 +16,7 @@ struct CycleStart {
 /// x(T) and its derivatives by x(0). The motion is integrated by the method of order 8 with located
 /// switching. The derivative is the product of exponentials of the Magnus series of order 4 along
 /// the motion, with two Jacobians of f per 1/36 of the shortest period. If a contact switches
-/// endlessly, `end` is not finite; the same holds for the next two functions.
+/// endlessly, `end` is not finite.
 struct Flow {
   Eigen::VectorXd end;
   Eigen::MatrixXd derivative;  ///< [size x size]
@@ -25,10 +25,11 @@ struct Flow {
 /// @param tolerance  relative tolerance of the integration
 Flow flow(AutonomousMotion& motion, const CycleStart& start, double tolerance);
 
-/// x(T) without its derivatives.
+/// x(T) without its derivatives; not finite if a contact switches endlessly.
 Eigen::VectorXd end_of(AutonomousMotion& motion, const CycleStart& start, double tolerance);
 
-/// x at n equally spaced times of the period, from t = 0.
+/// x at n equally spaced times of the period, from t = 0; not finite from the time on at which a
+/// contact switches endlessly.
 /// @return [size x n]
 Eigen::MatrixXd states_over_period(AutonomousMotion& motion, const CycleStart& start, int n,
                                    double tolerance);

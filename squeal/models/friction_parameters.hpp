@@ -27,7 +27,7 @@ bool is_said_by(const FrictionLaw& law, std::string_view key);
 /// "friction.static".
 bool is_of_law(MapParameter parameter);
 
-/// The law with another value of such a parameter.
+/// The law with another value of a parameter for which `is_of_law` holds.
 /// @throws chladni::Error when the law does not have the key.
 FrictionLaw with_friction_parameter(const FrictionLaw& law, MapParameter parameter, double value);
 

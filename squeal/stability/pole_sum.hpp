@@ -21,7 +21,7 @@ struct PoleSum {
 /// Matrices that differ from A_0 by a change of low rank, in the eigenvectors of A_0.
 class LowRankChange {
  public:
-  /// Prepares the evaluation of such matrices.
+  /// Prepares the evaluation of matrices A_0 + U Y with a common U.
   /// @param samples  matrices from which the columns U of the changes are found
   /// @return absent when A_0 has real eigenvalues or nearly dependent eigenvectors, and when the
   ///         rank is so high that the QR algorithm is faster
