@@ -49,8 +49,8 @@ Assembly with_notes(Assembly assembly)
     if (!is_shared(assembly.linings, row.value)) own.push_back(row.name);
   if (!own.empty()) {
     assembly.notes.push_back(
-        fmt::format("linings differ in {}: gradients leave it out, and a range of it sets all "
-                    "linings alike",
+        fmt::format("linings differ in {}: gradients leave it out, and a range of it sets the same "
+                    "value for all linings",
                     fmt::join(own, " and in ")));
   }
   return assembly;
@@ -101,7 +101,7 @@ std::vector<ParameterValue> AssemblyBrake::parameters() const
 std::unique_ptr<AutonomousMotion> AssemblyBrake::motion(double /*speed*/) const
 {
   throw Error(
-      "squeal.model = \"assembly\" has the small motions about sliding alone, no limit cycles; "
+      "squeal.model = \"assembly\" covers small motions about sliding only, without limit cycles; "
       "leave out these analyses");
 }
 
