@@ -13,7 +13,7 @@ struct Admissible {
   double below = std::numeric_limits<double>::infinity();      ///< exclusive
   double at_most = std::numeric_limits<double>::infinity();    ///< inclusive
   std::string_view unit = {};                                  ///< for messages
-  /// < outside usual_from to usual_to a note is printed
+  /// A number outside usual_from to usual_to gets a note, unless it is 1.
   double usual_from = -std::numeric_limits<double>::infinity();
   double usual_to = std::numeric_limits<double>::infinity();
   std::string_view usually = {};  ///< text of that note, such as "a steel has 2.1e11 Pa"

@@ -20,8 +20,8 @@ struct Triangles {
 Triangles inner_triangles(const AirMesh& mesh);
 
 /// A field around the body in linear cells: wedges, which are the triangles of a meridian plane
-/// turned around the axis, or tetrahedra. A half space is completed by its mirror image below z =
-/// 0.
+/// turned around the axis, or tetrahedra. A half space is completed by its mirror image below
+/// z = 0.
 struct FieldPicture {
   Eigen::MatrixX3d points;              ///< m
   std::vector<std::vector<int>> cells;  ///< 6 corners of a wedge or 4 of a tetrahedron

@@ -10,9 +10,9 @@ namespace chladni::sound {
 inline constexpr double near_squeal = 0.05;
 
 /// Radiation damping and added mass of each mode of a body. For q' = 1 the pressure does the work
-/// Z = integral of p conj(v_n), so that the modal equation gains the terms Re(Z) q' and Im(Z) /
-/// omega q''. Z is evaluated at the mode's frequency, or at the squeal frequency for modes near it,
-/// which the pads stiffen. Coupling of modes through the air is neglected.
+/// Z = integral of p conj(v_n), so that the modal equation gains the terms Re(Z) q' and
+/// Im(Z) / omega q''. Z is evaluated at the mode's frequency, or at the squeal frequency for modes
+/// near it, which the pads stiffen. Coupling of modes through the air is neglected.
 /// @param modes         0-based numbers of the modes in `source.motion`
 /// @param squeal_omega  rad/s; 0 for none
 /// @throws chladni::Error from plan_air.

@@ -8,8 +8,8 @@
 
 namespace chladni::sound {
 
-/// A periodic motion of a body in a frame that does not rotate: displacement Re sum_h exp(i h omega
-/// t) sum_i harmonics(i, h - 1) shape_i.
+/// A periodic motion of a body in a frame that does not rotate, with the displacement
+/// Re sum_h exp(i h omega t) sum_i harmonics(i, h - 1) shape_i.
 struct Vibration {
   double speed;                ///< rotation speed of the disc, rad/s
   double omega;                ///< fundamental angular frequency, rad/s

@@ -52,8 +52,8 @@ inline PlatePair kirchhoff_4()
   return kirchhoff_pair(4, 3056.51937233769, 1.406927567574736, 0.5577639701052876,
                         12.102403030433843);
 }
-/// The pair of a Mindlin plate, kappa = 5/6. Slopes are those of the director, so U_t is not n U /
-/// r.
+/// The pair of a Mindlin plate, kappa = 5/6. Slopes are those of the director, so
+/// U_t is not n U / r.
 inline PlatePair mindlin_3()
 {
   return {3,

@@ -34,9 +34,9 @@ struct AssemblyPoint {
 };
 
 /// A disc between parts on their joints, in the inertial frame, without contact forces. The
-/// coordinates are those of the disc, then the modes of the joined parts, b'' + C b' +
-/// diag(omega^2) b = f. All are measured from the sliding equilibrium, in which the preload of each
-/// lining is distributed like its area.
+/// coordinates are those of the disc, then the modes of the joined parts,
+/// b'' + C b' + diag(omega^2) b = f. All are measured from the sliding equilibrium, in which the
+/// preload of each lining is distributed like its area.
 struct Assembly {
   InertialDisc disc;
   Eigen::VectorXd omega;  ///< [n_b] rad/s; 0 for motions that only linings hold

@@ -19,8 +19,8 @@ inline double pulled_branch(ContactLaw law)
   return law == ContactLaw::unilateral ? 0.0 : law == ContactLaw::bilateral ? -1.0 : 1.0;
 }
 
-/// State of a pad on a branch: the signed law with the friction coefficient g mu, or no force for g
-/// = 0.
+/// State of a pad on a branch: the signed law with the friction coefficient g mu, or no force for
+/// g = 0.
 /// @param sigma_and_g  side of the disc (1 above, -1 below) and branch
 template <class Scalar>
 PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, double speed,

@@ -27,9 +27,9 @@ StackedContact stacked_contact(const PadSystem& pads, Eigen::Index n);
 StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double speed);
 
 /// Compliance of modes without inertia in series with the pad springs: a contact force f displaces
-/// the contact points by y = G f, and the pads feel y plus the motion u of the other modes, f = F(u
-/// + y, u' + y'). For y' the force is linearised with both pads of a pair in contact. The neglected
-/// terms are of the order (omega / omega_q)^2 and, for y', n Omega / omega.
+/// the contact points by y = G f, and the pads feel y plus the motion u of the other modes,
+/// f = F(u + y, u' + y'). For y' the force is linearised with both pads of a pair in contact. The
+/// neglected terms are of the order (omega / omega_q)^2 and, for y', n Omega / omega.
 class ContactSeries {
  public:
   ContactSeries(const RingCompliance& rings, const PadSystem& pads, double speed);

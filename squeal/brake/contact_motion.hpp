@@ -41,10 +41,10 @@ struct RingForce {
   Scalar F_t;  ///< N m
 };
 
-/// State of one pad of a pair. The disc under it is a plate whose normals keep their length: z -
-/// sigma h / 2 = w + sigma h (s - 1) / 2, the deflection w of the middle surface plus a term from
-/// the tilt of the normals. The face of a solid disc moves less where the plate is bent, because
-/// its thickness changes, by nu / (1 - nu) h^2 / 8 times the Laplacian of w.
+/// State of one pad of a pair. The disc under it is a plate whose normals keep their length:
+/// z - sigma h / 2 = w + sigma h (s - 1) / 2, the deflection w of the middle surface plus a term
+/// from the tilt of the normals. The face of a solid disc moves less where the plate is bent,
+/// because its thickness changes, by nu / (1 - nu) h^2 / 8 times the Laplacian of w.
 template <class Scalar>
 struct PadState {
   Scalar z;           ///< height of the contact point on the pad axis, m

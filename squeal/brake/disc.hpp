@@ -38,9 +38,9 @@ struct ModeErrors {
   double range = 0.0;
 };
 
-/// The disc of a squeal study in the frame that rotates with it: q'' + (C + 2 Omega G) q' +
-/// diag(omega^2) q = Q, with the mode shapes on its contact rings. Pads without a grid are on the
-/// first ring.
+/// The disc of a squeal study in the frame that rotates with it,
+/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes on its contact rings. Pads
+/// without a grid are on the first ring.
 struct Disc {
   std::vector<DiscRing> rings;
   std::vector<int> mode_numbers;  ///< [n_modes] 1-based numbers of the body's modes

@@ -49,8 +49,8 @@ struct DiscRing {
   Harmonics V_r = {}, V_t = {};
   double height = 0.0;  ///< z, m
 
-  /// Number of harmonics with known cosine and sine. With an even number n of nodes the harmonic n
-  /// / 2 has only the function cos(n theta / 2), which is not enough for a rotating disc.
+  /// Number of harmonics with known cosine and sine. With an even number n of nodes the harmonic
+  /// n / 2 has only the function cos(n theta / 2), which is not enough for a rotating disc.
   Eigen::Index n_whole_harmonics() const
   {
     return n_nodes > 0 && n_nodes % 2 == 0 ? W.cosine.rows() - 1 : W.cosine.rows();

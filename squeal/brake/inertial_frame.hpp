@@ -15,8 +15,8 @@ struct InertialRing {
   double radius;        ///< m
   Eigen::VectorXd U;    ///< [n_modes] amplitude of the axial displacement W, m per unit of a
   Eigen::VectorXd U_r;  ///< [n_modes] amplitude of the radial slope W_r, rad per unit of a
-  /// [n_modes] amplitude of the circumferential slope, W_t = U_t (-sin, cos)(n theta), U_t for n =
-  /// 0, rad per unit of a.
+  /// [n_modes] amplitude of the circumferential slope, W_t = U_t (-sin, cos)(n theta), U_t for
+  /// n = 0, rad per unit of a.
   Eigen::VectorXd U_t;
   /// [n_modes] amplitudes of the in-plane displacements, V_r with the angle like W and V_t like
   /// W_t, m per unit of a; empty when they do not act on the pads.
@@ -27,9 +27,9 @@ struct InertialRing {
 /// Pointers to U, U_r, U_t and, if present, V_r, V_t.
 std::vector<Eigen::VectorXd*> amplitudes_of(InertialRing& ring);
 
-/// An axisymmetric disc in the inertial frame, where its equations do not depend on time: a' =
-/// -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - (C + 2 Omega G) p + Q. The modes are pairs
-/// U cos(n theta), U sin(n theta), or single modes with n = 0.
+/// An axisymmetric disc in the inertial frame, where its equations do not depend on time:
+/// a' = -Omega D a + p,  p' = -Omega D p - diag(omega^2) a - (C + 2 Omega G) p + Q. The modes are
+/// pairs U cos(n theta), U sin(n theta), or single modes with n = 0.
 struct InertialDisc {
   std::vector<InertialRing> rings;  ///< see Disc
   /// [n_modes] n of each coordinate; the two of a pair are adjacent.

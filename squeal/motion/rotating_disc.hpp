@@ -11,10 +11,10 @@
 
 namespace chladni::squeal {
 
-/// Motion of any disc between pads in the frame that rotates with it: q'' + C q' + diag(omega^2) q
-/// = Q(t, q, q'). The modes of pads with a mass follow those of the disc. The switching functions
-/// are the axial forces S of the contact points relative to their preloads, upper and lower pad of
-/// each pair in turn.
+/// Motion of any disc between pads in the frame that rotates with it,
+/// q'' + C q' + diag(omega^2) q = Q(t, q, q'). The modes of pads with a mass follow those of the
+/// disc. The switching functions are the axial forces S of the contact points relative to their
+/// preloads, upper and lower pad of each pair in turn.
 class RotatingDisc final : public Motion {
  public:
   RotatingDisc(const Disc& disc, const SquealOptions& options, double speed);

@@ -12,10 +12,10 @@
 
 namespace chladni::squeal {
 
-/// Motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with x =
-/// (diag(omega) a, p) in m kg^(1/2) / s; modes of pads with a mass follow at the end of a and p. f
-/// is smooth except where the axial force of a pad crosses zero. The switching functions are these
-/// forces relative to their preloads, upper and lower pad of each point pair in turn.
+/// Motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with
+/// x = (diag(omega) a, p) in m kg^(1/2) / s; modes of pads with a mass follow at the end of a and
+/// p. f is smooth except where the axial force of a pad crosses zero. The switching functions are
+/// these forces relative to their preloads, upper and lower pad of each point pair in turn.
 class SlidingDisc final : public AutonomousMotion {
  public:
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);

@@ -4,8 +4,8 @@
 
 namespace chladni::squeal {
 
-/// Samples of functions of an angle, one function in each row: column s has the values at 2 pi s /
-/// N, with N a power of two.
+/// Samples of functions of an angle, one function in each row: column s has the values at
+/// 2 pi s / N, with N a power of two.
 using AngleSamples = Eigen::MatrixXcd;
 /// Fourier coefficients of f(phi) = sum_k c_k exp(i k phi): column k is c_k for k < N / 2, and
 /// column N - k is c_-k.

@@ -12,8 +12,8 @@ namespace chladni::squeal {
 struct PoleSum {
   std::vector<Eigen::Index> modes;  ///< [m] indices of the remaining eigenvalues of A_0
   Eigen::VectorXcd poles;           ///< [m] these eigenvalues, Im > 0, 1/s
-  /// [2 r^2 x m] a_k over b_k, column by column: R_k / (z - lambda_k) plus its conjugate is (a_k z
-  /// + b_k) / ((z - lambda_k) (z - conj(lambda_k))).
+  /// [2 r^2 x m] a_k over b_k, column by column: R_k / (z - lambda_k) plus its conjugate is (a_k
+  /// z + b_k) / ((z - lambda_k) (z - conj(lambda_k))).
   Eigen::MatrixXd numerators;
   Eigen::Index rank;  ///< r
 };

@@ -66,7 +66,7 @@ class Recorder {
   /// Completes pending data after the last sample.
   void finish();
   void exchange(StateArchive& archive);
-  /// < whether sample i belongs to the tail
+  /// Whether sample i belongs to the tail.
   bool in_tail(std::int64_t i) const { return i >= plan_.n_steps - plan_.n_tail; }
 
   /// The recorded data. `finished`, `speed` and `tail_a` are left to the caller.
