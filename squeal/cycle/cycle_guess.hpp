@@ -8,9 +8,9 @@
 
 namespace chladni::squeal {
 
-/// The eigenvector `u` of the sliding disc, scaled so that the motion Re(v exp(lambda t)) displaces
-/// the first upper pad by a given amplitude.
-/// @param displacement  amplitude of the pad, m
+/// The eigenvector `u` of the sliding disc, scaled and turned in phase so that the motion
+/// Re(v exp(lambda t)) begins with the first upper pad at its largest displacement.
+/// @param displacement  amplitude of the first upper pad, m
 /// @return v in the coordinates of the motion
 Eigen::VectorXcd moving_the_pad(AutonomousMotion& motion, const Eigen::VectorXcd& u,
                                 double displacement);
