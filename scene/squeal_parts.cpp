@@ -110,7 +110,7 @@ double read_temperature(const Table& friction, const squeal::FrictionTable& tabl
 squeal::FrictionLaw read_measured(const Table& friction)
 {
   for (const char* key : {"kinetic", "static", "decay_speed"})
-    if (friction.has(key)) friction.refuse(key, "`table` has all of mu; take this key out");
+    if (friction.has(key)) friction.refuse(key, "`table` replaces this key; take this key out");
   const std::vector<Table> tables = friction.tables("table");
   if (tables.empty()) friction.refuse("table", "must hold at least one row");
   for (const char* key : {"temperature_C", "pressure_Pa"}) check_key(tables, key);

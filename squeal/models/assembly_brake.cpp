@@ -50,8 +50,9 @@ Assembly with_notes(Assembly assembly)
   for (const LiningRow& row : lining_rows)
     if (!is_shared(assembly.linings, row.value)) own.push_back(row.name);
   if (!own.empty()) {
-    assembly.notes.push_back(fmt::format(
-        "linings differ in {}: a range of it sets all linings alike", fmt::join(own, " and in ")));
+    assembly.notes.push_back(
+        fmt::format("linings differ in {}: a range of it sets the same value for all linings",
+                    fmt::join(own, " and in ")));
   }
   return assembly;
 }
@@ -180,7 +181,7 @@ void AssemblyBrake::add_frequencies(std::vector<BrakeNumber>& numbers) const
 std::unique_ptr<AutonomousMotion> AssemblyBrake::motion(double /*speed*/) const
 {
   throw Error(
-      "squeal.model = \"assembly\" has the small motions about sliding alone, no limit cycles; "
+      "squeal.model = \"assembly\" covers small motions about sliding only, without limit cycles; "
       "leave out these analyses");
 }
 

@@ -5,8 +5,8 @@
 
 namespace chladni::squeal {
 
-/// The oscillator with x = (x w, y w, x', y'), w^2 = k_x / m. The contact appears as both pads of a
-/// pair: `z` is y, f_t the friction on the mass.
+/// The oscillator with x = (x w, y w, x', y'), w^2 = k_x / m. The contact is reported as both pads
+/// of a pair: `z` is y and f_t the friction on the mass.
 class OscillatorBrake final : public LumpedBrake {
  public:
   explicit OscillatorBrake(const Oscillator& oscillator) : o_(oscillator) {}
@@ -29,8 +29,8 @@ class OscillatorBrake final : public LumpedBrake {
   Oscillator o_;
 };
 
-/// The friction coefficient above which the two frequencies of the undamped oscillator coincide and
-/// flutter sets in, mu = ((k_x - k_y - k_c)^2 / 4 + k_xy^2) / (k_xy k_c).
+/// Friction coefficient at which the frequencies of the undamped oscillator coincide and flutter
+/// begins, mu = ((k_x - k_y - k_c)^2 / 4 + k_xy^2) / (k_xy k_c).
 double flutter_friction(const Oscillator& oscillator);
 
 }  // namespace chladni::squeal

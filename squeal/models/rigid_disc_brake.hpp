@@ -5,9 +5,9 @@
 
 namespace chladni::squeal {
 
-/// The rigid disc with x = (w q, q'), w^2 = k_t / Theta, and with Drive::moment a fifth entry, the
-/// deviation of the spin from the speed (rad/s), which the linearisation leaves alone. Its linear
-/// equations have no periodic motion that could be found.
+/// The rigid disc with x = (w q, q'), w^2 = k_t / Theta. Drive::moment adds a fifth entry, the
+/// deviation of the spin from the speed (rad/s), which is constant in the linearised equations.
+/// These have no periodic motion to search for.
 class RigidDiscBrake final : public LumpedBrake {
  public:
   explicit RigidDiscBrake(const RigidDiscStudy& study) : study_(study) {}
