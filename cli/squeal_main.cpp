@@ -7,6 +7,7 @@
 #include "cli/arguments.hpp"
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"
+#include "cli/squeal_condense.hpp"
 #include "cli/squeal_run.hpp"
 #include "cli/squeal_sweep.hpp"
 #include "files/hdf5.hpp"
@@ -25,6 +26,7 @@ namespace cli = chladni::cli;
 struct SquealArguments {
   chladni::cli::RunArguments run;
   chladni::cli::SweepArguments sweep;
+  chladni::cli::CondenseArguments condense;
   std::string info_file;
   chladni::cli::SealArguments seal;
   chladni::cli::SelfDescription self;
@@ -72,6 +74,7 @@ int main(int argc, char** argv)
   app.require_subcommand(1);
   declare_run(app, arguments);
   chladni::cli::declare_sweep(app, arguments.sweep);
+  chladni::cli::declare_condense(app, arguments.condense);
   declare_info(app, arguments);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
@@ -84,7 +87,8 @@ int main(int argc, char** argv)
       "out/disc.squeal.h5\n"
       "  squeal report scene.toml --output out");
   if (const auto code = chladni::cli::parse_arguments(app, {argv + 1, argv + argc})) return *code;
-  if (arguments.run.scene.quiet || arguments.sweep.scene.quiet) chladni::report::be_quiet();
+  if (arguments.run.scene.quiet || arguments.sweep.scene.quiet || arguments.condense.scene.quiet)
+    chladni::report::be_quiet();
   chladni::files::leave_nothing_to_exit();
   chladni::files::remove_unfinished_files_on_signals();
   try {
@@ -92,6 +96,8 @@ int main(int argc, char** argv)
       chladni::cli::run_squeal(arguments.run);
     else if (app.got_subcommand("sweep"))
       chladni::cli::run_sweep(arguments.sweep);
+    else if (app.got_subcommand("condense"))
+      chladni::cli::run_condense(arguments.condense);
     else if (app.got_subcommand("report"))
       chladni::report::write_report(arguments.report);
     else if (app.got_subcommand("seal"))

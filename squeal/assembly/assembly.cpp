@@ -160,15 +160,6 @@ void check_apart(const AssemblyOptions& options, std::span<const Part> parts)
   }
 }
 
-/// By what displacements are multiplied to have the size of their rates.
-Eigen::VectorXd scales_of(const Assembly& all)
-{
-  const double lowest = all.disc.omega.minCoeff();
-  Eigen::VectorXd scales(all.n_coordinates());
-  scales << all.disc.omega, all.omega.cwiseMax(lowest);
-  return scales;
-}
-
 /// Joints and linings hold every part where the disc stands still.
 void check_held(const Assembly& all, std::span<const Part> parts)
 {
@@ -206,6 +197,7 @@ Assembly apart(InertialDisc disc, PartModes modes, bool convection)
           .K = std::move(modes.K),
           .C = std::move(modes.C),
           .X = std::move(modes.X),
+          .disc_modes = {},
           .points = {},
           .linings = {},
           .convection = convection,
@@ -241,6 +233,7 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
   check_apart(options, placed.parts);
   const JoinedParts joints = joined(placed.parts, options.joints);
   Assembly all = apart(inertial_disc(disc), part_modes(joints), options.convection);
+  all.disc_modes = disc.mode_numbers;
   all.notes = notes_of(disc);
   all.notes.insert(all.notes.end(), joints.notes.begin(), joints.notes.end());
   add_linings(all, options, placed.parts);
@@ -254,8 +247,17 @@ Assembly neighbour(const Assembly& about, const AssemblyOptions& options,
   const Placed placed = placed_parts(options, bodies);
   const JoinedParts joints = joined(placed.parts, options.joints);
   Assembly all = apart(about.disc, modes_about(about, joints), options.convection);
+  all.disc_modes = about.disc_modes;
   add_linings(all, options, placed.parts);
   return all;
+}
+
+Eigen::VectorXd state_scales(const Assembly& all)
+{
+  const double lowest = all.disc.omega.minCoeff();
+  Eigen::VectorXd scales(all.n_coordinates());
+  scales << all.disc.omega, all.omega.cwiseMax(lowest);
+  return scales;
 }
 
 Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> linings, double speed)
@@ -277,7 +279,7 @@ Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> lining
     K.noalias() -= stiff * point.S.transpose();
     C.noalias() -= damping * point.S.transpose();
   }
-  const Eigen::VectorXd s = scales_of(all);
+  const Eigen::VectorXd s = state_scales(all);
   Eigen::MatrixXd A(2 * n, 2 * n);
   A.topLeftCorner(n, n) = -speed * D;
   A.topRightCorner(n, n) = s.asDiagonal();

@@ -43,6 +43,8 @@ struct Assembly {
   Eigen::MatrixXd K;      ///< [n_b x n_b] 1/s^2, diag(omega^2), but see `neighbour`
   Eigen::MatrixXd C;      ///< [n_b x n_b] 1/s
   Eigen::MatrixXd X;      ///< [n x n_b] motions of the parts' own coordinates, X^T X = I
+  /// Modes of the body of the disc, from 1, of which `disc` is made: all that move the rings.
+  std::vector<int> disc_modes;
   std::vector<AssemblyPoint> points;
   std::vector<Lining> linings;
   bool convection = true;          ///< see AssemblyOptions
@@ -65,6 +67,11 @@ Assembly assembly(const AssemblyOptions& options, std::span<const mbs_export::Mo
 /// @throws chladni::Error as `assembly`, and when rigid joints hold more than they did.
 Assembly neighbour(const Assembly& about, const AssemblyOptions& options,
                    std::span<const mbs_export::ModalBody> bodies);
+
+/// By what the coordinates z are multiplied in the state x = (diag(s) z, z'), to have the size of
+/// their rates.
+/// @return s [n], rad/s
+Eigen::VectorXd state_scales(const Assembly& assembly);
 
 /// State matrix A of x' = A x about the sliding equilibrium with x = (diag(s) z, z'). The scale s
 /// is the frequency of each coordinate, but at least the lowest frequency of the disc.
