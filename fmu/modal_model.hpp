@@ -22,7 +22,7 @@ struct ModalModel {
 /// The name of a model among the resources of its FMU.
 inline constexpr auto model_file = "body.chladni-fmu";
 
-/// The model as bytes, numbers in the order of this machine: docs/file_formats.md.
+/// The model as bytes, numbers in the order of this machine: docs/reference/file_formats.md.
 std::string packed(const ModalModel& model);
 
 /// @throws chladni::Error when the bytes are no such model, or not all of it.

@@ -1,5 +1,5 @@
 /* CMS: component mode synthesis (Guyan, Craig-Bampton) of any two symmetric PETSc matrices, as one
-   more solver object in the grammar of PETSc and SLEPc. Plain C; docs/plugin.md is the guide.
+   more solver object in the grammar of PETSc and SLEPc. Plain C; docs/how-to/plugin.md is the guide.
 
      CMSCreate(comm, &cms);
      CMSSetOperators(cms, K, M, NULL);
@@ -135,7 +135,7 @@ PETSC_EXTERN PetscErrorCode CMSGetRounding(CMS cms, PetscInt* n, const PetscReal
 PETSC_EXTERN PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt* n, const PetscReal* bounds[]);
 PETSC_EXTERN PetscErrorCode CMSGetQuality(CMS cms, CMSQuality* quality);
 
-/* ascii, or hdf5: the reduced file of docs/file_formats.md. -cms_view [ascii|hdf5:FILE] */
+/* ascii, or hdf5: the reduced file of docs/reference/file_formats.md. -cms_view [ascii|hdf5:FILE] */
 PETSC_EXTERN PetscErrorCode CMSView(CMS cms, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode CMSViewFromOptions(CMS cms, PetscObject prefixed, const char name[]);
 /* The reduced file, complete or not at all: an interrupted run leaves an older one untouched. */

@@ -23,7 +23,7 @@ enum class KeyKind {
 };
 
 /// One key of the scene file: what its value must be, and what it means. The readers check values
-/// by these rows, and docs/scene_reference.md is written from them.
+/// by these rows, and docs/reference/scene.md is written from them.
 struct Key {
   std::string_view path;  ///< "mesh.rings.name"; `*` is a name that the user chooses
   KeyKind kind;

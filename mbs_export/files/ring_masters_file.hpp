@@ -4,7 +4,7 @@
 #include "mbs_export/reduced_system.hpp"
 
 /// What the file of a reduced system says of masters that are harmonics of rings
-/// (docs/file_formats.md); nothing where each master is a DOF of a node.
+/// (docs/reference/file_formats.md); nothing where each master is a DOF of a node.
 namespace chladni::mbs_export {
 
 void write_ring_masters(files::Writer& file, const ReducedSystem& reduced);

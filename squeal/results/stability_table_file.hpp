@@ -5,7 +5,7 @@
 
 namespace chladni::squeal {
 
-/// Writes the group `stability`; see docs/file_formats.md.
+/// Writes the group `stability`; see docs/reference/file_formats.md.
 void write_stability_table(files::Writer& file, const StabilityTable& table);
 
 /// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
