@@ -1,5 +1,6 @@
 """Every relative link of the README files, of CHANGELOG.md, CONTRIBUTING.md and of docs/ leads to a file or folder that is
-there, and every anchor to a heading. Every path `docs/...` that a source names is there too. Usage: links.py SOURCE_DIR
+there, and every anchor to a heading. Every path `docs/...` that a source names is there too, and every page is
+in the navigation of mkdocs.yml; pages of results and decisions have an index of their own. Usage: links.py SOURCE_DIR
 """
 
 import re
@@ -63,11 +64,21 @@ def broken_names(file, root):
             yield f"{file.relative_to(root)} names {name}, which is not there"
 
 
+def unlisted(root):
+    """The pages of docs/ that the navigation of the site lacks."""
+    navigation = (root / "mkdocs.yml").read_text()
+    for page in sorted((root / "docs").rglob("*.md")):
+        name = page.relative_to(root / "docs").as_posix()
+        if not name.startswith(("results/", "explanation/decisions/")) and f": {name}\n" not in navigation:
+            yield f"docs/{name} is not in mkdocs.yml"
+
+
 def main(root):
     files = tracked(root)
     pages = [file for file in files if file.suffix == ".md" and "tests" not in file.relative_to(root).parts]
     found = [line for page in pages for line in broken_links(page, root)]
     found += [line for file in files if file.suffix not in (".json", ".svg") for line in broken_names(file, root)]
+    found += unlisted(root)
     print("\n".join(found) or f"the links of {len(pages)} pages and all paths in docs/ that sources name lead somewhere")
     sys.exit(bool(found))
 

@@ -61,7 +61,7 @@ def main(programs, update=False):
         return
     changes = list(difflib.unified_diff(without_numbers(tutorial), without_numbers(written), "tutorial", "printed", n=0))
     if changes:
-        sys.exit("FAILED: the programs print something else; ./dev docs writes it anew\n" + "\n".join(changes))
+        sys.exit("FAILED: the programs print something else; ./dev pages writes it anew\n" + "\n".join(changes))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The scene of the README is one that `chladni` reads. Usage: readme_scene.py PROGRAM_DIR"""
+"""The scene of docs/tutorial/scene.md is one that `chladni` reads. Usage: scene_page.py PROGRAM_DIR"""
 
 import re
 import subprocess
@@ -8,10 +8,10 @@ from pathlib import Path
 
 
 def main(programs):
-    readme = (Path(__file__).parents[2] / "README.md").read_text()
-    scenes = re.findall(r"```toml\n(.*?)```", readme, flags=re.S)
+    page = (Path(__file__).parents[2] / "docs/tutorial/scene.md").read_text()
+    scenes = re.findall(r"```toml\n(.*?)```", page, flags=re.S)
     if not scenes:
-        sys.exit("FAILED: the README has no scene")
+        sys.exit("FAILED: the page has no scene")
     for scene in scenes:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.toml"
@@ -20,7 +20,7 @@ def main(programs):
             run = subprocess.run(command, capture_output=True, text=True)
             print(run.stdout + run.stderr)
             if run.returncode:
-                sys.exit("FAILED: chladni refuses the scene of the README")
+                sys.exit("FAILED: chladni refuses the scene of the page")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The C++ of the README compiles against the headers. Usage: readme_compiles.py BUILD_DIR"""
+"""The C++ of docs/how-to/cpp.md compiles against the headers. Usage: cpp_page.py BUILD_DIR"""
 
 import json
 import re
@@ -20,7 +20,7 @@ PROLOGUE = """
 #include "squeal/study/run.hpp"
 using namespace chladni;
 """
-# What each piece of the README takes as given.
+# What each piece of the page takes as given.
 GIVEN = [
     "const mesh::AnnulusOptions& annulus_options, std::vector<plate::Coupling> couplings, "
     "std::vector<plate::ShellSection> sections, int n_ranks, "
@@ -42,10 +42,10 @@ def flags(build):
 
 
 def main(build):
-    readme = (Path(__file__).parents[2] / "README.md").read_text()
-    pieces = re.findall(r"```cpp\n(.*?)```", readme, flags=re.S)
+    page = (Path(__file__).parents[2] / "docs/how-to/cpp.md").read_text()
+    pieces = re.findall(r"```cpp\n(.*?)```", page, flags=re.S)
     if len(pieces) != len(GIVEN):
-        sys.exit(f"the README has {len(pieces)} pieces of C++, this test knows {len(GIVEN)}")
+        sys.exit(f"the page has {len(pieces)} pieces of C++, this test knows {len(GIVEN)}")
     functions = [
         f"void piece_{i}({given})\n{{\n{piece}}}\n"
         for i, (given, piece) in enumerate(zip(GIVEN, pieces))
