@@ -24,7 +24,7 @@ constexpr Key mesh_rows[] = {
      "required",
      "of the frequencies that keep it",
      {.above = 0.0, .unit = "Hz"}},
-    {"mesh", table, "required, but for models without a body", "[meshes](../how-to/meshes.md)"},
+    {"mesh", table, "required, except for models without a body", "[meshes](../how-to/meshes.md)"},
     {"mesh.generator",
      word,
      "or `file`",
