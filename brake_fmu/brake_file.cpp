@@ -62,11 +62,12 @@ class Reader {
   {
     double value = 0.0;
     std::memcpy(&value, take(sizeof(value)).data(), sizeof(value));
-    if (!std::isfinite(value) || std::abs(value) > 1e300) refuse("holds what is no number");
+    if (!std::isfinite(value) || std::abs(value) > 1e300)
+      refuse("contains a value that is no finite number");
     using T = std::remove_reference_t<decltype(number)>;
     if constexpr (!std::is_same_v<T, double>) {
       if (value != std::floor(value) || value < 0.0 || value > 2e9)
-        refuse("holds what is no count");
+        refuse("contains a count that is no whole number");
     }
     number = static_cast<T>(value);
   }
@@ -83,7 +84,7 @@ class Reader {
     A.resize(static_cast<Index>(rows), static_cast<Index>(cols));
     const std::string_view bytes = take(rows * cols * size);
     if (!bytes.empty()) std::memcpy(A.data(), bytes.data(), bytes.size());
-    if (!A.allFinite()) refuse("holds what is no number");
+    if (!A.allFinite()) refuse("contains a value that is no finite number");
   }
   template <class T>
   void each(std::vector<T>& items, auto&& transfer)

@@ -7,15 +7,16 @@
 
 namespace chladni::brake_fmu {
 
-/// The name of a brake among the resources of its FMU.
+/// Name of the brake's file among the resources of its FMU.
 inline constexpr auto brake_file = "brake.chladni-fmu";
 
-/// A brake as bytes, numbers in the order of this machine: all that its motion depends on, and no
-/// figures of its modes.
+/// The brake as bytes, with numbers in the byte order of this machine. It contains all that the
+/// motion depends on, but not the figures of the modes.
 std::string packed(const BrakeModel& model);
 
-/// @throws chladni::Error when the bytes are no such brake, not all of it, or its parts do not fit
-///         together.
+/// The brake that `packed` wrote.
+/// @throws chladni::Error when the bytes are not a brake, are incomplete, or hold parts that do not
+///         fit together.
 BrakeModel unpacked_brake(std::string_view bytes);
 
 }  // namespace chladni::brake_fmu

@@ -108,7 +108,7 @@ void BrakeSimulation::set_value(std::uint32_t reference, double value)
 {
   const BrakeReferences& of = references_;
   const std::string name = "the variable with the value reference " + std::to_string(reference);
-  if (!std::isfinite(value)) throw Error(name + " is set to what is no finite number");
+  if (!std::isfinite(value)) throw Error(name + " is set to a value that is no finite number");
   if (reference == BrakeReferences::time)
     time_ = value;
   else if (reference == BrakeReferences::steps_per_period && value >= 1.0)
@@ -124,12 +124,12 @@ void BrakeSimulation::set_value(std::uint32_t reference, double value)
   else if (reference == BrakeReferences::steps_per_period)
     throw Error(name + ", steps in a period, must be at least 1");
   else
-    throw Error(name + " is computed, or is not there");
+    throw Error(name + " cannot be set: it is computed or does not exist");
 }
 
 void BrakeSimulation::set_continuous_states(const VectorXd& x)
 {
-  if (!x.allFinite()) throw Error("the continuous states are set to what is no finite number");
+  if (!x.allFinite()) throw Error("a continuous state is set to a value that is no finite number");
   x_ = x;
 }
 
@@ -141,8 +141,10 @@ std::vector<double> BrakeSimulation::directional_derivatives(
 
 void BrakeSimulation::advance(double h)
 {
-  if (!(h > 0.0) || !std::isfinite(h))
-    throw Error("a step of " + std::to_string(h) + " s is no step");
+  if (!(h > 0.0) || !std::isfinite(h)) {
+    throw Error("a step of " + std::to_string(h) +
+                " s is not allowed; a step must be positive and finite");
+  }
   disc_.set_drive(drive_);
   const auto [omega, decay] = disc_.fastest();
   // The method is stable up to decay times step of 5.
@@ -150,7 +152,10 @@ void BrakeSimulation::advance(double h)
   const double step_max = std::min(2.0 * std::numbers::pi / omega / steps_per_period_, by_decay);
   const double n_steps = std::ceil(h / step_max);
   constexpr double most_steps = 1e9;
-  if (n_steps > most_steps) throw Error("a step of " + std::to_string(h) + " s is too long");
+  if (n_steps > most_steps) {
+    throw Error("a step of " + std::to_string(h) +
+                " s needs more than 1e9 integration steps; take a shorter one");
+  }
   VectorXd x = x_;
   const auto field = [&](const VectorXd& at) { return rate(at); };
   for (double i = 0.0; i < n_steps; i += 1.0) x = squeal::dop853_step(field, x, h / n_steps);

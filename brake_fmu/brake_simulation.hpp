@@ -8,7 +8,8 @@
 
 namespace chladni::brake_fmu {
 
-/// What an FMU tells of a pad, in this order; forces act on the disc.
+/// The outputs of an FMU for one pad, in the order of their value references; forces act on the
+/// disc.
 enum class PadOutput {
   normal_force,
   axial_force,
@@ -19,7 +20,8 @@ enum class PadOutput {
 };
 inline constexpr int n_pad_outputs = 6;
 
-/// Value references of the variables of a brake.
+/// Value references of the variables of a brake FMU. Each function returns the first reference of
+/// its group.
 class BrakeReferences {
  public:
   BrakeReferences(Eigen::Index n_modes, std::size_t n_pads)
@@ -28,7 +30,8 @@ class BrakeReferences {
   static constexpr std::uint32_t time = 0, steps_per_period = 1, speed = 2, friction = 3;
   std::uint32_t preloads() const { return 4; }
   std::uint32_t torque() const { return preloads() + n_pads_; }
-  /// Of each pad pair the outputs of the upper pad, then of the lower one.
+  /// First reference of the pad outputs: for each pad pair those of the upper pad, then of the
+  /// lower.
   std::uint32_t pads() const { return torque() + 1; }
   std::uint32_t angle() const { return pads() + 2 * n_pad_outputs * n_pads_; }
   std::uint32_t q() const { return angle() + 1; }
@@ -36,17 +39,18 @@ class BrakeReferences {
   std::uint32_t der_angle() const { return q_dot() + n_modes_; }
   std::uint32_t der_q() const { return der_angle() + 1; }
   std::uint32_t der_q_dot() const { return der_q() + n_modes_; }
+  /// One past the last reference.
   std::uint32_t end() const { return der_q_dot() + n_modes_; }
 
  private:
   std::uint32_t n_modes_, n_pads_;
 };
 
-/// Steps of the method of order 8 in a period of the fastest oscillation: their error is below 1e-9
-/// in each, while no pad gains or loses contact in it.
+/// Default number of steps of the method of order 8 per period of the fastest oscillation. The
+/// error of a step is then below 1e-9, as long as no pad gains or loses contact in it.
 inline constexpr double usual_steps_per_period = 16.0;
 
-/// A brake in a simulation. Its inputs begin as its model has them.
+/// A brake in a simulation. Its inputs start with the values of the model.
 class BrakeSimulation final : public fmu::Simulation {
  public:
   explicit BrakeSimulation(BrakeModel model);
@@ -59,10 +63,14 @@ class BrakeSimulation final : public fmu::Simulation {
   Eigen::VectorXd continuous_states() const override { return x_; }
   void set_continuous_states(const Eigen::VectorXd& x) override;
   Eigen::VectorXd derivatives() const override;
-  /// @throws chladni::Error always: the FMU says that it has none.
+  /// Not provided; the FMU declares that it has no directional derivatives.
+  /// @throws chladni::Error always.
   std::vector<double> directional_derivatives(std::span<const std::uint32_t> unknowns,
                                               const fmu::Direction& direction) const override;
-  /// In steps of the method of order 8 by Dormand and Prince.
+  /// Advances by h (s) in equal steps of the method of order 8 by Dormand and Prince. The step is
+  /// limited by the fastest oscillation and by the fastest decay.
+  /// @throws chladni::Error when h is not positive, needs more than 1e9 steps, or the motion
+  ///         overflows.
   void advance(double h) override;
   Eigen::VectorXd snapshot() const override;
   void restore(const Eigen::VectorXd& snapshot) override;
@@ -71,9 +79,9 @@ class BrakeSimulation final : public fmu::Simulation {
   Eigen::VectorXd rate(const Eigen::VectorXd& x) const;
   double variable(std::uint32_t reference, const Eigen::VectorXd& rates) const;
 
-  std::unique_ptr<const BrakeModel> model_;  ///< at one place: the disc refers to it
+  std::unique_ptr<const BrakeModel> model_;  ///< on the heap, because disc_ keeps a reference to it
   BrakeReferences references_;
-  mutable DrivenDisc disc_;  ///< with what it computed last
+  mutable DrivenDisc disc_;  ///< mutable, because it keeps the result of its last evaluation
   double time_ = 0.0, steps_per_period_ = usual_steps_per_period;
   Drive drive_;
   Eigen::VectorXd x_;  ///< [1 + 2 n_modes] angle, q, q'

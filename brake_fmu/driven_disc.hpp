@@ -10,53 +10,57 @@
 
 namespace chladni::brake_fmu {
 
-/// A disc and the pads that it turns between.
+/// A disc with its pads, as a brake FMU simulates it.
 struct BrakeModel {
-  std::string token;  ///< that modelDescription.xml has too
+  std::string token;  ///< export token, the same as in modelDescription.xml
   squeal::Disc disc;
   squeal::PadSystem pads;
-  /// As the scene has it, that of all points.
+  /// Kinetic friction coefficient of the scene, one for all points.
   double friction;
-  double speed;  ///< with which a simulation begins, rad/s
+  double speed;  ///< initial rotation speed, rad/s
 
   Eigen::Index n_modes() const { return disc.n_modes() + pads.n_modes(); }
 };
 
-/// N of each pad pair of the scene.
+/// Preload of each pad pair, summed over its points.
+/// @return [n_pads] N
 std::vector<double> preloads_of(const squeal::PadSystem& pads);
 
-/// What drives a brake from outside.
+/// Inputs of the brake that may change during a simulation.
 struct Drive {
-  double speed;                  ///< Omega of the disc, rad/s
-  double friction;               ///< coefficient of sliding, far above the decay speed of the law
+  double speed;     ///< rotation speed Omega of the disc, rad/s
+  double friction;  ///< kinetic friction coefficient (the law's limit far above its decay speed)
   std::vector<double> preloads;  ///< [n_pads] N
 
   bool operator==(const Drive&) const = default;
 };
 
-/// The disc and its pads in the frame that turns with the disc, at any speed:
+/// Equations of motion of the disc and its pads in the frame that rotates with the disc:
 /// q'' + (C + 2 Omega G) q' + diag(omega^2) q = sum over points of S(angle) F(S^T q, S^T q').
-/// Motions are counted from the sliding equilibrium at the present speed, friction and preloads;
-/// that the speed changes is felt through it alone, not as a force of inertia.
+/// The coordinates q are measured from the sliding equilibrium at the present speed, friction and
+/// preloads. A change of the speed acts through these terms only; its inertia force (Euler force)
+/// is neglected.
 class DrivenDisc {
  public:
   explicit DrivenDisc(const BrakeModel& model);
 
-  /// @throws chladni::Error for a speed that is not positive where friction is not regularised, a
-  ///         friction below zero and a preload that is not positive.
+  /// Sets speed, friction and preloads.
+  /// @throws chladni::Error for a speed that is not positive when friction is not regularised, for
+  ///         a negative friction coefficient, and for a preload that is not positive.
   void set_drive(const Drive& drive);
 
-  /// q'' of the disc's modes, then of those of the pads.
-  /// @param angle  by which the disc has turned, rad
+  /// q'' of the disc's modes, then of the pads' modes.
+  /// @param angle  rotation of the disc, rad
+  /// @param v      q'
   Eigen::VectorXd acceleration(double angle, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
-  /// The contacts of the last `acceleration`, one for each pad pair.
+  /// Contact states at the last `acceleration`, one for each pad pair.
   std::vector<squeal::ContactResult<double>> contacts() const;
-  /// Of friction about the axis at the last `acceleration`, on the disc, N m.
+  /// Moment of the friction forces on the disc about the axis at the last `acceleration`, N m.
   double torque() const;
 
-  /// The largest rates of the brake at rest: of its oscillations, with the pads as springs, and of
-  /// the decay by the pads' dampers, rad/s and 1/s.
+  /// Largest rates of the linearised brake: the angular frequency of the fastest oscillation, with
+  /// the pads as springs, rad/s, and the decay rate of the pads' dampers, 1/s.
   struct Rates {
     double omega, decay;
   };
@@ -68,15 +72,15 @@ class DrivenDisc {
   void rebuild();
 
   const BrakeModel& model_;
-  squeal::PadSystem pads_;  ///< with the contacts of the present drive
+  squeal::PadSystem pads_;  ///< with the contact data of the present drive
   squeal::PointShapes shapes_;
   squeal::ContactSeries series_;
   Eigen::VectorXd omega_;
-  Eigen::MatrixXd C_;  ///< with the Coriolis terms at the present speed
+  Eigen::MatrixXd C_;  ///< with the Coriolis terms of the present speed
   Drive drive_;
   std::vector<squeal::BrakePoint> points_;
   std::vector<squeal::PointMotion> motions_;
-  std::vector<squeal::ContactResult<double>> contacts_;  ///< of each point
+  std::vector<squeal::ContactResult<double>> contacts_;  ///< one for each point
 };
 
 }  // namespace chladni::brake_fmu

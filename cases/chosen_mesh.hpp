@@ -11,22 +11,23 @@
 
 namespace chladni::cases {
 
-/// A scene whose mesh is said, and what is known of the frequencies on it.
+/// A scene with a fixed mesh, and the errors of the frequencies on it.
 struct MeshChoice {
   scene::Scene scene;
-  std::optional<MeshErrors> errors;  ///< of the body under its supports, where they were looked for
+  /// of the body under its supports, if they were estimated
+  std::optional<MeshErrors> errors;
 };
 
-/// What holds the body of a scene (BodyOptions::fixed), as supports of its FE model.
+/// The supports of the body of a scene (BodyOptions::fixed) as supports of its FE model.
 std::vector<plate::Support> supports_of(const scene::Scene& scene);
 
-/// With `accuracy` the cheapest mesh known that keeps it: coarse meshes of the orders there are,
-/// without and with rows of elements at the edges, tell what each would need; the best one is
-/// refined until the estimate of its error says so. Without, the scene's own mesh, with the errors
-/// of its frequencies where the scene asks for these.
+/// With `accuracy`, the cheapest mesh found that keeps it: coarse meshes of all available orders,
+/// with and without rows of elements at the edges, show which size each would need, and the best
+/// one is refined until its estimated error is small enough. Without `accuracy`, the scene's own
+/// mesh, with the errors of its frequencies if the scene asks for them.
 /// @param supports  under which the frequencies are meant
 /// @note   Collective.
-/// @throws chladni::Error when no mesh keeps the accuracy, with what the best one reached.
+/// @throws chladni::Error when no mesh keeps the accuracy, with the error of the best one.
 MeshChoice chosen_mesh(const scene::Scene& scene, const std::vector<plate::Support>& supports,
                        const linear::SolverOptions& solver, Phases& phases);
 

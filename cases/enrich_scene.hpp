@@ -8,12 +8,12 @@
 
 namespace chladni::cases {
 
-/// Whether an interface mode of the scene is to be that of the whole model.
+/// True if an interface mode of the scene is to be computed in the whole model.
 bool wants_full_responses(const scene::Scene& scene);
 
-/// The loads of those interface modes, and the forces of the scene's supports, at their omega0.
-/// With room for the responses of the whole free model to these a body answers them as the FE model
-/// does.
+/// The loads of these interface modes and the forces of the scene's supports, at their omega0. If
+/// the reduced model contains the responses of the whole free model to them, a body has the same
+/// responses as the FE model.
 /// @param masters  [n_m] global DOFs of the masters of `system`
 /// @note   Collective.
 /// @throws chladni::Error for a loaded DOF that is no master.

@@ -8,24 +8,24 @@
 #include "mbs_export/reduced_system.hpp"
 #include "scene/scene.hpp"
 
-/// What `chladni export` says of a scene that the other program's format cannot hold.
+/// Messages of `chladni export` about parts of a scene that the other program's format cannot hold.
 namespace chladni::cases {
 
-/// Refuses an export with the place in the scene that asks for what the format cannot hold; of
-/// springs and dampers those to the ground.
-/// @throws chladni::Error naming file, line and key
+/// Refuses an export and names the place in the scene that asks for what the format cannot hold;
+/// for springs and dampers those to the ground.
+/// @throws chladni::Error naming file, line and key.
 [[noreturn]] void refuse_export(const scene::Scene& scene,
                                 const mbs_export::formats::ExportError& error);
 
-/// The damping of [body] that the file of this format goes without, one sentence for each part.
-/// @param n_free_rigid  rigid motions of the body that its supports leave free
+/// The damping of [body] that a file of this format lacks, one sentence for each part.
+/// @param n_free_rigid  number of rigid motions that the supports leave to the body
 std::vector<std::string> damping_left_out(const std::string& format,
                                           const mbs_export::Damping& damping, int n_free_rigid);
 
-/// Adds to the notes what geometric stiffening the file of this format goes without: no place for
-/// it, or another support than that of the stress.
-/// @param there    of the reduced system or the body that the file is made of
-/// @param written  that of the body that goes into the file; none for a reduced system
+/// The notes, with those added about geometric stiffening that a file of this format lacks, because
+/// it has no place for it or because the stress belongs to another support.
+/// @param there    stiffening of the reduced system or the body from which the file is made
+/// @param written  stiffening of the body that goes into the file; empty for a reduced system
 std::vector<std::string> with_stiffening_left_out(
     std::vector<std::string> notes, const std::string& format,
     const std::optional<mbs_export::Stiffening>& there,

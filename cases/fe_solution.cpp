@@ -16,9 +16,8 @@ SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh)
 {
   if (mesh.sectors.count > 1) {
     throw Error(
-        "sectors: one sector can be reduced, but `static`, `modes` and responses of the FE model "
-        "are "
-        "of whole bodies; take mesh.sectors out");
+        "sectors: `static`, `modes` and responses of the FE model need the mesh of the whole body, "
+        "and this one is a sector; take mesh.sectors out and mesh all of it");
   }
   std::vector<int> owners = mesh::node_owners(mesh, n_ranks());
   plate::DofMap dofs = plate::make_dof_map(

@@ -18,25 +18,25 @@ struct SupportedModel {
   plate::System system;
   std::vector<int> owners;            ///< [n_nodes of the mesh] rank of each node
   std::vector<int> held;              ///< DOFs, ascending
-  std::vector<plate::FreePart> free;  ///< what can still move as a rigid body
+  std::vector<plate::FreePart> free;  ///< parts that can still move as rigid bodies
 };
 
-/// The model of a mesh of the scene.
+/// Assembles the FE model of a scene on a given mesh.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike.
 SupportedModel assemble_supported(const scene::Scene& scene, mesh::Mesh mesh);
 
-/// On a mesh that keeps the accuracy of the scene, if it asks for one. The phase of the assembly is
-/// still under way at its end.
+/// Assembles the FE model of a scene on its mesh, or, if it asks for an accuracy, on a mesh that
+/// keeps it. The phase of the assembly is still open when it returns.
 /// @note   Collective on all ranks.
 /// @throws chladni::Error on all ranks alike.
 SupportedModel supported_model(const scene::Scene& scene, const linear::SolverOptions& solver,
                                Phases& phases);
 
-/// Table of what the model is like.
+/// A table of the sizes of the model.
 report::TextTable model_table(const SupportedModel& model);
 
-/// Members `n_nodes`, `n_dofs`, `n_held`, `n_rigid`.
+/// The JSON members `n_nodes`, `n_dofs`, `n_held`, `n_rigid`.
 std::vector<report::Json::Member> model_json(const SupportedModel& model);
 
 }  // namespace chladni::cases

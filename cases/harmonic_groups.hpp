@@ -7,25 +7,25 @@
 
 namespace chladni::cases {
 
-/// Groups of ranks, of which each reduces one harmonic of a body of equal sectors after the other.
-/// The groups have nothing to wait for; the ranks of a group share matrices, factor and vectors.
+/// Groups of ranks, each of which reduces one harmonic of a body of equal sectors after the other.
+/// The groups are independent; the ranks of a group share matrices, factor and vectors.
 class HarmonicGroups {
  public:
-  /// @param ranks_each  at least so many ranks in a group, or all; empty: as many as there are for
-  ///                    each harmonic
+  /// @param ranks_each  least number of ranks in a group, or all ranks; empty: as many groups as
+  ///                    there are harmonics, or ranks
   /// @note   Collective on all ranks.
   HarmonicGroups(int n_harmonics, std::optional<int> ranks_each);
   ~HarmonicGroups();
   HarmonicGroups(const HarmonicGroups&) = delete;
   HarmonicGroups& operator=(const HarmonicGroups&) = delete;
 
-  /// Of the ranks of this rank's group.
+  /// The communicator of this rank's group.
   MPI_Comm comm() const { return comm_; }
   /// The harmonics of this group, ascending.
   const std::vector<int>& own() const { return own_; }
-  /// The rank that speaks for the group which reduces a harmonic.
+  /// The rank that speaks for the group of a harmonic.
   int speaker(int order) const;
-  /// Whether this rank speaks for its group.
+  /// True if this rank speaks for its group.
   bool speaks() const;
 
  private:

@@ -6,11 +6,11 @@
 
 namespace chladni::cases {
 
-/// The method of all harmonics; `automatic` without a tolerance is Craig and Bampton's.
+/// The method of all harmonics; `automatic` without a tolerance is Craig-Bampton.
 reduce::MethodChoice harmonic_method(const reduce::ReduceOptions& wanted);
 
-/// How each harmonic is reduced: a number of modes of the whole body becomes the frequency below
-/// which it has them.
+/// The options of the reduction of each harmonic. A number of modes of the whole body is replaced
+/// by the frequency below which it has that many.
 /// @note   Collective on all ranks.
 reduce::ReductionOptions harmonic_options(const scene::Scene& scene, const SectorModel& model,
                                           const cyclic::SectorMatrices& matrices,

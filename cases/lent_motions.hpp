@@ -10,25 +10,25 @@
 
 namespace chladni::cases {
 
-/// Motions of harmonics that ranks lend each other: what a harmonic has in common with lower ones
-/// is found by the rank that reduces it, and no rank keeps more motions than that needs.
+/// Exchanges the motions of harmonics between ranks. The coupling of a harmonic with lower ones is
+/// computed by the rank that reduces it, and no rank keeps more motions than that needs.
 class LentMotions {
  public:
-  /// @param count   of the sectors
-  /// @param n_dofs  of one sector
-  /// @param groups  whose speakers have the motions; must outlive this
+  /// @param count   number of sectors
+  /// @param n_dofs  number of DOFs of one sector
+  /// @param groups  whose speakers have the motions; must outlive this object
   LentMotions(int count, int n_dofs, const HarmonicGroups& groups);
   /// Waits until the motions of this rank have been taken.
   ~LentMotions();
   LentMotions(const LentMotions&) = delete;
   LentMotions& operator=(const LentMotions&) = delete;
 
-  /// Hands on the motion of a harmonic of this rank, and waits for those of lower ones. To be
-  /// called by the speaker of the group for all its harmonics in ascending order, whatever fails:
-  /// without a motion after that.
+  /// Sends the motion of a harmonic of this rank and waits for those of lower ones. The speaker of
+  /// the group must call it for all its harmonics in ascending order, even after an error, then
+  /// without a motion.
   void exchange(int order, cyclic::SectorMotion motion);
 
-  /// Of the last harmonic and of those that it may have something in common with.
+  /// The motions of the last harmonic and of those that it may be coupled with.
   const MotionsOfHarmonics& motions() const { return motions_; }
 
  private:

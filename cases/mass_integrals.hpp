@@ -5,7 +5,7 @@
 
 namespace chladni::cases {
 
-/// Of the FE model in the coordinates of the reduced system.
+/// The mass integrals of the FE model in the coordinates of the reduced system.
 /// @note   Collective.
 mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, const FeModel& fe,
                                          const SceneReduction& reduced);

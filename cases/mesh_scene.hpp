@@ -8,19 +8,20 @@
 namespace chladni::cases {
 
 /// The mesh of the scene, with its rings.
-/// @throws chladni::Error as mesh::generate.
+/// @throws chladni::Error as `mesh::generate`.
 mesh::Mesh mesh_scene(const scene::Scene& scene);
 
-/// @throws chladni::Error naming file, line and key of a group in the scene that the mesh lacks.
+/// Checks that the mesh has all groups of the scene.
+/// @throws chladni::Error naming file, line and key of a group that it lacks.
 void check_groups(const scene::Scene& scene, const mesh::Mesh& mesh);
 
-/// A part of a mesh, or all of it.
+/// Returns a part of a mesh, or all of it.
 using ChooseMesh = std::function<mesh::Mesh(mesh::Mesh)>;
 
-/// The mesh of the first rank on all ranks.
-/// @param choose  what of it, on the first rank
+/// Makes the mesh on the first rank and sends it to all ranks.
+/// @param choose  the part to be sent; called on the first rank
 /// @note   Collective on all ranks.
-/// @throws chladni::Error on all ranks alike; also as check_groups.
+/// @throws chladni::Error on all ranks alike, also as `check_groups`.
 mesh::Mesh mesh_on_all_ranks(const scene::Scene& scene, const ChooseMesh& choose = {});
 
 }  // namespace chladni::cases

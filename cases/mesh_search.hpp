@@ -7,7 +7,7 @@
 
 namespace chladni::cases {
 
-/// The part of an accuracy that the mesh may take; the reduction has the rest.
+/// The share of an accuracy that the mesh may use; the rest is for the reduction.
 constexpr double share_of_mesh = 0.9;
 
 /// A mesh that keeps the accuracy of a scene.
@@ -16,9 +16,10 @@ struct FoundMesh {
   MeshErrors errors;
 };
 
+/// Searches the cheapest mesh that keeps the accuracy.
 /// @param scene  with the supports under which its frequencies are meant
 /// @note   Collective.
-/// @throws chladni::Error when no mesh keeps the accuracy, with what the best one reached.
+/// @throws chladni::Error when no mesh keeps the accuracy, with the error of the best one.
 FoundMesh search_mesh(const scene::Scene& scene, const linear::SolverOptions& solver);
 
 }  // namespace chladni::cases

@@ -8,7 +8,7 @@
 
 namespace chladni::cases {
 
-/// Rows of the transformation for a list of DOFs, [n x n_FE].
+/// Returns the rows of the transformation for a list of DOFs, [n x n_FE].
 using RowsOf = std::function<Eigen::MatrixXd(const std::vector<int>& dofs)>;
 
 /// A mesh and its DOFs.
@@ -17,9 +17,9 @@ struct MeshedDofs {
   const plate::DofMap& dofs;
 };
 
-/// Displacement and rotation of nodes for each reduced coordinate: row 6 k + c is component c of
-/// nodes[k]. Dependent nodes follow their reference nodes; components that the model does not have
-/// are zero.
+/// Displacement and rotation of nodes per unit of each reduced coordinate: row 6 k + c is component
+/// c of nodes[k]. Dependent nodes follow their reference nodes; components that the model does not
+/// have are zero.
 /// @return [6 n x n_FE], m and rad per unit of each coordinate
 Eigen::MatrixXd node_rows(const std::vector<int>& nodes, const plate::DofMap& dofs,
                           const RowsOf& rows_of);

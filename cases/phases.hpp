@@ -11,16 +11,16 @@
 
 namespace chladni::cases {
 
-/// Called with the name of the phase under way and the fraction of it that is done, 0 to 1.
+/// A function that receives the name of the current phase and how much of it is done, 0 to 1.
 using ReduceProgress = std::function<void(const std::string& phase, double fraction)>;
 
-/// The phases of a program on this rank: timed, and their progress told.
+/// Measures the phases of a program on this rank and reports their progress.
 class Phases : public reduce::PhaseListener {
  public:
   explicit Phases(const ReduceProgress& progress) : progress_(progress) {}
 
   const std::vector<report::PhaseTime>& times() const { return clock_.phases(); }
-  /// The last phase of this name.
+  /// The time of the last phase of this name.
   const report::PhaseTime& time_of(const std::string& name) const;
 
  private:

@@ -17,9 +17,11 @@ struct PictureNodes {
   std::vector<std::array<int, 4>>
       cells;  ///< indices into `nodes`; a triangle repeats its last one, a line twice
 };
+/// The nodes and cells of a mesh that a picture shows.
 PictureNodes picture_nodes(const mesh::Mesh& mesh, scene::PictureChoice choice);
 
-/// Positions, cells and displacements; dependent nodes follow their reference nodes.
+/// The positions, cells and displacements of a picture. Dependent nodes follow their reference
+/// nodes.
 mbs_export::Picture make_picture(const PictureNodes& chosen, const plate::DofMap& dofs,
                                  const RowsOf& rows_of);
 

@@ -14,7 +14,7 @@
 
 namespace chladni::cases {
 
-/// A reduced system and what it took to make it.
+/// A reduced system and the cost of its reduction.
 struct ReduceSummary {
   mbs_export::ReducedSystem reduced;      ///< on the first rank; empty on the others
   std::vector<report::PhaseTime> phases;  ///< of this rank, in order
@@ -23,24 +23,26 @@ struct ReduceSummary {
   int n_masters;
   reduce::MethodChoice choice;
   int n_modes;        ///< of the method
-  int n_modes_asked;  ///< of these, by their number; 0 where something else has chosen them
-  report::PhaseTime factorization;  ///< of K_ss, on this rank; part of one of the phases
+  int n_modes_asked;  ///< number of modes asked for; 0 if no number was given
+  /// of K_ss, on this rank; part of one of the phases
+  report::PhaseTime factorization;
   linear::FactorSize factor;
-  double modes_residual;  ///< largest of the fixed-interface modes; 0 of other methods
+  /// largest residual of the fixed-interface modes; 0 for other methods
+  double modes_residual;
 };
 
-/// What was said of the solvers after `--`.
+/// The solver options that follow `--`.
 struct SaidOfSolvers {
   std::string text;  ///< all of it, for the provenance; PETSc knows it already
   linear::SolverOptions options = {};
 };
 
-/// Where a result of the scene's FE model comes from.
+/// The provenance of a result of the scene's FE model.
 mbs_export::Provenance provenance(const scene::Scene& scene, const SaidOfSolvers& solvers,
                                   const mesh::Mesh& mesh);
 
 /// Meshes, assembles and reduces the scene.
-/// @note   Collective on all ranks; PETSc and SLEPc are initialised.
+/// @note   Collective on all ranks; PETSc and SLEPc must be initialised.
 /// @throws chladni::Error on all ranks alike.
 ReduceSummary reduce_scene(const scene::Scene& scene, const SaidOfSolvers& solvers,
                            const ReduceProgress& progress);

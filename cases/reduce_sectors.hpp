@@ -5,11 +5,11 @@
 
 namespace chladni::cases {
 
-/// Reduces a scene of which one sector is meshed, harmonic by harmonic; the ranks share the
-/// harmonics. The reduced system is that of the whole body: its masters are the DOFs of nodes on
-/// the axis and the harmonics of rings, its modes come in exact pairs.
+/// Reduces a scene with one sector meshed, harmonic by harmonic; the ranks share the harmonics. The
+/// reduced system is that of the whole body: its masters are the DOFs of nodes on the axis and the
+/// harmonics of rings, its modes come in exact pairs.
 /// @note   Collective on all ranks.
-/// @throws chladni::Error on all ranks alike, for what sectors cannot do yet too.
+/// @throws chladni::Error on all ranks alike, also for what is not implemented for sectors.
 ReduceSummary reduce_sectors(const scene::Scene& scene, MeshedScene meshed,
                              const linear::SolverOptions& solver, Phases& phases);
 

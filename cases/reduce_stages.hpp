@@ -7,10 +7,10 @@
 
 namespace chladni::cases {
 
-/// The phases of a reduction in their order, and their usual parts of the time, per cent.
+/// The phases of a reduction in their order, with their usual share of the time, per cent.
 std::vector<report::Stage> stages_of(const reduce::ReduceOptions& wanted);
 
-/// The phases of a reduction from one sector.
+/// The phases of a reduction from one sector, with their usual share of the time, per cent.
 std::vector<report::Stage> stages_of_sectors();
 
 }  // namespace chladni::cases

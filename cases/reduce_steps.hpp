@@ -10,7 +10,7 @@
 #include "reduce/reduction.hpp"
 #include "scene/scene.hpp"
 
-/// What the steps of reduce_scene hand on.
+/// The data that the steps of `reduce_scene` pass on.
 namespace chladni::cases {
 
 struct FeModel {
@@ -19,17 +19,17 @@ struct FeModel {
   Attachments attachments;
 };
 
-/// A reduction of it, and the system that is written.
+/// The reduction of an FE model, and the system that is written.
 struct SceneReduction {
   reduce::FactoredBody body;
   reduce::Reduction reduction;
-  std::vector<int> places;           ///< of the coordinates of the file in the model
+  std::vector<int> places;           ///< of the file's coordinates in the model
   mbs_export::ReducedSystem system;  ///< in the order of the file
   int n_modes;                       ///< fixed-interface or free-interface modes
-  double modes_residual;             ///< largest of the fixed-interface modes
+  double modes_residual;             ///< largest residual of the fixed-interface modes
 };
 
-/// What the body of the scene is made of; refers to the scene.
+/// The sections, masses and springs of the scene's body; refers to the scene.
 plate::Structure structure_of(const scene::Scene& scene);
 
 /// A matrix of the FE model in the coordinates of the file.

@@ -6,34 +6,37 @@
 #include "cases/mesh_errors.hpp"
 #include "plate/refinement/refined_mesh.hpp"
 
-/// What refined meshes tell of the errors of a mesh, whoever solves for their modes.
+/// The errors of a mesh as found by refined meshes, independent of who solves for their modes.
 namespace chladni::cases {
 
-/// What a refined mesh tells of the elastic modes, in the order of the known ones.
+/// The elastic modes on a refined mesh, in the order of the known ones.
 struct RefinedModes {
   Eigen::VectorXd omega;   ///< [k] rad/s
   Eigen::MatrixXd shapes;  ///< [6 x k] differences from the known ones
 };
 
-/// The modes of a refinement, in the order of those of the model.
+/// Returns the modes on a refined mesh, in the order of those of the model.
 using ModesOn = std::function<RefinedModes(plate::RefinedMesh)>;
 
-/// DOFs of a model whose elements are halved, for the better estimate, at four times its size.
+/// The largest number of DOFs of a model whose elements are halved. This estimate is better than
+/// that by orders, but its model is four times as large.
 constexpr int most_halved = 20'000;
 
-/// Elements of half the size lack next to nothing where modes are smooth, and a quarter of the
-/// error where it goes with the square of the size. The layer at free edges, where it is thinner
-/// than half of the elements there, is asked for by elements cut at its width.
+/// Estimates errors with elements of half the size. Their error is negligible where modes are
+/// smooth, and a quarter of the error where it is of second order in the size. A boundary layer at
+/// free edges that is thinner than half of the elements there is resolved by elements cut at its
+/// width.
 /// @param found  with the frequencies of the mesh
 void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const ModesOn& modes,
                     MeshErrors& found);
 
-/// From elements of one order more and, where they can, of one order less.
+/// Estimates errors with elements of one order more and, if possible, of one order less.
 /// @param found  with the frequencies of the mesh
 void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found);
 
-/// The mode of another model for each of the given ones: pairs that are most alike.
-/// @param shares  [n x m] of mode i in the other mode j, m >= n
+/// The mode of another model that corresponds to each given mode, by the pairs of most similar
+/// shapes.
+/// @param shares  [n x m] share of mode i in the other mode j, m >= n
 std::vector<Eigen::Index> by_shapes(Eigen::MatrixXd shares);
 
 /// The relative differences of the components that a mode moves.

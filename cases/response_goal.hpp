@@ -11,18 +11,18 @@
 
 namespace chladni::cases {
 
-/// The responses of a scene's body that its reduction is to keep.
+/// The responses of a scene's body that its reduction keeps to a tolerance.
 struct SceneResponses {
   reduce::ResponseGoal goal;
-  /// "track.z" stands for all nodes of the set; on the first rank, once the goal was asked
+  /// "track.z" for all nodes of a set; filled on the first rank when the goal is called.
   std::shared_ptr<std::vector<std::string>> names;
 };
 
-/// Whether a reduction of the scene may come to keep responses.
+/// True if a reduction of the scene may have to keep responses.
 bool may_keep_responses(const scene::Scene& scene);
 
-/// The responses of `[body] keep` with a tolerance, where the loads act on masters; a third of the
-/// tolerance is the reduction's, the rest the body's. Nothing without a tolerance.
+/// The responses of `[body] keep` with a tolerance, if the loads act on masters. The reduction may
+/// use a third of the tolerance, the body the rest. Absent without a tolerance.
 /// @param described  nodes, sets and masters, in the order of `masters`
 /// @param masters    [n_m] global DOFs
 /// @param fixed      supports that hold masters

@@ -9,14 +9,14 @@
 
 namespace chladni::cases {
 
-/// A modal body, and what is to be told of it.
+/// A modal body, and notes for the user about it.
 struct SceneBody {
   mbs_export::ModalBody body;
   std::vector<std::string> notes;
 };
 
-/// The body of [body] of the scene.
-/// @throws chladni::Error naming file, line and key of what the scene asks for in vain.
+/// The body that [body] of the scene describes.
+/// @throws chladni::Error naming file, line and key of what the reduced system cannot give.
 SceneBody scene_body(const scene::Scene& scene, const mbs_export::ReducedSystem& reduced);
 
 }  // namespace chladni::cases

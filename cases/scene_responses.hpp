@@ -5,17 +5,17 @@
 #include "mbs_export/responses/frequency_responses.hpp"
 #include "scene/scene.hpp"
 
-/// Frequency responses of what a reduction left of the FE model. PETSc is not needed.
+/// Frequency responses of reduced systems and bodies, without PETSc.
 namespace chladni::cases {
 
-/// What [response] asks of a body, damped as the body is and by the loss factor.
-/// @throws chladni::Error naming file, line and key of what it asks in vain.
+/// The responses of a body that [response] asks for, damped as the body is and by the loss factor.
+/// @throws chladni::Error naming file, line and key of what the body cannot answer.
 mbs_export::FrequencyResponses body_responses(const scene::Scene& scene,
                                               const mbs_export::ModalBody& body);
 
-/// The same of the reduced system under `[body] fixed` with `[body] damping`: of a body that keeps
-/// all of its modes.
-/// @throws chladni::Error likewise.
+/// The responses of the reduced system under `[body] fixed` with `[body] damping`: those of a body
+/// that keeps all of its modes.
+/// @throws chladni::Error naming file, line and key of what the system cannot answer.
 mbs_export::FrequencyResponses reduced_responses(const scene::Scene& scene,
                                                  const mbs_export::ReducedSystem& reduced);
 

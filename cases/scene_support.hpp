@@ -8,7 +8,7 @@
 
 namespace chladni::cases {
 
-/// What holds the body of a scene, by names. Rigid-body motions are those of its geometry.
+/// The support of the body of a scene, by names. Its rigid-body motions are those of the geometry.
 class SceneSupport : public reduce::Support {
  public:
   /// @param described  nodes, sets and masters, in the order of `masters`

@@ -10,27 +10,28 @@
 
 namespace chladni::cases {
 
-/// Natural frequencies of a body that repeats about the z axis, from one sector of its mesh, and
-/// how far the mesh lets them be off. They are those of the whole body.
+/// Natural frequencies of a periodic body and their errors by the mesh, computed from one sector of
+/// its mesh. They are those of the whole body.
 class SectorFrequencies {
  public:
-  /// Nothing for a body that does not repeat, one that its supports leave some of the rigid-body
-  /// motions, and a scene that cannot be reduced from one sector, or where sectors are not looked
-  /// for.
+  /// Finds the sector. Absent for a body that is not periodic, for one with some but not all
+  /// rigid-body motions left by its supports, for a scene that cannot be reduced from one sector,
+  /// and if sectors are not searched for.
   /// @param scene  with the supports under which the frequencies are meant
-  /// @param whole  outlives this
-  /// @note   Collective on all ranks, as all of this header.
+  /// @param whole  must outlive this object
+  /// @note   Collective on all ranks, as are all functions of this header.
   static std::optional<SectorFrequencies> find(const scene::Scene& scene, const mesh::Mesh& whole);
 
   /// DOFs of the whole body.
   int n_dofs() const { return n_dofs_; }
 
-  /// The elastic ones up to a frequency (rad/s), or the first.
+  /// The elastic frequencies up to omega [rad/s], or the first one.
   /// @return ascending, rad/s, those of a pair twice
   Eigen::VectorXd up_to(double omega, const linear::SolverOptions& solver) const;
 
-  /// Of the elastic ones up to a frequency (rad/s), of the first in any case, as `mesh_errors`;
-  /// nothing where a refined mesh does not repeat: the digits of a mesh file may not suffice.
+  /// The errors of the elastic frequencies up to omega [rad/s], or of the first one, as
+  /// `mesh_errors`. Absent if a refined mesh is not periodic, since a mesh file may have too few
+  /// digits.
   std::optional<MeshErrors> errors_up_to(double omega, const linear::SolverOptions& solver) const;
 
  private:
@@ -38,10 +39,10 @@ class SectorFrequencies {
       : scene_(std::move(scene)), whole_(&whole), count_(count)
   {}
 
-  scene::Scene scene_;  ///< with no other interface nodes than those on the axis
+  scene::Scene scene_;  ///< its only interface nodes are those on the axis
   const mesh::Mesh* whole_;
   int count_;
-  std::vector<std::string> interface_ = {};  ///< of the scene
+  std::vector<std::string> interface_ = {};  ///< interface of the given scene
   std::shared_ptr<const SupportedSector> sector_ = {};
   int n_dofs_ = 0;
   int n_rigid_ = 0;  ///< 0 or 6

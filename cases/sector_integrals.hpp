@@ -5,7 +5,7 @@
 
 namespace chladni::cases {
 
-/// Integrals over the mass of the whole body from what each harmonic adds.
+/// The integrals over the mass of the whole body, from the contributions of the harmonics.
 /// @param M  of the whole body, [n x n]
 mbs_export::MassIntegrals sector_integrals(const SectorMass& mass,
                                            const std::vector<HarmonicPart>& parts,

@@ -10,19 +10,20 @@
 
 namespace chladni::cases {
 
-/// By order, of harmonics that have something in common.
+/// Motions of harmonics that may be coupled, by their order.
 using MotionsOfHarmonics = std::map<int, cyclic::SectorMotion>;
 
-/// The blocks of MassIntegrals::products of two harmonics of the whole body; S_zz is empty.
+/// The blocks of MassIntegrals::products between two harmonics of the whole body; S_zz is empty.
 struct MassCoupling {
-  int other;  ///< order, at most that of the harmonic
+  int other;  ///< its order, at most that of the harmonic
   std::array<Eigen::MatrixXd, 6> of_other, of_other_transposed;  ///< [n_other x n], [n x n_other]
 };
 
-/// What one harmonic adds to the integrals over the mass of the whole body.
+/// The contribution of one harmonic to the integrals over the mass of the whole body.
 struct HarmonicMass {
   Eigen::MatrixXd displacement, position_displacement;  ///< [3 x n], [9 x n]; see MassIntegrals
-  std::vector<MassCoupling> couplings;                  ///< with itself and with lower ones
+  /// with itself and with lower harmonics
+  std::vector<MassCoupling> couplings;
 };
 
 /// One of the two motions x and y of a harmonic.
@@ -31,33 +32,33 @@ struct HarmonicPhase {
   bool of_y;
 };
 
-/// Integrals over the mass of a body of equal sectors from those of its sector: a turn by one
-/// sector takes x to R x, so that each is a sum over the sectors of products with R and the phases.
-/// Harmonics have nothing in common unless their orders differ by `reach` at most.
+/// Integrals over the mass of a body of equal sectors from those of its sector. A turn by one
+/// sector takes x to R x, so each integral is a sum over the sectors of products with R and the
+/// phases. Harmonics are coupled only if their orders differ by at most `reach`.
 class SectorMass {
  public:
   static constexpr int reach = 2;
 
-  /// Refers to the model.
+  /// Refers to the model, which must outlive this object.
   SectorMass(const scene::Scene& scene, const SectorModel& model);
   SectorMass(const SectorMass&) = delete;
   SectorMass& operator=(const SectorMass&) = delete;
 
-  /// @param motions  of all DOFs of the sector, of this harmonic and of the `reach` lower ones
+  /// The contribution of a harmonic.
+  /// @param motions  of all DOFs of the sector, for this harmonic and the `reach` lower ones
   HarmonicMass of_harmonic(int order, const MotionsOfHarmonics& motions) const;
 
-  /// What does not depend on motions: mass, first and second moments of the whole body; no
-  /// products.
+  /// The part that does not depend on motions: mass, first and second moments of the whole body.
   mbs_export::MassIntegrals of_rigid_body() const;
 
  private:
-  /// What the motions in the direction p have in common with all others.
+  /// The coupling of motions in the direction p with all others.
   struct MovingRows {
-    std::vector<Eigen::Index> rows;       ///< where a DOF moves in this direction
+    std::vector<Eigen::Index> rows;       ///< those of DOFs that move in this direction
     std::array<cyclic::SparseRows, 3> S;  ///< S_px, S_py, S_pz; these rows alone
   };
 
-  /// S_pq of the sector, between the motions of two phases.
+  /// The form S_pq of the sector between the motions of two phases.
   struct PhasedProduct {
     HarmonicPhase a, b;
     int p, q;
@@ -65,9 +66,10 @@ class SectorMass {
   };
 
   MovingRows moving_rows(int p) const;
-  /// Adds what it is to S_kl and, transposed, S_qp to S_kl of the whole body.
+  /// Adds the contribution of the product to S_kl and, transposed as S_qp, to S_kl of the whole
+  /// body.
   void add_product(MassCoupling& coupling, const PhasedProduct& product) const;
-  /// Of a harmonic with itself and the lower ones.
+  /// The couplings of harmonic n with itself and with lower ones.
   std::vector<MassCoupling> couplings(int n, const MotionsOfHarmonics& motions) const;
 
   int count_;

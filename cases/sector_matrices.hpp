@@ -11,7 +11,7 @@ namespace chladni::cases {
 /// @param comm  of the ranks that reduce a harmonic together
 cyclic::SectorMatrices matrices_of(const SectorModel& model, MPI_Comm comm);
 
-/// The mirror of positions and matrices, where the sector has one.
+/// The mirror plane of positions and matrices; absent if the sector has none.
 std::optional<cyclic::Mirror> mirror_of(const SectorModel& model,
                                         const cyclic::SectorMatrices& matrices);
 

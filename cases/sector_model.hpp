@@ -10,13 +10,13 @@
 #include "plate/assembly/assemble.hpp"
 #include "scene/scene.hpp"
 
-/// A scene of which one sector is meshed.
+/// A scene with one sector meshed.
 namespace chladni::cases {
 
-/// An interface node of the sector, as the file knows it.
+/// An interface node of the sector, as it is written to the file.
 struct SectorNode {
   int node;      ///< of the DofMap
-  int block;     ///< of the DOFs
+  int block;     ///< of the sector's DOFs
   int ring;      ///< index in SectorDofs::rings; -1 on the axis
   double angle;  ///< rad, in [0, 2 pi) before the turns
   Eigen::Vector3d drilling_axis;
@@ -24,24 +24,27 @@ struct SectorNode {
 
 /// The interface of the sector.
 struct SectorInterface {
-  std::vector<SectorNode> nodes;                    ///< each once; of the cut edges the first one's
+  /// Each once; of nodes on the cut edges those of the first edge.
+  std::vector<SectorNode> nodes;
   std::vector<std::string> axis_names, ring_names;  ///< of SectorDofs::axis and rings
 };
 
+/// The assembled sector of a scene.
 struct SectorModel {
   mesh::Mesh mesh;
-  std::vector<plate::PointMass> masses;  ///< lumped, of the sector: its share of those on the axis
-  plate::System system;                  ///< of one rank
+  /// Lumped masses of the sector; of those on the axis its share.
+  std::vector<plate::PointMass> masses;
+  plate::System system;  ///< on one rank
   cyclic::SectorDofs dofs;
   SectorInterface interface;
 };
 
 /// Assembles the sector of a scene; every rank has it whole.
-/// @throws chladni::Error for what does not repeat with the sectors, naming it, and what harmonics
-///         cannot do yet.
+/// @throws chladni::Error for what is not periodic, naming it, and for what is not implemented for
+///         harmonics.
 SectorModel sector_model(const scene::Scene& scene, mesh::Mesh mesh);
 
-/// Attachment nodes of the whole body, sets and masters, without matrices.
+/// The attachment nodes, sets and masters of the whole body, without matrices.
 /// @return with ring motion of the masters; rows and columns as in ReducedSystem
 mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const SectorModel& model);
 
@@ -49,12 +52,13 @@ mbs_export::ReducedSystem described_whole(const scene::Scene& scene, const Secto
 int master_index(const mbs_export::ReducedSystem& whole, const SectorModel& model,
                  const cyclic::Master& master);
 
-/// What the support holds of each harmonic, or nothing where it holds what harmonics share.
-/// @param fixed  as BodyOptions::fixed
+/// The masters that the support holds in each harmonic. Entries of the support that would couple
+/// harmonics are left out.
 struct SectorSupport {
   std::vector<std::string> names;  ///< the entries of `fixed` that the certificate is for
   cyclic::IsHeld is_held;
 };
+/// The support of the scene's body in the harmonics of its sectors.
 SectorSupport sector_support(const scene::Scene& scene, const SectorModel& model);
 
 }  // namespace chladni::cases

@@ -5,7 +5,7 @@
 
 namespace chladni::cases {
 
-/// Geometric stiffness of the FE model in the coordinates of the reduced system, for each load.
+/// The geometric stiffness of the FE model in the coordinates of the reduced system, for each load.
 /// @note   Collective.
 mbs_export::Stiffening stiffening(const scene::Scene& scene, const FeModel& fe,
                                   const SceneReduction& reduced, const StressedStates& stressed);

@@ -13,19 +13,18 @@ namespace chladni::cli {
 void declare_scene_arguments(CLI::App& app, SceneArguments& arguments)
 {
   app.add_option("SCENE", arguments.scene, "the scene file (TOML)")->required();
-  app.add_option("--output", arguments.output, "folder for the files")
+  app.add_option("--output", arguments.output, "folder of the input and output files")
       ->type_name("DIR")
       ->capture_default_str();
-  app.add_option("--json", arguments.json, "writes the summary for other programs")
-      ->type_name("FILE");
+  app.add_option("--json", arguments.json, "writes the summary as JSON")->type_name("FILE");
   app.add_flag("--overwrite", arguments.overwrite,
-               "replaces files that another scene of the same `name` wrote");
-  app.add_flag("--quiet", arguments.quiet, "prints no results, only notes and errors");
+               "replaces files that another scene with the same `name` wrote");
+  app.add_flag("--quiet", arguments.quiet, "prints only notes and errors, no results");
 }
 
 void declare_stale(CLI::App& app, bool& stale)
 {
-  app.add_flag("--stale", stale, "takes files that were made before the scene changed");
+  app.add_flag("--stale", stale, "uses files that were made before the scene changed");
 }
 
 namespace {

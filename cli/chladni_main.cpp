@@ -38,7 +38,7 @@ struct Subcommand {
 
 constexpr Subcommand on_scenes[] = {
     {"mesh",
-     "meshes the scene, says what the mesh is like and draws it: NAME.mesh.vtu, NAME.mesh.html",
+     "meshes the scene, prints a summary of the mesh and draws it: NAME.mesh.vtu, NAME.mesh.html",
      "Examples:\n  chladni mesh scene.toml\n  chladni mesh disc.msh --quality --json mesh.json",
      chladni::cli::mesh_command},
     {"static", "displacements and section forces under supports and loads: NAME.static.vtu",
@@ -66,7 +66,7 @@ constexpr Subcommand on_scenes[] = {
      "Examples:\n  chladni sound scene.toml --output out --json out/sound.json\n"
      "  chladni sound scene.toml --radiation --output out    (before `squeal run`)",
      chladni::cli::sound_command},
-    {"run", "mesh, reduce and body in one go",
+    {"run", "meshes, reduces and makes the body: NAME.reduced.h5, NAME.body.h5",
      "Examples:\n  chladni run scene.toml --output out --json out/chladni.json\n"
      "  mpirun -n 2 chladni run scene.toml",
      chladni::cli::run_command},
@@ -77,9 +77,9 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
   CLI::App* exported = app.add_subcommand("export", "writes files for other programs");
   exported
       ->add_option("SOURCE", arguments.source,
-                   "the scene file, or a *.reduced.h5 (of mat, fmu: a *.body.h5)")
+                   "the scene file, or a *.reduced.h5 (for the formats mat and fmu: a *.body.h5)")
       ->required();
-  exported->add_option("--format", arguments.format, "format of the other program")
+  exported->add_option("--format", arguments.format, "file format to write")
       ->required()
       ->check(CLI::IsMember(chladni::cli::export_formats()));
   chladni::cli::declare_stale(*exported, arguments.stale);
@@ -87,27 +87,28 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       ->type_name("DIR")
       ->capture_default_str();
   exported->add_option("--output", arguments.output, "file to write")->type_name("FILE");
-  exported->add_option("--superelement", arguments.superelement, "its number in Nastran")
+  exported->add_option("--superelement", arguments.superelement, "superelement number in Nastran")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
-  exported->add_option("--sid-dialect", arguments.sid_dialect, "whose order of indices SID_FEM has")
+  exported
+      ->add_option("--sid-dialect", arguments.sid_dialect,
+                   "program whose order of indices the SID_FEM file uses")
       ->check(CLI::IsMember(chladni::cli::sid_dialects()))
       ->capture_default_str();
   exported
       ->add_option("--sid-gyroscopic", arguments.sid_gyroscopic,
-                   "order of the columns of Gr and Ge in SID_FEM")
+                   "order of the columns of Gr and Ge in the SID_FEM file")
       ->check(CLI::IsMember(chladni::cli::sid_gyroscopic_orders()))
       ->capture_default_str();
-  exported->add_option("--fmi", arguments.fmi, "version of FMI of an FMU")
+  exported->add_option("--fmi", arguments.fmi, "FMI version of the FMU")
       ->check(CLI::IsMember(chladni::cli::fmi_versions()))
       ->capture_default_str();
   exported
       ->add_option("--nodes", arguments.nodes,
-                   "sets of attachment nodes that an FMU has forces and motions of; else all")
+                   "sets of attachment nodes with forces and motions in the FMU; default: all")
       ->type_name("SET")
       ->delimiter(',');
-  exported->add_option("--json", arguments.json, "writes the summary for other programs")
-      ->type_name("FILE");
+  exported->add_option("--json", arguments.json, "writes the summary as JSON")->type_name("FILE");
   exported->footer(
       "Examples:\n  chladni export out/disc.reduced.h5 --format nastran-op4 --output disc.op4\n"
       "  chladni export scene.toml --from out --format mbdyn-develop --output disc.fem\n"
@@ -120,24 +121,24 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
 
 void declare_length_unit(CLI::App& app, std::string& unit)
 {
-  app.add_option("--length-unit", unit, "what 1 is in a deck, .unv, .med or .vtu")
+  app.add_option("--length-unit", unit, "unit of length of a deck, .unv, .med or .vtu file")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
 }
 
 void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
 {
-  CLI::App* imported =
-      app.add_subcommand("import", "begins a scene with what a deck of Nastran or Abaqus says");
+  CLI::App* imported = app.add_subcommand(
+      "import", "writes a scene with the mesh and model of a Nastran or Abaqus deck");
   imported->add_option("DECK", arguments.deck, "*.bdf, *.nas, *.dat or *.inp")->required();
   declare_length_unit(*imported, arguments.length_unit);
   imported->get_option("--length-unit")->required();
   imported
       ->add_option("--force-unit", arguments.force_unit,
-                   "what a force of 1 is in the deck; N, or lbf with inches, unless given")
+                   "unit of force of the deck; default: N, or lbf when lengths are in inches")
       ->type_name("UNIT")
       ->check(CLI::IsMember({"N", "mN", "kN", "lbf"}));
-  imported->add_option("--output", arguments.output, "scene to write; else it is printed")
+  imported->add_option("--output", arguments.output, "scene file to write; default: print it")
       ->type_name("FILE");
   imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");
 }
@@ -150,13 +151,12 @@ void declare_mac(CLI::App& app, chladni::cli::MacArguments& arguments)
                   "universal file with modes (55) and nodes (15, 2411)")
       ->required();
   mac->add_option("--distance", arguments.distance,
-                  "how far a measured node may be from the nearest one of the body, m")
+                  "largest distance from a measured node to its node of the body, m")
       ->type_name("METRES")
       ->check(CLI::PositiveNumber)
       ->required();
   declare_length_unit(*mac, arguments.length_unit);
-  mac->add_option("--json", arguments.json, "writes the matrix for other programs")
-      ->type_name("FILE");
+  mac->add_option("--json", arguments.json, "writes the MAC matrix as JSON")->type_name("FILE");
   mac->footer(
       "Example:\n  chladni mac out/disc.body.h5 modes.unv --distance 0.002 --json mac.json");
 }
@@ -164,15 +164,14 @@ void declare_mac(CLI::App& app, chladni::cli::MacArguments& arguments)
 /// What tells of files of Chladni.
 void declare_readers(CLI::App& app, chladni::cli::ChladniArguments& arguments)
 {
-  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni holds");
+  CLI::App* info = app.add_subcommand("info", "prints what a file of Chladni contains");
   info->add_option("FILE", arguments.info_file,
                    "*.reduced.h5, *.body.h5, *.response.h5 or *.squeal.h5")
       ->required();
   info->footer("Example:\n  chladni info out/disc.body.h5");
   CLI::App* check = app.add_subcommand("check", "checks a reduced system or a modal body");
   check->add_option("FILE", arguments.check_file, "*.reduced.h5 or *.body.h5")->required();
-  check->add_option("--json", arguments.check_json, "writes the table for other programs")
-      ->type_name("FILE");
+  check->add_option("--json", arguments.check_json, "writes the table as JSON")->type_name("FILE");
   check->footer("Example (exit code 1 when a check fails):\n  chladni check out/disc.reduced.h5");
 }
 
@@ -186,22 +185,22 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   for (const char* meshes : {"mesh", "static", "modes", "response", "reduce", "run"}) {
     app.get_subcommand(meshes)->add_flag(
         "--trust-mesh", arguments.trusts_mesh,
-        "the mesh file is your own: a .geo may run programs and write files, and take its time");
+        "the mesh file is your own: a .geo may run programs and write files, without a time limit");
   }
   app.get_subcommand("mesh")->add_flag(
       "--quality", arguments.mesh.quality,
-      "shapes of the elements, and those that cannot work; SCENE may be a .msh, .geo, .step, "
-      ".unv, .med, .vtu or a deck");
+      "reports element quality and unusable elements; SCENE may be a .msh, .geo, .step, .unv, "
+      ".med, .vtu or a deck");
   declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
   app.get_subcommand("response")
       ->add_option("--uff", arguments.response.universal_file,
-                   "writes the responses as a universal file too (datasets 58, 2411, 164)")
+                   "also writes the responses to a universal file (datasets 58, 2411, 164)")
       ->type_name("FILE");
   for (const char* reader : {"body", "response", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
-  app.get_subcommand("sound")->add_flag(
-      "--radiation", arguments.sound.radiation_only,
-      "only what the sound of each mode does to it: NAME.radiation.h5, for `radiation = true`");
+  app.get_subcommand("sound")->add_flag("--radiation", arguments.sound.radiation_only,
+                                        "computes only the radiation damping of the modes: "
+                                        "NAME.radiation.h5, for `radiation = true`");
   declare_readers(app, arguments);
   declare_export(app, arguments.exported);
   declare_import(app, arguments.imported);

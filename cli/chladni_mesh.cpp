@@ -43,12 +43,14 @@ Subject read_subject(const ChladniArguments& arguments)
   const std::string extension = std::filesystem::path(path).extension().string();
   const std::string& unit = arguments.mesh.length_unit;
   const bool has_no_unit = mesh::is_deck(path) || mesh::is_exchange(path);
-  if (has_no_unit && unit.empty())
-    throw Error(path + ": such a file tells no unit; say --length-unit mm");
+  if (has_no_unit && unit.empty()) {
+    throw Error(path +
+                ": this kind of file states no unit of length; give it, e.g. --length-unit mm");
+  }
   if (!has_no_unit && !unit.empty()) {
     throw Error(path +
-                ": --length-unit is for decks, .unv, .med and .vtu files without a scene; say "
-                "length_unit in [mesh]");
+                ": --length-unit is for decks, .unv, .med and .vtu files without a scene; give "
+                "length_unit in [mesh] instead");
   }
   if (has_no_unit || scene::contains({".msh", ".geo", ".step", ".stp"}, extension)) {
     const mesh::Trust trust = arguments.trusts_mesh ? mesh::Trust::owner : mesh::Trust::stranger;

@@ -23,7 +23,8 @@ mbs_export::ModalBody body_of(const scene::Scene& scene, const SceneArguments& a
     return make_body_of(scene, reduced);
   } catch (const Error& error) {
     throw Error(fmt::format(
-        "{}\nThe reduction is kept in {}; mend [body] and go on with `chladni body {} --output {}`",
+        "{}\nThe reduction is kept in {}; correct [body] and continue with `chladni body {} "
+        "--output {}`",
         error.what(), reduced_file(scene, arguments).string(), arguments.scene, arguments.output));
   }
 }

@@ -14,46 +14,54 @@
 /// The steps that the subcommands of `chladni` share.
 namespace chladni::cli {
 
-/// The scene of the arguments, with their trust in its mesh file.
+/// Reads the scene of the arguments; with `trusts_mesh` its mesh file may run programs. Prints the
+/// scene's notes.
 /// @throws chladni::Error as scene::read_meshed_scene.
 scene::Scene read_scene_to_mesh(const ChladniArguments& arguments,
                                 scene::Purpose purpose = scene::Purpose::everything);
 
+/// NAME.reduced.h5 in the output folder.
 std::filesystem::path reduced_file(const scene::Scene& scene, const SceneArguments& arguments);
+/// NAME.body.h5 in the output folder.
 std::filesystem::path body_file(const scene::Scene& scene, const SceneArguments& arguments);
 
-/// The reduced system and the body that the scene's folder holds, as long as they are of the scene
-/// as it is, or the arguments take stale files.
-/// @throws chladni::Error naming the file and the command that makes it.
+/// Reads the reduced system (or the body) from the output folder.
+/// @throws chladni::Error naming the file and the command that makes it, when it is missing or,
+///         unless the arguments accept stale files, was made before the scene changed.
 mbs_export::ReducedSystem read_reduced_of(const scene::Scene& scene,
                                           const SceneArguments& arguments);
 mbs_export::ModalBody read_body_of(const scene::Scene& scene, const SceneArguments& arguments);
 
-/// On the first rank; see reserve_outputs.hpp. @note Collective.
+/// Calls reserve_outputs on the first rank.
+/// @note Collective.
 ReservedOutputs reserve_on_first_rank(const SceneArguments& arguments,
                                       const std::vector<std::filesystem::path>& files);
 
-/// Tells on the terminal of the first rank how far the phases are that take these parts of the
-/// time; what it shows is wiped out when the last copy of the function goes.
+/// A function that shows the progress on the terminal of the first rank; the line is wiped when the
+/// last copy of the function is destroyed.
+/// @param stages  phases in order, with their shares of the time
 cases::ReduceProgress progress_bar(std::vector<report::Stage> stages);
 
-/// PETSc's options from the environment and behind `--`.
+/// Solver options from the environment variable PETSC_OPTIONS and from the words after `--`.
 cases::SaidOfSolvers said_of_solvers(const ChladniArguments& arguments);
 
-/// A line on the first rank that tells how far the reduction of a scene is, until it is destroyed.
+/// A progress line for the reduction of the scene on the first rank, shown until it is destroyed.
 cases::ReduceProgress line_of_progress(const scene::Scene& scene);
 
-/// The body of the scene.
-/// @throws chladni::Error when the scene wants to hear a squeal but its supports leave the body
-///         free, and as mbs_export::make_body.
+/// Makes the body of the scene and prints notes about it.
+/// @throws chladni::Error when the scene has a squeal study but its supports leave the body free;
+///         also as mbs_export::make_body.
 mbs_export::ModalBody make_body_of(const scene::Scene& scene,
                                    const mbs_export::ReducedSystem& reduced);
 
-/// CPU times summed over the ranks, wall times of the slowest. @note Collective.
+/// Cost over all ranks: CPU times are summed, wall times and peak memory are the maximum.
+/// @note Collective.
 report::Cost cost_of_all_ranks(const std::vector<report::PhaseTime>& phases);
+/// Time of one phase over all ranks: CPU time is summed, wall time is the maximum.
+/// @note Collective.
 report::PhaseTime time_of_all_ranks(const report::PhaseTime& time);
 
-/// Writes the summary of a subcommand where --json says.
+/// Writes the JSON summary of a subcommand to the file of --json, if one was given.
 void write_summary(const SceneArguments& arguments,
                    const std::vector<report::Json::Member>& members, const report::Cost& cost);
 

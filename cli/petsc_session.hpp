@@ -5,8 +5,8 @@
 
 namespace chladni::cli {
 
-/// PETSc, SLEPc and MPI, from construction to destruction. Failures of PETSc come back as error
-/// codes and print nothing.
+/// PETSc, SLEPc and MPI are initialised from construction to destruction. PETSc returns its
+/// failures as error codes and prints nothing.
 class PetscSession {
  public:
   /// @param options  PETSc options as words, "-name" "value" ...
@@ -17,7 +17,7 @@ class PetscSession {
   PetscSession& operator=(const PetscSession&) = delete;
 };
 
-/// Ends all ranks with this exit code, without waiting for them.
+/// Ends all ranks with this exit code without waiting for them.
 [[noreturn]] void abort_all_ranks(int exit_code);
 
 }  // namespace chladni::cli

@@ -34,8 +34,8 @@ void refuse_that_of_another_scene(const SceneArguments& arguments, const path& f
   const std::string own = scene_file_of(arguments);
   if (writer.empty() || writer == own || !exists(path(arguments.output) / writer)) return;
   throw Error(fmt::format(
-      "{}: is of another scene, {}; give one of them another `name`, this one another --output, or "
-      "replace the file with --overwrite",
+      "{}: belongs to another scene, {}; give one of the scenes another `name`, choose another "
+      "--output, or replace the file with --overwrite",
       file.string(), (path(arguments.output) / writer).lexically_normal().string()));
 }
 

@@ -10,25 +10,26 @@
 
 namespace chladni::cli {
 
-/// The right to write some files, as long as it lives.
+/// Locks on output files, held as long as this object exists.
 using ReservedOutputs = std::vector<std::shared_ptr<const files::OutputLock>>;
 
-/// Whether the user takes files that were made before the scene changed.
+/// Whether the user accepts files that were made before the scene changed.
 inline report::Stale stale_of(const SceneArguments& arguments)
 {
   return arguments.stale ? report::Stale::use : report::Stale::refuse;
 }
 
-/// The scene's file as seen from the output folder, for `Provenance::scene_file`.
+/// The scene's file relative to the output folder, for `Provenance::scene_file`; empty if unknown.
 std::string scene_file_of(const SceneArguments& arguments);
 
-/// Tells numbers of the scene that look like those of another unit, on stderr.
+/// Prints the scene's notes on stderr: numbers that look as if they were in another unit.
 void tell_notes(const scene::Scene& scene);
 
-/// Makes the output folder if need be, and locks `files` and the summary. To be called before the
-/// costly work: what cannot be written, or is being written by another run, is an error at once.
-/// @throws chladni::Error naming the file; also where it is of another scene that is still there
-///         and has the same name, unless it may be overwritten.
+/// Makes the output folder if needed, and locks `files` and the JSON summary. Call it before costly
+/// work, so that a file that cannot be written, or that another run is writing, is reported at
+/// once.
+/// @throws chladni::Error naming the file, also when another scene that still exists wrote it under
+///         the same name and --overwrite is not given.
 ReservedOutputs reserve_outputs(const SceneArguments& arguments,
                                 const std::vector<std::filesystem::path>& files);
 

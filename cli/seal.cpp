@@ -15,11 +15,11 @@ void declare_seal(CLI::App& app, SealArguments& arguments)
                    "a *.h5 of Chladni that another program has changed or made")
       ->required();
   seal->add_flag("--detach", arguments.detach,
-                 "the seal goes into FILE.seal; FILE is then plain HDF5 from its first byte on");
+                 "writes the seal to FILE.seal, so that FILE is plain HDF5 from its first byte");
   seal->footer(fmt::format(
-      "A file that is not as it was written is refused. This accepts it as it is now.\n"
-      "Some readers of HDF5 (pyfive, jsfive) do not look beyond the first byte: --detach is for "
-      "them.\nExamples:\n  {0} seal out/disc.body.h5\n  {0} seal --detach out/disc.body.h5",
+      "Chladni refuses a file that was changed after it was written; `seal` accepts its present "
+      "content.\nSome readers of HDF5 (pyfive, jsfive) need the HDF5 signature at the first byte: "
+      "use --detach.\nExamples:\n  {0} seal out/disc.body.h5\n  {0} seal --detach out/disc.body.h5",
       app.get_name()));
 }
 

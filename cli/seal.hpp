@@ -8,17 +8,17 @@ class App;
 
 namespace chladni::cli {
 
-/// What `seal` takes.
+/// Arguments of the subcommand `seal`.
 struct SealArguments {
   std::string file;
-  bool detach = false;  ///< the seal goes into FILE.seal, and FILE is HDF5 from its first byte on
+  bool detach = false;  ///< write the seal to FILE.seal; FILE is then plain HDF5
 };
 
 /// Declares the subcommand `seal` of `app`.
 void declare_seal(CLI::App& app, SealArguments& arguments);
 
-/// Accepts a file that was changed on purpose (files/seal.hpp), and says so.
-/// @throws chladni::Error when libhdf5 cannot open it, or it cannot be written.
+/// Seals a file that was changed on purpose (files/seal.hpp), and prints that.
+/// @throws chladni::Error when libhdf5 cannot open the file or it cannot be written.
 void seal(const SealArguments& arguments);
 
 }  // namespace chladni::cli

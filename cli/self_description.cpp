@@ -201,13 +201,13 @@ std::string completion_script(const CLI::App& app, const std::string& shell)
 void declare_self_description(CLI::App& app, SelfDescription& arguments)
 {
   CLI::App* completion =
-      app.add_subcommand("completion", "prints a script by which a shell completes commands");
+      app.add_subcommand("completion", "prints a script for command completion in a shell");
   completion->add_option("SHELL", arguments.shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   completion->footer(fmt::format(
       "Example (installed packages have it):\n  source <({} completion bash)", app.get_name()));
-  app.add_subcommand("manual", "prints the manual page in the language of `man`")
+  app.add_subcommand("manual", "prints the manual page as source for `man`")
       ->footer(fmt::format("Example:\n  {0} manual > {0}.1; man ./{0}.1", app.get_name()));
 }
 

@@ -33,17 +33,18 @@ struct SquealArguments {
 
 void declare_run(CLI::App& app, SquealArguments& arguments)
 {
-  CLI::App* run = app.add_subcommand("run", "analyses a body as the scene's [squeal] says");
+  CLI::App* run = app.add_subcommand(
+      "run", "performs the analyses of the scene's [squeal] on a body: NAME.squeal.h5");
   chladni::cli::declare_scene_arguments(*run, arguments.run.scene);
   chladni::cli::declare_stale(*run, arguments.run.scene.stale);
   run->add_flag("--resume", arguments.run.resume,
-                "goes on from where a run was interrupted; --overwrite begins anew");
+                "continues an interrupted run; to start again use --overwrite");
   run->add_option("--checkpoint", arguments.run.checkpoint_interval,
-                  "seconds between two states of a long transient, for --resume")
+                  "time between two checkpoints of a long transient, for --resume")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
-  run->add_option("--body", arguments.run.body_file, "the body; default: NAME.body.h5 in DIR")
+  run->add_option("--body", arguments.run.body_file, "body file; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   run->footer(
       "Examples:\n"
@@ -55,7 +56,7 @@ void declare_run(CLI::App& app, SquealArguments& arguments)
 
 void declare_info(CLI::App& app, SquealArguments& arguments)
 {
-  CLI::App* info = app.add_subcommand("info", "prints what a body or a result file holds");
+  CLI::App* info = app.add_subcommand("info", "prints what a body or result file contains");
   info->add_option("FILE", arguments.info_file, "*.body.h5, *.squeal.h5 or *.sweep.h5")->required();
   info->footer("Example:\n  squeal info out/disc.squeal.h5");
 }

@@ -37,10 +37,10 @@ using std::filesystem::path;
 void forget(const cases::SquealFiles& files, const SceneArguments& arguments)
 {
   if (exists(files.checkpoint) && !arguments.overwrite) {
-    throw Error(
-        fmt::format("{}: the state of a run that was interrupted; --resume goes on from it, "
-                    "--overwrite begins anew",
-                    files.checkpoint.string()));
+    throw Error(fmt::format(
+        "{}: holds the state of an interrupted run; continue it with --resume, or start "
+        "again with --overwrite",
+        files.checkpoint.string()));
   }
   std::error_code ignored;
   std::filesystem::remove(files.checkpoint, ignored);
@@ -102,7 +102,7 @@ scene::Scene read_study(const RunArguments& arguments)
   scene::Scene scene = scene::read_scene(arguments.scene.scene);
   cases::require_study(scene);
   if (!(arguments.checkpoint_interval >= 0.0))
-    throw Error("--checkpoint: give the seconds between two states of a transient, 0 or more");
+    throw Error("--checkpoint: the time between two checkpoints must be 0 s or more");
   if (scene.squeal_model && !arguments.body_file.empty())
     throw Error(fmt::format("{}: squeal.model needs no --body; leave it out", scene.path));
   tell_notes(scene);

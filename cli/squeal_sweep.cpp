@@ -75,38 +75,43 @@ void write_json(const std::string& file, const squeal::SweepTable& sweep, const 
 
 void declare_sweep(CLI::App& app, SweepArguments& arguments)
 {
-  CLI::App* sweep =
-      app.add_subcommand("sweep", "analyses many variants of a scene: other numbers in its keys");
+  CLI::App* sweep = app.add_subcommand(
+      "sweep",
+      "analyses variants of a scene with other values of its keys: NAME.sweep.h5, NAME.sweep.csv");
   declare_scene_arguments(*sweep, arguments.scene);
   declare_stale(*sweep, arguments.scene.stale);
   sweep
       ->add_option("--vary", arguments.vary,
-                   "a key of [squeal] and its values; several keys make a grid")
+                   "a key of [squeal] and its values; with several keys, all combinations")
       ->type_name("KEY=FROM:TO:COUNT|KEY=VALUE,...")
       ->allow_extra_args(false);
   sweep
       ->add_option("--samples", arguments.samples,
-                   "comma-separated values: keys in the first line, a variant in each other one")
+                   "file of comma-separated values: keys in the first line, one variant in each "
+                   "further line")
       ->type_name("FILE");
   sweep
-      ->add_option("--analyses", arguments.analyses,
-                   "separated by commas; default: those of the scene that yield single numbers")
+      ->add_option(
+          "--analyses", arguments.analyses,
+          "names separated by commas; default: those of the scene that yield single numbers")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   sweep->add_flag("--resume", arguments.resume,
-                  "goes on from where a sweep was interrupted; --overwrite begins anew");
+                  "continues an interrupted sweep; to start again use --overwrite");
   sweep
       ->add_option("--checkpoint", arguments.checkpoint_interval,
-                   "seconds between two states of the table in its file, for --resume")
+                   "time between two writes of the table to its file, for --resume")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
-  sweep->add_option("--threads", arguments.n_threads, "variants at a time; 0: one for a processor")
+  sweep
+      ->add_option("--threads", arguments.n_threads,
+                   "number of variants computed at a time; 0: one per processor")
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  sweep->add_option("--body", arguments.body_file, "the body; default: NAME.body.h5 in DIR")
+  sweep->add_option("--body", arguments.body_file, "body file; default: NAME.body.h5 in DIR")
       ->type_name("FILE");
   sweep->footer(
       "Examples:\n"

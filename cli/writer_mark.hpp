@@ -5,14 +5,14 @@
 
 #include "cli/arguments.hpp"
 
-/// Files of text that keep in mind which scene wrote them.
+/// Text files that record which scene wrote them.
 namespace chladni::cli {
 
-/// A comment of XML and HTML for the end of a file, with the scene's file as seen from the output
-/// folder.
+/// An XML or HTML comment for the end of a file, which names the scene's file relative to the
+/// output folder.
 std::string writer_mark(const SceneArguments& arguments);
 
-/// The scene's file in the comment at the end of a file; empty where there is none.
+/// The scene's file named by the comment at the end of a file; empty if there is none.
 std::string marked_writer(const std::filesystem::path& file);
 
 }  // namespace chladni::cli

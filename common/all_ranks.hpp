@@ -12,7 +12,7 @@
 
 namespace chladni {
 
-/// Throws on all ranks what the lowest rank with a complaint complains of.
+/// Throws on all ranks the complaint of the lowest rank that has one.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error with the complaint.
 inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
@@ -31,9 +31,9 @@ inline void agree_on(const std::optional<std::string>& complaint, MPI_Comm comm)
   throw Error(text);
 }
 
-/// Runs work() on each rank, which must not communicate. What one rank throws all of them throw:
-/// no other rank waits for it.
-/// @return what work() returned on this rank.
+/// Runs work() on each rank. It must not communicate. If it throws on one rank, all ranks throw, so
+/// that none waits for the others.
+/// @return the result of work() on this rank
 /// @note   Collective on `comm`.
 /// @throws chladni::Error when work() threw on any rank.
 template <typename Work>
@@ -52,7 +52,7 @@ auto on_all_ranks(MPI_Comm comm, const Work& work)
   return std::move(*result);
 }
 
-/// Runs work() on the first rank alone; the others wait, and throw what it throws.
+/// Runs work() on the first rank alone. The others wait, and throw what it throws.
 /// @note   Collective on `comm`.
 /// @throws chladni::Error when work() threw.
 template <typename Work>

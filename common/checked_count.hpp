@@ -10,13 +10,13 @@
 
 namespace chladni {
 
-/// The largest number of things that PETSc with indices of 32 bits, METIS and a call of MPI count.
+/// The largest count that PETSc with 32-bit indices, METIS and a call of MPI can represent.
 inline constexpr std::int64_t largest_count = std::numeric_limits<std::int32_t>::max();
 
 /// n as an int.
-/// @param what  "entries of K on one rank"
-/// @param cure  "use more ranks"
-/// @throws chladni::Error when n is larger than largest_count.
+/// @param what  what is counted, "entries of K on one rank"
+/// @param cure  what to do, "use more ranks"
+/// @throws chladni::Error when n is larger than `largest_count`.
 inline int checked_count(std::int64_t n, std::string_view what, std::string_view cure)
 {
   if (n <= largest_count) return static_cast<int>(n);

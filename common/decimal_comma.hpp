@@ -6,7 +6,7 @@
 
 namespace chladni {
 
-/// Whether what ends before a comma is a number without point or exponent, and no part of a name.
+/// True if a number without point or exponent, and not part of a name, ends before the comma.
 inline bool is_whole_before(const std::string& formula, std::size_t comma)
 {
   std::size_t begin = comma;
@@ -16,7 +16,7 @@ inline bool is_whole_before(const std::string& formula, std::size_t comma)
   return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_';
 }
 
-/// Whether what begins behind a comma are digits that no point follows.
+/// True if digits without a point after them follow the comma.
 inline bool is_whole_after(const std::string& formula, std::size_t comma)
 {
   std::size_t end = comma + 1;
@@ -24,10 +24,10 @@ inline bool is_whole_after(const std::string& formula, std::size_t comma)
   return end > comma + 1 && (end == formula.size() || formula[end] != '.');
 }
 
-/// What in a formula looks like a decimal comma, of which a parser would take what follows it: a
-/// comma that does not stand between the arguments of a function, a comma without a blank between
-/// two whole numbers, and a whole number that begins with 0.
-/// @return what is wrong and how to write it; empty when nothing is
+/// Finds probable decimal commas in a formula, which a parser would misread: a comma that does not
+/// separate arguments of a function, a comma without a blank between two integers, and an integer
+/// that begins with 0.
+/// @return what is wrong and how to write it; empty if nothing is
 inline std::string decimal_comma_in(const std::string& formula)
 {
   const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };

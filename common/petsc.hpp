@@ -17,22 +17,23 @@ static_assert(PetscDefined(USE_REAL_DOUBLE), "Chladni needs the double-precision
 /// Owned PETSc objects and the bridge from PETSc's error codes to chladni::Error.
 namespace chladni::petsc {
 
-/// A PETSc call failed, and PETSc has said why.
+/// Thrown when a PETSc call failed; PETSc has already reported the reason.
 class Failure : public Error {
  public:
   Failure(PetscErrorCode error_code, const std::string& text) : Error(text), code(error_code) {}
   PetscErrorCode code;
 };
 
-/// Whether a PETSc call failed for lack of memory. PETSc 3.18 returns the line of a malloc that
-/// failed as the code, and as the text the name of the function that it is in.
+/// True if a PETSc call failed for lack of memory. PETSc 3.18 then returns the line of the failed
+/// malloc as the code, and the name of its function as the text.
 inline bool is_out_of_memory(PetscErrorCode code, const char* text)
 {
   const bool is_a_name = text != nullptr && std::strchr(text, ' ') == nullptr;
   return code == PETSC_ERR_MEM || (errno == ENOMEM && is_a_name);
 }
 
-/// What PETSc says of an error: in general, and of this one; its type is another one from 3.25 on.
+/// PETSc's texts of an error: the general one and the specific one, whose type differs from PETSc
+/// 3.25 on.
 template <class Specific>
 struct ErrorTexts {
   const char* text = nullptr;
@@ -48,7 +49,8 @@ ErrorTexts<Specific> error_texts(PetscErrorCode (*ask)(PetscErrorCode, const cha
   return texts;
 }
 
-/// @throws Failure with PETSc's own text when a PETSc call failed.
+/// Checks the return code of a PETSc call.
+/// @throws Failure with PETSc's own text when the call failed.
 inline void check(PetscErrorCode code)
 {
   if (code == 0) return;
@@ -84,7 +86,7 @@ class Owned {
 
   operator Object() const { return object_; }  // NOLINT(google-explicit-constructor): as PETSc's
 
-  /// Address for a PETSc creator; only of an empty handle.
+  /// The address for a PETSc function that creates an object; for empty handles only.
   Object* put() { return &object_; }
 
  private:
@@ -97,7 +99,7 @@ using IndexSet = Owned<IS, ISDestroy>;
 using LinearSolver = Owned<KSP, KSPDestroy>;
 using EigenSolver = Owned<EPS, EPSDestroy>;
 
-/// @return the communicator of a PETSc object.
+/// The communicator of a PETSc object.
 template <typename Object>
 MPI_Comm communicator(Object object)
 {

@@ -2,17 +2,17 @@
 
 #include <petscsys.h>
 
-/// What versions of PETSc and SLEPc from 3.18 on call differently.
+/// Differences between the versions of PETSc and SLEPc from 3.18 on.
 namespace chladni::petsc {
 
-/// As a number that is not given: PETSc chooses it.
+/// The value of a number that PETSc is to choose.
 #if PETSC_VERSION_LT(3, 22, 0)
 inline constexpr int automatic = PETSC_DEFAULT;
 #else
 inline constexpr int automatic = PETSC_DETERMINE;
 #endif
 
-/// What the options of an object are read from, as its function has it as an argument.
+/// The type of the argument from which an object's function reads its options.
 #if PETSC_VERSION_LT(3, 23, 0)
 using OptionItems = PetscOptionItems*;
 #else

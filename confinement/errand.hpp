@@ -6,28 +6,28 @@
 
 namespace chladni::confinement {
 
-/// A program that is started for one answer.
+/// A program that is started to give one answer.
 struct Errand {
   std::filesystem::path program;
-  std::vector<char> question;  ///< what it reads from stdin
-  double most_seconds;         ///< until it is killed
-  std::size_t most_bytes;      ///< of its answer, else it is killed
+  std::vector<char> question;  ///< its stdin
+  double most_seconds;         ///< it is killed after this time
+  std::size_t most_bytes;      ///< it is killed if its answer is longer
 };
 
 enum class End { exited, killed_by_signal, took_too_long, said_too_much };
 
-/// How it ended, and what it had said until then.
+/// How the program ended, and its answer up to then.
 struct Outcome {
   End end;
-  int code;  ///< exit code or number of the signal
+  int code;  ///< exit code, or number of the signal
   std::vector<char> answer;
 };
 
-/// The descriptor that a program on an errand answers through.
+/// The file descriptor to which a program on an errand writes its answer.
 inline constexpr int answer_descriptor = 3;
 
-/// Starts the program, without any file of this process but the question and the answer, and waits
-/// for its end.
+/// Starts the program with no open files of this process except question and answer, and waits for
+/// its end.
 /// @throws chladni::Error when it cannot be started.
 Outcome run(const Errand& errand);
 

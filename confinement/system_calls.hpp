@@ -4,17 +4,17 @@
 
 namespace chladni::confinement {
 
-/// What a process that reads a stranger's file has no business with.
+/// Actions that a process that reads a stranger's file must not take.
 enum class Offence { program, writing, network };
 
-/// From here on, and for good, the kernel ends this process when it wants to start a program, to
-/// open a file for writing, or to use the network: by a filter of system calls (seccomp) that lets
-/// through what reading and computing need and answers anything else, such as the removal of a
-/// file, "not permitted". What is open stays open.
+/// Makes the kernel permanently end this process when it tries to start a program, to open a file
+/// for writing, or to use the network. A filter of system calls (seccomp) allows what reading and
+/// computing need, and answers other calls, such as removing a file, with "not permitted". Open
+/// files stay open.
 /// @throws chladni::Error when the kernel or the processor has no such filter.
 void filter_system_calls();
 
-/// The offence for which a process ended with this exit code, if it did.
+/// The offence that ended a process with this exit code; absent for other codes.
 std::optional<Offence> offence_of(int exit_code);
 
 }  // namespace chladni::confinement

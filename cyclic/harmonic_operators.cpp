@@ -46,8 +46,8 @@ void refuse_overlap(const MatchingRows& rows)
     if (!std::equal(rows.low.begin() + first, rows.low.begin() + first + b,
                     rows.high.begin() + first)) {
       throw Error(fmt::format(
-          "row {} is in both edges; a row may follow itself, with all components of its "
-          "node, where all sectors share it, but no other row that is followed",
+          "row {} is in both edges; only a node that all sectors share may be, at the same place "
+          "in both and with all its components",
           rows.low[i]));
     }
   }
@@ -84,7 +84,7 @@ void check_matching_rows(const MatchingRows& rows, PetscInt n_rows)
                     "by a row of the other",
                     rows.low.size(), rows.high.size()));
   }
-  if (rows.low.empty()) throw Error("the edges have no rows");
+  if (rows.low.empty()) throw Error("the edges have no rows; give those of both cut edges");
   if (std::ssize(rows.low) % rows.R.rows() != 0) {
     throw Error(
         fmt::format("the edges have {} rows, which the block size {} of the rotation does not "

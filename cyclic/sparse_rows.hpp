@@ -7,10 +7,10 @@ namespace chladni::cyclic {
 
 enum class Symmetry { symmetric, none };
 
-/// A copy of an AIJ matrix that one rank has whole.
+/// A copy of an AIJ matrix that lies on one rank.
 SparseRows sparse_rows(Mat A);
 
-/// @return AIJ; each rank of `comm`, which all have the whole of A, takes its share of the rows
+/// A matrix that each rank of `comm` has whole, as AIJ with the rows distributed over `comm`.
 /// @note   Collective on `comm`.
 petsc::Matrix as_matrix(const SparseRows& A, Symmetry symmetry, MPI_Comm comm = PETSC_COMM_SELF);
 

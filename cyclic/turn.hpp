@@ -5,14 +5,14 @@
 
 namespace chladni::cyclic {
 
-/// The turn about the z axis by an angle in rad: of positions, and of displacements and rotations
-/// alike.
+/// The rotation matrix about the z axis by an angle in rad; for positions, displacements and
+/// rotations.
 inline Eigen::Matrix3d turn(double angle)
 {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// From the first sector to a later one.
+/// The rotation from the first sector to sector `sector`.
 inline Eigen::Matrix3d turn_of_sector(int sector, int count)
 {
   return turn(2.0 * std::numbers::pi * sector / count);

@@ -4,8 +4,8 @@
 
 namespace chladni::files {
 
-/// XXH64 of a file's bytes, hexadecimal: it finds changes, not forgery.
-/// @return empty when the file cannot be read
+/// The XXH64 digest of a file's bytes, in hexadecimal. It detects changes, but no forgery.
+/// @return empty if the file cannot be read
 std::string file_digest(const std::string& path);
 
 }  // namespace chladni::files

@@ -16,11 +16,11 @@ namespace chladni::files {
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// For programs, before all else of HDF5: libhdf5 does nothing at exit. There it would flush once
-/// more what it could not write to a full disk, and crash.
+/// Makes libhdf5 do nothing at exit, where it would flush again what it could not write to a full
+/// disk, and crash. For programs, to be called before any other function of HDF5.
 void leave_nothing_to_exit();
 
-/// Extents that a dataset must have; `any` leaves one open.
+/// The extents that a dataset must have; `any` allows every extent.
 constexpr Eigen::Index any = -1;
 struct Shape {
   Eigen::Index rows = any;
@@ -34,10 +34,10 @@ struct Column {
   Eigen::Index column;
 };
 
-/// A matrix that nobody holds whole.
+/// A matrix that is written in blocks of rows and never held as a whole.
 struct RowBlocks {
   Eigen::Index rows, cols;
-  std::function<Eigen::MatrixXd(Eigen::Index row)> from;  ///< some rows from this one on
+  std::function<Eigen::MatrixXd(Eigen::Index row)> from;  ///< returns some rows from this one on
 };
 
 /// Writes a file under a temporary name beside the target; only `commit` gives it its name.
@@ -45,17 +45,17 @@ class Writer {
  public:
   /// @throws chladni::Error when the folder does not exist or cannot be written.
   explicit Writer(std::string target);
-  /// Removes the temporary file when there was no commit.
+  /// Removes the temporary file if there was no commit.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Closes, seals, flushes to disk and renames. The writer takes nothing more afterwards.
+  /// Closes, seals, flushes to disk and renames the file. Afterwards the writer must not be used.
   void commit();
 
   void group(const std::string& name);
 
-  /// A vector becomes [n], a matrix [rows x cols] as h5py sees it (stored by rows).
+  /// Writes a vector as [n] and a matrix as [rows x cols] in the order of h5py (by rows).
   /// @param unit  "m", "rad/s", ...; "1" for a pure number
   template <class Derived>
   void write(const std::string& name, const Eigen::MatrixBase<Derived>& x, const std::string& unit)
@@ -78,17 +78,17 @@ class Writer {
   void write(const std::string& name, const std::string& text);
   void write(const std::string& name, const std::vector<std::string>& texts);
 
-  /// Another name for a dataset of the file.
+  /// Adds another name for a dataset of the file.
   void link(const std::string& name, const std::string& target);
-  /// The column seen as rows of three values: a dataset [rows / 3 x 3] that stores nothing.
+  /// Adds a dataset [rows / 3 x 3] that stores nothing and shows the column by rows of three.
   void view_column(const std::string& name, const Column& column);
 
-  /// An attribute of a dataset or group; "/" is the root.
+  /// Adds an attribute to a dataset or group; "/" is the root.
   void attribute(const std::string& object, const std::string& name, const std::string& text);
   void attribute(const std::string& object, const std::string& name, std::int64_t number);
   void attribute(const std::string& object, const std::string& name,
                  std::span<const std::int64_t> numbers);
-  /// Of variable length: text of fixed length is bytes to h5py. Reader refuses it.
+  /// Adds a text of variable length, which h5py returns as text, not as bytes. Reader refuses it.
   void variable_attribute(const std::string& object, const std::string& name,
                           const std::string& text);
 
@@ -107,21 +107,21 @@ class Writer {
   std::int64_t file_ = -1;  ///< hid_t; negative once closed
 };
 
-/// Reads a file that need not be trusted: every dataset must exist, hold the right kind of value,
-/// have the rank and the extents that are asked for, fit into the file, and be finite. What a file
-/// unpacks to is bounded by its own size, and nothing is read that stands in other files or needs
-/// code from elsewhere (foreign_parts.hpp), with a seal or without.
-/// Every function throws chladni::Error that names the file, the dataset and what was expected.
+/// Reads a file that need not be trusted. Every dataset must exist, hold the right kind of value,
+/// have the rank and the extents that are asked for, fit into the file, and be finite. The memory
+/// for unpacked values is limited by the size of the file. Parts in other files, or that need
+/// external code, are not read (foreign_parts.hpp), with a seal or without. Every function throws
+/// chladni::Error that names the file, the dataset and what was expected.
 class Reader {
  public:
-  /// Checks the seal before libhdf5 opens the file, which a process of its own tries first.
+  /// Checks the seal and tries the file in another process, before libhdf5 opens it in this one.
   explicit Reader(std::string path);
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
   bool contains(const std::string& name) const;
-  /// Throws unless the root attributes `format` and `version` are these.
+  /// Throws unless the root attributes `format` and `version` have these values.
   void expect_format(const std::string& format, std::int64_t version) const;
 
   Eigen::MatrixXd matrix(const std::string& name, Shape shape = {}) const;
@@ -136,14 +136,14 @@ class Reader {
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
   const std::string& path() const { return path_; }
-  /// "PATH: NAME: WHAT" as an exception: for checks that the caller makes.
+  /// Throws chladni::Error "PATH: NAME: WHAT", for checks of the caller.
   [[noreturn]] void fail(const std::string& name, const std::string& what) const;
 
  private:
   std::string path_;
   std::int64_t file_ = -1;                 ///< hid_t
   std::uint64_t size_ = 0;                 ///< of the file, bytes
-  mutable std::uint64_t memory_left_ = 0;  ///< that values of the file may still take, bytes
+  mutable std::uint64_t memory_left_ = 0;  ///< that further values may take, bytes
 };
 
 }  // namespace chladni::files

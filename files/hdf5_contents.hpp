@@ -6,19 +6,19 @@
 
 #include "files/hdf5.hpp"
 
-/// What a file holds, for whoever shows it as it is.
+/// The contents of a file, for programs that show them unchanged.
 namespace chladni::files {
 
-/// A dataset that a file holds itself.
+/// A dataset that is stored in the file itself.
 struct Item {
   enum class Kind { reals, integers, texts };
   std::string name;
   Kind kind;
   std::size_t rank;  ///< number of extents
-  std::string unit;  ///< its attribute; empty without one
+  std::string unit;  ///< its attribute; empty if there is none
 };
 
-/// All datasets but views of others, by their names.
+/// All datasets except views of others, by their names.
 /// @throws chladni::Error naming file and dataset for one that claims more than the file can hold.
 std::vector<Item> contents(const Reader& reader);
 

@@ -7,7 +7,7 @@
 
 namespace chladni::files {
 
-/// Owns one HDF5 identifier and closes it with the function that fits its kind.
+/// Owns one HDF5 identifier and closes it with the function for its kind.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -28,8 +28,8 @@ class Handle {
   Close close_;
 };
 
-/// Text of at most `size` bytes in UTF-8, padded with zeros. Not of variable length: that lives in
-/// the global heap, where the library follows damaged lengths out of its buffers.
+/// The type of text of at most `size` bytes in UTF-8, padded with zeros. Text of variable length is
+/// in the global heap, where the library follows damaged lengths out of its buffers.
 inline Handle text_type(std::size_t size)
 {
   Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
@@ -39,14 +39,14 @@ inline Handle text_type(std::size_t size)
   return type;
 }
 
-/// HDF5 prints no stack of its own: errors become exceptions here.
+/// Turns off HDF5's own error output; errors become exceptions here.
 inline void silence_errors()
 {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Before a file is opened that nobody vouches for: no message of libhdf5's own, and no filter is
-/// loaded from HDF5_PLUGIN_PATH, in the whole process and from then on.
+/// Prepares the whole process for opening untrusted files: libhdf5 prints no messages and loads no
+/// filter from HDF5_PLUGIN_PATH from now on.
 inline void prepare_to_read()
 {
   silence_errors();

@@ -191,7 +191,8 @@ std::string describe_end(pid_t child, const TrialLimits& limits)
                        (WTERMSIG(status) != SIGALRM && WTERMSIG(status) != SIGXCPU);
   if (in_time) return "is so damaged that libhdf5 ends over it; make it anew or take a copy";
   return fmt::format(
-      "is not read within {} s of the processor and {} s on the clock; make it anew or take a copy",
+      "takes more than {} s of the processor or {} s on the clock to read; make it anew or take a "
+      "copy",
       limits.cpu_s, limits.wall_s);
 }
 
@@ -214,7 +215,7 @@ std::optional<std::string> refusal_of_trial(const std::string& path, const Trial
   close(ends[1]);
   const std::string verdict = all_of(ends[0]);
   if (child < 0) {
-    throw Error(fmt::format("{}: cannot be tried by a process of its own before it is read: {}",
+    throw Error(fmt::format("{}: cannot start the process that tests a file before it is read: {}",
                             path, std::strerror(why)));
   }
   const std::string end = describe_end(child, limits);

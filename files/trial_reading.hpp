@@ -6,22 +6,23 @@
 
 namespace chladni::files {
 
-/// What the trial of a file may take.
+/// Limits for the trial of a file.
 struct TrialLimits {
-  std::uint64_t memory;  ///< beyond what the process held before, bytes
-  unsigned cpu_s;        ///< of the processor
-  unsigned wall_s;       ///< on the clock: a slow disk needs longer than libhdf5
+  std::uint64_t memory;  ///< bytes beyond those of the process before
+  unsigned cpu_s;        ///< s of CPU time
+  /// s of wall time, longer because of slow disks
+  unsigned wall_s;
 };
 
-/// Limits that befit a file of so many bytes.
+/// The limits for a file of `file_size` bytes.
 TrialLimits limits_of_trial(std::uint64_t file_size);
 
-/// Tries a file that nobody vouches for: a process of its own looks for what leads out of the file
+/// Tries an untrusted file: another process searches for parts that lead out of the file
 /// (foreign_parts.hpp), then reads every attribute and dataset as Reader does. libhdf5 1.10 follows
-/// damaged metadata out of its memory, or in circles until no memory is left; packed values may
+/// damaged metadata out of its memory, or in circles until memory runs out; packed values may
 /// unpack to a thousand times their size, whatever the dataset says.
-/// @return why the file is not to be read, a sentence without its subject; nothing where it may be.
-///         What libhdf5 refuses in order is no matter here.
+/// @return the reason not to read the file, a sentence without its subject; absent if it may be
+///         read. Orderly errors of libhdf5 are no reason.
 /// @throws chladni::Error when no process can be started.
 std::optional<std::string> refusal_of_trial(const std::string& path, const TrialLimits& limits);
 

@@ -5,12 +5,12 @@
 
 namespace chladni::files {
 
-/// Names a file that must not outlive this process, until the object ends: a file under its
-/// temporary name, or the lock of an output. Its writer removes it; a signal that ends the process
-/// in between removes it after `remove_unfinished_files_on_signals`.
+/// Registers, during its lifetime, a file that must not outlive this process: a file under its
+/// temporary name, or the lock of an output. Its writer removes it; if a signal ends the process,
+/// the handlers of `remove_unfinished_files_on_signals` do.
 class UnfinishedFile {
  public:
-  /// Of more than 64 files at a time, or of a longer name than 4095 bytes, a signal leaves one
+  /// Beyond 64 files at a time, or for a name longer than 4095 bytes, a signal leaves the file
   /// behind; the next run removes it.
   explicit UnfinishedFile(const std::string& path);
   ~UnfinishedFile();
@@ -21,9 +21,9 @@ class UnfinishedFile {
   std::size_t slot_;
 };
 
-/// For programs: SIGINT, SIGTERM and SIGHUP remove what is unfinished before they end the process
-/// as they would have done; a file that grows beyond its limit is an error like a full disk. A
-/// signal that the process was started to ignore stays ignored.
+/// Makes SIGINT, SIGTERM and SIGHUP remove unfinished files before they end the process as usual. A
+/// file that exceeds its size limit becomes an error like a full disk. Signals that the process
+/// ignores from its start stay ignored. For programs.
 void remove_unfinished_files_on_signals();
 
 }  // namespace chladni::files

@@ -4,8 +4,8 @@
 
 namespace chladni::files {
 
-/// Calls `visitor(object, name, info, data)` for all objects of a file, with their basic
-/// information; in every version of HDF5 from 1.10 on, of which each has its own structure for it.
+/// Calls `visitor(object, name, info, data)` for all objects of a file with their basic
+/// information. It hides the different structures of the versions of HDF5 from 1.10 on.
 inline void visit_objects(hid_t file, H5_iter_order_t order, H5O_iterate_t visitor, void* data)
 {
 #if H5_VERSION_GE(1, 12, 0)

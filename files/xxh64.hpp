@@ -7,17 +7,19 @@
 
 namespace chladni::files {
 
-/// The digest XXH64 with seed 0, as `xxhsum -H64` prints it, of bytes that arrive in pieces. It
-/// finds damage, not forgery. Source: Collet, xxHash fast digest algorithm, specification 0.1.1
-/// (XXH64).
+/// The digest XXH64 with seed 0, as printed by `xxhsum -H64`, of bytes that arrive in pieces. It
+/// detects damage, but no forgery.
+/// Source: Collet, xxHash fast digest algorithm, specification 0.1.1 (XXH64).
 class Xxh64 {
  public:
   static constexpr std::size_t stripe = 32;
 
+  /// Adds bytes.
   /// @param bytes  whole stripes: a multiple of 32 bytes
   void add(std::span<const std::uint8_t> bytes);
-  /// @param rest   what follows them, any number of bytes
-  /// @return the digest of all
+  /// Adds the last bytes.
+  /// @param rest  any number of bytes
+  /// @return the digest of all bytes
   std::uint64_t finish(std::span<const std::uint8_t> rest);
 
  private:

@@ -85,16 +85,18 @@ std::size_t size_of_state(const Simulation& simulation)
 
 void state_to_bytes(const Simulation& simulation, const void* state, void* bytes, std::size_t n)
 {
-  if (n < size_of_state(simulation)) throw Error("there is no room for the bytes of a state");
+  if (n < size_of_state(simulation))
+    throw Error("the buffer is too small for a serialized FMU state");
   std::memcpy(bytes, static_cast<const Eigen::VectorXd*>(state)->data(), size_of_state(simulation));
 }
 
 void* state_from_bytes(const Simulation& simulation, const void* bytes, std::size_t n)
 {
-  if (n != size_of_state(simulation)) throw Error("the bytes of a state are of another FMU");
+  if (n != size_of_state(simulation)) throw Error("the serialized state belongs to another FMU");
   auto state = std::make_unique<Eigen::VectorXd>(simulation.snapshot().size());
   std::memcpy(state->data(), bytes, n);
-  if (!state->allFinite()) throw Error("the bytes of a state hold what is no finite number");
+  if (!state->allFinite())
+    throw Error("the serialized state contains a value that is no finite number");
   return state.release();
 }
 

@@ -8,7 +8,7 @@
 
 namespace chladni::fmu {
 
-/// What both versions of FMI share: an instance and whoever is told what was wrong.
+/// An FMU component for both versions of FMI: the simulation, and the function that logs errors.
 struct Component {
   std::unique_ptr<Simulation> simulation;
   std::function<void(const std::string&)> tell;
@@ -16,13 +16,15 @@ struct Component {
 
 /// The bytes of a file among the resources of an FMU.
 /// @param location  a path, or a URI with the scheme "file"
-/// @throws chladni::Error when there is no such file.
+/// @throws chladni::Error when the file cannot be opened.
 std::string resource(const std::string& location, const std::string& file);
 
-/// @throws chladni::Error unless a model has the token of modelDescription.xml.
+/// Checks that the model and modelDescription.xml come from the same export.
+/// @throws chladni::Error when their tokens differ.
 void check_token(const std::string& of_model, const std::string& of_description);
 
-/// Whether `action` came to its end; else what was wrong has been told.
+/// Calls action(); an exception is logged by `tell` and not passed on.
+/// @return whether `action` ended without an exception
 bool succeeds(const std::function<void(const std::string&)>& tell, auto&& action) noexcept
 {
   try {
@@ -38,8 +40,8 @@ bool succeeds(const std::function<void(const std::string&)>& tell, auto&& action
   return false;
 }
 
-/// What a function of FMI answers: `error` where `action`, which gets the simulation, failed and
-/// has been told.
+/// Calls action(simulation) for an FMI function and returns its status: `error` when there is no
+/// component or `action` threw, which is logged.
 template <class Status>
 Status done(void* component, auto&& action) noexcept
 {
@@ -48,7 +50,8 @@ Status done(void* component, auto&& action) noexcept
   return succeeds(self.tell, [&] { action(*self.simulation); }) ? Status::ok : Status::error;
 }
 
-/// Of variables of a type that this model has none of.
+/// Status of an FMI getter or setter for a type of variables that this FMU does not have: `ok` for
+/// n = 0, else `error`.
 template <class Status>
 Status none_of(void* component, std::size_t n) noexcept
 {
@@ -57,6 +60,8 @@ Status none_of(void* component, std::size_t n) noexcept
   });
 }
 
+/// Status `error` of an FMI function that this FMU does not provide, and logs it.
+/// @param what  name of the function
 template <class Status>
 Status not_provided(void* component, const char* what) noexcept
 {
@@ -64,14 +69,17 @@ Status not_provided(void* component, const char* what) noexcept
                       [&](Simulation&) { throw Error(std::string(what) + " is not provided"); });
 }
 
-/// @throws chladni::Error unless the FMU has n continuous states.
+/// Checks the number of continuous states.
+/// @throws chladni::Error unless the FMU has n of them.
 void check_states(const Simulation& simulation, std::size_t n);
 
-/// A copy of what changes, as Eigen::VectorXd in memory of its own unless `*state` has some.
+/// Stores a snapshot of the simulation in `*state`, an Eigen::VectorXd; allocates it when `*state`
+/// is null.
 void keep_state(const Simulation& simulation, void** state);
 
-/// A copy of what changes as the bytes of its numbers, and back.
-/// @throws chladni::Error when there is no room for it, or it is of another FMU.
+/// Converts a snapshot to bytes and back.
+/// @throws chladni::Error when the buffer is too small, or the bytes are of another FMU or not
+///         finite.
 std::size_t size_of_state(const Simulation& simulation);
 void state_to_bytes(const Simulation& simulation, const void* state, void* bytes, std::size_t n);
 void* state_from_bytes(const Simulation& simulation, const void* bytes, std::size_t n);

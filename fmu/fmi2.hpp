@@ -2,8 +2,7 @@
 
 #include <cstddef>
 
-/// Types of FMI 2.0 for co-simulation and model exchange, as its standard lays them out.
-/// Source: Modelica Association, Functional Mock-up Interface 2.0.4, sections 2.1, 3.2 and 4.2.
+/// Types of FMI 2.0 for co-simulation and model exchange, laid out as the standard requires.
 namespace chladni::fmu::fmi2 {
 
 using Boolean = int;

@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Types of FMI 3.0, as its standard lays them out.
-/// Source: Modelica Association, Functional Mock-up Interface 3.0, section 2.2.
+/// Types of FMI 3.0, laid out as the standard requires.
 namespace chladni::fmu::fmi3 {
 
 using Reference = std::uint32_t;

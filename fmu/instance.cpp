@@ -112,7 +112,7 @@ void Instance::set_value(std::uint32_t reference, double value)
 {
   if (!std::isfinite(value)) {
     throw Error("the variable with the value reference " + std::to_string(reference) +
-                " is set to what is no finite number");
+                " is set to a value that is no finite number");
   }
   const References& of = references_;
   Index i = 0;
@@ -130,7 +130,7 @@ void Instance::set_value(std::uint32_t reference, double value)
     state_.q_dot[i] = value;
   else
     throw Error("the variable with the value reference " + std::to_string(reference) +
-                " is computed, or is not there");
+                " cannot be set: it is computed or does not exist");
 }
 
 VectorXd Instance::continuous_states() const
@@ -142,7 +142,7 @@ VectorXd Instance::continuous_states() const
 
 void Instance::set_continuous_states(const VectorXd& x)
 {
-  if (!x.allFinite()) throw Error("the continuous states are set to what is no finite number");
+  if (!x.allFinite()) throw Error("a continuous state is set to a value that is no finite number");
   state_.q = x.head(model_->n_modes());
   state_.q_dot = x.tail(model_->n_modes());
 }
@@ -209,8 +209,10 @@ void Instance::restore(const VectorXd& snapshot)
 
 void Instance::advance(double h)
 {
-  if (!(h > 0.0) || !std::isfinite(h))
-    throw Error("a step of " + std::to_string(h) + " s is no step");
+  if (!(h > 0.0) || !std::isfinite(h)) {
+    throw Error("a step of " + std::to_string(h) +
+                " s is not allowed; a step must be positive and finite");
+  }
   const bool is_kept = kept_ && kept_->h == h && kept_->damping_factor == state_.damping_factor &&
                        kept_->damping_ratios == state_.damping_ratios;
   if (!is_kept) {

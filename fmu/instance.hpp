@@ -12,16 +12,16 @@
 
 namespace chladni::fmu {
 
-/// All that changes in a simulation.
+/// State and inputs of a simulation.
 struct State {
   double time = 0.0;               ///< s
-  double damping_factor = 1.0;     ///< of the body's own C
-  Eigen::VectorXd damping_ratios;  ///< [n_modes] besides C: 2 D omega q'
-  Eigen::VectorXd F;               ///< [n_dofs] N, N m
-  Eigen::VectorXd q, q_dot;        ///< [n_modes]
+  double damping_factor = 1.0;     ///< factor on the body's own damping matrix C
+  Eigen::VectorXd damping_ratios;  ///< [n_modes] modal damping ratios D, added to C as 2 D omega q'
+  Eigen::VectorXd F;               ///< [n_dofs] applied forces and moments, N, N m
+  Eigen::VectorXd q, q_dot;        ///< [n_modes] modal coordinates and rates
 };
 
-/// A body in a simulation, by the value references of its variables.
+/// A modal body in a simulation, accessed by the value references of its variables.
 class Instance final : public Simulation {
  public:
   explicit Instance(ModalModel model);
@@ -54,7 +54,7 @@ class Instance final : public Simulation {
   References references_;
   State state_;
 
-  /// Of the last step, as long as step size and damping stay.
+  /// The propagator of the last step, reused while step size and damping do not change.
   struct Kept {
     double h, damping_factor;
     Eigen::VectorXd damping_ratios;

@@ -49,7 +49,10 @@ class Source {
     if (n > rest_.size()) throw Error(std::string(model_file) + " is cut off");
     Eigen::MatrixXd values(rows, cols);
     if (n > 0) std::memcpy(values.data(), take(n * sizeof(double)).data(), n * sizeof(double));
-    if (!values.allFinite()) throw Error(std::string(model_file) + " holds what is no number");
+    if (!values.allFinite()) {
+      throw Error(std::string(model_file) +
+                  " contains a value that is no finite number; export the FMU again");
+    }
     return values;
   }
   bool at_end() const { return rest_.empty(); }
@@ -75,18 +78,25 @@ std::string packed(const ModalModel& model)
 
 ModalModel unpacked(std::string_view bytes)
 {
-  if (!bytes.starts_with(mark))
-    throw Error(std::string(model_file) + " is no body of version 1 for an FMU");
+  if (!bytes.starts_with(mark)) {
+    throw Error(std::string(model_file) +
+                " is not a body file for FMUs of version 1; export the FMU again");
+  }
   Source source(bytes.substr(mark.size()));
   ModalModel model;
   model.token = source.take(std::uint64_t(source.count()));
   const Eigen::Index n_modes = source.count(), n_dofs = source.count(), n_damped = source.count();
-  if (n_damped != 0 && n_damped != n_modes)
-    throw Error(std::string(model_file) + ": its damping is not of its modes");
+  if (n_damped != 0 && n_damped != n_modes) {
+    throw Error(std::string(model_file) +
+                ": its damping matrix does not have the size of its modes; export the FMU again");
+  }
   model.omega = source.matrix(n_modes, 1);
   model.C = source.matrix(n_damped, n_damped);
   model.Phi = source.matrix(n_dofs, n_modes);
-  if (!source.at_end()) throw Error(std::string(model_file) + " is longer than it says");
+  if (!source.at_end()) {
+    throw Error(std::string(model_file) +
+                " has more bytes than its contents need; export the FMU again");
+  }
   return model;
 }
 

@@ -7,10 +7,10 @@
 
 namespace chladni::fmu {
 
-/// A body of modal coordinates q under forces and moments F at some of its degrees of freedom:
+/// A body in modal coordinates q under forces and moments F at some of its DOFs:
 /// q'' + C q' + diag(omega^2) q = Phi^T F, u = Phi q.
 struct ModalModel {
-  std::string token;      ///< that modelDescription.xml has too: both are of one export
+  std::string token;      ///< export token, the same as in modelDescription.xml
   Eigen::VectorXd omega;  ///< [n_modes], rad/s
   Eigen::MatrixXd C;      ///< [n_modes x n_modes], 1/s, or [0 x 0]
   Eigen::MatrixXd Phi;    ///< [n_dofs x n_modes], m or rad per unit of q
@@ -19,17 +19,19 @@ struct ModalModel {
   Eigen::Index n_dofs() const { return Phi.rows(); }
 };
 
-/// The name of a model among the resources of its FMU.
+/// Name of the model's file among the resources of its FMU.
 inline constexpr auto model_file = "body.chladni-fmu";
 
-/// The model as bytes, numbers in the order of this machine: docs/reference/file_formats.md.
+/// The model as bytes, with numbers in the byte order of this machine; see
+/// docs/reference/file_formats.md.
 std::string packed(const ModalModel& model);
 
-/// @throws chladni::Error when the bytes are no such model, or not all of it.
+/// The model that `packed` wrote.
+/// @throws chladni::Error when the bytes are not a model or are incomplete.
 ModalModel unpacked(std::string_view bytes);
 
-/// Value references of the variables: the groups follow each other, each with a reference for each
-/// degree of freedom or mode.
+/// Value references of the variables. Each group has one reference for each DOF or mode; each
+/// function returns the first reference of its group.
 class References {
  public:
   References(Eigen::Index n_modes, Eigen::Index n_dofs)
@@ -45,6 +47,7 @@ class References {
   std::uint32_t q_dot() const { return q() + n_modes_; }
   std::uint32_t der_q() const { return q_dot() + n_modes_; }
   std::uint32_t der_q_dot() const { return der_q() + n_modes_; }
+  /// One past the last reference.
   std::uint32_t end() const { return der_q_dot() + n_modes_; }
 
  private:

@@ -4,16 +4,16 @@
 
 namespace chladni::fmu {
 
-/// What becomes of modal coordinates and rates x = (q, q') in a step of h seconds under modal
-/// forces f that are constant in it: x(t + h) = from_state x(t) + from_force f. Exact for every h.
+/// Exact step of modal coordinates and rates x = (q, q') over the time h under modal forces f that
+/// are constant during the step: x(t + h) = from_state x(t) + from_force f.
 struct Propagator {
   Eigen::MatrixXd from_state;  ///< [2n x 2n]
   Eigen::MatrixXd from_force;  ///< [2n x n]
 };
 
-/// Of q'' + C q' + diag(omega^2) q = f, by the exponential of [A, B; 0, 0] h; mode by mode where C
-/// is diagonal. Works with omega = 0.
-/// @param h  s, > 0
+/// The propagator of q'' + C q' + diag(omega^2) q = f from the matrix exponential of h [A, B; 0,
+/// 0], mode by mode when C is diagonal. omega = 0 is allowed.
+/// @param h  step size, s, > 0
 Propagator propagator(const Eigen::VectorXd& omega, const Eigen::MatrixXd& C, double h);
 
 }  // namespace chladni::fmu

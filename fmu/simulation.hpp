@@ -9,13 +9,13 @@
 
 namespace chladni::fmu {
 
-/// A direction in which variables change.
+/// A change of several variables, for directional derivatives.
 struct Direction {
   std::span<const std::uint32_t> references;
   std::span<const double> changes;
 };
 
-/// What an FMU simulates, by the value references of its variables.
+/// The system that an FMU simulates, accessed by the value references of its variables.
 class Simulation {
  public:
   Simulation() = default;
@@ -23,12 +23,14 @@ class Simulation {
   Simulation& operator=(const Simulation&) = default;
   virtual ~Simulation() = default;
 
-  /// As at the start of a simulation.
+  /// Returns to the state at the start of a simulation.
   virtual void reset() = 0;
 
+  /// Values of the variables.
   /// @throws chladni::Error for a reference that no variable has.
   virtual std::vector<double> values(std::span<const std::uint32_t> references) const = 0;
-  /// @throws chladni::Error for a variable that is computed, and for what is no finite number.
+  /// Sets an input, a parameter or a state.
+  /// @throws chladni::Error for a computed variable, and for a value that is not finite.
   virtual void set_value(std::uint32_t reference, double value) = 0;
   virtual double time() const = 0;  ///< s
   virtual void set_time(double time) = 0;
@@ -37,23 +39,25 @@ class Simulation {
   virtual void set_continuous_states(const Eigen::VectorXd& x) = 0;
   virtual Eigen::VectorXd derivatives() const = 0;
 
-  /// Derivatives of the variables `unknowns` along changes of states and inputs.
-  /// @throws chladni::Error for a change of what is neither, and where there are no derivatives.
+  /// Derivatives of the variables `unknowns` along a change of states and inputs.
+  /// @throws chladni::Error when `direction` changes another kind of variable, and when the FMU
+  ///         provides no derivatives.
   virtual std::vector<double> directional_derivatives(std::span<const std::uint32_t> unknowns,
                                                       const Direction& direction) const = 0;
 
-  /// Goes on by h > 0 seconds with the inputs as they are.
+  /// Advances by h > 0 (s) with constant inputs.
   virtual void advance(double h) = 0;
 
-  /// All that changes in a simulation, and the way back to it.
+  /// All that changes during a simulation, as one vector for `restore`.
   virtual Eigen::VectorXd snapshot() const = 0;
+  /// Returns to the state of a snapshot.
   virtual void restore(const Eigen::VectorXd& snapshot) = 0;
 };
 
-/// The simulation of this library's kind, out of the folder of an FMU's resources.
+/// Reads the simulation of this library's kind from the resources folder of an FMU.
 /// @param location  a path, or a URI with the scheme "file"
-/// @param token     of modelDescription.xml
-/// @throws chladni::Error when it cannot be read or is of another export.
+/// @param token     token of modelDescription.xml
+/// @throws chladni::Error when the model cannot be read or comes from another export.
 std::unique_ptr<Simulation> simulation_at(const std::string& location, const std::string& token);
 
 }  // namespace chladni::fmu

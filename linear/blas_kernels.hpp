@@ -2,14 +2,15 @@
 
 namespace chladni::linear {
 
-/// OpenBLAS 0.3.21 takes its slowest kernels (SSE3) on processors younger than itself, which costs
-/// a third of a reduction. Where that happens, starts this program anew with OPENBLAS_CORETYPE set
-/// to kernels that the processor has; otherwise, and where the variable is set already, returns.
+/// Restarts this program with OPENBLAS_CORETYPE set to kernels that the processor supports, if
+/// OpenBLAS has chosen its slowest ones (SSE3). OpenBLAS 0.3.21 does so on processors newer than
+/// itself, which slows a reduction by a third. Otherwise, or if the variable is already set,
+/// returns.
 /// @note   To be called first in main, before MPI starts.
 void restart_with_fitting_blas_kernels(char** argv);
 
-/// Divides the processors of this machine among its ranks, where the environment says nothing of
-/// threads: OpenBLAS would start as many in each rank as there are processors.
+/// Divides the processors of this machine among its ranks, unless the environment sets a number of
+/// threads. OpenBLAS would start as many threads in each rank as there are processors.
 /// @note   Collective on all ranks.
 void share_processors();
 

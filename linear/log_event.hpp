@@ -4,10 +4,10 @@
 
 namespace chladni::linear {
 
-/// What -log_view tells apart below the phases of a reduction.
+/// The events that -log_view distinguishes within the phases of a reduction.
 enum class Event { ordering, analysis, factorization, solution, sparse_product, orthogonalization };
 
-/// Books time and memory traffic of its scope under one of PETSc's log events.
+/// Records time and memory traffic of its scope under one of PETSc's log events.
 class LogEvent {
  public:
   explicit LogEvent(Event event);
@@ -19,7 +19,7 @@ class LogEvent {
   PetscLogEvent event_;
 };
 
-/// Floating-point operations for -log_view.
+/// Adds floating-point operations for -log_view.
 inline void log_operations(double n)
 {
   PetscLogFlops(n);

@@ -4,10 +4,11 @@
 
 namespace chladni::linear {
 
-/// Takes the share of the step under way that is done, 0 to 1.
+/// A function that receives how much of the current step is done, 0 to 1.
 using ProgressListener = std::function<void(double fraction)>;
 
-/// While it lives, long steps of the reduction on this rank tell the listener how far they are.
+/// During its lifetime, long steps of the reduction on this rank report their progress to the
+/// listener.
 class ListenToProgress {
  public:
   explicit ListenToProgress(ProgressListener listener);
@@ -19,7 +20,7 @@ class ListenToProgress {
   ProgressListener before_;
 };
 
-/// Tells the listener, if there is one.
+/// Calls the listener, if there is one.
 void report_progress(double fraction);
 
 }  // namespace chladni::linear

@@ -6,7 +6,7 @@
 
 namespace chladni::mbs_export {
 
-/// What a reduced system cannot give a body; knows which key of the scene's [body] asks for it.
+/// Thrown when a reduced system cannot do what the scene's table [body] asks for; names the key.
 class BodyOptionError : public Error {
  public:
   /// @param key  "keep.modes"

@@ -7,48 +7,54 @@
 
 namespace chladni::mbs_export {
 
-/// Eigenvalues of omega^2 below a frequency: of the FE model by Sylvester's law, of the reduced
-/// one by looking.
+/// The number of eigenvalues omega^2 below a frequency: of the FE model, counted by Sylvester's
+/// law, and of the reduced system.
 struct ModeCount {
-  double up_to = 0.0;  ///< rad/s; 0 where nothing was counted
-  int expected = 0;
-  int found = 0;
+  double up_to = 0.0;  ///< rad/s; 0 if nothing was counted
+  int expected = 0;    ///< of the FE model
+  int found = 0;       ///< of the reduced system
 
   int missing() const { return expected - found; }
 };
 
-/// Responses to harmonic loads at masters, compared with those of the FE model.
+/// The error of responses to harmonic loads at masters, against those of the FE model.
 struct ResponseCheck {
   double up_to = 0.0;              ///< rad/s
   double error = 0.0;              ///< upper bound, relative
-  std::vector<std::string> loads;  ///< "track.z" stands for all nodes of the set
+  std::vector<std::string> loads;  ///< "track.z" for all nodes of a set
 };
 
-/// How good a reduced system is, made at the time of the reduction, when the FE model is at hand.
-/// Empty when nobody looked.
+/// The accuracy of a reduced system, found at the time of the reduction, when the FE model is at
+/// hand. Empty if it was not determined.
 struct Certificate {
   std::vector<std::string> fixed;  ///< the support, as BodyOptions::fixed
   Eigen::VectorXd frequencies;     ///< [k] rad/s, of the elastic modes, ascending
   Eigen::VectorXd eta2;            ///< [k] estimated relative error of omega^2 against the FE model
-  Eigen::VectorXd estimates{};     ///< [k] estimated relative errors of `frequencies`, by place
-  Eigen::VectorXd rounding{};      ///< [k] what rounding of K may add to it; empty in old files
-  Eigen::VectorXd bounds;          ///< [<= k] of it, rounding included, of modes that are counted
-  ModeCount fixed_interface;       ///< modes with all masters held, up to the last one kept
-  ModeCount range;                 ///< modes under the support, up to the last frequency
-  ModeCount complete;              ///< the largest range looked at in which none is missing
-  int n_rigid = 0;                 ///< zero-energy motions of the free body
-  double rigid_residual = 0.0;     ///< their energy over the first elastic omega^2; 0 is perfect
-  double condition = 0.0;          ///< estimate for K_ss; 0 where unknown
-  double count_share = 0.0;        ///< of a count in the reduction's work; 0 where unknown, no file
+  /// [k] estimated relative errors of `frequencies`, by their place in the order
+  Eigen::VectorXd estimates{};
+  /// [k] relative errors of omega^2 by rounding of K, in addition to eta2; empty in old files
+  Eigen::VectorXd rounding{};
+  /// [<= k] upper bounds of the relative errors of omega^2, rounding included, of counted modes
+  Eigen::VectorXd bounds;
+  ModeCount fixed_interface;    ///< modes with all masters held, up to the last one kept
+  ModeCount range;              ///< modes under the support, up to the last frequency
+  ModeCount complete;           ///< the largest counted range in which none is missing
+  int n_rigid = 0;              ///< number of zero-energy motions of the free body
+  double rigid_residual = 0.0;  ///< their energy over the first elastic omega^2; 0 is perfect
+  double condition = 0.0;       ///< estimated condition number of K_ss; 0 if unknown
+  /// Share of the counts in the work of the reduction; 0 if unknown; not in the file.
+  double count_share = 0.0;
   std::optional<ResponseCheck> responses = {};
-  /// [6 x mesh_errors] estimated relative errors by the mesh of the radial, circumferential and
-  /// axial displacements of the interface nodes, and of their rotations about these directions
+  /// [6 x number of mesh_errors] estimated relative errors by the mesh of the radial,
+  /// circumferential and axial displacements of the interface nodes, and of their rotations about
+  /// these directions
   Eigen::MatrixXd mesh_shape_errors{};
-  Eigen::VectorXd mesh_errors{};  ///< [<= k] estimated relative errors of `frequencies` by the mesh
+  /// [<= k] estimated relative errors of `frequencies` by the mesh
+  Eigen::VectorXd mesh_errors{};
 };
 
-/// The estimated relative error of each frequency, what a user reads: `estimates`, or in files
-/// without them half of eta^2.
+/// The estimated relative error of each frequency that is shown to users: `estimates`, or half of
+/// eta^2 for files without them.
 Eigen::VectorXd estimated_errors(const Certificate& certificate);
 
 }  // namespace chladni::mbs_export

@@ -15,28 +15,30 @@ struct ConstrainedModes {
   int n_rigid;            ///< rigid-body motions that the held displacements leave free
 };
 
+/// The modes of the held body.
 ConstrainedModes constrained_modes(const ModeShift& shift);
 
-/// Indices of the modes kept and of all others, each ascending.
+/// The indices of the kept modes and of all others, each ascending.
 struct ModeSelection {
   std::vector<int> kept;
   std::vector<int> neglected;
-  int n_partners;  ///< kept beyond the choice, because a cut would part modes of one frequency
+  int n_partners;  ///< modes kept in addition, so that modes of one frequency stay together
 };
 
-/// Modes first .. end - 1.
+/// The modes first .. end - 1, which have one frequency.
 struct ModeCluster {
   int first;
   int end;
 };
 
-/// The modes in clusters of one frequency: neighbours within 1e-4 (the two modes of a disc's nodal
-/// diameters; all rigid modes).
+/// Divides the modes into clusters whose neighbours are within 1e-4 in frequency (the two modes of
+/// a disc's nodal diameters; all rigid modes).
 /// @param omega  [n], rad/s, ascending
 std::vector<ModeCluster> mode_clusters(const Eigen::VectorXd& omega);
 
-/// Applies the scene's choice; rigid modes count as modes. A choice of one mode of a cluster is
-/// extended to its partners. A tolerance is not for here but for `select_by_tolerance`.
+/// Selects modes by number, frequency or list; rigid modes count as modes. If one mode of a cluster
+/// is selected, so are the others. A tolerance needs `select_by_tolerance` instead.
+/// @param omega  [n], rad/s, ascending
 /// @throws chladni::Error for more than one criterion, a mode that does not exist, or no mode left.
 ModeSelection select_modes(const Eigen::VectorXd& omega, const KeptModes& keep);
 

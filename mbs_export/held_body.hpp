@@ -18,11 +18,12 @@ struct HeldBody {
   ModeShift shift;
   ConstrainedModes constrained;
   Eigen::MatrixXd T;  ///< Q_e Q_c X, [n_FE x n] modes in the coordinates of the reduced system
-  Eigen::MatrixXd U;  ///< [6 n_nodes x n] of the attachment nodes
+  Eigen::MatrixXd U;  ///< [6 n_nodes x n] motion of the attachment nodes in the modes T
 };
 
+/// Computes the modes of a reduced system under its supports.
 /// @param fixed  as BodyOptions::fixed
-/// @throws chladni::Error as orthogonalize, held_dofs and shift_modes.
+/// @throws chladni::Error as `orthogonalize`, `held_dofs` and `shift_modes`.
 HeldBody held_body(const ReducedSystem& reduced, const std::vector<std::string>& fixed);
 
 }  // namespace chladni::mbs_export

@@ -7,8 +7,8 @@
 namespace chladni::mbs_export {
 
 /// Integrals over the mass of a body whose points x (in the frame and about the origin of the mesh)
-/// are displaced by u(x) = sum_i phi_i(x) q_i: what a moving frame of reference needs. Computed
-/// from the FE model, rotary inertia included.
+/// are displaced by u(x) = sum_i phi_i(x) q_i, as a moving frame of reference needs them. They are
+/// computed from the FE model, rotary inertia included.
 struct MassIntegrals {
   double mass;                            ///< kg
   Eigen::Vector3d first;                  ///< int x dm, kg m
@@ -19,26 +19,25 @@ struct MassIntegrals {
   std::array<Eigen::MatrixXd, 6> products;
 };
 
-/// k and l of MassIntegrals::products.
+/// The indices k and l of each of MassIntegrals::products.
 extern const std::array<std::pair<int, int>, 6> product_axes;
 
-/// S_kl for any k, l.
+/// S_kl for any k and l, [n x n] kg.
 Eigen::MatrixXd displacement_product(const MassIntegrals& integrals, int k, int l);
 
-/// For the displacements phi T of other coordinates.
+/// The integrals in other coordinates, with the displacements phi T.
 /// @param T  [n x n_new]
 MassIntegrals in_coordinates(const MassIntegrals& integrals, const Eigen::MatrixXd& T);
 
-/// G_ij = 2 int phi_i . (e x phi_j) dm: a body that spins with Omega about the unit vector e
-/// through the origin has the Coriolis forces -Omega G q' in the frame that turns with it.
-/// Skew-symmetric.
+/// G_ij = 2 int phi_i . (e x phi_j) dm, skew-symmetric. A body that spins with Omega about the unit
+/// vector e through the origin has the Coriolis forces -Omega G q' in the frame that turns with it.
 Eigen::MatrixXd gyroscopic_matrix(const MassIntegrals& integrals, const Eigen::Vector3d& e);
 
-/// Z_ij = int (e x phi_i) . (e x phi_j) dm: the spin adds the force Omega^2 Z q. Without the
-/// stiffening by the membrane stress that the spin causes.
+/// Z_ij = int (e x phi_i) . (e x phi_j) dm: a spin Omega about e adds the force Omega^2 Z q. The
+/// stiffening by the membrane stress of the spin is not included.
 Eigen::MatrixXd centrifugal_matrix(const MassIntegrals& integrals, const Eigen::Vector3d& e);
 
-/// z_i = int phi_i . (x - (x . e) e) dm: the spin adds the constant force Omega^2 z.
+/// z_i = int phi_i . (x - (x . e) e) dm: a spin Omega about e adds the constant force Omega^2 z.
 Eigen::VectorXd centrifugal_load(const MassIntegrals& integrals, const Eigen::Vector3d& e);
 
 }  // namespace chladni::mbs_export

@@ -11,7 +11,7 @@ struct FreeModes {
   Eigen::VectorXd omega;  ///< [n_modes], rad/s, ascending; the first n_rigid are exactly zero
   Eigen::MatrixXd Q_e;    ///< [n_FE x n_modes]
   int n_rigid;            ///< 6 in space, 2 for a bending beam, 0 for a grounded structure
-  int n_massless;         ///< reduced coordinates without mass: n_FE - n_modes
+  int n_massless;         ///< number of reduced coordinates without mass: n_FE - n_modes
   double
       rigid_residual;  ///< largest phi_r^T K_r phi_r over the first elastic omega^2; 0 is perfect
 };
@@ -19,18 +19,18 @@ struct FreeModes {
 /// The rigid-body motions that K_r does not resist.
 struct RigidModes {
   Eigen::MatrixXd R;      ///< [n_FE x n_rigid], M_r-orthonormal
-  double largest_energy;  ///< of phi_r^T K_r phi_r, rad^2/s^2
+  double largest_energy;  ///< largest phi_r^T K_r phi_r, rad^2/s^2
 };
 
 /// The rigid-body vectors of the geometry that K_r does not resist.
 /// @throws chladni::Error when M_r gives one of the rigid-body motions no mass.
 RigidModes rigid_modes(const ReducedSystem& reduced);
 
-/// Solves (K_r - omega^2 M_r) phi = 0. The rigid modes are not looked for among small frequencies:
-/// they are the rigid-body vectors of the geometry that K_r does not resist, and are deflated.
-/// Assumes K_r, M_r symmetric positive semidefinite, and no zero-energy motion but rigid ones.
-/// @throws chladni::Error when K_r is singular beyond the rigid-body motions, or M_r gives
-///         one of these no mass.
+/// Solves (K_r - omega^2 M_r) phi = 0. Rigid modes are not found as small frequencies: they are the
+/// rigid-body vectors of the geometry that K_r does not resist, and are deflated. K_r and M_r must
+/// be symmetric positive semidefinite, without other zero-energy motions than rigid ones.
+/// @throws chladni::Error when K_r is singular beyond the rigid-body motions, or M_r gives one of
+///         these no mass.
 FreeModes orthogonalize(const ReducedSystem& reduced);
 
 }  // namespace chladni::mbs_export

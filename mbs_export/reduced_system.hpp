@@ -14,13 +14,13 @@
 
 namespace chladni::mbs_export {
 
-/// A node at which loads, supports and contacts may act: its DOFs are masters, or those of a ring
-/// together have some of their circumferential harmonics as masters.
+/// A node at which loads, supports and contacts may act. Its DOFs are masters, or some
+/// circumferential harmonics of its ring are.
 struct AttachmentNode {
-  std::int64_t number;       ///< node number of the mesh; a reference node has one of its own
+  std::int64_t number;       ///< node number of the mesh; a reference node has its own number
   Eigen::Vector3d position;  ///< m
-  /// Unit normal of the shell where only the stiffness that elements invent for it resists the
-  /// rotation about the normal: nothing may be loaded or held there (drilling.hpp). Else zero.
+  /// Unit normal of the shell if only the numerical drilling stiffness of the elements resists the
+  /// rotation about it, so that nothing may be loaded or held there (drilling.hpp); else zero.
   Eigen::Vector3d drilling_axis = Eigen::Vector3d::Zero();
 };
 
@@ -37,26 +37,26 @@ struct RingHarmonic {
   bool is_sine;
 };
 
-/// The DOF of one row of K_r: attachment node and component (0..2 displacement x, y, z in m;
-/// 3..5 rotation about x, y, z in rad). Or the amplitude of a harmonic of a ring: no node (-1), and
-/// components along and about the radial, the tangential direction and the axis of the ring.
+/// The DOF of a row of K_r: an attachment node and component (0..2 displacement x, y, z in m; 3..5
+/// rotation about x, y, z in rad). Or the amplitude of a harmonic of a ring: node is -1, and
+/// components are along and about the radial, the tangential direction and the axis of the ring.
 struct MasterDof {
   int node;
   int component;
   std::optional<RingHarmonic> harmonic = {};
 };
 
-/// How the attachment nodes move where harmonics of rings are masters. Rows: all six components of
-/// each node in turn.
+/// The motion of the attachment nodes if harmonics of rings are masters. Rows: all six components
+/// of each node in turn.
 struct RingMotion {
-  /// F [6 n_nodes x n_m], orthonormal columns: the motion that each master is the amplitude of
+  /// F [6 n_nodes x n_m], orthonormal columns: the motion by a unit amplitude of each master.
   Eigen::MatrixXd shapes;
-  /// [6 n_nodes x n_FE] F u_m and what harmonics that are no masters add to it
+  /// [6 n_nodes x n_FE] F u_m and the contribution of harmonics that are no masters.
   Eigen::MatrixXd displacements;
 };
 
-/// Surface for pictures: some nodes of the mesh, triangles and quadrilaterals over them, and the
-/// rows of the transformation that give their displacements.
+/// The surface for pictures: some nodes of the mesh, triangles and quadrilaterals over them, and
+/// the rows of the transformation that give their displacements.
 struct Picture {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> positions;  ///< [n x 3], m
   std::vector<std::array<int, 4>>
@@ -77,55 +77,55 @@ struct ResultantModes {
   Eigen::MatrixXd S;  ///< [n_points n_kinds x n_coordinates] all kinds of each point in turn
 };
 
-/// Where a result comes from; written into every file. What a step reads from a file hands its own
-/// scene down: it may be older than the step's.
+/// The origin of a result, written into every file. A step that reads a file hands on the scene of
+/// that file, which may be older than its own.
 struct Provenance {
   std::string scene;          ///< text of the scene file
   std::string mesh_checksum;  ///< FNV-1a of node coordinates and connectivity, hexadecimal
   std::string versions;       ///< of Chladni and its libraries
   std::string options;        ///< options of the solvers
   int ranks = 1;
-  std::string reduction_scene = {};   ///< of the reduced system that a body was made of
-  std::string body_scene = {};        ///< of the body that a study used
+  std::string reduction_scene = {};   ///< scene of the reduced system from which a body was made
+  std::string body_scene = {};        ///< scene of the body that a study used
   std::string mesh_file_digest = {};  ///< XXH64 of the mesh file's bytes, hexadecimal, or none
-  /// The file of the scene, as seen from the folder of this file; empty where there is none.
+  /// Path of the scene file relative to the folder of this file; empty if there is none.
   std::string scene_file = {};
 };
 
-/// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates
-/// (u_m, q) = (displacements of the masters, amplitudes of the fixed-interface modes).
-/// Rows are ordered as `masters`, then the fixed-interface modes.
+/// The result of the FE reduction, without PETSc: (K_r, M_r, C_r) in the coordinates (u_m, q) =
+/// (displacements of the masters, amplitudes of the fixed-interface modes). Rows are ordered as
+/// `masters`, then the fixed-interface modes.
 struct ReducedSystem {
   std::string title;
   std::vector<AttachmentNode> attachment_nodes;
   std::vector<AttachmentSet> sets;
   std::vector<MasterDof> masters;              ///< [n_m]
-  std::optional<RingMotion> ring_motion = {};  ///< absent where each master is a DOF of a node
+  std::optional<RingMotion> ring_motion = {};  ///< absent if each master is a DOF of a node
   Eigen::MatrixXd K;                           ///< [n_FE x n_FE], N/m, N, N m
   Eigen::MatrixXd M;                           ///< [n_FE x n_FE], kg, kg m, kg m^2
   Eigen::MatrixXd C;                           ///< [n_FE x n_FE] or [0 x 0] when undamped
-  /// [n_FE x n_FE] structural damping, sum of eta_e K_e of elements and springs, or [0 x 0]: K + i
-  /// H at a harmonic motion; as K.
+  /// [n_FE x n_FE] structural damping, sum of eta_e K_e of elements and springs, or [0 x 0], so
+  /// that a harmonic motion has K + i H; units as K.
   Eigen::MatrixXd H = {};
   Eigen::VectorXd fixed_interface_frequencies;  ///< [n_CB], rad/s
-  Picture picture;                              ///< empty when the scene wants none
-  /// The rows of the picture's transformation, which is empty then: many times as large.
+  Picture picture;                              ///< empty if the scene asks for none
+  /// Replaces the picture's transformation, which would be many times as large and is then empty.
   std::optional<SectorMotions> picture_of_sectors = {};
-  std::optional<SectorHarmonics> sector_harmonics = {};  ///< of a body of equal sectors
+  std::optional<SectorHarmonics> sector_harmonics = {};  ///< for a body of equal sectors
   Certificate certificate = {};
   std::vector<ResultantModes> resultants = {};
   std::optional<MassIntegrals> mass_integrals = {};  ///< absent for matrices without geometry
-  std::optional<Stiffening> stiffening = {};         ///< where the scene asks for it
+  std::optional<Stiffening> stiffening = {};         ///< if the scene asks for it
   Provenance provenance;
 
   Eigen::Index n_masters() const { return static_cast<Eigen::Index>(masters.size()); }
 };
 
-/// The index in `sets` of the set with this name.
+/// The set with this name.
 /// @throws chladni::Error naming the sets that exist.
 const AttachmentSet& find_set(const ReducedSystem& reduced, const std::string& name);
 
-/// The picture in other coordinates, q = T times these; empty where there is none.
+/// The picture in other coordinates p with q = T p; empty if there is none.
 Picture picture_in(const ReducedSystem& reduced, const Eigen::MatrixXd& T);
 
 }  // namespace chladni::mbs_export

@@ -9,24 +9,26 @@
 
 namespace chladni::mbs_export {
 
-/// The loads of a tolerance on responses, and what errors of these are relative to.
+/// The loads of a tolerance on responses, and the sizes that their errors are relative to.
 struct ResponseSizes {
-  std::vector<int> rows;           ///< [m] masters that are loaded
-  std::vector<std::string> names;  ///< "track.z" stands for all nodes of the set
-  Eigen::VectorXd unit;            ///< [m] that makes forces and moments commensurable
-  Eigen::VectorXd Omega;           ///< [g] rad/s, a dozen up to the end of the range
-  /// [m x g] of the responses to a load, in these units: the least from half-way to the frequency
-  /// before to half-way to the next one.
+  std::vector<int> rows;           ///< [m] loaded masters
+  std::vector<std::string> names;  ///< "track.z" for all nodes of a set
+  Eigen::VectorXd unit;            ///< [m] scales that make forces and moments comparable
+  /// [g] rad/s, about a dozen up to the end of the range
+  Eigen::VectorXd Omega;
+  /// [m x g] Size of the responses to a load, scaled by `unit`: the minimum from half-way to the
+  /// previous frequency to half-way to the next one.
   Eigen::MatrixXd size;
 };
 
+/// The sizes of the responses of a reduced system.
 /// @param options  with a tolerance in `keep`
-/// @throws chladni::Error as make_body, and where a load acts on no master.
+/// @throws chladni::Error as `make_body`, and when a load acts on no master.
 ResponseSizes response_sizes(const ReducedSystem& reduced, const BodyOptions& options);
 
 struct ReferenceResponse;
 
-/// Frequencies and sizes alone, of responses that are known; no rows and names.
+/// The frequencies and sizes of known responses; rows and names stay empty.
 ResponseSizes response_sizes(const ReferenceResponse& reference, const Tolerance& tolerance);
 
 }  // namespace chladni::mbs_export

@@ -2,15 +2,15 @@
 
 #include <string>
 
-/// What has to be known of a mesh file before Gmsh reads it.
+/// Checks of a mesh file before Gmsh reads it.
 namespace chladni::mesh {
 
-/// All bytes of a file.
+/// Returns all bytes of a file.
 std::string read_all(const std::string& file);
 
-/// @throws chladni::Error when a .msh does not begin as one, for Gmsh would take it for GEO code;
-///         when its sections do not end, and when a text numbers a node by what is no number of
-///         one.
+/// Checks that a .msh is complete.
+/// @throws chladni::Error when it does not begin as a .msh (Gmsh would take it for GEO code), when
+///         a section does not end, or when a text file gives a node number that is not one.
 void check_msh_is_whole(const std::string& file);
 
 }  // namespace chladni::mesh

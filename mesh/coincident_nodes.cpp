@@ -69,7 +69,7 @@ void check_no_collapse(const Mesh& mesh, double tolerance)
       if (std::set<int>(nodes.begin(), nodes.end()).size() == nodes.size()) continue;
       throw Error(fmt::format(
           "element {} has two nodes within the tolerance of {:.3g} m and would collapse; make "
-          "merge_tolerance less, or repair the mesh",
+          "merge_tolerance smaller, or repair the mesh",
           block.numbers[e], tolerance));
     }
   }

@@ -7,22 +7,25 @@
 
 namespace chladni::mesh {
 
-/// Four places of an element's lattice; a triangle repeats its last one, a line twice.
+/// Four places in the lattice of an element. A triangle repeats its last place, a line its last
+/// place twice.
 using LatticeCell = std::array<int, 4>;
 
-/// The cells that an element of the block is drawn by, each `step` lattice intervals wide: the
-/// order of the block for one cell of its corners, 1 for all cells of its lattice.
+/// The cells that an element of the block is drawn by.
+/// @param step  width of a cell in lattice intervals: the order of the block gives one cell with
+///              the corners of the element, 1 gives all cells of its lattice
 std::vector<LatticeCell> lattice_cells(const ElementBlock& block, int step);
 
-/// The nodes of an element's edges, each edge from end to end.
+/// The nodes of each edge of an element, in order from end to end.
 std::vector<std::vector<int>> edges_of(const ElementBlock& block, int element);
 
-/// Element edges with all their nodes in the group; an edge between two elements counts once.
+/// The element edges with all their nodes in the group. An edge between two elements is returned
+/// once.
 std::vector<std::vector<int>> edges_in(const Mesh& mesh, const Group& group);
 
-/// The lattice places of an element's nodes in the order of VTK, up to order 2 also that of most
-/// other formats: corners, then edges, then the inner nodes.
-/// @param order  up to 4
+/// The lattice places of the nodes in the order of VTK: corners, edges, inner nodes. Up to order 2
+/// most other formats have the same order.
+/// @param order  1 to 4
 std::vector<int> corners_first(Shape shape, int order);
 
 }  // namespace chladni::mesh

@@ -10,9 +10,9 @@ namespace chladni::mesh {
 
 enum class Shape { line, triangle, quadrilateral };
 
-/// Elements of one shape and order. The nodes of each element stand in lattice order: a
-/// quadrilateral of order p has (p+1)^2 nodes, xi fastest; a triangle (p+1)(p+2)/2, r fastest, rows
-/// of falling length; a line p+1 nodes from end to end.
+/// Elements of one shape and order. The nodes of an element are in lattice order. A quadrilateral
+/// of order p has (p+1)^2 nodes, xi fastest; a triangle (p+1)(p+2)/2, r fastest, in rows that get
+/// shorter; a line p+1 nodes from end to end.
 struct ElementBlock {
   Shape shape;
   int order;
@@ -28,7 +28,7 @@ struct ElementBlock {
   }
 };
 
-/// A physical group or a ring: a named set of nodes.
+/// A named set of nodes: a physical group or a ring.
 struct Group {
   std::string name;
   int dimension;  ///< 0, 1 or 2
@@ -36,33 +36,34 @@ struct Group {
       nodes;  ///< indices into Mesh::positions; of a ring ordered by angle, else ascending
 };
 
-/// The sectors of a body that repeats about the z axis. The mesh is the first of them; the others
-/// follow by turns of 360 degrees / count.
+/// The sectors of a body that is periodic about the z axis. The mesh is the first sector; each
+/// other follows from the one before by a turn of 360 degrees / count.
 struct Sectors {
   int count = 1;  ///< 1: the mesh is the whole body
   std::vector<std::array<int, 2>>
-      pairs;  ///< nodes of its cut edges: `low`, and `high`, where one turn takes `low`
+      pairs;  ///< nodes (low, high) of the cut edges of the mesh: one turn takes low to high
 };
 
 /// A mesh of lines, triangles and quadrilaterals in space; the same on every rank.
 struct Mesh {
   std::vector<std::int64_t> node_numbers;        ///< [n] numbers of the mesh file
   std::vector<std::array<double, 3>> positions;  ///< [n], m
-  std::vector<ElementBlock> blocks;              ///< surfaces, and lines that are beams
+  std::vector<ElementBlock> blocks;              ///< surfaces, and the lines that are beams
   std::vector<Group> groups;
-  std::vector<std::string> notes;  ///< for the user: what was changed or left out on the way here
+  std::vector<std::string> notes;  ///< for the user: what was changed or left out on reading
   Sectors sectors = {};
 
   int n_nodes() const { return static_cast<int>(positions.size()); }
 };
 
+/// The group of this name.
 /// @throws chladni::Error naming the groups that exist.
 const Group& find_group(const Mesh& mesh, const std::string& name);
 
-/// Keeps only the nodes that an element uses, in their order; groups lose the others.
+/// Removes the nodes that no element uses, from the groups too. The others keep their order.
 void drop_unused_nodes(Mesh& mesh);
 
-/// FNV-1a of coordinates and connectivity, hexadecimal.
+/// The FNV-1a hash of coordinates and connectivity, in hexadecimal.
 std::string checksum(const Mesh& mesh);
 
 }  // namespace chladni::mesh

@@ -8,7 +8,7 @@
 
 namespace chladni::mesh {
 
-/// Nodes at equal angles exactly on a circle about the z axis, beginning on the x axis.
+/// Nodes at equal angles on a circle about the z axis, the first on the x axis.
 struct RingOptions {
   std::string name;
   double radius;  ///< m
@@ -16,11 +16,11 @@ struct RingOptions {
   std::optional<double> z = {};  ///< m; needed where several surfaces meet the cylinder
 };
 
-/// How a generator lays out its elements.
+/// The layout of the elements of a generator.
 enum class Pattern {
   structured,    ///< rows and columns of quadrilaterals; every row of a disc is a circle
-  unstructured,  ///< quadrilaterals by Gmsh, with triangles where they would be flat
-  triangles      ///< by Gmsh
+  unstructured,  ///< quadrilaterals by Gmsh, with triangles where they would have a flat corner
+  triangles      ///< triangles by Gmsh
 };
 
 /// Plane annular disc about the z axis. Groups: "disc" (surface), "inner_edge", "outer_edge" and
@@ -32,8 +32,8 @@ struct AnnulusOptions {
   int element_order = 3;
   std::vector<RingOptions> rings;
   Pattern pattern = Pattern::unstructured;
-  std::optional<double> edge_row = {};  ///< m, width of one row of elements along both edges
-  int sectors = 1;                      ///< equal ones, of which one is meshed; structured only
+  std::optional<double> edge_row = {};  ///< m, width of a row of elements along both edges
+  int sectors = 1;  ///< number of equal sectors, of which one is meshed; structured only
 };
 
 /// Round holes at equal angles on a circle of the flange, the first on the x axis.
@@ -51,21 +51,21 @@ struct HatDiscOptions {
   double inner_radius;  ///< m, of the ring; at most wall_radius
   double outer_radius;  ///< m
   double wall_radius;   ///< m, where the wall meets the ring
-  double top_radius;    ///< m, where it meets the flange
+  double top_radius;    ///< m, where the wall meets the flange
   double hub_radius;    ///< m, inner edge of the flange
-  double height;        ///< m, of the flange above the ring
-  double foot;          ///< m, of the wall's lower edge above the ring; 0 = joined to it
+  double height;        ///< m, from the ring to the flange
+  double foot;          ///< m, from the ring to the wall's lower edge; 0 = joined to it
   double element_size;  ///< m
   int element_order = 3;
-  std::vector<RingOptions> rings;  ///< on the ring-shaped disc
+  std::vector<RingOptions> rings;  ///< on the plane ring
   Pattern pattern = Pattern::structured;
-  std::optional<double> edge_row = {};  ///< m, along the edges of disc and hub and around bolts
+  std::optional<double> edge_row = {};  ///< m, width along edges of disc and hub, around bolts
   std::optional<BoltOptions> bolts = {};
-  int sectors = 1;  ///< equal ones, of which one is meshed; structured only
+  int sectors = 1;  ///< number of equal sectors, of which one is meshed; structured only
 };
 
-/// Plane sector of an annulus about the z axis, symmetric to `centre_angle`: a pad. Groups: "pad"
-/// (surface), "inner_edge", "outer_edge", "first_edge" (of the least angle), "last_edge",
+/// A pad: a plane sector of an annulus about the z axis, symmetric to `centre_angle`. Groups: "pad"
+/// (surface), "inner_edge", "outer_edge", "first_edge" (at the least angle), "last_edge",
 /// "corners".
 struct PadOptions {
   double inner_radius;      ///< m
@@ -75,7 +75,7 @@ struct PadOptions {
   double element_size;      ///< m
   int element_order = 3;
   Pattern pattern = Pattern::structured;
-  std::optional<double> edge_row = {};  ///< m, along all four edges
+  std::optional<double> edge_row = {};  ///< m, width of a row along all four edges
 };
 
 /// Plane rectangle from the origin along x and y. Groups: "plate" (surface), "left", "right",
@@ -86,7 +86,7 @@ struct RectangleOptions {
   double element_size;  ///< m
   int element_order = 3;
   Pattern pattern = Pattern::structured;
-  std::optional<double> edge_row = {};  ///< m, along all four edges
+  std::optional<double> edge_row = {};  ///< m, width of a row along all four edges
 };
 
 /// A named node of a generated beam.
@@ -95,65 +95,65 @@ struct BeamPoint {
   double distance;  ///< from the start, m
 };
 
-/// Straight line of two-node elements from start to end. Groups: "beam" (the line), "start", "end"
-/// and one for each point.
+/// A straight line of two-node elements from start to end. Groups: "beam" (the line), "start",
+/// "end" and one for each point.
 struct BeamMeshOptions {
-  std::array<double, 3> start;              ///< m
-  std::array<double, 3> end;                ///< m
-  std::optional<int> elements = {};         ///< of equal length; each point must meet a node
-  std::optional<double> element_size = {};  ///< m, largest; each piece between points is divided
+  std::array<double, 3> start;       ///< m
+  std::array<double, 3> end;         ///< m
+  std::optional<int> elements = {};  ///< number of equal elements; each point must meet a node
+  std::optional<double> element_size = {};  ///< m, largest; pieces between points are divided
   std::vector<BeamPoint> points = {};
 };
 
-/// What becomes of nodes of unconnected elements of a file that stand at one place.
+/// What happens to nodes of unconnected elements of a file that stand at one place.
 enum class Coincident { refuse, merge, keep };
 
-/// Whether a body that repeats about the z axis is reduced from one sector of its mesh.
+/// Whether a body that is periodic about the z axis is reduced from one sector of its mesh.
 enum class SectorSearch {
-  none,
-  where_nothing_is_lost,  ///< of the errors and the section forces that the whole body would have
-  asked
+  none,                   ///< never
+  where_nothing_is_lost,  ///< if error estimates and section forces stay those of the whole body
+  asked                   ///< the scene asks for it
 };
 
-/// A group of the points, curves or surfaces of a file's geometry.
+/// A group of points, curves or surfaces of a file's geometry.
 struct EntityGroup {
   std::string name;
   std::vector<std::string> entities;  ///< "surface_3", "curve_1", "point_2", or labels of the file
 };
 
-/// What Gmsh may do while it reads a file.
+/// What a file may do while Gmsh reads it.
 enum class Trust {
-  stranger,  ///< in a process of its own that starts no program and writes no file
-  owner      ///< whatever the file says: a .geo may run programs and write files
+  stranger,  ///< read in a process of its own that starts no program and writes no file
+  owner      ///< anything: a .geo may run programs and write files
 };
 
-/// The scene's [mesh]: exactly one generator or a file.
+/// The table [mesh] of a scene: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};
   std::optional<PadOptions> pad = {};
   std::optional<RectangleOptions> rectangle = {};
   std::optional<BeamMeshOptions> beam = {};
-  /// .msh, .geo, .step or of another program, resolved against the scene file's folder; the rest is
-  /// about the file.
+  /// A .msh, .geo, .step or a file of another program, resolved against the folder of the scene
+  /// file. All further members are about the file.
   std::optional<std::string> file = {};
-  std::optional<int> element_order = {};    ///< not of a .msh, which has its own
-  std::optional<double> element_size = {};  ///< m; of a .step, else as Gmsh likes
-  double size_factor = 1.0;                 ///< of the element sizes that a .geo says
-  std::vector<std::pair<std::string, double>> parameters = {};  ///< of a .geo, in its own unit
-  double length_unit = 1.0;                   ///< m; what 1 is in the file; a .step tells it itself
-  std::vector<EntityGroup> groups = {};       ///< besides those of the file
-  std::vector<RingOptions> rings = {};        ///< nodes must lie there; a .step gets them
-  std::vector<std::string> line_groups = {};  ///< of curves whose elements become lines
-  /// Of surfaces with a section; in files whose elements may be of several groups, these count.
+  std::optional<int> element_order = {};    ///< for a .geo or .step; a .msh has its own order
+  std::optional<double> element_size = {};  ///< m, for a .step; absent: Gmsh's choice
+  double size_factor = 1.0;                 ///< factor on the element sizes that a .geo sets
+  std::vector<std::pair<std::string, double>> parameters = {};  ///< for a .geo, in its own units
+  double length_unit = 1.0;                   ///< m per unit of the file; a .step states its unit
+  std::vector<EntityGroup> groups = {};       ///< in addition to those of the file
+  std::vector<RingOptions> rings = {};        ///< the file has nodes there; a .step gets them
+  std::vector<std::string> line_groups = {};  ///< groups of curves that become line elements
+  /// Groups of surfaces with a section. They decide where an element is in several groups.
   std::vector<std::string> shell_groups = {};
-  int sectors = 1;  ///< equal ones, of which the file holds one
+  int sectors = 1;  ///< number of equal sectors, of which the file holds one
   SectorSearch sector_search = SectorSearch::none;
   Coincident coincident_nodes = Coincident::refuse;
   std::optional<double> merge_tolerance = {};  ///< m
-  Trust trust = Trust::stranger;               ///< never from the scene, which comes with the mesh
-  std::optional<double> most_seconds = {};     ///< for Gmsh to read a stranger's file
-  std::optional<int> most_MiB = {};            ///< of memory, for the same
+  Trust trust = Trust::stranger;            ///< never set by the scene, which comes with the mesh
+  std::optional<double> most_seconds = {};  ///< s, time limit for reading a stranger's file
+  std::optional<int> most_MiB = {};         ///< MiB, memory limit for reading a stranger's file
 };
 
 }  // namespace chladni::mesh

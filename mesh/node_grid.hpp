@@ -8,13 +8,14 @@
 
 namespace chladni::mesh {
 
-/// Finds points by place, in cells as wide as a tolerance.
+/// Finds points by position, with a grid of cells as wide as a tolerance.
 class NodeGrid {
  public:
-  /// @param points  must outlive this
+  /// @param points     must outlive this object; m
+  /// @param tolerance  m
   NodeGrid(std::span<const std::array<double, 3>> points, double tolerance);
 
-  /// The nearest point within the tolerance; -1 where none is.
+  /// The index of the nearest point within the tolerance; -1 if there is none.
   int near(const std::array<double, 3>& x) const;
 
  private:

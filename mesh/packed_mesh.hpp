@@ -7,18 +7,20 @@
 
 namespace chladni::mesh {
 
+/// Writes a mesh as bytes.
 void pack(Packer& packer, const Mesh& mesh);
 
-/// A mesh that another process of this program packed. Whatever the bytes are, its sizes, indices
-/// and numbers fit together.
-/// @throws chladni::Error when they do not.
+/// Reads a mesh that another process of this program packed. The sizes, indices and numbers of the
+/// result are consistent, whatever the bytes are.
+/// @throws chladni::Error when the bytes are not such a mesh.
 Mesh unpack_mesh(Unpacker& unpacker);
 
-/// What a deck says besides its mesh. Whatever the bytes are, a scene checks what becomes of it.
+/// Writes the declarations of a deck as bytes. They are not checked on unpacking, but by the scene
+/// made from them.
 void pack(Packer& packer, const Declarations& declared);
 Declarations unpack_declarations(Unpacker& unpacker);
 
-/// What is said of a file: all but the generators.
+/// Writes the options that concern a file: all but the generators.
 void pack(Packer& packer, const MeshOptions& options);
 MeshOptions unpack_options(Unpacker& unpacker);
 

@@ -11,10 +11,10 @@
 
 #include "common/error.hpp"
 
-/// Values as bytes, one behind the other, between processes of one program on one machine.
+/// Values as a sequence of bytes, between processes of one program on one machine.
 namespace chladni::mesh {
 
-/// Writes them.
+/// Writes values to a sequence of bytes.
 class Packer {
  public:
   template <typename T>
@@ -35,7 +35,7 @@ class Packer {
     (*this)(text.size());
     append(text.data(), text.size());
   }
-  /// Each of them by `transfer(packer, value)`.
+  /// Writes each of the values by `transfer(packer, value)`.
   template <typename T>
   void each(const std::vector<T>& values, auto&& transfer)
   {
@@ -60,8 +60,8 @@ class Packer {
   std::vector<char> bytes_;
 };
 
-/// Reads them back in the same order.
-/// @throws chladni::Error when there are fewer bytes than the values need.
+/// Reads the values of a Packer in the order in which they were written.
+/// @throws chladni::Error when the bytes end too early.
 class Unpacker {
  public:
   explicit Unpacker(const std::vector<char>& bytes)
@@ -109,7 +109,7 @@ class Unpacker {
   bool at_end() const { return next_ == end_; }
 
  private:
-  /// A number of values of so many bytes or more.
+  /// Reads a number of values, each of which takes at least `bytes_of_each`.
   std::size_t size(std::size_t bytes_of_each)
   {
     std::size_t n = 0;

@@ -6,10 +6,10 @@
 
 namespace chladni::mesh {
 
-/// Owner of each node when the elements are divided among `n_parts` by METIS (dual graph, elements
-/// that share an edge, or a node where there are lines, are neighbours): the lowest part among the
-/// elements of the node.
-/// @return [n_nodes] in 0..n_parts-1; the same on every rank since METIS is deterministic.
+/// The owner of each node after METIS has divided the elements among `n_parts` by the dual graph,
+/// in which elements with a common edge are neighbours (a common node, if there are lines). A node
+/// belongs to the lowest part among its elements.
+/// @return [n_nodes] in 0 .. n_parts - 1; the same on every rank, since METIS is deterministic
 /// @throws chladni::Error when there are fewer elements than parts.
 std::vector<int> node_owners(const Mesh& mesh, int n_parts);
 

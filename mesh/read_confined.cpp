@@ -68,7 +68,7 @@ std::string sentence(Offence offence)
   const char* what = offence == Offence::program   ? "start a program"
                      : offence == Offence::writing ? "write a file"
                                                    : "use the network";
-  return fmt::format("it wants to {}, which a mesh file may not; {}", what, remedy);
+  return fmt::format("it tried to {}, which a mesh file must not do; {}", what, remedy);
 }
 
 /// @param reader  who reads the file: "Gmsh"
@@ -82,8 +82,10 @@ std::string sentence_on_end(const Outcome& outcome, const confinement::Limits& l
                                          : is_killed ? std::nullopt
                                                      : confinement::offence_of(outcome.code);
   if (offence) return sentence(*offence);
-  if (outcome.end == End::took_too_long || (is_killed && outcome.code == SIGXCPU))
-    return fmt::format("{} was not done with it after {:g} s; {}", reader, limits.seconds, remedy);
+  if (outcome.end == End::took_too_long || (is_killed && outcome.code == SIGXCPU)) {
+    return fmt::format("{} did not finish reading it within {:g} s; {}", reader, limits.seconds,
+                       remedy);
+  }
   if (outcome.end == End::said_too_much || outcome.code == confinement::exit_out_of_memory)
     return fmt::format("{} needs more than {} MiB for it; {}", reader, limits.memory / MiB, remedy);
   return fmt::format(

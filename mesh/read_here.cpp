@@ -47,8 +47,8 @@ void check_no_options_beside(const std::string& file)
   const std::string options = file + ".opt";
   if (!std::filesystem::exists(std::filesystem::symlink_status(options))) return;
   throw Error(
-      fmt::format("mesh file {}: beside it is {}, which Gmsh would obey; move it away, or, if "
-                  "both are your own, say --trust-mesh",
+      fmt::format("mesh file {}: beside it is the option file {}, which Gmsh would obey; move that "
+                  "away, or, if both files are your own, say --trust-mesh",
                   file, options));
 }
 

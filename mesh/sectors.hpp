@@ -5,24 +5,25 @@
 
 namespace chladni::mesh {
 
-/// Makes a mesh the first of `count` equal sectors about the z axis: finds the nodes of its cut
+/// Makes a mesh the first of `count` equal sectors about the z axis. Finds the nodes of its cut
 /// edges, which a turn by 360 degrees / count takes onto each other, and moves those of the second
 /// edge exactly there. The edges may be curved. Nodes on the axis have no partner.
-/// @param count  1: the mesh is the whole body, and nothing happens
-/// @throws chladni::Error when no node has a partner, when nodes of the cut edges do not meet, with
-///         the worst distance, and when the mesh is wider than one sector.
+/// @param count  1: the mesh is the whole body and stays as it is
+/// @throws chladni::Error when no node has a partner, when nodes of the cut edges do not match
+///         (with the largest distance), and when the mesh is wider than one sector.
 void find_sector_edges(Mesh& mesh, int count);
 
-/// @throws chladni::Error when generated elements are not the same in all sectors.
+/// Checks that a generator makes all sectors equal.
+/// @throws chladni::Error when count > 1 and the pattern is not structured.
 void check_pattern_of_sectors(int count, Pattern pattern);
 
-/// The point that `turns` sectors further on corresponds to x.
+/// The point that corresponds to x, m, in the sector that follows by `turns` turns.
 std::array<double, 3> turned(const Sectors& sectors, const std::array<double, 3>& x, int turns = 1);
 
-/// Whether a point is on the z axis, to the precision of a mesh file of this size, m.
+/// True if x, m, is on the z axis to the precision of a mesh file of a body of this `length`, m.
 bool is_on_axis(const std::array<double, 3>& x, double length);
 
-/// A length that is large beside the mesh's round-off: its largest distance from the z axis, m.
+/// The largest distance of a node from the z axis, m.
 double outer_radius(const Mesh& mesh);
 
 }  // namespace chladni::mesh

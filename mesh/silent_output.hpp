@@ -4,8 +4,8 @@
 
 namespace chladni::mesh {
 
-/// Nothing is written to stdout and stderr while it lives: Gmsh's recombination prints warnings of
-/// its own workings there, whatever General.Terminal says.
+/// Suppresses output to stdout and stderr during its lifetime. Gmsh's recombination prints warnings
+/// there whatever General.Terminal says.
 class SilentOutput {
  public:
   SilentOutput();
@@ -14,7 +14,7 @@ class SilentOutput {
   SilentOutput& operator=(const SilentOutput&) = delete;
 
  private:
-  std::array<int, 2> saved_;  ///< descriptors of both; -1 where there was none
+  std::array<int, 2> saved_;  ///< descriptors of both; -1 for one that was closed
 };
 
 }  // namespace chladni::mesh

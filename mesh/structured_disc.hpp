@@ -5,10 +5,10 @@
 
 namespace chladni::mesh {
 
-/// Annular disc of rows and columns, without its rings' groups.
+/// An annular disc of rows and columns, without the groups of its rings.
 Mesh structured_annulus(const AnnulusOptions& options);
 
-/// Disc with hat of rows and columns, without its rings' groups.
+/// A disc with hat of rows and columns, without the groups of its rings.
 Mesh structured_hat_disc(const HatDiscOptions& options);
 
 }  // namespace chladni::mesh

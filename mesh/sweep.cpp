@@ -134,8 +134,8 @@ void check_edge_rows(double row, double distance)
 {
   if (row > 0.0 && 2.0 * row < distance) return;
   throw Error(fmt::format(
-      "edge_row: two rows of width {} m do not fit between edges {:.6g} m apart; make it less", row,
-      distance));
+      "edge_row: two rows of width {} m do not fit between edges {:.6g} m apart; make it smaller",
+      row, distance));
 }
 
 std::vector<double> with_edge_rows(std::vector<double> breaks, double row)

@@ -12,33 +12,35 @@
 
 namespace chladni::mesh {
 
-/// A point of the plane in which profiles are drawn; (radius, z) of a body of revolution.
+/// A point, m, of the plane in which profiles are drawn; for a body of revolution (radius, z).
 using Station = std::array<double, 2>;
 
-/// A line of straight elements that sweeps a surface.
+/// A polyline of element edges that sweeps a surface.
 struct Profile {
   std::string group;              ///< of the surface
   std::vector<Station> stations;  ///< ends of its elements; profiles join where these are equal
 };
 
-/// The way of the profiles, cut into `n_elements`.
+/// The path along which profiles are swept, in `n_elements` elements.
 struct Path {
   int n_elements;
-  bool closed;  ///< it ends where it begins
+  bool closed;  ///< true if it ends where it begins
   int order;    ///< of the elements
-  /// Where a station is at t in [0, 1] of the way, m.
+  /// The position, m, of a station at t in [0, 1] along the path.
   std::function<std::array<double, 3>(const Station&, double t)> position;
 };
 
 /// A structured mesh and its rows of nodes.
 struct Swept {
   Mesh mesh;
-  std::map<Station, int> first_node;  ///< of the row that an end of an element sweeps
-  int n_columns;                      ///< nodes of a row, along the path
+  /// First node of the row that a station sweeps.
+  std::map<Station, int> first_node;
+  int n_columns;  ///< number of nodes of a row, along the path
 };
 
-/// Quadrilaterals of `path.order` in rows (along the path) and columns (along the profiles). Seen
-/// against their normals profile and path turn as x and y.
+/// Sweeps profiles along a path: quadrilaterals of `path.order` in rows (along the path) and
+/// columns (along the profiles). The normal of the elements is that of (profile direction) x (path
+/// direction).
 Swept sweep(std::span<const Profile> profiles, const Path& path);
 
 /// Adds the row of a station as a group of curves.
@@ -47,20 +49,21 @@ void add_row_group(Swept& swept, const Station& station, const std::string& name
 /// Adds column `k` of the path as a group of curves.
 void add_column_group(Swept& swept, int k, const std::string& name);
 
-/// Ascending numbers that cut each interval of `breaks` into equal parts of about `size`.
+/// Ascending numbers that divide each interval of `breaks` into equal parts of about `size`.
 std::vector<double> cut(const std::vector<double>& breaks, double size);
 
-/// @throws chladni::Error when two rows of this width do not fit between two edges.
+/// Checks that two rows of the width `row` fit between two edges at `distance`, m.
+/// @throws chladni::Error when they do not.
 void check_edge_rows(double row, double distance);
 
-/// `breaks` with one more at distance `row` inside both ends.
-/// @throws chladni::Error as check_edge_rows.
+/// Adds to `breaks` one number at the distance `row` inside each end.
+/// @throws chladni::Error as `check_edge_rows`.
 std::vector<double> with_edge_rows(std::vector<double> breaks, double row);
 
-/// Elements around a circle of `radius`: about its length over `size`, at least 12 (a cubic edge of
-/// 90 degrees folds its element over), with a corner at each node of each ring, as many in each of
-/// the sectors.
-/// @throws chladni::Error when rings and sectors ask for more than four times that.
+/// The number of elements around a circle of `radius`: its length over `size`, at least 12 (a cubic
+/// edge of 90 degrees folds its element over), rounded so that each node of each ring is a corner
+/// and all sectors have the same number.
+/// @throws chladni::Error when rings and sectors need more than four times that number.
 int n_elements_around(double radius, double size, std::span<const RingOptions> rings,
                       int sectors = 1);
 

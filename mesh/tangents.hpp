@@ -13,8 +13,8 @@ struct NodeDerivatives {
   std::vector<double> first, second;  ///< [n_nodes x n_nodes], d N_j / d xi or eta at node i
 };
 
-/// Of the complete Lagrange basis on the equidistant lattice of a triangle or quadrilateral; parent
-/// coordinates run over [0, 1].
+/// The derivatives of the complete Lagrange basis on the equidistant lattice of a triangle or
+/// quadrilateral. Parent coordinates are in [0, 1].
 NodeDerivatives node_derivatives(Shape shape, int order);
 
 }  // namespace chladni::mesh

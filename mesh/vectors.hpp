@@ -28,7 +28,7 @@ inline Vector cross(const Vector& a, const Vector& b)
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Of length 1; `a` must not vanish.
+/// The direction of `a` with length 1; `a` must not vanish.
 inline Vector unit(const Vector& a)
 {
   const double length = norm(a);

@@ -9,7 +9,8 @@
 
 namespace chladni::plate {
 
-/// Isotropic, linearly elastic, with structural damping: E (1 + i eta) at a harmonic motion.
+/// An isotropic, linearly elastic material with structural damping: E (1 + i eta) in harmonic
+/// motion.
 struct Material {
   double young;              ///< Pa
   double poisson;            ///< -1 < nu < 0.5
@@ -17,17 +18,18 @@ struct Material {
   double loss_factor = 0.0;  ///< eta >= 0
 };
 
-/// What a profile runs over: a coordinate of the model, or the distance from its z axis.
+/// The variable of a profile: a coordinate of the model, or the distance from its z axis.
 enum class Coordinate { x, y, z, radius };
 
-/// A length that is constant, or linear between the points of a table and constant beyond its ends,
-/// or a formula of the position.
+/// A length that depends on the position: constant, linear between the points of a table and
+/// constant beyond its ends, or a formula.
 struct Profile {
   Coordinate over = Coordinate::x;
   std::vector<double> at;      ///< m, ascending; empty for a constant
   std::vector<double> values;  ///< m, as many as `at`; one for a constant
   std::string formula;         ///< of x, y, z, radius (m) and angle (rad); empty without one
-  double turned = 0.0;         ///< rad: a place has the value of the place so far round the z axis
+  /// rad; a place has the value of the place turned by this angle about the z axis
+  double turned = 0.0;
 
   Profile(double constant = 0.0) : values{constant} {}  // NOLINT(google-explicit-constructor)
   Profile(Coordinate coordinate, std::vector<double> points, std::vector<double> lengths)
@@ -42,20 +44,21 @@ struct Profile {
   bool operator==(const Profile&) const = default;
 };
 
-/// The shell section of one physical group.
+/// The shell section of a physical group.
 struct ShellSection {
   std::string group;
   Material material;
   Profile thickness;     ///< m
   Profile offset = 0.0;  ///< m, from the mesh to the mid-surface along the normals of the elements
-  std::optional<double> loss_factor = {};  ///< eta >= 0 in place of that of the material
+  /// eta >= 0, replaces that of the material
+  std::optional<double> loss_factor = {};
 };
 
 enum class BeamTheory { bernoulli_euler, timoshenko };
 
-/// The beam section of one physical group of lines. Local axes: x along the line, z as near to
-/// `orientation` as it can be at a right angle to x, y = z x x. Centroid and shear centre are on
-/// the line.
+/// The beam section of a physical group of lines. Local axes: x along the line, z as near to
+/// `orientation` as a right angle to x allows, y = z x x. Centroid and shear centre are on the
+/// line.
 struct BeamSection {
   std::string group;
   Material material;
@@ -65,34 +68,35 @@ struct BeamSection {
   double I_z;                           ///< int y^2 dA, bending in the x-y plane, m^4
   double J;                             ///< torsion constant, m^4
   double shear_factor_y = 5.0 / 6.0;    ///< kappa of kappa G A for shear along y
-  double shear_factor_z = 5.0 / 6.0;    ///< along z
+  double shear_factor_z = 5.0 / 6.0;    ///< the same for shear along z
   bool has_rotary_inertia = true;       ///< rho I_y and rho I_z of the bending rotations
   std::optional<std::array<double, 3>>  ///< needed unless y and z are alike
       orientation = {};
-  std::optional<double> loss_factor = {};  ///< eta >= 0 in place of that of the material
+  std::optional<double> loss_factor = {};  ///< eta >= 0, replaces that of the material
 };
 
-/// A rigid body on each node of a group, or on the reference node of a coupling.
+/// A rigid body at each node of a group, or at the reference node of a coupling.
 struct PointMass {
   std::string at;
   double mass;  ///< kg
   /// xx, yy, zz, xy, xz, yz about the centre of mass, kg m^2; xy = -int x y dm and so on
   std::array<double, 6> inertia = {};
-  std::array<double, 3> offset = {};  ///< of the centre of mass from the node, m
+  std::array<double, 3> offset = {};  ///< m, from the node to the centre of mass
 };
 
-/// A spring and a damper, without mass, between the node of a group or coupling and another one or
-/// the ground: a force for each component of the global axes. Between nodes apart from each other
-/// the forces act at the middle, so that rigid motion feels none.
+/// A massless spring and damper for each component in the global axes, between the node of a group
+/// or coupling and another node or the ground. Between two nodes at a distance the forces act at
+/// the midpoint, so that rigid motion causes none.
 struct Spring {
   std::string at;
-  std::optional<std::string> to = {};  ///< absent: the ground; then each node of the group has one
+  /// Absent: the ground; then each node of the group has a spring of its own.
+  std::optional<std::string> to = {};
   std::array<double, 6> stiffness = {};  ///< N/m, N m/rad
   std::array<double, 6> damping = {};    ///< N s/m, N m s/rad
   double loss_factor = 0.0;              ///< eta >= 0 of the stiffness
 };
 
-/// What a body is made of.
+/// The sections, masses and springs of a body.
 struct Structure {
   std::span<const ShellSection> shells = {};
   std::span<const BeamSection> beams = {};
@@ -100,29 +104,31 @@ struct Structure {
   std::span<const Spring> springs = {};
 };
 
+/// The kinds of couplings:
 /// - rigid: a reference node at the centre of a group whose nodes follow it as a rigid body;
-/// - link: each node of a group follows its nearest node in the group `to` as a rigid body, over
-///   whatever gap is between them (a bell that ends at the face of a disc and its mid-surface);
+/// - link: each node of a group follows its nearest node in the group `to` as a rigid body, across
+///   any gap between them (a bell that ends at the face of a disc and its mid-surface);
 /// - averaging: a reference node at the centre of a group that moves as the group does on average
-///   and stiffens nothing: the translation and rotation that fit the displacements of its nodes
-///   best in the mean square, weighted with the length or area that each stands for. Forces on it
-///   reach the nodes accordingly: an even traction.
+///   and adds no stiffness: its translation and rotation are the least-squares fit to the
+///   displacements of the nodes, weighted with the length or area of each. Forces on it reach the
+///   nodes as an even traction.
 enum class CouplingKind { rigid, link, averaging };
 
+/// A coupling of the nodes of a group.
 struct Coupling {
-  std::string name;   ///< of the reference node; a link has none
+  std::string name;   ///< of the reference node; empty for a link
   std::string group;  ///< the nodes that are coupled
   CouplingKind kind = CouplingKind::rigid;
-  std::string to = {};  ///< of a link
+  std::string to = {};  ///< for a link: group that is followed
 };
 
-/// A ring of nodes whose circumferential harmonics 0 .. `up_to` are to be coordinates.
+/// A ring of nodes whose circumferential harmonics 0 .. `up_to` become coordinates.
 struct RingHarmonics {
   std::string ring;
-  int up_to;  ///< 1 .. floor(N / 2) of N nodes
+  int up_to;  ///< 1 .. floor(N / 2) for N nodes
 };
 
-/// How the nodes of a body can move.
+/// The couplings, components and harmonic rings that define how the nodes of a body can move.
 struct Kinematics {
   std::span<const Coupling> couplings = {};
   std::vector<int> components = {0, 1, 2, 3, 4, 5};  ///< ascending; the others are held at zero

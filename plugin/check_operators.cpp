@@ -71,7 +71,7 @@ Scan scan(Mat A, const char* name)
     else if (row == column && value < 0.0)
       result.complaint = fmt::format(
           "CMSSetOperators: {}[{}, {}] = {:g} is negative, so {} is "
-          "indefinite; K and M must be positive semidefinite",
+          "indefinite; K, M and damping must be positive semidefinite",
           name, row, column, value, name);
   });
   return result;

@@ -8,30 +8,38 @@
 
 namespace chladni::plugin {
 
-/// An operator as AIJ: a reference where it is AIJ, else a converted copy.
+/// Checks a symmetric operator and returns it as AIJ: a reference if it is AIJ already, else a
+/// converted copy.
+/// @param like  the matrix whose rows, columns and distribution A must have
+/// @param name  of A, for messages
 /// @note   Collective.
-/// @throws chladni::Error on all ranks when A has not the rows and columns of `like`, is not
-/// assembled, has a value that is not finite or a negative diagonal value, or is not symmetric.
+/// @throws chladni::Error on all ranks when A has another layout than `like`, is not assembled, is
+///         not symmetric, has a value that is not finite, a negative diagonal value, or A_ij^2 >
+///         A_ii A_jj.
 petsc::Matrix checked_operator(Mat A, Mat like, const char* name);
 
-/// C may be any matrix: damping is symmetric, gyroscopic forces are skew-symmetric.
+/// The matrix C of forces by velocities: damping is symmetric, gyroscopic forces are
+/// skew-symmetric.
 struct VelocityForces {
   petsc::Matrix C;
   bool is_symmetric;
 };
 
-/// The same for C, whatever its symmetry.
+/// Checks C, which may have any symmetry, and returns it as AIJ.
+/// @param like  the matrix whose rows, columns and distribution C must have
 /// @note   Collective.
+/// @throws chladni::Error on all ranks when C has another layout, is not assembled, or has a value
+///         that is not finite or a negative diagonal value.
 VelocityForces checked_velocity_forces(Mat C, Mat like);
 
-/// "row 17 of K", as the user knows it.
+/// Returns the name of a row for messages, in the user's terms: "row 17 of K".
 using NameOfRow = std::function<std::string(PetscInt)>;
 
-/// @param masters  global rows, ascending, the same on every rank
-/// @param name_of_row  where rows are not those of the user's K
+/// Checks that every slave has stiffness and every master stiffness or mass.
+/// @param masters      global rows, ascending, the same on every rank
+/// @param name_of_row  needed where rows are not those of the user's K
 /// @note   Collective.
-/// @throws chladni::Error on all ranks, naming the row, when a slave has no stiffness at all or a
-/// master has neither stiffness nor mass.
+/// @throws chladni::Error on all ranks, naming a row without them.
 void refuse_empty_rows(Mat K, Mat M, const std::vector<PetscInt>& masters,
                        const NameOfRow& name_of_row = {});
 

@@ -12,32 +12,33 @@
 #include "plugin/harmonic_problem.hpp"
 #include "reduce/reduction.hpp"
 
-/// Inside of the PETSc class CMS; nothing of it crosses the C header.
+/// The inside of the PETSc class CMS. Nothing of it appears in the C header.
 namespace chladni::plugin {
 
-/// Where a master stands, for the file.
+/// Node, component and position of a master, for the file.
 struct MasterPlace {
   PetscInt node;
   PetscInt component;
-  double x[3];
+  double x[3];  ///< m
 };
 
-/// What CMSSetUp makes.
+/// The result of CMSSetUp.
 struct SetUp {
-  reduce::FactoredBody body;  ///< K and M are references, or AIJ copies of other types
-  VelocityForces velocity;    ///< C likewise, or nothing
+  reduce::FactoredBody body;  ///< its K and M are references, or AIJ copies of other types
+  VelocityForces velocity;    ///< C as a reference or an AIJ copy; empty without C
 };
 
-/// Masters in the user's order, then the modes.
+/// The result of CMSSolve, with masters in the user's order, then the modes.
 struct Result {
   reduce::Reduction reduction;
   std::vector<PetscReal> f_Hz;  ///< [k] of the certified modes
   CMSQuality quality;
-  /// Made when asked for; C_r only with damping, T_y only of a harmonic with two phases.
+  /// Made at the first call that asks for them. C_r exists only with C, T_y only for a harmonic
+  /// with two phases.
   petsc::Matrix K_r = {}, M_r = {}, C_r = {}, T = {}, T_y = {};
 };
 
-/// What the user has said.
+/// The user's settings.
 struct Settings {
   reduce::ReductionOptions options{.basis = {.method = reduce::Method::craig_bampton, .modes = 20}};
   CMSMonitorFunction monitor = nullptr;
@@ -47,15 +48,15 @@ struct Settings {
   bool prints_phases = false;
 };
 
-/// All that a CMS holds.
+/// The members of a CMS.
 struct Inside {
   petsc::Matrix K, M, C;                    ///< as given
   petsc::IndexSet interface, held, output;  ///< as given
-  std::vector<MasterPlace> geometry;        ///< of this rank's part of the interface, or empty
+  std::vector<MasterPlace> geometry;        ///< of this rank's part of the interface; may be empty
   std::optional<Sectors> sectors;           ///< as given
   PetscInt harmonic = 0;
   Settings settings;
-  std::optional<HarmonicProblem> problem;  ///< of sectors
+  std::optional<HarmonicProblem> problem;  ///< set with sectors only
   std::optional<SetUp> set_up;
   std::optional<Result> result;
 };
@@ -75,15 +76,16 @@ Handle reference(Object object)
   return Handle(object);
 }
 
-/// Brackets a phase: log event, wall time, monitor, and how much of it is done meanwhile; with
-/// -cms_monitor on a terminal also how long the rest will take.
+/// A phase of the work, from construction to `done`: logs its event, measures its wall time and
+/// reports its progress to the user's function. With -cms_monitor on a terminal it prints the
+/// remaining time.
 class Phase {
  public:
   Phase(CMS cms, PetscLogEvent event, std::string name);
   ~Phase();
   Phase(const Phase&) = delete;
   Phase& operator=(const Phase&) = delete;
-  /// Calls the monitor; left out when an exception ends the phase.
+  /// Calls the monitor. It is not called when an exception ends the phase.
   void done();
 
  private:
@@ -97,11 +99,11 @@ class Phase {
   std::string name_;
   PetscLogDouble started_ = 0.0;
   PetscLogDouble shown_ = 0.0;
-  int users_code_ = 0;  ///< that the progress function returned on this rank
+  int users_code_ = 0;  ///< returned by the progress function on this rank
   std::optional<linear::ListenToProgress> listener_;
 };
 
-/// Makes phases of a CMS of those of a reduction; short ones have none of their own.
+/// Turns the phases of a reduction into phases of a CMS. Short ones are left out.
 class CMSPhases : public reduce::PhaseListener {
  public:
   explicit CMSPhases(CMS cms) : cms_(cms) {}
@@ -114,28 +116,32 @@ class CMSPhases : public reduce::PhaseListener {
   std::optional<Phase> phase_;
 };
 
-/// Where the solvers inside find the options of the object: `-PREFIXcms_...` in its own database.
+/// The options `-PREFIXcms_...` of the object, in its own database, for the solvers inside.
 linear::OptionSource option_source(CMS cms);
 
+/// Does the work of CMSSetUp.
 /// @throws chladni::Error on all ranks when the operators or the interface cannot be reduced.
 SetUp make_set_up(CMS cms);
-/// The harmonic of the sectors, made where there is none.
+/// The matrices of the harmonic of the sectors, made at the first call.
+/// @throws chladni::Error on all ranks when CMSSetCyclic was not called or its edges do not match.
 HarmonicProblem& made_problem(CMS cms);
+/// Does the work of CMSSolve.
 Result make_result(CMS cms);
-/// What CMSSetHeld was given, the same on every rank.
+/// The rows held by CMSSetHeld, the same on every rank.
 /// @note   Collective.
 std::vector<PetscInt> held_masters(const Inside& inside);
-/// T, of a harmonic also T_y, with the rows asked for.
+/// Makes T, and T_y for a harmonic, with the rows that CMSSetOutput asks for.
 void make_transformation(Inside& in);
-/// T^T C T; masters ascending by DOF. Symmetric where C is.
+/// T^T C T with masters ascending by DOF; symmetric if C is.
 Eigen::MatrixXd reduced_velocity_forces(const Inside& in);
+/// Writes the reduced file.
 void write_file(CMS cms, const std::string& path);
 
 }  // namespace chladni::plugin
 
 struct _CMSOps {};
 
-/// The object that the C header hides.
+/// The object behind the handle CMS of the C header.
 struct _p_CMS {
   PETSCHEADER(struct _CMSOps);
   chladni::plugin::Inside* inside;

@@ -205,8 +205,9 @@ PetscErrorCode CMSSetFromOptions(CMS cms)
                              &up_to, &up_to_given));
   PetscCall(PetscOptionsInt("-cms_harmonic", "Harmonic of the sectors", "CMSSetHarmonic", harmonic,
                             &harmonic, &harmonic_given));
-  PetscCall(PetscOptionsBool("-cms_sylvester", "Count eigenvalues by one more factorisation",
-                             "CMSSetSylvester", sylvester, &sylvester, nullptr));
+  PetscCall(PetscOptionsBool(
+      "-cms_sylvester", "Count eigenvalues by Sylvester's law, by two to four more factorisations",
+      "CMSSetSylvester", sylvester, &sylvester, nullptr));
   PetscCall(PetscOptionsBool("-cms_monitor", "Print each phase with its time", "CMSMonitorSet",
                              monitor, &monitor, nullptr));
   // As text: PETSc's own would create, and so empty, the file before there is a result.

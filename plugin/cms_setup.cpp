@@ -49,8 +49,8 @@ Operators reduced_operators(CMS cms)
   if (!cms->inside->sectors) {
     if (const PetscInt n = cms->inside->harmonic; n != 0) {
       throw Error(
-          fmt::format("CMSSetHarmonic: harmonic {} of no sectors; call CMSSetCyclic() or "
-                      "leave -cms_harmonic out",
+          fmt::format("CMSSetHarmonic: harmonic {} without sectors; call CMSSetCyclic(), or leave "
+                      "-cms_harmonic out",
                       n));
     }
     return checked_operators(cms);

@@ -4,15 +4,16 @@
 
 #include "linear/lanczos/block_iteration.hpp"
 
-/// How the Krylov sequences of a solution begin.
+/// The starting blocks of the Krylov sequences of an EPS.
 namespace chladni::plugin {
 
-/// Starts with the vectors that the user gave, if any: those that one block does not hold are added
-/// to others, from which the operator separates them.
+/// Starts the first sequence, with the vectors of EPSSetInitialSpace if there are any. If these are
+/// more than a block holds, several are added up in one column; the operator separates them.
 void start(EPS eps, linear::BlockIteration& iteration, const linear::BlockOperator& op);
 
-/// Keeps the first pairs and begins a new sequence, with room in the basis for some steps, and with
-/// wider blocks from the second time on: an eigenvalue of very many copies takes few rounds then.
+/// Keeps the first n_kept pairs and begins a new sequence of random vectors, with room in the basis
+/// for some steps. From the second time on blocks are twice as wide, so that an eigenvalue of very
+/// high multiplicity needs few rounds.
 void begin_anew(EPS eps, linear::BlockIteration& iteration, PetscInt n_kept,
                 const linear::BlockOperator& op);
 

@@ -10,7 +10,7 @@
 
 namespace chladni::plugin {
 
-/// Something that the user's program does inside of a call failed with this PETSc error.
+/// An error returned by a function of the user's program that was called from a solution.
 class UsersFailure : public Error {
  public:
   UsersFailure(PetscErrorCode error_code, const std::string& text) : Error(text), code(error_code)
@@ -18,9 +18,9 @@ class UsersFailure : public Error {
   PetscErrorCode code;
 };
 
-/// Memory that runs out on one rank is nothing that the others know of: they wait for this one in
-/// the middle of their work, and only the end of all of them keeps them from waiting for ever. The
-/// last words stand here, since an error handler may keep PETSc's report to itself.
+/// Ends all ranks after memory ran out on this one, since the others would wait for it forever. On
+/// a single rank returns PETSC_ERR_MEM instead. Prints its own message, because an error handler
+/// may suppress PETSc's.
 inline PetscErrorCode without_memory(MPI_Comm comm)
 {
   if (petsc::size(comm) == 1) return PETSC_ERR_MEM;
@@ -32,8 +32,9 @@ inline PetscErrorCode without_memory(MPI_Comm comm)
   return PETSC_ERR_MEM;
 }
 
-/// Runs work() and turns exceptions into PETSc errors: none crosses into C. What the library throws
-/// is thrown on all ranks alike and reported once; memory runs out on one, which ends them all.
+/// Runs work() and turns exceptions into PETSc errors, so that none reaches C. Errors of the
+/// library are thrown on all ranks and reported once; memory that runs out on one rank ends all
+/// ranks.
 template <class Work>
 PetscErrorCode guarded(PetscObject object, const char* function, const Work& work) noexcept
 {

@@ -7,35 +7,39 @@
 
 namespace chladni::reduce {
 
-/// Whether the modes are those of the body with free masters, which need all of K and M: the mixed
-/// interface, Rubin's, MacNeal's, and what may become one of them.
+/// True for the methods whose modes are those of the body with free masters and which therefore
+/// need all of K and M: the mixed interface, Rubin's, MacNeal's, and `automatic`, which may become
+/// the mixed interface.
 bool has_free_masters(Method method);
 
-/// What the methods with free masters see of a body, which must outlive it.
+/// The view of a body that the methods with free masters work on. The body must outlive it.
 WholeSystem whole_system(const FactoredBody& body);
 
-/// The columns of the transformation of a method.
+/// The basis that a method makes.
 struct Basis {
   CraigBamptonBasis Q;
-  std::optional<Eigen::MatrixXd> mass = {};  ///< M_r where the method does not project it
-  /// Up to here the basis has the modes of the supported body themselves, rad/s; 0 where it has not
+  std::optional<Eigen::MatrixXd> mass = {};  ///< M_r, set only where the method does not project it
+  /// rad/s; up to here the basis holds the modes of the supported body themselves. 0: it holds
+  /// none.
   double exact_up_to = 0.0;
-  /// The first eigenvalue under the support whose mode it has not, rad^2/s^2; infinite where
+  /// rad^2/s^2; first eigenvalue of the supported body whose mode the basis lacks; infinity:
   /// unknown
   double lambda_left_out = std::numeric_limits<double>::infinity();
 };
 
-/// By the method of the options: the one place that tells the methods apart. Its last phase is
-/// still under way at its end.
-/// @param support  under which a tolerance is kept
+/// Makes the basis by the method of the options. Only this function and `lowest_modes` tell the
+/// methods apart. The last phase is still open when it returns.
+/// @param support  the tolerance of the options applies to the body under this support
 /// @note   Collective.
 Basis make_basis(const FactoredBody& body, const ReductionOptions& options, const Support& support,
                  PhaseListener& phases);
 
-/// The lowest elastic modes of a method by number, rad/s, ascending: fixed-interface modes or those
-/// of the body that the support holds or nothing.
+/// Frequencies of the lowest elastic modes that the options ask for by number, without a reduction:
+/// fixed-interface modes, or modes of the body under the support, or of the free body, by the
+/// method.
+/// @return rad/s, ascending
 /// @note   Collective.
-/// @throws chladni::Error when there are not as many.
+/// @throws chladni::Error when the body has fewer modes.
 std::vector<double> lowest_modes(const FactoredBody& body, const ReductionOptions& options,
                                  const Support& support);
 

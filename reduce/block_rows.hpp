@@ -3,21 +3,23 @@
 #include "linear/kernels/dense_matrices.hpp"
 #include "reduce/partition.hpp"
 
-/// Dense matrices in the rows of all DOFs, against those in the rows of masters and slaves.
+/// Dense matrices between two layouts: the rows of all DOFs, and the rows of masters and slaves.
 namespace chladni::reduce {
 
-/// The rows of a dense X at the slaves.
-/// @param like  with the rows of the slaves, as K_ss
+/// Copies the rows of the slaves out of a dense X.
+/// @param like  a matrix with the row layout of the slaves, such as K_ss
+/// @return [n_s x columns of X] dense
 petsc::Matrix slave_rows(Mat X, const DofPartition& dofs, Mat like);
 
-/// The rows of a dense X at the masters, on every rank.
+/// Copies the rows of the masters out of a dense X.
+/// @return [n_m x columns of X], on every rank
 /// @note   Collective.
 Eigen::MatrixXd master_rows(Mat X, const DofPartition& dofs);
 
-/// Writes X_m and X_s to the rows of X.
+/// Writes X_m to the rows of the masters in X and X_s to those of the slaves.
 void set_rows(Mat X, const DofPartition& dofs, const Eigen::MatrixXd& X_m, Mat X_s);
 
-/// [R, X] of the first k columns of X.
+/// The columns of R and then the first k columns of X, as one dense matrix.
 petsc::Matrix beside(Mat R, Mat X, PetscInt k);
 
 }  // namespace chladni::reduce

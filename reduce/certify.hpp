@@ -5,27 +5,30 @@
 
 namespace chladni::reduce {
 
-/// `Support::modes` of the first rank on all ranks.
+/// Computes `Support::modes` on the first rank and sends the result to all ranks.
 /// @note   Collective.
 SupportedModes modes_everywhere(const Support& support, const ReducedModel& model,
                                 const SpectrumRange& wanted, MPI_Comm comm);
 
-/// The modes that get an error: with a tolerance all up to its range, else up to the last
-/// fixed-interface mode, at most 100; without these modes the first 20.
+/// The modes that get an error estimate. With a tolerance these are all modes up to its frequency;
+/// else those up to `certified_up_to_Hz`, or up to the last mode of the basis, at most 100; without
+/// modes in the basis the lowest 20.
 SpectrumRange certified_range(const ReduceOptions& options, const ReducedModel& model);
 
-/// The modes of a range, at least one where there is one.
+/// The modes that lie in a range. If none does, the first mode is returned, where there is one.
 ReducedPairs leading_pairs(const SupportedModes& modes, const SpectrumRange& range);
 
-/// Whether the eigenvalues of the FE model are counted.
+/// Decides whether the eigenvalues of the FE model are counted.
 class CountPlan {
  public:
   CountPlan(const FactoredBody& body, const ReductionOptions& options);
 
-  /// The count as a share of the reduction with a number of fixed-interface modes.
+  /// Predicted share of the counts in the work of a reduction with this many modes, 0 to 1.
   double share(PetscInt n_modes) const;
-  /// False where it is known before there is a basis that nothing will be counted.
+  /// False where it is certain, before there is a basis, that nothing will be counted.
   bool is_possible() const;
+  /// True when a count is wanted for a basis of this many modes and its factor fits into the
+  /// memory.
   /// @note   Collective.
   bool is_due(PetscInt n_modes) const;
 
@@ -40,32 +43,34 @@ class CountPlan {
   MPI_Comm comm_;
 };
 
-/// What an elimination takes whose columns are not kept, in multiples of the entries of a factor.
-/// Where MUMPS has to count, which keeps a factor with pivoting and copies of the matrix, it is 4.4
-/// times the entries; whether it will have to is not known before.
+/// Memory of the elimination that counts eigenvalues and keeps no columns, in multiples of the
+/// entries of a factor of K_ss. If MUMPS has to count, with pivoting, a kept factor and copies of
+/// the matrix, it needs 4.4 times the entries; whether it has to is not known in advance.
 inline constexpr double entries_of_counting_factor = 1.0;
 
-/// What a reduction has found.
+/// A body with its basis and its projected model.
 struct Reduced {
   const FactoredBody& body;
   const CraigBamptonBasis& Q_CB;
   const ReducedModel& model;
-  bool is_projected;  ///< M_r = Q_CB^T M Q_CB: residuals mean nothing without
+  bool is_projected;  ///< M_r = Q_CB^T M Q_CB; without it residuals have no meaning
 };
 
-/// A certificate on its way.
+/// A certificate with error estimates, and what the count of eigenvalues needs further.
 struct Certified {
   Certificate certificate;
   SupportedModes modes;
-  Eigen::MatrixXd residuals = {};  ///< `ErrorEstimates::inner_products`; empty but for bounds
+  /// `ErrorEstimates::inner_products`; set for Purpose::bounds only
+  Eigen::MatrixXd residuals = {};
 };
 
-/// The error estimates of the modes of a range.
-/// @note   Collective, as the next.
+/// Estimates the errors of the modes of `certified_range`.
+/// @note   Collective, as is `counted`.
 Certified estimated(const Reduced& reduced, const ReductionOptions& options, const Support& support,
                     Purpose purpose);
 
-/// With the eigenvalues of the FE model counted, and bounds in the range where none is missing.
+/// Counts the eigenvalues of the FE model and adds the counts to the certificate, with error bounds
+/// for the modes of a range in which none is missing.
 Certificate counted(Certified certified, const Reduced& reduced, const ReductionOptions& options,
                     const Support& support);
 

@@ -87,7 +87,8 @@ EigenvalueCount counted(const EigenvalueCount& count)
   if (count.missing() >= 0) return count;
   throw Error(fmt::format(
       "internal error: {} eigenvalues counted below {:.15g} rad^2/s^2, where the reduced model has "
-      "{}: a projection cannot have more of them; the pivots of K - sigma M are not to be trusted",
+      "{}: a projection cannot have more of them, so the pivots of K - sigma M are wrong; reduce "
+      "without a count of eigenvalues",
       count.expected, count.sigma, count.found));
 }
 

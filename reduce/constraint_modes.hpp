@@ -5,10 +5,10 @@
 
 namespace chladni::reduce {
 
-/// Psi = -K_ss^-1 K_sm: displacements of the slaves for unit displacements of the masters.
-/// On one rank with sparse right-hand sides; on more, with dense ones in blocks of columns.
-/// @param K  blocks of the stiffness; K.ms = K.sm^T.
-/// @return [n_s x n_m] dense, rows as K_ss.
+/// Psi = -K_ss^-1 K_sm: displacements of the slaves for unit displacements of the masters. The
+/// right-hand sides are sparse on one rank, and dense in blocks of columns on several.
+/// @param K  blocks of the stiffness; K.ms = K.sm^T
+/// @return [n_s x n_m] dense, rows as K_ss
 /// @note   Collective on the communicator of `K.ms`.
 petsc::Matrix constraint_modes(const linear::Factorization& K_ss, const Blocks& K);
 

@@ -19,8 +19,9 @@ FixedInterfaceModes modes_by_number(ModeSearch& search, PetscInt n_modes)
   search.find(n_modes);
   if (std::ssize(search.omega()) < n_modes) {
     search.require_resolved(linear::all_of_them);
-    throw Error(fmt::format("fixed_interface_modes: {} of {} modes found; M_ss has no more",
-                            search.omega().size(), n_modes));
+    throw Error(
+        fmt::format("fixed_interface_modes: {} of {} modes found; M_ss has no more: ask for fewer",
+                    search.omega().size(), n_modes));
   }
   return search.leading(search.complete_cluster(n_modes));
 }

@@ -7,16 +7,16 @@
 
 namespace chladni::reduce {
 
-/// The flexibility of a body some of whose masters are held, A = P K^+ P^T with P = I - R R^T M and
-/// the rigid motions R that are left to it: displacements A f without rigid motion, under the
-/// forces f without what accelerates the body as a rigid one; zero at the held masters. It needs no
-/// factor but that of K_ss: K_G is small, and its inverse without the motions R and the held rows
-/// is one of a small dense matrix.
+/// The flexibility of a body with some masters held, A = P K^+ P^T with P = I - R R^T M, where R
+/// are the rigid motions that the supports leave. A f is the displacement, free of rigid motion and
+/// zero at the held masters, under the forces f without the part that accelerates the body as a
+/// rigid one. The only large factor is that of K_ss; beside it the small dense K_G is inverted
+/// without the motions R and the held rows.
 class Flexibility {
  public:
-  /// @param body, Psi  must outlive this.
-  /// @param held  rows of K_G, ascending
-  /// @note   Collective, as all of this class.
+  /// @param body, Psi  must outlive this object
+  /// @param held       rows of K_G, ascending
+  /// @note   Collective, as are all members.
   /// @throws chladni::Error when a rigid motion has no mass.
   Flexibility(const WholeSystem& body, Mat Psi, const GuyanStiffness& K_G,
               const std::vector<int>& held);
@@ -24,9 +24,9 @@ class Flexibility {
   Flexibility(const Flexibility&) = delete;
   Flexibility& operator=(const Flexibility&) = delete;
 
-  /// The factor of a matrix with the inverse A, for MatMatSolve; A R = 0.
+  /// A matrix that applies A through MatMatSolve, as a factor does; A R = 0.
   Mat factor() const { return factor_; }
-  /// [n x r] of all DOFs, R^T M R = I.
+  /// [n x r] rigid motions in all DOFs, R^T M R = I.
   Mat R() const { return R_; }
   /// Number of elastic modes.
   PetscInt n_elastic() const { return n_elastic_; }

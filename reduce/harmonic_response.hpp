@@ -9,10 +9,11 @@
 
 namespace chladni::reduce {
 
-/// A(Omega) = K (1 + i eta) + i H + i Omega (C + alpha M + beta K) - Omega^2 M.
+/// The dynamic stiffness A(Omega) = K (1 + i eta) + i H + i Omega (C + alpha M + beta K) - Omega^2
+/// M.
 struct HarmonicModel {
   Mat K, M;
-  Mat C = nullptr;           ///< of dampers, or none
+  Mat C = nullptr;           ///< viscous damping, or none
   Mat H = nullptr;           ///< structural damping by loss factors of parts, or none
   double loss_factor = 0.0;  ///< eta
   double alpha = 0.0;        ///< 1/s
@@ -24,22 +25,23 @@ struct HarmonicModel {
   }
 };
 
-/// A load, or a motion that is asked for: sum_k weights[k] u[dofs[k]]. The same on every rank.
+/// A linear form sum_k weights[k] u[dofs[k]]: a load, or an output. The same on every rank.
 struct DofForm {
-  std::vector<PetscInt> dofs;  ///< global; what supports hold takes no part
+  /// Global DOFs. Held ones are ignored.
+  std::vector<PetscInt> dofs;
   std::vector<double> weights;
 };
 
-/// An undamped model in resonance.
+/// Thrown when an undamped model is excited at a natural frequency.
 class Resonance : public Error {
  public:
   using Error::Error;
 };
 
-/// Responses of the FE model itself: U^T A(Omega)^-1 F of sparse loads F and outputs U. One
-/// factorisation L D L^T by MUMPS for each frequency, all in the order of the first one. PETSc's
-/// build is real: a damped model is solved as [Re A, -Im A; -Im A, -Re A] (x, y) = (f, 0), u = x +
-/// i y, with the two numbers of a DOF behind each other, so that ranks keep their DOFs.
+/// Responses of the FE model itself, U^T A(Omega)^-1 F, with sparse loads F and outputs U. Each
+/// frequency costs one factorisation L D L^T by MUMPS; all use the elimination order of the first.
+/// A damped model is solved in real arithmetic as [Re A, -Im A; -Im A, -Re A] (x, y) = (f, 0), u =
+/// x + i y. The two numbers of a DOF are neighbours, so that each rank keeps its DOFs.
 class HarmonicResponse {
  public:
   /// @note   Collective.
@@ -47,16 +49,17 @@ class HarmonicResponse {
                    const std::vector<DofForm>& loads, const std::vector<DofForm>& outputs,
                    linear::OptionSource source = {});
 
+  /// The responses at one frequency.
   /// @param  Omega  rad/s
   /// @return [n_outputs x n_loads], on every rank
   /// @note   Collective.
-  /// @throws Resonance where an undamped K v is above 1e8 times its load.
-  /// @throws chladni::Error when there is no factor.
+  /// @throws Resonance when the model is undamped and |K v| exceeds 1e8 times its load.
+  /// @throws chladni::Error when the factor is missing or inaccurate.
   /// Options: `-<prefix>response_mat_mumps_...`
   Eigen::MatrixXcd at(double Omega);
 
  private:
-  /// What a rank adds to an output: weight times a local row of the solution.
+  /// The part of an output that one local row of the solution gives: weight times that row.
   struct Share {
     Eigen::Index output;
     PetscInt row;
@@ -69,9 +72,9 @@ class HarmonicResponse {
 
   PetscInt width_;               ///< numbers for each DOF: 1 undamped, 2 damped
   petsc::Matrix K_, M_, C_, H_;  ///< of the free DOFs, all with the pattern of their sum
-  HarmonicModel factors_;        ///< eta, alpha and beta
+  HarmonicModel factors_;        ///< eta, alpha and beta only
   petsc::Matrix A_, E_;
-  petsc::LinearSolver solver_;  ///< once there was a frequency
+  petsc::LinearSolver solver_;  ///< empty before the first frequency
   linear::OptionSource source_;
   std::vector<Share> shares_;
   Eigen::Index n_outputs_;

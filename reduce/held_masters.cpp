@@ -19,8 +19,11 @@ MatrixXd zero_energy_motions(const ReducedModel& model)
   const Index n_m = R.rows(), r = R.cols();
   if (r == 0) return MatrixXd(M.rows(), 0);
   const Eigen::LLT<MatrixXd> mass(MatrixXd(R.transpose() * M.topLeftCorner(n_m, n_m) * R));
-  if (mass.info() != Eigen::Success)
-    throw Error("a motion has neither stiffness nor mass; the pencil (K, M) is singular");
+  if (mass.info() != Eigen::Success) {
+    throw Error(
+        "a motion has neither stiffness nor mass, so the pencil (K, M) is singular; give its DOFs "
+        "stiffness or mass, or leave them out");
+  }
   MatrixXd Z = MatrixXd::Zero(M.rows(), r);
   Z.topRows(n_m) = mass.matrixL().solve(R.transpose()).transpose();
   return Z;
@@ -64,8 +67,10 @@ std::vector<int> rows_of_masters(std::vector<PetscInt> masters, const std::vecto
   std::vector<int> rows;
   for (const PetscInt dof : held) {
     const auto found = std::ranges::lower_bound(masters, dof);
-    if (found == masters.end() || *found != dof)
-      throw Error(fmt::format("row {} cannot be held: it is no master", dof));
+    if (found == masters.end() || *found != dof) {
+      throw Error(
+          fmt::format("row {} cannot be held: it is no master; add it to the masters", dof));
+    }
     rows.push_back(static_cast<int>(found - masters.begin()));
   }
   std::ranges::sort(rows);

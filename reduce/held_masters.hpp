@@ -6,34 +6,37 @@
 
 namespace chladni::reduce {
 
-/// Orthonormal combinations of motions that leave some of their rows at rest.
+/// Combinations of motions that are zero in some rows.
 /// @param R     [n x r] linearly independent columns
 /// @param rows  ascending
+/// @return R Q with orthonormal columns Q
 Eigen::MatrixXd at_rest(const Eigen::MatrixXd& R, const std::vector<int>& rows);
 
-/// The others of 0 .. n - 1, ascending.
+/// The numbers of 0 .. n - 1 that are not in `rows`, ascending.
 /// @param rows  ascending
 std::vector<int> all_but(const std::vector<int>& rows, Eigen::Index n);
 
-/// The rows of some masters in the models, whose masters ascend by DOF.
+/// The rows of some masters in reduced models, where masters ascend by DOF.
 /// @param masters  `Body::masters`
+/// @param held     global DOFs
 /// @return ascending
-/// @throws chladni::Error for a DOF that is no master, or twice.
+/// @throws chladni::Error for a DOF that is no master or is given twice.
 std::vector<int> rows_of_masters(std::vector<PetscInt> masters, const std::vector<PetscInt>& held);
 
-/// Some masters are held, or none. The zero-energy motions are those that K does not resist,
-/// whatever they are.
+/// A support that holds some masters, or none. Its zero-energy motions are `ReducedModel::R`,
+/// whether rigid or not.
 class HeldMasters : public Support {
  public:
-  HeldMasters() = default;  ///< none
+  /// Holds no master.
+  HeldMasters() = default;
   /// @param masters  `Body::masters`
-  /// @param held     some of them, each once
-  /// @throws chladni::Error for a DOF that is no master.
+  /// @param held     global DOFs among them, each once
+  /// @throws chladni::Error for a DOF that is no master or is given twice.
   HeldMasters(const std::vector<PetscInt>& masters, std::vector<PetscInt> held);
 
   std::vector<PetscInt> held() const override { return held_; }
-  /// All modes that there are.
-  /// @throws chladni::Error when K_r or M_r is not semidefinite.
+  /// All elastic modes of the model, whatever range is wanted.
+  /// @throws chladni::Error when K_r or M_r is not positive semidefinite.
   SupportedModes modes(const ReducedModel& model, const SpectrumRange& wanted) const override;
   double zero_energy(const ReducedModel& model, const SupportedModes& modes) const override;
 

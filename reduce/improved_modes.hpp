@@ -8,24 +8,25 @@
 
 namespace chladni::reduce {
 
-/// Shapes that are close to the lowest modes of a model.
+/// Approximate shapes of the lowest modes of a model.
 struct ShapesNearModes {
   int n_shapes;
-  /// [n_dofs x n_shapes], of global DOFs; asked by each rank for those that it owns
+  /// Returns the rows [n_dofs x n_shapes] of some global DOFs. Each rank asks for the DOFs that it
+  /// owns.
   std::function<Eigen::MatrixXd(const std::vector<PetscInt>& dofs)> rows;
 };
 
-/// Ritz pairs of the space into which one inverse iteration takes a block of shapes.
+/// Ritz pairs of the space that one inverse iteration makes of a block of shapes.
 struct ImprovedModes {
   Eigen::VectorXd lambda;  ///< [k] ascending, rad^2/s^2
   Eigen::MatrixXd shares;  ///< [k x k] squared share of shape i in mode j
   petsc::Matrix X;         ///< [free DOFs x k] dense, X^T M X = I
 };
 
-/// The modes of a discretisation from those of another: what one inverse iteration leaves of the
-/// difference is of the order of its square in lambda.
-/// @param mu    rad^2/s^2; K + mu M is positive definite: 0, or where rigid-body motions are left
-///              about the first elastic eigenvalue
+/// Computes the modes of one discretisation from the shapes of another by one inverse iteration.
+/// The error of lambda that remains is of second order in the error of the shapes.
+/// @param mu    rad^2/s^2; K + mu M is positive definite. 0, or about the first elastic eigenvalue
+///            where the supports leave rigid-body motions.
 /// @note   Collective on the communicator of `K`.
 /// @throws chladni::Error when K + mu M of the free DOFs is not positive definite.
 ImprovedModes improved_modes(Mat K, Mat M, const FreeDofs& free, const ShapesNearModes& shapes,

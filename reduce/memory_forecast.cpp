@@ -137,8 +137,8 @@ void MemoryForecast::require(Mat factor, PetscInt n_modes) const
   const linear::MemoryNeed need = linear::memory_need(factor);
   if (need.fits()) return;
   throw Error(fmt::format(
-      "fixed_interface_modes: {} modes are to be tried, and with the factor of K_ss and what comes "
-      "beside them they need {:.0f} MiB on one machine, where {:.0f} MiB were free; use more "
+      "fixed_interface_modes: the search goes on to {} modes; with the factor of K_ss and the "
+      "memory beside it they need {:.0f} MiB on one machine, where {:.0f} MiB were free; use more "
       "machines, a coarser mesh or fewer masters, lower the range, raise the tolerance, or raise "
       "-cms_memory",
       n_modes, need.needed_MiB, need.free_MiB));

@@ -4,24 +4,26 @@
 
 namespace chladni::reduce {
 
-/// Whether K and M are needed once there is the factor of K_ss.
+/// True when K and M are needed after K_ss is factored: the caller keeps them, eigenvalues are
+/// counted, or the method has free masters.
 bool needs_matrices(const ReductionOptions& options, bool counts);
 
-/// What this rank takes beside the factor of K_ss, at the phase that takes most: in columns of its
-/// slaves the basis of block Lanczos with the modes that come out of it, or Psi and Phi with what
-/// error estimates or the caller work in; or all of these with the factor that counts eigenvalues
-/// where that is asked for.
+/// Predicts the memory that this rank needs beside the factor of K_ss in the most expensive phase.
+/// That is the basis of block Lanczos with the modes it returns, or Psi and Phi with the workspace
+/// of error estimates or of the caller, or these with the factor that counts eigenvalues, where a
+/// count is asked for.
 class MemoryForecast {
  public:
-  /// Before the factor and before K and M are given back.
+  /// To be called before K_ss is factored and while K and M are there.
   MemoryForecast(const Body& body, Mat K_ss, Mat M_ss, const ReductionOptions& options);
 
-  /// With as many modes as are asked for; of a cut-off or a tolerance the modes to begin with.
+  /// Adds the forecast to the options of the factor: for the number of modes asked for, or, with a
+  /// cut-off or a tolerance, for the number that a search begins with.
   linear::FactorOptions at_first(linear::FactorOptions factor) const;
-  /// Before a search that does not know its number of modes goes on.
+  /// To be called before a search goes on to n_modes modes, where their number is not given.
   /// @note   Collective.
-  /// @throws chladni::Error on all ranks when factor and so many modes do not fit into the memory
-  ///         that was free before the factorisation.
+  /// @throws chladni::Error on all ranks when the factor and so many modes do not fit into the
+  ///         memory that was free before the factorisation.
   void require(Mat factor, PetscInt n_modes) const;
 
  private:
@@ -32,7 +34,7 @@ class MemoryForecast {
   ReductionOptions options_;
   double basis_columns(double n_modes) const;
 
-  double largest_part_ = 1.0;   ///< of the slaves, where parts are solved for by themselves
+  double largest_part_ = 1.0;   ///< share of the slaves in the largest uncoupled part
   double mass_of_parts_ = 0.0;  ///< MiB
   double n_masters_, n_slaves_, column_MiB_, K_MiB_, M_MiB_, let_go_MiB_;
 };

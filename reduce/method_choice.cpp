@@ -43,8 +43,8 @@ MethodChoice method_choice(const FactoredBody& body, const ReductionOptions& opt
   if (wanted.method != Method::automatic) return {.method = wanted.method};
   if (!wanted.tolerance) {
     throw Error(
-        "reduce: the method is chosen for a tolerance; give a tolerance with its range, or a "
-        "method");
+        "reduce: an automatic choice of the method needs a tolerance; give a tolerance with its "
+        "range, or a method");
   }
   const auto n_masters = double(body.masters.size());
   const double n_free = n_masters - double(support.held().size());

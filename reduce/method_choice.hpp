@@ -4,8 +4,8 @@
 
 namespace chladni::reduce {
 
-/// The method that was asked for; of `automatic` the one that is predicted to cost least, by the
-/// operations of its eigen-solve, with the numbers that decided.
+/// The method that is asked for. For `automatic`, the one of Craig-Bampton and mixed interface
+/// whose eigen-solve is predicted to need fewer operations, with the numbers that decided.
 /// @note   Collective.
 /// @throws chladni::Error when `automatic` has no tolerance.
 MethodChoice method_choice(const FactoredBody& body, const ReductionOptions& options,

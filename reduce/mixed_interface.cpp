@@ -71,9 +71,9 @@ ElasticPairs elastic_pairs(const WholeSystem& body, const Flexibility& flexibili
     if (are_all && !(wanted.modes && n_taken <= n_found))
       lanczos.require_resolved(wanted.modes ? linear::all_of_them : lambda_max(wanted));
     if (n_taken > n_found) {
-      throw Error(
-          fmt::format("mixed_interface_modes: {} of {} elastic modes found; there are no more",
-                      n_found, n_taken));
+      throw Error(fmt::format(
+          "mixed_interface_modes: {} of {} elastic modes found; there are no more: ask for fewer",
+          n_found, n_taken));
     }
     const bool is_nothing = n_taken == 0 && linear::LocalRows(flexibility.R()).n_cols() == 0;
     if (is_nothing && !pairs.lambda.empty() && wanted.cutoff_Hz && !wanted.may_have_none) {

@@ -101,8 +101,8 @@ double angular_frequency(double lambda)
 {
   if (lambda > 0.0) return std::sqrt(lambda);
   throw Error(
-      fmt::format("fixed_interface_modes: eigenvalue {} is not positive; a part of the body is "
-                  "free while the masters are held",
+      fmt::format("fixed_interface_modes: eigenvalue {} is not positive: a part of the body is "
+                  "free while the masters are held; connect it to the rest or give it a master",
                   lambda));
 }
 

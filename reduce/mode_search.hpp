@@ -8,41 +8,46 @@
 
 namespace chladni::reduce {
 
-/// The lowest fixed-interface modes, ever more of them, with the factor of K_ss as shift-and-invert
-/// operator at shift 0: block Lanczos goes on where it stopped, SLEPc's Krylov-Schur begins anew.
+/// Finds the lowest fixed-interface modes, step by step more of them. The factor of K_ss is the
+/// shift-and-invert operator at shift 0. Block Lanczos continues where it stopped, SLEPc's
+/// Krylov-Schur starts again.
 /// Options: as `fixed_interface_modes`
 class ModeSearch {
  public:
-  /// Both must outlive the search. The eigen-solver is that of the options of `K_ss`.
+  /// K_ss and M_ss must outlive the search. The eigen-solver is that of the options of `K_ss`.
   ModeSearch(const linear::Factorization& K_ss, Mat M_ss, MemoryCheck require_memory = {});
 
   /// Number of slaves, which bounds the number of modes.
   PetscInt n_slaves() const { return n_s_; }
-  /// Finds the lowest n, or all where there are fewer, and more until the last partner is seen.
+  /// Finds the lowest n modes, or all if there are fewer, and continues until the last cluster of
+  /// close modes is complete.
   /// @note   Collective.
-  /// @throws chladni::Error when the solver does not converge, K_ss is not definite, or the memory
-  ///         does not suffice.
+  /// @throws chladni::Error when the solver does not converge, K_ss is not positive definite, or
+  ///         the memory does not suffice.
   void find(PetscInt n);
-  /// @throws chladni::Error when modes below that lambda may not be among those found, which are
-  ///         all that converge.
+  /// Checks that all modes below lambda have converged.
+  /// @param lambda  rad^2/s^2
+  /// @throws chladni::Error when a mode below lambda may be missing although all that converge are
+  ///         found.
   void require_resolved(double lambda) const
   {
     if (lanczos_) lanczos_->require_resolved(lambda);
   }
-  /// The lambda from which on there may be modes that do not converge; infinity without any.
+  /// rad^2/s^2; above this value there may be modes that do not converge. Infinity if there are
+  /// none.
   double unresolved_from() const
   {
     return lanczos_ ? lanczos_->unresolved_from() : linear::all_of_them;
   }
-  /// Parts that K_ss and M_ss do not couple, each solved for by itself.
+  /// Number of parts that K_ss and M_ss do not couple. Each is solved separately.
   PetscInt n_parts() const { return lanczos_ ? lanczos_->n_parts() : 1; }
-  /// Whether all modes that there are have been found.
+  /// True when all modes of the pencil have been found.
   bool has_all() const { return has_all_; }
-  /// Angular frequencies of all that are found, ascending; rad/s.
+  /// Angular frequencies of the modes found, rad/s, ascending.
   const std::vector<double>& omega() const { return omega_; }
-  /// The first n modes and those that follow within 1e-4 in frequency.
+  /// n, raised until the gap to the next mode is more than 1e-4 in frequency.
   PetscInt complete_cluster(PetscInt n) const;
-  /// Phi of modes first .. last - 1.
+  /// Phi of the modes first .. last - 1, [n_s x last - first] dense.
   /// @note   Collective.
   petsc::Matrix shapes(PetscInt first, PetscInt last) const;
   /// The first n modes.
@@ -57,8 +62,8 @@ class ModeSearch {
   Mat M_ss_;
   MemoryCheck require_memory_;
   PetscInt n_s_ = 0;
-  std::optional<linear::PartedLanczos> lanczos_;  ///< nothing where SLEPc is asked for
-  petsc::Matrix X_;                               ///< then all vectors that it found
+  std::optional<linear::PartedLanczos> lanczos_;  ///< empty with SLEPc's solver
+  petsc::Matrix X_;                               ///< all vectors of SLEPc's solver
   std::vector<double> omega_;
   bool has_all_ = false;
 };

@@ -4,28 +4,29 @@
 
 namespace chladni::reduce {
 
-/// Masters m and slaves s of a system; each rank holds those that it owns, ascending.
+/// Masters m and slaves s of a system. Each rank holds those that it owns, ascending.
 struct DofPartition {
   petsc::IndexSet masters, slaves;
 };
 
-/// Blocks of a symmetric matrix in the order (m, s); ms is the transpose of sm.
+/// The blocks of a symmetric matrix in the order (m, s); ms is the transpose of sm.
 struct Blocks {
   petsc::Matrix mm, ms, sm, ss;
 };
 
-/// Slaves are all DOFs of `K` that are not masters.
-/// @param masters  global indices, each on the rank that owns it (in any order).
-/// @param least    masters that there must be: 0 where modes alone are wanted
+/// Divides the DOFs of `K`: all that are not masters are slaves.
+/// @param masters  global indices, each on the rank that owns it, in any order
+/// @param least    required number of masters; 0 where the modes alone are wanted
 /// @note   Collective on the communicator of `K`.
 /// @throws chladni::Error when there are fewer masters, or no slave, or a master is out of range or
-///         double.
+///         given twice.
 DofPartition partition(Mat K, IS masters, PetscInt least = 1);
 
-/// The global DOF of a row of the blocks ss, on every rank.
+/// The global DOF of a row of the block ss, on every rank.
 /// @note   Collective.
 PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row);
 
+/// Copies the blocks of `A` by masters and slaves.
 /// @note   Collective on the communicator of `A`.
 Blocks split(Mat A, const DofPartition& dofs);
 

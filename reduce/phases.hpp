@@ -5,7 +5,8 @@
 
 namespace chladni::reduce {
 
-/// Hears of the phases of a reduction, one after the other, on each rank.
+/// Receives the begin and the end of each phase of a reduction, on each rank. Phases follow one
+/// another and are not nested.
 class PhaseListener {
  public:
   PhaseListener() = default;
@@ -13,14 +14,14 @@ class PhaseListener {
   PhaseListener(const PhaseListener&) = delete;
   PhaseListener& operator=(const PhaseListener&) = delete;
 
-  /// What follows is a phase of this name; the phase before it ends here.
+  /// Begins a phase of this name and ends the phase before it.
   void begin(const std::string& phase)
   {
     end();
     begun(phase);
     is_under_way_ = true;
   }
-  /// The last phase ends. A phase that an exception leaves does not end.
+  /// Ends the last phase. A phase that an exception leaves is not ended.
   void end()
   {
     if (std::exchange(is_under_way_, false)) ended();

@@ -14,85 +14,93 @@
 #include "reduce/response_errors.hpp"
 #include "reduce/support.hpp"
 
-/// From K and M to the certified reduced model: what `chladni reduce` and the class CMS run.
+/// From K and M to the certified reduced model: the functions behind `chladni reduce` and the class
+/// CMS.
 namespace chladni::reduce {
 
-/// A body and what is kept of it.
+/// The FE model of a body and its masters.
 struct Body {
-  petsc::Matrix K, M;             ///< [n x n] symmetric AIJ; owned or references
-  std::vector<PetscInt> masters;  ///< global DOFs, each once, in the order of the caller, on all
-                                  ///< ranks
-  petsc::Matrix R = {};           ///< [n x r] dense, rigid-body motions of the geometry, or none
-  /// "node 17 (0.1, 0.2, 0), z" of a global DOF, for messages; on every rank
+  petsc::Matrix K, M;  ///< [n x n] symmetric AIJ; owned or references
+  /// Global DOFs, each once, in the order of the caller, on all ranks.
+  std::vector<PetscInt> masters;
+  petsc::Matrix R = {};  ///< [n x r] dense, rigid-body motions by the geometry, or none
+  /// Name of a global DOF for messages, as "node 17 (0.1, 0.2, 0), z"; on every rank.
   std::function<std::string(PetscInt)> name_of_dof = {};
-  bool may_lack_masters = false;  ///< its modes alone are a reduced model
+  bool may_lack_masters = false;  ///< then a body without masters is reduced to its modes
 };
 
-/// The memory in which the caller works afterwards, beside Psi and Phi.
+/// The memory that the caller will need after the reduction, beside Psi and Phi.
 struct WorkAfterwards {
-  double columns = 0.0;                ///< of the length of Psi
-  double columns_for_each_kept = 0.0;  ///< master or mode
-  double matrices = 0.0;               ///< as large as M
+  double columns = 0.0;                ///< number of vectors as long as a column of Psi
+  double columns_for_each_kept = 0.0;  ///< the same for each master and each mode
+  double matrices = 0.0;               ///< number of matrices as large as M
 };
 
 /// How a body is reduced.
 struct ReductionOptions {
   ReduceOptions basis = {};
   linear::SolverOptions solver = {};
-  /// Whether eigenvalues of the FE model are counted, which makes bounds of estimates; nothing:
-  /// where that is less than a tenth of the work and there is memory for it.
+  /// Whether eigenvalues of the FE model are counted, which turns estimates into bounds. Without a
+  /// value they are counted where that takes less than a tenth of the work and the memory suffices.
   std::optional<bool> count = false;
-  /// Whether K and M are wanted afterwards; else they are given back as soon as may be.
+  /// Whether the caller needs K and M afterwards. If not, they are freed as early as possible.
   bool keeps_matrices = true;
   WorkAfterwards later = {};
-  /// Kept by the mixed interface alone: other methods leave modes of the range out.
+  /// Kept with the mixed interface only: other methods leave modes of the range out.
   std::optional<ResponseGoal> responses = {};
 };
 
-/// Masters and slaves parted, and the factor of K_ss: what all methods share.
+/// A body divided into masters and slaves, with the factor of K_ss: the common start of all
+/// methods.
 struct FactoredBody {
-  petsc::Matrix K, M;             ///< empty where they were given back
+  petsc::Matrix K, M;             ///< empty after they were freed
   std::vector<PetscInt> masters;  ///< as in Body
   petsc::Matrix R;
   DofPartition dofs;
   Blocks K_blocks, M_blocks;
   linear::Factorization K_ss;
-  /// Throws on all ranks where the memory does not suffice for so many fixed-interface modes.
+  /// Throws on all ranks when the memory does not suffice for so many fixed-interface modes.
   MemoryCheck require_memory = {};
 
   MPI_Comm comm() const { return petsc::communicator(K_ss.matrix()); }
 };
 
-/// @note   Collective on the communicator of K, as all of this header.
+/// Divides the DOFs into masters and slaves and factors K_ss.
+/// @note   Collective on the communicator of K, as are all functions of this header.
 /// @throws FreeMotion on all ranks when a part of the body can move with all masters held.
-/// @throws chladni::Error on all ranks when the masters cannot be parted from the rest, or factor
-///         and basis do not fit into the memory.
+/// @throws chladni::Error on all ranks when the masters are no valid partition, or the factor and
+///         the basis do not fit into the memory.
 FactoredBody factored(Body body, const ReductionOptions& options, PhaseListener& phases);
 
-/// How good a reduced model is under the support that was asked for; the same on every rank.
+/// The accuracy of a reduced model under the support that was asked for; the same on every rank.
 struct Certificate {
-  std::vector<double> lambda;       ///< [k] of the certified elastic modes, ascending; rad^2/s^2
-  std::vector<double> eta2;         ///< [k] `ErrorEstimates`; empty where M_r is no projection
-  std::vector<double> estimates;    ///< [k] of the relative errors of the frequencies, by place
-  std::vector<double> rounding;     ///< [k] of lambda, relative
-  std::vector<double> bounds;       ///< [<= k] of the errors of lambda that are counted
+  /// [k] of the certified elastic modes, ascending, rad^2/s^2
+  std::vector<double> lambda;
+  /// [k] `ErrorEstimates::eta2`; empty where M_r is no projection
+  std::vector<double> eta2;
+  /// [k] estimated relative errors of the frequencies, by their place in the order
+  std::vector<double> estimates;
+  /// [k] `ErrorEstimates::rounding`: relative errors of lambda by rounding
+  std::vector<double> rounding;
+  /// [<= k] upper bounds of the relative errors of lambda, where eigenvalues were counted
+  std::vector<double> bounds;
   EigenvalueCount fixed_interface;  ///< up to the last fixed-interface mode
   EigenvalueCount range;            ///< up to the last certified mode
-  EigenvalueCount complete;         ///< the largest range looked at in which none is missing
-  int n_zero = 0;                   ///< zero-energy motions without any support
-  double zero_energy = 0.0;         ///< theirs over the first elastic lambda; 0 is perfect
-  double condition = 0.0;           ///< estimate for K_ss
-  double count_share = 0.0;         ///< of a count in the reduction's work
-  ResponseCertificate responses;    ///< of the goal of the options
+  EigenvalueCount complete;         ///< the largest counted range in which none is missing
+  int n_zero = 0;                   ///< number of zero-energy motions without a support
+  double zero_energy = 0.0;         ///< their energy over the first elastic lambda; 0 is perfect
+  double condition = 0.0;           ///< estimated condition number of K_ss
+  double count_share = 0.0;         ///< share of the counts in the work of the reduction, predicted
+  ResponseCertificate responses;    ///< for the goal of the options
 };
 
 /// The method of a reduction.
 struct MethodChoice {
   Method method;
-  std::string reason = {};  ///< why that one, where it was chosen automatically
+  std::string reason = {};  ///< why `automatic` chose it; else empty
 };
 
-/// A reduced model, its basis and its certificate.
+/// A reduced model with its basis, its certificate and its method.
 struct Reduction {
   CraigBamptonBasis Q_CB;
   ReducedModel model;
@@ -100,22 +108,23 @@ struct Reduction {
   MethodChoice choice = {.method = Method::craig_bampton};
 };
 
-/// Basis, projection, error estimates, condition and count. Memory: modes come before constraint
-/// modes, since the subspace of the eigen-solver is as large as these.
-/// @throws chladni::Error on all ranks when there are not as many modes, a solver does not
+/// Computes the basis, the projection, error estimates, the condition number and the counts. With a
+/// given number of modes or a cut-off, modes come before constraint modes to save memory: the
+/// subspace of the eigen-solver is as large as the constraint modes.
+/// @throws chladni::Error on all ranks when there are fewer modes than asked for, a solver does not
 ///         converge, or the support does not fit the model.
 Reduction reduction(FactoredBody& body, const ReductionOptions& options, const Support& support,
                     PhaseListener& phases);
 
-/// The same with room for the responses of the whole free body to harmonic loads: columns behind
-/// the fixed-interface modes (`enrich`). The certificate stays that of the model without.
-/// @throws chladni::Error as full_responses
+/// Extends a reduction by responses of the whole free body to harmonic loads, as columns behind the
+/// fixed-interface modes (`enrich`). The certificate stays that of the model without them.
+/// @throws chladni::Error as `full_responses`.
 Reduction with_responses(Reduction reduction, const FactoredBody& body,
                          const std::vector<HarmonicLoads>& loads, PhaseListener& phases);
 
-/// For each coordinate of the caller (masters in his order, then modes) its place in the model,
-/// whose masters ascend by DOF.
-/// @param masters  as in Body
+/// The place in the model, whose masters ascend by DOF, of each coordinate of the caller: the
+/// masters in the caller's order, then the modes.
+/// @param masters  `Body::masters`
 std::vector<int> coordinate_places(const std::vector<PetscInt>& masters, const ReducedModel& model);
 
 }  // namespace chladni::reduce

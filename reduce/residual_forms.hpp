@@ -4,7 +4,7 @@
 
 namespace chladni::reduce {
 
-/// A basis and its model while shapes join them: K_qq is a diagonal matrix, M_qq any.
+/// A basis and its model while shapes are added: K_qq is diagonal, M_qq need not be.
 struct GrowingBasis {
   const linear::Factorization& K_ss;
   const Blocks& K;
@@ -13,28 +13,33 @@ struct GrowingBasis {
   ReducedModel& model;
 };
 
-/// What motions x of a reduced model leave of forces at the slaves, at any frequency: with
-/// r = K_ss Phi x_q - s (B x_m + D x_q), B = M_ss Psi + M_sm, D = M_ss Phi,
+/// Residual forces at the slaves that motions x of a reduced model leave at any frequency, s =
+/// Omega^2: r = K_ss Phi x_q - s (B x_m + D x_q) with B = M_ss Psi + M_sm, D = M_ss Phi, and
 /// r^T K_ss^-1 r = x_q^T K_qq x_q - 2 s x_q^T (M_qm x_m + M_qq x_q) + s^2 x^T H x.
 class ResidualForms {
  public:
-  /// All of it must outlive this. One block solve of n_m + n_CB columns, which stay.
-  /// @note   Collective, as all of this class.
+  /// What `basis` refers to must outlive this object. Solves for n_m + n_CB columns, which stay in
+  /// memory.
+  /// @note   Collective, as are all members.
   explicit ResidualForms(const GrowingBasis& basis);
 
-  /// [l x l] G = r^T K_ss^-1 r of motions X [n_m + n_CB x l], s = Omega^2.
+  /// G = r^T K_ss^-1 r of the residuals of motions X.
+  /// @param X  [n_m + n_CB x l]
+  /// @param s  Omega^2, rad^2/s^2
+  /// @return [l x l]
   Eigen::MatrixXd energy(const Eigen::MatrixXd& X, double s) const;
-  /// [n_s x l] K_ss^-1 r, zero at the masters: the shapes that would add most.
+  /// K_ss^-1 r of motions X: the shapes, zero at the masters, that reduce the error most.
+  /// @return [n_s x l] dense
   petsc::Matrix shapes(const Eigen::MatrixXd& X, double s) const;
-  /// Adds shapes to the basis and the model, K-orthonormal and K-orthogonal to those before; fewer
-  /// where they depend on these or each other.
+  /// Adds shapes to the basis and the model, made K-orthonormal and K-orthogonal to the earlier
+  /// ones. Shapes that depend on these or on each other are left out.
   void append(Mat shapes);
-  /// Ritz vectors take the place of the shapes: K_qq = diag(omega^2), M_qq = I. The forms are those
-  /// of before and of no more use.
+  /// Replaces the shapes by Ritz vectors: K_qq = diag(omega^2), M_qq = I. Afterwards this object
+  /// must not be used again.
   void make_ritz();
 
  private:
-  /// B^T K_ss^-1 B
+  /// B^T K_ss^-1 B, [n_m x n_m].
   Eigen::MatrixXd forms_of_masters();
 
   GrowingBasis of_;

@@ -8,38 +8,39 @@
 
 namespace chladni::reduce {
 
-/// What is asked of the modes.
+/// The tolerance that the modes must keep and its range.
 struct ToleranceGoal {
-  double tolerance;  ///< of `frequency_error`
-  /// End of the range, in which lie frequencies of the FE model: the pairs go some way beyond it,
-  /// since a reduced frequency is too high.
+  double tolerance;  ///< for `frequency_error`
+  /// End of the range of FE frequencies. Reduced pairs somewhat above it count too, since reduced
+  /// frequencies are too high.
   double up_to_Hz;
 };
 
-/// About as few fixed-interface modes as keep the error estimates of a range of the spectrum below
-/// a tolerance. All fixed-interface modes of the range are taken, whatever the estimates say: where
-/// the masters are held every mode that there is is exact. And no frequency of the FE model in the
-/// range may be without one of the reduced model, as `GrowingModel::heavier_model` shows. Takes
-/// turns: `find_modes`, `is_enough`, until the answer is yes. Neither the modes nor what their
-/// errors need are computed twice.
+/// Finds about as few fixed-interface modes as keep the error estimates of a range of the spectrum
+/// below a tolerance. All fixed-interface modes of the range are always taken: under supports that
+/// hold all masters each mode of the basis is exact, and a missing one has no estimate. Also, the
+/// reduced model must have a frequency for each one of the FE model in the range;
+/// `GrowingModel::heavier_model` shows that. Call `find_modes` and `is_enough` in turn until the
+/// latter returns true. Neither the modes nor the data of their errors are computed twice.
 class ToleranceSearch {
  public:
-  /// The pairs of a reduced model whose errors count, the same on every rank.
+  /// Returns the pairs of a reduced model whose errors count, the same on every rank.
   using PairsOf = std::function<ReducedPairs(const ReducedModel&)>;
 
-  /// What `system` refers to must outlive this.
+  /// What `system` refers to must outlive this object.
   ToleranceSearch(const GrowingModel::System& system, const ToleranceGoal& goal,
                   PairsOf pairs_in_range, MemoryCheck require_memory = {});
 
-  /// Finds as many modes as `is_enough` has predicted.
+  /// Finds the number of modes that `is_enough` predicted.
   /// @note   Collective.
-  /// @throws chladni::Error when there are no more, the eigen-solver does not converge, or the
-  ///         memory does not suffice.
+  /// @throws chladni::Error when there are no more modes, the eigen-solver does not converge, or
+  ///         the memory does not suffice.
   void find_modes();
-  /// Whether the modes keep the tolerance; if so, finds out with how many less they would.
+  /// True when the modes keep the tolerance; the smallest number that does is then found by
+  /// bisection.
   /// @note   Collective.
   bool is_enough();
-  /// As many as are enough.
+  /// The modes that are enough.
   /// @note   Collective.
   FixedInterfaceModes modes() const { return search_.leading(n_enough_); }
 

@@ -6,20 +6,21 @@
 #include "report/output.hpp"
 #include "report/timing.hpp"
 
-/// What a program cost, for its summaries.
+/// Cost of a program for its summaries.
 namespace chladni::report {
 
-/// Time and memory of a whole program.
+/// Time and memory of a whole program run.
 struct Cost {
   std::vector<PhaseTime> phases;
-  double wall_s;    ///< of the slowest rank, from the start of the process
-  double cpu_s;     ///< of all ranks, from the start of the process
-  double peak_MiB;  ///< of the rank that needed most
+  double wall_s;    ///< wall time of the slowest rank since the process started, s
+  double cpu_s;     ///< CPU time of all ranks since the process started, s
+  double peak_MiB;  ///< peak memory of the rank that needed most
 };
 
-/// The phases so far with the times and the peak memory of this process.
+/// The given phases with the times and the peak memory of this process up to now.
 Cost cost_so_far(std::vector<PhaseTime> phases);
 
+/// The cost as a table for the terminal.
 TextTable cost_table(const Cost& cost);
 
 /// Members `phases` (name -> wall_s), `phases_cpu_s`, `wall_s`, `cpu_s`, `peak_MiB`.

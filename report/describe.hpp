@@ -8,7 +8,7 @@
 #include "report/output.hpp"
 #include "squeal/results/results.hpp"
 
-/// What the files hold, as tables for people.
+/// The contents of the files as tables for the terminal.
 namespace chladni::report {
 
 TextTable describe(const mbs_export::ReducedSystem& reduced);
@@ -18,15 +18,14 @@ TextTable describe(const squeal::SquealResults& results);
 /// "rigid", "constrained" or "interface".
 std::string name_of(mbs_export::ModeKind kind);
 
-/// The frequencies of a body's modes with their kinds, and what damps each of them.
+/// A table of a body's modes: frequency, kind, and what damps each mode.
 TextTable list_modes(const mbs_export::ModalBody& body);
 
-/// Size against error of a selection by tolerance, and what became of it; empty when a body's modes
-/// were chosen otherwise.
+/// A text that compares size and error of the selection steps when a tolerance chose the body's
+/// modes, and states the choice; empty when the modes were chosen in another way.
 std::string describe_selection(const mbs_export::ModalBody& body);
 
-/// Says what any file of Chladni holds: a reduced system, a modal body or the results of squeal.
-/// @throws chladni::Error when the file is none of these or is damaged.
+/// Describes any file of Chladni: a reduced system, a modal body or the results of squeal.
 std::string describe_file(const std::filesystem::path& path);
 
 }  // namespace chladni::report

@@ -6,7 +6,8 @@
 
 namespace chladni::report {
 
-/// How good the reduced system is, for people; empty where nobody looked.
+/// The certificate of a reduced system as text for the terminal; empty when no error was estimated
+/// and no eigenvalue counted.
 std::string describe_certificate(const mbs_export::Certificate& certificate);
 
 }  // namespace chladni::report

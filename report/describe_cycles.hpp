@@ -8,14 +8,14 @@
 
 namespace chladni::report {
 
-/// Revolutions per minute.
+/// rad/s in revolutions per minute.
 double rpm(double rad_s);
 
-/// "18.8496 rad/s (180 rpm)"
+/// A speed as text in both units: "18.8496 rad/s (180 rpm)".
 std::string spoken(double rad_s);
 
-/// The rows of the limit cycle at the end of a transient, of one that was found directly, and of a
-/// branch of limit cycles.
+/// Adds the rows of a limit cycle at the end of a transient, of the statistics of a motion, of a
+/// limit cycle found directly, or of a branch of limit cycles.
 void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle);
 void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics);
 void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle);

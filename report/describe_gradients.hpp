@@ -6,12 +6,14 @@
 
 namespace chladni::report {
 
-/// What a change of each number by one per cent does, the largest effects first, 20 at most.
+/// The change of each result when a number changes by one per cent, the largest effects first, at
+/// most 20.
 TextTable gradients_table(const squeal::Gradients& gradients);
 
-/// Rows of a table of quantities: the largest effects.
+/// Adds the rows with the largest effects to a table of quantities.
 void add_gradients(TextTable& table, const squeal::Gradients& gradients);
 
+/// The gradients as JSON.
 Json gradients_json(const squeal::Gradients& gradients);
 
 }  // namespace chladni::report

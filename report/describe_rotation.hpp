@@ -5,9 +5,8 @@
 
 namespace chladni::report {
 
-/// Rows that tell how the growth rates were found, the worst exponents where the disc is least
-/// stable, and what the disc would seem to do if it stood at some angle. None for files of earlier
-/// versions.
+/// Adds the method of the growth rates, the largest exponents at the least stable speed, and the
+/// growth rate of a disc frozen at its worst angle. Adds nothing for files of earlier versions.
 void add_rotation_method(TextTable& table, const squeal::RotationStability& stability);
 
 }  // namespace chladni::report

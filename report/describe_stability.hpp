@@ -6,11 +6,13 @@
 
 namespace chladni::report {
 
-/// The row that counts the unstable modes, then one for each of them by rising frequency: where it
-/// is unstable, its growth and damping ratio where it grows most, and what takes part in it there.
+/// Adds the number of unstable modes, then a row for each by ascending frequency: its unstable
+/// interval, growth rate and damping ratio at the largest growth, and the modes that take part
+/// there.
 void add_unstable_modes(TextTable& table, const squeal::StabilityTable& stability);
 
-/// All branches over all values, with their intervals and what takes part in them.
+/// JSON of all branches over all values of the parameter, with their unstable intervals and
+/// participating modes.
 Json stability_table_json(const squeal::StabilityTable& stability);
 
 }  // namespace chladni::report

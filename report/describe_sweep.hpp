@@ -8,11 +8,11 @@
 
 namespace chladni::report {
 
-/// What varies and what is found, each from its least to its largest number, and the variants that
-/// failed.
+/// A table of varied keys and results with the minimum and maximum of each, followed by the failed
+/// variants.
 TextTable describe(const squeal::SweepTable& sweep);
 
-/// Members `variants`, `done`, `failed` and `failures`, with the reason of each.
+/// JSON members `variants`, `done`, `failed`, and `failures` with their reasons.
 std::vector<Json::Member> sweep_json(const squeal::SweepTable& sweep);
 
 }  // namespace chladni::report

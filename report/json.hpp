@@ -8,12 +8,12 @@
 
 namespace chladni::report {
 
-/// A JSON value, serialised when it is made (RFC 8259).
+/// A JSON value, serialised when it is constructed (RFC 8259).
 class Json {
  public:
-  /// null
+  /// The value null.
   Json() = default;
-  /// Shortest text that reads back as the same double; null when not finite.
+  /// The shortest text that reads back as the same double; null when the number is not finite.
   Json(double number);
   template <std::integral Integer>
   requires(!std::same_as<Integer, bool>) Json(Integer number) : text_(std::to_string(number)) {}
@@ -23,7 +23,7 @@ class Json {
 
   using Member = std::pair<std::string, Json>;
   static Json array(const std::vector<Json>& elements);
-  /// Members keep their order.
+  /// An object whose members keep their order.
   static Json object(const std::vector<Member>& members);
 
   const std::string& text() const { return text_; }

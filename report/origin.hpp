@@ -6,27 +6,28 @@
 #include "mbs_export/reduced_system.hpp"
 #include "scene/scene.hpp"
 
-/// Whether files are those of the scene as it is now.
+/// Checks whether files belong to the present scene.
 namespace chladni::report {
 
+/// The kinds of files that are made from a scene.
 enum class Made { reduction, body, results, radiation };
 
-/// A file that was read, and what it tells of its making.
+/// A file that was read, with its provenance.
 struct Read {
   std::filesystem::path file;
   Made what;
   const mbs_export::Provenance& origin;
 };
 
-/// What to do with a file that was made when the scene, or its mesh file, was another.
+/// What to do with a file that was made before the scene or its mesh file changed.
 enum class Stale { refuse, use };
 
-/// A file is of the scene when nothing that it was made from has changed since: neither the parts
-/// of the scene that it and what went before it depend on, nor the mesh file where that is at hand.
-/// A file without a scene (by other programs, or as a scene that says nothing of its body) is left
-/// to the user.
-/// @throws chladni::Error that names the file, the keys and the programs that make it anew;
-///         with Stale::use that is a line on stderr.
+/// Checks that a file belongs to the present scene, that is, that nothing it was made from has
+/// changed since: the parts of the scene that it and its predecessors depend on, and the mesh file
+/// if that exists. A file without a scene (from another program, or of a scene without a body) is
+/// accepted.
+/// @throws chladni::Error naming the file, the changed keys and the commands that make it anew;
+///         with Stale::use this is printed on stderr instead.
 void require_of_scene(const scene::Scene& scene, const Read& read, Stale stale);
 
 }  // namespace chladni::report

@@ -8,31 +8,31 @@
 
 namespace chladni::report {
 
-/// The text with `?` for each control character (C0, DEL and C1) but newlines: titles and names
-/// come from files, and must not command a terminal.
+/// The text with `?` for each control character (C0, DEL and C1) except newlines. Titles and names
+/// come from files and must not control a terminal.
 std::string printable(std::string_view text);
 
-/// What went wrong, for a terminal: the error's own words, or a sentence where memory ran out,
-/// which the standard library calls by the name of a type.
+/// The message of an error for the terminal. For std::bad_alloc, whose own message is the name of a
+/// type, it is a sentence.
 std::string said(const std::exception& error);
 
-/// A table for terminals; every row has as many cells as the header.
+/// A table for the terminal; every row has as many cells as the header.
 struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Columns two blanks apart, the first flush left, the others flush right; ends with a newline.
-/// Where lines would be longer than 120, the cells of the widest column take several,
-/// indented behind the first.
+/// The table as text that ends with a newline: columns two blanks apart, the first aligned left,
+/// the others right. When a line would be longer than 120 characters, the cells of the widest
+/// column take several lines, indented after the first.
 std::string format_table(const TextTable& table);
 
 /// Flushes stdout.
-/// @throws chladni::Error when not all that was printed can be written.
+/// @throws chladni::Error when not all output could be written.
 void finish_printing();
 
-/// Makes the folder for the files of a program, if need be.
-/// @throws chladni::Error when it cannot be made.
+/// Creates the output folder if needed.
+/// @throws chladni::Error when it cannot be created.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace chladni::report

@@ -8,49 +8,51 @@
 
 namespace chladni::report {
 
-/// How often a phase is done: until something is accurate, nobody knows before.
+/// How often a phase is performed: once, or an unknown number of times, as in an adaptive loop.
 enum class Times { once, unknown };
 
-/// A phase of a run, and what part of the time it usually takes, in any unit.
+/// A phase of a run and its usual share of the time, in any unit.
 struct Stage {
   std::string name;
   double share;
   Times times = Times::once;
 };
 
-/// How much of a whole run is done, which never falls. A phase that is done an unknown number of
-/// times takes half of what is left of its share each time; one that the stages do not name takes
-/// none.
+/// The fraction done of a whole run, which never decreases. A phase with an unknown number of
+/// repetitions takes half of the rest of its share each time. A phase that is not among the stages
+/// takes no share.
 class WholeProgress {
  public:
-  /// @param stages  in their order; those that a run leaves out are over when a later one begins
+  /// @param stages  in order; skipped stages count as done when a later one begins
   explicit WholeProgress(std::vector<Stage> stages);
 
-  /// @param fraction  of the phase, 0 to 1
-  /// @return of the run, 0 to 1
+  /// The progress of the whole run.
+  /// @param fraction  fraction done of the phase, 0 to 1
+  /// @return fraction done of the run, 0 to 1
   double at(const std::string& phase, double fraction);
 
  private:
   void enter(const std::string& phase);
 
   std::vector<Stage> stages_;
-  std::optional<std::size_t> stage_;  ///< under way
-  std::string phase_;                 ///< under way; not always a stage
-  double left_ = 1.0;                 ///< of the stage, for this time and later ones
+  std::optional<std::size_t> stage_;  ///< the current stage
+  std::string phase_;                 ///< the current phase, which need not be a stage
+  double left_ = 1.0;                 ///< fraction of the stage left for this and later repetitions
   double done_ = 0.0;
 };
 
-/// "[########------------]  42 %  projection, 7 s left"; no time in the first two seconds.
+/// A progress line: "[########------------]  42 %  projection, 7 s left"; without a time in the
+/// first two seconds.
 std::string progress_text(std::string_view phase, double whole, double elapsed_s);
 
-/// Prints no results from here on, and no progress: of what follows only notes and errors are seen.
+/// Suppresses results and progress from now on; only notes and errors are still printed.
 void be_quiet();
 
-/// Prints "note: ..." on stderr, on a terminal over the progress line if one stands there.
+/// Prints "note: ..." on stderr. On a terminal it replaces a progress line.
 void tell_note(std::string_view note);
 
-/// One line on stderr that tells how far a run is; it shows only where stderr is a terminal and
-/// nobody wanted quiet, and is wiped out at the end.
+/// A line on stderr that shows the progress of a run. It appears only when stderr is a terminal and
+/// be_quiet was not called, and is wiped by the destructor.
 class ProgressLine {
  public:
   ProgressLine() = default;
@@ -58,7 +60,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// @param whole  part of the whole run, 0 to 1
+  /// Shows the progress, at most every 0.2 s within a phase.
+  /// @param whole  fraction done of the whole run, 0 to 1
   void show(const std::string& phase, double whole);
 
  private:

@@ -7,7 +7,7 @@
 
 #include "report/output.hpp"
 
-/// Rows of a table of quantities.
+/// Tables of quantities: name, value, unit.
 namespace chladni::report {
 
 /// An empty table with its header.
@@ -16,11 +16,13 @@ inline TextTable quantities()
   return {.header = {"quantity", "value", "unit"}, .rows = {}};
 }
 
+/// Adds a row with an integer.
 inline void add_count(TextTable& table, const std::string& name, Eigen::Index n)
 {
   table.rows.push_back({name, fmt::format("{}", n), ""});
 }
 
+/// Adds a row with a number in six digits and its unit.
 inline void add(TextTable& table, const std::string& name, double x, const std::string& unit)
 {
   table.rows.push_back({name, fmt::format("{:.6g}", x), unit});

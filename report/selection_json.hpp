@@ -7,9 +7,10 @@
 
 namespace chladni::report {
 
-/// Members `condition_Q_dd`, `condition_directions`, `interface_modes_dropped` and, when a
-/// tolerance chose the modes, `selection` with `tolerance`, `up_to_Hz`, `loads` and, for
-/// `modes_only` and `with_interface_modes`, the steps {added, modes, interface_modes, error}.
+/// JSON members `condition_Q_dd`, `interface_modes_dropped`, `condition_directions` if known and,
+/// when a tolerance chose the modes, `selection` with `tolerance`, `error_of_reduction`,
+/// `up_to_Hz`, `loads` and, for `modes_only` and `with_interface_modes`, the steps {added, modes,
+/// interface_modes, error}.
 std::vector<Json::Member> preparation_json(const mbs_export::ModalBody& body);
 
 }  // namespace chladni::report

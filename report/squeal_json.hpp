@@ -7,8 +7,8 @@
 
 namespace chladni::report {
 
-/// What `squeal run --json` says of the results:
-/// only what was asked for; `critical_speed_rad_s` is null when there is none in the range.
+/// JSON members of the results for `squeal run --json`. Only analyses that were asked for are
+/// present; `critical_speed_rad_s` is null when there is none in the range.
 std::vector<Json::Member> results_json(const squeal::SquealResults& results);
 
 }  // namespace chladni::report

@@ -6,14 +6,14 @@
 
 namespace chladni::report {
 
-/// What one phase of a program cost.
+/// Cost of one phase of a program.
 struct PhaseTime {
   std::string name;
   double wall_s;
-  double cpu_s;  ///< of all threads of this process
+  double cpu_s;  ///< CPU time of all threads of this process
 };
 
-/// Measures from its construction.
+/// Measures wall and CPU time since its construction, s.
 class Stopwatch {
  public:
   Stopwatch();
@@ -25,10 +25,10 @@ class Stopwatch {
   double cpu_start_s_;
 };
 
-/// Splits the time of a program into phases that follow each other.
+/// Divides the time of a program into consecutive phases.
 class PhaseClock {
  public:
-  /// Names what happened since the last call, or since the beginning.
+  /// Ends the current phase, which began at the last call or at construction, and names it.
   void end_phase(std::string name);
   const std::vector<PhaseTime>& phases() const { return phases_; }
 
@@ -37,13 +37,13 @@ class PhaseClock {
   std::vector<PhaseTime> phases_;
 };
 
-/// Time since this process began, s.
+/// Wall time since this process started, s.
 double process_wall_s();
 
-/// CPU time of this process and its threads since it began, s.
+/// CPU time of all threads of this process since it started, s.
 double process_cpu_s();
 
-/// Largest memory that this process has occupied so far, MiB.
+/// Peak memory of this process so far, MiB.
 double peak_MiB();
 
 }  // namespace chladni::report

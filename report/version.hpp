@@ -4,7 +4,7 @@
 
 namespace chladni::report {
 
-/// Of Chladni, "major.minor.patch".
+/// The version of Chladni, "major.minor.patch".
 inline constexpr std::string_view version = CHLADNI_VERSION;
 
 }  // namespace chladni::report

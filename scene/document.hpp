@@ -12,18 +12,17 @@
 
 namespace chladni::scene {
 
-/// One word of a scene and what it stands for.
+/// A word that a key accepts, and its value.
 template <class T>
 struct Choice {
   std::string_view name;
   T value;
 };
 
-/// A table of a TOML file. It knows its place in the file, so that each of its errors names file,
-/// line, key and value, and it remembers which keys were asked for, so that the others can be
-/// refused. Copies share that memory. In key paths the tables of an array count from 1.
-/// Every reading function throws chladni::Error when the key is missing or its value is not as
-/// asked.
+/// A table of a TOML file. It knows its place in the file, so that errors name file, line, key and
+/// value. It records which keys were read, so that unknown keys can be refused; copies share this
+/// record. In key paths the tables of an array count from 1.
+/// All reading functions throw chladni::Error when the key is missing or its value is not accepted.
 class Table {
  public:
   bool has(std::string_view key) const;
@@ -31,8 +30,8 @@ class Table {
   bool is_list(std::string_view key) const;
   bool is_table(std::string_view key) const;
   bool is_text(std::string_view key) const;
-  /// Numbers are checked by the row of the key (keys.hpp), and by `further`, which may depend on
-  /// other keys.
+  /// A number, checked by the key's row in keys.hpp and by `further`, which may depend on other
+  /// keys.
   double number(std::string_view key, const Admissible& further = {}) const;
   int integer(std::string_view key, const Admissible& further = {}) const;
   std::string text(std::string_view key) const;
@@ -41,11 +40,12 @@ class Table {
   std::vector<int> integers(std::string_view key, const Admissible& further = {}) const;
   std::vector<std::string> texts(std::string_view key) const;
 
-  /// The one key of these that the table holds.
-  /// @throws chladni::Error when it holds none or several.
+  /// The key of this list that the table contains.
+  /// @throws chladni::Error when it contains none or several of them.
   std::string_view only_one_of(std::initializer_list<std::string_view> keys) const;
 
-  /// The value of the word that stands at `key`.
+  /// The value of the word at `key`.
+  /// @throws chladni::Error listing the allowed words.
   template <class T>
   T choice(std::string_view key, const std::vector<Choice<T>>& choices) const;
 
@@ -53,7 +53,8 @@ class Table {
   Table table(std::string_view key) const;
   /// The tables `[[key]]` or `key = [{...}, ...]`.
   std::vector<Table> tables(std::string_view key) const;
-  /// The keys of the table in alphabetic order, for names that the user chooses: `[material.NAME]`.
+  /// All keys of the table in alphabetic order, for names that the user chooses, as in
+  /// `[material.NAME]`.
   std::vector<std::string> names() const;
 
   /// Throws `FILE:LINE: PATH.key = VALUE: why`.
@@ -61,16 +62,17 @@ class Table {
   /// Throws `FILE:LINE: PATH.key[i+1] = VALUE: why`; `i` counts from 0.
   [[noreturn]] void refuse_element(std::string_view key, std::size_t i, std::string_view why) const;
 
-  /// A line for each number that was read, here or in any table of the file, and is admitted but
+  /// A line for each number read from the file, in this or any other table, that is accepted but
   /// unusual: `FILE:LINE: PATH.key = VALUE is unusual: ...`.
   std::vector<std::string> notes() const;
 
-  /// @throws chladni::Error that lists every key, here and in the tables opened from here, that
-  ///         nobody asked for, with the keys that are allowed in its place.
+  /// Refuses unknown keys.
+  /// @throws chladni::Error listing every key that was not read, in this table and in those opened
+  ///         from it, and the keys that are allowed in its place.
   void refuse_unknown_keys() const;
 
  private:
-  /// Refuses a word that the row of the key does not list.
+  /// Refuses a word that the key's row does not list.
   void check_word(std::string_view key, const std::string& word) const;
 
   struct Node;

@@ -15,23 +15,24 @@
 
 namespace chladni::scene {
 
-/// A table of the file as toml++ has it, and what was asked of it.
+/// A table of the file as toml++ parsed it, with the keys that were read.
 struct Table::Node {
   using MessagesByLine = std::multimap<toml::source_index, std::string>;
 
-  /// What all tables of a file share.
+  /// Data that all tables of a file share.
   struct File {
     toml::table table;  ///< keeps all nodes alive
     std::vector<std::string> notes;
   };
   std::shared_ptr<File> whole;
   std::string file;
-  std::string path;  ///< of keys; empty for the root
-  std::string row;   ///< the same without the places in lists, as in the rows of keys.hpp
+  std::string path;  ///< path of the table's key; empty for the root
+  std::string row;   ///< the path without list indices, as in the rows of keys.hpp
   const toml::table* table;
   std::set<std::string, std::less<>> asked;
   std::vector<std::shared_ptr<Node>> opened;
 
+  /// Path of a key of this table.
   std::string path_of(std::string_view key) const
   {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
@@ -41,12 +42,14 @@ struct Table::Node {
     return fmt::format("{}[{}]", path_of(key), i + 1);
   }
   std::string at(toml::source_index line) const { return fmt::format("{}:{}: ", file, line); }
+  /// The value at `key` or null; records that the key was read.
   const toml::node* find(std::string_view key)
   {
     asked.emplace(key);
     return table->get(key);
   }
   MessagesByLine unknown_keys() const;
+  /// The keys of this table that were not read.
   std::vector<std::string> keys_not_asked() const
   {
     std::vector<std::string> keys;
@@ -58,8 +61,10 @@ struct Table::Node {
   {
     return table->find(key)->first.source().begin.line;
   }
-  /// Throws when a key that nobody asked for looks like a slip for the missing `key`.
+  /// Refuses a key that was not read and looks like a misspelling of the missing `key`.
   void refuse_slip(std::string_view key) const;
+  /// The value at `key`.
+  /// @throws chladni::Error when it is missing.
   const toml::node& require(std::string_view key, std::string_view kind);
   std::shared_ptr<Node> open(const toml::table& inner, std::string_view key,
                              std::string inner_path);
@@ -67,21 +72,23 @@ struct Table::Node {
   {
     return row.empty() ? std::string(key) : fmt::format("{}.{}", row, key);
   }
-  /// What the row of the key and the reader admit.
+  /// What both the key's row and the reader accept.
   Admissible admitted(std::string_view key, const Admissible& further) const
   {
     const Key* known = find_key(row_of(key));
     return known != nullptr ? both(known->admits, further) : further;
   }
-  /// The value at `key`; `objection` says what is wrong with it, or nothing.
+  /// The value at `key`.
+  /// @param objection  says what is wrong with the value; empty if nothing
   template <class T>
   T value(std::string_view key, std::string_view kind, const Objection& objection);
-  /// The list at `key`; `objection` says what is wrong with an element, or nothing.
+  /// The list at `key`.
+  /// @param objection  says what is wrong with an element; empty if nothing
   template <class T>
   std::vector<T> elements(std::string_view key, std::string_view kind, const Objection& objection);
   [[noreturn]] void refuse(const toml::node& value, std::string_view value_path,
                            std::string_view why) const;
-  /// "scene.toml:3: mesh.width = 3"
+  /// Place and value for a message: "scene.toml:3: mesh.width = 3".
   std::string said(const toml::node& value, std::string_view value_path) const
   {
     const std::string text = value.is_table() ? "" : " = " + value_text(value);

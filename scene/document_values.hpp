@@ -9,10 +9,11 @@
 
 namespace chladni::scene {
 
-/// A value as a message shows it, on one line and not longer than that.
+/// A value as text for a message, on one line; strings are shown in full, other values with at most
+/// 60 characters.
 std::string value_text(const toml::node& value);
 
-/// Says what is wrong with a value; nothing when it is as it should be.
+/// A check of a value: it returns what is wrong, or an empty text.
 using Objection = std::function<std::string(const toml::node&)>;
 
 Objection objection_to_number(const Admissible& admissible);

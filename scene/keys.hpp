@@ -9,6 +9,7 @@
 
 namespace chladni::scene {
 
+/// Type of a key's value.
 enum class KeyKind {
   number,
   numbers,
@@ -22,18 +23,18 @@ enum class KeyKind {
   tables
 };
 
-/// One key of the scene file: what its value must be, and what it means. The readers check values
-/// by these rows, and docs/reference/scene.md is written from them.
+/// One key of the scene file: its allowed values and its meaning. The readers check values by these
+/// rows, and docs/reference/scene.md is generated from them.
 struct Key {
   std::string_view path;  ///< "mesh.rings.name"; `*` is a name that the user chooses
   KeyKind kind;
-  std::string_view absent;  ///< without it: "required", a default, or when it is needed
+  std::string_view absent;  ///< default value, "required", or when it is required
   std::string_view meaning;
-  Admissible admits = {};       ///< each number; relations between keys are the reader's
-  std::string_view words = {};  ///< of a word, separated by ` | `
+  Admissible admits = {};  ///< for each number; relations between keys are checked by the reader
+  std::string_view words = {};  ///< the allowed words, separated by ` | `
 };
 
-/// Every key, in the order of the reference.
+/// All keys by parts of the scene file, in the order of the reference.
 std::span<const Key> mesh_keys();
 std::span<const Key> model_keys();
 std::span<const Key> reduction_keys();
@@ -43,13 +44,13 @@ std::span<const Key> brake_keys();
 std::span<const Key> assembly_keys();
 std::span<const Key> sound_keys();
 
-/// The row of a key; null for one that no table has.
+/// The row of a key; null for an unknown key.
 const Key* find_key(std::string_view path);
 
-/// The words of a row, each by itself.
+/// The allowed words of a row as a list.
 std::vector<std::string> words_of(const Key& key);
 
-/// The rows as text for people, in Markdown.
+/// All rows as Markdown, for docs/reference/scene.md.
 std::string scene_reference();
 
 }  // namespace chladni::scene

@@ -41,8 +41,8 @@ toml::table parse_values(std::string_view text, const std::string& file)
       continue;
     }
     if (c == '.' && ++parts > key_parts_max) {
-      throw Error(fmt::format("{}:{}: a key of more than {} parts; a scene has none so deep", file,
-                              line, key_parts_max));
+      throw Error(fmt::format("{}:{}: a key has more than {} parts; no key of a scene has so many",
+                              file, line, key_parts_max));
     }
     if (std::string_view("=,{}[]\n").find(c) != std::string_view::npos) parts = 1;
     line += c == '\n' ? 1 : 0;

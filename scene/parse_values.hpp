@@ -7,14 +7,13 @@
 
 namespace chladni::scene {
 
-/// Parts of a dotted key, and of the name of a table.
+/// Largest number of parts of a dotted key or of a table's name.
 inline constexpr int key_parts_max = 16;
 
-/// The values of a text in TOML, which are nested no deeper than a stack can follow.
-/// @param file  what errors call it
-/// @throws toml::parse_error when the text is no TOML, and chladni::Error when a key has more than
-///         `key_parts_max` parts: toml++ and whoever walks through its tables call themselves once
-///         for each of them.
+/// Parses a TOML text with limited nesting.
+/// @param file  name of the file in error messages
+/// @throws toml::parse_error when the text is not TOML; chladni::Error when a key has more than
+///         `key_parts_max` parts, because toml++ and the readers recurse once for each part.
 toml::table parse_values(std::string_view text, const std::string& file = "");
 
 }  // namespace chladni::scene

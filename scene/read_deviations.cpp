@@ -45,7 +45,7 @@ plate::ShellSection read_deviating_section(const Table& table, const Table& root
   if (table.has("thickness")) {
     section.thickness = read_profile(table, "thickness");
     if (section.thickness == own->thickness)
-      table.refuse("thickness", "is that of the group's section; nothing deviates");
+      table.refuse("thickness", "equals that of the group's section, so nothing deviates");
   }
   return section;
 }

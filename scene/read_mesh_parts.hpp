@@ -5,26 +5,29 @@
 
 #include "scene/read_tables.hpp"
 
-/// The parts of [mesh].
+/// Readers of the parts of [mesh].
 namespace chladni::scene {
 
-/// Whether the scene says how large elements are, or an accuracy is to choose it.
+/// Whether the scene states the element size or leaves it to `accuracy`.
 enum class Size { given, chosen };
 
-/// The options of the generator that `mesh` names; a size that is chosen later is 0.
+/// The options of the generator named by `mesh`; an element size to be chosen later is 0.
 mesh::MeshOptions read_generator(const Table& mesh, Size size);
 
-/// The groups that a generator makes besides its rings; empty for a file.
+/// The groups that a generator makes besides its rings; empty for a mesh file.
 std::vector<std::string> generated_groups(const mesh::MeshOptions& mesh);
 
-/// Equal sectors of the body, 1 without the key or where they are to be found.
+/// The number of equal sectors of the body; 1 without the key or when they are to be found.
 int read_sectors(const Table& mesh);
-/// sectors = "auto"
+/// Whether sectors = "auto".
 bool finds_sectors(const Table& mesh);
 
+/// The key `element_order`.
 int read_element_order(const Table& mesh);
 
-/// @param taken  names that no ring may have
+/// The rings of the mesh.
+/// @param taken  names that are not allowed for a ring
+/// @param radii  admissible radii, m
 std::vector<mesh::RingOptions> read_rings(const Table& mesh, const std::vector<std::string>& taken,
                                           const Admissible& radii);
 

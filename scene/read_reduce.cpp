@@ -108,7 +108,7 @@ reduce::Method method_of_tolerance(const Table& table)
 {
   const reduce::Method method = method_of(table);
   if (method == reduce::Method::guyan)
-    table.refuse("method", "Guyan keeps no accuracy; take this key out");
+    table.refuse("method", "Guyan's method cannot keep an accuracy; take this key out");
   refuse_without_tolerance(table, "method", method);
   return method;
 }

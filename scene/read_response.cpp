@@ -15,8 +15,11 @@ ResponseModel read_model(const Table& table, const Scene& scene)
   const auto model = table.choice<ResponseModel>("of", {{"body", ResponseModel::body},
                                                         {"reduced", ResponseModel::reduced},
                                                         {"fe", ResponseModel::fe}});
-  if (model != ResponseModel::fe && scene.interface_nodes.empty())
-    table.refuse("of", "this model is made by a reduction, and the scene has no [interface]");
+  if (model != ResponseModel::fe && scene.interface_nodes.empty()) {
+    table.refuse(
+        "of",
+        "this model needs a reduction, but the scene has no [interface]; add it, or take \"fe\"");
+  }
   return model;
 }
 
@@ -64,9 +67,10 @@ std::vector<std::string> read_section_forces(const Table& table, const Scene& sc
 {
   if (!table.has("section_forces")) return {};
   if (model == ResponseModel::fe) {
-    table.refuse("section_forces",
-                 "the FE model answers with motions alone; take this key out, or ask the reduced "
-                 "system");
+    table.refuse(
+        "section_forces",
+        "the FE model has responses of motions only; take this key out, or use the reduced "
+        "system");
   }
   std::vector<std::string> groups = table.texts("section_forces");
   const std::vector<std::string>& kept = scene.resultants.groups;

@@ -15,7 +15,7 @@ void check_ring(const Table& table, std::string_view key, const std::string& rin
   const std::vector<std::string> rings = ring_names(scene.mesh);
   if (!contains(rings, ring)) table.refuse(key, no_such_name("ring", ring, rings));
   if (!contains(scene.interface_nodes, ring))
-    table.refuse(key, "must stand in interface.nodes too, or the body does not have it");
+    table.refuse(key, "must also be in interface.nodes; otherwise the body does not contain it");
 }
 
 /// ring = "track", or { inboard = "track_in", outboard = "track_out" }: the second ring is empty

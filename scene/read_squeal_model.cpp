@@ -108,10 +108,13 @@ void check_linear(const Table& squeal, const squeal::StudyOptions& study)
     if (!contains(linear, study.analyses[i])) {
       squeal.refuse_element(
           "analyses", i,
-          "is none of an assembly, whose contact is linear: it has " + quoted_list(linear));
+          "is not available for an assembly, whose contact is linear; available are " +
+              quoted_list(linear));
     }
-  if (study.transient)
-    squeal.refuse("transient", "is none of an assembly, whose contact is linear; take it out");
+  if (study.transient) {
+    squeal.refuse("transient",
+                  "is not available for an assembly, whose contact is linear; take it out");
+  }
 }
 
 }  // namespace

@@ -7,139 +7,141 @@
 #include "scene/document.hpp"
 #include "scene/scene.hpp"
 
-/// The readers of the scene's tables. Each takes the root table and the part of the scene that was
-/// read before it, so that names which refer to other tables can be checked.
+/// Readers of the scene's tables. Each takes the root table and the part of the scene that was read
+/// before, to check names that refer to other tables. All throw chladni::Error with file, line, key
+/// and value when a value is not accepted.
 namespace chladni::scene {
 
-/// `accuracy`
+/// Reads `accuracy`.
 std::optional<Accuracy> read_accuracy(const Table& root);
 
-/// [mesh]; `scene_path` resolves a mesh file that is given relative to the scene. With `accuracy`
-/// the size of its elements stays open.
+/// Reads [mesh]. A relative path of a mesh file is relative to the scene. With `accuracy` the
+/// element size is left open.
 mesh::MeshOptions read_mesh(const Table& root, const std::string& scene_path);
 
-/// [model] dofs: the components of each node; without the table all six.
+/// Reads dofs of [model], the DOF components of each node; without the table all six.
 std::vector<int> read_model_components(const Table& root);
 
-/// The sections by type.
+/// Shell and beam sections.
 struct Sections {
   std::vector<plate::ShellSection> shells;
   std::vector<plate::BeamSection> beams;
 };
 
-/// [[section]] with the [material.NAME] that they name; needs the mesh of `scene`.
+/// Reads [[section]] with the [material.NAME] that each names; needs the mesh of `scene`.
 Sections read_sections(const Table& root, const Scene& scene);
 
-/// [[coupling]]
+/// Reads [[coupling]].
 std::vector<plate::Coupling> read_couplings(const Table& root, const Scene& scene);
 
-/// [[mass]] and [[spring]]; their places may be groups, rings and couplings of `scene`.
+/// Reads [[mass]] and [[spring]]; their places may be groups, rings and couplings of `scene`.
 std::vector<plate::PointMass> read_masses(const Table& root, const Scene& scene);
 std::vector<plate::Spring> read_springs(const Table& root, const Scene& scene);
 
-/// A table of [[mass]] or of [[spring]].
+/// Reads one table of [[mass]] or of [[spring]].
 plate::PointMass read_mass(const Table& table, const Scene& scene);
 plate::Spring read_spring(const Table& table, const Scene& scene);
 
-/// A constant, a table over a coordinate or the radius, or a formula, which the mesh will check.
+/// Reads a profile: a constant, a table over a coordinate or the radius, or a formula. The formula
+/// is checked when the mesh is known.
 plate::Profile read_profile(const Table& section, std::string_view key);
 
-/// The [material.NAME] that a table names.
+/// Reads the [material.NAME] that a table names.
 plate::Material read_material_of(const Table& table, const Table& root);
 
-/// Puts [[deviation]] into a scene that has all of its model otherwise: where one sector is meshed
-/// beside the sections, else in their place.
+/// Adds [[deviation]] to an otherwise complete scene: to the list of deviations when one sector is
+/// meshed, else as changed sections of the whole body.
 void read_deviations(const Table& root, Scene& scene);
 
-/// [[support]]; needs the mesh and the couplings of `scene`.
+/// Reads [[support]]; needs the mesh and the couplings of `scene`.
 std::vector<plate::Support> read_supports(const Table& root, const Scene& scene);
 
-/// [[load]]; as the supports.
+/// Reads [[load]]; needs the mesh and the couplings of `scene`.
 std::vector<plate::Load> read_loads(const Table& root, const Scene& scene);
 
-/// [static]; as the supports.
+/// Reads [static]; needs the mesh and the couplings of `scene`.
 std::optional<StaticOptions> read_static(const Table& root, const Scene& scene);
 
-/// [modes]
+/// Reads [modes].
 std::optional<ModesOptions> read_natural_modes(const Table& root);
 
-/// [interface] nodes; needs the mesh and the couplings of `scene`.
+/// Reads nodes of [interface]; needs the mesh and the couplings of `scene`.
 std::vector<std::string> read_interface(const Table& root, const Scene& scene);
 
-/// [interface] rings; needs the nodes of the interface, too.
+/// Reads rings of [interface]; needs the mesh, the couplings and the interface nodes of `scene`.
 std::vector<plate::RingHarmonics> read_ring_harmonics(const Table& root, const Scene& scene);
 
-/// [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
-/// `mass_integrals`, `mesh_errors`, `ranks_per_harmonic`, `stiffening` and `sylvester`; with
-/// `accuracy` by its tolerance.
+/// Reads [reduce] without its keys `pictures`, `resultants`, `resultant_elements`,
+/// `mass_integrals`, `mesh_errors`, `ranks_per_harmonic`, `stiffening` and `sylvester`. With
+/// `accuracy` its tolerance is used.
 reduce::ReduceOptions read_reduce(const Table& root, const std::optional<Accuracy>& accuracy);
 
-/// [reduce] ranks_per_harmonic
+/// Reads ranks_per_harmonic of [reduce].
 std::optional<int> read_ranks_per_harmonic(const Table& root);
 
-/// [reduce] mesh_errors
+/// Reads mesh_errors of [reduce].
 bool read_mesh_errors(const Table& root, const std::optional<Accuracy>& accuracy);
 
-/// [reduce] resultants, resultant_elements; needs the sections of `scene`.
+/// Reads resultants and resultant_elements of [reduce]; needs the sections of `scene`.
 ResultantChoice read_resultants(const Table& root, const Scene& scene);
 
-/// [reduce] pictures
+/// Reads pictures of [reduce].
 PictureChoice read_pictures(const Table& root);
 
-/// [reduce] mass_integrals
+/// Reads mass_integrals of [reduce].
 bool read_mass_integrals(const Table& root);
 
-/// [reduce] stiffening; needs the components of `scene`.
+/// Reads stiffening of [reduce]; needs the components of `scene`.
 std::vector<std::string> read_stiffening(const Table& root, const Scene& scene);
 
-/// [reduce] sylvester
+/// Reads sylvester of [reduce].
 std::optional<bool> read_sylvester(const Table& root);
 
-/// [body]; without the table the body is free and keeps all modes, with `accuracy` those of its
-/// tolerance. Reads `accuracy`, `interface_nodes` and
-/// `reduce` of the scene.
+/// Reads [body]. Without the table the body is free and keeps all modes, or with `accuracy` those
+/// of its tolerance. Needs `accuracy`, `interface_nodes` and `reduce` of the scene.
 mbs_export::BodyOptions read_body(const Table& root, const Scene& scene);
 
-/// [response]; needs the mesh, the couplings, the interface and the resultants of `scene`.
+/// Reads [response]; needs the mesh, the couplings, the interface and the resultants of `scene`.
 std::optional<mbs_export::ResponseOptions> read_response(const Table& root, const Scene& scene);
 
-/// [squeal]; needs the mesh and the interface of `scene`.
+/// Reads [squeal]; needs the mesh and the interface of `scene`.
 std::optional<squeal::SquealOptions> read_squeal(const Table& root, const Scene& scene);
 
-/// [squeal] radiation
+/// Reads radiation of [squeal].
 bool read_radiation(const Table& root);
 
-/// [sound]; needs the mesh, the sections and the squeal of `scene`.
+/// Reads [sound]; needs the mesh, the sections and the squeal of `scene`.
 std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& scene);
 
-/// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
-/// body; absent for any other scene.
+/// Reads [squeal] of a scene whose `model` is a rigid disc or an oscillator, without a mesh and a
+/// body; absent for other scenes.
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 
-/// The names of the rings of a mesh.
+/// The rings of a mesh.
 const std::vector<mesh::RingOptions>& rings_of(const mesh::MeshOptions& mesh);
+/// The names of the rings of a mesh.
 std::vector<std::string> ring_names(const mesh::MeshOptions& mesh);
 
-/// The groups of a scene's mesh, its rings among them; empty for a mesh file that was not read yet.
+/// The groups of a scene's mesh, including its rings; empty for a mesh file that was not read yet.
 std::vector<std::string> group_names(const Scene& scene);
 
-/// What may be held, loaded or observed in the FE model: groups, rings and couplings; empty where
-/// the mesh file was not read yet.
+/// Names that supports, loads and outputs of the FE model may refer to: groups, rings and
+/// couplings; empty for a mesh file that was not read yet.
 std::vector<std::string> named_sets(const Scene& scene);
 
-/// Those groups that are surfaces, or lines of a generated beam.
+/// The groups of the mesh that are surfaces, or lines of a generated beam.
 std::vector<std::string> surface_groups(const mesh::MeshOptions& mesh);
 
-/// One number for each component that the table `key = { z = ..., ry = ... }` names, else 0.
+/// Reads `key = { z = ..., ry = ... }`: one number for each component, 0 for those not named.
 std::array<double, 6> read_by_component(const Table& table, std::string_view key);
 
-/// A list of three numbers.
+/// Reads a list of three numbers.
 std::array<double, 3> read_vector(const Table& table, std::string_view key);
 
-/// A list of components by name as numbers 0 to 5, in the order of the list.
+/// Reads a list of component names as numbers 0 to 5, in the order of the list.
 std::vector<int> read_component_list(const Table& table, std::string_view key);
 
-/// A list of mode numbers, counted from 1, ascending.
+/// Reads a list of ascending mode numbers, counted from 1.
 std::vector<int> read_mode_list(const Table& table, std::string_view key);
 
 }  // namespace chladni::scene

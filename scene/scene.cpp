@@ -83,9 +83,9 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
   const bool has_tolerance = scene.reduce.tolerance || scene.body.keep.tolerance;
   if (has_tolerance && !scene.stiffening.empty() && !scene.beams.empty()) {
     notes.push_back(fmt::format(
-        "{}: reduce.stiffening: the axial force is constant in each beam; what that takes from the "
-        "stiffened frequencies is no part of the tolerance and goes with the square of the length "
-        "of the beams: shorter ones tell how much it is",
+        "{}: reduce.stiffening: the axial force is constant in each beam; the tolerance "
+        "does not include the resulting error of the stiffened frequencies, which falls with the "
+        "square of the length of the beams: compare with shorter beams",
         scene.path));
   }
   return notes;
@@ -191,13 +191,13 @@ void refuse_other_files(const std::string& path)
   if (fs::is_regular_file(path) && fs::file_size(path) == 0) refuse("the scene file is empty");
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".h5")
-    refuse("holds results, and a scene file (TOML) is asked for; `info` tells what is in it");
+    refuse("is a result file, but a scene file (TOML) is needed; `info` prints what it contains");
   if (contains({".msh", ".geo", ".step", ".stp"}, extension))
-    refuse("is a mesh, and a scene file (TOML) is asked for, which names it as `file` of [mesh]");
+    refuse("is a mesh, but a scene file (TOML) is needed; name the mesh there as `file` of [mesh]");
   if (contains({".bdf", ".nas", ".dat", ".inp", ".unv", ".vtk"}, extension)) {
     refuse(
-        "is a mesh of another program; make a .msh of it (`gmsh FILE -save -o mesh.msh`), and "
-        "name that as `file` of [mesh] in a scene");
+        "is a mesh of another program, but a scene file (TOML) is needed; name the mesh there as "
+        "`file` of [mesh] (a .vtk after `gmsh FILE -save -o mesh.msh`)");
   }
 }
 

@@ -16,94 +16,101 @@
 
 namespace chladni::scene {
 
-/// Of which nodes the reduced file keeps the displacements, for pictures.
+/// The nodes whose displacements the reduced file keeps for pictures.
 enum class PictureChoice { none, vertices, all };
 
-/// Of which elements the section forces are kept, as linear forms in the coordinates.
+/// The elements whose section forces are kept, as linear forms in the reduced coordinates.
 struct ResultantChoice {
   std::vector<std::string> groups;
-  std::vector<int>
-      elements;  ///< of the groups only these, by their numbers in the mesh; empty: all
+  std::vector<int> elements;  ///< numbers in the mesh, within the groups; empty: all
 };
 
-/// `chladni static`: whose displacements the summary lists.
+/// Options of `chladni static`.
 struct StaticOptions {
-  std::vector<std::string> report;  ///< groups, rings or couplings
+  /// Groups, rings or couplings whose displacements the summary lists.
+  std::vector<std::string> report;
 };
 
-/// `chladni modes`
+/// Options of `chladni modes`.
 struct ModesOptions {
-  int count = 10;            ///< natural modes, rigid-body motions included
-  bool mesh_errors = false;  ///< estimate what the mesh lets their frequencies be off
+  int count = 10;            ///< number of natural modes, including rigid-body modes
+  bool mesh_errors = false;  ///< estimate the error of the frequencies due to the mesh
 };
 
-/// What a scene asks for in place of a mesh and a reduction of its choice.
+/// An accuracy from which mesh and reduction are chosen.
 struct Accuracy {
-  double error;     ///< of each natural frequency of the body under its supports, relative: of mesh
-                    ///< and reduction together
-  double up_to_Hz;  ///< of the frequencies that keep it
-  bool chooses_order = true, chooses_edge_row = true;  ///< where [mesh] does not say them
+  /// Relative error of each natural frequency of the body under its supports, from mesh and
+  /// reduction together.
+  double error;
+  double up_to_Hz;  ///< upper limit of the frequencies that keep this error
+  bool chooses_order = true, chooses_edge_row = true;  ///< whether [mesh] leaves them open
 };
 
-/// What some sectors of a body have other than the rest of them; one of the three.
+/// A deviation of some sectors of a body from the others: one of section, mass or spring.
 struct Deviation {
-  std::vector<int> sectors;  ///< the meshed one is 0, the next about z is 1; empty: all
-  /// In the place of its group's section; profiles run over places of the whole body.
+  std::vector<int> sectors;  ///< the meshed sector is 0, the next about z is 1; empty: all sectors
+  /// Replaces the section of its group. Profiles are functions of the place in the whole body.
   std::optional<plate::ShellSection> section;
-  /// Besides those of all sectors; components as in the meshed sector, turned with it.
+  /// Added to those of all sectors; its components are those of the meshed sector, turned with it.
   std::optional<plate::PointMass> mass;
   std::optional<plate::Spring> spring;
 };
 
 /// A scene file, read and checked: one case from the mesh to the squeal.
 struct Scene {
-  std::string name;  ///< stem of the files that the programs write
+  std::string name;  ///< stem of the output files' names
   std::string title;
-  std::string text;                ///< of the file, for provenance
-  std::string path;                ///< of the file
-  std::vector<std::string> notes;  ///< for the user: numbers that look like another unit's
+  std::string text;                ///< text of the file, for provenance
+  std::string path;                ///< path of the file
+  std::vector<std::string> notes;  ///< notes for the user: numbers that look as if in another unit
   std::optional<Accuracy> accuracy;
-  /// With `accuracy` a generator's element size of 0, and of a file a size factor of none, are
-  /// still to be chosen.
+  /// With `accuracy`, an element size of 0 of a generator and a missing size factor of a file are
+  /// chosen later.
   mesh::MeshOptions mesh;
-  std::vector<std::string> file_groups;  ///< of the mesh file; empty before it is read
-  /// Of each node; the others are held at zero and not part of the model.
+  std::vector<std::string> file_groups;  ///< groups of the mesh file; empty before it is read
+  /// DOF components of each node; the others are held at zero and not part of the model.
   std::vector<int> components = {0, 1, 2, 3, 4, 5};
   std::vector<plate::ShellSection> sections;
   std::vector<plate::BeamSection> beams;
   std::vector<plate::PointMass> masses;
   std::vector<plate::Spring> springs;
-  std::vector<Deviation> deviations;  ///< of a body of which one sector is meshed
+  std::vector<Deviation> deviations;  ///< of a body of which only one sector is meshed
   std::vector<plate::Coupling> couplings;
-  std::vector<plate::Support> supports;  ///< of `static` and `modes`; the reduction has none
-  std::vector<plate::Load> loads;        ///< of `static`
+  std::vector<plate::Support> supports;  ///< for `static` and `modes`; the reduction has none
+  std::vector<plate::Load> loads;        ///< for `static`
   std::optional<StaticOptions> static_solution;
   std::optional<ModesOptions> natural_modes;
-  std::vector<std::string> interface_nodes;  ///< rings, couplings or groups, all DOFs of each node;
-                                             ///< empty in a scene for `static` or `modes` alone
-  std::vector<plate::RingHarmonics> ring_harmonics;  ///< of interface nodes that are rings
+  /// Rings, couplings or groups whose nodes are masters with all DOFs; empty in a scene for
+  /// `static` or `modes` only.
+  std::vector<std::string> interface_nodes;
+  std::vector<plate::RingHarmonics> ring_harmonics;  ///< harmonics of interface rings
   PictureChoice pictures = PictureChoice::vertices;
   ResultantChoice resultants;
   reduce::ReduceOptions reduce;
-  /// Of a body of equal sectors; without it as many as there are for each harmonic.
+  /// MPI ranks that share one harmonic of a body of equal sectors; empty: as few as the number of
+  /// ranks allows.
   std::optional<int> ranks_per_harmonic;
-  bool mesh_errors = false;    ///< estimate what the mesh lets the body's frequencies be off
-  bool mass_integrals = true;  ///< of a moving frame: Coriolis and centrifugal forces
-  std::vector<std::string> stiffening;  ///< words: motions whose stress is to stiffen the body
-  std::optional<bool> sylvester;  ///< count eigenvalues of the FE model; empty: if that is cheap
+  bool mesh_errors = false;    ///< estimate the error of the body's frequencies due to the mesh
+  bool mass_integrals = true;  ///< integrals for a moving frame: Coriolis and centrifugal forces
+  std::vector<std::string> stiffening;  ///< names of the motions whose stress stiffens the body
+  /// Count the FE model's eigenvalues; empty: only when that is cheap.
+  std::optional<bool> sylvester;
   mbs_export::BodyOptions body;
   std::optional<mbs_export::ResponseOptions> response;
   std::optional<squeal::SquealOptions> squeal;
-  bool radiation = false;  ///< `squeal` damps the modes by the sound that they radiate
+  bool radiation = false;  ///< `squeal` adds the radiation damping of the modes
   std::optional<sound::SoundOptions> sound;
-  std::optional<squeal::ModelOptions> squeal_model;  ///< without a mesh: all else is empty
+  /// For a scene without a mesh; all other parts are then empty.
+  std::optional<squeal::ModelOptions> squeal_model;
 };
 
-/// What a scene is read for; its FE model alone needs neither [interface] nor [reduce].
+/// What a scene is read for: everything, or its FE model, which needs neither [interface] nor
+/// [reduce].
 enum class Purpose { everything, fe_model };
 
-/// The scene of a TOML text; `path` names it in messages, and its folder is where mesh files are.
-/// @throws chladni::Error naming file, line, key and value of what is wrong, and what is allowed.
+/// The scene of a TOML text.
+/// @param path  its name in messages; relative mesh files are looked up in its folder
+/// @throws chladni::Error naming file, line, key and value of a mistake, and what is allowed.
 Scene parse_scene(const std::string& text, const std::string& path,
                   Purpose purpose = Purpose::everything);
 
@@ -111,18 +118,19 @@ Scene parse_scene(const std::string& text, const std::string& path,
 /// @throws chladni::Error as parse_scene, and when the file cannot be read.
 Scene read_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
-/// Refuses the first key that names a group which the mesh file does not have.
-/// @param groups  names of the groups and rings of the mesh that was read
-/// @throws chladni::Error naming file, line, key and value, and the groups that there are.
+/// Checks that the mesh has the groups that the scene names.
+/// @param groups  names of the groups and rings of the mesh
+/// @throws chladni::Error naming file, line, key and value of the first unknown group, and the
+///         groups of the mesh.
 void check_groups(const Scene& scene, const std::vector<std::string>& groups);
 
-/// Refuses the value of a key ("body.keep.modes"; "spring[2].damping" in the second table of a
-/// list) that turns out wrong after the reading.
+/// Refuses the value of a key that turns out to be wrong after reading, such as "body.keep.modes"
+/// or "spring[2].damping" for the second table of a list.
 /// @throws chladni::Error naming file, line, key and value.
 [[noreturn]] void refuse_key(const Scene& scene, const std::string& key, const std::string& why);
 
-/// The scene of a file, for a program that needs its mesh or its body.
-/// @throws chladni::Error as read_scene, and when the scene's model has neither.
+/// The scene of a file, for a program that needs a mesh or a body.
+/// @throws chladni::Error as read_scene, and when the scene has neither.
 Scene read_meshed_scene(const std::string& path, Purpose purpose = Purpose::everything);
 
 }  // namespace chladni::scene

@@ -95,9 +95,9 @@ std::string without_places(std::string_view key)
   const std::string near = nearest_name(key, known);
   const std::string hint =
       near.empty() ? "there are: " + quoted_list(known) : fmt::format("did you mean {}?", near);
-  throw Error(
-      fmt::format("{}: {} is no number of the scene, and what varies must have a value there; {}",
-                  scene.path, key, hint));
+  throw Error(fmt::format(
+      "{}: {} is not a number in the scene, and only keys with a value there can vary; {}",
+      scene.path, key, hint));
 }
 
 }  // namespace
@@ -120,8 +120,8 @@ std::vector<NumberPlace> places_of_squeal_key(const Scene& scene, const std::str
   if (meant.empty()) refuse(scene, key, all);
   if (!key.starts_with(of_squeal)) {
     refuse_key(scene, meant.front().key,
-               "only keys of [squeal] can vary: all others make another body, and that is made "
-               "before");
+               "only keys of [squeal] can vary: other keys change the body, which is made before "
+               "the sweep");
   }
   return meant;
 }

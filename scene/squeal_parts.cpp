@@ -110,12 +110,15 @@ double read_temperature(const Table& friction, const squeal::FrictionTable& tabl
 squeal::FrictionLaw read_measured(const Table& friction)
 {
   for (const char* key : {"kinetic", "static", "decay_speed"})
-    if (friction.has(key)) friction.refuse(key, "`table` has all of mu; take this key out");
+    if (friction.has(key)) friction.refuse(key, "`table` replaces this key; take this key out");
   const std::vector<Table> tables = friction.tables("table");
   if (tables.empty()) friction.refuse("table", "must hold at least one row");
   for (const char* key : {"temperature_C", "pressure_Pa"}) check_key(tables, key);
   std::vector<MeasuredRow> rows;
-  for (const Table& row : tables) rows.push_back(read_row(row));
+  for (const Table& row : tables) {
+    rows.push_back(read_row(row));
+    rows.back().curve.row = static_cast<int>(rows.size());
+  }
   const squeal::FrictionTable table = table_of(friction, rows);
   squeal::FrictionLaw law{.kinetic = friction.has("factor") ? friction.number("factor") : 1.0};
   if (friction.has("regularisation")) law.regularisation = friction.number("regularisation");

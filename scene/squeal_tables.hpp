@@ -9,48 +9,48 @@
 #include "squeal/squeal_options.hpp"
 #include "squeal/study_options.hpp"
 
-/// What the readers of [squeal] share, whichever model it asks for.
+/// Readers that all models of [squeal] share. All throw chladni::Error as the functions of Table.
 namespace chladni::scene {
 
-/// `friction` of [squeal] or of a pad: one coefficient, or a table with `kinetic`, `static`,
-/// `decay_speed` and `regularisation`, or with measured values in `table`.
+/// Reads `friction` of [squeal] or of a pad: one coefficient, a table with `kinetic`, `static`,
+/// `decay_speed` and `regularisation`, or measured values in `table`.
 squeal::FrictionLaw read_friction(const Table& of);
 
-/// The same for a model that cannot take measured values.
+/// Reads `friction` for a model that does not support measured values.
 squeal::FrictionLaw read_plain_friction(const Table& squeal);
 
-/// squeal.contact; unilateral when it is missing.
+/// Reads contact of [squeal]; unilateral when it is missing.
 squeal::ContactLaw read_contact(const Table& squeal);
 
-/// The spring of a pad from its keys `stiffness` and `cubic_stiffness`.
+/// Reads the spring of a pad from its keys `stiffness` and `cubic_stiffness`.
 squeal::PadSpring read_pad_spring(const Table& pad);
 
-/// [[part]], [[joint]], [[contact]] and what [squeal] says of an assembly
+/// Reads [[part]], [[joint]], [[contact]] and the keys of [squeal] for an assembly.
 squeal::AssemblyOptions read_assembly(const Table& root);
 
-/// squeal.pads of a flexible disc
+/// Reads pads of [squeal] for a flexible disc.
 std::vector<squeal::PadPair> read_pads(const Table& squeal);
 
-/// Whether the disc between the pads is a modal body: the analyses that need one are there then.
+/// Whether the study has a modal body; some analyses need one.
 enum class StudyOf { body, model };
 
-/// The keys of [squeal] that say what is to be found out.
+/// Reads the keys of [squeal] that select and configure the analyses.
 squeal::StudyOptions read_study(const Table& squeal, StudyOf of);
 
-/// squeal.limit_cycle_direct; at the speed of the transient unless the scene gives another one.
+/// Reads limit_cycle_direct of [squeal]; its speed is that of the transient unless it is given.
 std::optional<squeal::DirectCase> read_direct(
     const Table& squeal, const std::optional<squeal::TransientCase>& transient);
 
-/// squeal.rotation_stability; by Hill's method when it is missing.
+/// Reads rotation_stability of [squeal]; Hill's method when it is missing.
 squeal::RotationMethod read_rotation_method(const Table& squeal);
 
-/// squeal.critical
+/// Reads critical of [squeal].
 std::vector<squeal::CriticalCase> read_critical(const Table& squeal, StudyOf of);
 
-/// squeal.map
+/// Reads map of [squeal].
 std::optional<squeal::MapCase> read_map(const Table& squeal, StudyOf of);
 
-/// squeal.stability, which is over the speeds of the study unless it says otherwise.
+/// Reads stability of [squeal], which covers the speeds of the study unless it says otherwise.
 std::optional<squeal::StabilityCase> read_stability(const Table& squeal,
                                                     const squeal::SpeedRange& speeds, StudyOf of);
 

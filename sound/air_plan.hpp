@@ -7,46 +7,49 @@
 
 namespace chladni::sound {
 
-/// How the field is discretised.
+/// Discretisation of the sound field.
 enum class Method {
-  automatic,  ///< by Fourier series where the outline is axisymmetric
-  fourier,    ///< triangles in the meridian plane, one circumferential harmonic after the other
+  automatic,  ///< Fourier series when the outline is axisymmetric, else tetrahedra
+  fourier,    ///< triangles in the meridian plane, one system for each circumferential harmonic
   tetrahedra
 };
 
-/// What the scene says about the air; what it leaves out follows from the frequency.
+/// The options of the scene for the air; those left open follow from the frequency.
 struct AirOptions {
   Medium medium = {};
   Method method = Method::automatic;
-  std::optional<int> order = {};               ///< of the elements: 6 in the plane, 2 in space
-  std::optional<double> element_size = {};     ///< m, largest
-  std::optional<double> edge_size = {};        ///< m, at sharp edges
-  std::optional<double> inner_radius = {};     ///< m, where the absorbing layer begins
-  std::optional<double> layer_thickness = {};  ///< m
-  std::optional<double> layer_strength = {};   ///< alpha; see AbsorbingLayer
+  std::optional<int> order = {};  ///< order of the elements; default 6 in the plane, 2 in space
+  std::optional<double> element_size = {};     ///< largest element size, m
+  std::optional<double> edge_size = {};        ///< element size at sharp edges, m
+  std::optional<double> inner_radius = {};     ///< inner radius of the absorbing layer, m
+  std::optional<double> layer_thickness = {};  ///< thickness of the absorbing layer, m
+  std::optional<double> layer_strength = {};   ///< alpha of AbsorbingLayer
 };
 
-/// A mesh for one frequency.
+/// Mesh options and absorbing layer for one frequency.
 struct AirPlan {
-  bool meridian;
+  bool meridian;  ///< triangles in the meridian plane, else tetrahedra
   AirMeshOptions mesh;
   AbsorbingLayer layer;
 };
 
-/// Nodes per wavelength below which a mesh is refused.
+/// The least number of nodes per wavelength; plan_air refuses coarser meshes.
 inline constexpr double least_nodes_per_wavelength = 8.0;
 
+/// Chooses mesh and absorbing layer for one frequency.
 /// @param omega       rad/s
-/// @param half_space  the field is antisymmetric to z = 0
+/// @param half_space  whether the field is antisymmetric about z = 0
 /// @throws chladni::Error when the elements are too large for the frequency, when the layer is too
-///         thin or begins inside the body, or when the outline is not axisymmetric but has to be.
+///         thin or begins inside the body, or when Method::fourier is asked for an outline with
+///         holes.
 AirPlan plan_air(const Outline& outline, const AirOptions& options, double omega, bool half_space);
 
-/// A plan with larger elements, whose error is more than twice that of the plan: the difference of
-/// the two fields then tells the error of the finer one. It may be too coarse for plan_air.
+/// The plan with larger elements, whose error is more than twice as large: the difference of the
+/// two fields then estimates the error of the finer one. The result may be too coarse for plan_air.
 AirPlan coarsened(AirPlan plan);
 
-/// The mesh of a plan.
+/// Meshes the air by a plan.
+/// @throws chladni::Error as mesh_meridian and mesh_space.
 AirMesh air_around(const Outline& outline, const AirPlan& plan);
 
 }  // namespace chladni::sound

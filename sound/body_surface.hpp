@@ -6,20 +6,22 @@
 
 namespace chladni::sound {
 
-/// Integration points on the surface of the body; of the half z > 0 alone in a half space.
+/// Integration points on the surface of the body; in a half space only those with z > 0.
 struct BodySurface {
   Eigen::MatrixXd x;       ///< [n_points x 2 or 3] m
   Eigen::MatrixXd normal;  ///< [n_points x 2 or 3] unit vectors into the air
-  Eigen::VectorXd weight;  ///< [n_points] area, m^2; of a meridian: arc length times r, m^2 / rad
-  Eigen::SparseMatrix<double, Eigen::RowMajor> trace;  ///< [n_points x n_nodes] value of a field
+  Eigen::VectorXd weight;  ///< [n_points] area, m^2; for a meridian arc length times r, m^2 / rad
+  /// [n_points x n_nodes] interpolates nodal values at the points.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> trace;
 
   Eigen::Index n_points() const { return weight.size(); }
 };
 
+/// The integration points on the body's surface of a mesh.
 BodySurface body_surface(const AirMesh& mesh);
 
-/// Area of the whole surface that one point of weight 1 stands for, of a field cos(n phi) squared:
-/// what an integral over the points is multiplied with.
+/// Factor from the sum over the integration points to the integral over the whole surface, for the
+/// square of a field with cos(n phi).
 double surface_measure(const AirMesh& mesh, int n);
 
 }  // namespace chladni::sound

@@ -8,20 +8,23 @@
 
 namespace chladni::sound {
 
-/// LDL^T of a complex symmetric matrix by MUMPS on this process alone, eliminated in an order by
-/// METIS.
-/// @note MPI must be running.
+/// LDL^T factor of a complex symmetric matrix, computed by MUMPS on this process alone with an
+/// ordering by METIS.
+/// @note MPI must be initialised.
 class ComplexFactor {
  public:
   using Sparse = Eigen::SparseMatrix<std::complex<double>>;
 
-  /// @param lower  the lower triangle
+  /// Factorises a matrix.
+  /// @param lower  its lower triangle
   /// @throws chladni::Error when the factorisation fails.
   explicit ComplexFactor(const Sparse& lower);
   ~ComplexFactor();
   ComplexFactor(const ComplexFactor&) = delete;
   ComplexFactor& operator=(const ComplexFactor&) = delete;
 
+  /// Solves for any number of right-hand sides, one per column.
+  /// @throws chladni::Error when MUMPS fails.
   Eigen::MatrixXcd solve(Eigen::MatrixXcd right_hand_sides);
   double memory_MiB() const { return mumps_.infog[21]; }  ///< INFOG(22)
 

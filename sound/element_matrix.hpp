@@ -7,19 +7,23 @@
 
 namespace chladni::sound {
 
-/// Integrates the weak form of the Helmholtz equation over one element after the other:
-/// integral of grad p . grad q - k^2 p q, in the meridian plane times r and with + n^2 / r^2 p q.
+/// Element matrix of the weak form of the Helmholtz equation: integral of grad p . grad q - k^2 p
+/// q, in the meridian plane multiplied by r and with + n^2 / r^2 p q.
 class ElementIntegral {
  public:
+  /// @param k  wave number, 1/m
   /// @param n  circumferential harmonic in the meridian plane
   ElementIntegral(const LagrangeBasis& basis, double k, int n);
 
-  /// [n x n] symmetric, not Hermitian.
-  /// @param x       [n x dimension] real positions of the nodes, which tell the orientation: the
-  ///                sign of a complex determinant flips inside a strong layer
-  /// @param stretched  their complex positions
+  /// Element matrix inside an absorbing layer.
+  /// @param x          [n x dimension] real positions of the nodes, which give the orientation: the
+  ///         sign of a complex determinant changes inside a strong layer
+  /// @param stretched  [n x dimension] complex positions of the nodes
+  /// @return [n x n] symmetric, not Hermitian
   Eigen::MatrixXcd operator()(const Eigen::MatrixXd& x, const Eigen::MatrixXcd& stretched) const;
-  /// The same without a layer.
+  /// Element matrix without a layer.
+  /// @param x  [n x dimension] positions of the nodes
+  /// @return [n x n] symmetric
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const;
 
  private:
@@ -32,8 +36,8 @@ class ElementIntegral {
   double k_;
   int n_;
   Eigen::VectorXd weights_;
-  Eigen::MatrixXd N_;   ///< [n_points x n]
-  Eigen::MatrixXd dN_;  ///< [dimension n_points x n]: all derivatives of each point in turn
+  Eigen::MatrixXd N_;   ///< [n_points x n] shape functions
+  Eigen::MatrixXd dN_;  ///< [dimension n_points x n] derivatives, those of each point together
 };
 
 }  // namespace chladni::sound

@@ -5,23 +5,23 @@
 
 namespace chladni::sound {
 
-/// How the air around an outline is meshed.
+/// Options of a mesh of the air around an outline.
 struct AirMeshOptions {
-  int order = 4;           ///< of the elements
-  double element_size;     ///< m, largest
-  double edge_size;        ///< m, at the sharp edges of the body
-  double growth = 0.6;     ///< of the size per distance from there
-  double inner_radius;     ///< m, of the sphere where the absorbing shell begins
+  int order = 4;           ///< order of the elements
+  double element_size;     ///< largest element size, m
+  double edge_size;        ///< element size at the sharp edges of the body, m
+  double growth = 0.6;     ///< increase of the size per distance from the edges
+  double inner_radius;     ///< radius of the sphere where the absorbing shell begins, m
   double shell_thickness;  ///< m
-  bool half_space;         ///< only z > 0, for fields that are antisymmetric to z = 0
+  bool half_space;         ///< mesh only z > 0, for fields antisymmetric about z = 0
 };
 
 /// Triangles in the meridian plane of an axisymmetric outline.
-/// @throws chladni::Error when Gmsh fails or the sphere does not hold the body.
+/// @throws chladni::Error when Gmsh fails or the sphere does not contain the body.
 AirMesh mesh_meridian(const Outline& outline, const AirMeshOptions& options);
 
-/// Tetrahedra.
-/// @throws chladni::Error likewise.
+/// Tetrahedra around an outline.
+/// @throws chladni::Error when Gmsh fails or the sphere does not contain the body.
 AirMesh mesh_space(const Outline& outline, const AirMeshOptions& options);
 
 }  // namespace chladni::sound

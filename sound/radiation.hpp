@@ -6,23 +6,24 @@
 
 namespace chladni::sound {
 
-/// How far from the squeal the frequency of a mode may be to be taken for the one that squeals.
+/// Relative frequency distance below which a mode counts as a mode of the squeal.
 inline constexpr double near_squeal = 0.05;
 
-/// What the air does to each of the modes of a body: the pressure of q' = 1 does the work
-/// Z = integral of p conj(v_n), so that the equation of the mode gains Re(Z) q' and
-/// Im(Z) / omega q''. It is evaluated at the frequency of the mode, but for modes near the squeal,
-/// which the pads stiffen, at that of the squeal. Coupling of modes through the air is left out.
-/// @param modes         0-based, those that `motion` has
+/// Radiation damping and added mass of each mode of a body. For q' = 1 the pressure does the work
+/// Z = integral of p conj(v_n), so that the modal equation gains the terms Re(Z) q' and
+/// Im(Z) / omega q''. Z is evaluated at the mode's frequency, or at the squeal frequency for modes
+/// near it, which the pads stiffen. Coupling of modes through the air is neglected.
+/// @param modes         0-based numbers of the modes in `source.motion`
 /// @param squeal_omega  rad/s; 0 for none
 /// @throws chladni::Error from plan_air.
-/// @note MPI must be running.
+/// @note MPI must be initialised.
 squeal::Radiation radiation(const mbs_export::ModalBody& body, const Source& source,
                             const std::vector<int>& modes, double squeal_omega);
 
-/// The mean over both modes of each pair whose radiation is the same by the symmetry of the
-/// outline: all with nodal diameters around an axisymmetric one; with N holes at equal angles those
-/// whose doubled number N does not divide. What they differ by is an error of the mesh.
+/// Replaces the radiation of both modes of a pair by their mean when symmetry makes them equal: for
+/// all pairs with n > 0 nodal diameters of an axisymmetric outline; for an outline with N holes at
+/// equal angles, for those where N does not divide 2 n. The difference within such a pair is an
+/// error of the mesh.
 squeal::Radiation even_over_pairs(squeal::Radiation radiation, const squeal::Disc& disc,
                                   const Outline& outline);
 

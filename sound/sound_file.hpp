@@ -7,7 +7,8 @@
 
 namespace chladni::sound {
 
-/// Writes `*.sound.h5`: written to a temporary name, flushed and renamed.
+/// Writes the results to a file `*.sound.h5`, under a temporary name that is flushed and then
+/// renamed.
 /// @throws chladni::Error when the file cannot be written.
 void write_sound(const std::filesystem::path& file, const SoundResults& results,
                  const mbs_export::Provenance& provenance);

@@ -9,37 +9,38 @@
 
 namespace chladni::sound {
 
-/// Where the sound is listened to.
+/// A point where the sound is computed.
 struct Microphone {
   std::string name;
-  Eigen::Vector3d x;  ///< m, in the frame of the scene, which does not rotate
+  Eigen::Vector3d x;  ///< position in the scene's frame, which does not rotate, m
 };
 
-/// The pressure at a microphone as a file.
+/// A sound file of the pressure at a microphone.
 struct WavCase {
   std::string microphone;
   int rate_Hz;
   double duration;  ///< s
 };
 
-/// Which limit cycle of a squeal study sounds.
+/// The limit cycle of a squeal study whose sound is computed.
 enum class CycleChoice {
-  automatic,  ///< that of a transient which has settled, else the direct one, else the end
-              ///< of the transient
+  /// The end of a transient that has settled, else the direct limit cycle, else the end of the
+  /// transient.
+  automatic,
   transient,
   direct
 };
 
-/// The scene's [sound].
+/// The options of the scene's [sound].
 struct SoundOptions {
   AirOptions air = {};
-  std::vector<MidLine> lines;  ///< middle surface of the body
+  std::vector<MidLine> lines;  ///< middle surface of the body in the meridian plane
   Hub hub = Hub::closed;
   std::vector<Holes> holes = {};
   std::vector<Microphone> microphones = {};
   CycleChoice cycle = CycleChoice::automatic;
-  int harmonics = 5;                ///< multiples of the frequency that are looked at
-  std::vector<double> speeds = {};  ///< rad/s, of further limit cycles
+  int harmonics = 5;                ///< number of harmonics of the motion whose sound is computed
+  std::vector<double> speeds = {};  ///< speeds of further limit cycles, rad/s
   std::optional<WavCase> wav = {};
 };
 

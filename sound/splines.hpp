@@ -4,14 +4,15 @@
 
 namespace chladni::sound {
 
-/// Cubic B-splines on [0, length] over equal intervals.
+/// Cubic B-splines on [0, length] with equal intervals.
 class Splines {
  public:
   Splines(double length, int n_intervals);
 
   int size() const { return n_intervals_ + 3; }
-  /// All splines at s, which is brought into the interval first.
+  /// Values of all splines at s; s outside the interval is moved to its nearest end.
   Eigen::RowVectorXd values(double s) const;
+  /// Derivatives of all splines by s, at the same s.
   Eigen::RowVectorXd slopes(double s) const;
 
  private:

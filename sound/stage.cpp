@@ -48,9 +48,9 @@ Vibration vibration_in(const squeal::SquealResults& results, CycleChoice choice)
   const auto fundamental = [](const auto& cycle) {
     if (cycle.amplitude.size() == 0) {
       throw Error(
-          "sound: the limit cycle has no amplitudes in the standing frame, because its disc is not "
-          "axisymmetric: such a disc sounds at more frequencies than one; what each of its modes "
-          "radiates is found with --radiation");
+          "sound: the limit cycle has no amplitudes in the fixed frame, because its disc is not "
+          "axisymmetric and radiates at several frequencies; compute the radiation of each mode "
+          "with --radiation");
     }
     Vibration v{.speed = cycle.speed,
                 .omega = 2.0 * std::numbers::pi * cycle.frequency_Hz,

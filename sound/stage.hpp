@@ -11,7 +11,7 @@
 
 namespace chladni::sound {
 
-/// What all steps of a study need.
+/// Disc, body, surface motion and air: what all steps of a sound study use.
 struct Stage {
   squeal::Disc disc;
   ThickBody body;
@@ -21,19 +21,22 @@ struct Stage {
   Source source() const { return {body, motion, air}; }
 };
 
+/// Prepares a sound study.
 /// @throws chladni::Error from make_disc, thick_body and SurfaceMotion.
 Stage make_stage(const mbs_export::ModalBody& body, const squeal::SquealOptions& squeal,
                  const SoundOptions& sound);
 
-/// The modes of the disc, 0-based in the body.
+/// The disc's modes as 0-based numbers of the body's modes.
 std::vector<int> modes_of(const squeal::Disc& disc);
 
-/// The periodic motion of a squeal study that sounds: its fundamental.
-/// @throws chladni::Error when there is none, when it has no amplitudes in the standing frame, and
-///         when it is of other modes than those of the disc.
+/// The periodic motion, with its fundamental harmonic only, whose sound is computed.
+/// @throws chladni::Error when there is none, when it has no amplitudes in the fixed frame, when it
+///         consists of other modes than those of the disc, and when its frequency is far above
+///         them.
 Vibration chosen_vibration(const squeal::SquealResults& results, CycleChoice choice,
                            const squeal::Disc& disc);
 
+/// Checks the positions of the microphones.
 /// @throws chladni::Error naming a microphone inside the body.
 void check_microphones(const Outline& outline, const std::vector<Microphone>& microphones);
 

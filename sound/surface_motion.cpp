@@ -107,7 +107,8 @@ void check_rank(const MidLine& line, Index n_samples, Index rank, Index needed)
   if (rank >= needed) return;
   throw Error(fmt::format(
       "sound: the {} nodes of the body's picture between (r, z) = ({:.4g}, {:.4g}) and ({:.4g}, "
-      "{:.4g}) m do not tell the {} coefficients of its motion; set pictures = \"all\" in [reduce]",
+      "{:.4g}) m are too few for the {} coefficients of its motion; set pictures = \"all\" in "
+      "[reduce]",
       n_samples, line.from[0], line.from[1], line.to[0], line.to[1], needed));
 }
 

@@ -8,67 +8,73 @@
 
 namespace chladni::sound {
 
-/// A periodic motion of a body: displacement Re sum_h exp(i h omega t) sum_i harmonics(i, h - 1)
-/// shape_i, in a frame that does not rotate.
+/// A periodic motion of a body in a frame that does not rotate, with the displacement
+/// Re sum_h exp(i h omega t) sum_i harmonics(i, h - 1) shape_i.
 struct Vibration {
-  double speed;                ///< of the disc, rad/s
-  double omega;                ///< rad/s
-  std::vector<int> modes;      ///< [n_modes] 0-based in the body
+  double speed;                ///< rotation speed of the disc, rad/s
+  double omega;                ///< fundamental angular frequency, rad/s
+  std::vector<int> modes;      ///< [n_modes] 0-based numbers of the body's modes
   Eigen::MatrixXcd harmonics;  ///< [n_modes x n_harmonics] m kg^(1/2)
 };
 
 /// The sound of one harmonic of a vibration.
 struct Tone {
-  int h;              ///< multiple of the frequency
-  double omega;       ///< of the tone, rad/s
-  int n_unknowns;     ///< of all its systems of equations
-  int n_elements;     ///< of its mesh
-  double memory_MiB;  ///< of the largest factor
-  /// Of each circumferential harmonic, with the columns cos(n phi) and sin(n phi); or one of space.
+  int h;              ///< multiple of the fundamental frequency
+  double omega;       ///< angular frequency of the tone, rad/s
+  int n_unknowns;     ///< sum over its systems of equations
+  int n_elements;     ///< number of elements of its mesh
+  double memory_MiB;  ///< memory of its largest factor
+  /// For each circumferential harmonic a field with the columns cos(n phi) and sin(n phi), or one
+  /// field in space.
   std::vector<Field> fields;
 };
 
-/// A body whose sound is computed.
+/// The body whose sound is computed, with the air around it.
 struct Source {
   const ThickBody& body;
-  const SurfaceMotion& motion;  ///< of the modes of the vibration, in their order
+  const SurfaceMotion& motion;  ///< surface motion of the vibration's modes, in their order
   const AirOptions& air;
 };
 
-/// The tones up to `n_harmonics` whose surface moves at all: below 1e-9 of the velocity of the
-/// first one there is rounding.
+/// Computes the tones of the harmonics up to `n_harmonics`. Harmonics whose modal velocity is below
+/// 1e-9 of that of the first are rounding errors and left out.
 /// @throws chladni::Error from plan_air.
-/// @note MPI must be running.
+/// @note MPI must be initialised.
 std::vector<Tone> tones(const Source& source, const Vibration& vibration, int n_harmonics);
 
-/// Looks at the air of all these tones without solving for any.
+/// Checks the air mesh of all these tones without solving for them.
 /// @throws chladni::Error from plan_air.
 void check_air(const Source& source, const Vibration& vibration, int n_harmonics);
 
-/// What the elements of the air leave out of a tone, relative to it: an estimate from the same tone
-/// with larger elements. What the absorbing layer reflects is not in it.
+/// Estimated relative error of a tone due to the elements of the air, from the same tone with
+/// larger elements. Reflections of the absorbing layer are not included.
 struct Accuracy {
-  double balance;  ///< power far away over that at the surface, less 1
-  /// In the mean square over all directions far away; absent when Gmsh has no mesh of larger ones.
+  double balance;  ///< far-field power over the power at the surface, minus 1
+  /// Relative error of the pressure, as a mean square over all far-field directions; absent when
+  /// Gmsh cannot make the coarser mesh.
   std::optional<double> pressure;
 
-  /// Of the power at the surface, when e is that of the pressure: the power far away is the mean
-  /// square of the pressure, hence 2 e + e^2, to which the balance is added.
+  /// Relative error of the power at the surface. With the error e of the pressure the far-field
+  /// power, its mean square, has the error 2 e + e^2, to which |balance| is added.
   std::optional<double> power() const;
 };
 
-/// Solves for the tone of the vibration once more, with the elements of `coarsened`.
-/// @note MPI must be running.
+/// Estimates the error of a tone by solving once more with the mesh of `coarsened`.
+/// @note MPI must be initialised.
 Accuracy accuracy(const Source& source, const Vibration& vibration, const Tone& tone);
 
-/// Complex pressures at points of space, Pa.
+/// Complex pressure at points in space.
+/// @param x  [n x 3] m
+/// @return [n] Pa
 /// @throws chladni::Error when a point is inside the body.
 Eigen::VectorXcd pressure_at(const Tone& tone, const Eigen::MatrixX3d& x);
 
-/// p R exp(ikR) far away, Pa m.
+/// Far-field amplitude p R exp(ikR) for R to infinity.
+/// @param directions  [n x 3] unit vectors
+/// @return [n] Pa m
 Eigen::VectorXcd far_field(const Tone& tone, const Eigen::MatrixX3d& directions);
 
-/// Radiated power at the surface and far away, W.
+/// Radiated power at the surface, and from the far field, W.
 double near_power(const Tone& tone);
 double far_power(const Tone& tone);
 

@@ -5,13 +5,13 @@
 
 namespace chladni::squeal {
 
-/// An analysis as a scene asks for it. What performs it is the row of its name in
+/// An analysis that a scene can ask for. Its implementation is the row with the same name in
 /// study/analysis_steps.hpp.
 struct Analysis {
   std::string_view name;
-  std::string_view key;        ///< of [squeal] without which it cannot be done; empty: none
-  std::string_view otherwise;  ///< key that holds the same and will do; empty: none
-  bool needs_body;             ///< only a flexible disc has it
+  std::string_view key;        ///< key of [squeal] that the analysis needs; empty: none
+  std::string_view otherwise;  ///< key that may replace it; empty: none
+  bool needs_body;             ///< needs a flexible disc
 };
 
 /// All analyses, in the order in which messages and documents list them.
@@ -34,7 +34,7 @@ inline constexpr std::array<Analysis, 16> analyses{{
     {"gradients", "speeds", "", false},
 }};
 
-/// The analysis of this name; null when there is none.
+/// The analysis with this name; null for an unknown name.
 constexpr const Analysis* find_analysis(std::string_view name)
 {
   for (const Analysis& analysis : analyses)

@@ -5,12 +5,14 @@
 
 namespace chladni::squeal {
 
-/// f(x + i h) / h has no difference in it: any h does whose square is far below rounding.
+/// Step h of complex-step derivatives f(x + i h) / h. They have no cancellation, so h^2 may be far
+/// below rounding.
 inline constexpr double complex_step = 1e-30;
 
-/// df/dx [m x n] at x = 0 by complex steps, exact to rounding.
-/// @param f  takes and returns an Eigen::VectorXcd; analytic at 0
+/// df/dx at x = 0 by complex steps, exact to rounding.
+/// @param f  function of an Eigen::VectorXcd, analytic at 0
 /// @param n  size of x
+/// @return [m x n]
 template <class Function>
 Eigen::MatrixXd derivative_at_rest(const Function& f, Eigen::Index n)
 {

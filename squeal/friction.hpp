@@ -8,21 +8,24 @@
 
 namespace chladni::squeal {
 
-/// Friction that depends on the speed of sliding v and takes its direction smoothly through zero:
+/// Friction law with a coefficient that depends on the sliding speed v and a direction that is
+/// smooth through zero:
 ///   T = -mu(v) N v_r / v,   mu(v) = mu + (mu_s - mu) exp(-v / v_s),   v = sqrt(|v_r|^2 + eps^2),
-/// or mu(v, p) = mu table(v, p) with the pressure p of the pad, where there is a table.
-/// The default is Coulomb's law with one coefficient, whose direction is undefined at rest.
-/// With eps > 0 there is no sticking: a contact that should stick creeps at less than about eps.
+/// or, with a table, mu(v, p) = mu table(v, p) with the pad pressure p. The default is Coulomb's
+/// law with one coefficient, whose direction is undefined at rest. With eps > 0 there is no
+/// sticking: a contact that should stick creeps with a speed of about eps or less.
 struct FrictionLaw {
-  double kinetic = 0.0;         ///< mu, far above `decay_speed`; of a table the factor
-  double rise = 0.0;            ///< mu_s - mu: what friction gains towards rest
+  /// Kinetic coefficient mu, for v far above `decay_speed`; with a table a factor on it.
+  double kinetic = 0.0;
+  double rise = 0.0;            ///< mu_s - mu, the increase of friction towards rest
   double decay_speed = 1.0;     ///< v_s, m/s
   double regularisation = 0.0;  ///< eps, m/s
-  std::shared_ptr<const FrictionTable> table = {};  ///< measured; without `rise`
-  double temperature = 20.0;                        ///< of the table, degrees Celsius
+  std::shared_ptr<const FrictionTable> table = {};  ///< measured values; `rise` is then not used
+  double temperature = 20.0;                        ///< temperature for the table, degrees Celsius
 };
 
-/// v of the law: the speed of sliding, held away from zero.
+/// The speed v of the law, sqrt(slip^2 + eps^2), m/s.
+/// @param slip_squared  |v_r|^2, m^2/s^2
 template <class Scalar>
 Scalar regularised_speed(const FrictionLaw& law, const Scalar& slip_squared)
 {
@@ -30,7 +33,8 @@ Scalar regularised_speed(const FrictionLaw& law, const Scalar& slip_squared)
   return sqrt(slip_squared + law.regularisation * law.regularisation);
 }
 
-/// table(v, p), to first order in the imaginary parts of complex steps.
+/// Value table(v, p); complex arguments of complex steps are evaluated to first order in their
+/// imaginary parts.
 inline double table_value(const FrictionLaw& law, double v, double p)
 {
   return friction_at(*law.table, law.temperature, {v, p}).mu;
@@ -42,7 +46,7 @@ inline std::complex<double> table_value(const FrictionLaw& law, const std::compl
   return {f.mu, f.by_speed * v.imag() + f.by_pressure * p.imag()};
 }
 
-/// mu at the regularised speed v and the pressure p (Pa).
+/// mu at the regularised speed v (m/s) and the pressure p (Pa).
 template <class Scalar>
 Scalar friction_coefficient(const FrictionLaw& law, const Scalar& v, const Scalar& p = Scalar(0.0))
 {
@@ -52,7 +56,7 @@ Scalar friction_coefficient(const FrictionLaw& law, const Scalar& v, const Scala
   return law.kinetic + law.rise * exp(-v / law.decay_speed);
 }
 
-/// The same law with all coefficients multiplied by `factor`.
+/// The law with all coefficients multiplied by `factor`.
 inline FrictionLaw scaled(FrictionLaw law, double factor)
 {
   law.kinetic *= factor;
@@ -60,12 +64,13 @@ inline FrictionLaw scaled(FrictionLaw law, double factor)
   return law;
 }
 
-/// A spring that stiffens, F = k x + k_3 x^3.
+/// A spring with cubic stiffening, F = k x + k_3 x^3.
 struct PadSpring {
   double linear;       ///< k, N/m
   double cubic = 0.0;  ///< k_3, N/m^3
 };
 
+/// Force of the spring at the compression x (m), N.
 template <class Scalar>
 Scalar force(const PadSpring& spring, const Scalar& x)
 {

@@ -105,7 +105,8 @@ FrictionValue at_temperature(const FrictionTable& table, std::size_t t, const Fr
 FrictionCurve friction_curve(std::vector<double> speeds, std::vector<double> mu)
 {
   const std::size_t n = speeds.size();
-  FrictionCurve curve{std::move(speeds), std::move(mu), std::vector<double>(n, 0.0)};
+  FrictionCurve curve{
+      .speeds = std::move(speeds), .mu = std::move(mu), .slopes = std::vector<double>(n, 0.0)};
   if (n < 2) return curve;
   std::vector<double> h, s;
   for (std::size_t i = 0; i + 1 < n; ++i) {

@@ -9,43 +9,43 @@
 
 namespace chladni::squeal {
 
-/// A rigid disc on a spherical joint at its centre, held by rotational springs and dampers, between
-/// two pads on the vertical axis through (0, -r_0).
+/// A rigid disc on a spherical joint at its centre with rotational springs and dampers, between two
+/// pads on the vertical axis through (0, -r_0).
 struct RigidDisc {
   double Theta;      ///< moment of inertia about a diameter, kg m^2
   double Phi;        ///< moment of inertia about the axis, kg m^2
-  double k_t;        ///< rotational spring, N m
-  double d_t;        ///< rotational damper, N m s
-  double radius;     ///< r_0 of the pads, m
+  double k_t;        ///< stiffness of the rotational springs, N m
+  double d_t;        ///< damping of the rotational dampers, N m s
+  double radius;     ///< radius r_0 of the pads, m
   double thickness;  ///< distance h of the two contact planes, m
-  PadSpring spring;  ///< of each pad
-  double damping;    ///< d of each pad, N s/m
-  double preload;    ///< N_0 of each pad, N
+  PadSpring spring;  ///< spring of each pad
+  double damping;    ///< damping d of each pad, N s/m
+  double preload;    ///< preload N_0 of each pad, N
   FrictionLaw friction;
   ContactLaw law = ContactLaw::unilateral;
 };
 
-/// What turns the disc, along the inertial vertical.
+/// The moment that drives the disc about the inertial vertical.
 enum class Drive {
-  speed,  ///< a moment that keeps the spin constant
+  speed,  ///< the moment that keeps the spin constant
   moment  ///< the constant moment 2 mu r_0 N_0
 };
 
-/// Which equations of the rigid disc a simulation takes.
+/// Equations of the rigid disc for a simulation.
 enum class RigidEquations {
-  nonlinear,  ///< finite angles, and the contact law beyond the loss of contact
-  linear      ///< their linearisation at rest
+  nonlinear,  ///< finite angles, and loss of contact by the contact law
+  linear      ///< the linearisation at rest
 };
 
-/// How a rigid disc is driven and simulated.
+/// A rigid disc with its drive and equations.
 struct RigidDiscStudy {
   RigidDisc disc;
   Drive drive = Drive::speed;
   RigidEquations equations = RigidEquations::nonlinear;
 };
 
-/// The least that squeals: a mass that is pressed on a moving surface and held by springs which
-/// couple its motion x along the surface to its motion y into it. Both are counted from the sliding
+/// The minimal model with squeal: a mass pressed on a moving surface and held by springs that
+/// couple its motion x along the surface and y normal to it. Both are measured from the sliding
 /// equilibrium; the contact stiffness k_c makes the normal force depend on y:
 ///   m x'' + d_x x' + k_x x + k_xy y             = mu(v) N v_r / v - mu(V) N_0
 ///   m y'' + d_y y' + k_xy x + k_y y + (N - N_0) = 0,     N = N_0 + k_c y,   v_r = V - x'
@@ -53,19 +53,20 @@ struct RigidDiscStudy {
 /// Source: the kind of model of Popp, Rudolph, Kroeger, Lindner, VDI-Berichte 1736 (2002).
 struct Oscillator {
   double mass;               ///< m, kg
-  double k_x;                ///< along the surface, N/m
-  double k_y;                ///< normal to it, N/m
-  double k_xy;               ///< coupling, N/m; k_xy^2 < k_x k_y
-  double d_x;                ///< N s/m
-  double d_y;                ///< N s/m
+  double k_x;                ///< stiffness along the surface, N/m
+  double k_y;                ///< stiffness normal to the surface, N/m
+  double k_xy;               ///< coupling stiffness, N/m; k_xy^2 < k_x k_y
+  double d_x;                ///< damping along the surface, N s/m
+  double d_y;                ///< damping normal to the surface, N s/m
   double contact_stiffness;  ///< k_c, N/m
   double preload;            ///< N_0, N
-  double radius;             ///< V = radius * speed is the velocity of the surface, m
+  double radius;             ///< radius of the surface, whose velocity is V = radius * speed, m
   FrictionLaw friction;
   ContactLaw law = ContactLaw::unilateral;
 };
 
-/// A study of a model that needs no mesh: none of a body, or bodies of other scenes.
+/// A study of a model without a mesh of its own: a rigid disc, an oscillator, or an assembly of
+/// bodies made by other scenes.
 struct ModelOptions {
   std::variant<RigidDiscStudy, Oscillator, AssemblyOptions> model;
   StudyOptions study;

@@ -7,13 +7,14 @@
 
 namespace chladni::squeal {
 
-/// Whether this thread works for a loop of `for_each_index`.
+/// Whether this thread executes a loop of `for_each_index`.
 inline thread_local bool is_within_loop = false;
 
-/// f(i) for i = 0 ... n - 1 on `n_threads` threads, 0 for as many as there are processors. Each
-/// index is computed alone, so that a result that is stored by index does not depend on their
-/// number. A loop within a loop takes the thread that it is on: all processors are busy already.
-/// Rethrows the first exception of the lowest thread.
+/// Calls f(i) for i = 0 ... n - 1 on `n_threads` threads, 0 for the number of processors. Each
+/// index is computed independently, so a result stored by index does not depend on the number of
+/// threads. A loop inside another one runs on its caller's thread, because all processors are
+/// already in use.
+/// @throws the first exception of the thread with the lowest index
 template <class Function>
 void for_each_index(int n, const Function& f, unsigned n_threads = 0)
 {

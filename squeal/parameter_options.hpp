@@ -7,10 +7,10 @@
 
 namespace chladni::squeal {
 
-/// A scalar key of [squeal] that a study may vary, of all pads or of one if it is one of pads.
+/// A scalar key of [squeal] that a study may vary, for all pads or for one pad pair.
 struct MapParameter {
-  std::string_view name;  ///< of a row of `parameters`
-  int pad = 0;            ///< number of the pad pair, from 1; 0: all of them
+  std::string_view name;  ///< name of its row in `parameters`
+  int pad = 0;            ///< number of the pad pair, from 1; 0: all pairs
 
   static const MapParameter friction;   ///< mu
   static const MapParameter preload;    ///< N_0 of every pad, N
@@ -24,17 +24,18 @@ inline constexpr MapParameter MapParameter::preload{"preload"};
 inline constexpr MapParameter MapParameter::stiffness{"stiffness"};
 inline constexpr MapParameter MapParameter::damping{"damping"};
 
-/// Which brakes have a parameter.
+/// The kinds of brakes that have a parameter.
 enum class ParameterOf { any, body, rigid_disc, oscillator };
 
+/// A parameter with its unit and range.
 struct ParameterRow {
-  std::string_view
-      name;  ///< that of its key in [squeal]; of pads the first four have none of theirs
-  std::string_view unit;
+  std::string_view name;  ///< key in [squeal]; the first four omit the `pads.` of a pad parameter
+  std::string_view unit;  ///< of the value
   bool may_be_zero = false;
   ParameterOf of = ParameterOf::body;
 };
 
+/// All parameters that a study may vary.
 inline constexpr std::array parameters = {
     ParameterRow{"friction", "1", true, ParameterOf::any},
     ParameterRow{"preload", "N", false, ParameterOf::any},
@@ -98,13 +99,13 @@ inline constexpr std::array parameters = {
     ParameterRow{"oscillator.radius", "m", false, ParameterOf::oscillator},
 };
 
-/// A parameter that a brake has, and its value.
+/// A parameter of a brake and its value.
 struct ParameterValue {
   MapParameter parameter;
   double value;  ///< in the unit of its row
 };
 
-/// The row of this name; null when there is none.
+/// The row with this name; null for an unknown name.
 constexpr const ParameterRow* find_parameter(std::string_view name)
 {
   for (const ParameterRow& row : parameters)
@@ -112,15 +113,15 @@ constexpr const ParameterRow* find_parameter(std::string_view name)
   return nullptr;
 }
 
-/// Its name, or "pads[2].stiffness" of one pad.
+/// The key of a parameter: its name, or "pads[2].stiffness" for one pad pair.
 std::string key_of(MapParameter parameter);
 
-/// The parameter whose `key_of` this is; absent when there is none.
+/// The parameter with this key (inverse of `key_of`); absent for an unknown key.
 std::optional<MapParameter> parameter_of(std::string_view key);
 
-/// Sets what `at` points to.
-/// @param at  null where the brake has no such key
-/// @throws chladni::Error then, with the parameter and what to do.
+/// Sets the value that `at` points to.
+/// @param at  null when the brake does not have the parameter
+/// @throws chladni::Error when `at` is null, with the parameter and what to do.
 void set_parameter(double* at, MapParameter parameter, double value);
 
 }  // namespace chladni::squeal

@@ -5,8 +5,10 @@
 
 namespace chladni::squeal {
 
-/// Root of a continuous function between `low` (negative) and `high` (positive): regula falsi with
-/// the Illinois rule, which halves the value at an end that stays twice.
+/// Root of a continuous function between `low`, where it is negative, and `high`, where it is
+/// positive, by regula falsi with the Illinois rule: the value at an end that remains twice is
+/// halved.
+/// @param tolerance  relative change of the root at which the iteration ends
 template <class Function>
 double root(const Function& f, double low, double high, double tolerance = 1e-14)
 {

@@ -8,21 +8,24 @@
 
 namespace chladni::squeal {
 
-/// Rotation speeds, rad/s, equally spaced.
+/// Equally spaced rotation speeds, rad/s.
 struct SpeedRange {
   double from;
   double to;
   int count;
-  std::optional<double> wheel_radius = {};  ///< m; then speeds are told on the road too
+  /// m; if given, speeds are also reported as road speeds.
+  std::optional<double> wheel_radius = {};
 };
 
-/// How a transient is integrated; see integrator_choice.hpp.
+/// Integration method of a transient; see integrator_choice.hpp.
 enum class IntegratorKind {
   automatic,
-  splitting,         ///< exact modes, kicks of the pads: any disc
-  exponential,       ///< exact modes and linearised pads, kicks of the rest: axisymmetric discs
-  dormand_prince,    ///< explicit Runge-Kutta of order 8, contact events located
-  generalised_alpha  ///< implicit, for stiff pads
+  splitting,  ///< exact modal flow, pad forces as kicks; for any disc
+  /// Exact flow of the modes with linearised pads, the remaining pad forces as kicks; for
+  /// axisymmetric discs.
+  exponential,
+  dormand_prince,    ///< explicit Runge-Kutta method of order 8 with located contact events
+  generalised_alpha  ///< implicit method, for stiff pads
 };
 
 /// A point of a speed program.
@@ -31,94 +34,95 @@ struct SpeedPoint {
   double speed;  ///< rad/s
 };
 
-/// A point of a program of the preload.
+/// A point of a preload program.
 struct PreloadPoint {
   double time;    ///< s
-  double factor;  ///< of the preload of all pads
+  double factor;  ///< factor on the preload of all pads
 };
 
-/// A transient from a small initial displacement of the pads at rest in the inertial frame.
+/// A transient that starts with a small displacement of the pads, at rest in the inertial frame.
 struct TransientCase {
   double speed;                     ///< rad/s
   double duration;                  ///< s
   double initial_pad_displacement;  ///< m
-  /// Of the highest frequency among the modes used; absent: from `growth_error`. With adaptive
-  /// steps it bounds the step.
+  /// Steps per period of the highest modal frequency; absent: chosen by `growth_error`. For
+  /// adaptive methods it bounds the step.
   std::optional<int> steps_per_period = {};
   IntegratorKind integrator = IntegratorKind::automatic;
-  double growth_error = 1e-3;  ///< that the integration may add to a growth rate, 1/s
-  /// Speeds to follow, linear between points that begin at t = 0 with `speed`; empty: constant.
+  double growth_error = 1e-3;  ///< largest error of growth rates by the integration, 1/s
+  /// Program of the speed, linear between points, which begin at t = 0 with `speed`; empty:
+  /// constant.
   std::vector<SpeedPoint> speed_program = {};
-  /// Preload to follow, linear between points that begin at t = 0; empty: constant.
+  /// Program of the preload, linear between points, which begin at t = 0; empty: constant.
   std::vector<PreloadPoint> preload_program = {};
 
   bool is_constant() const { return speed_program.empty() && preload_program.empty(); }
 };
 
-/// Growth of the pad velocity over a short transient at each of several speeds.
+/// Growth of the pad velocity in short transients at several speeds.
 struct GrowthCase {
   std::vector<double> speeds;  ///< rad/s
   double duration;             ///< s
 };
 
-/// How the stability of a disc of any kind is found; see rotation_stability.hpp.
+/// Method for the stability of a disc that need not be axisymmetric; see rotation_stability.hpp.
 enum class RotationMethod {
-  hill,    ///< by harmonics of the rotation
-  floquet  ///< by integration over one rotation, the reference
+  hill,    ///< Hill's method: harmonics of the rotation
+  floquet  ///< Floquet's method: integration over one rotation, as reference
 };
 
-/// A limit cycle that is found without a transient.
+/// A limit cycle to be found without a transient.
 struct DirectCase {
   double speed;  ///< rad/s
 };
 
-/// Derivatives by the keys of the brake of the growth rates at one speed, beside those of the
-/// critical speed.
+/// Derivatives of the critical speed, and of the growth rates at one speed, by all parameters.
 struct GradientCase {
-  std::optional<double> speed = {};  ///< rad/s; absent: of the critical speed alone
+  /// Speed of the growth rates, rad/s; absent: critical speed only.
+  std::optional<double> speed = {};
 };
 
-/// Growth rates over the speeds of the study and over one more parameter, equally spaced.
+/// Growth rates over the speeds of the study and an equally spaced parameter.
 struct MapCase {
   MapParameter parameter;
-  double from;
+  double from;  ///< in the unit of the parameter
   double to;
   int count;
 };
 
-/// Frequencies in the frame of the pads.
+/// A band of frequencies in the frame of the pads.
 struct FrequencyBand {
   double from_Hz;
   double to_Hz;
 };
 
-/// The table of all unstable modes, over the speed or one more parameter, equally spaced.
+/// Table of all unstable modes over the speed or another parameter, equally spaced.
 struct StabilityCase {
   std::optional<MapParameter> over = {};  ///< absent: the speed
   double from;                            ///< rad/s, or in the unit of the parameter
   double to;
   int count;
-  double speed = 0.0;                      ///< when it is not over the speed, rad/s
+  double speed = 0.0;                      ///< speed of a table over another parameter, rad/s
   std::optional<FrequencyBand> band = {};  ///< absent: all frequencies
 };
 
-/// A critical value of a parameter at one speed.
+/// Search for the critical value of a parameter at one speed.
 struct CriticalCase {
   MapParameter parameter;
-  double from;
+  double from;  ///< in the unit of the parameter
   double to;
   double speed;  ///< rad/s
 };
 
-/// The pad velocity of the transient as sound.
+/// The pad velocity of the transient as a sound file.
 struct SoundCase {
-  int rate_Hz;  ///< of the samples
+  int rate_Hz;  ///< sampling rate
 };
 
-/// What is to be found out about a brake, whatever it is made of.
+/// The analyses of a study and their options, for any kind of brake.
 struct StudyOptions {
   SpeedRange speeds;
-  std::vector<std::string> analyses;  ///< names of analysis_options.hpp
+  std::vector<std::string> analyses;  ///< names from analysis_options.hpp
   std::optional<TransientCase> transient = {};
   std::optional<GrowthCase> growth = {};
   std::optional<DirectCase> limit_cycle_direct = {};

@@ -2,15 +2,17 @@
 
 #include "plate/elements/shell_element.hpp"
 
-/// The mainstream to compare with: quadratic serendipity shells with uniform reduced integration.
+/// Quadratic serendipity shells with uniform reduced integration, the usual element of commercial
+/// programs, as a comparison.
 namespace chladni::benchmarks {
 
-/// Lattice places of the nodes of these elements in blocks of order 2.
+/// The nodes that these elements use, as places in the lattice of an element of order 2.
 std::vector<int> serendipity_places(mesh::Shape shape);
 
-/// K and M of the 8-node quadrilateral at 2 x 2 points (S8R of Abaqus without its stabilisation) or
-/// of the 6-node triangle at 3 points; displacement-based, mass consistent, no drilling stiffness.
-/// @param nodes  of the element in lattice order, those without function left out
+/// Element matrices K and M of the 8-node quadrilateral with 2 x 2 integration points (Abaqus S8R
+/// without its stabilisation) or of the 6-node triangle with 3 points: displacement formulation,
+/// consistent mass, no drilling stiffness.
+/// @param nodes  nodes of the element in lattice order, without those that the element does not use
 plate::ElementMatrices serendipity_matrices(mesh::Shape shape, const plate::ShellNodes& nodes,
                                             const plate::Material& material);
 

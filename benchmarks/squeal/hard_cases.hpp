@@ -4,8 +4,8 @@
 
 namespace chladni::squeal::bench {
 
-/// The hard cases with what comes out of them, as a JSON list of {case, setting, result,
-/// reference}.
+/// All hard cases with their results, as a JSON list of {case, setting, result, reference}.
+/// @param smallest  short runs, for tests
 std::string hard_cases_json(bool smallest);
 
 }  // namespace chladni::squeal::bench

@@ -9,7 +9,7 @@
 
 namespace chladni::squeal::bench {
 
-/// Processor time of all threads: what else runs on the machine does not count.
+/// CPU time of `work()` summed over all threads, s; other processes on the machine do not count.
 template <class Work>
 double seconds_of(const Work& work)
 {
@@ -18,13 +18,16 @@ double seconds_of(const Work& work)
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// A target and what was measured; a limit of 0 means that there is none.
+/// One performance target and its measured value.
 struct Target {
   std::string name, unit;
-  double measured, limit;
+  double measured, limit;  ///< in `unit`; a limit of 0 means that there is no target
 };
+/// Runs the benchmarks of the squeal solver and returns their measured values.
+/// @param smallest  short runs, for tests
 std::vector<Target> measured_targets(bool smallest);
 
+/// The targets as a JSON list of {name, unit, measured, target}.
 std::string json_of(const std::vector<Target>& targets);
 
 }  // namespace chladni::squeal::bench

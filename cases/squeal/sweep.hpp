@@ -14,38 +14,41 @@
 
 namespace chladni::cases {
 
-/// The variants of a scene: its text with other numbers in some places.
+/// A scene and the places of its text in which variants have other numbers.
 struct SweepCase {
   scene::Scene scene;
-  std::vector<std::string> analyses;                    ///< in the place of the scene's
+  std::vector<std::string> analyses;                    ///< replace those of the scene
   std::vector<std::vector<scene::NumberPlace>> places;  ///< [n_keys]
-  /// Of the scene as it is; variants share its disc where they need no other one.
+  /// Brake of the unchanged scene. Variants share its disc unless they need another one.
   std::shared_ptr<const squeal::Brake> brake;
   /// Makes the brake of a variant that needs another disc.
   std::function<std::shared_ptr<const squeal::Brake>(const scene::Scene&)> make_brake;
 };
 
-/// One brake of the sweep, and what is asked of it.
+/// A brake of the sweep and its study.
 struct Variant {
   squeal::StudyOptions study;
   std::shared_ptr<const squeal::Brake> brake;
 };
 
+/// The variant with these values of the keys.
 Variant variant_of(const SweepCase& sweep, const Eigen::VectorXd& values);
 
-/// Reads every variant and checks what it asks of its brake, before any is computed.
-/// @throws chladni::Error with the number of the first variant that cannot be, its values, and what
-///         is wrong: file, line, key and what is allowed, or the range that the body has.
+/// Reads every variant and checks its study against its brake, before any is computed.
+/// @throws chladni::Error with the number of the first invalid variant, its values, and what is
+///         wrong: file, line, key and what is allowed, or the range that the body has.
 void check_variants(const SweepCase& sweep, const squeal::SweepTable& table);
 
-/// What goes along with a long sweep; called by one thread at a time.
+/// Callbacks and threads of a long sweep.
 struct SweepKeeping {
+  /// Called after each variant, by one thread at a time.
   std::function<void(const squeal::SweepTable&)> done_another = {};
-  unsigned n_threads = 0;  ///< 0: as many as there are processors
+  unsigned n_threads = 0;  ///< 0: the number of processors
 };
 
-/// Computes the variants that are to do, several at a time. Each one is computed by one thread from
-/// its scene alone, so that the table depends neither on their number nor on what had been done.
+/// Computes the variants that are still to do, several at a time. Each is computed by one thread
+/// from its scene alone, so the table depends neither on the number of threads nor on what was done
+/// before.
 squeal::SweepTable sweep(const SweepCase& sweep, squeal::SweepTable table,
                          const SweepKeeping& keeping);
 

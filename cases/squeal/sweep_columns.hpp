@@ -10,15 +10,15 @@
 
 namespace chladni::cases {
 
-/// Whether a sweep can keep numbers of an analysis.
+/// True if an analysis yields numbers that a sweep can keep.
 bool has_sweep_columns(std::string_view analysis);
 
-/// What a sweep keeps of each variant: a few numbers of each analysis that the study asks for.
-/// @throws chladni::Error when it asks for an analysis of which no number can be kept.
+/// The numbers that a sweep keeps for each variant: a few of each analysis of the study.
+/// @throws chladni::Error when an analysis yields no number to keep.
 std::vector<squeal::SweepColumn> sweep_columns(const squeal::StudyOptions& study);
 
-/// The numbers of one run in the order of the columns; absent where the run has none: a brake may
-/// be stable, or an analysis have failed.
+/// The numbers of one run in the order of the columns. A number is absent if a brake is stable or
+/// an analysis has failed.
 std::vector<std::optional<double>> sweep_row(const squeal::StudyOptions& study,
                                              const squeal::SquealResults& results);
 

@@ -11,24 +11,26 @@
 
 namespace chladni::cases {
 
-/// What is asked of a sweep.
+/// The request for a sweep.
 struct SweepRequest {
-  std::string scene;                   ///< its file
-  std::filesystem::path folder, body;  ///< as for squeal_files()
+  std::string scene;                   ///< path of the scene file
+  std::filesystem::path folder, body;  ///< as for `squeal_files`
   SweepValues values;
-  std::vector<std::string> analyses;  ///< empty: those of the scene that yield single numbers
+  /// Empty: those of the scene that yield single numbers.
+  std::vector<std::string> analyses;
   StaleChoice stale;
 };
 
-/// The scene, what varies in it, and what the variants share.
+/// A sweep with its scene and table.
 struct SweepStudy {
   SweepCase sweep;
-  squeal::SweepTable table;  ///< all variants to do
+  squeal::SweepTable table;  ///< with all variants to do
   squeal::RunOrigin origin;
   std::vector<std::string> notes;
 };
 
-/// @param scene_file  the scene's, as seen from the folder of the results
+/// Prepares a sweep.
+/// @param scene_file  path of the scene file relative to the folder of the results
 /// @throws chladni::Error when the scene, a key or the body is refused, or when no analysis of the
 ///         scene yields numbers that a sweep keeps.
 SweepStudy sweep_study(const SweepRequest& request, const std::string& scene_file);

@@ -7,13 +7,13 @@
 
 #include "linear/cholesky/cholesky_factor.hpp"
 
-/// What PETSc calls on a Cholesky factor of ours.
+/// The functions that PETSc calls on our Cholesky factors.
 namespace chladni::linear {
 
-/// The C++ object in such a factor.
+/// The C++ object inside one of our factors.
 CholeskyFactor& factor_of(Mat F);
 
-/// Runs C++ inside a callback of PETSc: an exception becomes PETSc's error, with the code of the
+/// Runs C++ inside a callback of PETSc. An exception becomes a PETSc error, with the code of the
 /// PETSc call that failed, if one did.
 template <typename Work>
 PetscErrorCode guarded(const Work& work)
@@ -31,11 +31,11 @@ PetscErrorCode guarded(const Work& work)
   return 0;
 }
 
-/// MatSolve.
+/// MatSolve: x = A^-1 b.
 PetscErrorCode solve_vector(Mat F, Vec b, Vec x);
-/// MatMatSolve; X may be B.
+/// MatMatSolve: X = A^-1 B; X may be B.
 PetscErrorCode solve_block(Mat F, Mat B, Mat X);
-/// MatMatTransposeSolve: the rows of the sparse B_t are the right-hand sides.
+/// MatMatTransposeSolve: X = A^-1 B; the rows of the sparse B_t are the columns of B.
 PetscErrorCode solve_sparse(Mat F, Mat B_t, Mat X);
 
 }  // namespace chladni::linear

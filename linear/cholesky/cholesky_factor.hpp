@@ -12,7 +12,7 @@
 
 namespace chladni::linear {
 
-/// Sparse right-hand sides by columns; on rank 0 all of them, on the other ranks the number only.
+/// Sparse right-hand sides by columns: all of them on rank 0; only their number on the other ranks.
 struct SparseColumns {
   int n_columns = 0;
   std::vector<int> starts;     ///< [n_columns + 1] from 0
@@ -20,30 +20,33 @@ struct SparseColumns {
   std::vector<double> values;  ///< [non-zeros]
 };
 
-/// Columns of the rows of this rank, one after the other.
+/// Columns of a dense matrix in the rows of this rank, stored one after the other.
 struct LocalColumns {
   double* values;
   PetscInt leading_dimension;
   PetscInt n_columns;
 };
 
+/// The size of a factor.
 struct FactorSize {
-  double operations;  ///< floating-point, of the factorisation
+  double operations;  ///< floating-point operations of the factorisation
   double entries;     ///< of the triangle
-  /// Of the rank that has most, with what it repeats; 0 where the package does not tell.
+  /// Those of the rank that has most, including work that ranks repeat; 0 if the package does not
+  /// tell.
   double operations_of_rank = 0.0, entries_of_rank = 0.0;
 };
 
-/// What there is for a factor, and what must go beside it.
+/// The memory available for a factor, and the memory needed beside it.
 struct MemoryBudget {
-  /// Of this machine, for all its ranks.
+  /// Available on this machine, for all its ranks.
   double machine_MiB = std::numeric_limits<double>::infinity();
-  double beside_MiB = 0.0;  ///< what this rank takes later, while the factor alone is there
+  /// What this rank takes later, after the factorisation, while the factor stays.
+  double beside_MiB = 0.0;
   SecondFactor second = {};
 };
 
-/// A factor L D L^T of a sparse symmetric matrix, positive definite unless it says otherwise, that
-/// is distributed by rows, as are right-hand sides and solutions. All calls are collective.
+/// A factor L D L^T of a sparse symmetric matrix, positive definite unless stated otherwise.
+/// Factor, right-hand sides and solutions are distributed by rows. All calls are collective.
 class CholeskyFactor {
  public:
   CholeskyFactor() = default;
@@ -55,35 +58,36 @@ class CholeskyFactor {
   virtual void analyze(Mat A) = 0;
   /// Numerical factorisation.
   virtual void factorize(Mat A) = 0;
-  /// Of the last of the two.
+  /// The error of the last `analyze` or `factorize`.
   virtual MatFactorError error() const = 0;
   virtual PetscInt n_negative_pivots() const = 0;
-  /// False where the pivots vanish or change sign and there was no pivoting: solutions may then be
+  /// False where pivots vanished or changed sign and there was no pivoting: solutions may then be
   /// wrong in any digit.
   virtual bool is_reliable() const = 0;
   /// X <- A^-1 X in place.
   virtual void solve(LocalColumns X) = 0;
   /// X <- A^-1 B; the forward elimination uses the zeros of B.
   virtual void solve(const SparseColumns& B, LocalColumns X) = 0;
-  /// Of sparse right-hand sides, as many as it likes.
+  /// The number of sparse right-hand sides that are solved for at once.
   virtual PetscInt columns_at_a_time() const = 0;
-  /// MiB that this rank needs beyond what it has: for the factorisation, and later for the factor
-  /// and its solutions; by the analysis.
+  /// MiB that this rank needs in addition to what it has, by the analysis: during the
+  /// factorisation, and later for the factor and its solutions.
   struct Memory {
     double factorization_MiB, factor_MiB;
     double entries_MiB;  ///< of the factor alone
   };
   virtual Memory forecast() const = 0;
   virtual FactorSize size() const = 0;
-  /// For -cms_view: one line.
+  /// One line for -cms_view.
   virtual std::string description() const = 0;
-  /// Gives the memory of the numbers back; the analysis stays.
+  /// Frees the entries of the factor; the analysis stays.
   virtual void release() {}
-  /// The factor that solves, where this one has another do it.
+  /// The factor that solves; another one if this one delegates.
   virtual const CholeskyFactor& active() const { return *this; }
   CholeskyFactor& active() { return const_cast<CholeskyFactor&>(std::as_const(*this).active()); }
 
-  /// The tightest machine when this rank takes what comes beside the factor, by the analysis.
+  /// The need of the machine with the least reserve, with what comes beside the factor, by the
+  /// analysis.
   /// @note   Collective.
   MemoryNeed memory_need(MPI_Comm comm) const
   {
@@ -94,7 +98,7 @@ class CholeskyFactor {
   }
 
   MemoryBudget budget;
-  /// An indefinite matrix is an error, not a matter for pivoting.
+  /// If true, an indefinite matrix is an error and no reason to pivot.
   bool must_be_definite = false;
 };
 

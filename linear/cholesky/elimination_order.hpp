@@ -6,18 +6,17 @@
 
 namespace chladni::linear {
 
-/// Fill-reducing nested dissection of a symmetric sparse matrix by METIS.
-/// Rows that belong together are numbered together: those of a block of A's block size, or, without
-/// one, consecutive rows of equal pattern. The graph of METIS is that of the blocks, 36 times
-/// smaller than the matrix of a shell.
-/// An entry on one side of the diagonal is one on both: a pattern need not be symmetric where zeros
-/// are stored.
-/// @param A  [n x n] AIJ, symmetric.
-/// @return on rank 0 [n], the place of each row in the elimination, from 1 (MUMPS' PERM_IN); on the
-///         other ranks empty.
+/// A fill-reducing nested dissection of a symmetric sparse matrix by METIS. Rows that belong
+/// together get neighbouring numbers: those of a block of A's block size or, without one,
+/// consecutive rows of equal pattern. The graph for METIS is that of these blocks, 36 times smaller
+/// than the matrix of a shell. An entry on one side of the diagonal counts on both, since a pattern
+/// need not be symmetric where zeros are stored.
+/// @param A  [n x n] AIJ, symmetric
+/// @return on rank 0 [n], the place of each row in the elimination, from 1 (MUMPS' PERM_IN); empty
+///         on the other ranks
 /// @note   Collective on the communicator of A; the graph of the blocks is gathered on rank 0.
-/// @throws chladni::Error on all ranks when METIS fails, or when the graph has more edges than it
-///         counts.
+/// @throws chladni::Error on all ranks when METIS fails, or when the graph has more edges than
+///         METIS can count.
 /// Source: Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998) 359.
 std::vector<int> elimination_order(Mat A);
 

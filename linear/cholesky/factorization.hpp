@@ -8,15 +8,16 @@
 
 namespace chladni::linear {
 
-/// A part of the body can move while all masters are held.
+/// Thrown when a part of the body can move while all masters are held.
 class FreeMotion : public Error {
  public:
   FreeMotion(const std::string& message, PetscInt most) : Error(message), row(most) {}
-  PetscInt row;  ///< of the matrix, where the motion is largest; -1 where it is not known
+  /// Row of the matrix in which the motion is largest; -1 if it is not known.
+  PetscInt row;
 };
 
 /// The Cholesky factor of a symmetric positive-definite matrix, made once and shared by constraint
-/// modes and eigen-solver. By MUMPS unless the options say otherwise.
+/// modes and eigen-solver.
 class Factorization {
  public:
   /// @note   Collective on the communicator of `A`.
@@ -28,13 +29,13 @@ class Factorization {
   /// `-<prefix>pc_...`, `-<prefix>mat_mumps_...`
   explicit Factorization(Mat A, SolverOptions options = {});
 
-  /// Solves with the factor only; for SLEPc's spectral transformation at shift 0.
+  /// A solver that only applies the factor; for SLEPc's spectral transformation at shift 0.
   KSP solver() const { return solver_; }
-  /// The factored matrix, for MatMatTransposeSolve.
+  /// The factored matrix, for MatMatSolve and MatMatTransposeSolve.
   Mat factor() const;
   /// The matrix itself.
   Mat matrix() const;
-  /// What it was made with; eigen-solvers that work with this factor go by them too.
+  /// The options of the factorisation, which eigen-solvers with this factor use too.
   const SolverOptions& options() const { return options_; }
 
  private:
@@ -42,7 +43,9 @@ class Factorization {
   petsc::LinearSolver solver_;
 };
 
-/// The factor of K_ss.
+/// Factors K_ss.
+/// @note   Collective on the communicator of `K_ss`.
+/// @throws FreeMotion, chladni::Error as the constructor of Factorization.
 Factorization factorize(Mat K_ss, const SolverOptions& options = {});
 
 }  // namespace chladni::linear

@@ -4,7 +4,7 @@
 
 namespace chladni::linear {
 
-/// Dense array of the rows of this rank, for writing, as long as it lives.
+/// Write access to the rows of a dense matrix on this rank, during the lifetime of this object.
 class LocalArray {
  public:
   explicit LocalArray(Mat dense) : dense_(dense)

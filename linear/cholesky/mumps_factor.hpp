@@ -11,7 +11,7 @@
 
 namespace chladni::linear {
 
-/// Which matrix with which values.
+/// Identifies a matrix and the state of its values.
 struct MatrixState {
   PetscObjectId id = 0;
   PetscObjectState state = 0;
@@ -26,24 +26,24 @@ inline MatrixState state_of(Mat A)
   return now;
 }
 
-/// What is known of a matrix.
+/// What is known about the definiteness of a matrix.
 enum class Definiteness { positive, unknown };
 
-/// Cholesky factor by MUMPS through its C interface: nested dissection by METIS, matrix,
-/// right-hand sides and solutions distributed. Debian's MUMPS has no METIS inside, and what PETSc
-/// gathers for several right-hand sides on several ranks costs more than the solve.
+/// Cholesky factor by MUMPS through its C interface, with nested dissection by METIS and
+/// distributed matrix, right-hand sides and solutions. Debian's MUMPS lacks METIS, and PETSc's
+/// gathering of several right-hand sides on several ranks costs more than the solve.
 class MumpsFactor : public CholeskyFactor {
  public:
-  /// @param definiteness  without it MUMPS pivots
+  /// @param definiteness  MUMPS pivots if it is unknown
   MumpsFactor(MPI_Comm comm, Definiteness definiteness);
   ~MumpsFactor() override;
 
-  /// ICNTL(index) = value, from 1 as in MUMPS' manual.
+  /// Sets ICNTL(index), counted from 1 as in MUMPS' manual.
   void set_control(int index, int value) { mumps_.icntl[index - 1] = value; }
   void set_control(int index, double value) { mumps_.cntl[index - 1] = value; }
   int control(int index) const { return mumps_.icntl[index - 1]; }
   double real_control(int index) const { return mumps_.cntl[index - 1]; }
-  /// INFOG(index), from 1.
+  /// INFOG(index), counted from 1.
   int info(int index) const { return mumps_.infog[index - 1]; }
   double real_info(int index) const { return mumps_.rinfog[index - 1]; }
   void analyze(Mat A) override;
@@ -71,10 +71,10 @@ class MumpsFactor : public CholeskyFactor {
   MPI_Comm comm_ = MPI_COMM_NULL;
   DMUMPS_STRUC_C mumps_{};
   std::vector<PetscInt> first_rows_;  ///< [n_ranks + 1]
-  std::vector<int> own_rows_;         ///< from 1
+  std::vector<int> own_rows_;         ///< rows of this rank, from 1
   std::vector<int> row_indices_, column_indices_;
   std::vector<double> values_;
-  MatrixState loaded_;  ///< of the matrix whose entries these are
+  MatrixState loaded_;  ///< of the matrix with these entries
   std::vector<double> solution_;
   std::vector<int> solution_rows_;
   RowExchange exchange_;

@@ -7,17 +7,19 @@
 
 namespace chladni::linear {
 
-/// Whether a factor solves for rows that are coupled to no others without passing over the rest.
+/// True if a factor can solve for rows that are coupled to no others without processing the rest.
 bool solves_for_parts(Mat factor);
 
-/// Whether a factor made by these options will.
+/// True if a factor made with these options can solve for parts.
 bool will_solve_for_parts(const OptionSource& source);
 
-/// X <- A_pp^-1 B, where p are the rows of a part; dense B and X with these rows alone.
-/// @param factor  of A, which outlives what is returned
-/// @param rows    global; those of each rank ascend, and on the rank that owns them
-/// @throws chladni::Error when others are coupled to them, or the factor does not solve for parts.
-/// @note   Collective, as the function is.
+/// A function X <- A_pp^-1 B, where p are the rows of a part; B and X are dense with these rows
+/// alone.
+/// @param factor  of A; must outlive the returned function
+/// @param rows    global rows, ascending on each rank, which owns them
+/// @note   Collective, as is the returned function.
+/// @throws chladni::Error when other rows are coupled to these, or the factor does not solve for
+///         parts.
 std::function<void(Mat B, Mat X)> part_solver(Mat factor, IS rows);
 
 }  // namespace chladni::linear

@@ -6,9 +6,9 @@
 
 namespace chladni::linear {
 
-/// A factor that does without pivoting as long as the matrix is definite, and otherwise one by
-/// MUMPS with pivoting: where pivots vanish or change sign, elimination in a given order amplifies
-/// round-off without a limit.
+/// A factor without pivoting as long as the matrix is definite, and otherwise one by MUMPS with
+/// pivoting. If pivots vanish or change sign, elimination in a given order amplifies round-off
+/// without limit.
 class PivotingFallback : public CholeskyFactor {
  public:
   PivotingFallback(std::unique_ptr<CholeskyFactor> definite, MPI_Comm comm);
@@ -29,7 +29,7 @@ class PivotingFallback : public CholeskyFactor {
 
  private:
   std::unique_ptr<CholeskyFactor> definite_;
-  std::unique_ptr<CholeskyFactor> pivoting_;  ///< while the matrix is indefinite
+  std::unique_ptr<CholeskyFactor> pivoting_;  ///< set while the matrix is indefinite
   MPI_Comm comm_;                             ///< of the matrix
   MatFactorError error_ = MAT_FACTOR_NOERROR;
 };

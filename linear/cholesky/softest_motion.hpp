@@ -6,12 +6,12 @@ namespace chladni::linear {
 
 /// The motion z that a symmetric positive semidefinite A resists least.
 struct SoftestMotion {
-  double stiffness;  ///< z^T A z / z^T diag(A) z; round-off where nothing holds it
-  PetscInt row;      ///< where it is largest
+  double stiffness;  ///< z^T A z / z^T diag(A) z; of the size of round-off if nothing holds z
+  PetscInt row;      ///< row in which z is largest
 };
 
-/// By two inverse iterations with a few deterministic vectors.
-/// @param factor  of A, or of A with a somewhat larger diagonal
+/// Finds the softest motion by two inverse iterations with a few deterministic vectors.
+/// @param factor  of A, or of A with a slightly larger diagonal
 /// @note   Collective; two block solves.
 SoftestMotion softest_motion(Mat factor, Mat A);
 

@@ -6,7 +6,7 @@
 
 namespace chladni::linear {
 
-/// The factor of our own that solves for PETSc's `factor`, or null where another package does.
+/// Our own factor behind PETSc's `factor`; null if another package solves.
 inline SupernodalFactor* supernodal_of(Mat factor)
 {
   return is_ours(factor) ? dynamic_cast<SupernodalFactor*>(&factor_of(factor).active()) : nullptr;

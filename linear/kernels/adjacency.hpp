@@ -4,7 +4,7 @@
 
 namespace chladni::linear {
 
-/// A graph in compressed form: the neighbours of each vertex, without itself.
+/// A graph in compressed form: the neighbours of each vertex, without the vertex itself.
 struct Adjacency {
   std::vector<int> starts = {0};  ///< [n_vertices + 1]
   std::vector<int> neighbours;
@@ -13,12 +13,12 @@ struct Adjacency {
 };
 
 /// The graph with an edge in both directions wherever there is one in either. The pattern of a
-/// symmetric matrix is not symmetric where a zero is stored at (i, j) and not at (j, i); METIS and
-/// the elimination tree rely on both. Neighbours that are there keep their order.
-/// @throws chladni::Error when there are more edges than METIS counts.
+/// symmetric matrix is not symmetric if a zero is stored at (i, j) and not at (j, i), but METIS and
+/// the elimination tree require symmetry. Existing neighbours keep their order.
+/// @throws chladni::Error when there are more edges than METIS can count.
 Adjacency symmetrized(const Adjacency& graph);
 
-/// Whether each edge stands in both directions.
+/// True if each edge exists in both directions.
 bool is_symmetric(const Adjacency& graph);
 
 }  // namespace chladni::linear

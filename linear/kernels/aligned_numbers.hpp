@@ -11,9 +11,10 @@ struct Free {
   void operator()(double* values) const { std::free(values); }
 };
 
-/// Numbers from the start of a cache line on, not touched before they are written.
+/// An array of doubles that begins at a cache line. Its memory is not touched before it is written.
 using AlignedNumbers = std::unique_ptr<double, Free>;
 
+/// Allocates n doubles.
 /// @throws std::bad_alloc
 inline AlignedNumbers aligned_numbers(std::size_t n)
 {

@@ -4,8 +4,8 @@
 
 namespace chladni::linear {
 
-/// A matrix as plain AIJ: a reference where it is just that, else a converted copy. PETSc's
-/// variants of AIJ (aijperm, aijsell) and its block formats keep their entries elsewhere.
+/// A matrix as plain AIJ: a reference if it is plain AIJ, else a converted copy. PETSc's variants
+/// of AIJ (aijperm, aijsell) and its block formats store their entries elsewhere.
 /// @note   Collective.
 petsc::Matrix as_aij(Mat A);
 

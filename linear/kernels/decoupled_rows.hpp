@@ -6,12 +6,12 @@
 
 namespace chladni::linear {
 
-/// Sets of rows between which neither of two symmetric matrices has an entry: what happens in one
-/// concerns no other, as bending and motion in the plane of a flat plate. The largest comes first.
-/// What is small, or lies on a few of the ranks, is united with the rest, so that each set is worth
-/// being solved for by itself, by all ranks.
+/// Sets of rows between which neither of two symmetric matrices has an entry, such as bending and
+/// in-plane motion of a flat plate. The largest comes first. Small sets, and sets that lie on a few
+/// of the ranks, are merged with the rest, so that each set is worth being solved separately by all
+/// ranks.
 /// @param K, M  AIJ with equally distributed rows
-/// @return global rows, on the rank that owns them, ascending; empty where all belong together.
+/// @return global rows, on the rank that owns them, ascending; empty if all rows form one set
 /// @note   Collective.
 std::vector<petsc::IndexSet> decoupled_rows(Mat K, Mat M);
 

@@ -8,23 +8,23 @@
 
 namespace chladni::linear {
 
-/// The values of a small matrix, which is the same on every rank.
+/// The values of a small matrix that is the same on every rank.
 inline std::span<double> values_of(Eigen::MatrixXd& A)
 {
   return {A.data(), static_cast<std::size_t>(A.size())};
 }
 
-/// Any number of values <- their sums over all ranks, on every rank.
+/// Replaces values by their sums over all ranks, on every rank. Their number is not limited by MPI.
 /// @note   Collective.
 void sum_over_ranks(std::span<double> values, MPI_Comm comm);
 
-/// Any number of values <- those of rank 0, or of another one.
+/// Replaces values by those of rank 0, or of the rank `from`. Their number is not limited by MPI.
 /// @note   Collective.
 void broadcast_numbers(std::span<double> values, MPI_Comm comm);
 void broadcast_numbers(std::span<double> values, int from, MPI_Comm comm);
 
-/// The value of the first rank, for decisions: ranks on unlike processors may differ in the last
-/// bit.
+/// The value of the first rank. Use it for decisions: ranks on different processors may differ in
+/// the last bit.
 /// @note   Collective.
 double value_of_first_rank(double value, MPI_Comm comm);
 
@@ -48,7 +48,8 @@ class LocalRows {
   const PetscScalar* values_ = nullptr;
 };
 
-/// visit(global row, global column, value) for each stored entry of the rows of A on this rank.
+/// Calls visit(global row, global column, value) for each stored entry of the rows of A on this
+/// rank.
 template <typename Visit>
 void for_local_entries(Mat A, const Visit& visit)
 {
@@ -65,12 +66,13 @@ void for_local_entries(Mat A, const Visit& visit)
   }
 }
 
-/// A dense matrix with the rows of A, its values not set: PETSc would zero them, which touches the
-/// memory once more than needed.
+/// A dense matrix with the rows of A and values that are not set. PETSc would set them to zero,
+/// which touches the memory once more.
 /// @note   Collective.
 petsc::Matrix uninitialized_dense(Mat A, Eigen::Index n_columns);
 
-/// Columns first to last of a dense matrix without a copy, as long as it lives; one at a time.
+/// The columns first .. last - 1 of a dense matrix without a copy, during the lifetime of this
+/// object; only one range of a matrix at a time.
 class ColumnRange {
  public:
   ColumnRange(Mat dense, PetscInt first, PetscInt last) : dense_(dense)
@@ -91,7 +93,7 @@ class ColumnRange {
 /// @note   Collective.
 Eigen::MatrixXd inner_product(Mat X, Mat Y);
 
-/// X^T Y by the BLAS, which has kernels for the processor where Eigen has those of the compiler's
+/// X^T Y by the BLAS, which uses kernels for the processor at hand; Eigen's depend on compiler
 /// options.
 Eigen::MatrixXd inner_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Y);
 
@@ -110,7 +112,7 @@ void add_sparse_product(Mat A, const Eigen::MatrixXd& S, Mat Y);
 /// @note   Collective.
 Eigen::MatrixXd inner_product_sparse(Mat X, Mat A);
 
-/// A small distributed sparse matrix as dense one on every rank.
+/// A small distributed sparse matrix as a dense one on every rank.
 /// @note   Collective.
 Eigen::MatrixXd replicate(Mat A);
 

@@ -9,7 +9,7 @@
 
 namespace chladni::linear {
 
-/// So many numbers as one thing for MPI, which then counts rows of a panel and not their numbers.
+/// An MPI type of n_numbers doubles, with which MPI counts rows of a panel instead of numbers.
 class RowType {
  public:
   explicit RowType(int n_numbers)
@@ -26,9 +26,8 @@ class RowType {
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-/// Where the list of each rank begins when the lists stand one behind the other, and behind them
-/// the end.
-/// @throws chladni::Error when they hold more together than a call of MPI counts.
+/// The start of each rank's list when the lists of all ranks are concatenated, followed by the end.
+/// @throws chladni::Error when they hold more numbers than a call of MPI can count.
 inline std::vector<int> offsets(const std::vector<int>& counts)
 {
   checked_count(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}),
@@ -38,9 +37,9 @@ inline std::vector<int> offsets(const std::vector<int>& counts)
   return at;
 }
 
-/// How many numbers each rank has, on all ranks.
+/// The number of values of each rank, on all ranks.
 /// @note   Collective on `comm`.
-/// @throws chladni::Error on all ranks when one of them has more than a call of MPI counts.
+/// @throws chladni::Error on all ranks when one has more than a call of MPI can count.
 inline std::vector<int> counts_of_ranks(std::size_t own, MPI_Comm comm)
 {
   const auto n = static_cast<std::int64_t>(own);
@@ -54,10 +53,10 @@ inline std::vector<int> counts_of_ranks(std::size_t own, MPI_Comm comm)
   return checked;
 }
 
-/// What all ranks have, in their order; on rank 0 only.
+/// The values of all ranks in their order, on rank 0 only.
 /// @note   Collective on `comm`.
-/// @throws chladni::Error on all ranks, before anything is allocated, when there is more than a
-///         call of MPI counts.
+/// @throws chladni::Error on all ranks, before anything is allocated, when there are more than a
+///         call of MPI can count.
 template <typename T>
 std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
 {
@@ -69,7 +68,9 @@ std::vector<T> gather(const std::vector<T>& own, MPI_Datatype type, MPI_Comm com
   return all;
 }
 
-/// The same on all ranks.
+/// The values of all ranks in their order, on every rank.
+/// @note   Collective on `comm`.
+/// @throws chladni::Error as `gather`.
 template <typename T>
 std::vector<T> gather_on_all(const std::vector<T>& own, MPI_Datatype type, MPI_Comm comm)
 {

@@ -4,9 +4,9 @@
 
 namespace chladni::linear {
 
-/// Storage for numbers that grows without a copy and takes memory where it is touched, whatever a
-/// process has told malloc: SuperLU_DIST, a part of many builds of PETSc, forbids it to map large
-/// blocks, and then one that grows is copied and stands there twice.
+/// An array of doubles that grows without a copy and takes memory only where it is touched,
+/// whatever the settings of malloc are. SuperLU_DIST, part of many builds of PETSc, forbids malloc
+/// to map large blocks; a block that grows is then copied and exists twice.
 class GrowingMemory {
  public:
   GrowingMemory() = default;
@@ -18,7 +18,8 @@ class GrowingMemory {
   }
   GrowingMemory& operator=(GrowingMemory&&) = delete;
 
-  /// Room for n numbers; those that are there stay. Whether there is memory for so many.
+  /// Makes room for n numbers; existing ones are kept.
+  /// @return false if there is not enough memory
   [[nodiscard]] bool grow(std::size_t n);
   double* get() const { return values_; }
 

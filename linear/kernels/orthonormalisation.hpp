@@ -6,19 +6,20 @@
 
 namespace chladni::linear {
 
-/// A block X as X = Q R + rest with Q^T M Q = I, from its Gram matrix X^T M X alone.
+/// A block X = Q R + rest with Q^T M Q = I, computed from its Gram matrix X^T M X alone.
 struct Orthonormalisation {
-  Eigen::MatrixXd to_Q;      ///< [n x r]: Q = X to_Q; the longest direction first
+  Eigen::MatrixXd to_Q;      ///< [n x r]: Q = X to_Q; longest direction first
   Eigen::MatrixXd R;         ///< [r x n]
   Eigen::MatrixXd left_out;  ///< [n - r x n]: the rest in orthonormal directions
-  double shortest;  ///< length of the last direction kept, the columns being divided by their sizes
+  /// length of the shortest direction kept, with columns divided by their sizes
+  double shortest;
   double condition;  ///< ratio of the longest to the shortest direction kept
 };
 
-/// Keeps the directions whose length, the columns being divided by their `sizes`, exceeds `least`.
-/// Each column has a size of its own, so that a long one does not hide a short one.
-/// @param G  X^T M X [n x n]
-/// @param sizes  [n] what round-off in each column is relative to
+/// Keeps the directions whose length, with columns divided by their `sizes`, exceeds `least`. Each
+/// column has its own size, so that a long one does not hide a short one.
+/// @param G      X^T M X [n x n]
+/// @param sizes  [n] length to which round-off in each column is relative
 /// @note   Collective: the first rank decides.
 Orthonormalisation orthonormalisation(const Eigen::MatrixXd& G, const std::vector<double>& sizes,
                                       double least, MPI_Comm comm);

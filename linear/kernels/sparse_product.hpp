@@ -7,13 +7,13 @@
 
 namespace chladni::linear {
 
-/// Products of one sparse matrix with blocks of columns, sixteen or eight columns for each
-/// pass over the matrix: bound by memory traffic, which it reads a quarter as often as PETSc's
-/// MatMatMult of AIJ and dense matrices; it does not allocate the product anew either.
+/// Products of a sparse matrix with blocks of columns, sixteen or eight columns per pass over the
+/// matrix. The product is limited by memory traffic; the matrix is read a quarter as often as by
+/// PETSc's MatMatMult of AIJ and dense matrices, and the result is not allocated anew.
 class SparseProduct {
  public:
-  /// @param A  [n x n], kept by reference where it is of type AIJ, otherwise converted; must not
-  ///           change while this lives.
+  /// @param A  [n x n], kept by reference if it is of type AIJ, otherwise converted; must not
+  ///           change during the lifetime of this object
   /// @note   Collective on the communicator of A.
   explicit SparseProduct(Mat A);
   ~SparseProduct();
@@ -25,14 +25,14 @@ class SparseProduct {
   void apply(Mat X, Mat Y) const;
 
  private:
-  /// One of PETSc's sequential matrices, its arrays borrowed.
+  /// A sequential matrix of PETSc with its arrays borrowed.
   struct Rows {
     Mat matrix = nullptr;
     const PetscInt* starts = nullptr;
     const PetscInt* columns = nullptr;
     const PetscScalar* values = nullptr;
   };
-  /// Global columns of other ranks that the rows of this one need, and the first row of each rank.
+  /// Global columns of other ranks that the rows of this rank need, and the first row of each rank.
   struct Ghosts {
     const PetscInt* columns;
     const PetscInt* first_rows;

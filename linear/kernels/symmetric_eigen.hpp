@@ -6,19 +6,19 @@
 
 namespace chladni::linear {
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix (LAPACK
-/// dsyevd). Where a gap parts large diagonal entries from all others, as of a heavy mass or of a
-/// shift close to an eigenvalue, the small eigenvalues keep their digits: their coupling to the
-/// large ones is rotated away first.
+/// Eigenvalues, ascending, and orthonormal eigenvectors of a small symmetric matrix.
 struct SymmetricEigen {
   std::vector<double> values;
   Eigen::MatrixXd vectors;
 };
+/// The eigenpairs by LAPACK's dsyevd. If a gap separates large diagonal entries from all others, as
+/// with a heavy mass or a shift close to an eigenvalue, the coupling of the small eigenvalues to
+/// the large ones is rotated away first, so that they keep their digits.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A);
 
-/// The same, computed by the first rank and told to the others: what ranks decide by eigenvalues
-/// that each computed for itself may differ by round-off, and then they wait for each other.
-/// @param A  of one size on all ranks
+/// The eigenpairs, computed by the first rank and sent to the others. Ranks that decide by
+/// eigenvalues of their own could differ by round-off and wait for each other.
+/// @param A  of the same size on all ranks
 /// @note   Collective.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A, MPI_Comm comm);
 

@@ -4,7 +4,7 @@
 
 namespace chladni::linear {
 
-/// Long columns, one after the other: the rows of this rank of some vectors.
+/// The rows of this rank of some vectors, stored by columns.
 struct LongColumns {
   const double* values;
   std::ptrdiff_t leading_dimension;
@@ -12,8 +12,8 @@ struct LongColumns {
   PetscInt n_columns;
 };
 
-/// X^T Y of this rank for many long columns X and few Y: X is read once for eight columns of Y and
-/// not packed, as a general matrix product would.
+/// X^T Y of the rows of this rank, for many long columns X and few Y. X is read once for eight
+/// columns of Y and is not packed, as it would be by a general matrix product.
 Eigen::MatrixXd tall_inner_product(const LongColumns& X, const LongColumns& Y);
 
 /// Y <- Y - X S for few long columns Y.

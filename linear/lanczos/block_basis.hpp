@@ -11,7 +11,8 @@
 namespace chladni::linear {
 
 /// A growing set of vectors that are orthonormal in the inner product of a symmetric positive
-/// semidefinite M; rows distributed as those of M. All operations are collective and by blocks.
+/// semidefinite M, with rows distributed as those of M. All operations are collective and work by
+/// blocks.
 class BlockBasis {
  public:
   BlockBasis(Mat M, PetscInt capacity);
@@ -21,51 +22,57 @@ class BlockBasis {
   PetscInt n_columns() const { return n_columns_; }
   PetscInt capacity() const { return capacity_; }
 
-  /// Room for more columns; those that are there keep their place in memory or move by pages.
-  /// @throws chladni::Error when the machine refuses.
+  /// Makes room for more columns. Existing columns are not copied: they stay, or are moved by
+  /// pages.
+  /// @throws chladni::Error when there is not enough memory.
   void reserve(PetscInt capacity);
 
   /// An empty dense matrix with the rows of the basis.
   petsc::Matrix new_block(Eigen::Index n_columns) const;
   /// Columns of the basis without a copy; valid until the next append or compress.
   petsc::Matrix columns(PetscInt first, PetscInt n_columns);
-  /// M X
+  /// M X.
   petsc::Matrix times_mass(Mat X) const;
 
-  /// block = V coefficients + Q R, with Q orthonormal and orthogonal to V; Q joins the basis.
-  /// Directions that are dependent to round-off are left out: Q may have fewer columns or none.
+  /// The decomposition block = V coefficients + Q R of an appended block, with Q orthonormal and
+  /// orthogonal to V.
   struct Appended {
     Eigen::MatrixXd coefficients;  ///< [n_columns before x columns of block]
     Eigen::MatrixXd R;             ///< [columns of Q x columns of block]
-    /// [columns of block] length in M of what the directions left out had of each column.
+    /// [columns of block] length in M of the part of each column along directions that were left
+    /// out.
     std::vector<double> left_out;
   };
+  /// Adds Q to the basis. Directions that depend on the basis to round-off are left out: Q may have
+  /// fewer columns than the block, or none.
   Appended append(Mat block);
-  /// Directions that blocks had and that were left out since the last call, because products of M
-  /// with them have too few digits.
+  /// The directions of blocks that were left out since the last call because M times them has too
+  /// few digits.
   std::vector<petsc::Matrix> take_lost() { return std::exchange(lost_, {}); }
   /// M times the columns that the last append added.
   Mat newest_times_mass() const { return newest_M_; }
 
   /// Makes the last n columns the newest block.
   void unite_newest(PetscInt n);
-  /// Keeps the first n columns; there is no newest block then.
+  /// Keeps the first n columns; afterwards there is no newest block.
   void truncate(PetscInt n);
 
-  /// Replaces the first `n_first` columns V by V S; the columns behind them follow.
+  /// Replaces the first `n_first` columns V by V S; the columns after them move up.
   void compress(const Eigen::MatrixXd& S, PetscInt n_first);
 
-  /// V S of all columns.
+  /// V S with all columns V.
   petsc::Matrix combine(const Eigen::MatrixXd& S) const;
 
  private:
   Eigen::MatrixXd project_out_newest(Mat block, Mat M_block);
   Eigen::MatrixXd project_out(Mat block, Mat M_block);
-  /// How a block has joined the basis: as Appended, with all that was left out of it.
+  /// The decomposition of a block that joined the basis, as Appended, with all that was left out of
+  /// it.
   struct Joined {
     Eigen::MatrixXd coefficients, R, left_out;
   };
-  /// Columns by the digits that M times them has: six, or fewer, of which some have two.
+  /// Columns grouped by the digits of M times them: six or more (resolved), fewer (others), and
+  /// those of the latter with at least two (unsure).
   struct Chosen {
     std::vector<PetscInt> resolved, others, unsure;
   };

@@ -146,8 +146,8 @@ void BlockIteration::order_ritz_values(const Order& before)
   ritz_ = symmetric_eigen(T_, basis_.comm());
   if (!std::ranges::all_of(ritz_.values, [](double theta) { return std::isfinite(theta); })) {
     throw Error(
-        "block Lanczos: its projected matrix is not finite; M is indefinite, or the factor or a "
-        "matrix holds what is no number");
+        "block Lanczos: its projected matrix is not finite; check that M is positive semidefinite "
+        "and that K and M hold no infinity or NaN");
   }
   order_.resize(n_old_);
   std::iota(order_.begin(), order_.end(), 0);

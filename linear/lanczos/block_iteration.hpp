@@ -8,57 +8,60 @@
 
 namespace chladni::linear {
 
-/// Y <- Op Q for an operator that is self-adjoint in the inner product of M; M Q is at hand.
+/// A function Y <- Op Q for an operator that is self-adjoint in the inner product of M; M Q is
+/// given.
 using BlockOperator = std::function<void(Mat Q, Mat MQ, Mat Y)>;
 
-/// The iteration of block Lanczos with full reorthogonalisation and thick restart, one step at a
-/// time, for any operator self-adjoint in M: Op V = V T + Q R E_last^T + F with V^T M V = I. Ritz
-/// values come in the order that the caller prefers. How long to go on is the caller's decision.
-/// F is what the blocks held along directions that were left out as dependent to round-off; random
-/// ones take their place, so that the blocks keep their width until the whole space is spanned.
+/// Block Lanczos with full reorthogonalisation and thick restart, one step at a time, for any
+/// operator self-adjoint in M: Op V = V T + Q R E_last^T + F with V^T M V = I. Ritz values are in
+/// the order that the caller prefers, and the caller decides when to stop. F holds what the blocks
+/// had along directions that were left out as dependent to round-off; random directions replace
+/// them, so that blocks keep their width until the whole space is spanned.
 /// Source: as `block_lanczos`.
 class BlockIteration {
  public:
-  /// True where the Ritz value a is to come before b.
+  /// Returns true if the Ritz value a comes before b.
   using Order = std::function<bool(double a, double b)>;
 
-  /// @param capacity  most basis vectors, the newest block included
+  /// @param capacity  largest number of basis vectors, the newest block included
   BlockIteration(Mat M, PetscInt block_size, PetscInt capacity);
 
-  /// Room for a larger basis.
+  /// Makes room for a larger basis.
   void reserve(PetscInt capacity) { basis_.reserve(capacity); }
-  /// Takes a deterministic block of random vectors once through the operator.
+  /// Starts with a deterministic block of random vectors, to which the operator is applied once.
   /// @throws chladni::Error when M maps it to zero.
   void start(const BlockOperator& op);
-  /// Starts with guesses of eigenvectors beside the random vectors.
-  /// @param guesses  dense; at most as many columns as a block, each a sum of guesses
-  /// @param n_guesses  how many they are in all
+  /// Starts with guesses of eigenvectors in addition to the random vectors.
+  /// @param guesses    dense; at most as many columns as a block, each the sum of some guesses
+  /// @param n_guesses  number of all guesses
   void start(const BlockOperator& op, Mat guesses, PetscInt n_guesses);
   /// An empty dense matrix with the rows of M.
   petsc::Matrix new_block(PetscInt n_columns) const { return basis_.new_block(n_columns); }
-  /// Joins the newest block to V, and what the operator makes of it becomes the newest.
+  /// Adds the newest block to V; the result of the operator on it becomes the newest block.
   void step(const BlockOperator& op);
   /// Solves the projected problem; fills `theta`.
   void order_ritz_values(const Order& before);
   /// Keeps the first `n` Ritz vectors and the newest block.
-  /// @param n  up to n_vectors() - 1 and most_kept()
+  /// @param n  at most n_vectors() - 1 and most_kept()
   void restart(PetscInt n);
   /// Keeps the first `n` Ritz vectors, which must have converged, and begins a new Krylov sequence
-  /// with random vectors that are orthogonal to them: it finds what the old one cannot.
+  /// with random vectors orthogonal to them, which finds what the old sequence cannot.
   /// @param width  new block size
   void begin_anew(PetscInt n, PetscInt width, const BlockOperator& op);
 
   PetscInt block_size() const { return block_size_; }
   PetscInt n_vectors() const { return n_old_; }
   bool is_full() const { return basis_.n_columns() + block_size_ > basis_.capacity(); }
-  /// Ritz vectors that a restart may keep, with room for a step after it.
+  /// Largest number of Ritz vectors that a restart may keep, with room for a step after it.
   PetscInt most_kept() const { return basis_.capacity() - 2 * block_size_; }
-  /// The subspace is all that M can see: its Ritz pairs are exact and it cannot grow.
+  /// True if the subspace contains everything that M does not map to zero: its Ritz pairs are exact
+  /// and it cannot grow.
   bool is_exhausted() const { return basis_.n_columns() == n_old_; }
-  /// An upper estimate of the eigenvalues whose eigenvectors the blocks of this sequence had and
-  /// the basis has not, because M times them has too few digits; 0 without any.
+  /// An upper estimate of the eigenvalues whose eigenvectors occurred in the blocks of this
+  /// sequence but are not in the basis, because M times them has too few digits; 0 if there are
+  /// none.
   double lost_theta() const { return lost_theta_; }
-  /// Ritz values in order.
+  /// Ritz value i in the order of the caller.
   double theta(PetscInt i) const { return ritz_.values[order_[i]]; }
   /// ||Op x - theta x||_M of Ritz pair i.
   double residual(PetscInt i) const;
@@ -70,20 +73,21 @@ class BlockIteration {
   const KrylovSequence& sequence() const { return sequence_; }
   /// Ritz vectors 0 .. n - 1, X^T M X = I; [n_rows x n] dense.
   petsc::Matrix ritz_vectors(PetscInt n) const;
-  /// Ritz vectors first .. last - 1 after x <- Op x / theta: without the null space of a singular M
-  /// that round-off brings in. For the largest |theta| only: smaller ones amplify what errors they
-  /// have along those. The recurrence gives Op x for nothing where F is zero; else it is computed.
+  /// Ritz vectors first .. last - 1 after the step x <- Op x / theta, which removes the components
+  /// that round-off brings in from the null space of a singular M. Use it for the largest |theta|
+  /// only: small ones amplify such errors. If F is zero, the recurrence gives Op x without work;
+  /// else it is computed.
   petsc::Matrix purified_vectors(PetscInt first, PetscInt last, const BlockOperator& op) const;
 
  private:
   /// Coefficients of Ritz vectors first .. last - 1 in (V, Q).
   Eigen::MatrixXd ritz_coefficients(PetscInt first, PetscInt last) const;
-  /// The same of Op x / theta where F is zero.
+  /// Coefficients of Op x / theta in (V, Q), valid if F is zero.
   Eigen::MatrixXd purified_coefficients(PetscInt first, PetscInt last) const;
   petsc::Matrix applied_vectors(PetscInt first, PetscInt last, const BlockOperator& op) const;
-  /// || F s || of Ritz pair i, or more.
+  /// An upper bound of || F s || of Ritz pair i.
   double left_out(PetscInt i) const;
-  /// T, R and F after the first n Ritz vectors have taken the place of V.
+  /// Updates T, R and F after the first n Ritz vectors have replaced V.
   void take_ritz_values(PetscInt n);
   PetscInt append_random(PetscInt n, const BlockOperator& op);
   void note_lost(const BlockOperator& op);
@@ -91,7 +95,7 @@ class BlockIteration {
 
   Mat M_;
   PetscInt block_size_;
-  BlockBasis basis_;              ///< V and, behind it, the newest block Q
+  BlockBasis basis_;              ///< V, then the newest block Q
   PetscInt n_old_ = 0;            ///< columns of V
   Eigen::MatrixXd T_;             ///< [n_old x n_old]
   Eigen::MatrixXd R_;             ///< [columns of Q x columns of the last block of V]
@@ -101,7 +105,8 @@ class BlockIteration {
   PetscInt n_random_ = 0;  ///< random vectors made so far
   KrylovSequence sequence_;
   double lost_theta_ = 0.0;
-  PetscInt forgotten_from_ = PETSC_MAX_INT;  ///< a restart dropped pairs behind it that were found
+  /// Restarts have dropped pairs that were found beyond the first so many pairs.
+  PetscInt forgotten_from_ = PETSC_MAX_INT;
 };
 
 }  // namespace chladni::linear

@@ -8,26 +8,26 @@
 
 namespace chladni::linear {
 
-/// Rows that K and M couple to no others, with what solves for them.
+/// Rows that K and M couple to no others, with a solver for them.
 struct DecoupledPart {
   petsc::IndexSet rows;  ///< global, on the rank that owns them, ascending
   BlockSolve solve;      ///< with K between these rows
 };
 
-/// The lowest pairs of K x = lambda M x where K and M fall into parts that are not coupled, by a
-/// BlockLanczos for each part: vectors are as short as their part, and each part takes as many as
-/// it has pairs in the range. Of equal eigenvalues in several parts each has its own vectors. A
-/// part without mass has none.
+/// The lowest pairs of K x = lambda M x if K and M consist of uncoupled parts, with a BlockLanczos
+/// for each part. Vectors are as long as their part, and each part computes as many pairs as it has
+/// in the range. If parts share an eigenvalue, each has its own vectors. A part without mass has no
+/// pairs.
 class PartedLanczos {
  public:
-  /// @param parts    all rows of M, each in one part
-  /// @param options  all but n_pairs
+  /// @param parts    together all rows of M, each row in one part
+  /// @param options  without n_pairs
   /// @note   Collective.
   PartedLanczos(std::vector<DecoupledPart> parts, Mat M, const BlockLanczosOptions& options);
-  /// All of one part.
+  /// Treats all rows as one part.
   PartedLanczos(Mat factor, Mat M, const BlockLanczosOptions& options);
 
-  /// As those of BlockLanczos.
+  /// The functions below are those of BlockLanczos.
   void converge(PetscInt n_pairs);
   void require_resolved(double lambda) const;
   double unresolved_from() const;
@@ -37,13 +37,13 @@ class PartedLanczos {
   petsc::Matrix vectors(PetscInt first, PetscInt last) const;
 
   PetscInt n_parts() const { return static_cast<PetscInt>(parts_.size()); }
-  /// Columns solved times the rows of their part.
+  /// The sum over all parts of columns solved times rows.
   double numbers_solved() const;
 
  private:
   struct Part {
     std::vector<PetscInt> rows;  ///< local, in M; unused where it is the only one
-    PetscInt n_rows = 0;         ///< of all ranks
+    PetscInt n_rows = 0;         ///< on all ranks
     petsc::Matrix M;
     std::unique_ptr<BlockLanczos> lanczos;
     PetscInt n_asked = 0;
@@ -53,7 +53,8 @@ class PartedLanczos {
   struct Pair {
     double lambda;
     std::size_t part;
-    PetscInt place;  ///< among those of the part
+    /// place among the pairs of the part
+    PetscInt place;
   };
 
   void converge(Part& part, PetscInt n_pairs);

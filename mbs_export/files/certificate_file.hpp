@@ -6,10 +6,10 @@
 /// The group `certificate` of the reduced file (docs/reference/file_formats.md).
 namespace chladni::mbs_export {
 
-/// Nothing where the certificate is empty.
+/// Writes the group; writes nothing if the certificate is empty.
 void write_certificate(files::Writer& file, const Certificate& certificate);
 
-/// An empty one where the file has none.
+/// Reads the group; the certificate is empty if the file has none.
 /// @throws chladni::Error as files::Reader.
 Certificate read_certificate(const files::Reader& file);
 

@@ -9,7 +9,8 @@
 #include "mbs_export/reduced_system.hpp"
 #include "mbs_export/stiffening.hpp"
 
-/// The groups that the files of a reduced system and of a modal body have in common.
+/// Groups that the files of reduced systems and of modal bodies share. Reading throws as
+/// files::Reader.
 namespace chladni::mbs_export::file_parts {
 
 struct Attachment {
@@ -21,50 +22,54 @@ void write_attachment(files::Writer& file, const std::vector<AttachmentNode>& no
                       const std::vector<AttachmentSet>& sets);
 Attachment read_attachment(const files::Reader& file);
 
-/// Nothing is written for an empty picture, and of one without a transformation the surface alone.
+/// Writes the picture: nothing if it is empty, the surface alone if it has no transformation.
 void write_picture(files::Writer& file, const Picture& picture);
-/// The picture without its transformation.
+/// Reads the picture without its transformation.
 Picture read_surface(const files::Reader& file);
-/// @param n_columns  that `transformation` must have
+/// Reads the picture.
+/// @param n_columns  required number of columns of `transformation`
 Picture read_picture(const files::Reader& file, Eigen::Index n_columns);
 
-/// Group `picture/sectors`, which stands for `picture/displacements`: the motion of the nodes of
-/// one sector in each harmonic.
+/// Writes the group `picture/sectors`, which replaces `picture/displacements`: the motion of the
+/// nodes of one sector in each harmonic.
 void write_sector_motions(files::Writer& file, const std::optional<SectorMotions>& motions);
-/// None where the picture of the file has displacements.
+/// Reads the group; absent if the picture of the file has displacements.
 /// @param n_points   nodes of the whole picture
 /// @param n_columns  coordinates of the whole body
 std::optional<SectorMotions> read_sector_motions(const files::Reader& file, Eigen::Index n_points,
                                                  Eigen::Index n_columns);
 
-/// `resultant_names` and a group `resultants/NAME` for each; nothing is written when there are
-/// none.
+/// Writes `resultant_names` and a group `resultants/NAME` for each; nothing if there are none.
 void write_resultants(files::Writer& file, const std::vector<ResultantModes>& resultants);
-/// @param n_columns  that each `modes` must have
+/// Reads all resultants.
+/// @param n_columns  required number of columns of each `modes`
 std::vector<ResultantModes> read_resultants(const files::Reader& file, Eigen::Index n_columns);
 
-/// Group `mass_integrals`; nothing is written when there are none.
+/// Writes the group `mass_integrals`; nothing if there are none.
 void write_mass_integrals(files::Writer& file, const std::optional<MassIntegrals>& integrals);
+/// Reads the group `mass_integrals`; absent if the file has none.
 /// @param n  number of coordinates
 std::optional<MassIntegrals> read_mass_integrals(const files::Reader& file, Eigen::Index n);
 
-/// Group `stiffening`; nothing is written when there is none.
+/// Writes the group `stiffening`; nothing if there is none.
 void write_stiffening(files::Writer& file, const std::optional<Stiffening>& stiffening);
+/// Reads the group `stiffening`; absent if the file has none.
 /// @param n  number of coordinates
 std::optional<Stiffening> read_stiffening(const files::Reader& file, Eigen::Index n);
 
-/// Group `sectors`; nothing is written where there are none.
+/// Writes the group `sectors`; nothing if there are none.
 void write_sector_harmonics(files::Writer& file, const std::optional<SectorHarmonics>& harmonics);
+/// Reads the group `sectors`; absent if the file has none.
 /// @param n  number of coordinates or modes
 std::optional<SectorHarmonics> read_sector_harmonics(const files::Reader& file, Eigen::Index n);
 
-/// Integers of which each must be an index 0 .. limit - 1.
+/// Reads integers, each of which must be an index 0 .. limit - 1.
 std::vector<int> read_indices(const files::Reader& file, const std::string& name,
                               Eigen::Index limit, Eigen::Index size = files::any);
-/// A count or index of 0 or more.
+/// Reads a count or index, which must be 0 or more.
 int read_count(const files::Reader& file, const std::string& name);
 
-/// A name that can be a link of HDF5; returned unchanged.
+/// The name itself, if it can be a link of HDF5.
 /// @throws chladni::Error when it is empty, "." or contains "/".
 const std::string& link_name(const std::string& name);
 

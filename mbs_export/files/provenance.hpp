@@ -7,8 +7,9 @@
 
 namespace chladni::mbs_export::file_parts {
 
-/// The group `provenance` of each file that is made of a scene.
+/// Writes the group `provenance`, which each file made from a scene has.
 void write_provenance(files::Writer& file, const Provenance& provenance);
+/// Reads the group `provenance`.
 /// @throws chladni::Error naming file and dataset for what is missing or of the wrong kind.
 Provenance read_provenance(const files::Reader& file);
 Provenance read_provenance(const std::filesystem::path& file);

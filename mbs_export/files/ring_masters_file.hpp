@@ -3,18 +3,19 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 
-/// What the file of a reduced system says of masters that are harmonics of rings
-/// (docs/reference/file_formats.md); nothing where each master is a DOF of a node.
+/// The parts of the reduced file about masters that are harmonics of rings
+/// (docs/reference/file_formats.md). They are absent if each master is a DOF of a node.
 namespace chladni::mbs_export {
 
 void write_ring_masters(files::Writer& file, const ReducedSystem& reduced);
 
 bool has_ring_masters(const files::Reader& file);
 
-/// All masters, of nodes and of rings.
+/// Reads all masters, of nodes and of rings.
 std::vector<MasterDof> read_ring_masters(const files::Reader& file, Eigen::Index n_nodes,
                                          const std::vector<AttachmentSet>& sets);
 
+/// Reads the motion of the attachment nodes by the masters; absent if the file has none.
 /// @param shape  of the shapes, [6 n_nodes x n_m]
 /// @param n      number of coordinates
 std::optional<RingMotion> read_ring_motion(const files::Reader& file, files::Shape shape,

@@ -10,7 +10,7 @@ namespace chladni::mbs_export {
 
 void write_selection(files::Writer& file, const SelectionTable& table);
 
-/// Nothing where no tolerance chose the modes.
+/// Reads the group; absent if no tolerance chose the modes.
 /// @throws chladni::Error as files::Reader.
 std::optional<SelectionTable> read_selection(const files::Reader& file);
 

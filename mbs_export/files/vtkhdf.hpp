@@ -5,9 +5,9 @@
 
 namespace chladni::mbs_export {
 
-/// The group /VTKHDF (version 1.0, UnstructuredGrid), by which ParaView shows the surface of a body
-/// with each of its modes as a vector field, "mode 03, 812.5 Hz". The values are those of
-/// `picture`, as views: no second copy. Nothing for a body without a picture.
+/// Writes the group /VTKHDF (version 1.0, UnstructuredGrid), with which ParaView shows the surface
+/// of a body and each of its modes as a vector field, "mode 03, 812.5 Hz". The values are views on
+/// those of `picture` and are not stored twice. Nothing is written for a body without a picture.
 void write_vtkhdf(files::Writer& file, const ModalBody& body);
 
 }  // namespace chladni::mbs_export

@@ -7,10 +7,11 @@
 
 namespace chladni::mbs_export::formats {
 
-/// What a format of another program cannot hold; knows which key of the scene asks for it.
+/// Thrown when a format of another program cannot hold something; names the key of the scene that
+/// asks for it.
 class ExportError : public Error {
  public:
-  /// @param key  "body.fixed"; of the tables of a list "spring.damping", without saying of which
+  /// @param key  "body.fixed"; for the tables of a list "spring.damping", without an index
   ExportError(std::string key, std::string why)
       : Error(why), key_(std::move(key)), why_(std::move(why))
   {}

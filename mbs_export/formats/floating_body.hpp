@@ -8,8 +8,8 @@
 
 namespace chladni::mbs_export::formats {
 
-/// A modal body that moves with a frame: the frame does the rigid motion, the elastic modes the
-/// rest. What couples the two is exact for the consistent mass of the full model.
+/// A modal body that moves with a frame: rigid motion is that of the frame, deformation is by the
+/// elastic modes. The coupling of both is exact for the consistent mass of the full model.
 struct FloatingBody {
   ModalBody body;  ///< elastic modes only, without rings and resultants
   Eigen::Matrix<double, 3, Eigen::Dynamic> momentum;          ///< int u_j dm of each mode
@@ -17,14 +17,15 @@ struct FloatingBody {
 };
 
 /// The elastic modes of `make_body`, in the frame of the mesh. Modes of a body that is not held are
-/// orthogonal to the rigid motions, so they carry no momentum; those of a held body do.
-/// @throws chladni::Error as make_body; ExportError when springs or dampers to the ground resist a
-///         rigid motion (K R != 0, or C R != 0 where the body has the dampers), which the frame
-///         does without them, and when the masters do not show all six rigid motions.
+/// orthogonal to the rigid motions and carry no momentum; those of a held body do.
+/// @throws chladni::Error as `make_body`.
+/// @throws ExportError when springs or dampers to the ground resist a rigid motion (K R != 0, or C
+///         R != 0 if the body has the dampers), which they could not do to the frame, and when the
+///         masters do not show all six rigid motions.
 FloatingBody floating_body(const ReducedSystem& reduced, const BodyOptions& options);
 
-/// Largest momentum of a mode over that of the body at the same kinetic energy; below 1e-6 it is
-/// round-off.
+/// The largest momentum of a mode over that of the body at the same kinetic energy; below 1e-6 it
+/// is round-off.
 double coupling(const FloatingBody& floating);
 
 }  // namespace chladni::mbs_export::formats

@@ -8,44 +8,45 @@
 
 namespace chladni::mbs_export::formats {
 
-/// What is to be told to make an FMU.
+/// The options of an FMU.
 struct FmuOptions {
   FmiVersion version = FmiVersion::v2;
-  std::vector<std::string> sets;  ///< of attachment nodes; all where none is named
+  std::vector<std::string> sets;  ///< of attachment nodes; empty: all nodes
   std::string identifier;         ///< letters, digits and _ (see fmu_identifier)
 };
 
-/// An FMU, and what is to be told of it.
+/// An FMU, and notes for the user about it.
 struct Fmu {
   std::string archive;  ///< the bytes of the .fmu
   std::vector<std::string> notes;
 };
 
-/// A model and what it is in an FMU.
+/// A model and the other parts of its FMU.
 struct FmuParts {
   FmiVersion version;
   std::string identifier, description;  ///< modelDescription.xml
-  std::string library;                  ///< of Chladni: "chladni-fmu.so"
-  std::string resource, model;          ///< the name of the model's file, and its bytes
+  std::string library;                  ///< of Chladni, as "chladni-fmu.so"
+  std::string resource, model;          ///< name of the model's file, and its bytes
 };
 
 /// The bytes of the .fmu.
-/// @throws chladni::Error where this machine's library is none for the version of FMI or is not
-///         installed.
+/// @throws chladni::Error when the library of this machine does not exist for the version of FMI or
+///         is not installed.
 std::string fmu_archive(const FmuParts& parts);
 
-/// What tells an export from another one: a digest of the model and of the names of its variables.
+/// A digest of the model and of the names of its variables, which distinguishes one export from
+/// another.
 std::string fmu_token(const std::string& model, const std::vector<FmuVariable>& variables);
 
-/// A name as C has them, of any name.
+/// A C identifier made from any name.
 std::string fmu_identifier(const std::string& name);
 
-/// A body as Functional Mock-up Unit for model exchange and co-simulation: forces and moments at
-/// its attachment nodes in, displacements, velocities and accelerations out, modal coordinates as
-/// states. Rigid-body motions that the supports leave free are states as others are: for small
-/// motions.
-/// @throws chladni::Error when a set is not there, and where this machine's library is none for the
-///         version of FMI or is not installed.
+/// A body as Functional Mock-up Unit for model exchange and co-simulation. Inputs are forces and
+/// moments at its attachment nodes, outputs are displacements, velocities and accelerations, states
+/// are modal coordinates. Rigid-body motions that the supports leave free are states like others,
+/// valid for small motions.
+/// @throws chladni::Error when a set does not exist, and when the library of this machine does not
+///         exist for the version of FMI or is not installed.
 Fmu fmu(const ModalBody& body, const FmuOptions& options);
 
 }  // namespace chladni::mbs_export::formats

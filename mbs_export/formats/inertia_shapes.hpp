@@ -4,7 +4,7 @@
 
 #include "mbs_export/mass_integrals.hpp"
 
-/// What the mass integrals are called in the floating frame of reference; a~ b = a x b.
+/// The mass integrals in the terms of the floating frame of reference; a~ b = a x b.
 namespace chladni::mbs_export::formats {
 
 /// int x~ phi~_j dm = int phi_j x^T - (x . phi_j) I dm, kg m^2 per unit of q.

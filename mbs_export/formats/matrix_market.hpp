@@ -6,11 +6,12 @@
 
 namespace chladni::mbs_export::formats {
 
-/// Matrices as dense symmetric Matrix Market arrays, their lower triangles with 17 digits.
+/// The matrices of a reduced system as dense symmetric Matrix Market arrays: lower triangles with
+/// 17 digits.
 struct MatrixMarket {
-  std::string K, M, C;  ///< C empty without dampers
+  std::string K, M, C;  ///< C is empty without dampers
   std::string H;        ///< structural damping, empty without loss factors
-  /// CSV, a line for each row of the matrices: what coordinate it is, and where.
+  /// CSV with a line for each row of the matrices: its coordinate and place.
   std::string coordinates;
 };
 

@@ -6,8 +6,8 @@
 
 namespace chladni::mbs_export::formats {
 
-/// The number of each attachment node where that is 1 .. largest and no earlier node has it, else
-/// the least one that no node has.
+/// A number for each attachment node: its own, if that is in 1 .. largest and no earlier node has
+/// it, else the smallest number that no node has.
 /// @throws chladni::Error when there are more nodes than numbers.
 std::vector<int> unique_node_numbers(const std::vector<AttachmentNode>& nodes, int largest);
 

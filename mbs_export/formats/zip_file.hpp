@@ -8,12 +8,12 @@ namespace chladni::mbs_export::formats {
 
 /// A file in a zip archive.
 struct ZipEntry {
-  std::string name;  ///< with slashes
+  std::string name;  ///< with slashes between folders
   std::string bytes;
 };
 
-/// A zip archive whose entries are deflated; of the same entries the same bytes.
-/// @throws chladni::Error when it is too large for the format without its extension for 4 GiB.
+/// A zip archive of compressed entries. Equal entries give equal bytes.
+/// @throws chladni::Error when it is too large for the format without its 4 GiB extension.
 /// Source: PKWARE, APPNOTE.TXT, .ZIP File Format Specification, sections 4.3.7, 4.3.12, 4.3.16.
 std::string zip_archive(const std::vector<ZipEntry>& entries);
 

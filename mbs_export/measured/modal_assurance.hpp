@@ -8,17 +8,18 @@
 
 namespace chladni::mbs_export {
 
-/// Where a measured node was found on the body.
+/// A measured node and the place at which it was found on the body.
 struct MatchedNode {
   std::int64_t number;       ///< of the measurement
   Eigen::Vector3d position;  ///< m, of the body's node
-  double distance;           ///< m
+  double distance;           ///< m, between both
 };
 
-/// Measured shapes beside the modes of a body.
+/// The comparison of measured shapes with the modes of a body.
 struct ModalAssurance {
   std::vector<MatchedNode> nodes;
-  Eigen::Index n_components;    ///< that were compared: of 3 of each node those that were measured
+  /// Number of compared components: of the 3 of each node, those that were measured.
+  Eigen::Index n_components;
   std::vector<int> modes;       ///< [m] numbers of the body's modes, from 1
   Eigen::VectorXd body_Hz;      ///< [m]
   Eigen::VectorXd measured_Hz;  ///< [k]
@@ -26,13 +27,12 @@ struct ModalAssurance {
 };
 
 /// MAC = |psi^H phi|^2 / (psi^H psi phi^T phi) of each measured shape psi and each mode phi of the
-/// body, at the node of the body (of its picture, or an attachment node) that is nearest to each
-/// measured one. Interface modes are no natural modes and are left out. A component at which every
-/// measured shape is exactly zero was not measured, and is not compared.
-/// @param distance  m; how far a measured node may be from the nearest one
-/// @throws chladni::Error naming the measured nodes that are farther, two that have the same node
-/// of
-///         the body, and a shape or mode that is zero at all nodes.
+/// body. A measured node is compared with the nearest node of the body, of its picture or an
+/// attachment node. Interface modes are no natural modes and are left out. A component that is
+/// exactly zero in every measured shape counts as not measured and is left out.
+/// @param distance  m; largest distance between a measured node and the nearest node
+/// @throws chladni::Error naming the measured nodes that are farther away, two that have the same
+///         node of the body, and a shape or mode that is zero at all nodes.
 /// Source: Allemang, Brown, Proc. 1st IMAC (1982) 110.
 ModalAssurance modal_assurance(const ModalBody& body, const MeasuredModes& measured,
                                double distance);

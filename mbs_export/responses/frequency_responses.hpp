@@ -12,16 +12,16 @@
 
 namespace chladni::mbs_export {
 
-/// Where a load acts or an output is taken.
+/// The place of a load or an output.
 struct ResponsePoint {
   std::string name;
   int component;             ///< 0 to 5
-  std::int64_t node;         ///< number of the mesh; 0 where several nodes share a load
+  std::int64_t node;         ///< number in the mesh; 0 if several nodes share a load
   Eigen::Vector3d position;  ///< m; the mean of several nodes
 };
 
-/// Section forces (1 + i eta) S q for each unit of load, at all frequencies: those of a material
-/// with the complex modulus. Viscous damping of the modes has no share in them.
+/// Section forces (1 + i eta) S q per unit of each load at all frequencies, for a material with the
+/// complex modulus. Viscous damping of the modes does not contribute.
 struct SectionForceResponses {
   ResultantModes points;  ///< kinds, units and places; S is empty
   std::vector<Eigen::MatrixXcd>
@@ -35,9 +35,11 @@ struct FrequencyResponses {
   ResponseQuantity quantity;
   Eigen::VectorXd Omega;     ///< [n_f] rad/s, ascending
   double loss_factor = 0.0;  ///< eta of K (1 + i eta)
-  std::string damping;       ///< what else damps: the type of [body] damping, "file" of a body
+  /// Other damping: the type of [body] damping, or "file" of a body.
+  std::string damping;
   std::vector<ResponsePoint> loads, outputs;
-  /// Of each load [n_f x n_outputs]: m or rad per N or N m, over s or s^2 as `quantity` says.
+  /// For each load [n_f x n_outputs]: m or rad per N or N m, divided by s or s^2 as `quantity`
+  /// says.
   std::vector<Eigen::MatrixXcd> H;
   std::vector<SectionForceResponses> section_forces = {};
   Provenance provenance = {};
@@ -46,26 +48,28 @@ struct FrequencyResponses {
 /// The frequencies of a range, rad/s, ascending.
 Eigen::VectorXd angular_frequencies(const FrequencyRange& range);
 
-/// (i Omega)^p: p = 0 of a receptance, 1 of a mobility, 2 of an accelerance.
+/// (i Omega)^p with p = 0 for a receptance, 1 for a mobility, 2 for an accelerance.
 std::complex<double> rate_factor(ResponseQuantity quantity, double Omega);
 
-/// "m/N", "(rad/s)/(N m)", ...: the unit of an output for one load.
+/// The unit of an output for one load: "m/N", "(rad/s)/(N m)", ...
 std::string unit_of(ResponseQuantity quantity, const ResponsePoint& output,
                     const ResponsePoint& load);
 
+/// The place of a load or an output in a model.
 ResponsePoint point_of(const NamedNodes& model, const ResponseDof& dof);
 
-/// "body", "reduced", "fe"; "receptance", "mobility", "accelerance".
+/// The names "body", "reduced", "fe" of models, and "receptance", "mobility", "accelerance" of
+/// quantities.
 std::string name_of(ResponseModel model);
 std::string name_of(ResponseQuantity quantity);
 
-/// U ((1 + i eta) diag(omega^2) + i H + i Omega C - Omega^2 I)^-1 B of a body, which may hold all
-/// modes of a reduced system, H its structural damping and C without the viscous equivalent of it.
-/// Without a coupling by C and H each mode responds by itself; else one
+/// The responses U ((1 + i eta) diag(omega^2) + i H + i Omega C - Omega^2 I)^-1 B of a body, which
+/// may hold all modes of a reduced system. H is its structural damping and C excludes the viscous
+/// equivalent of H. If C and H couple no modes, each mode responds by itself; otherwise one
 /// equation of all modes is solved at each frequency.
-/// @throws ResponseOptionError for a place that the body does not have, a load on what does not
-///         move, an unknown group of section forces, and a frequency at which an undamped mode is
-///         in resonance: |k - Omega^2 m| < 1e-9 (k + Omega^2 m).
+/// @throws ResponseOptionError for a place that the body does not have, a load on a DOF that does
+///         not move, an unknown group of section forces, and a frequency at which an undamped mode
+///         is in resonance: |k - Omega^2 m| < 1e-9 (k + Omega^2 m).
 FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOptions& options);
 
 }  // namespace chladni::mbs_export

@@ -6,9 +6,9 @@
 
 namespace chladni::mbs_export {
 
-/// A table (RFC 4180): a row for each frequency in Hz, two columns for each output and load, real
-/// and imaginary part, whose headings tell both and the unit: "tip.z / hub.z re, m/N". Numbers have
-/// all their digits.
+/// A table (RFC 4180) with a row for each frequency in Hz and two columns for each output and load,
+/// real and imaginary part. The headings name both and the unit: "tip.z / hub.z re, m/N". Numbers
+/// have all their digits.
 std::string csv_of(const FrequencyResponses& responses);
 
 }  // namespace chladni::mbs_export

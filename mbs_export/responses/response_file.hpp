@@ -13,8 +13,9 @@ inline constexpr auto response_format = "chladni-response";
 /// @throws chladni::Error when the file cannot be written.
 void write_responses(const std::filesystem::path& path, const FrequencyResponses& responses);
 
+/// Reads a file of frequency responses.
 /// @throws chladni::Error naming file and dataset for what is missing, of the wrong kind, or
-///         contradicts the rest.
+///         contradictory.
 FrequencyResponses read_responses(const std::filesystem::path& path);
 FrequencyResponses read_responses(const files::Reader& file);
 

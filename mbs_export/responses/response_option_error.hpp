@@ -7,7 +7,7 @@
 
 namespace chladni::mbs_export {
 
-/// What a model cannot answer; knows which key of the scene's [response] asks for it.
+/// Thrown when a model cannot answer what the scene's table [response] asks for; names the key.
 class ResponseOptionError : public Error {
  public:
   /// @param key  "loads[2].at"

@@ -11,13 +11,14 @@ namespace chladni::mbs_export {
 /// FE model.
 struct ResponsePlace {
   std::string at;
-  std::vector<int> components = {};                ///< 0 to 5
-  std::optional<std::array<double, 3>> near = {};  ///< m; the node of the set nearest to here alone
+  std::vector<int> components = {};  ///< 0 to 5
+  /// m; only the node of the set that is nearest to this position
+  std::optional<std::array<double, 3>> near = {};
 };
 
 enum class ResponseModel { body, reduced, fe };
 
-/// Displacement, velocity or acceleration for each unit of load.
+/// Displacement, velocity or acceleration per unit of load.
 enum class ResponseQuantity { receptance, mobility, accelerance };
 
 enum class Spacing { linear, logarithmic };
@@ -25,19 +26,20 @@ enum class Spacing { linear, logarithmic };
 struct FrequencyRange {
   double from_Hz;
   double to_Hz;  ///< above from_Hz
-  int count;     ///< 2 or more, both ends among them
+  int count;     ///< 2 or more, both ends included
   Spacing spacing = Spacing::linear;
 };
 
-/// The scene's [response].
+/// The table [response] of a scene.
 struct ResponseOptions {
   ResponseModel model = ResponseModel::body;
   ResponseQuantity quantity = ResponseQuantity::receptance;
   std::vector<ResponsePlace> loads = {};    ///< a unit load for each component
   std::vector<ResponsePlace> outputs = {};  ///< each component of each node
   FrequencyRange range;
-  double loss_factor = 0.0;  ///< eta of K (1 + i eta), besides the body's damping
-  std::vector<std::string> section_forces = {};  ///< groups whose section forces respond
+  double loss_factor = 0.0;  ///< eta of K (1 + i eta), in addition to the body's damping
+  /// groups whose section forces are computed
+  std::vector<std::string> section_forces = {};
 };
 
 }  // namespace chladni::mbs_export

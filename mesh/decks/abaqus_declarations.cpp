@@ -218,7 +218,7 @@ class Declarer {
     if (first > last || last > 6)
       keyword.refuse(row, fmt::format("{} to {} are no components of 1 to 6", first, last));
     if (keyword.real_or(row, 3, "a displacement", 0.0) != 0.0)
-      keyword.refuse(row, "prescribes a displacement; a scene's support holds");
+      keyword.refuse(row, "prescribes a displacement; a scene's support holds at zero only");
     std::vector<int> held;
     for (std::int64_t c = first; c <= last; ++c) held.push_back(static_cast<int>(c) - 1);
     return held;

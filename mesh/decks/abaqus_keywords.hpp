@@ -9,29 +9,33 @@
 
 namespace chladni::mesh {
 
-/// A data line of a keyword, in capitals, cut at its commas.
+/// A data line of a keyword, in capitals, split at its commas.
 struct KeywordRow {
   int line;
   std::vector<std::string> fields;
 };
 
-/// A keyword of an input file of Abaqus with its parameters and data lines, all in capitals, as
-/// case means nothing there.
+/// A keyword of an Abaqus input file with its parameters and data lines. All text is in capitals,
+/// since case has no meaning there.
 struct Keyword {
   std::string name;
   int line;
-  std::map<std::string, std::string> parameters;  ///< without a value: empty
+  /// Values by name; empty for a parameter without a value.
+  std::map<std::string, std::string> parameters;
   std::vector<KeywordRow> rows;
 
   bool has(const std::string& parameter) const { return parameters.contains(parameter); }
-  /// @throws chladni::Error naming line and keyword where it is missing.
+  /// The value of a parameter.
+  /// @throws chladni::Error naming line and keyword when it is missing.
   const std::string& parameter(const std::string& name) const;
-  /// @throws chladni::Error naming a parameter that is none of these.
+  /// Checks that the keyword has no other parameters than these.
+  /// @throws chladni::Error naming the first other one.
   void expect_only(const std::set<std::string>& known) const;
+  /// Throws chladni::Error with line, keyword and `why`.
   [[noreturn]] void refuse(std::string_view why) const;
   [[noreturn]] void refuse(const KeywordRow& row, std::string_view why) const;
 
-  /// The i-th field of a row from 0 on; empty where it is not there.
+  /// Field i of a row, counted from 0; empty if the row is shorter.
   static std::string_view field(const KeywordRow& row, std::size_t i);
   bool is_integer(std::string_view text) const;
   std::int64_t integer(const KeywordRow& row, std::size_t i, std::string_view what) const;
@@ -41,7 +45,7 @@ struct Keyword {
 };
 
 /// The keywords of an input file, without comments.
-/// @throws chladni::Error naming the line of what is none.
+/// @throws chladni::Error naming a line that is neither a keyword nor its data.
 std::vector<Keyword> abaqus_keywords(const std::string& text);
 
 }  // namespace chladni::mesh

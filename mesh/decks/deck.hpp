@@ -11,23 +11,23 @@
 
 namespace chladni::mesh {
 
-/// An element as its file numbers its nodes.
+/// An element with the node numbers of its file.
 struct DeckElement {
   std::int64_t number;
   Shape shape;
   int order;
-  std::vector<std::int64_t> nodes;  ///< in lattice order, 0 where the file has none
-  int group;                        ///< index into Deck::groups, -1 = none
+  std::vector<std::int64_t> nodes;  ///< in lattice order; 0 for an inner node that the file lacks
+  int group;                        ///< index into Deck::groups; -1 = none
 };
 
-/// A named set of nodes. That of elements holds their nodes only after `mesh_of`.
+/// A named set of nodes. For a group of elements `mesh_of` fills in the nodes.
 struct DeckGroup {
   std::string name;
-  int dimension;  ///< of its elements; 0 of nodes alone
+  int dimension;  ///< of its elements; 0 for a set of nodes
   std::vector<std::int64_t> nodes;
 };
 
-/// The mesh of a file of another FE program, numbers as they stand there, in its own unit.
+/// The mesh of a file of another FE program, with the numbers and in the length unit of the file.
 struct Deck {
   std::map<std::int64_t, std::array<double, 3>> nodes;
   std::vector<DeckElement> elements;
@@ -35,19 +35,18 @@ struct Deck {
   std::vector<std::string> notes;
 };
 
-/// The group of that name, made if need be.
-/// @return its index
+/// The index of the group of this name, which is added if missing.
 int group_index(Deck& deck, const std::string& name, int dimension);
 
-/// An element by the shape that its number of nodes tells, which stand corners first, then the
-/// middles of the edges from the first one on, as Nastran and Abaqus number them.
+/// A surface element whose shape and order follow from its number of nodes. The nodes are given
+/// corners first, then the middles of the edges, beginning at the first edge, as in Nastran and
+/// Abaqus.
 DeckElement surface_element(std::int64_t number, const std::vector<std::int64_t>& nodes, int group);
 
-/// The mesh of a deck: its surfaces, and the lines of `line_groups`; other lines are sets of nodes,
-/// as is said in a note. Nodes of no element are left out, flat quadrilaterals split as those of
-/// other files.
-/// @throws chladni::Error naming an element and its node that is not there, and for a deck without
-///         elements.
+/// Makes the mesh of a deck: its surfaces, and the lines of `line_groups`. Other lines become sets
+/// of nodes, and a note says so. Nodes without an element are left out; quadrilaterals with a flat
+/// corner are split (`split_flat_corners`).
+/// @throws chladni::Error naming an element and its missing node, and for a deck without elements.
 Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups);
 
 }  // namespace chladni::mesh

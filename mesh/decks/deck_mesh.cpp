@@ -85,7 +85,7 @@ void add_elements(Mesh& mesh, const Deck& deck, const NodeIndex& index,
   for (std::size_t i = 0; i < n_left_out.size(); ++i) {
     if (n_left_out[i] == 0) continue;
     mesh.notes.push_back(fmt::format(
-        "{} line elements of \"{}\" are a set of nodes, for no section of type beam names it",
+        "{} line elements of \"{}\" became a set of nodes, since no section of type beam names it",
         n_left_out[i], mesh.groups[i].name));
   }
 }

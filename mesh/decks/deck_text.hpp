@@ -4,19 +4,20 @@
 #include <string_view>
 #include <vector>
 
-/// The text of decks, cut into lines and fields.
+/// Splitting the text of decks into lines and fields.
 namespace chladni::mesh {
 
-/// Without blanks, tabs and carriage returns at both ends.
+/// The text without blanks, tabs and carriage returns at both ends.
 std::string trimmed(std::string_view text);
 
+/// The text in capitals.
 std::string capitals(std::string text);
 
-/// What stands between the commas, trimmed.
+/// The parts between the commas of a line, trimmed.
 std::vector<std::string> cut_at_commas(std::string_view line);
 
-/// Hands on each line with its number, from the place `begin` of the text on, until `take` returns
-/// false.
+/// Calls take(line, number) for each line that begins at or after the place `begin` of the text,
+/// until it returns false. Lines are numbered from the start of the text, from 1.
 void for_each_line(const std::string& text, std::size_t begin, auto&& take)
 {
   int number = 0;

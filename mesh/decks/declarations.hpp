@@ -9,59 +9,62 @@
 
 namespace chladni::mesh {
 
-/// Isotropic and linearly elastic.
+/// An isotropic linearly elastic material.
 struct DeclaredMaterial {
   std::string name;
   double young;    ///< Pa
-  double poisson;  ///< of the shear modulus too
+  double poisson;  ///< also defines the shear modulus
   double density;  ///< kg/m^3
 };
 
-/// The shell section of one group.
+/// The shell section of a group.
 struct DeclaredShell {
   std::string group, material;
   double thickness;  ///< m
-  double offset;     ///< m, from the nodes to the mid-surface along the normals of the elements
+  /// m, from the nodes to the mid-surface, along the normals of the elements
+  double offset;
 };
 
-/// The beam section of one group, in axes as a scene's: z towards `orientation`.
+/// The beam section of a group. Its axes are those of a scene: z points towards `orientation`.
 struct DeclaredBeam {
   std::string group = {}, material = {};
-  double area, I_y, I_z, J;                   ///< m^2, m^4
-  std::optional<double> shear_factor_y = {};  ///< absent: rigid in shear
+  double area, I_y, I_z, J;  ///< m^2, m^4
+  /// Absent: rigid in shear.
+  std::optional<double> shear_factor_y = {};
   std::optional<double> shear_factor_z = {};
-  std::optional<std::array<double, 3>> orientation = {};  ///< needed unless y and z are alike
+  /// Needed unless the section is the same in y and z.
+  std::optional<std::array<double, 3>> orientation = {};
 };
 
-/// A reference node that moves with the nodes of a group: as a rigid body with them, or as they do
-/// in the mean.
+/// A reference node coupled to the nodes of a group.
 struct DeclaredCoupling {
   std::string name, group;
-  bool averages;
+  bool averages;  ///< false: rigid; true: it follows their average
 };
 
-/// Components of the nodes of a group, or of a coupling's reference node, that are held.
+/// Held components of the nodes of a group, or of the reference node of a coupling.
 struct DeclaredSupport {
   std::string group;
   std::vector<int> components;  ///< 0 to 5, ascending
 };
 
-/// A rigid body on the node of a group or the reference node of a coupling.
+/// A rigid body at the node of a group or at the reference node of a coupling.
 struct DeclaredMass {
-  std::string at;
-  double mass;                    ///< kg
-  std::array<double, 6> inertia;  ///< as a scene's: xx, yy, zz, xy, xz, yz, kg m^2
-  std::array<double, 3> offset;   ///< of the centre of mass, m
+  std::string at;  ///< group or coupling
+  double mass;     ///< kg
+  /// kg m^2; xx, yy, zz, xy, xz, yz as in a scene
+  std::array<double, 6> inertia;
+  std::array<double, 3> offset;  ///< m, from the node to the centre of mass
 };
 
-/// Between two such nodes, or one and the ground.
+/// A spring between two nodes, each of a group or a coupling, or between one node and the ground.
 struct DeclaredSpring {
-  std::string at;
+  std::string at;                      ///< group or coupling
   std::optional<std::string> to = {};  ///< absent: the ground
-  std::array<double, 6> stiffness;     ///< N/m, N m/rad
+  std::array<double, 6> stiffness;     ///< 3 in N/m, 3 in N m/rad
 };
 
-/// What a file of another FE program says besides its mesh, in SI units.
+/// The contents of a file of another FE program besides its mesh, in SI units.
 struct Declarations {
   std::vector<DeclaredMaterial> materials;
   std::vector<DeclaredShell> shells;
@@ -70,25 +73,30 @@ struct Declarations {
   std::vector<DeclaredSupport> supports;
   std::vector<DeclaredMass> masses;
   std::vector<DeclaredSpring> springs;
-  std::vector<std::string> notes;  ///< for the user: what becomes something else here
+  /// For the user: what is represented by something else in a scene.
+  std::vector<std::string> notes;
 };
 
-/// What 1 is in a deck whose masses follow from its forces and seconds.
+/// The units of length and force of a deck in SI. Its unit of mass follows from that of force and
+/// the second.
 struct DeckUnits {
-  double length;  ///< m
-  double force;   ///< N
+  double length;  ///< m per unit of the deck
+  double force;   ///< N per unit of the deck
 
   double stress() const { return force / (length * length); }      ///< Pa
   double density() const { return stress() / (length * length); }  ///< kg/m^3
-  double mass() const { return force / length; }                   ///< kg, of N s^2/m
-  double moment_of_inertia() const { return mass() * area(); }     ///< kg m^2
-  double area() const { return length * length; }                  ///< m^2
-  double second_moment() const { return area() * area(); }         ///< m^4
+  /// kg, since it is N s^2/m
+  double mass() const { return force / length; }
+  double moment_of_inertia() const { return mass() * area(); }  ///< kg m^2
+  double area() const { return length * length; }               ///< m^2
+  double second_moment() const { return area() * area(); }      ///< m^4
 };
 
-/// What the deck says besides its mesh, read where strangers' files are read.
-/// @param options  `file` is a deck; its `length_unit` is not looked at
-/// @throws chladni::Error naming file, line and card of what is wrong or has no counterpart here.
+/// Reads the contents of a deck besides its mesh. A stranger's file is read in a process of its
+/// own.
+/// @param options  `file` is a deck; `length_unit` is ignored
+/// @throws chladni::Error naming file, line and card of a mistake, or of anything that a scene
+///         cannot express.
 Declarations declarations(const MeshOptions& options, const DeckUnits& units);
 
 }  // namespace chladni::mesh

@@ -26,7 +26,7 @@ std::string Holders::add_reference(std::int64_t node)
 {
   if (connected_.contains(node)) {
     throw Error(fmt::format(
-        "its reference node {} is one of an element; in a scene it is a node by itself", node));
+        "its reference node {} belongs to an element; in a scene it must belong to none", node));
   }
   if (!references_.insert(node).second)
     throw Error(fmt::format("its reference node {} is that of another coupling", node));
@@ -40,7 +40,7 @@ std::set<std::string> Holders::of(const std::string& group,
   for (const std::int64_t node : nodes) {
     const bool is_reference = references_.contains(node);
     if (!is_reference && !connected_.contains(node))
-      throw Error(fmt::format("its node {} is of no element and no coupling", node));
+      throw Error(fmt::format("its node {} belongs to no element and no coupling", node));
     names.insert(is_reference ? name_of_reference(node) : group);
   }
   return names;

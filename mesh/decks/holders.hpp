@@ -6,25 +6,26 @@
 
 namespace chladni::mesh {
 
-/// Who can hold the nodes of a deck: groups, and the reference nodes of its couplings, which are of
-/// no element.
+/// Finds by which groups and couplings a scene can hold nodes of a deck. Reference nodes of
+/// couplings belong to no element.
 class Holders {
  public:
   explicit Holders(const Deck& deck);
 
-  /// A reference node's name in a scene, "node_17".
-  /// @throws chladni::Error where an element has the node, or another coupling.
+  /// Registers the reference node of a coupling.
+  /// @return its name in a scene, "node_17"
+  /// @throws chladni::Error when the node belongs to an element or to another coupling.
   std::string add_reference(std::int64_t node);
 
-  /// The groups and couplings by which a scene holds these nodes of a group.
-  /// @throws chladni::Error naming a node that is of no element and no coupling.
+  /// The groups and couplings by which a scene holds some nodes of `group`.
+  /// @throws chladni::Error naming a node that belongs to no element and no coupling.
   std::set<std::string> of(const std::string& group, const std::vector<std::int64_t>& nodes) const;
 
  private:
   std::set<std::int64_t> connected_, references_;
 };
 
-/// Adds a support, unless it is there.
+/// Adds a support unless there is an equal one.
 void add_support(Declarations& all, const std::string& group, const std::vector<int>& components);
 
 }  // namespace chladni::mesh

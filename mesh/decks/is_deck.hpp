@@ -5,20 +5,21 @@
 
 namespace chladni::mesh {
 
-/// Whether a file is a deck of bulk data of Nastran, by its name.
+/// True if the name of a file is that of Nastran bulk data: .bdf, .nas, .dat.
 inline bool is_nastran(const std::string& file)
 {
   const std::string extension = std::filesystem::path(file).extension().string();
   return extension == ".bdf" || extension == ".nas" || extension == ".dat";
 }
 
-/// Whether a file is an input file of Abaqus, by its name.
+/// True if the name of a file is that of an Abaqus input file: .inp.
 inline bool is_abaqus(const std::string& file)
 {
   return std::filesystem::path(file).extension() == ".inp";
 }
 
-/// Whether a file is a deck of another FE program, by its name; such files tell no unit.
+/// True if the name of a file is that of a deck of another FE program. Such files do not give their
+/// unit of length.
 inline bool is_deck(const std::string& file)
 {
   return is_nastran(file) || is_abaqus(file);

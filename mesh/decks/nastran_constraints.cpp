@@ -77,7 +77,7 @@ std::vector<HeldNodes> held_nodes(const Card& card, const Deck& deck)
   for (const std::size_t first : {std::size_t{2}, std::size_t{5}}) {
     if (!card.has(first)) continue;
     if (card.real_or(first + 2, "a displacement", 0.0) != 0.0)
-      card.refuse("prescribes a displacement; a scene's support holds");
+      card.refuse("prescribes a displacement; a scene's support holds at zero only");
     held.push_back({.set = set,
                     .components = card.components(first + 1),
                     .nodes = {card.integer(first, "number of a node")}});

@@ -162,7 +162,7 @@ class Declarer {
     if (!is_used(group)) return;
     for (const std::size_t i : {9, 17})
       if (card.field(i) == "YES" || card.field(i) == "YESA" || card.field(i) == "NO")
-        card.refuse("says more than one station; a scene's beams are the same from end to end");
+        card.refuse("has more than one station; a scene's beams are the same from end to end");
     for (std::size_t i = 19; i <= card.n_fields(); ++i)
       if (card.has(i) && card.real(i, "a number") != 0.0)
         card.refuse(fmt::format("field {} has no counterpart in a scene", i + 1));
@@ -276,7 +276,7 @@ class Declarer {
         support(card, name_of_held(held.set, held.components), held);
       }
       if (sets.size() > 1)
-        card.refuse("is of a second set; leave the one in the deck that the analysis is of");
+        card.refuse("belongs to a second set; keep only the set that the analysis uses");
     }
   }
 

@@ -76,8 +76,11 @@ class PointDeclarer {
  private:
   static void refuse_damping(const Card& card, std::size_t i)
   {
-    if (card.real_or(i, "GE", 0.0) != 0.0)
-      card.refuse("GE: a spring of a scene has a damper, which GE is none of; leave it out");
+    if (card.real_or(i, "GE", 0.0) != 0.0) {
+      card.refuse(
+          "GE: structural damping of springs is not read; take it out, and give loss_factor to the "
+          "spring in the scene");
+    }
   }
 
   /// One or two properties of four fields.
@@ -134,8 +137,8 @@ class PointDeclarer {
     if (component < 3) between[component] = 0.0;
     if (component > 2 || norm(between) == 0.0) return;
     all_.notes.push_back(fmt::format(
-        "{} {}: its nodes are apart across {}; the spring of the scene acts at the middle between "
-        "them, so that a turn of the whole feels nothing",
+        "{} {}: its nodes are at a distance across {}; the spring of the scene acts midway between "
+        "them, so that a rigid rotation causes no force",
         card.name(), card.field(1), component_names[component]));
   }
 

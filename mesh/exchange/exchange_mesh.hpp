@@ -20,34 +20,34 @@ struct ExchangeGroup {
   std::vector<std::size_t> elements = {};  ///< places in ExchangeMesh::elements
 };
 
-/// A mesh with its groups, as formats have it that carry meshes from one program to another: an
-/// element may be of several groups, or of none.
+/// A mesh with its groups, as in formats that carry meshes between programs: an element may belong
+/// to several groups, or to none.
 struct ExchangeMesh {
   std::map<std::int64_t, std::array<double, 3>> nodes;
-  std::vector<DeckElement> elements;  ///< `group` is -1
+  std::vector<DeckElement> elements;  ///< their `group` is -1
   std::vector<ExchangeGroup> groups;
   std::vector<std::string> notes;
 };
 
-/// An element whose nodes stand corners first; a quadrilateral may lack its inner node.
+/// An element given by its nodes, corners first. A quadrilateral may lack its inner nodes.
 /// @param order  1 to 4
-/// @throws chladni::Error when it has another number of nodes.
+/// @throws chladni::Error when the number of nodes does not fit shape and order.
 DeckElement exchange_element(std::int64_t number, Shape shape, int order,
                              const std::vector<std::int64_t>& nodes);
 
-/// What to do about a solid, as a half sentence that follows what the element is.
+/// The second half of an error about a solid element, which says what to do.
 extern const char* const solids_are_not_read;
 
-/// The group of elements, or of nodes alone, of that name, made if need be; whoever asks adds to
-/// it.
+/// What a group is looked up for: nodes alone, or elements.
 enum class Members { nodes, elements };
+/// The group of this name and kind of members, which is added if missing.
 ExchangeGroup& exchange_group(ExchangeMesh& mesh, const std::string& name, Members members);
 
-/// Each element gets one group: that which a section names (`shell_groups`, `line_groups`), else
-/// the first that it is in. All groups hold the nodes of their elements. Surfaces are the group
-/// "surfaces" where none is in a group; lines without a group are left out.
-/// @throws chladni::Error naming groups that hold lines and surfaces or bear one name, and an
-///         element with two sections.
+/// Gives each element one group: that with a section (`shell_groups`, `line_groups`), else the
+/// first that contains it. All groups hold the nodes of their elements. If no surface is in a
+/// group, all form the group "surfaces"; lines without a group are left out.
+/// @throws chladni::Error naming groups that mix lines and surfaces or share a name, and an element
+///         with two sections.
 Deck deck_of(const ExchangeMesh& mesh, const MeshOptions& options);
 
 }  // namespace chladni::mesh

@@ -5,27 +5,27 @@
 
 namespace chladni::mesh {
 
-/// Whether a file is a universal file of I-deas, by its name.
+/// True if the name of a file is that of a universal file of I-deas: .unv.
 inline bool is_unv(const std::string& file)
 {
   return std::filesystem::path(file).extension() == ".unv";
 }
 
-/// Whether a file is a MED file of Salome and Code_Aster, by its name.
+/// True if the name of a file is that of a MED file of Salome and Code_Aster: .med, .mmed.
 inline bool is_med(const std::string& file)
 {
   const std::string extension = std::filesystem::path(file).extension().string();
   return extension == ".med" || extension == ".mmed";
 }
 
-/// Whether a file is an unstructured grid of VTK in XML, by its name.
+/// True if the name of a file is that of an unstructured grid of VTK in XML: .vtu.
 inline bool is_vtu(const std::string& file)
 {
   return std::filesystem::path(file).extension() == ".vtu";
 }
 
-/// Whether a file carries a mesh and its groups between programs, by its name; such files tell no
-/// unit that could be relied upon, and no sections.
+/// True if the name of a file is that of a format that carries meshes with groups between programs.
+/// Such files give no reliable unit of length and no sections.
 inline bool is_exchange(const std::string& file)
 {
   return is_unv(file) || is_med(file) || is_vtu(file);

@@ -5,8 +5,8 @@
 
 namespace chladni::mesh {
 
-/// The mesh of a .unv, .med or .vtu in its own unit, read in this process.
-/// @throws chladni::Error naming the file and what in it is wrong or not known.
+/// Reads the mesh of a .unv, .med or .vtu in its own unit, in this process.
+/// @throws chladni::Error naming the file and its part that is wrong or unknown.
 Mesh exchange_mesh(const MeshOptions& options);
 
 }  // namespace chladni::mesh

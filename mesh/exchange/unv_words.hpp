@@ -8,19 +8,19 @@
 
 namespace chladni::mesh {
 
-/// The numbers of a dataset, one after the other, whatever lines they stand in. Functions throw
-/// chladni::Error naming line and dataset.
+/// Reads the numbers of a dataset one by one, across lines. All functions throw chladni::Error
+/// naming line and dataset.
 class UnvWords {
  public:
-  /// @param dataset  which must outlive the words
+  /// @param dataset  must outlive this object
   explicit UnvWords(const UnvDataset& dataset) : dataset_(dataset) {}
 
   bool at_end();
-  /// The next line as it is, from its begin on, trimmed.
+  /// The next whole line, trimmed.
   std::string line();
-  /// @param what  the number is, for errors
+  /// @param what  name of the number, for errors
   std::int64_t integer(const char* what);
-  /// A number from 1 on.
+  /// An integer of at least 1.
   std::int64_t number(const char* what);
   double real(const char* what);
   [[noreturn]] void refuse(std::string_view why) const;

@@ -10,38 +10,40 @@
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/covariant_strains.hpp"
 
-/// How the DOFs of elements follow from the active ones: what the assembly of any matrix shares.
+/// The motion of elements as a function of the active DOFs, used by the assembly of every matrix.
 namespace chladni::plate {
 
 /// The active numbers on which the motion of some nodes depends, ascending.
 std::vector<PetscInt> active_numbers(const DofMap& dofs, std::span<const int> nodes);
 
-/// u_e = T_e q of the points where the DOFs of an element stand, with q at active numbers.
+/// The motion u_e = T_e q of the points at which an element has its DOFs, with q at active numbers.
 struct ElementMotion {
   std::vector<PetscInt> numbers;
   Eigen::MatrixXd T_e;  ///< [6 n_e x 6 n]; empty where u_e = q
 };
 
-/// Through the couplings to the nodes of the mesh, and along the arms from these to the points.
+/// The motion of an element: through the couplings to the nodes of the mesh, and along the arms
+/// from these to the points.
 /// @param arms  [n_e x 3] m; empty for zero
 ElementMotion element_motion(const DofMap& dofs, std::span<const int> nodes,
                              const NodeVectors& arms);
 
-/// Adds an element matrix of 6 DOFs for each node in the coordinates of the system.
-/// @param A_e     symmetric, or the transposed of what is to be added
-/// @param places  block_places of motion.numbers
+/// Adds an element matrix with 6 DOFs for each node, transformed to the coordinates of the system.
+/// @param A_e     symmetric, or the transpose of what is added
+/// @param places  `block_places` of motion.numbers
 void add(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion, const DofMap& dofs,
          std::span<const std::ptrdiff_t> places);
 
-/// The same for what is symmetric: the mean of both sides of the diagonal is added, so that the
-/// sums are symmetric to the last bit and an entry that cancels does so on both sides.
+/// Adds a symmetric element matrix as `add`. The mean of both sides of the diagonal is added, so
+/// that the sums are symmetric to the last bit and an entry that cancels does so on both sides.
 void add_symmetric(BlockRows& A, Eigen::MatrixXd A_e, const ElementMotion& motion,
                    const DofMap& dofs, std::span<const std::ptrdiff_t> places);
 
-/// The neighbours of each node of this rank: all active numbers of an element are neighbours.
+/// The pattern of a rank. All active numbers of an element are neighbours, and so are those of a
+/// point element.
 BlockPattern element_pattern(const mesh::Mesh& mesh, std::span<const PointElement> points,
                              const DofMap& dofs, int rank);
-/// Of the point elements alone.
+/// The pattern of a rank with the point elements alone.
 BlockPattern point_pattern(std::span<const PointElement> points, const DofMap& dofs, int rank);
 
 /// Calls visit(block, element, its active numbers) for each element that depends on a number that

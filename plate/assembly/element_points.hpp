@@ -5,20 +5,20 @@
 
 namespace chladni::plate {
 
-/// Mass points of an element, and how its DOFs follow from the active ones.
+/// Mass points of an element, and the places where it has its DOFs.
 struct PlacedPoints {
   MassPoints points;
-  NodeVectors arms;  ///< [n x 3] from the nodes of the mesh, m; empty where they stand there
+  NodeVectors arms;  ///< [n x 3] m, from the nodes of the mesh to the DOFs; empty for zero
 };
 
-/// Mass points of any element of the mesh of the model.
+/// The mass points of an element of the model's mesh.
 PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& block, int element);
 
-/// The columns of MassMoments::displacement.
+/// Number of columns of MassMoments::displacement.
 constexpr Eigen::Index n_moments = 12;
 
-/// What the DOFs of an element have of the columns of MassMoments::displacement: the sums over its
-/// points of (1, x) u_l dm.
+/// The contribution of an element to MassMoments::displacement: sums of (1, x) u_l dm over its
+/// points.
 /// @return [6 n_nodes x 12]
 Eigen::MatrixXd element_moments(const MassPoints& points);
 

@@ -6,9 +6,9 @@
 
 namespace chladni::plate {
 
-/// The size that an entry A_ij of a symmetric matrix is measured by, sqrt |A_ii A_jj|: no entry of
-/// a positive semidefinite matrix is larger, and a Cholesky factorisation has errors of a few eps
-/// of it. Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3.
+/// The scale sqrt |A_ii A_jj| of an entry A_ij of a symmetric matrix. No entry of a positive
+/// semidefinite matrix is larger, and the errors of a Cholesky factorisation are a few eps of it.
+/// Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3.
 class EntryScales {
  public:
   /// @param own  [n n_rows] sqrt |A_ii| of the rows of this rank

@@ -7,12 +7,13 @@
 
 namespace chladni::plate {
 
-/// The work-equivalent forces of the loads, f in K u = f; those on dependent nodes act on what the
-/// nodes follow. Pressure and edge loads are those of the mesh's own surface and edges.
+/// The work-equivalent forces f of the loads in K u = f. A load on a dependent node acts on the
+/// nodes that it follows. Pressure and edge loads act on the surface and the edges of the mesh
+/// itself, without the offsets of sections.
 /// @return distributed as the rows of K; N, N m
 /// @note   Collective on the communicator of `system.K`.
 /// @throws chladni::Error for an unknown group, or one without nodes, edges or elements to load,
-///         and for a moment about the normal of a shell alone (drilling.hpp).
+///         and for a moment about a drilling axis (drilling.hpp).
 petsc::Vector load_vector(const mesh::Mesh& mesh, const System& system,
                           std::span<const Load> loads);
 

@@ -9,22 +9,22 @@
 namespace chladni::plate {
 
 /// The motion of every node, dependent ones included, from the DOFs of the system.
-/// @param q  distributed as the rows of K.
+/// @param q  distributed as the rows of K
 /// @return [n_nodes x 6] u and theta of DofMap's nodes, on every rank; m, rad
 /// @note   Collective on the communicator of `q`.
 Eigen::MatrixXd node_motions(const DofMap& dofs, Vec q);
 
 /// The forces and moments of the supports on the body, one row for each active number.
-/// @param held      the DOFs that supports hold; other rows of the residual are round-off.
-/// @param residual  K u - f, distributed as the rows of K.
+/// @param held      the DOFs that supports hold; other rows of the residual are round-off
+/// @param residual  K u - f, distributed as the rows of K
 /// @return [n_active x 6] N, N m, on every rank
 /// @note   Collective on the communicator of `residual`.
 Eigen::MatrixXd reactions(const DofMap& dofs, const std::vector<int>& held, Vec residual);
 
 /// Section forces at the nodes of the group of one section: those of each element are extrapolated
-/// to its nodes, and averaged over the elements of the group that meet there. Moments and shear
-/// forces refer to the normal of most of them where neighbours are oriented differently. At a kink
-/// inside a group the average means nothing.
+/// to its nodes and averaged over the elements of the group that meet there. If neighbours are
+/// oriented differently, moments and shear forces refer to the normal of the majority. At a kink
+/// inside a group the average has no meaning.
 /// @return rows as the nodes of the mesh, zero at nodes outside the group; on every rank
 /// @note   Collective on `comm`, over which the elements are divided.
 ShellResultants nodal_resultants(const mesh::Mesh& mesh, const ShellSection& section,

@@ -4,11 +4,11 @@
 
 namespace chladni::plate {
 
-/// The mean of all nodes, m: unit rotations of `rigid_motions` turn about axes through it.
+/// The mean position of all nodes, m. The rotations of `rigid_motions` turn about axes through it.
 Eigen::Vector3d centre_of_nodes(const DofMap& dofs);
 
 /// Unit translations along x, y, z and unit rotations about axes through the centre of the nodes,
-/// as motions of the DOFs; components that the nodes do not have are left out.
+/// as motions of the DOFs. Components that the nodes do not have are left out.
 /// @param system  without averages and harmonics of rings, whose DOFs are no displacements of nodes
 /// @return [n x 6] dense
 /// @note   Collective.

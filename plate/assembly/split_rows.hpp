@@ -10,8 +10,8 @@
 
 namespace chladni::plate {
 
-/// Rows in CSR form: the entries in the columns of this rank, counted from its first, and in the
-/// others.
+/// Rows in CSR form, split into the entries in the columns of this rank, counted from its first
+/// column, and the entries in other columns.
 struct SplitRows {
   std::vector<PetscInt> start{0};
   std::unique_ptr<PetscInt[]> column;
@@ -20,38 +20,38 @@ struct SplitRows {
   std::vector<double> other_value;
 };
 
-/// Sums over a pattern.
+/// Where the sums over a pattern are stored.
 struct HeldBlocks {
   const BlockPattern& pattern;
-  const std::vector<int>& held;               ///< n * i + j of blocks that do not hold all
-  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1]
+  const std::vector<int>& held;  ///< n * i + j of the components that partly stored blocks have
+  const std::vector<std::ptrdiff_t>& offset;  ///< [n_blocks + 1] start of each block
 };
 
 /// sqrt |A_ii| of the rows of this rank.
 std::vector<double> diagonal_scales(const HeldBlocks& blocks, const std::vector<double>& values);
 
-/// What counts as an entry: more than a part of the scale of its place.
+/// Decides which values are entries: those above `negligible` times the scale of their place.
 struct Sieve {
   double negligible;
-  const EntryScales* scales;  ///< null where only zeros are none
+  const EntryScales* scales;  ///< null: all but zeros are entries
 
-  /// [n] sqrt |A_ii| of the DOFs of a node, or zeros.
+  /// [n] sqrt |A_ii| of the DOFs of a node; zeros without scales.
   const double* of(PetscInt node) const
   {
     static constexpr std::array<double, 6> zeros{};
     return scales ? scales->of(node) : zeros.data();
   }
-  /// Symmetric to the last bit; what is no number counts.
+  /// True if the value is an entry. The result is symmetric to the last bit; NaN is an entry.
   bool counts(double value, double row_scale, double column_scale) const
   {
     return !(std::abs(value) <= negligible * (row_scale * column_scale));
   }
 };
 
-/// Turns the sums over a pattern into rows of scalars: those off the diagonal that the sieve holds
-/// back are left out. The values stay in the memory of the sums: the rows of a node never have more
-/// than its blocks hold.
-/// @throws chladni::Error when there are more entries than PETSc counts.
+/// Turns the sums over a pattern into rows of scalars and drops what the sieve holds back off the
+/// diagonal. The values stay in the memory of the sums, since the rows of a node are never longer
+/// than its blocks.
+/// @throws chladni::Error when there are more entries than a PetscInt counts.
 SplitRows split_rows(const HeldBlocks& blocks, std::vector<double> values, const Sieve& sieve);
 
 }  // namespace chladni::plate

@@ -9,12 +9,12 @@
 
 namespace chladni::plate {
 
-/// The DOFs of the FE system, the same on every rank and never changed: DOF `6 * number +
-/// component` (u_x, u_y, u_z, theta_x, theta_y, theta_z), or correspondingly fewer where the nodes
-/// have only some of the components.
+/// The DOFs of the FE system, the same on every rank and immutable. DOF `6 * number + component` is
+/// one of (u_x, u_y, u_z, theta_x, theta_y, theta_z) of an active number; with n_c < 6 components
+/// it is `n_c * number + place of the component`.
 class DofMap : RingMotions {
  public:
-  /// @param components  ascending; the others are held at zero. All six with averages and rings.
+  /// @param components  ascending; the others are held at zero. Averages and rings need all six.
   DofMap(RingMotions motions, std::vector<int> components)
       : RingMotions(std::move(motions)), components_(std::move(components))
   {}
@@ -29,26 +29,26 @@ class DofMap : RingMotions {
   const std::vector<int>& components() const { return components_; }
   int n_components() const { return static_cast<int>(components_.size()); }
   int n_dofs() const { return n_components() * n_active(); }
-  /// The DOF of a component (0 to 5) of an active number; absent where the nodes do not have it.
+  /// The DOF of a component (0 to 5) of an active number; absent if the nodes do not have it.
   std::optional<int> dof_of_number(int active, int component) const;
-  /// The DOF that is this component (0 to 5) of the node's motion; absent where couplings make it a
-  /// combination of others, and where the nodes do not have this component.
+  /// The DOF that equals this component (0 to 5) of the node's motion; absent where couplings make
+  /// it a combination of others, and where the nodes do not have this component.
   std::optional<int> dof(int node, int component) const;
 
  private:
   std::vector<int> components_;
 };
 
-/// The names of the components, x, y, z, rx, ry, rz.
+/// The names of the components: x, y, z, rx, ry, rz.
 extern const std::array<const char*, 6> component_names;
 
-/// The DOFs of a mesh by way of its CoupledNodes, NumberedNodes, NodeMotions and RingMotions.
+/// The DOFs of a mesh, made in the steps CoupledNodes, NumberedNodes, NodeMotions and RingMotions.
 /// Chains of links and rigid couplings are followed to their end.
-/// @param owners [n nodes of the mesh] rank of each.
-/// @throws chladni::Error for an unknown group, a node that two couplings claim, links in a circle,
-///         groups of a link whose nodes do not pair, averages that overlap or determine no
-///         rotation, a name that the mesh already uses, averages or harmonics of nodes with fewer
-///         than six components, each naming the couplings; and as with_ring_harmonics.
+/// @param owners  [n_mesh_nodes] rank of each node of the mesh
+/// @throws chladni::Error, naming the couplings, for an unknown group, a node in two couplings,
+///         links in a circle, groups of a link whose nodes do not pair, averages that overlap or
+///         determine no rotation, a name that the mesh already uses, averages or harmonics of nodes
+///         with fewer than six components; and as `with_ring_harmonics`.
 DofMap make_dof_map(const mesh::Mesh& mesh, const Kinematics& kinematics,
                     std::span<const int> owners, int n_ranks);
 

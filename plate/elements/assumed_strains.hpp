@@ -6,48 +6,51 @@
 
 namespace chladni::plate {
 
-/// Interpolation of assumed strains from tying points: one set of points and one matrix
-/// [n_integration_points x n_tying_points] for each component.
+/// Interpolation of assumed strains from tying points, with a set of points and a matrix of weights
+/// for each component.
 struct Tying {
   struct Component {
     Basis basis;              ///< at the tying points
     Eigen::MatrixXd weights;  ///< [n_integration_points x n_tying_points]
   };
-  std::array<Component, 2> shear;     ///< gamma_1, gamma_2
-  std::array<Component, 3> membrane;  ///< eps_11, eps_22, eps_12; not at order 1
+  std::array<Component, 2> shear;  ///< gamma_1, gamma_2
+  /// eps_11, eps_22, eps_12; unused at order 1
+  std::array<Component, 3> membrane;
 };
 
-/// Tying points of the quadrilateral of order p: shear gamma_xi at Gauss_p in xi times
-/// Gauss-Lobatto p+1 in eta (on the element edges) and transposed; membrane eps_xixi at Gauss_p x
-/// Gauss_(p+1), transposed, and eps_xieta at Gauss_p x Gauss_p. Made once for each order.
+/// Tying points of the quadrilateral of order p. Shear: gamma_xi at Gauss_p in xi times
+/// Gauss-Lobatto p+1 in eta (on the element edges), gamma_eta transposed. Membrane: eps_xixi at
+/// Gauss_p x Gauss_(p+1), eps_etaeta transposed, eps_xieta at Gauss_p x Gauss_p. Each order is
+/// computed once.
 const Tying& quadrilateral_tying(int order);
 
-/// Replaces the transverse shear and membrane rows of `strains` by the assumed ones; bending stays
-/// compatible. The membrane strains are corrected by a field constant in a local Cartesian frame so
-/// that their element mean is that of the compatible ones (else distorted elements fail the
-/// constant-stress patch test). Order 1 has the membrane strains of MITC4+ instead.
+/// Replaces the transverse shear and membrane rows of the compatible strains by assumed ones;
+/// bending stays compatible. The membrane strains are corrected by a field that is constant in a
+/// local Cartesian frame, so that their element mean is that of the compatible ones; otherwise
+/// distorted elements fail the constant-stress patch test. Order 1 has the membrane strains of
+/// MITC4+ instead.
 /// @param frame  of the surface at the integration points
 CovariantStrains assume_quadrilateral_strains(int order, const Points& integration,
                                               const ShellNodes& nodes, const ShellFrame& frame,
                                               const CovariantStrains& compatible);
 
-/// Membrane strains of MITC4+ from eps_11 and eps_22 at the middles of the edges and eps_12 in the
+/// Membrane strains of MITC4+ from eps_11 and eps_22 at the middles of the edges and eps_12 at the
 /// centre. Their combination vanishes for every inextensional bending of a warped element, where
-/// the compatible ones lock, and passes the patch test.
+/// compatible strains lock, and passes the patch test.
 /// Source: Ko, Lee and Bathe, Comput. Struct. 182 (2017) 404.
 std::array<StrainRows, 3> assume_bilinear_membrane(const Points& integration,
                                                    const ShellNodes& nodes);
 
 /// Strains of the triangle of order 1, MITC3+, at any points: rotations enriched by a bubble
-/// (rotation_bubbles.hpp), shear tied at six inner points, membrane strains constant.
+/// (rotation_bubbles.hpp), shear tied at six inner points, constant membrane strains.
 /// @param basis  at `points`
 /// Source: Lee, Lee and Bathe, Comput. Struct. 138 (2014) 12.
 CovariantStrains linear_triangle_strains(const ShellNodes& nodes, const BubbleBasis& basis,
                                          const Points& points);
 
-/// Shear of a triangle of order 2 or 3 at its (p+1)^2 Gauss points, tied in the Nedelec space of
-/// the first kind: the tangential component at p Gauss points of each edge, both components at
-/// inner points.
+/// Transverse shear strains of a triangle of order 2 or 3 at its (p+1)^2 Gauss points, tied in the
+/// Nedelec space of the first kind: the tangential component at p Gauss points of each edge, both
+/// components at inner points.
 CovariantStrains assume_triangle_shear(int order, const ShellNodes& nodes,
                                        const CovariantStrains& compatible);
 
@@ -59,8 +62,8 @@ CovariantStrains assume_triangle_shear(int order, const ShellNodes& nodes,
 CovariantStrains assume_triangle_membrane(int order, const ShellNodes& nodes,
                                           const CovariantStrains& compatible);
 
-/// `tied` plus the constant Cartesian membrane strain that restores the element mean of
-/// `compatible`; rows are weighted with `weight` times the area element.
+/// Adds to `tied` the constant Cartesian membrane strain that restores the element mean of
+/// `compatible`. The mean weights each point with `weight` times the area element.
 std::array<StrainRows, 3> correct_mean(const std::array<StrainRows, 3>& tied,
                                        const std::array<StrainRows, 3>& compatible,
                                        const ShellFrame& frame, const Eigen::VectorXd& weight);

@@ -7,18 +7,18 @@
 
 namespace chladni::plate {
 
-/// Rows of a strain component at points, as a linear form in the 6 DOFs (u, theta) of each node.
+/// Rows of a strain component at points, as linear forms in the 6 DOFs (u, theta) of each node.
 using StrainRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using NodeVectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// A shell in the element's nodes: x = sum N_i (x_i + zeta D_i), |zeta| <= 1.
+/// The geometry of a shell by the nodes of an element: x = sum N_i (x_i + zeta D_i), |zeta| <= 1.
 struct ShellNodes {
   NodeVectors x;  ///< [n x 3] mid-surface, m
   NodeVectors D;  ///< [n x 3] half the thickness times the unit director, m
 };
 
-/// Mid-surface tangents a_1, a_2, director d and its derivatives d_1, d_2 at points, [n_points x
-/// 3].
+/// Mid-surface tangents a_1, a_2, director d and its derivatives d_1, d_2 at points, each [n_points
+/// x 3].
 struct ShellFrame {
   NodeVectors a_1, a_2, d, d_1, d_2;
 };
@@ -32,16 +32,17 @@ struct CovariantStrains {
   std::array<StrainRows, 2> g0, g1;
 };
 
+/// The frame of the surface at the points of `basis`.
 ShellFrame shell_frame(const Basis& basis, const ShellNodes& nodes);
 
-/// Which strains to compute: the rows of the others stay empty.
+/// The strains to compute; the rows of the others stay empty.
 enum class StrainParts { all, membrane, shear };
 
-/// Compatible (displacement-based) strains at the points of `basis`.
+/// The compatible (displacement-based) strains at the points of `basis`.
 CovariantStrains covariant_strains(const Basis& basis, const ShellNodes& nodes,
                                    StrainParts parts = StrainParts::all);
 
-/// The same for a field that has other shape functions than the surface.
+/// The compatible strains of a field whose shape functions differ from those of the surface.
 /// @param frame      of the surface, at the points of `field`
 /// @param directors  [n_field_nodes x 3] half-thickness directors that the rotations turn, m
 CovariantStrains covariant_strains(const Basis& field, const ShellFrame& frame,

@@ -7,11 +7,11 @@
 namespace chladni::plate {
 
 /// K_sigma of a shell by the membrane forces N of its static displacements u_e, uniform through the
-/// thickness: with the displacements u of its points and the derivatives along its surface
+/// thickness. With the displacements u of its points and derivatives along its surface
 ///   v^T K_sigma v = int N_ab / t u_,a . u_,b dV.
-/// All three directions of u count, so that a rigid rotation meets what the loads do on it. The
-/// moments and transverse shear forces of u_e count nothing.
-/// @param nodes  D is half the thickness times the unit director.
+/// All three directions of u are included, so that a rigid rotation sees the effect of the loads.
+/// Moments and transverse shear forces of u_e are neglected.
+/// @param nodes  D is half the thickness times the unit director
 /// @param u_e    [6 n_nodes] static displacements and rotations of the mid-surface, m, rad
 /// @return [6 n_nodes squared] symmetric, N/m, N, N m
 /// @throws chladni::Error for an order that does not exist.
@@ -19,21 +19,21 @@ namespace chladni::plate {
 Eigen::MatrixXd shell_geometric_stiffness(mesh::Shape shape, int order, const ShellNodes& nodes,
                                           const Material& material, const Eigen::VectorXd& u_e);
 
-/// K_sigma of the chain of beams that `beam_matrices` makes, by the axial force N of each, uniform
-/// over its section, with the interpolation of `beam_shapes`: a string, its twist and the bending
-/// of its section,
+/// K_sigma of the chain of beams of `beam_matrices` by the axial force N of each, uniform over its
+/// section, with the interpolation of `beam_shapes`. It has the terms of a string, of its twist and
+/// of the bending of its section,
 ///   N int u'^2 + v'^2 + w'^2 + (I_y + I_z) / A phi'^2 + I_z / A psi_z'^2 + I_y / A psi_y'^2 dx.
 /// @param x    [n x 3] nodes from end to end, m
 /// @param u_e  [6 n] static displacements and rotations, m, rad
 /// @return [6 n squared] symmetric, N/m, N, N m
-/// @throws chladni::Error as beam_axes.
+/// @throws chladni::Error as `beam_axes`.
 Eigen::MatrixXd beam_geometric_stiffness(const NodeVectors& x, const BeamSection& section,
                                          const Eigen::VectorXd& u_e);
 
-/// What a force F adds at the end of a rigid arm r that turns with a node: the end moves by theta x
-/// r + theta x (theta x r) / 2, so that the forces that hold F there resist theta by
+/// The stiffness of a force F at the end of a rigid arm r that turns with a node. The end moves by
+/// theta x r + theta x (theta x r) / 2, so the forces that hold F there resist theta by
 ///   G = (F r^T + r F^T) / 2 - (F . r) I.
-/// @param force  that the arm takes up from its end, N; F = K u - f of what is fixed there
+/// @param force  N, on the arm at its end: F = K u - f of what is fixed there
 /// @param arm    from the node to the point, m
 /// @return [3 x 3] in the rotations of the node, N m
 Eigen::Matrix3d arm_geometric_stiffness(const Eigen::Vector3d& force, const Eigen::Vector3d& arm);

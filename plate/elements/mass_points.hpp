@@ -8,10 +8,10 @@
 
 namespace chladni::plate {
 
-/// An element's mass as points dm at x whose displacement u = N d is linear in its DOFs d, so that
-/// every integral over the mass of positions and displacements is a sum: M_e = sum dm N^T N.
+/// The mass of an element as points dm at x whose displacement u = N d is linear in its DOFs d.
+/// Each integral of positions and displacements over the mass is then a sum: M_e = sum dm N^T N.
 struct MassPoints {
-  Eigen::VectorXd dm;           ///< [n_points] kg; some of a lumped inertia may be negative
+  Eigen::VectorXd dm;           ///< [n_points] kg; may be negative for a lumped inertia
   NodeVectors x;                ///< [n_points x 3] m
   std::array<StrainRows, 3> N;  ///< x, y, z: [n_points x 6 n_nodes]
 };
@@ -19,15 +19,15 @@ struct MassPoints {
 /// The Gauss points of the consistent mass of a shell, two through the thickness.
 MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nodes, double density);
 
-/// Of the chain of beams that `beam_matrices` makes: four Gauss points along each, four points of
-/// the section that have its area and second moments. Without rotary inertia the points do not move
-/// along the axis when the section turns.
+/// The mass points of the chain of beams of `beam_matrices`: four Gauss points along each beam,
+/// with four points of the section that have its area and second moments. Without rotary inertia
+/// the points do not move along the axis when the section turns.
 /// @param x  [n x 3] nodes from end to end, m
 MassPoints beam_mass_points(const NodeVectors& x, const BeamSection& section);
 
-/// Of a rigid body that follows the motion of one node: its centre and six points on the principal
-/// axes.
-/// @param node  place of the node, m
+/// The mass points of a rigid body that follows the motion of one node: its centre and six points
+/// on the principal axes.
+/// @param node  position of the node, m
 MassPoints rigid_mass_points(const PointMass& mass, const Eigen::Vector3d& node);
 
 }  // namespace chladni::plate

@@ -9,22 +9,22 @@
 
 namespace chladni::plate {
 
-/// A shell whose nodes lie in one plane, normal to directors of one length.
+/// A shell element whose nodes lie in one plane, normal to directors of one length.
 struct PlaneShell {
   Eigen::MatrixX2d x;  ///< [n x 2] in the plane, m
   double thickness;    ///< m
-  Eigen::Matrix3d Q;   ///< rows: the axes of the plane, then its normal
+  Eigen::Matrix3d Q;   ///< rows: two axes of the plane, then its normal
 };
 
-/// The shell in its plane; absent for curved ones and for a thickness that is not constant.
+/// The element in its plane; absent for a curved element and for a thickness that is not constant.
 std::optional<PlaneShell> in_its_plane(const ShellNodes& nodes);
 
-/// The matrices of shell_matrices for a plane quadrilateral of order 2 to 4. In its plane the
-/// displacements (u_1, u_2), the deflection with its rotations (w, phi), phi = theta x n, and the
-/// rotation about the normal are energies of their own, with strains E of plane displacements:
+/// The matrices of `shell_matrices` for a plane quadrilateral of order 2 to 4, with a tenth of the
+/// operations. The displacements in the plane (u_1, u_2), the deflection with its rotations (w,
+/// phi), phi = theta x n, and the rotation about the normal have separate energies, with strains E
+/// of plane displacements:
 ///   K_u = t sum C[E assumed u],  K_wphi = t^3/12 sum C[E phi] + kappa G t sum |grad w + phi|^2.
-/// A tenth of the operations that a curved element takes.
-/// @param beta  share_of_reduced_integration
+/// @param beta  `share_of_reduced_integration`
 ElementMatrices plane_matrices(int order, const PlaneShell& shell, const Material& material,
                                double beta);
 

@@ -5,14 +5,14 @@
 
 namespace chladni::plate {
 
-/// Which strain components an energy counts.
+/// The strain components that an energy includes.
 enum class Strains { all, without_shear, shear };
 
-/// Two Gauss points through the thickness, weights 1.
+/// The two Gauss points through the thickness; their weights are 1.
 extern const std::array<double, 2> thickness_points;
 
-/// S with S^T S = plane-stress elasticity, kappa = 5/6, for the Cartesian components
-/// (e_11, e_22, 2 e_12, 2 e_13, 2 e_23); the rows of components that do not count are left out.
+/// S with S^T S = plane-stress elasticity, kappa = 5/6, for the Cartesian components (e_11, e_22, 2
+/// e_12, 2 e_13, 2 e_23), without the rows of components that are not included.
 /// @return [n x 5], sqrt(Pa)
 Eigen::Matrix<double, Eigen::Dynamic, 5> elasticity_root(const Material& material, Strains which);
 
@@ -21,12 +21,12 @@ double volume_element(const ShellFrame& frame, Eigen::Index q, double zeta);
 
 /// K = sum over points of B^T C B det(g) w, with B the Cartesian strains in a frame whose third
 /// axis is the director.
-/// @param root  of C, from `elasticity_root`.
+/// @param root  of C, from `elasticity_root`
 Eigen::MatrixXd stiffness(const CovariantStrains& strains, const ShellFrame& frame,
                           const Points& points,
                           const Eigen::Matrix<double, Eigen::Dynamic, 5>& root);
 
-/// R^T R, both triangles.
+/// R^T R, with both triangles filled.
 Eigen::MatrixXd gram_matrix(const StrainRows& R);
 
 }  // namespace chladni::plate

@@ -8,7 +8,8 @@
 
 namespace chladni::plate {
 
-/// Points of an element, `n` intervals along each direction, in the order of mesh::ElementBlock.
+/// Lattice points of an element with `n` intervals in each direction, in the order of
+/// mesh::ElementBlock.
 class Lattice {
  public:
   Lattice(mesh::Shape shape, int n) : shape_(shape), n_(n) {}
@@ -17,10 +18,10 @@ class Lattice {
   int n() const { return n_; }
   int size() const;
   int place(int i, int j) const;
-  /// The columns of row j.
+  /// Number of points in row j.
   int n_columns(int j) const { return shape_ == mesh::Shape::triangle ? n_ - j + 1 : n_ + 1; }
   int n_rows() const { return shape_ == mesh::Shape::line ? 1 : n_ + 1; }
-  /// The places along each edge, as mesh::edges_of orders edges and their nodes.
+  /// The places along each edge. Edges and their points are in the order of mesh::edges_of.
   std::vector<std::vector<int>> edges() const;
 
  private:
@@ -28,26 +29,26 @@ class Lattice {
   int n_;
 };
 
-/// The places along the edges of an element, 0 to 1, at which it is cut into halves; as
-/// mesh::edges_of orders them.
+/// The places along the edges of an element, 0 to 1, at which it is cut in two, in the order of
+/// mesh::edges_of.
 using Cuts = std::array<double, 4>;
 constexpr Cuts in_the_middle{0.5, 0.5, 0.5, 0.5};
 
-/// Where the points of a lattice lie, r and s in [0, 1] along the first two edges: each part
-/// between the cuts of opposite edges, or of the three of a triangle, has equidistant ones.
+/// The parameters r and s of lattice points, in [0, 1] along the first two edges. Each part between
+/// the cuts of opposite edges (of the three edges of a triangle) has equidistant points.
 /// @param parts  2, or 1 without cuts
 std::vector<std::array<double, 2>> lattice_parameters(const Lattice& lattice, int parts,
                                                       const Cuts& cuts);
 
-/// The lattice of a part of an element: the place of its first corner, and its direction.
+/// A part of an element: the lattice place of its first corner, and its direction.
 struct Part {
   int i, j, sign;
 };
 
-/// All parts of an element that is cut into so many along each direction.
+/// All parts of an element that is cut into `parts` in each direction.
 std::vector<Part> parts_of(mesh::Shape shape, int parts);
 
-/// Values at these parameters of the shape functions of an element of this order.
+/// The values of the shape functions of an element at some parameters.
 /// @return [n_points x nodes_per_element]
 Eigen::MatrixXd shapes_at(mesh::Shape shape, int order,
                           const std::vector<std::array<double, 2>>& parameters);

@@ -7,45 +7,49 @@
 
 namespace chladni::plate {
 
-/// What becomes of each element: `parts` times as many along each direction, of another order.
+/// The refinement of each element: the number of parts in each direction, and their order.
 struct Refinement {
   int parts = 1;  ///< 1 or 2
   int order = 1;
-  /// [n_nodes] m, with two parts: elements that meet a free edge of a shell at such a node are cut
-  /// there, where that is nearer than their middle; empty: all are halved
+  /// [n_nodes] m. With two parts, elements at a free edge of a shell are cut at this distance from
+  /// it if that is nearer than their middle. Empty: all are halved.
   std::vector<double> edge_rows = {};
 };
 
-/// The elements of a mesh anew, on the same geometry: that of the original's shape functions, and
-/// of the circles where the nodes of an edge lie on one.
+/// A mesh with other elements on the same geometry, which is that of the original's shape
+/// functions, and of circles where the nodes of an edge lie on one.
 struct RefinedMesh {
-  /// An element of the original.
+  /// A point in an element of the original.
   struct Place {
     int block, element;
-    Eigen::VectorXd shapes;  ///< [nodes_per_element] its shape functions there
+    /// [nodes_per_element] values of its shape functions at the point
+    Eigen::VectorXd shapes;
   };
 
   mesh::Mesh mesh;
-  std::vector<Place> places;  ///< [n_nodes] one of the elements in which each node lies
+  /// [n_nodes] Each node in one of the elements of the original that contain it.
+  std::vector<Place> places;
 };
 
-/// Nodes that both have keep their numbers. Groups of curves gain the nodes of edges of which they
-/// have all nodes, groups of surfaces those of such elements too; groups of points and rings gain
-/// none, and lose those that the refined elements do not have.
+/// Refines a mesh. Nodes of the original that remain keep their numbers. A group of curves gains
+/// the nodes of edges that it contains, a group of surfaces also those of such elements. Groups of
+/// points and rings gain no nodes, and lose those that the refined elements do not have.
 RefinedMesh refined(const mesh::Mesh& mesh, const Refinement& refinement);
 
-/// Whether elements at free edges are much wider than two of these rows.
+/// True if an element at a free edge is much wider than two rows, so that it would not be halved in
+/// the middle.
 /// @param rows  [n_nodes] m
 bool has_wide_edges(const mesh::Mesh& mesh, const std::vector<double>& rows);
 
-/// Whether groups of points and rings have all their nodes in the refined mesh.
+/// True if groups of points and rings have all their nodes in the refined mesh.
 bool keeps_points(const mesh::Mesh& mesh, const mesh::Mesh& refined);
 
-/// Whether all elements exist of the next order, and no group of points and no ring loses nodes
-/// there.
+/// True if all elements are surfaces of one order, the next order exists for all, and no group of
+/// points and no ring loses nodes in it.
 bool can_rise(const mesh::Mesh& mesh);
 
-/// Displacements and rotations between the nodes of the original, by its shape functions.
+/// Displacements and rotations of the refined nodes, interpolated by the original's shape
+/// functions.
 /// @param motions  [6 n x k] of the nodes of the original; row 6 i + c is component c of node i
 /// @return [6 n_refined x k]
 Eigen::MatrixXd interpolated(const mesh::Mesh& mesh, const RefinedMesh& refined,

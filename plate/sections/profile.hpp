@@ -7,7 +7,7 @@
 namespace chladni::plate {
 
 /// The value of a profile at a place of the model, m.
-/// @throws chladni::Error when a formula cannot be read, or is no finite number there.
+/// @throws chladni::Error when a formula cannot be parsed or has no finite value there.
 double value_at(const Profile& profile, const std::array<double, 3>& place);
 
 }  // namespace chladni::plate

@@ -9,39 +9,40 @@
 
 namespace chladni::plate {
 
-/// Which section each group of the mesh has: indices into Structure, -1 for none.
+/// The section of each group of the mesh as an index into Structure; -1 for none.
 struct SectionMap {
   std::vector<int> shell;  ///< [n_groups]
   std::vector<int> beam;   ///< [n_groups]
 };
 
-/// Checks the whole mesh, so that every rank throws or none.
+/// Finds the section of each group. It checks the whole mesh, so that either all ranks throw or
+/// none.
 /// @throws chladni::Error when an element has no section, a section has no elements, an element of
 ///         this shape and order does not exist, or the axes of a beam are not defined.
 SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure);
 
-/// What the matrices of an element depend on besides its nodes.
+/// The data on which the matrices of an element depend besides its nodes.
 struct ElementContext {
   const SectionMap& sections;
   const Structure& structure;
   const NodeVectors& normals;  ///< [n_nodes x 3] mean_normals
 };
 
-/// K_e and M_e of an element, and where their DOFs stand.
+/// K_e and M_e of an element, and the places of its DOFs.
 struct PlacedMatrices {
   ElementMatrices matrices;
-  NodeVectors arms;  ///< [n x 3] from the nodes of the mesh, m; empty where they stand there
+  NodeVectors arms;  ///< [n x 3] m, from the nodes of the mesh to the DOFs; empty for zero
 };
 
-/// Of any element of the mesh; those of a shell stand on its mid-surface, off the mesh by the
-/// section's offset.
+/// The matrices of an element of the mesh. The DOFs of a shell are on its mid-surface, at the
+/// section's offset from the mesh.
 PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock& block,
                                 int element, const ElementContext& context);
 
-/// eta of an element: that of its section, or else of the material.
+/// The loss factor eta of an element: that of its section if set, else that of the material.
 double loss_factor(const mesh::ElementBlock& block, int element, const ElementContext& context);
 
-/// Whether anything of the structure has structural damping.
+/// True if a section, a material or a spring has a loss factor above zero.
 bool has_loss_factors(const Structure& structure);
 
 }  // namespace chladni::plate

@@ -13,16 +13,17 @@
 
 namespace chladni::python {
 
-/// An object of PETSc as petsc4py numbers it.
+/// Address of a PETSc object, as petsc4py passes handles.
 using HandleNumber = std::uintptr_t;
 
+/// The PETSc object at that address.
 template <class Object>
 Object object_of(HandleNumber handle)
 {
   return reinterpret_cast<Object>(handle);  // NOLINT(performance-no-int-to-ptr): it is one
 }
 
-/// While it lives, errors of PETSc are kept as text and not printed.
+/// While an object of this class exists, PETSc errors are kept as text and not printed.
 class CollectedErrors {
  public:
   CollectedErrors() { PetscPushErrorHandler(&collect, this); }
@@ -30,7 +31,9 @@ class CollectedErrors {
   CollectedErrors(const CollectedErrors&) = delete;
   CollectedErrors& operator=(const CollectedErrors&) = delete;
 
-  /// @throws chladni::Error with the words of the first error, where there was one.
+  /// Throws when `code` is an error.
+  /// @throws chladni::Error with the text of the first error, std::bad_alloc when PETSc ran out of
+  ///         memory.
   void check(PetscErrorCode code) const
   {
     if (code == 0) return;
@@ -53,14 +56,15 @@ class CollectedErrors {
   std::string text_;
 };
 
-/// A CMS and the Python function that hears of its phases.
+/// Owner of a CMS, which can report its phases to a Python function.
 class Cms {
  public:
+  /// Creates the CMS on the communicator of another PETSc object.
   explicit Cms(HandleNumber of_same_comm)
   {
     call([&] { return CMSCreate(PetscObjectComm(object_of<PetscObject>(of_same_comm)), &cms_); });
   }
-  /// Not after PETSc has ended, which is when the interpreter ends.
+  /// Destroys the CMS unless PETSc has already been finalised, as it is when the interpreter exits.
   ~Cms()
   {
     PetscBool is_over = PETSC_FALSE;
@@ -72,7 +76,8 @@ class Cms {
 
   CMS get() const { return cms_; }
 
-  /// @throws chladni::Error when the function of the C header says so.
+  /// Calls function() and turns a PETSc error into an exception.
+  /// @throws chladni::Error when the function returns an error.
   template <class Function>
   static void call(const Function& function)
   {
@@ -80,6 +85,8 @@ class Cms {
     errors.check(function());
   }
 
+  /// Calls function(cms) without the interpreter lock, with progress reported to `listener`.
+  /// @throws what the listener or Ctrl-C raised, else chladni::Error.
   void solve(pybind11::object listener, PetscErrorCode (*function)(CMS))
   {
     Progress progress(std::move(listener));

@@ -6,10 +6,10 @@
 
 namespace chladni::python {
 
-/// What a file of Chladni holds, checked by the reader of its format.
-/// @return the format, and (name, unit, value) of each dataset: a number, a text, a list
-///         of texts, or an array of numpy
-/// @throws chladni::Error when it is no such file, or is damaged.
+/// The contents of a file of Chladni, checked by the reader of its format.
+/// @return the format, and (name, unit, value) of each dataset: a number, a text, a list of texts,
+///         or a numpy array
+/// @throws chladni::Error when the file is not one of Chladni's or is damaged.
 pybind11::tuple file_values(const std::string& path);
 
 }  // namespace chladni::python

@@ -6,23 +6,25 @@
 #include <string>
 #include <utility>
 
-/// Long work of the libraries inside of Python.
+/// Long computations of the libraries inside Python.
 namespace chladni::python {
 
-/// Tells a Python function how far the work is, and looks for Ctrl-C meanwhile. What either raises
-/// ends the work, whatever the libraries make of it on its way up.
+/// Reports the progress of a computation to a Python function and checks for Ctrl-C. An exception
+/// raised by either ends the computation and is raised again in Python, even if the libraries
+/// convert it on the way.
 class Progress {
  public:
-  /// @param listener  takes the name of the phase and its part that is done, 0 to 1; or None
+  /// @param listener  called with the name of the phase and the fraction done, 0 to 1; or None
   explicit Progress(pybind11::object listener) : listener_(std::move(listener)) {}
 
-  /// To be called without the lock of the interpreter, as is `tell`.
+  /// Checks for Ctrl-C. Call it without the interpreter lock, as `tell`.
   void look_for_signals()
   {
     const pybind11::gil_scoped_acquire locked;
     if (PyErr_CheckSignals() != 0) fail(pybind11::error_already_set());
   }
 
+  /// Checks for Ctrl-C, then calls the listener. Call it without the interpreter lock.
   void tell(const std::string& phase, double fraction)
   {
     look_for_signals();
@@ -35,7 +37,8 @@ class Progress {
     }
   }
 
-  /// work(), without the lock of the interpreter.
+  /// Returns work(), run without the interpreter lock.
+  /// @throws what a signal or the listener raised, else what `work` threw.
   template <class Work>
   auto during(const Work& work)
   {

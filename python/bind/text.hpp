@@ -6,7 +6,7 @@
 
 namespace chladni::python {
 
-/// As text of Python; a byte that is no UTF-8, as damaged files have it, becomes U+FFFD.
+/// The text as a Python str; bytes that are not UTF-8, as in damaged files, become U+FFFD.
 inline pybind11::str text_of(std::string_view text)
 {
   PyObject* const decoded =

@@ -7,40 +7,42 @@
 
 namespace chladni::sound::testing {
 
-/// The outgoing multipole p = h_l^(2)(kR) P_l^n(cos theta) cos(n phi), in Pa: an exact field around
-/// any body that holds the origin.
+/// The outgoing multipole p = h_l^(2)(kR) P_l^n(cos theta) cos(n phi), in Pa: an exact sound field
+/// around any body that contains the origin.
 struct Multipole {
   int l;
   int n;
 };
 
-/// At (r, z) of the plane phi = 0.
+/// Pressure at (r, z) in the plane phi = 0, Pa.
 std::complex<double> pressure(const Multipole& multipole, const Wave& wave, double r, double z);
 
-/// The normal velocity at points of the surface that makes this field, for phi = 0 in a meridian
-/// plane: v_n = i / (omega rho) dp/dn.
+/// Normal velocity of the surface that generates this field, v_n = i / (omega rho) dp/dn, at points
+/// of a meridian for phi = 0 or of a surface in space.
+/// @return [n_points x 1] m/s
 Eigen::MatrixXcd normal_velocity(const Multipole& multipole, const Wave& wave,
                                  const BodySurface& surface);
 
-/// The same at a point of space, with cos(n phi).
+/// Pressure at a point of space, with the factor cos(n phi), Pa.
 std::complex<double> pressure(const Multipole& multipole, const Wave& wave,
                               const Eigen::Vector3d& x);
 
-/// Largest difference of the nodal pressures from the exact ones before the absorbing shell, over
-/// the largest exact one.
+/// Largest error of the nodal pressures inside the absorbing shell's inner radius, relative to the
+/// largest exact pressure there.
 double field_error(const AirMesh& mesh, const Wave& wave, const Eigen::VectorXcd& p,
                    const Multipole& exact);
 
-/// The same of all nodes together, in the mean square.
+/// Root mean square error of those nodal pressures, relative to the exact ones.
 double mean_field_error(const AirMesh& mesh, const Wave& wave, const Eigen::VectorXcd& p,
                         const Multipole& exact);
 
+/// A ball around the origin.
 inline Outline sphere(double radius)
 {
   return {.quadrilaterals = {}, .balls = {{.z = 0.0, .radius = radius}}};
 }
 
-/// A disc without a hole, its middle plane at z = 0.
+/// A disc without a hole, with its middle plane at z = 0.
 Outline solid_disc(double radius, double thickness);
 
 }  // namespace chladni::sound::testing

@@ -4,8 +4,8 @@
 #include "sound/body_surface.hpp"
 #include "sound/wave.hpp"
 
-/// The disc of Steinbrecher 2015, chapter 5, as a Kirchhoff plate clamped at its hub: the mode with
-/// three nodal diameters, in closed form.
+/// The mode with three nodal diameters of the disc of Steinbrecher 2015, chapter 5, as a Kirchhoff
+/// plate clamped at its hub, in closed form.
 namespace chladni::sound::testing {
 
 inline constexpr double disc_radius = 0.162;    // m
@@ -13,23 +13,28 @@ inline constexpr double hub_radius = 0.025;     // m
 inline constexpr double disc_thickness = 0.02;  // m
 inline constexpr double squeal_Hz = 1696.8532997475254;
 
-/// U(r), 1 at the rim, and its derivative; zero in the hub.
+/// Deflection U(r), which is 1 at the rim and 0 in the hub, and its derivative U'(r), 1/m.
 double deflection(double r);
 double slope(double r);
 
-/// Velocity 1 m/s at the rim: U on the faces, and -zeta U' on the rim.
-/// @param rim  factor of the motion of the rim, 0 or 1
+/// Normal velocity of the surface at points of a meridian for 1 m/s at the rim: U on the faces and
+/// -zeta U' on the rim.
+/// @param rim  factor on the motion of the rim, 0 or 1
+/// @return [n_points x 1] m/s
 Eigen::MatrixXcd disc_velocity(const BodySurface& surface, double rim);
 
-/// The same in space, with cos(3 phi).
+/// Normal velocity of the surface at points in space, with the factor cos(3 phi) and the motion of
+/// the rim, for 1 m/s at the rim.
+/// @return [n_points x 1] m/s
 Eigen::MatrixXcd disc_velocity_in_space(const BodySurface& surface);
 
+/// A wave with three nodal diameters at the squeal frequency.
 Wave squeal_wave();
 
-/// A body of the pair of modes, with a contact ring "track" at 0.13 m and a picture of 16 circles.
-/// Its frequency is that of the squeal.
+/// A body with this pair of modes, a contact ring "track" at 0.13 m and a picture of 16 circles.
+/// Its frequency is squeal_Hz.
 mbs_export::ModalBody thesis_body();
 
-inline constexpr double modal_mass = 1.60374675810;  // kg, of unit deflection of the rim
+inline constexpr double modal_mass = 1.60374675810;  // kg, for unit deflection of the rim
 
 }  // namespace chladni::sound::testing

@@ -15,25 +15,25 @@ namespace chladni::squeal::test {
 
 using std::numbers::pi;
 
-/// A pair of plate modes W = U (cos, sin)(n theta) on the ring, not yet mass-normalised; n = 0 is a
-/// single mode. The real pair may come turned by `turn` (rad) and with its second mode reversed, as
-/// eigenvectors of a degenerate eigenvalue do.
+/// A pair of plate modes W = U (cos, sin)(n theta) on the ring, not mass-normalised; n = 0 is a
+/// single mode. The pair may be rotated by `turn` (rad) and have its second mode reversed (`sign`),
+/// as an eigensolver may return it for a double eigenvalue.
 struct PlatePair {
-  int n;
+  int n;  ///< nodal diameters
   double f_Hz;
-  double mass;  ///< modal mass, kg
-  double U;     ///< on the ring
-  double U_r;   ///< radial slope, 1/m
-  double U_t;   ///< circumferential slope, 1/m; n U / r of a thin plate
-  double turn = 0.0;
-  double sign = 1.0;
-  double split = 0.0;  ///< relative: the second mode has f_Hz (1 + split)
+  double mass;         ///< modal mass, kg
+  double U;            ///< deflection on the ring
+  double U_r;          ///< radial slope, 1/m
+  double U_t;          ///< circumferential slope, 1/m; n U / r for a thin plate
+  double turn = 0.0;   ///< rad
+  double sign = 1.0;   ///< of the second mode, 1 or -1
+  double split = 0.0;  ///< relative frequency split: the second mode has f_Hz (1 + split)
 };
 
-inline constexpr double ring_radius = 0.13;
+inline constexpr double ring_radius = 0.13;  ///< m
 
 // SQUEAL reference values: disc 50 / 324 / 20 mm, Kirchhoff plate, closed form in Bessel functions,
-// scaled to 1 at the rim. Computed independently of this code.
+// scaled to deflection 1 at the rim. Computed independently of this code.
 inline PlatePair kirchhoff_pair(int n, double f_Hz, double mass, double U, double U_r)
 {
   return {n, f_Hz, mass, U, U_r, n * U / ring_radius};
@@ -52,7 +52,8 @@ inline PlatePair kirchhoff_4()
   return kirchhoff_pair(4, 3056.51937233769, 1.406927567574736, 0.5577639701052876,
                         12.102403030433843);
 }
-/// Mindlin plate, kappa = 5/6; slopes are those of the director, so U_t is not n U / r.
+/// The pair of a Mindlin plate, kappa = 5/6. Slopes are those of the director, so
+/// U_t is not n U / r.
 inline PlatePair mindlin_3()
 {
   return {3,
@@ -63,7 +64,7 @@ inline PlatePair mindlin_3()
           13.75762276510705};
 }
 
-/// A body with these pairs and one ring "track" of 60 nodes, modes in the order given.
+/// A body with the modes of these pairs in the given order and one ring "track" of 60 nodes.
 inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
 {
   Eigen::Index n_modes = 0;
@@ -96,19 +97,20 @@ inline mbs_export::ModalBody analytic_body(const std::vector<PlatePair>& pairs)
   return body;
 }
 
-/// The flexible disc of that body, undamped.
+/// The undamped flexible disc of that body.
 inline Disc disc_of(const std::vector<PlatePair>& pairs)
 {
   return disc_on_ring(analytic_body(pairs), "track", {});
 }
 
-/// The state matrix over the speed.
+/// The state matrix as a function of the speed.
 inline StateMatrixAt at_speeds(const InertialDisc& disc, const SquealOptions& options)
 {
   return [disc, options](double speed) { return state_matrix(disc, options, speed); };
 }
 
-/// One pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad damping.
+/// Options with one pad pair at angle 0: mu = 0.6, k = 6e6 N/m, N_0 = 2000 N, h = 20 mm, no pad
+/// damping.
 inline SquealOptions reference_options(ContactLaw law = ContactLaw::bilateral)
 {
   SquealOptions options{};

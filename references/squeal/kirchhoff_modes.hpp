@@ -6,9 +6,9 @@
 
 namespace chladni::squeal::test {
 
-/// All bending modes below 16 kHz of the reference disc as a Kirchhoff plate, closed form in Bessel
-/// functions: 16 pairs and 3 single modes, 35 degrees of freedom. Computed independently of this
-/// code.
+/// All bending modes below 16 kHz of the reference disc as a Kirchhoff plate, in closed form by
+/// Bessel functions: 16 pairs and 3 single modes, 35 degrees of freedom. Computed independently of
+/// this code.
 inline std::vector<PlatePair> kirchhoff_modes()
 {
   return {

@@ -10,38 +10,38 @@
 
 namespace chladni::report {
 
-/// How much of a mesh is drawn.
+/// Level of detail of a drawn mesh.
 enum class Detail {
-  lattice,  ///< all nodes: curved elements are curved
+  lattice,  ///< all lattice nodes, so that curved elements look curved
   corners,  ///< the corners of each element
-  clusters  ///< corners near to each other as one
+  clusters  ///< nearby corners merged into one
 };
 
-/// What a page draws of one group, as places in MeshDrawing::positions.
+/// A group as drawn on the page, by indices into MeshDrawing::positions.
 struct GroupDrawing {
-  std::vector<std::int32_t> lines;  ///< two ends each
+  std::vector<std::int32_t> lines;  ///< two end points per line
   std::vector<std::int32_t> points;
 };
 
-/// A mesh as it is drawn.
+/// A mesh as it is drawn on a page.
 struct MeshDrawing {
   Detail detail = Detail::lattice;
-  std::vector<float> positions;             ///< [3 n] m
-  std::vector<std::int32_t> cells;          ///< [4 n_cells]; a triangle repeats its last corner, a
-                                            ///< line twice
-  std::vector<std::int32_t> group_of_cell;  ///< [n_cells] -1 without one
-  std::vector<std::int32_t> edges;          ///< two ends each; of the elements, none for clusters
+  std::vector<float> positions;  ///< [3 n] m
+  /// [4 n_cells] corners; a triangle repeats its last corner, a line repeats both of its ends.
+  std::vector<std::int32_t> cells;
+  std::vector<std::int32_t> group_of_cell;  ///< [n_cells] -1 for none
+  std::vector<std::int32_t> edges;          ///< two end points per element edge; empty for clusters
   std::vector<GroupDrawing> groups;
 };
 
-/// The most cells that a drawing of all lattice nodes and one of the corners may have.
+/// Largest numbers of cells for a drawing with all lattice nodes and for one with the corners.
 struct DrawingLimits {
   std::size_t lattice = 60'000;
   std::size_t corners = 100'000;
 };
 
-/// The drawing with the most detail that keeps within the limits; clusters always do.
-/// @param parts  of the groups
+/// The most detailed drawing within the limits; clusters are merged until they fit.
+/// @param parts  of the groups of the mesh, from group_parts
 MeshDrawing draw_mesh(const mesh::Mesh& mesh, std::span<const GroupParts> parts,
                       const DrawingLimits& limits = {});
 

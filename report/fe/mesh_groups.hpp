@@ -8,24 +8,25 @@
 
 namespace chladni::report {
 
-/// What a group of a mesh is seen as.
+/// How a group of a mesh is shown.
 enum class GroupKind {
-  surface,  ///< its elements
-  lines,    ///< its elements, of beams
-  curve,    ///< edges of elements between its nodes
-  points    ///< its nodes alone
+  surface,  ///< the group's elements
+  lines,    ///< the group's beam elements
+  curve,    ///< element edges between the group's nodes
+  points    ///< the group's nodes only
 };
 
 /// "surface", "lines", "curve" or "points"
 std::string name_of(GroupKind kind);
 
-/// What a group is made of.
+/// The drawable parts of a group.
 struct GroupParts {
   GroupKind kind;
-  std::vector<std::vector<int>> edges;  ///< of a curve or of lines: nodes from end to end
-  std::vector<int> points;              ///< nodes on none of its elements and edges
-  double size = 0.0;  ///< m^2 of a surface, m of a curve or of lines; 0 if unknown
-  std::array<std::array<double, 2>, 3> extents = {};  ///< m, least and greatest x, y, z; 0 if empty
+  std::vector<std::vector<int>> edges;  ///< node lists along the edges of a curve or of lines
+  std::vector<int> points;  ///< the group's nodes that are on none of its elements and edges
+  double size = 0.0;  ///< area in m^2 of a surface, length in m of a curve or lines; 0 if unknown
+  /// Smallest and largest x, y, z, m; 0 if the group is empty.
+  std::array<std::array<double, 2>, 3> extents = {};
 };
 
 /// The parts of each group of the mesh.

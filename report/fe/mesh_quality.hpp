@@ -6,14 +6,15 @@
 #include "mesh/quality.hpp"
 #include "report/json.hpp"
 
-/// The shapes of a mesh's elements, for people and for programs.
+/// Element quality of a mesh, as text and as JSON.
 namespace chladni::report {
 
-/// Least, mean and greatest value of each measure, its histogram, and the first ten elements that
-/// cannot work.
+/// Minimum, mean, maximum and histogram of each quality measure, and the first ten unusable
+/// elements.
 std::string quality_text(const std::vector<mesh::ElementQuality>& elements);
 
-/// "quality": measure -> min, mean, max, bin_edges, counts; "unusable_elements": their numbers.
+/// JSON members `quality`, with min, mean, max, bin_edges and counts of each measure, and
+/// `unusable_elements` with their numbers.
 std::vector<Json::Member> quality_json(const std::vector<mesh::ElementQuality>& elements);
 
 }  // namespace chladni::report

@@ -8,10 +8,10 @@
 
 namespace chladni::report {
 
-/// How many nodes, elements of each kind and nodes of each group a mesh has.
+/// A table with the numbers of nodes, of elements of each kind and of nodes in each group.
 TextTable mesh_table(const mesh::Mesh& mesh);
 
-/// Members `n_nodes`, `n_elements`, `mesh_checksum` and `notes`.
+/// JSON members `n_nodes`, `n_elements`, `mesh_checksum` and `notes`.
 std::vector<Json::Member> mesh_json(const mesh::Mesh& mesh);
 
 }  // namespace chladni::report

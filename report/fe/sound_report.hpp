@@ -8,10 +8,10 @@
 
 namespace chladni::report {
 
-/// What `chladni sound` found, as tables for people.
+/// The results of `chladni sound` as tables for the terminal.
 std::string describe_sound(const sound::SoundResults& results);
 
-/// Members `tones`, `microphones`, `power_W`, `radiation`, `feedback`, `loudness`.
+/// JSON members `tones`, `microphones`, `power_W`, `radiation`, `feedback`, `loudness`.
 std::vector<Json::Member> sound_json(const sound::SoundResults& results);
 
 }  // namespace chladni::report

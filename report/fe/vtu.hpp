@@ -9,36 +9,36 @@
 
 namespace chladni::report {
 
-/// Values at the points or of the cells of a grid, one row for each; columns are components.
-/// Six components are a symmetric tensor in the order of VTK: xx, yy, zz, xy, yz, xz.
+/// Values at the points or cells of a grid, one row each; columns are components. Six components
+/// are a symmetric tensor in VTK's order xx, yy, zz, xy, yz, xz.
 struct VtuField {
   std::string name;
   Eigen::MatrixXd values;
 };
 
-/// Which cells of a grid belong to something: 1 for those that do, else 0.
+/// Membership of the cells of a grid in a set: 1 for members, else 0.
 struct VtuMarks {
   std::string name;
   std::vector<std::uint8_t> values;
 };
 
-/// An unstructured grid of VTK.
+/// An unstructured grid as VTK defines it.
 struct VtuGrid {
   Eigen::MatrixX3d points;        ///< m
   std::vector<int> connectivity;  ///< indices into `points`, cell by cell
-  std::vector<int> offsets;       ///< of the end of each cell in `connectivity`
+  std::vector<int> offsets;       ///< end of each cell in `connectivity`
   std::vector<int> types;         ///< VTK's cell types
   std::vector<VtuField> of_points, of_cells;
   std::vector<VtuMarks> marks_of_cells;
 };
 
-/// VTK's number for a cell with the nodes of an element: linear cells at order 1, else Lagrange's.
+/// VTK's cell type for an element: the linear cell at order 1, else the Lagrange cell.
 int vtu_cell_type(mesh::Shape shape, int order);
 
-/// VTK's number for a cell that is one node.
+/// VTK's cell type for a single node.
 inline constexpr int vtu_vertex = 1;
 
-/// The text of a .vtu file: VTK's XML with base64 arrays.
+/// The grid as the text of a .vtu file: VTK's XML with base64 arrays.
 std::string vtu_text(const VtuGrid& grid);
 
 }  // namespace chladni::report

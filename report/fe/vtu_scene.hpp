@@ -10,23 +10,24 @@
 
 namespace chladni::report {
 
-/// The mesh as a grid of VTK. Where groups of elements meet, each has its own points, so that
-/// thickness and section forces may jump.
+/// The mesh as a VTK grid. Groups of elements that meet do not share points, so that thickness and
+/// section forces may be discontinuous.
 struct SceneGrid {
-  VtuGrid grid;  ///< with the thickness of the points, and number, group and rank of the cells
+  VtuGrid grid;  ///< with the thickness at the points, and number, group and rank of the cells
   std::vector<int> node_of_point, group_of_point;
 };
 
-/// @param owners  [n_nodes] rank of each node.
+/// The grid of a mesh.
+/// @param owners  [n_nodes] rank of each node
 SceneGrid scene_grid(const mesh::Mesh& mesh, std::span<const plate::ShellSection> sections,
                      std::span<const int> owners);
 
-/// Adds displacement and rotation of the points, `prefix` before their names.
-/// @param motions  [n_nodes x 6], as plate::node_motions
+/// Adds displacement and rotation of the points, with `prefix` before their names.
+/// @param motions  [n_nodes x 6], from plate::node_motions
 void add_motions(SceneGrid& scene_grid, const Eigen::MatrixXd& motions, const std::string& prefix);
 
-/// Adds membrane forces, moments and shear forces of the points.
-/// @param resultants  of each section, as plate::nodal_resultants
+/// Adds membrane forces, moments and shear forces at the points.
+/// @param resultants  for each section, from plate::nodal_resultants
 void add_resultants(SceneGrid& scene_grid, const mesh::Mesh& mesh,
                     std::span<const plate::ShellSection> sections,
                     std::span<const plate::ShellResultants> resultants);

@@ -6,7 +6,7 @@
 
 namespace chladni::report {
 
-/// Bytes as text (RFC 4648), for binary numbers inside a page.
+/// Bytes as base64 text (RFC 4648), for binary numbers in a page.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace chladni::report

@@ -5,8 +5,8 @@
 
 namespace chladni::report {
 
-/// What the page shows of the motion over the last rotations: figures, lines of its spectrum, and
-/// the effective pad velocity over the angle of the disc.
+/// The statistics of a motion over the last rotations for the page: figures, spectral lines, and
+/// the effective pad velocity over the disc's angle.
 Json statistics_page(const squeal::MotionStatistics& statistics);
 
 }  // namespace chladni::report

@@ -11,27 +11,27 @@
 
 namespace chladni::report {
 
-/// A number for a picture: six digits; null when not finite.
+/// A number with six digits for a picture; null when it is not finite.
 Json rounded(double x);
 
-/// A list of them.
+/// A list of numbers with six digits.
 Json rounded(std::span<const double> x);
 Json rounded(const Eigen::VectorXd& x);
 
 /// The rows of a matrix as a list of lists.
 Json rounded_rows(const Eigen::MatrixXd& rows);
 
-/// Numbers as they are in memory, in base64.
+/// Numbers in their binary representation as base64 text.
 template <class Number>
 Json packed(const std::vector<Number>& numbers)
 {
   return Json(base64(std::as_bytes(std::span(numbers))));
 }
 
-/// Members `title`, `header` and `rows`.
+/// JSON members `title`, `header` and `rows`.
 Json table_json(const std::string& title, const TextTable& table);
 
-/// A list of texts.
+/// A JSON list of texts.
 Json texts(const std::vector<std::string>& words);
 
 }  // namespace chladni::report

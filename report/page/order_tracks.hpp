@@ -5,7 +5,8 @@
 
 namespace chladni::report {
 
-/// The spectrogram in decibels, coarse enough for a page, and the orders of its lines.
+/// The spectrogram in decibels, thinned for a page, with the frequencies and the orders of its
+/// lines.
 Json spectrogram_page(const squeal::Spectrogram& spectrogram);
 
 }  // namespace chladni::report

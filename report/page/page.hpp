@@ -7,8 +7,8 @@
 
 namespace chladni::report {
 
-/// The page with everything that it needs inside it.
-/// @param benchmark  JSON text that the page draws too, or "null"
+/// The HTML page with everything it needs inside.
+/// @param benchmark  JSON text of a benchmark to draw as well, or "null"
 std::string report_page(std::string_view title, const Json& content, std::string_view benchmark);
 
 }  // namespace chladni::report

@@ -164,17 +164,17 @@ Json content_of(const Found& found)
 void declare_report(CLI::App& app, ReportArguments& arguments)
 {
   CLI::App* report = app.add_subcommand(
-      "report", "one page with pictures of a body and of its squeal: NAME.report.html");
+      "report", "writes a page with pictures of a body and its squeal: NAME.report.html");
   report->add_option("SCENE", arguments.scene, "the scene file (TOML)")->required();
   report->add_option("--output", arguments.output, "folder of the scene's files, and of the report")
       ->type_name("DIR")
       ->capture_default_str();
   report
       ->add_option("--benchmark", arguments.benchmark,
-                   "end_to_end.json of ./dev bench: speed against error, drawn too")
+                   "also draws speed against error from the end_to_end.json of ./dev bench")
       ->type_name("FILE");
   report->add_flag("--stale", arguments.stale,
-                   "shows files too that were made before the scene changed");
+                   "also shows files that were made before the scene changed");
   report->footer(
       fmt::format("Example (after `chladni run` and `squeal run` with the same SCENE and DIR):\n"
                   "  {} report scene.toml --output out\n"

@@ -6,8 +6,8 @@
 
 namespace chladni::report {
 
-/// Frequency responses as a page: amplitude and phase of the outputs for each load, and tables. Of
-/// many outputs the 24 largest are drawn, which the page then says.
+/// Frequency responses as a page: amplitude and phase of the outputs for each load, and tables.
+/// Only the 24 largest outputs are drawn, and the page says so.
 std::string responses_page(const mbs_export::FrequencyResponses& responses);
 
 }  // namespace chladni::report

@@ -9,20 +9,20 @@
 
 namespace chladni::report {
 
-/// A motion Re((re + i im) exp(i omega t)) of all nodes of a picture.
+/// A motion Re((re + i im) exp(i omega t)) of all nodes of a picture, by complex modal amplitudes.
 struct Motion {
   std::string name;
   double frequency_Hz;
-  Eigen::VectorXcd amplitude;  ///< [n_modes] of the body's modes
+  Eigen::VectorXcd amplitude;  ///< [n_modes] amplitude of each mode of the body
 };
 
-/// The nodes and cells by which a body can be drawn: its picture, or else its attachment nodes with
-/// lines along the rings.
+/// Nodes and cells to draw a body with: its picture, or else its attachment nodes with lines along
+/// the rings.
 mbs_export::Picture drawable(const mbs_export::ModalBody& body);
 
-/// Positions, cells and motions: each mode by itself, then `motions`. Displacements are 16-bit
-/// integers, full scale for the largest one of each motion. Of a large picture only as many modes
-/// are taken as fit into a page of a few MB; `left_out` counts the others.
+/// JSON with positions, cells and motions: first each mode, then `motions`. Displacements are
+/// 16-bit integers scaled to the largest displacement of each motion. For a large picture only as
+/// many modes are included as fit into a page of a few MB; `left_out` is the number of the others.
 Json shapes_json(const mbs_export::ModalBody& body, const std::vector<Motion>& motions);
 
 }  // namespace chladni::report

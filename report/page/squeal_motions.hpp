@@ -7,9 +7,9 @@
 
 namespace chladni::report {
 
-/// The motions that a study found: the limit cycle, and the least stable oscillation.
+/// The motions found by a study: the limit cycle and the least stable oscillation.
 /// @param mode_numbers  1-based numbers in the body of the modes that the study used
-/// @param n_modes       of the body
+/// @param n_modes       number of modes of the body
 std::vector<Motion> squeal_motions(const squeal::SquealResults& results,
                                    const std::vector<int>& mode_numbers, Eigen::Index n_modes);
 

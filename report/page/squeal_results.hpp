@@ -7,9 +7,9 @@
 
 namespace chladni::report {
 
-/// What a study found, as the curves and maps of a page: eigenvalues, critical speed, stability
-/// map, envelope, forces, orbit, limit cycles, spectrum, growth. What was not asked for is absent.
-/// Long histories are thinned to the smallest and largest values of windows.
+/// The results of a study as curves and maps for a page: eigenvalues, critical speed, stability
+/// map, envelope, forces, orbit, limit cycles, spectrum, growth. Analyses that were not asked for
+/// are absent. Long histories are reduced to the minimum and maximum of windows.
 std::vector<Json::Member> squeal_members(const squeal::SquealResults& results);
 
 }  // namespace chladni::report

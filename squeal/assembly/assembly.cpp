@@ -88,17 +88,31 @@ Lining lining_of(const AssemblyOptions& options, const FaceContact& contact, dou
 struct PartModes {
   Eigen::VectorXd omega;
   Eigen::MatrixXd X;  ///< [n x n_b]
-  Eigen::MatrixXd C;
+  Eigen::MatrixXd K, C;
 };
 
 PartModes part_modes(const JoinedParts& joined)
 {
   const Eigen::MatrixXd T = null_space(joined.B);
-  if (T.cols() == 0) return {Eigen::VectorXd(0), T, Eigen::MatrixXd(0, 0)};
+  if (T.cols() == 0) return {Eigen::VectorXd(0), T, Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0)};
   const Eigen::MatrixXd K = T.transpose() * joined.K * T;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(K);
   const Eigen::MatrixXd X = T * modes.eigenvectors();
-  return {modes.eigenvalues().cwiseMax(0.0).cwiseSqrt(), X, X.transpose() * joined.C * X};
+  const Eigen::VectorXd omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return {omega, X, omega.cwiseAbs2().asDiagonal(), X.transpose() * joined.C * X};
+}
+
+/// The same motions of parts on other joints, as far as these allow them.
+PartModes modes_about(const Assembly& about, const JoinedParts& joined)
+{
+  const Eigen::MatrixXd T = null_space(joined.B);
+  if (T.cols() != about.X.cols()) {
+    throw Error(
+        "rigid joints hold more motions of the parts after the change than before it: what several "
+        "of them hold together does not move by itself");
+  }
+  const Eigen::MatrixXd X = T * (T.transpose() * about.X);
+  return {about.omega, X, X.transpose() * joined.K * X, X.transpose() * joined.C * X};
 }
 
 /// Adds the nodes of one lining.
@@ -156,10 +170,10 @@ Eigen::VectorXd scales_of(const Assembly& all)
 }
 
 /// Joints and linings hold every part where the disc stands still.
-void check_held(const Assembly& all, const PartModes& modes, std::span<const Part> parts)
+void check_held(const Assembly& all, std::span<const Part> parts)
 {
   const Eigen::Index n = all.omega.size();
-  Eigen::MatrixXd K = all.omega.cwiseAbs2().asDiagonal();
+  Eigen::MatrixXd K = all.K;
   for (const AssemblyPoint& point : all.points) {
     const Eigen::VectorXd z = point.S.rightCols<1>().tail(n);
     K += point.share * all.linings[point.contact].stiffness * z * z.transpose();
@@ -168,7 +182,7 @@ void check_held(const Assembly& all, const PartModes& modes, std::span<const Par
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> held(K);
   constexpr double slowest = 1e-4;  // of the disc
   if (held.eigenvalues()[0] > std::pow(slowest * all.disc.omega.minCoeff(), 2)) return;
-  const Eigen::VectorXd motion = modes.X * held.eigenvectors().col(0);
+  const Eigen::VectorXd motion = all.X * held.eigenvectors().col(0);
   const std::vector<Eigen::Index> first = first_coordinates(parts);
   std::size_t loose = 0;
   double most = 0.0;
@@ -184,6 +198,40 @@ void check_held(const Assembly& all, const PartModes& modes, std::span<const Par
       std::sqrt(std::max(0.0, held.eigenvalues()[0])) / (2.0 * std::numbers::pi)));
 }
 
+/// Disc and joined parts, before they touch.
+Assembly apart(InertialDisc disc, PartModes modes, bool convection)
+{
+  return {.disc = std::move(disc),
+          .omega = std::move(modes.omega),
+          .K = std::move(modes.K),
+          .C = std::move(modes.C),
+          .X = std::move(modes.X),
+          .points = {},
+          .linings = {},
+          .convection = convection,
+          .notes = {}};
+}
+
+/// Adds all linings.
+void add_linings(Assembly& all, const AssemblyOptions& options, std::span<const Part> parts)
+{
+  const DiscFaces faces = disc_faces(options, all.disc);
+  const std::vector<Eigen::Index> first = first_coordinates(parts);
+  for (std::size_t i = 0; i < options.contacts.size(); ++i) {
+    const FaceContact& contact = options.contacts[i];
+    const std::string key = fmt::format("contact[{}]", i + 1);
+    const std::size_t at = part_index(parts, contact.face.part);
+    const Part& part = parts[at];
+    const std::vector<FaceNode> nodes = face_nodes(contact, part, faces, key);
+    add_points(all, nodes, i, {part, all.X.middleRows(first[at], part.n_modes())});
+    double area = 0.0;
+    for (const FaceNode& node : nodes) area += node.area;
+    all.linings.push_back(lining_of(options, contact, area, key));
+    all.notes.push_back(fmt::format("the face \"{}.{}\" has {} points and {:.5g} m^2",
+                                    contact.face.part, contact.face.set, nodes.size(), area));
+  }
+}
+
 }  // namespace
 
 Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bodies)
@@ -192,41 +240,30 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
   const Disc disc = turning_disc(options, *placed.disc);
   check_apart(options, placed.parts);
   const JoinedParts joints = joined(placed.parts, options.joints);
-  const PartModes modes = part_modes(joints);
-  Assembly all{.disc = inertial_disc(disc),
-               .omega = modes.omega,
-               .C = modes.C,
-               .points = {},
-               .linings = {},
-               .convection = options.convection,
-               .notes = notes_of(disc)};
+  Assembly all = apart(inertial_disc(disc), part_modes(joints), options.convection);
+  all.notes = notes_of(disc);
   all.notes.insert(all.notes.end(), joints.notes.begin(), joints.notes.end());
-  const DiscFaces faces = disc_faces(options, all.disc);
-  const std::vector<Eigen::Index> first = first_coordinates(placed.parts);
-  for (std::size_t i = 0; i < options.contacts.size(); ++i) {
-    const FaceContact& contact = options.contacts[i];
-    const std::string key = fmt::format("contact[{}]", i + 1);
-    const std::size_t at = part_index(placed.parts, contact.face.part);
-    const Part& part = placed.parts[at];
-    const std::vector<FaceNode> nodes = face_nodes(contact, part, faces, key);
-    add_points(all, nodes, i, {part, modes.X.middleRows(first[at], part.n_modes())});
-    double area = 0.0;
-    for (const FaceNode& node : nodes) area += node.area;
-    all.linings.push_back(lining_of(options, contact, area, key));
-    all.notes.push_back(fmt::format("the face \"{}.{}\" has {} points and {:.5g} m^2",
-                                    contact.face.part, contact.face.set, nodes.size(), area));
-  }
-  check_held(all, modes, placed.parts);
+  add_linings(all, options, placed.parts);
+  check_held(all, placed.parts);
+  return all;
+}
+
+Assembly neighbour(const Assembly& about, const AssemblyOptions& options,
+                   std::span<const ModalBody> bodies)
+{
+  const Placed placed = placed_parts(options, bodies);
+  const JoinedParts joints = joined(placed.parts, options.joints);
+  Assembly all = apart(about.disc, modes_about(about, joints), options.convection);
+  add_linings(all, options, placed.parts);
   return all;
 }
 
 Eigen::MatrixXd state_matrix(const Assembly& all, std::span<const Lining> linings, double speed)
 {
   const Eigen::Index n = all.n_coordinates(), n_disc = all.disc.n_modes(), n_b = n - n_disc;
-  Eigen::VectorXd omega(n);
-  omega << all.disc.omega, all.omega;
-  Eigen::MatrixXd K = omega.cwiseAbs2().asDiagonal();
-  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(n, n), D = C;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), C = K, D = K;
+  K.diagonal().head(n_disc) = all.disc.omega.cwiseAbs2();
+  K.bottomRightCorner(n_b, n_b) = all.K;
   C.topLeftCorner(n_disc, n_disc) = all.disc.C;
   C.bottomRightCorner(n_b, n_b) = all.C;
   if (all.convection) {

@@ -12,40 +12,42 @@ namespace chladni::squeal {
 
 /// A node of a lining on the disc.
 struct FaceNode {
-  int node;                    ///< of the part
-  double height;               ///< of the node above the contact plane, m
-  double angle;                ///< rad
-  double sigma;                ///< 1 above the disc, -1 below it
-  PadFace place;               ///< on the disc
-  double share;                ///< of stiffness, damping and preload of the face; all sum to 1
-  double area;                 ///< m^2, 0 where the face has none
-  Eigen::VectorXd ring_parts;  ///< [n_rings] of what the rings of the disc do there; they sum to 1
+  int node;       ///< index of the node in the part
+  double height;  ///< height of the node above the contact plane, m
+  double angle;   ///< rad
+  double sigma;   ///< 1 above the disc, -1 below it
+  PadFace place;  ///< on the disc
+  double share;   ///< fraction of the face's stiffness, damping and preload
+  double area;    ///< m^2; 0 when the face has no area
+  /// [n_rings] interpolation weights of the disc's rings at the node; their sum is 1.
+  Eigen::VectorXd ring_parts;
 };
 
-/// Where the disc may be touched.
+/// Rings and contact planes of a disc.
 struct DiscFaces {
   std::vector<RingPlace> rings;
   std::array<double, 2> planes;  ///< z of the lower and of the upper contact plane, m
 };
 
-/// The nodes of a face on the disc. The disc does between its rings what the polynomial in r
-/// through the nearest four of them says.
-/// @param key  of the scene: "contact[2]"
+/// The nodes of a face on the disc. The motion of the disc between its rings is interpolated by the
+/// polynomial in r through the nearest rings, at most four.
+/// @param key  key of the scene for messages, such as "contact[2]"
 /// @throws chladni::Error naming the key, for a set that the part does not have, a face that does
-///         not touch a contact plane or lies beyond the rings (by how much), nodes without
-///         area, faces of more than half a turn, and bodies without displacements or tilts
-///         there.
+///         not touch a contact plane or lies beyond the rings (with the distance), nodes that
+///         enclose no area, faces of more than half a turn, and bodies without displacements or
+///         tilts there.
 std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
                                  const DiscFaces& disc, const std::string& key);
 
 /// Contact planes of the disc and its rings.
-/// @throws chladni::Error when rings lie at two heights, or two of them on one circle.
+/// @throws chladni::Error when the rings lie at different heights, or two rings have the same
+///         radius.
 DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc);
 
-/// [n x 3 or 5] W, W_r, W_t, V_r, V_t of the disc under a node.
+/// Motion of the disc at a node for each mode: [n x 3 or 5] W, W_r, W_t and, if used, V_r, V_t.
 Eigen::MatrixXd disc_shapes(const InertialDisc& disc, const FaceNode& node);
 
-/// [n x 3] motion (r, t, z) of the face of the part at a node, one row for each mode of the part.
+/// Motion (r, t, z) of the part's face at a node for each mode of the part, [n x 3].
 Eigen::MatrixX3d face_motion(const Part& part, const FaceNode& node);
 
 }  // namespace chladni::squeal

@@ -8,31 +8,33 @@
 
 namespace chladni::squeal {
 
-/// Components of a motion in the axes of the brake: x, y, z, rx, ry, rz.
+/// Flags for the components x, y, z, rx, ry, rz of a motion in the axes of the brake.
 using Components = std::array<bool, 6>;
 
-/// What a point must have of its node to move by these components itself.
-/// @param arm        from the node to the point, m
-/// @param tolerance  of places of nodes, m
+/// The components that a node must have so that a point rigidly connected to it has the components
+/// `of_point`.
+/// @param arm        vector from the node to the point, m
+/// @param tolerance  error of node positions, m
 Components needed_of_node(const Components& of_point, const Eigen::Vector3d& arm, double tolerance);
 
-/// The modes of a part move the nodes of a set in these components.
-/// @param key     of the scene: "contact[2].face"
+/// Checks that the modes of a part move the nodes of a set in these components.
+/// @param key     key of the scene for messages, such as "contact[2].face"
 /// @param remedy  what to do, for the message
-/// @throws chladni::Error naming key, component, part, file and set, where the body lacks one at
-///         all of these nodes, or where a node that moves has no rotations.
+/// @throws chladni::Error naming key, component, part, file and set, when the body lacks a
+///         component at all of these nodes, or when a node that moves has no rotations.
 void require_components(const Part& part, const std::string& set, const Components& needed,
                         const std::string& key, const std::string& remedy);
 
-/// None of these components is the rotation about the normal of a smooth shell at a node of the
-/// set, nor has a share of it.
+/// Checks that none of these components contains a rotation about the normal of a smooth shell at a
+/// node of the set.
 /// @throws chladni::Error naming key, component, part, file and set.
 void refuse_drilling(const Part& part, const std::string& set, const Components& components,
                      const std::string& key);
 
-/// Axes about which two nodes may be joined: [3 x 0 to 3] an orthonormal basis of what is normal to
-/// the normals of shells there.
-/// @param normals  a column for each node, zero for none
+/// Axes about which the rotations of two nodes may be joined: an orthonormal basis of the
+/// directions perpendicular to the shell normals there.
+/// @param normals  one column for each node, zero for none
+/// @return [3 x 0 to 3]
 Eigen::Matrix3Xd axes_without_drilling(const Eigen::Matrix<double, 3, 2>& normals);
 
 }  // namespace chladni::squeal

@@ -19,25 +19,25 @@ inline double real_part(const std::complex<double>& x)
   return x.real();
 }
 
-/// Where one of the two pads of a pair touches the disc at rest.
+/// Contact place of one pad of a pair on the undeformed disc.
 struct PadFace {
-  double radius;    ///< of the ring under the pad, m
-  double plane;     ///< height of the contact plane above the middle of both planes, m
-  double distance;  ///< height of the contact plane above the ring, m; < 0 below it
+  double radius;    ///< radius of the ring under the pad, m
+  double plane;     ///< height of the contact plane above the middle of both contact planes, m
+  double distance;  ///< height of the contact plane above the ring, m; negative below the ring
 };
 
-/// One pad pair on a disc: everything that the contact forces depend on but the motion.
+/// One pad pair on a disc: all data of the contact forces except the motion.
 struct PadContact {
-  std::array<PadFace, 2> faces;  ///< of the upper pad, of the lower one
+  std::array<PadFace, 2> faces;  ///< place of the upper pad, of the lower pad
   FrictionLaw friction;
   ContactLaw law;
-  PadSpring spring;   ///< of each pad
-  double damping;     ///< d, N s/m
-  double preload;     ///< N_0, N
-  double area = 0.0;  ///< of the face, m^2; 0: the pressure is not known
+  PadSpring spring;   ///< spring of each pad
+  double damping;     ///< damping d of each pad, N s/m
+  double preload;     ///< preload N_0 of each pad, N
+  double area = 0.0;  ///< area of each pad's face, m^2; 0: the pressure is unknown
 };
 
-/// |S| over the area, Pa.
+/// Pad pressure |S| / area, Pa; 0 when the area is unknown.
 template <class Scalar>
 Scalar pressure_of(const PadContact& pad, const Scalar& S)
 {
@@ -45,20 +45,21 @@ Scalar pressure_of(const PadContact& pad, const Scalar& S)
   return real_part(S) < 0.0 ? Scalar(-S / pad.area) : Scalar(S / pad.area);
 }
 
-/// The face of the pad above (sigma = 1) or below (sigma = -1).
+/// The contact place of the pad above (sigma = 1) or below (sigma = -1) the disc.
 inline const PadFace& face_of(const PadContact& pad, double sigma)
 {
   return pad.faces[sigma > 0.0 ? 0 : 1];
 }
 
-/// g and S of the contact law: the sign of N in the friction force, and the pad force along the
-/// axis after the law has acted on `S`.
+/// Axial pad force after the contact law, and the sign g of the normal force N in the friction
+/// force.
 template <class Scalar>
 struct AxialForce {
   Scalar S;
   double g;
 };
 
+/// Applies the contact law to the axial force `S` (N) of a pad that would stay in contact.
 template <class Scalar>
 AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
 {
@@ -67,16 +68,18 @@ AxialForce<Scalar> axial_force(ContactLaw law, const Scalar& S)
   return {S, law == ContactLaw::bilateral && pulls ? -1.0 : 1.0};
 }
 
-/// The pad above (sigma = +1) or below (sigma = -1) a tangent plane that is rigidly extended from
-/// the ring to the contact plane, by the distance e = sigma h / 2 from a middle surface; massless
-/// and laterally guided, so its vertical equilibrium gives the normal force.
+/// State of the pad above (sigma = +1) or below (sigma = -1) the disc. The contact plane is a
+/// tangent plane rigidly offset from the ring by the distance e, e = sigma h / 2 from a middle
+/// surface. The pad is massless and guided laterally, so that its axial equilibrium gives the
+/// normal force:
 ///   x = w + e (s - 1),   n = (-g_r, -g_t, 1) / s,   s = sqrt(1 + g_r^2 + g_t^2)
 ///   S = N_0 + sigma (k x + k_3 x^3 + d x'),   z = x + the height of the contact plane
 ///   N = S / (1 / s + sigma g mu t_z),   t = v_r / |v_r|
 ///   f = sigma N (g_r, g_t) / s - mu g N (t_x, t_y)
-/// with mu(v), or mu(v, |S| / area), and its regularised |v_r| as FrictionLaw has it. Where the
-/// plate of the pad moves, x and v_r are relative to it; that the point then moves on the disc, a
-/// term of second order, is neglected.
+/// with mu(v) or mu(v, |S| / area) and the regularised |v_r| of FrictionLaw. When the pad's plate
+/// moves, x and v_r are relative to the plate; the motion of the contact point over the disc, of
+/// second order, is neglected.
+/// @param speed  rotation speed of the disc, rad/s
 template <class Scalar>
 PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, double speed,
                            double sigma)
@@ -108,7 +111,7 @@ PadState<Scalar> pad_state(const PadContact& pad, const RingMotion<Scalar>& m, d
           sigma * N * m.g_t / s - g_mu_by_v * N * v_y};
 }
 
-/// Moment arm of in-plane forces at the contact plane about the ring, e / s.
+/// Moment arm e / s of in-plane forces at the contact plane about the ring, m.
 template <class Scalar>
 Scalar lever_arm(const PadFace& face, const RingMotion<Scalar>& m)
 {
@@ -116,7 +119,7 @@ Scalar lever_arm(const PadFace& face, const RingMotion<Scalar>& m)
   return face.distance / sqrt(1.0 + m.g_r * m.g_r + m.g_t * m.g_t);
 }
 
-/// Generalised force of the two pads of a pair on a middle surface.
+/// Generalised force of both pads of a pair on a middle surface,
 ///   Q_i = (S_- - S_+) W_i + h / (2 s) ((f_r- - f_r+) W_r,i + (f_t- - f_t+) W_t,i)
 template <class Scalar>
 RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
@@ -126,9 +129,9 @@ RingForce<Scalar> pair_force(const PadContact& pad, const RingMotion<Scalar>& m,
   return {lo.S - up.S, lever * (lo.f_r - up.f_r), lever * (lo.f_t - up.f_t)};
 }
 
-/// States of both pads; `speed` (rad/s) must not be zero when the disc is at rest, unless friction
-/// is regularised.
-/// Valid in the rotating frame with (q, q') and in the inertial frame with (a, p).
+/// States of both pads of a pair, valid in the rotating frame with (q, q') and in the inertial
+/// frame with (a, p).
+/// @param speed  rotation speed, rad/s; not zero for a disc at rest unless friction is regularised
 template <class Scalar>
 ContactResult<Scalar> contact(const PadContact& pad, const PairMotion<Scalar>& m, double speed)
 {

@@ -10,15 +10,18 @@
 
 namespace chladni::squeal {
 
-/// The smooth branches of a contact law. For one pad the branch is the factor g of the friction: 1
-/// in contact, -1 where a bilateral pad pulls, 0 where a unilateral pad is off.
-/// @return g where the axial force of a pad is negative; 1 for the law that has one branch only
+/// Branch of a pad with negative axial force. The smooth branches of a contact law are numbered by
+/// the factor g of the friction: 1 in contact, -1 where a bilateral pad pulls, 0 where a unilateral
+/// pad has lost contact.
+/// @return g; 1 for the signed law, which has one branch only
 inline double pulled_branch(ContactLaw law)
 {
   return law == ContactLaw::unilateral ? 0.0 : law == ContactLaw::bilateral ? -1.0 : 1.0;
 }
 
-/// One pad on a branch: the signed law with the friction g mu, or nothing.
+/// State of a pad on a branch: the signed law with the friction coefficient g mu, or no force for
+/// g = 0.
+/// @param sigma_and_g  side of the disc (1 above, -1 below) and branch
 template <class Scalar>
 PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, double speed,
                                const std::array<double, 2>& sigma_and_g)
@@ -31,7 +34,8 @@ PadState<Scalar> pad_on_branch(PadContact pad, const RingMotion<Scalar>& m, doub
   return state;
 }
 
-/// What a pad presses with, over its preload; < 0 where a unilateral pad is off, whose force is 0.
+/// Axial force of a pad that stays in contact, relative to its preload; negative where a unilateral
+/// pad has lost contact.
 inline double pressure(const PadContact& pad, const PadState<double>& state,
                        const PlateMotion<double>& plate, double sigma)
 {
@@ -40,7 +44,8 @@ inline double pressure(const PadContact& pad, const PadState<double>& state,
          sigma * (force(pad.spring, x) + pad.damping * (state.z_dot - plate.z_dot)) / pad.preload;
 }
 
-/// The states of both pads of a pair, each on its branch: upper, lower.
+/// States of both pads of a pair on their branches.
+/// @param branches  g of the upper pad, of the lower pad
 template <class Scalar>
 ContactResult<Scalar> contact_on_branch(const PadContact& pad, const PairMotion<Scalar>& m,
                                         double speed, std::span<const double> branches)
@@ -49,7 +54,8 @@ ContactResult<Scalar> contact_on_branch(const PadContact& pad, const PairMotion<
           pad_on_branch(pad, m.lower, speed, {-1.0, branches[1]})};
 }
 
-/// The forces at a point pair, each pad on its branch.
+/// Contact forces at a point pair with both pads on their branches.
+/// @param branches  g of the upper pad, of the lower pad
 template <class Scalar>
 PairVector<Scalar> force_on_branch(const BrakePoint& point, const PairMotion<Scalar>& m,
                                    double speed, std::span<const double> branches)
@@ -59,7 +65,7 @@ PairVector<Scalar> force_on_branch(const BrakePoint& point, const PairMotion<Sca
 }
 
 /// Derivatives of `force_on_branch` by the motion of the point and by its rates, exact to rounding.
-/// @param at  speed and branches
+/// @param at  rotation speed (rad/s) and branches
 /// @return [rows x 2 rows]
 Eigen::MatrixXd force_derivative(const BrakePoint& point, const PairVector<double>& g,
                                  const PairVector<double>& g_dot,

@@ -8,49 +8,51 @@
 
 namespace chladni::squeal {
 
-/// The compliance of all modes of `disc` without their inertia.
+/// Static compliance of all modes of `disc` at its rings, averaged over all positions of the disc.
 RingCompliance ring_compliance(const Disc& disc);
 
-/// Shapes at all contact points side by side, and derivatives of the forces there, which act on
-/// small motions as S (D_a S^T q + D_p S^T q').
+/// Shapes and force derivatives of all contact points, stacked. The contact force on small motions
+/// is S (D_a S^T q + D_p S^T q').
 struct StackedContact {
-  Eigen::MatrixXd S;    ///< [n x m], m = rows of a point pair, one after the other
-  Eigen::MatrixXd D_a;  ///< [m x m] by the motion
-  Eigen::MatrixXd D_p;  ///< [m x m] by its rates
+  Eigen::MatrixXd S;    ///< [n x m] shapes; m sums the rows of all point pairs
+  Eigen::MatrixXd D_a;  ///< [m x m] derivatives by the motion
+  Eigen::MatrixXd D_p;  ///< [m x m] derivatives by its rates
 };
 
-/// Zero shapes and derivatives of so many coordinates at the points of the pads.
+/// Zero shapes and derivatives for n coordinates at the contact points of the pads.
 StackedContact stacked_contact(const PadSystem& pads, Eigen::Index n);
 
-/// Zero shapes, and the derivatives about the undeformed disc that slides at this speed (rad/s).
+/// Zero shapes, with the force derivatives about the undeformed disc that slides at `speed`
+/// (rad/s).
 StackedContact contact_at_rest(const PadSystem& pads, Eigen::Index n, double speed);
 
-/// Modes without inertia stand in series with the springs of the pads: a force f at the contact
-/// points moves them by y = G f, and the pads feel the sum of this and of the motion u of the other
-/// modes, f = F(u + y, u' + y'). For y' the force is linear in the motion and both pads of a pair
-/// press; what is left out is of the order of (omega / omega_q)^2 and, for y', of n Omega / omega.
+/// Compliance of modes without inertia in series with the pad springs: a contact force f displaces
+/// the contact points by y = G f, and the pads feel y plus the motion u of the other modes,
+/// f = F(u + y, u' + y'). For y' the force is linearised with both pads of a pair in contact. The
+/// neglected terms are of the order (omega / omega_q)^2 and, for y', n Omega / omega.
 class ContactSeries {
  public:
   ContactSeries(const RingCompliance& rings, const PadSystem& pads, double speed);
 
+  /// Whether there are no modes without inertia.
   bool empty() const { return G_.size() == 0; }
 
-  /// Derivatives by the motion of the other modes instead of by the whole one.
+  /// Replaces the derivatives by the whole motion with those by the motion u of the other modes.
   void condense(StackedContact& contact) const;
 
-  /// Adds y and y' to the motions of all points.
-  /// @param force  (i, motion) -> the force at the point i, in the order of its rows
+  /// Adds y and y' to the motions u and u' of all points, by a fixed-point iteration for f.
+  /// @param force  (i, motion) -> force at the point i, in the order of its rows
   template <class Force>
   void add_to(std::vector<PointMotion>& motions, const Force& force) const;
 
  private:
-  Eigen::Index rows_;          ///< of a point
-  Eigen::Index disc_rows_;     ///< of a point, those of the disc
-  Eigen::MatrixXd G_;          ///< [disc_rows n_points x disc_rows n_points]
-  Eigen::MatrixXd by_rate_;    ///< y' by u'
+  Eigen::Index rows_;          ///< rows of a point pair
+  Eigen::Index disc_rows_;     ///< rows of a point pair that belong to the disc
+  Eigen::MatrixXd G_;          ///< [disc_rows n_points x disc_rows n_points] compliance
+  Eigen::MatrixXd by_rate_;    ///< derivative of y' by u'
   Eigen::MatrixXd newton_;     ///< (I - D_a G)^-1 at rest
-  Eigen::MatrixXd by_motion_;  ///< f by u, at rest
-  double force_scale_ = 1.0;   ///< preload of the pads, N
+  Eigen::MatrixXd by_motion_;  ///< derivative of f by u, at rest
+  double force_scale_ = 1.0;   ///< largest preload of the pads, N
 };
 
 template <class Force>

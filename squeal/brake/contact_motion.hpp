@@ -2,38 +2,38 @@
 
 namespace chladni::squeal {
 
-/// Motion of the plate of a pad at a contact point, for a pad with a mass; zero for any other one.
+/// Motion of a pad's plate at a contact point; zero for a massless pad.
 template <class Scalar>
 struct PlateMotion {
-  Scalar z = Scalar(0.0);      ///< along the axis, m
-  Scalar r_dot = Scalar(0.0);  ///< radial, m/s
-  Scalar t_dot = Scalar(0.0);  ///< circumferential, m/s
-  Scalar z_dot = Scalar(0.0);  ///< along the axis, m/s
+  Scalar z = Scalar(0.0);      ///< axial displacement, m
+  Scalar r_dot = Scalar(0.0);  ///< radial velocity, m/s
+  Scalar t_dot = Scalar(0.0);  ///< circumferential velocity, m/s
+  Scalar z_dot = Scalar(0.0);  ///< axial velocity, m/s
 };
 
-/// Motion of the disc under a pad: displacement, slopes and their material rates; and that of the
-/// two plates.
+/// Motion of the disc under a pad (displacement, slopes and their material rates), and of both
+/// plates.
 template <class Scalar>
 struct RingMotion {
-  Scalar w;        ///< m
+  Scalar w;        ///< axial displacement, m
   Scalar g_r;      ///< radial slope, rad
   Scalar g_t;      ///< circumferential slope, rad
-  Scalar w_dot;    ///< m/s
-  Scalar g_r_dot;  ///< rad/s
-  Scalar g_t_dot;  ///< rad/s
+  Scalar w_dot;    ///< material rate of w, m/s
+  Scalar g_r_dot;  ///< material rate of g_r, rad/s
+  Scalar g_t_dot;  ///< material rate of g_t, rad/s
   PlateMotion<Scalar> upper = {};
   PlateMotion<Scalar> lower = {};
 };
 
-/// Motion of the disc under the two pads of a pair: one and the same point of a middle surface, or
-/// the points of two rings, each with the plate above or below it.
+/// Motion of the disc under both pads of a pair: the same point of a middle surface twice, or the
+/// points of two rings, each with the plate on its side.
 template <class Scalar>
 struct PairMotion {
   RingMotion<Scalar> upper;
   RingMotion<Scalar> lower;
 };
 
-/// Generalised contact force: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
+/// Generalised contact force on a ring: Q_i = F_w W_i + F_r W_r,i + F_t W_t,i.
 template <class Scalar>
 struct RingForce {
   Scalar F_w;  ///< N
@@ -41,10 +41,10 @@ struct RingForce {
   Scalar F_t;  ///< N m
 };
 
-/// State of one of the two pads of a pair. The disc under it is a plate whose normals keep their
-/// length: z - sigma h / 2 = w + sigma h (s - 1) / 2 is the deflection w of its middle surface but
-/// for the lean of the normals. The face of a solid disc moves less where the plate is bent, since
-/// its thickness changes, by nu / (1 - nu) h^2 / 8 times the Laplacian of w.
+/// State of one pad of a pair. The disc under it is a plate whose normals keep their length:
+/// z - sigma h / 2 = w + sigma h (s - 1) / 2, the deflection w of the middle surface plus a term
+/// from the tilt of the normals. The face of a solid disc moves less where the plate is bent,
+/// because its thickness changes, by nu / (1 - nu) h^2 / 8 times the Laplacian of w.
 template <class Scalar>
 struct PadState {
   Scalar z;           ///< height of the contact point on the pad axis, m
@@ -56,7 +56,7 @@ struct PadState {
   Scalar f_t;         ///< in-plane force on the disc, circumferential, N
 };
 
-/// The states of the two pads of a pair.
+/// States of both pads of a pair.
 template <class Scalar>
 struct ContactResult {
   PadState<Scalar> upper;

@@ -13,82 +13,84 @@
 
 namespace chladni::squeal {
 
-/// What forces on the contact rings do to them through modes so far above the range of interest
-/// that they follow without inertia: the displacement at the angle theta by a force at alpha is
-/// Re sum_d C[d] exp(i d (theta - alpha)), the mean over all positions of the disc.
+/// Compliance of the contact rings by modes far above the frequency range of interest, which
+/// respond without inertia. A force at the angle alpha displaces the angle theta by Re sum_d C[d]
+/// exp(i d (theta - alpha)), averaged over all positions of the disc.
 struct RingCompliance {
-  /// [n_harmonics][m n_rings x m n_rings] of the m = 3 or 5 functions of each ring, w, g_r, g_t,
-  /// v_r, v_t, by their forces: m/N, 1/N, 1/(N m).
+  /// [n_harmonics][m n_rings x m n_rings] compliance of the m = 3 or 5 functions w, g_r, g_t, v_r,
+  /// v_t of each ring by their forces: m/N, 1/N, 1/(N m).
   std::vector<Eigen::MatrixXcd> C;
-  std::vector<int> mode_numbers;  ///< 1-based in the body
-  double lowest_omega = 0.0;      ///< of these modes, rad/s
+  std::vector<int> mode_numbers;  ///< 1-based numbers of the body's modes
+  double lowest_omega = 0.0;      ///< lowest angular frequency of these modes, rad/s
 
   bool empty() const { return C.empty(); }
 };
 
-/// What is known of the errors of modes, relative.
+/// Estimated relative errors of the modes.
 struct ModeErrors {
-  Eigen::VectorXd mesh = {};  ///< [n_modes] of omega by the mesh; empty where unknown
-  /// [6 x n_modes] of the rings by the mesh, as Certificate::mesh_shape_errors; empty where unknown
+  Eigen::VectorXd mesh = {};  ///< [n_modes] error of omega by the mesh; empty if unknown
+  /// [6 x n_modes] error of the ring motion by the mesh, from Certificate::mesh_shape_errors; empty
+  /// if unknown.
   Eigen::MatrixXd mesh_shapes = {};
-  Eigen::VectorXd reduction = {};  ///< [n_modes] of omega by the reduction; empty where unknown
-  std::optional<double> responses = {};  ///< of the body by the modes that it lacks
-  double range =
-      0.0;  ///< rad/s of the last mode whose errors are known; those beyond it have zeros
+  Eigen::VectorXd reduction = {};  ///< [n_modes] error of omega by the reduction; empty if unknown
+  std::optional<double> responses = {};  ///< error of the body's responses by missing modes
+  /// Angular frequency of the last mode with known errors, rad/s; modes beyond it have zeros.
+  double range = 0.0;
 };
 
-/// The disc of a squeal study, in the frame that rotates with it:
-/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes along its contact rings, of
-/// which the first is that of pads without a grid.
+/// The disc of a squeal study in the frame that rotates with it,
+/// q'' + (C + 2 Omega G) q' + diag(omega^2) q = Q, with the mode shapes on its contact rings. Pads
+/// without a grid are on the first ring.
 struct Disc {
   std::vector<DiscRing> rings;
-  std::vector<int> mode_numbers;  ///< [n_modes] 1-based in the body
+  std::vector<int> mode_numbers;  ///< [n_modes] 1-based numbers of the body's modes
   Eigen::VectorXd omega;          ///< [n_modes] rad/s
-  Eigen::MatrixXd C;              ///< [n_modes x n_modes] 1/s, zero when undamped
-  /// [n_modes x n_modes] 1, skew: G_ij = int rho phi_i . (e_z x phi_j) dV, by which Coriolis forces
-  /// add 2 Omega G q'. Zero when the body does not hold it.
+  Eigen::MatrixXd C;              ///< [n_modes x n_modes] 1/s; zero when undamped
+  /// [n_modes x n_modes] skew-symmetric, 1: G_ij = int rho phi_i . (e_z x phi_j) dV; Coriolis
+  /// forces add 2 Omega G q'. Zero when the body file does not contain it.
   Eigen::MatrixXd G;
-  RingCompliance compliance = {};  ///< of modes that follow the pads without inertia
-  /// Up to which the modes are those of the disc, rad/s; beyond it interface modes stand for
-  /// others.
+  RingCompliance compliance = {};  ///< compliance of the modes without inertia
+  /// Upper end of the frequency range in which the modes are those of the disc, rad/s; interface
+  /// modes beyond it stand for many others.
   double range = std::numeric_limits<double>::infinity();
-  std::vector<int> still = {};  ///< 1-based, of modes left out: no pad sees them
+  /// 1-based numbers of modes left out because they do not move the pads.
+  std::vector<int> still = {};
   ModeErrors errors = {};
-  std::vector<ModeFigure> figures = {};  ///< [n_modes], or empty where nothing is known of them
+  std::vector<ModeFigure> figures = {};  ///< [n_modes]; empty if unknown
   bool keeps_asymmetry = false;          ///< see SquealOptions
 
   Eigen::Index n_modes() const { return omega.size(); }
 };
 
-/// The disc of `body` that touches the pads at these rings. With no choice or a choice
-/// by nodal diameters, modes that do not move the ring along the axis are left out: no pad sees
-/// them. With no choice, modes beyond `ModeChoice::quasi_static_above` give it their compliance
-/// alone; where that is not given, interface modes beyond the body's range do. They stand for what
-/// all modes beyond the range do slowly, at frequencies that the disc does not have; modes of the
-/// disc keep their inertia, and a mode of unknown kind counts as one.
-/// @throws chladni::Error for an unknown ring, two rings of one name, a mode number out of range or
-/// given twice, a number
-///         of nodal diameters that no pair of modes has, rigid-body modes (the body is not held),
-///         and modes that do not move the ring.
+/// The disc of `body` with these contact rings. Without a choice of modes, or with a choice by
+/// nodal diameters, modes that do not move the rings axially are left out. Without a choice, modes
+/// above `ModeChoice::quasi_static_above` contribute their compliance only; if that is absent, this
+/// holds for interface modes beyond the body's range. Such modes represent the static response of
+/// all modes beyond the range, at frequencies that the disc does not have. Other modes keep their
+/// inertia, and a mode of unknown kind counts as one of the disc.
+/// @throws chladni::Error for an unknown ring, two rings with one name, a mode number that is out
+///         of range or repeated, a number of nodal diameters without a pair of modes, rigid-body
+///         modes (the body is not held), and modes that do not move the ring.
 Disc make_disc(const mbs_export::ModalBody& body, const RingChoice& rings, const ModeChoice& modes);
 
-/// The disc of `body` that touches the pads at one ring, by its axial motion; see `make_disc`.
+/// The disc of `body` whose pads touch one ring, with its axial motion; see make_disc.
 Disc disc_on_ring(const mbs_export::ModalBody& body, const std::string& ring,
                   const ModeChoice& modes);
 
-/// Which modes have no part in the motion, a sentence each: "60 modes above 17048 Hz follow the
-/// pads without inertia"; empty when all have one.
+/// Notes on modes that do not take part in the motion, one sentence each, such as "60 modes above
+/// 17048 Hz follow the pads without inertia"; empty when all take part.
 std::vector<std::string> notes_of(const Disc& disc);
 
-/// The rings of the study, then those that the grids of its pads name beside them.
+/// The rings of the study, followed by those that only the grids of pads name.
 RingChoice ring_choice(const SquealOptions& options);
 
+/// Names, radii and heights of the disc's rings.
 std::vector<RingPlace> ring_places(const Disc& disc);
 
-/// On the first ring.
+/// Mode shapes at the angle `theta` (rad) of the first ring.
 Shapes shapes_at(const Disc& disc, double theta);
 
-/// The dominant harmonic of each mode along the rings, i.e. its number of nodal diameters.
+/// Number of nodal diameters of each mode: its dominant harmonic along the rings.
 std::vector<int> nodal_diameters(const Disc& disc);
 
 }  // namespace chladni::squeal

@@ -66,10 +66,10 @@ InPlane in_plane(const ModalBody& body, const ContactRing& ring)
   }
   if (!(norm > 0.0)) {
     throw Error(fmt::format(
-        "ring '{}': the body has no displacements of its nodes in the plane, which friction works "
-        "on at contact planes of their own; reduce it with x and y of these nodes among the "
-        "coordinates (interface.nodes = [\"{}\", ...] takes all DOFs), or give `ring` one ring in "
-        "the middle surface and leave contact_planes out",
+        "ring '{}': the body has no in-plane displacements of its nodes, which contact_planes and "
+        "rings of two heights need; reduce it with x and y of these nodes among the coordinates "
+        "(interface.nodes = [\"{}\", ...] takes all DOFs), or give `ring` one ring in the middle "
+        "surface and leave contact_planes out",
         ring.name, ring.name));
   }
   return V;

@@ -37,8 +37,8 @@ void require_in_table(const PadContact& pad, double speed)
       if (bound.value >= bound.from - margin && bound.value <= bound.to + margin) continue;
       throw Error(fmt::format(
           "[squeal] friction.table: {} {:.6g} {} (rotation {:.6g} rad/s, preload {:.6g} "
-          "N at a point) is beyond its {:.6g} to {:.6g} {}; measure further, or stay "
-          "within it",
+          "N at a point) is outside its range, {:.6g} to {:.6g} {}; extend the table, or "
+          "keep speed and preload within it",
           bound.what, bound.value, bound.unit, speed, pad.preload, bound.from, bound.to,
           bound.unit));
     }

@@ -8,17 +8,17 @@
 
 namespace chladni::squeal {
 
-/// How the disc moves in a mode, away from its rings too.
+/// Description of a mode from its motion over the whole disc.
 struct ModeFigure {
-  /// Nodal circles of the motion along the axis: its changes of sign along the radius. Absent where
-  /// the body has no picture, and for modes that move in the plane in the main.
+  /// Number of nodal circles: sign changes of the axial motion along the radius. Absent when the
+  /// body has no picture, and for modes that are mainly in-plane.
   std::optional<int> circles = {};
-  /// Share of the kinetic energy that is motion in the plane; absent where the body has no mass
-  /// integrals.
+  /// In-plane fraction of the kinetic energy; absent when the body has no mass integrals.
   std::optional<double> in_plane = {};
 };
 
-/// @param diameters  [n_modes] of each mode of the body
+/// Descriptions of all modes of a body.
+/// @param diameters  [n_modes] nodal diameters
 std::vector<ModeFigure> mode_figures(const mbs_export::ModalBody& body,
                                      const std::vector<int>& diameters);
 

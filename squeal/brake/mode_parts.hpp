@@ -8,19 +8,20 @@
 
 namespace chladni::squeal {
 
-/// Which modes of a body take part in what, 0-based.
+/// The roles of a body's modes in a study.
 struct ModeParts {
-  std::vector<int> dynamic;       ///< with stiffness and inertia
-  std::vector<int> quasi_static;  ///< with their compliance alone
-  std::vector<int> still;         ///< in nothing, since no pad sees them; 1-based
+  std::vector<int> dynamic;       ///< 0-based, with stiffness and inertia
+  std::vector<int> quasi_static;  ///< 0-based, with their compliance only
+  std::vector<int> still;         ///< 1-based, left out because they do not move the pads
 };
 
-/// The end of the range for which a body with interface modes was made, rad/s: that of a tolerance,
-/// or of the modes that were kept. Others say nothing of one: infinite.
+/// Upper end of the frequency range for which a body with interface modes was made, rad/s: the
+/// limit of its tolerance, or its highest other mode. Infinite for bodies without interface modes.
 double range_of(const mbs_export::ModalBody& body);
 
-/// The choice among all modes of `body`, whose disc with all of them is `disc`.
-/// @throws chladni::Error as `make_disc` does.
+/// Assigns a role to each mode.
+/// @param disc  the disc of `body` with all modes
+/// @throws chladni::Error as make_disc.
 ModeParts mode_parts(const Disc& disc, const mbs_export::ModalBody& body, const ModeChoice& choice);
 
 }  // namespace chladni::squeal

@@ -7,14 +7,14 @@
 
 namespace chladni::squeal {
 
-/// [n_pad_modes x n_pad_modes] orthogonal: the modes of plates and calipers in their displacements
-/// times the roots of their masses, y = Psi b. Psi diag(omega) Psi^T is the root of their
-/// stiffness.
+/// Modes of plates and calipers in mass-scaled displacements, y = Psi b. Psi diag(omega) Psi^T is
+/// the square root of their stiffness matrix.
+/// @return [n_pad_modes x n_pad_modes] orthogonal
 Eigen::MatrixXd pad_basis(const SquealOptions& options);
 
-/// The state matrix in coordinates that follow the parameters of the pads smoothly, with
-/// (K^(1/2) y, y') in place of the modes of the pads: these come with any sign, and in any
-/// combination where plates are alike. Its eigenvalues are those of `state_matrix`.
+/// The state matrix in coordinates that depend smoothly on the pad parameters: (K^(1/2) y, y') in
+/// place of the pad modes, whose signs, and for equal plates whose combinations, are arbitrary. Its
+/// eigenvalues are those of `state_matrix`.
 Eigen::MatrixXd smooth_state_matrix(const InertialDisc& disc, const SquealOptions& options,
                                     double speed);
 

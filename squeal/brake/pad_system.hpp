@@ -14,79 +14,91 @@ namespace chladni::squeal {
 
 /// Two opposite contact points, above and below the disc.
 struct PointPair {
-  std::size_t pad;  ///< which of the scene's pads
-  double angle;     ///< rad
-  std::array<std::size_t, 2>
-      rings;  ///< which of the disc's are below the upper pad, above the lower
+  std::size_t pad;  ///< index of its pad in the scene
+  double angle;     ///< angle in the inertial frame, rad
+  /// Indices of the disc's rings, below the upper pad and above the lower pad.
+  std::array<std::size_t, 2> rings;
   PadContact contact;
-  Eigen::MatrixX3d
-      upper;  ///< [n_pad_modes x 3] motion of the plate there, (r, t, z) per coordinate
-  Eigen::MatrixX3d lower;
+  /// [n_pad_modes x 3] motion (r, t, z) of the upper plate at the point, by each coordinate.
+  Eigen::MatrixX3d upper;
+  Eigen::MatrixX3d lower;  ///< [n_pad_modes x 3] motion of the lower plate
 };
 
-/// All pads of a scene: contact points, and the modes of the plates and calipers on their
-/// suspensions, b'' + C b' + diag(omega^2) b = forces, b counted from the sliding equilibrium with
-/// the pressure shared equally among the points of a pad, which is how pads wear.
+/// All pads of a scene: their contact points, and the modes of plates and calipers on their
+/// suspensions, b'' + C b' + diag(omega^2) b = forces. b is measured from the sliding equilibrium
+/// in which the points of a pad share its preload equally, as worn pads do.
 struct PadSystem {
   std::vector<PointPair> points;
   Eigen::VectorXd omega;        ///< [n_pad_modes] rad/s; empty when all pads are massless
   Eigen::MatrixXd C;            ///< [n_pad_modes x n_pad_modes] 1/s
-  int disc_rows = middle_rows;  ///< of a point pair, those of the disc; see pair_rows.hpp
+  int disc_rows = middle_rows;  ///< rows of a point pair that belong to the disc; see pair_rows.hpp
 
   Eigen::Index n_modes() const { return omega.size(); }
-  /// Of a point pair.
+  /// Number of rows of a point pair.
   int rows() const { return disc_rows + (n_modes() > 0 ? plate_rows : 0); }
+  /// Number of pad pairs.
   std::size_t n_pads() const { return points.empty() ? 0 : points.back().pad + 1; }
 };
 
-/// @param rings  of the disc; the first, or the first two, are those of pads without a grid
-/// @throws chladni::Error for a body without a suspension, a caliper without a body to carry, a
-///         grid on a ring that the disc does not have, and two rings of a pair at one height.
+/// The pads of a scene.
+/// @param rings  rings of the disc; pads without a grid use the first, or the first two
+/// @throws chladni::Error for a body without a suspension, a caliper or shim without an axial
+///         suspension of the plate, a grid on a ring that the disc does not have, friction that
+///         depends on an unknown pressure, and two rings of a pair at the same height.
 PadSystem pad_system(const SquealOptions& options, const std::vector<RingPlace>& rings);
 
-/// The same on one ring of this radius, m.
+/// The pads of a scene on one ring with this radius (m).
 PadSystem pad_system(const SquealOptions& options, double radius);
 
-/// The disc with the pads' modes as further coordinates at its end, which do not move the ring.
+/// The disc with the pad modes as additional last coordinates, which do not move its rings.
 InertialDisc with_pads(InertialDisc disc, const PadSystem& pads);
 
-/// @param S  [n_disc_modes x pads.disc_rows] of the disc at the point
+/// Shapes of disc and pad modes at a point pair.
+/// @param S  [n_disc_modes x pads.disc_rows] shapes of the disc
 PairShapes pair_shapes(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point);
 
-/// All that the force at a point pair depends on but the motion.
+/// All data of the force at a point pair except the motion.
 struct BrakePoint {
   PadContact contact;
   PairShapes S;
   RestStates at_rest;
 };
 
-/// @param S  as in `pair_shapes`
+/// Data of a point pair.
+/// @param S      [n_disc_modes x pads.disc_rows] shapes of the disc
+/// @param speed  rotation speed, rad/s
+/// @throws chladni::Error from require_in_table.
 BrakePoint brake_point(const Eigen::MatrixXd& S, const PadSystem& pads, const PointPair& point,
                        double speed);
 
-/// The states of both pads of a point pair and what they exert, in the order of its rows.
+/// States of both pads of a point pair and their forces in the order of its rows.
 struct PairContact {
   ContactResult<double> states;
   PairVector<double> force;
 };
+/// Evaluates the contact law at a point pair.
+/// @param speed  rotation speed, rad/s
 PairContact contact_at(const BrakePoint& point, const PointMotion& motion, double speed);
 
-/// The modes of a disc, then those of the pads, without contact:
-/// q'' + C q' + diag(omega^2) q = 0 in the frame that rotates with the disc.
+/// Modes of disc and pads without contact: q'' + C q' + diag(omega^2) q = 0 in the frame that
+/// rotates with the disc.
 struct FreeBrake {
   Eigen::VectorXd omega;  ///< rad/s
-  Eigen::MatrixXd C;      ///< 1/s, with the Coriolis terms of the disc at this speed
+  Eigen::MatrixXd C;      ///< 1/s, including the Coriolis terms of the disc
 };
+/// The modes of disc and pads at a rotation speed (rad/s).
 FreeBrake free_brake(const Disc& disc, const PadSystem& pads, double speed);
 
-/// Derivatives of `pair_forces` about rest, by complex steps: D_a by the motion, D_p by its rates.
+/// Derivatives of `pair_forces` at rest: D_a by the motion, D_p by its rates.
 struct PairDerivatives {
   Eigen::MatrixXd D_a;  ///< [rows x rows]
   Eigen::MatrixXd D_p;  ///< [rows x rows]
 };
+/// The derivatives at a rotation speed (rad/s), by complex steps.
+/// @throws chladni::Error from require_in_table.
 PairDerivatives pair_derivatives(const PadContact& pad, double speed, int rows);
 
-/// What one sees of each pad pair: forces summed over its points, motions averaged.
+/// States of each pad pair from those of its points: forces are summed and motions averaged.
 std::vector<ContactResult<double>> by_pad(const PadSystem& pads,
                                           const std::vector<ContactResult<double>>& points);
 

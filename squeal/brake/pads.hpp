@@ -7,12 +7,13 @@
 
 namespace chladni::squeal {
 
-/// The faces of a plate of this thickness (m) above and below a ring of its middle surface (radius,
-/// m).
+/// Contact places above and below a ring in the middle surface of a plate.
+/// @param thickness  of the plate, m
+/// @param radius     of the ring, m
 std::array<PadFace, 2> faces_of_plate(double thickness, double radius);
 
-/// The contact of one pad pair of the scene with these faces, of the upper pad and of the lower
-/// one.
+/// Contact data of one pad pair of the scene.
+/// @param faces  places of the upper and of the lower pad
 PadContact pad_contact(const SquealOptions& options, const PadPair& pad,
                        const std::array<PadFace, 2>& faces);
 

@@ -7,19 +7,19 @@
 
 namespace chladni::squeal {
 
-/// Rows of the motion of a point pair. Two pads on the middle surface of a plate have
-/// (w, g_r, g_t) of its point between them; pads on two rings have (w, g_r, g_t, v_r, v_t) of the
-/// upper ring, then of the lower one, v its displacements in the plane. (r, t, z) of the upper and
-/// of the lower plate follow where pads move.
+/// Rows of a point pair's motion. Two pads on the middle surface of a plate have (w, g_r, g_t) of
+/// the point between them. Pads on two rings have (w, g_r, g_t, v_r, v_t) of the upper ring, then
+/// of the lower ring, where v is the in-plane displacement. If pads have a mass, (r, t, z) of the
+/// upper and of the lower plate follow.
 inline constexpr int middle_rows = 3, face_rows = 5, plate_rows = 6;
 inline constexpr int pair_rows_max = 2 * face_rows + plate_rows;
 
-/// Of so many rows, those of the disc.
+/// Number of rows of the disc among all rows of a point pair.
 constexpr int disc_rows(int rows)
 {
   return rows < 2 * face_rows ? middle_rows : 2 * face_rows;
 }
-constexpr bool has_plates(int rows)
+constexpr bool has_plates(int rows)  ///< whether rows of plates follow those of the disc
 {
   return rows > disc_rows(rows);
 }
@@ -27,25 +27,26 @@ constexpr bool has_plates(int rows)
 template <class Scalar>
 using PairVector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, pair_rows_max, 1>;
 
-/// [n x rows]: what each coordinate of disc and pads does at a point pair.
+/// [n x rows] motion of a point pair by each coordinate of disc and pads.
 using PairShapes =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, pair_rows_max>;
 
-/// Motion of a point pair and its rates.
+/// Motion g of a point pair and its rates.
 struct PointMotion {
   PairVector<double> g, g_dot;
 };
 
-/// The two pads of a pair on the undisturbed disc: upper, lower.
+/// States of the upper and the lower pad on the undeformed disc.
 using RestStates = std::array<PadState<double>, 2>;
 
+/// The states at a rotation speed (rad/s).
 inline RestStates states_at_rest(const PadContact& pad, double speed)
 {
   const RingMotion<double> still{};
   return {pad_state(pad, still, speed, 1.0), pad_state(pad, still, speed, -1.0)};
 }
 
-/// (w, g_r, g_t) and their rates from the row `first` on.
+/// Reads (w, g_r, g_t) and their rates from the row `first` on.
 template <class Scalar>
 RingMotion<Scalar> ring_motion(const PairVector<Scalar>& g, const PairVector<Scalar>& g_dot,
                                Eigen::Index first)
@@ -53,9 +54,9 @@ RingMotion<Scalar> ring_motion(const PairVector<Scalar>& g, const PairVector<Sca
   return {g[first], g[first + 1], g[first + 2], g_dot[first], g_dot[first + 1], g_dot[first + 2]};
 }
 
-/// A ring that moves by v in its plane takes the plate of its pad along backwards: friction knows
-/// the relative velocity alone. Under the axis of the pad lies the point that was at -v; a rotation
-/// by g that moved it there lowered it by g . v / 2 as well.
+/// Includes the in-plane displacement v of a ring. It acts as the opposite velocity of the pad's
+/// plate, because friction depends on the relative velocity only. The point under the pad axis is
+/// then the one that was at -v; the slopes g change its height by -g . v / 2.
 template <class Scalar>
 void move_in_plane(RingMotion<Scalar>& m, PlateMotion<Scalar>& plate,
                    const Eigen::Vector2<Scalar>& v, const Eigen::Vector2<Scalar>& v_dot)
@@ -65,6 +66,7 @@ void move_in_plane(RingMotion<Scalar>& m, PlateMotion<Scalar>& plate,
   plate.t_dot -= v_dot[1];
 }
 
+/// Converts the rows of a point pair to the motion under both pads.
 template <class Scalar>
 PairMotion<Scalar> pair_motion(const PairVector<Scalar>& g, const PairVector<Scalar>& g_dot)
 {
@@ -85,9 +87,9 @@ PairMotion<Scalar> pair_motion(const PairVector<Scalar>& g, const PairVector<Sca
   return m;
 }
 
-/// The force of the pad above (sigma = 1) or below its ring, on (w, g_r, g_t, v_r, v_t): of the
-/// force (f_r, f_t, -sigma S) on the disc at the contact plane, what is more than at rest. The disc
-/// is counted from the sliding equilibrium, deformed by the constant forces of both pads.
+/// Force of the pad above (sigma = 1) or below its ring on (w, g_r, g_t, v_r, v_t), from the force
+/// (f_r, f_t, -sigma S) at the contact plane minus that at rest. The disc's motion is measured from
+/// the sliding equilibrium, in which the constant forces of both pads already deform it.
 template <class Scalar>
 Eigen::Matrix<Scalar, face_rows, 1> face_forces(const PadFace& face, const RingMotion<Scalar>& m,
                                                 const PadState<Scalar>& state,
@@ -98,9 +100,9 @@ Eigen::Matrix<Scalar, face_rows, 1> face_forces(const PadFace& face, const RingM
           face.distance * at_rest.f_t - lever * state.f_t, state.f_r, state.f_t - at_rest.f_t};
 }
 
-/// The force on disc and plates, in the order of the rows, of which a point pair with the friction
-/// of an undisturbed disc is free: `at_rest` is counted out of it. On a middle surface the forces
-/// at rest of both pads sum to nothing by themselves.
+/// Force on disc and plates in the order of the rows. The forces `at_rest`, which the friction on
+/// the undeformed disc causes, are subtracted; on a middle surface those of both pads cancel by
+/// themselves.
 template <class Scalar>
 PairVector<Scalar> pair_forces(const PadContact& pad, const PairMotion<Scalar>& m,
                                const ContactResult<Scalar>& at, const RestStates& at_rest, int rows)

@@ -9,21 +9,22 @@
 
 namespace chladni::squeal {
 
-/// What the modes of a turning disc do at the point pairs of its pads.
+/// Mode shapes of a rotating disc at the point pairs of its pads.
 class PointShapes {
  public:
   explicit PointShapes(const Disc& disc);
 
-  /// [n_modes x disc rows of a point pair] when the disc has turned by `angle` (rad); valid until
-  /// the next call.
+  /// Shapes when the disc has rotated by `angle` (rad); valid until the next call.
+  /// @return [n_modes x disc rows of a point pair]
   const Eigen::MatrixXd& at(const PointPair& point, double angle);
 
  private:
   std::vector<RingShapes> rings_;
-  Eigen::MatrixXd both_;  ///< of two rings side by side
+  Eigen::MatrixXd both_;  ///< shapes of two rings side by side
 };
 
-/// The same at a point pair of the disc in the inertial frame.
+/// Mode shapes of the disc in the inertial frame at a point pair.
+/// @return [n_modes x disc rows of a point pair]
 Eigen::MatrixXd shapes_at(const InertialDisc& disc, const PointPair& point);
 
 }  // namespace chladni::squeal

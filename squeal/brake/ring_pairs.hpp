@@ -9,20 +9,21 @@
 
 namespace chladni::squeal {
 
-/// The rings under the upper and above the lower pad of a pair: one for both, or two.
+/// The rings under the upper pad and above the lower pad of a pair: two rings, or one twice.
 struct RingPair {
-  std::array<std::size_t, 2> rings;  ///< indices among those of the disc
+  std::array<std::size_t, 2> rings;  ///< indices of the disc's rings, upper first
   std::array<PadFace, 2> faces;
 };
 
-/// The rings of the study, on which pads without a grid and the centres of plates lie.
-/// @param rings  of the disc, those of the study first
-/// @throws chladni::Error when two rings of one pair lie at one height.
+/// The rings of the study, used by pads without a grid and by the centres of plates.
+/// @param rings  rings of the disc, those of the study first
+/// @throws chladni::Error when the two rings lie at the same height.
 RingPair study_pair(const SquealOptions& options, const std::vector<RingPlace>& rings);
 
-/// Those on which the grid of a pad lies.
-/// @param pad  its number, for messages
-/// @throws chladni::Error when the disc has no ring of a name, and as above.
+/// The ring pairs of a pad's grid.
+/// @param pad  index of the pad, for messages
+/// @throws chladni::Error when the disc does not have a ring, or the two rings of a pair lie at the
+///         same height.
 std::vector<RingPair> ring_pairs(const SquealOptions& options, const PadGrid& grid,
                                  const std::vector<RingPlace>& rings, std::size_t pad);
 

@@ -9,13 +9,14 @@
 
 namespace chladni::squeal {
 
-/// The contacts of all pads in small motions about the sliding equilibrium, modes of pads with a
-/// mass after those of the disc.
+/// Linearised contact of all pads about the sliding equilibrium. Modes of pads with a mass follow
+/// those of the disc.
+/// @param speed  rad/s, > 0
 StackedContact linear_contact(const InertialDisc& disc, const PadSystem& pads, double speed);
 
-/// A of x' = A x about the sliding equilibrium a = 0, with x = (diag(omega) a, p): all entries have
-/// the unit 1/s, which keeps the eigenvalue problem well scaled. Pads with a mass add their modes
-/// at the end of a.
+/// State matrix A of x' = A x about the sliding equilibrium a = 0 with x = (diag(omega) a, p). All
+/// entries have the unit 1/s, so that the eigenvalue problem is well scaled. Modes of pads with a
+/// mass follow at the end of a and p.
 /// @param speed  rad/s, > 0
 /// @return [2 n x 2 n], n = n_modes + modes of the pads, 1/s
 Eigen::MatrixXd state_matrix(const InertialDisc& disc, const SquealOptions& options, double speed);

@@ -12,34 +12,37 @@
 
 namespace chladni::squeal {
 
-/// What a branch keeps of a cycle.
+/// The quantities of a cycle that a branch stores.
 BranchPoint point_of(const DirectLimitCycle& cycle);
 
 /// Follows parts of a branch of limit cycles along its arc, through folds, until it leaves a range
-/// of speeds or ends at rest; takes the cycles at the speeds of the range on the way.
+/// of speeds or ends at rest, and computes the cycles at the speeds of the range.
 class BranchFollower {
  public:
-  /// @param brake  must outlive this
+  /// @param brake  must outlive this object
   BranchFollower(const Brake& brake, const SpeedRange& range);
 
   const AutonomousMotionAt& motion() const { return motion_; }
 
-  /// From a cycle, which is not among the points, towards lower (-1) or higher (1) speeds.
+  /// Follows the branch from a cycle, which is not added to the points, towards lower (-1) or
+  /// higher (1) speeds.
   LimitCycleBranch from_cycle(const DirectLimitCycle& start, double direction,
                               const Progress& progress) const;
 
-  /// From a point in the direction of its tangent.
+  /// Follows the branch from a point in the direction of its tangent.
   LimitCycleBranch from_point(ArcPoint point, const Progress& progress) const;
 
-  /// The cycle at a point, where Newton's method at one speed does not converge: at folds and
-  /// beside rest.
-  /// @return absent where it is stuck in a contact
+  /// The quantities of the cycle at a point of the arc, without solving for it again at a fixed
+  /// speed. It is used at folds and near rest, where Newton's method at one speed does not
+  /// converge.
+  /// @return absent when a contact switches endlessly
   std::optional<BranchPoint> as_it_is(const ArcPoint& point) const;
 
  private:
   double progress_at(double speed, double direction) const;
 
-  /// The speeds of the range between two points of the arc, and the fold if there is one.
+  /// Adds the cycles at the speeds of the range between two points of the arc, and the fold if
+  /// there is one.
   void add_between(const ArcPoint& a, const ArcPoint& b, double length,
                    LimitCycleBranch& part) const;
   void add_speeds(const ArcPoint& a, const ArcPoint& b, LimitCycleBranch& part) const;

@@ -6,12 +6,13 @@
 
 namespace chladni::squeal {
 
-/// Adds the points and folds of a part that goes on where the branch ends.
+/// Appends the points and folds of a part that continues the branch.
 void append(LimitCycleBranch& branch, const LimitCycleBranch& part);
 
-/// The branch with another part behind it. Where both have a cycle in common they are one branch,
-/// of which the first one has lost a cycle: the longer one takes the place of the other.
-/// @param note  of the branch where the parts have no cycle in common
+/// Joins two parts of a branch. If they have a cycle in common they are the same branch, part of
+/// which the first has missed, and the longer one is returned. Otherwise the second is appended as
+/// a second part.
+/// @param note  note of the branch when the parts have no cycle in common
 LimitCycleBranch joined(LimitCycleBranch first, LimitCycleBranch second, const std::string& note);
 
 }  // namespace chladni::squeal

@@ -125,8 +125,7 @@ Detour cycle_by_transient(const Brake& brake, double speed)
   Return last{{x, period}, 1.0};
   for (int i = 1; i <= n_chunks; ++i) {
     x = end_of(*motion, {x, periods_per_chunk * period}, rough_tolerance);
-    if (!x.allFinite())
-      return {{}, "a transient grew beyond all numbers or was stuck in a contact"};
+    if (!x.allFinite()) return {{}, "a transient diverged or a contact switched endlessly"};
     last = return_of(*motion, x, period);
     if (!(last.distance <= comes_back)) continue;
     auto cycle = limit_cycle_near(brake, speed, last.start);

@@ -8,19 +8,20 @@
 
 namespace chladni::squeal {
 
-/// What a detour to a limit cycle came to.
+/// Result of an indirect search for a limit cycle.
 struct Detour {
   std::optional<DirectLimitCycle> cycle;
-  std::string said;  ///< how it went, in words that stand behind a comma
+  std::string said;  ///< outcome in words, to follow a comma
 };
 
-/// The limit cycle at `speed` on the branch that begins at the Hopf point nearest below, at which
-/// sliding loses its stability; from a hundredth of the speed on.
+/// Searches the limit cycle at `speed` (rad/s) by continuation of the branch from the nearest Hopf
+/// point below, at which sliding loses its stability, down to a hundredth of the speed.
 Detour cycle_by_continuation(const Brake& brake, double speed);
 
-/// The limit cycle that a short transient comes to, which begins with the unstable eigenvector and
-/// moves the first pad by its compression: every hundred periods its last state, and the time in
-/// which that comes back, start Newton's method; three thousand periods at most.
+/// Searches the limit cycle at `speed` (rad/s) by a short transient. It starts with the unstable
+/// eigenvector at an amplitude that moves the first pad by its compression at rest. Every hundred
+/// periods its state and the time after which the state nearly recurs start Newton's method; it
+/// ends after three thousand periods.
 Detour cycle_by_transient(const Brake& brake, double speed);
 
 }  // namespace chladni::squeal

@@ -14,24 +14,24 @@ struct HarmonicCycle {
   double omega;       ///< rad/s
 };
 
-/// How finely a periodic motion is looked for.
+/// Discretisation of the harmonic balance.
 struct HarmonicResolution {
   int n_harmonics;
-  int n_samples;     ///< of the forces in a period; more than 2 n_harmonics
+  int n_samples;     ///< samples of the forces per period; more than 2 n_harmonics
   double tolerance;  ///< relative change at which Newton's method has converged
 };
 
-/// The Fourier series that x' = f(x) leaves no residual in, by Newton's method on
+/// Solves x' = f(x) for a periodic motion by harmonic balance: Newton's method on
 ///   omega D X - F(X) = 0,   <X', dX> = 0,
-/// with the coefficients F of f from samples in time (alternating frequency and time) and with the
-/// exact derivatives of f. Kinks of f make the coefficients decay algebraically: a few harmonics
-/// give four digits, and shooting the rest.
-/// @param start  with as many harmonics or fewer
-/// @return absent when Newton's method does not converge.
+/// with the Fourier coefficients F of f from samples in time (alternating frequency-time method)
+/// and exact derivatives of f. At kinks of f the coefficients decay algebraically: a few harmonics
+/// give four digits, and shooting refines them.
+/// @param start  series with at most as many harmonics
+/// @return absent when Newton's method does not converge
 std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const HarmonicCycle& start,
                                               const HarmonicResolution& resolution);
 
-/// x(0) of a series.
+/// The state x(0) of a series.
 Eigen::VectorXd start_of(const HarmonicCycle& cycle);
 
 }  // namespace chladni::squeal

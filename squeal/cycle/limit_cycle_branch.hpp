@@ -7,18 +7,18 @@
 
 namespace chladni::squeal {
 
-/// The limit cycles at the speeds of `range`, on the branch that begins at the Hopf point: where
-/// sliding loses its stability first, or regains it if it never loses it. The branch is followed
-/// along its arc, through folds, from the small cycle beside that point (hopf_cycle.hpp) until it
-/// leaves the range or ends at rest. Where it folds back, a speed has more than one cycle.
+/// The limit cycles at the speeds of `range` on the branch that starts at the Hopf point: the
+/// lowest speed where sliding loses its stability or, if it never does, regains it. The branch is
+/// followed along its arc, through folds, from the small cycle near that point (hopf_cycle.hpp)
+/// until it leaves the range or ends at rest. Where it folds back, a speed has more than one cycle.
 ///
-/// Where there is no Hopf point, or the branch does not reach the highest of the speeds at which
-/// sliding is unstable, the branch through the cycle at that speed is followed in both directions;
-/// `note` says so.
-/// @return in the order along the branch, from its Hopf point, or from its end on the side of low
-///         speeds; empty when the brake is stable at all speeds
-/// @throws chladni::Error as `limit_cycle_direct` at that speed, when nothing begins at a Hopf
-/// point.
+/// If there is no Hopf point, or the branch does not reach the highest speed at which sliding is
+/// unstable, the branch through the cycle at that speed is followed in both directions, and `note`
+/// says so.
+/// @return cycles in the order along the branch, from the Hopf point or from the end at low speeds;
+///         empty when the brake is stable at all speeds
+/// @throws chladni::Error as `limit_cycle_direct` at that speed, when no branch starts at a Hopf
+///         point.
 LimitCycleBranch limit_cycle_branch(const Brake& brake, const SpeedRange& range,
                                     const Progress& progress = {});
 

@@ -71,8 +71,8 @@ DirectLimitCycle limit_cycle_direct(const Brake& brake, double speed)
     tried += ", " + end.said;
   }
   throw Error(fmt::format(
-      "limit cycle: Newton's method finds no periodic motion at {:.6g} rad/s: it comes to "
-      "none from the unstable eigenvector at any amplitude{}; simulate a transient to "
+      "limit cycle: Newton's method finds no periodic motion at {:.6g} rad/s: it does not "
+      "converge from the unstable eigenvector at any amplitude{}; simulate a transient to "
       "see what the brake does",
       speed, tried));
 }

@@ -7,9 +7,9 @@
 
 namespace chladni::squeal {
 
-/// What is reported of an orbit of the brake at a speed (rad/s): what its first pads do and, of one
-/// with a body, the amplitudes of its modes and the work in a period.
-/// @param motion  of the brake at this speed, with the evaluations that led to the orbit
+/// The reported quantities of an orbit of the brake at a speed (rad/s): the motion of its first
+/// pads and, with a modal body, the modal amplitudes and the work per period.
+/// @param motion  motion of the brake at this speed, which counts the evaluations of the search
 DirectLimitCycle measured_cycle(const Brake& brake, AutonomousMotion& motion,
                                 const PeriodicOrbit& orbit, double speed);
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "common/error.hpp"
+#include "squeal/models/brake_numbers.hpp"
 #include "squeal/models/friction_parameters.hpp"
 
 namespace chladni::squeal {
@@ -41,7 +43,7 @@ bool is_shared(const std::vector<Lining>& linings, double Lining::*value)
   });
 }
 
-/// Says what `gradients` leaves out.
+/// Says what a range of a parameter does to linings that differ.
 Assembly with_notes(Assembly assembly)
 {
   std::vector<std::string_view> own;
@@ -49,17 +51,29 @@ Assembly with_notes(Assembly assembly)
     if (!is_shared(assembly.linings, row.value)) own.push_back(row.name);
   if (!own.empty()) {
     assembly.notes.push_back(
-        fmt::format("linings differ in {}: gradients leave it out, and a range of it sets all "
-                    "linings alike",
+        fmt::format("linings differ in {}: a range of it sets the same value for all linings",
                     fmt::join(own, " and in ")));
   }
   return assembly;
 }
 
+/// Whether rigid joints allow a small change of a place.
+bool is_free(const BrakeNumber& place)
+{
+  try {
+    place.with(place.value + place.step);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
-AssemblyBrake::AssemblyBrake(Assembly assembly)
-    : assembly_(std::make_shared<const Assembly>(with_notes(std::move(assembly)))),
+AssemblyBrake::AssemblyBrake(const AssemblyOptions& options,
+                             std::span<const mbs_export::ModalBody> bodies)
+    : source_(std::make_shared<const Source>(Source{options, {bodies.begin(), bodies.end()}})),
+      assembly_(std::make_shared<const Assembly>(with_notes(squeal::assembly(options, bodies)))),
       linings_(assembly_->linings)
 {}
 
@@ -98,10 +112,76 @@ std::vector<ParameterValue> AssemblyBrake::parameters() const
   return values;
 }
 
+std::vector<BrakeNumber> AssemblyBrake::further_numbers() const
+{
+  std::vector<BrakeNumber> numbers;
+  for (AssemblyNumber& number : assembly_numbers(source_->options)) {
+    const bool is_place = number.key.starts_with("part[");
+    BrakeNumber found = number_of(std::move(number));
+    if (is_place && !is_free(found)) continue;
+    numbers.push_back(std::move(found));
+  }
+  add_frequencies(numbers);
+  return numbers;
+}
+
+std::unique_ptr<Brake> AssemblyBrake::of(Assembly assembly) const
+{
+  auto changed = std::make_unique<AssemblyBrake>(*this);
+  changed->assembly_ = std::make_shared<const Assembly>(std::move(assembly));
+  changed->linings_ = changed->assembly_->linings;
+  return changed;
+}
+
+BrakeNumber AssemblyBrake::number_of(AssemblyNumber number) const
+{
+  return {.key = std::move(number.key),
+          .unit = std::move(number.unit),
+          .value = number.value,
+          .step = number.step,
+          .with = [this, set = std::move(number.set)](double value) {
+            AssemblyOptions options = source_->options;
+            set(options, value);
+            return of(neighbour(*assembly_, options, source_->bodies));
+          }};
+}
+
+void AssemblyBrake::add_frequencies(std::vector<BrakeNumber>& numbers) const
+{
+  for (BrakeNumber& number : disc_frequencies(assembly_->disc, [this](InertialDisc disc) {
+         Assembly changed = *assembly_;
+         changed.disc = std::move(disc);
+         return of(std::move(changed));
+       }))
+    numbers.push_back(std::move(number));
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < source_->options.parts.size(); ++i) {
+    const PartOptions& part = source_->options.parts[i];
+    if (part.name == source_->options.disc) continue;
+    for (const double omega : source_->bodies[i].omega) {
+      const Eigen::Index at = row++;
+      if (!(omega > 0.0)) continue;
+      const double f_Hz = omega / (2.0 * std::numbers::pi);
+      numbers.push_back(
+          {.key = fmt::format("frequency of the mode of \"{}\" at {:.6g} Hz", part.name, f_Hz),
+           .unit = "Hz",
+           .value = f_Hz,
+           .step = 0.0,
+           .with = [this, at, omega](double x_Hz) {
+             const double changed_omega = 2.0 * std::numbers::pi * x_Hz;
+             Assembly changed = *assembly_;
+             const Eigen::RowVectorXd x = changed.X.row(at);
+             changed.K += (changed_omega * changed_omega - omega * omega) * x.transpose() * x;
+             return of(std::move(changed));
+           }});
+    }
+  }
+}
+
 std::unique_ptr<AutonomousMotion> AssemblyBrake::motion(double /*speed*/) const
 {
   throw Error(
-      "squeal.model = \"assembly\" has the small motions about sliding alone, no limit cycles; "
+      "squeal.model = \"assembly\" covers small motions about sliding only, without limit cycles; "
       "leave out these analyses");
 }
 

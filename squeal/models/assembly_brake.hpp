@@ -1,31 +1,51 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "squeal/assembly/assembly.hpp"
+#include "squeal/models/assembly_numbers.hpp"
 #include "squeal/models/brake.hpp"
 
 namespace chladni::squeal {
 
-/// A disc that turns between other modal bodies, in small motions about the sliding equilibrium.
+/// A disc that rotates between other modal bodies, for small motions about the sliding equilibrium.
 /// Copies share the bodies.
 class AssemblyBrake final : public Brake {
  public:
-  explicit AssemblyBrake(Assembly assembly);
+  /// @param bodies  of the parts, in their order
+  /// @throws chladni::Error as `assembly`.
+  AssemblyBrake(const AssemblyOptions& options, std::span<const mbs_export::ModalBody> bodies);
 
   const Assembly& assembly() const { return *assembly_; }
 
   Eigen::MatrixXd state_matrix(double speed) const override;
-  /// Friction, or preload, stiffness and damping of every face.
+  /// The brake with another friction coefficient, or with another preload, stiffness or damping of
+  /// every face.
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
-  /// Those of the friction of the brake, and those of faces which all of them share.
+  /// The parameters of the brake's friction, and those of the faces that are equal for all faces.
   std::vector<ParameterValue> parameters() const override;
-  /// @throws chladni::Error: contact is linear here.
+  /// `assembly_numbers`, and the frequencies of the modes of disc and parts. Left out are places
+  /// and rotations that rigid joints do not allow to change one by one.
+  std::vector<BrakeNumber> further_numbers() const override;
+  /// Not available, because the contact is linear.
+  /// @throws chladni::Error always.
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override;
 
  private:
+  /// Of what it was made.
+  struct Source {
+    AssemblyOptions options;
+    std::vector<mbs_export::ModalBody> bodies;
+  };
+
+  std::unique_ptr<Brake> of(Assembly assembly) const;
+  BrakeNumber number_of(AssemblyNumber number) const;
+  void add_frequencies(std::vector<BrakeNumber>& numbers) const;
+
+  std::shared_ptr<const Source> source_;
   std::shared_ptr<const Assembly> assembly_;
   std::vector<Lining> linings_;
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "squeal/motion/autonomous_motion.hpp"
@@ -10,13 +11,25 @@
 
 namespace chladni::squeal {
 
+class Brake;
 class FlexibleDisc;
 class LumpedBrake;
 
-/// A of x' = A x about the sliding equilibrium, at a speed (rad/s).
+/// A number of a brake that is no MapParameter: a point of a friction table, a spring of a joint,
+/// the frequency of a mode.
+struct BrakeNumber {
+  std::string key;   ///< of the scene, or a name such as "frequency of the mode at 870 Hz"
+  std::string unit;  ///< of the value
+  double value;
+  double step;  ///< a small change of the value, by which to take differences; 0: a part of it
+  /// The brake with another value, in the same coordinates; valid while the brake lives.
+  std::function<std::unique_ptr<Brake>(double value)> with;
+};
+
+/// State matrix A of x' = A x about the sliding equilibrium as a function of the speed (rad/s).
 using StateMatrixAt = std::function<Eigen::MatrixXd(double speed)>;
 
-/// Whatever squeals: all that an analysis needs to know of it, whatever it is made of.
+/// A brake as the analyses see it, independent of its model.
 class Brake {
  public:
   Brake() = default;
@@ -24,39 +37,45 @@ class Brake {
   Brake& operator=(const Brake&) = default;
   virtual ~Brake() = default;
 
-  /// Whether its equations do not depend on time in some frame: without that there is neither a
+  /// Whether the equations are independent of time in some frame. Otherwise there is neither a
   /// state matrix nor a periodic motion.
   virtual bool is_autonomous() const { return true; }
 
-  /// A of x' = A x about the sliding equilibrium x = 0. The entries have the unit 1/s when x is
-  /// scaled to energy, e.g. (omega q, q').
+  /// State matrix A of x' = A x about the sliding equilibrium x = 0. The entries have the unit 1/s
+  /// when x is scaled by energy, as (omega q, q') is.
   /// @param speed  rad/s, > 0
   /// @throws chladni::Error with the reason when the brake is not autonomous.
   virtual Eigen::MatrixXd state_matrix(double speed) const = 0;
 
-  /// The same brake with one parameter at another value, for all its pads if it is one of pads.
+  /// A copy of the brake with another value of one parameter; a pad parameter is set for all pads
+  /// unless it names one.
+  /// @throws chladni::Error when the brake does not have the parameter.
   virtual std::unique_ptr<Brake> with(MapParameter parameter, double value) const = 0;
 
-  /// The parameters that it has, with those of each pad pair by itself, and their values.
+  /// All parameters of the brake with their values; pad parameters are listed for each pad pair.
   virtual std::vector<ParameterValue> parameters() const { return {}; }
 
-  /// x' = f(x; speed) with switching contact, for the search of periodic motions.
+  /// All other numbers on which its small motions depend.
+  virtual std::vector<BrakeNumber> further_numbers() const { return {}; }
+
+  /// The motion x' = f(x; speed) with switching contact, for the search of periodic motions.
   /// @throws chladni::Error with the reason when there is none.
   virtual std::unique_ptr<AutonomousMotion> motion(double speed) const = 0;
 
-  /// Compression of the first pad spring at rest: the displacement at which it would let go, m.
+  /// Compression of the first pad's spring at rest, m; at this displacement the pad would lose
+  /// contact.
   virtual double rest_compression() const = 0;
 
-  /// This brake with its modal body, for what only a body has: mode shapes, the influence of single
-  /// modes, stability in the rotating frame, a choice of integrators, snapshots. Null without one.
+  /// The brake with its modal body, for analyses that need one: mode shapes, influence of single
+  /// modes, stability in the rotating frame, choice of integrators, snapshots. Null for other
+  /// brakes.
   virtual const FlexibleDisc* body() const { return nullptr; }
 
-  /// This brake as a few equations that a transient integrates; null where the modes of a body take
-  /// their place.
+  /// The brake as a few differential equations for a transient; null for a brake with a modal body.
   virtual const LumpedBrake* lumped() const { return nullptr; }
 };
 
-/// `state_matrix` over the speed; keeps a reference to the brake.
+/// The state matrix as a function of the speed; keeps a reference to the brake.
 inline StateMatrixAt state_matrix_at(const Brake& brake)
 {
   return [&brake](double speed) { return brake.state_matrix(speed); };

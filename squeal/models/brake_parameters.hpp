@@ -7,12 +7,13 @@
 
 namespace chladni::squeal {
 
-/// The options with one parameter set to `value`, for every pad that has it if it is one of pads.
-/// @throws chladni::Error when nothing in the brake has it.
+/// The options with another value of one parameter; a pad parameter is set for every pad that has
+/// it unless it names one pad.
+/// @throws chladni::Error when the brake does not have the parameter.
 SquealOptions with_parameter(SquealOptions options, MapParameter parameter, double value);
 
-/// Every parameter on which small motions may depend, by the keys that a scene gives it, those of
-/// pads for each pair by itself. Cubic springs change no small motion and are none.
+/// All parameters that may affect small motions, by their keys in the scene; pad parameters are
+/// listed for each pad pair. Cubic springs do not affect small motions and are not listed.
 std::vector<ParameterValue> parameter_values(SquealOptions options);
 
 }  // namespace chladni::squeal

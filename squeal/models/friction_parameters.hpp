@@ -9,27 +9,29 @@
 
 namespace chladni::squeal {
 
-/// The value that a law of friction has of a key of its table: "kinetic", "static", "decay_speed",
-/// "regularisation", "temperature_C" or "factor", or of the law itself, "", which moves all of mu.
-/// @return absent where the law has no such key
+/// The value of a friction law for a key of its table: "kinetic", "static", "decay_speed",
+/// "regularisation", "temperature_C" or "factor"; or for the law itself, "", which scales all of
+/// mu.
+/// @return absent when the law does not have the key
 std::optional<double> friction_value(const FrictionLaw& law, std::string_view key);
 
-/// The law with another value of a key that it has; the others keep theirs, so that "kinetic"
-/// leaves "static" where it is.
+/// The law with another value of a key that it has. Other keys keep their values; for example
+/// "kinetic" does not change "static".
 /// @throws chladni::Error when the kinetic coefficient would exceed the static one.
 FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double value);
 
-/// Whether a scene gives the law by this key: a coefficient alone by "", a table by the others.
+/// Whether a scene states the law by this key: "" for a single coefficient, the others for a table.
 bool is_said_by(const FrictionLaw& law, std::string_view key);
 
-/// Whether a parameter is a key of the law of a brake, "friction" or "friction.static".
+/// Whether a parameter is a key of the brake's friction law, such as "friction" or
+/// "friction.static".
 bool is_of_law(MapParameter parameter);
 
-/// The law with another value of such a parameter.
-/// @throws chladni::Error when it has no such key.
+/// The law with another value of a parameter for which `is_of_law` holds.
+/// @throws chladni::Error when the law does not have the key.
 FrictionLaw with_friction_parameter(const FrictionLaw& law, MapParameter parameter, double value);
 
-/// The parameters by which a scene gives the law of a brake.
+/// The parameters by which a scene states the friction law of a brake.
 std::vector<ParameterValue> friction_parameters(const FrictionLaw& law);
 
 }  // namespace chladni::squeal

@@ -7,25 +7,26 @@
 
 namespace chladni::squeal {
 
-/// A brake without a body: a few autonomous differential equations x' = f(x; speed) with the
+/// A brake without a modal body: a few autonomous differential equations x' = f(x; speed) with the
 /// sliding equilibrium at x = 0.
 class LumpedBrake : public Brake {
  public:
   const LumpedBrake* lumped() const override { return this; }
 
-  /// The number of entries of x.
+  /// Number of entries of x.
   virtual Eigen::Index size() const = 0;
 
-  /// f(x; speed)
+  /// The rate f(x; speed).
+  /// @param speed  rad/s
   virtual Eigen::VectorXd rate(const Eigen::VectorXd& x, double speed) const = 0;
 
-  /// The first pad pair at x.
+  /// Contact state of the first pad pair at x.
   virtual ContactResult<double> contact(const Eigen::VectorXd& x, double speed) const = 0;
 
-  /// The state at rest in which the first pads are displaced by so much, m.
+  /// The state at rest in which the first pads have a given displacement (m).
   virtual Eigen::VectorXd start(double displacement) const = 0;
 
-  /// The height z of the first upper pad at x = 0, m.
+  /// Height z of the first upper pad at x = 0, m.
   virtual double rest_height() const = 0;
 };
 

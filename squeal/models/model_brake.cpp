@@ -10,7 +10,7 @@ std::unique_ptr<Brake> model_brake(const ModelOptions& options,
                                    std::span<const mbs_export::ModalBody> bodies)
 {
   if (const auto* parts = std::get_if<AssemblyOptions>(&options.model))
-    return std::make_unique<AssemblyBrake>(assembly(*parts, bodies));
+    return std::make_unique<AssemblyBrake>(*parts, bodies);
   if (const auto* study = std::get_if<RigidDiscStudy>(&options.model))
     return std::make_unique<RigidDiscBrake>(*study);
   return std::make_unique<OscillatorBrake>(std::get<Oscillator>(options.model));

@@ -9,8 +9,8 @@
 
 namespace chladni::squeal {
 
-/// The brake without a mesh that a scene asks for.
-/// @param bodies  of the parts of an assembly, in their order
+/// The brake of a scene whose model has no mesh.
+/// @param bodies  bodies of the parts of an assembly, in their order
 /// @throws chladni::Error as `assembly`.
 std::unique_ptr<Brake> model_brake(const ModelOptions& options,
                                    std::span<const mbs_export::ModalBody> bodies = {});

@@ -10,24 +10,25 @@
 
 namespace chladni::squeal {
 
-/// f and the switching functions at one state.
+/// Rate f and switching functions s at one state.
 template <class Scalar>
 struct SwitchedRate {
   Eigen::VectorX<Scalar> f;
   Eigen::VectorX<Scalar> s;
 };
 
-/// A model without a body as a motion with switching contact; derivatives by complex steps.
-/// `Equations` has `evaluate(x, branches)` for real and complex x, which yields a SwitchedRate with
-/// each pad on its branch (contact_branch.hpp), and `contact(x)`, which yields a ContactResult.
+/// A model without a modal body as a motion with switching contact; derivatives are computed by
+/// complex steps. `Equations` has `evaluate(x, branches)` for real and complex x, which returns a
+/// SwitchedRate with each pad on its branch (contact_branch.hpp), and `contact(x)`, which returns a
+/// ContactResult.
 template <class Equations>
 class ModelMotion final : public AutonomousMotion {
  public:
-  /// What the equations do not say.
+  /// Properties of the model that the equations do not provide.
   struct Properties {
-    Eigen::Index size;        ///< of x
-    Eigen::Index n_switches;  ///< contacts
-    double omega_highest;     ///< rad/s
+    Eigen::Index size;        ///< number of entries of x
+    Eigen::Index n_switches;  ///< number of contacts
+    double omega_highest;     ///< highest angular frequency, rad/s
     ContactLaw law;
   };
 
@@ -76,7 +77,7 @@ class ModelMotion final : public AutonomousMotion {
   }
 
  private:
-  /// The signed law has one branch, on which nothing switches.
+  /// The signed law has a single branch, so nothing switches.
   Eigen::Index n_switches() const
   {
     return properties_.law == ContactLaw::signed_force ? 0 : properties_.n_switches;

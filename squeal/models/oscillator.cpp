@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "squeal/derivative.hpp"
+#include "squeal/models/brake_numbers.hpp"
 #include "squeal/models/friction_parameters.hpp"
 #include "squeal/models/model_motion.hpp"
 
@@ -172,6 +173,15 @@ std::vector<ParameterValue> OscillatorBrake::parameters() const
   for (const auto& [name, place] : places_in(o))
     if (name.starts_with("oscillator.")) values.push_back({{name}, *place});
   return values;
+}
+
+std::vector<BrakeNumber> OscillatorBrake::further_numbers() const
+{
+  return friction_point_numbers(o_.friction, "friction", [this](FrictionLaw law) {
+    Oscillator changed = o_;
+    changed.friction = std::move(law);
+    return std::make_unique<OscillatorBrake>(changed);
+  });
 }
 
 std::unique_ptr<AutonomousMotion> OscillatorBrake::motion(double speed) const

@@ -5,8 +5,8 @@
 
 namespace chladni::squeal {
 
-/// The oscillator with x = (x w, y w, x', y'), w^2 = k_x / m. The contact appears as both pads of a
-/// pair: `z` is y, f_t the friction on the mass.
+/// The oscillator with x = (x w, y w, x', y'), w^2 = k_x / m. The contact is reported as both pads
+/// of a pair: `z` is y and f_t the friction on the mass.
 class OscillatorBrake final : public LumpedBrake {
  public:
   explicit OscillatorBrake(const Oscillator& oscillator) : o_(oscillator) {}
@@ -14,6 +14,8 @@ class OscillatorBrake final : public LumpedBrake {
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
   std::vector<ParameterValue> parameters() const override;
+  /// Points of the friction table.
+  std::vector<BrakeNumber> further_numbers() const override;
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override { return o_.preload / o_.contact_stiffness; }
 
@@ -27,8 +29,8 @@ class OscillatorBrake final : public LumpedBrake {
   Oscillator o_;
 };
 
-/// The friction coefficient above which the two frequencies of the undamped oscillator coincide and
-/// flutter sets in, mu = ((k_x - k_y - k_c)^2 / 4 + k_xy^2) / (k_xy k_c).
+/// Friction coefficient at which the frequencies of the undamped oscillator coincide and flutter
+/// begins, mu = ((k_x - k_y - k_c)^2 / 4 + k_xy^2) / (k_xy k_c).
 double flutter_friction(const Oscillator& oscillator);
 
 }  // namespace chladni::squeal

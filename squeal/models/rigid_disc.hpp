@@ -11,7 +11,7 @@
 namespace chladni::squeal {
 
 /// Cardan angles q_1 (about the inertial x axis) and q_2 (about the tilted y axis), their rates,
-/// and the rate of the spin about the axis of the disc.
+/// and the spin about the disc's axis.
 template <class Scalar>
 struct RigidMotion {
   Eigen::Vector2<Scalar> q;      ///< rad
@@ -19,23 +19,24 @@ struct RigidMotion {
   Scalar spin;                   ///< rad/s
 };
 
+/// State of one pad of the rigid disc.
 template <class Scalar>
 struct RigidPad {
   Scalar z;                  ///< height of the contact point on the pad axis, m
   Scalar z_dot;              ///< velocity of the pad, m/s
-  Scalar S;                  ///< force of the pad along its axis, N
-  Scalar S_free;             ///< the same if the pad could pull, N
+  Scalar S;                  ///< axial force of the pad, N
+  Scalar S_free;             ///< axial force of a pad that could also pull, N
   Scalar N;                  ///< normal force, N
   Scalar slip_speed;         ///< |v_r|, m/s
   Eigen::Vector3<Scalar> F;  ///< force on the disc, inertial axes, N; F_z = -sigma S
 };
 
-/// The accelerations of a motion and what causes them.
+/// Accelerations of the rigid disc and the forces that cause them.
 template <class Scalar>
 struct RigidAcceleration {
   Eigen::Vector2<Scalar> q_ddot;  ///< rad/s^2
   Scalar spin_rate;               ///< rad/s^2, zero for Drive::speed
-  Scalar moment;                  ///< M_A of the drive, N m
+  Scalar moment;                  ///< moment M_A of the drive, N m
   RigidPad<Scalar> upper;
   RigidPad<Scalar> lower;
 };
@@ -45,31 +46,33 @@ template <class Scalar>
 RigidAcceleration<Scalar> accelerate(const RigidDisc& disc, const RigidMotion<Scalar>& motion,
                                      Drive drive);
 
-/// The same with the upper and the lower pad each on a branch of the contact law; see
-/// contact_branch.hpp.
+/// The nonlinear equations with the upper and the lower pad on given branches of the contact law;
+/// see contact_branch.hpp.
 template <class Scalar>
 RigidAcceleration<Scalar> accelerate_on_branches(const RigidDisc& disc,
                                                  const RigidMotion<Scalar>& motion, Drive drive,
                                                  const std::array<double, 2>& branches);
 
-/// M q'' + C q' + K q = 0.
+/// Matrices of the linearised equations M q'' + C q' + K q = 0.
 struct RigidMatrices {
   Eigen::Matrix2d M;  ///< kg m^2
   Eigen::Matrix2d C;  ///< N m s
   Eigen::Matrix2d K;  ///< N m
 };
 
-/// The linearised equations at `speed` (rad/s, > 0) in closed form; the same for both drives.
-/// For a constant friction coefficient.
+/// The linearised equations at `speed` (rad/s, > 0) in closed form, for a constant friction
+/// coefficient. They are the same for both drives.
 RigidMatrices rigid_disc_matrices(const RigidDisc& disc, double speed);
 
-/// The derivatives of `accelerate` at rest by complex steps, exact to rounding.
+/// The linearised equations from derivatives of `accelerate` at rest by complex steps, exact to
+/// rounding.
+/// @param speed  rad/s, > 0
 RigidMatrices linearised(const RigidDisc& disc, Drive drive, double speed);
 
-/// A of x' = A x.
+/// The state matrix A of x' = A x with x = (omega q, q'), omega^2 = tr K / tr M.
 Eigen::MatrixXd first_order(const RigidMatrices& matrices);
 
-/// The two eigenvalues with Im > 0, of rising frequency: growth rate 1/s + i rad/s.
+/// The two eigenvalues with Im > 0 by ascending frequency: growth rate 1/s + i rad/s.
 Eigen::Vector2cd eigenvalues(const RigidMatrices& matrices);
 
 }  // namespace chladni::squeal

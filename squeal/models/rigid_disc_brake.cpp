@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "squeal/derivative.hpp"
+#include "squeal/models/brake_numbers.hpp"
 #include "squeal/models/friction_parameters.hpp"
 #include "squeal/models/model_motion.hpp"
 
@@ -177,6 +178,15 @@ std::vector<ParameterValue> RigidDiscBrake::parameters() const
     if (name != "friction") values.push_back({{name, is_of_pad ? 1 : 0}, *place});
   }
   return values;
+}
+
+std::vector<BrakeNumber> RigidDiscBrake::further_numbers() const
+{
+  return friction_point_numbers(study_.disc.friction, "friction", [this](FrictionLaw law) {
+    RigidDiscStudy changed = study_;
+    changed.disc.friction = std::move(law);
+    return std::make_unique<RigidDiscBrake>(changed);
+  });
 }
 
 std::unique_ptr<AutonomousMotion> RigidDiscBrake::motion(double speed) const

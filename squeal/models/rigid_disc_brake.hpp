@@ -5,9 +5,9 @@
 
 namespace chladni::squeal {
 
-/// The rigid disc with x = (w q, q'), w^2 = k_t / Theta, and with Drive::moment a fifth entry, the
-/// deviation of the spin from the speed (rad/s), which the linearisation leaves alone. Its linear
-/// equations have no periodic motion that could be found.
+/// The rigid disc with x = (w q, q'), w^2 = k_t / Theta. Drive::moment adds a fifth entry, the
+/// deviation of the spin from the speed (rad/s), which is constant in the linearised equations.
+/// These have no periodic motion to search for.
 class RigidDiscBrake final : public LumpedBrake {
  public:
   explicit RigidDiscBrake(const RigidDiscStudy& study) : study_(study) {}
@@ -15,6 +15,8 @@ class RigidDiscBrake final : public LumpedBrake {
   Eigen::MatrixXd state_matrix(double speed) const override;
   std::unique_ptr<Brake> with(MapParameter parameter, double value) const override;
   std::vector<ParameterValue> parameters() const override;
+  /// Points of the friction table.
+  std::vector<BrakeNumber> further_numbers() const override;
   std::unique_ptr<AutonomousMotion> motion(double speed) const override;
   double rest_compression() const override;
 

@@ -10,26 +10,25 @@
 
 namespace chladni::squeal {
 
-/// A motion x' = f(x) that does not depend on time, with what is needed to find its periodic
-/// solutions.
+/// An autonomous motion x' = f(x), with the functions that a search for periodic solutions needs.
 class AutonomousMotion : public SwitchedMotion {
  public:
-  virtual Eigen::Index size() const = 0;  ///< of x
+  virtual Eigen::Index size() const = 0;  ///< number of entries of x
 
-  /// The highest angular frequency of the motion, rad/s: it bounds the steps.
+  /// Highest angular frequency of the motion, rad/s; it limits the time steps.
   virtual double omega_highest() const = 0;
 
-  /// df/dx [size x size] on the present sides, 1/s.
+  /// Jacobian df/dx on the present sides, [size x size], 1/s.
   virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) = 0;
 
-  /// The first pad pair at x, as the contact law has it.
+  /// Contact state of the first pad pair at x by the full contact law.
   virtual ContactResult<double> first_contact(const Eigen::VectorXd& x) = 0;
 
-  /// Evaluations of the contact forces of all pads so far. A derivative counts as one for each
-  /// direction, six for a disc, which is what it costs.
+  /// Number of evaluations of all contact forces so far. A derivative counts once for each
+  /// direction, which is six for a disc, according to its cost.
   std::int64_t n_evaluations() const { return n_evaluations_; }
 
-  /// f(x) with the contact law as it is at x.
+  /// f(x) with the sides that belong to x.
   Eigen::VectorXd rate_at(const Eigen::VectorXd& x)
   {
     const Eigen::VectorXd f = rate(0.0, x);
@@ -40,7 +39,7 @@ class AutonomousMotion : public SwitchedMotion {
   std::int64_t n_evaluations_ = 0;
 };
 
-/// The motion at a speed (rad/s).
+/// The motion as a function of the speed (rad/s).
 using AutonomousMotionAt = std::function<std::unique_ptr<AutonomousMotion>(double speed)>;
 
 }  // namespace chladni::squeal

@@ -13,18 +13,18 @@
 
 namespace chladni::squeal {
 
-/// The contact forces of all pads on a rotating disc and on plates with a mass, and their kick in
-/// the Strang splitting. Coordinates are the modes of the disc, then those of the pads.
+/// Contact forces of all pads on a rotating disc and on plates with a mass, and their kick in the
+/// Strang splitting. Coordinates are the modes of the disc, then those of the pads.
 class ContactKick {
  public:
   ContactKick(const Disc& disc, const SquealOptions& options, double speed);
 
-  /// v' = Q(q, v, t) with q and t frozen, over `step` (s) by the explicit midpoint rule; Q includes
-  /// the Coriolis terms of the disc.
-  /// @return the contacts at the midpoint, one for each pad pair; valid until the next call
+  /// Integrates v' = Q(q, v, t) with q and t constant over `step` (s) by the explicit midpoint
+  /// rule. Q includes the Coriolis terms of the disc.
+  /// @return contact states at the midpoint, one for each pad pair; valid until the next call
   const std::vector<ContactResult<double>>& apply(ModalState& x, const Turn& turn, double step);
 
-  /// At time t (s) of a disc at constant speed.
+  /// The kick at time t (s) of a disc at constant speed.
   const std::vector<ContactResult<double>>& apply(ModalState& x, double t, double step)
   {
     return apply(x, Turn{speed_ * t, speed_}, step);
@@ -32,29 +32,29 @@ class ContactKick {
 
   const PadSystem& pads() const { return pads_; }
 
-  /// [n x n] 1/s^2, of the contacts in small motions, where the disc stands in the last kick.
+  /// Linearised contact stiffness at the angle of the last kick, [n x n] 1/s^2.
   Eigen::MatrixXd contact_stiffness() const;
 
  private:
-  /// Q at the rates `v` with the shapes of this instant.
+  /// Q at the rates `v` with the present shapes.
   const Eigen::VectorXd& force(const Eigen::VectorXd& v);
 
-  /// The motion is counted from the sliding equilibrium of this preload, which the faces wear to.
-  /// @param preload  factor of that of all pads
+  /// Changes the preload. The motion is measured from the sliding equilibrium with this preload.
+  /// @param preload  factor on the preload of all pads
   void press(double preload);
 
-  double speed_;          ///< at the last kick, rad/s
-  double first_speed_;    ///< of the equilibrium, rad/s
-  double preload_ = 1.0;  ///< at the last kick
-  Eigen::MatrixXd G_;     ///< of the disc; see Disc
+  double speed_;          ///< speed at the last kick, rad/s
+  double first_speed_;    ///< speed of the sliding equilibrium, rad/s
+  double preload_ = 1.0;  ///< preload factor at the last kick
+  Eigen::MatrixXd G_;     ///< Coriolis matrix of the disc; see Disc
   PointShapes shapes_;
   PadSystem pads_;
-  std::vector<BrakePoint> points_;            ///< at this instant; at rest at the first speed
-  std::vector<PairVector<double>> position_;  ///< of each point at this instant
+  std::vector<BrakePoint> points_;  ///< present shapes; contact at rest at the first speed
+  std::vector<PairVector<double>> position_;  ///< present motion of each point
   ContactSeries series_;
   std::vector<PointMotion> motions_;
-  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last force
-  std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
+  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last evaluation
+  std::vector<ContactResult<double>> of_pads_;   ///< of each pad pair at the last kick
   Eigen::VectorXd Q_;
   Eigen::VectorXd v_mid_;
 };

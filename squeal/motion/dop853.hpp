@@ -4,14 +4,15 @@
 
 namespace chladni::squeal {
 
-/// One step y + h sum_i b_i k_i of the explicit Runge-Kutta method of order 8 with 12 stages by
-/// Dormand and Prince; k_i = f(y + h sum_j a_ij k_j). For autonomous equations y' = f(y).
+/// One step y + h sum_i b_i k_i, k_i = f(y + h sum_j a_ij k_j), of the explicit Runge-Kutta method
+/// of order 8 with 12 stages by Dormand and Prince, for autonomous equations y' = f(y).
 /// Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993),
 /// section II.5, DOP853.
+/// @param h  step size, s
 template <class State, class Field>
 State dop853_step(const Field& f, const State& y, double h);
 
-/// Coefficients of `dop853_step`: only those that are not zero.
+/// A nonzero coefficient a_ij of `dop853_step`.
 struct Dop853Coefficient {
   int stage;  ///< i, from 0
   int from;   ///< j < i

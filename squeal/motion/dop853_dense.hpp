@@ -6,10 +6,10 @@
 
 namespace chladni::squeal {
 
-/// What the method of `dop853_step` needs for adaptive steps and dense output.
-/// Source: as there, and the authors' program DOP853.
+/// Coefficients for adaptive steps and dense output of the method of `dop853_step`.
+/// Source: as for `dop853_step`, and the authors' program DOP853.
 
-/// Abscissae of the 12 stages, of the end of the step (13th) and of three more for dense output.
+/// Abscissae of the 12 stages, of the end of the step (13th), and of three stages for dense output.
 inline constexpr std::array<double, 16> dop853_c = {0.0,
                                                     0.05260015195876773,
                                                     0.0789002279381516,
@@ -53,7 +53,7 @@ inline constexpr std::array<double, dop853_stages> dop853_e5 = {0.01312004499419
                                                                 0.08192320648511571,
                                                                 -0.022355307863886294};
 
-/// a_ij of the three additional stages i = 13, 14, 15.
+/// Coefficients a_ij of the three additional stages i = 13, 14, 15.
 inline constexpr auto dop853_a_dense = std::to_array<Dop853Coefficient>(
     {{13, 0, 0.056167502283047954},     {13, 6, 0.25350021021662483},
      {13, 7, -0.2462390374708025},      {13, 8, -0.12419142326381637},
@@ -68,7 +68,7 @@ inline constexpr auto dop853_a_dense = std::to_array<Dop853Coefficient>(
      {15, 8, 0.3567271874552811},       {15, 12, -0.0013990241651590145},
      {15, 13, 2.9475147891527724},      {15, 14, -9.15095847217987}});
 
-/// Weights of the 16 stages in the upper four coefficients of the interpolation.
+/// Weights of the 16 stages in the four highest coefficients of the interpolation.
 inline constexpr std::array<std::array<double, 16>, 4> dop853_d = {
     {{-8.428938276109013, 0.0, 0.0, 0.0, 0.0, 0.5667149535193777, -3.0689499459498917,
       2.38466765651207, 2.117034582445028, -0.871391583777973, 2.2404374302607883,

@@ -10,33 +10,37 @@
 
 namespace chladni::squeal {
 
-/// Steps of an axisymmetric disc in the inertial frame, x = (diag(omega) a, p): the sliding disc
-/// with its linearised pads flows exactly, x(t + h) = exp(h A) x(t); what the pads do beyond that
-/// is a kick of p by the explicit midpoint rule between two halves of the flow (Strang). Growth and
-/// decay of small motions are exact at any step; the error of large ones is of second order.
+/// Time steps of an axisymmetric disc in the inertial frame, x = (diag(omega) a, p), by Strang
+/// splitting. The linearised sliding disc is integrated exactly, x(t + h) = exp(h A) x(t); the
+/// nonlinear remainder of the pad forces is a kick of p by the explicit midpoint rule between two
+/// halves of this flow. Growth and decay of small motions are exact for any step; the error of
+/// large motions is of second order.
 class ExponentialFlow {
  public:
-  /// @param step  h, s
+  /// @param step  step size h, s
   ExponentialFlow(const InertialDisc& disc, const SquealOptions& options, double speed,
                   double step);
 
-  Eigen::Index size() const { return half_.rows(); }  ///< of x, with the modes of the pads
+  /// Size of x, including the modes of the pads.
+  Eigen::Index size() const { return half_.rows(); }
 
-  /// Half a flow, for the first step and the last.
+  /// Advances by half a step of the flow, for the first and the last step.
   void advance_half(Eigen::VectorXd& x) const { x = (half_ * x).eval(); }
+  /// Advances by a whole step of the flow.
   void advance(Eigen::VectorXd& x);
 
-  /// The kick of a whole step.
-  /// @return the contacts at its midpoint, one for each pad pair; valid until the next call
+  /// Applies the kick of a whole step.
+  /// @return contact states at its midpoint, one for each pad pair; valid until the next call
   const std::vector<ContactResult<double>>& kick(Eigen::VectorXd& x);
 
  private:
+  /// A contact point with its shapes divided by the frequencies.
   struct Point {
     BrakePoint at;
     PairShapes S_by_omega;
   };
 
-  /// Adds `factor` times the forces at the rates `p`, without their linear part, to `to`.
+  /// Adds `factor` times the nonlinear remainder of the forces at the rates `p` to `to`.
   void add_remainders(const Eigen::VectorXd& p, double factor, Eigen::Ref<Eigen::VectorXd> to);
 
   double speed_;
@@ -46,11 +50,11 @@ class ExponentialFlow {
   std::vector<Point> points_;
   std::vector<PairVector<double>> position_;
   ContactSeries series_;
-  StackedContact linear_;  ///< the linear part of the forces
+  StackedContact linear_;  ///< linear part of the forces
   std::vector<PointMotion> motions_;
   Eigen::VectorXd linear_force_;
-  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last remainder
-  std::vector<ContactResult<double>> of_pads_;   ///< of each pad at the last kick
+  std::vector<ContactResult<double>> contacts_;  ///< of each point at the last evaluation
+  std::vector<ContactResult<double>> of_pads_;   ///< of each pad pair at the last kick
   Eigen::VectorXd next_, p_mid_;
 };
 

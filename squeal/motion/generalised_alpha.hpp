@@ -5,11 +5,11 @@
 
 namespace chladni::squeal {
 
-/// rho of the generalised-alpha method where nothing else is said.
+/// Default spectral radius rho of the generalised-alpha method.
 inline constexpr double spectral_radius_default = 0.98;
 
-/// Numerical damping of an oscillation by steps of the default spectral radius rho, to leading
-/// order: ((1 - rho) / (1 + rho))^3 omega^4 h^3 / 2.
+/// Numerical damping of an oscillation by steps with the default spectral radius rho, to leading
+/// order ((1 - rho) / (1 + rho))^3 omega^4 h^3 / 2.
 /// @return 1/s
 inline double damping_of_step(double omega, double step)
 {
@@ -18,26 +18,27 @@ inline double damping_of_step(double omega, double step)
   return 0.5 * omega * x * x * x;
 }
 
-/// The implicit generalised-alpha method, of second order, with adaptive steps:
+/// The implicit generalised-alpha method of second order with adaptive steps:
 ///   (1 - alpha_m) a_1 + alpha_m a_0 = g(t_0 + (1 - alpha_f) h, (1 - alpha_f) (q_1, v_1)
 ///                                                              + alpha_f (q_0, v_0))
-///   q_1 = q_0 + h v_0 + h^2 ((1/2 - beta) a_0 + beta a_1),  v_1 = v_0 + h ((1 - gamma) a_0 + gamma
-///   a_1)
-/// The spectral radius rho is that of one step at infinite frequency. With 1 nothing is damped, not
-/// even what a step cannot resolve, such as the stop of a pad that sticks: it rings, and holds the
-/// steps short. What it costs an oscillation that is resolved is of third order in 1 - rho,
-/// `damping_of_step`. Stable at any step; sides are those of the point where g is evaluated, and
-/// are not located. Source: Chung, Hulbert, Journal of Applied Mechanics 60 (1993) 371-375.
+///   q_1 = q_0 + h v_0 + h^2 ((1/2 - beta) a_0 + beta a_1)
+///   v_1 = v_0 + h ((1 - gamma) a_0 + gamma a_1)
+/// rho is the spectral radius of a step at infinite frequency. With rho = 1 there is no numerical
+/// damping, even of frequencies that the step does not resolve: after a sticking pad stops, they
+/// ring and keep the steps short. The damping of a resolved oscillation, `damping_of_step`, is of
+/// third order in 1 - rho. The method is stable for any step. Sides are those of the point where g
+/// is evaluated, and are not located.
+/// Source: Chung, Hulbert, Journal of Applied Mechanics 60 (1993) 371-375.
 class GeneralisedAlpha final : public Integrator {
  public:
-  /// @param motion           outlives the integrator, which sets its sides
-  /// @param spectral_radius  of the amplification at infinite frequency, 0 to 1
+  /// @param motion           must outlive the integrator, which sets its sides
+  /// @param spectral_radius  rho at infinite frequency, 0 to 1
   GeneralisedAlpha(Motion& motion, double t, const Eigen::VectorXd& y, const StepControl& control,
                    double spectral_radius = spectral_radius_default);
 
   const Eigen::VectorXd& at(double t) override;
 
-  /// All that the motion to come depends on; the sides are the motion's.
+  /// Archives all data that the further motion depends on; the sides belong to the motion.
   void exchange(StateArchive& archive);
 
  private:
@@ -54,15 +55,15 @@ class GeneralisedAlpha final : public Integrator {
   double t_;                   ///< end of the last step, s
   double step_;                ///< the last step, s
   double step_next_;           ///< s
-  double error_held_ = 0.0;    ///< largest error of late, over the tolerance
+  double error_held_ = 0.0;    ///< largest error of recent steps relative to the tolerance
   Eigen::VectorXd y_, begin_;  ///< (diag(omega) q, v) at the end and the begin of the last step
   Eigen::VectorXd a_, a_begin_;
-  Eigen::VectorXd end_, a_end_;  ///< of the step under trial
+  Eigen::VectorXd end_, a_end_;  ///< end of the step being tried
   Eigen::VectorXd stage_;
   Eigen::VectorXd sample_;
-  Eigen::MatrixXd tangent_;  ///< of Newton's method
+  Eigen::MatrixXd tangent_;  ///< matrix of Newton's method
   Eigen::PartialPivLU<Eigen::MatrixXd> newton_;
-  double step_factorized_ = 0.0;  ///< for which `newton_` was made
+  double step_factorized_ = 0.0;  ///< step size for which `newton_` was computed
 };
 
 }  // namespace chladni::squeal

@@ -9,33 +9,33 @@
 
 namespace chladni::squeal {
 
-/// How an integrator with adaptive steps chooses them.
+/// Step size control of an adaptive integrator.
 struct StepControl {
-  double tolerance;   ///< error of a step, relative to |y|
+  double tolerance;   ///< error of a step relative to |y|
   double step_max;    ///< s
   double step_first;  ///< s
 };
 
-/// A switching function passes zero.
+/// A zero of a switching function.
 struct SwitchEvent {
   double t;        ///< s
-  Eigen::Index i;  ///< which one
-  double side;     ///< where it goes: 1 or -1
+  Eigen::Index i;  ///< index of the switching function
+  double side;     ///< its new side: 1 or -1
 
   void exchange(StateArchive& archive) { archive(t, i, side); }
 };
 
-/// What an integration took so far.
+/// Work of an integration so far.
 struct IntegrationCost {
   std::int64_t n_steps = 0;
   std::int64_t n_rejected = 0;
   std::int64_t n_factorizations = 0;
-  std::int64_t n_events = 0;  ///< changes of a side that were located
+  std::int64_t n_events = 0;  ///< number of located changes of sides
 
   void exchange(StateArchive& archive) { archive(n_steps, n_rejected, n_factorizations, n_events); }
 };
 
-/// Integrates a motion with adaptive steps and dense output.
+/// An integrator with adaptive steps and dense output.
 class Integrator {
  public:
   Integrator() = default;
@@ -43,8 +43,8 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// y at a time that is not before the one of the last call (s); not finite when the motion leaves
-  /// all numbers or no step is small enough for it. Valid until the next call.
+  /// y at a time (s) that is not before the time of the last call; not finite when the motion
+  /// diverges or no step is small enough. Valid until the next call.
   virtual const Eigen::VectorXd& at(double t) = 0;
 
   const IntegrationCost& cost() const { return cost_; }
@@ -53,8 +53,8 @@ class Integrator {
   IntegrationCost cost_;
 };
 
-/// Steps below this part of the largest one are taken for a divergence, and so is a velocity beyond
-/// 1000 km/s, long after which no step would be small enough.
+/// A step below this fraction of the largest step counts as divergence, as does a velocity above
+/// 1000 km/s, when no step would be small enough.
 inline constexpr double step_underflow = 1e-10;
 inline constexpr double state_max = 1e6;
 

@@ -4,9 +4,9 @@
 
 namespace chladni::squeal {
 
-/// A motion y' = f(t, y) that is smooth while each of the switching functions s_i(t, y) keeps its
-/// side. The side is a state of the motion: an integrator that locates the zeros of s_i sets it,
-/// and any other calls `take_sides` before each evaluation or step.
+/// A motion y' = f(t, y) that is smooth while each switching function s_i(t, y) keeps its side
+/// (sign). The side is a state of the motion: an integrator that locates the zeros of s_i sets it;
+/// other integrators call `take_sides` before each evaluation or step.
 class SwitchedMotion {
  public:
   SwitchedMotion() = default;
@@ -14,13 +14,14 @@ class SwitchedMotion {
   SwitchedMotion& operator=(const SwitchedMotion&) = delete;
   virtual ~SwitchedMotion() = default;
 
-  /// f(t, y) on the present sides; valid until the next call.
+  /// The rate f(t, y) on the present sides; valid until the next call.
   virtual const Eigen::VectorXd& rate(double t, const Eigen::VectorXd& y) = 0;
 
-  /// s_i of the last `rate`, positive where the pad i presses; empty when f is smooth everywhere.
+  /// Switching functions s_i at the last `rate`, positive while pad i is in contact; empty when f
+  /// is smooth everywhere.
   virtual const Eigen::VectorXd& switches() const = 0;
 
-  /// Side of s_i from now on: 1 or -1.
+  /// The present side of s_i: 1 or -1.
   virtual double side(Eigen::Index i) const = 0;
   virtual void set_side(Eigen::Index i, double side) = 0;
 
@@ -46,11 +47,11 @@ class SwitchedMotion {
   }
 };
 
-/// A motion q'' = g(t, q, q') of n coordinates, written y' = f(t, y) with y = (diag(omega) q, q'),
-/// so that all entries of y have one unit.
+/// A motion q'' = g(t, q, q') of n coordinates, written as y' = f(t, y) with y = (diag(omega) q,
+/// q'), so that all entries of y have the same unit.
 class Motion : public SwitchedMotion {
  public:
-  /// [n] rad/s, positive: scales of q; for modal coordinates their angular frequencies.
+  /// [n] positive scales of q, rad/s; for modal coordinates their angular frequencies.
   virtual const Eigen::VectorXd& omega() const = 0;
 
   /// Derivatives of g by q and by q' on the present sides.
@@ -58,6 +59,7 @@ class Motion : public SwitchedMotion {
     Eigen::MatrixXd by_q;  ///< [n x n] 1/s^2
     Eigen::MatrixXd by_v;  ///< [n x n] 1/s
   };
+  /// The derivatives of g at (t, y) on the present sides.
   virtual Tangent tangent(double t, const Eigen::VectorXd& y) = 0;
 };
 

@@ -10,7 +10,7 @@ struct ModalState {
   Eigen::VectorXd v;  ///< [n_modes] q'
 };
 
-/// Several motions at once, one in each column.
+/// Several modal states, one in each column.
 struct ModalColumns {
   Eigen::MatrixXd q;  ///< [n_modes x n]
   Eigen::MatrixXd v;  ///< [n_modes x n]
@@ -29,8 +29,9 @@ class OscillatorFlow {
 
  private:
   bool coupled_;
-  Eigen::MatrixXd flow_;              ///< coupled: exp of the whole system, [2 n x 2 n]
-  Eigen::ArrayXd qq_, qv_, vq_, vv_;  ///< uncoupled: its 2 x 2 blocks
+  Eigen::MatrixXd flow_;  ///< [2 n x 2 n] matrix exponential of coupled equations
+  /// 2 x 2 blocks of the matrix exponential for uncoupled equations.
+  Eigen::ArrayXd qq_, qv_, vq_, vv_;
 };
 
 }  // namespace chladni::squeal

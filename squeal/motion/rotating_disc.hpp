@@ -11,10 +11,10 @@
 
 namespace chladni::squeal {
 
-/// The motion of any disc between pads in the frame that rotates with it:
-/// q'' + C q' + diag(omega^2) q = Q(t, q, q'), the modes of pads with a mass after those of the
-/// disc. Switching functions are the axial forces S of the contact points over their preloads,
-/// upper and lower one of each pair in turn.
+/// Motion of any disc between pads in the frame that rotates with it,
+/// q'' + C q' + diag(omega^2) q = Q(t, q, q'). The modes of pads with a mass follow those of the
+/// disc. The switching functions are the axial forces S of the contact points relative to their
+/// preloads, upper and lower pad of each pair in turn.
 class RotatingDisc final : public Motion {
  public:
   RotatingDisc(const Disc& disc, const SquealOptions& options, double speed);
@@ -26,24 +26,23 @@ class RotatingDisc final : public Motion {
   void set_side(Eigen::Index i, double side) override { contact_.set_side(i, side); }
   Tangent tangent(double t, const Eigen::VectorXd& y) override;
 
-  /// The contacts at (t, y) as the contact law has them, one for each pair.
+  /// Contact states at (t, y) by the full contact law, one for each pad pair.
   std::vector<ContactResult<double>> contacts(double t, const Eigen::VectorXd& y);
 
-  /// To which of the pads, upper and lower one of each pair in turn, the switching function i
-  /// belongs.
+  /// The pad of the switching function i; upper and lower pad of each pair are counted in turn.
   int pad_of(Eigen::Index i) const;
 
-  /// Evaluations of the contact forces of all pads so far; a tangent counts as six.
+  /// Number of evaluations of all contact forces so far; a tangent counts as six.
   std::int64_t n_evaluations() const { return n_evaluations_; }
 
   void exchange(StateArchive& archive) { archive(contact_.branches(), n_evaluations_); }
 
  private:
-  /// Shapes of the contact points at time t, and their motions by the modes with inertia.
+  /// Sets the shapes of the contact points at time t, and their motions by the modes with inertia.
   void move_points(double t, const Eigen::VectorXd& y);
 
   double speed_;
-  SwitchingContact contact_;  ///< with the shapes where the disc stood last
+  SwitchingContact contact_;  ///< with the shapes at the last angle of the disc
   Eigen::VectorXd omega_;
   Eigen::MatrixXd C_;
   bool damped_;

@@ -12,16 +12,16 @@
 
 namespace chladni::squeal {
 
-/// The motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with
-/// x = (diag(omega) a, p), pads with a mass at the end of a and p, all of the unit m kg^(1/2) / s.
-/// f is smooth but where the axial force of a pad passes zero; switching functions are these forces
-/// over their preloads, upper and lower one of each point pair in turn.
+/// Motion of an axisymmetric disc between pads in the inertial frame, x' = f(x) with
+/// x = (diag(omega) a, p) in m kg^(1/2) / s; modes of pads with a mass follow at the end of a and
+/// p. f is smooth except where the axial force of a pad crosses zero. The switching functions are
+/// these forces relative to their preloads, upper and lower pad of each point pair in turn.
 class SlidingDisc final : public AutonomousMotion {
  public:
   SlidingDisc(const InertialDisc& disc, const SquealOptions& options, double speed);
 
   double speed() const { return speed_; }                          ///< rad/s
-  std::size_t n_pads() const { return contact_.pads().n_pads(); }  ///< pairs
+  std::size_t n_pads() const { return contact_.pads().n_pads(); }  ///< number of pad pairs
   Eigen::Index size() const override { return A_.rows(); }
   double omega_highest() const override { return omega_.maxCoeff(); }
 
@@ -32,7 +32,7 @@ class SlidingDisc final : public AutonomousMotion {
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) override;
   ContactResult<double> first_contact(const Eigen::VectorXd& x) override;
 
-  /// Power (W) of each source on the vibration; see CycleEnergy.
+  /// Power of each source on the vibration, W; see CycleEnergy.
   struct Power {
     Eigen::VectorXd friction;  ///< [n_pads]
     Eigen::VectorXd normal;    ///< [n_pads]
@@ -40,21 +40,22 @@ class SlidingDisc final : public AutonomousMotion {
     double damping;
   };
 
-  /// What can be seen of the state x.
+  /// Observable quantities at the state x.
   struct Sample {
-    ContactResult<double> first;  ///< of the first pad pair
+    ContactResult<double> first;  ///< contact state of the first pad pair
     Power power;
   };
+  /// The observable quantities at the state x.
   Sample sample(const Eigen::VectorXd& x);
 
  private:
-  /// Motions of the contact points by the modes with inertia.
+  /// Sets the motions of the contact points by the modes with inertia.
   void move_points(const Eigen::VectorXd& x);
 
   double speed_;
   SwitchingContact contact_;
   Eigen::VectorXd omega_;
-  Eigen::MatrixXd A_;  ///< of the disc and the plates without contact, 1/s
+  Eigen::MatrixXd A_;  ///< state matrix of disc and plates without contact, 1/s
   Eigen::VectorXd f_;
 };
 

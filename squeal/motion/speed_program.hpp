@@ -4,20 +4,20 @@
 
 namespace chladni::squeal {
 
-/// Where the disc stands, how fast it turns, and how hard the pads press.
+/// Angle and speed of the disc, and preload of the pads.
 struct Turn {
   double angle;          ///< rad
   double speed;          ///< rad/s
-  double preload = 1.0;  ///< factor of the preload of all pads
+  double preload = 1.0;  ///< factor on the preload of all pads
 };
 
-/// The turn at time t (s) under the programs of a transient: linear between the points of its
-/// speeds and preloads, constant before the first and after the last; constant throughout without a
-/// program.
+/// Angle, speed and preload at time t (s) by the programs of a transient. Speed and preload are
+/// linear between the points of their programs and constant before the first and after the last
+/// point; without a program they are constant.
 Turn turn_at(const TransientCase& run, double t);
 
-/// The factor of the preload at time t (s): linear between the points of the preload program,
-/// constant before the first and after the last; 1 without a program.
+/// Factor on the preload at time t (s): linear between the points of the preload program, constant
+/// before the first and after the last point; 1 without a program.
 double preload_at(const TransientCase& run, double t);
 
 }  // namespace chladni::squeal

@@ -11,21 +11,26 @@
 
 namespace chladni::squeal {
 
-/// Takes the state of an object bit by bit, and gives it back to an object that was made in the
-/// same way: each class names its members once, in a function `exchange`, for both directions. A
-/// matrix that is not empty before it is given back keeps its size.
+/// Stores the state of an object exactly, and restores it to an object that was constructed in the
+/// same way. Each class lists its members once, in a function `exchange`, which serves both
+/// directions. A matrix that is not empty before it is restored keeps its size.
 class StateArchive {
  public:
-  /// Takes.
+  /// An archive that stores.
   StateArchive() = default;
-  /// Gives back.
+  /// An archive that restores.
+  /// @param words  from `words` of the storing archive
   explicit StateArchive(std::vector<std::int64_t> words) : words_(std::move(words)), gives_(true) {}
 
+  /// Whether the archive restores.
   bool gives() const { return gives_; }
   const std::vector<std::int64_t>& words() const { return words_; }
-  /// @throws chladni::Error unless all was given back that was taken.
+  /// Checks that all stored words were restored.
+  /// @throws chladni::Error when some are left.
   void expect_end() const;
 
+  /// Stores or restores the members in order.
+  /// @throws chladni::Error when the stored words do not fit them.
   template <class... Members>
   void operator()(Members&... members)
   {
@@ -46,7 +51,7 @@ class StateArchive {
 
   [[noreturn]] static void misfit();
 
-  /// Of the size that is taken, at most what the words that are left can hold.
+  /// Stores or restores a size; a restored size is limited by the number of words left.
   std::size_t size(std::size_t now);
 
   template <class Scalar, int rows, int cols, int options, int max_rows, int max_cols>

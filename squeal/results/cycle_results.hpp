@@ -13,55 +13,57 @@ namespace chladni::squeal {
 struct LimitCycle {
   double speed;             ///< rad/s
   double frequency_Hz;      ///< in the inertial frame
-  double pad_velocity;      ///< amplitude of the first upper pad, m/s
-  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double pad_velocity;      ///< velocity amplitude of the first upper pad, m/s
+  double pad_displacement;  ///< half the stroke of the first upper pad, m
   double N_min;             ///< smallest normal force on the first upper pad, N
   double N_max;             ///< largest normal force on the first upper pad, N
   double drift;             ///< relative change of the envelope over the last tenth of the run
-  bool settled;             ///< drift below settled_drift
-  std::optional<double> t_zero_force;  ///< when a normal force first reached zero, s
-  double t_99;                         ///< when the envelope first reached 99 % of its end, s
-  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
-  /// [n_modes] complex amplitude of the fundamental: displacement at the inertial angle phi and
-  /// time t is Re(exp(i omega t) sum_i amplitude_i shape_i(phi)), with the shapes of the body's
-  /// modes. Empty when the disc is not axisymmetric.
+  bool settled;             ///< whether |drift| is below settled_drift
+  std::optional<double> t_zero_force;  ///< time when a normal force first reaches zero, s
+  double t_99;  ///< time when the envelope first reaches 99 % of its final value, s
+  std::vector<int> mode_numbers;  ///< [n_modes] 1-based numbers of the body's modes
+  /// [n_modes] complex amplitudes of the fundamental harmonic: the displacement at the inertial
+  /// angle phi and time t is Re(exp(i omega t) sum_i amplitude_i shape_i(phi)) with the mode shapes
+  /// of the body. Empty when the disc is not axisymmetric.
   Eigen::VectorXcd amplitude;
 };
 
-/// What a periodic motion gains and loses in one period, J: the sum of all is zero. Works are those
-/// on the vibration of disc and plates, i.e. forces times the velocities of the disc in its own
-/// frame and of pads with a mass; the drive does the rest of the work of friction.
+/// Energy balance of a periodic motion over one period, J: friction + normal + damping = 0. Work is
+/// the work on the vibration of disc and plates, that is, forces times velocities of the disc in
+/// its own frame and of pads with a mass. The rest of the friction work comes from the drive.
 struct CycleEnergy {
-  Eigen::VectorXd friction;  ///< [n_pads] of the friction of each pad pair
-  Eigen::VectorXd normal;    ///< [n_pads] of its normal forces
-  double damping;            ///< of the modes and of the suspensions of the pads, < 0
-  Eigen::VectorXd heat;      ///< [n_pads] what friction turns into heat, > 0; not part of the sum
-  double stored;             ///< kinetic and elastic energy of disc, plates and suspensions, mean
+  Eigen::VectorXd friction;  ///< [n_pads] work of the friction of each pad pair
+  Eigen::VectorXd normal;    ///< [n_pads] work of its normal forces
+  double damping;            ///< work of modal damping and of the pads' suspensions, < 0
+  Eigen::VectorXd heat;      ///< [n_pads] frictional heat, > 0; not part of the sum
+  /// Mean kinetic and elastic energy of disc, plates and suspensions.
+  double stored;
 };
 
-/// A periodic motion found as such: x(T) = x(0) in the inertial frame.
+/// A periodic motion found directly, x(T) = x(0) in the inertial frame.
 struct DirectLimitCycle {
   double speed;             ///< rad/s
   double frequency_Hz;      ///< 1 / T
-  double pad_velocity;      ///< largest of the first upper pad, m/s
-  double pad_displacement;  ///< half the travel of the first upper pad, m
+  double pad_velocity;      ///< largest velocity of the first upper pad, m/s
+  double pad_displacement;  ///< half the stroke of the first upper pad, m
   double N_min;             ///< smallest normal force on the first upper pad, N
   double N_max;             ///< largest normal force on the first upper pad, N
-  double slip_speed_min;    ///< of the first pad pair, m/s
-  /// [2 n_modes] Floquet multipliers, factors of a disturbance over one period: first the one along
-  /// the cycle, which is 1, then the others by falling modulus.
+  double slip_speed_min;    ///< smallest sliding speed of the first pad pair, m/s
+  /// [2 n_modes] Floquet multipliers, the factors of disturbances over one period: first the one
+  /// along the cycle, which is 1, then the others by descending modulus.
   Eigen::VectorXcd multipliers;
-  bool stable;                         ///< all but the first are below 1
-  int n_newton_steps;                  ///< of the successful search
-  std::int64_t n_contact_evaluations;  ///< in all; see SlidingDisc
-  Eigen::VectorXd x;                   ///< a point of the cycle; see SlidingDisc
-  std::vector<int> mode_numbers;       ///< [n_modes] 1-based in the body
-  Eigen::VectorXcd amplitude;          ///< [n_modes] of the fundamental; see LimitCycle
+  bool stable;         ///< whether all multipliers except the first are below 1 in modulus
+  int n_newton_steps;  ///< steps of the successful search
+  std::int64_t n_contact_evaluations;  ///< number of all contact evaluations; see SlidingDisc
+  Eigen::VectorXd x;                   ///< a state on the cycle; see SlidingDisc
+  std::vector<int> mode_numbers;       ///< [n_modes] 1-based numbers of the body's modes
+  Eigen::VectorXcd amplitude;          ///< [n_modes] fundamental harmonic; see LimitCycle
   CycleEnergy energy;
-  std::string way = {};  ///< which start led to it, in words; empty in files of earlier versions
+  /// Successful start of the search, in words; empty in files of earlier versions.
+  std::string way = {};
 };
 
-/// What is kept of each limit cycle of a branch; see DirectLimitCycle.
+/// The quantities that a branch stores of each limit cycle; see DirectLimitCycle.
 struct BranchPoint {
   double speed;  ///< rad/s
   double frequency_Hz;
@@ -69,28 +71,30 @@ struct BranchPoint {
   double pad_displacement;    ///< m
   double N_min;               ///< N
   double N_max;               ///< N
-  double largest_multiplier;  ///< modulus, without the one along the cycle
+  double largest_multiplier;  ///< largest modulus of the multipliers except the one along the cycle
 };
 
-/// The Hopf point in which a branch of limit cycles leaves stable sliding.
+/// The Hopf point at which a branch of limit cycles leaves the sliding equilibrium.
 struct BranchOrigin {
-  double speed;         ///< rad/s, at which stability is lost or regained
-  double frequency_Hz;  ///< of the undamped oscillation there
-  BranchPoint first;    ///< the small cycle beside it from which the branch was followed
+  double speed;         ///< speed at which stability is lost or regained, rad/s
+  double frequency_Hz;  ///< frequency of the undamped oscillation at that speed
+  BranchPoint first;    ///< the small cycle from which the branch was followed
 };
 
-/// Limit cycles over the speed, in the order along their branch.
+/// Limit cycles over the speed, in order along their branch.
 struct LimitCycleBranch {
   std::vector<BranchPoint> points;
-  /// Where the branch turns back: beyond such a speed two cycles, mostly a stable and an unstable
-  /// one, have met and vanished.
+  /// Folds, where the branch turns back: two cycles, usually one stable and one unstable, meet and
+  /// vanish there.
   std::vector<BranchPoint> folds = {};
-  /// The branch could not be followed from this speed (rad/s) to lower, or to higher ones.
+  /// Speed (rad/s) below which, or above which, the branch could not be followed.
   std::optional<double> lost_below = {};
   std::optional<double> lost_above = {};
-  std::optional<BranchOrigin> origin = {};  ///< absent where the branch begins elsewhere
-  std::string note = {};  ///< where it begins or goes on when not from its origin, and why
-  /// Index of the first point that is not connected with those before it; absent where all are.
+  std::optional<BranchOrigin> origin = {};  ///< absent when the branch begins elsewhere
+  /// Where and why the branch does not begin at its origin or is continued from another cycle.
+  std::string note = {};
+  /// Index of the first point that is not connected with those before it; absent when all are
+  /// connected.
   std::optional<std::size_t> second_part = {};
 };
 

@@ -5,22 +5,22 @@
 
 #include "files/hdf5.hpp"
 
-/// What a result file may say, checked where it is read, so that whoever indexes with it later need
-/// not doubt it.
+/// Checks of values in a result file when they are read, so that later code can use them as
+/// indices.
 namespace chladni::squeal {
 
-/// Numbers of modes of a body, from 1; each one once.
-/// @throws chladni::Error naming the dataset otherwise.
+/// Reads distinct 1-based mode numbers of a body.
+/// @throws chladni::Error naming the dataset when the values are not such numbers.
 std::vector<int> read_mode_numbers(const files::Reader& file, const std::string& name);
 
-/// Times that do not fall, s.
-/// @param size  how many there must be
-/// @throws chladni::Error naming the dataset otherwise.
+/// Reads times (s) that do not decrease.
+/// @param size  required number of times
+/// @throws chladni::Error naming the dataset when the values are not such times.
 std::vector<double> read_times(const files::Reader& file, const std::string& name,
                                Eigen::Index size = files::any);
 
-/// Values of which there is one at least.
-/// @throws chladni::Error naming the dataset otherwise.
+/// Reads values of which there is at least one.
+/// @throws chladni::Error naming the dataset when it is empty.
 Eigen::VectorXd read_some(const files::Reader& file, const std::string& name);
 
 }  // namespace chladni::squeal

@@ -7,34 +7,38 @@
 
 namespace chladni::squeal {
 
-/// What one number of the brake does.
+/// Derivatives by one parameter of the brake.
 struct GradientRow {
-  std::string key;   ///< of [squeal], or "frequency of ..." of a mode or pair of the disc
-  std::string unit;  ///< of its value
+  /// Key of [squeal], or "frequency of ..." for a mode or pair of the disc.
+  std::string key;
+  std::string unit;  ///< unit of `value`
   double value;
-  /// d Omega_c / d value, rad/s over the unit; absent without a critical speed
+  /// d Omega_c / d value, rad/s per unit of value; absent without a critical speed.
   std::optional<double> critical_speed = {};
-  Eigen::VectorXd growth = {};  ///< [n_motions] d Re(lambda) / d value, 1/s over the unit
+  Eigen::VectorXd growth = {};  ///< [n_motions] d Re(lambda) / d value, 1/s per unit of value
 };
 
-/// A motion whose growth is differentiated.
+/// A motion whose growth rate is differentiated.
 struct GradientMotion {
   double growth;        ///< 1/s
   double frequency_Hz;  ///< in the frame of the pads
 };
 
-/// Derivatives of the critical speed, and of growth rates at one speed, by every number of the
-/// brake; see stability/gradients.hpp. Rows by falling effect of a change by one per cent.
+/// Derivatives of the critical speed, and of growth rates at one speed, by every parameter of the
+/// brake; see stability/gradients.hpp. Rows are sorted by descending effect of a change by one per
+/// cent.
 struct Gradients {
-  std::optional<double> critical_speed;         ///< rad/s; absent where there is none
-  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
-  std::optional<double> speed;                  ///< of the growth rates, rad/s
-  std::vector<GradientMotion> motions;  ///< at it: the least stable, then all others that grow
+  std::optional<double> critical_speed;  ///< rad/s; absent when there is none
+  /// Frequency of the oscillation at the critical speed.
+  std::optional<double> critical_frequency_Hz;
+  std::optional<double> speed;  ///< speed of the growth rates, rad/s
+  /// Motions at that speed: the least stable one, then all others that grow.
+  std::vector<GradientMotion> motions;
   std::vector<GradientRow> rows;
 };
 
-/// What a change of the value by one per cent does to the critical speed or, without one, to the
-/// largest growth rate, without sign; rad/s or 1/s.
+/// Absolute change of the critical speed (rad/s), or without one of the largest growth rate (1/s),
+/// when the value changes by one per cent.
 double effect_of_one_per_cent(const Gradients& gradients, const GradientRow& row);
 
 }  // namespace chladni::squeal

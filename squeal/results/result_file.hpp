@@ -8,17 +8,17 @@
 
 namespace chladni::squeal {
 
-/// The attribute `format` of such a file.
+/// Attribute `format` of a result file.
 inline constexpr auto results_format = "chladni-squeal";
 
-/// Writes `*.squeal.h5`: written to a temporary name, flushed and renamed.
+/// Writes a file `*.squeal.h5`, under a temporary name that is flushed and then renamed.
 /// @throws chladni::Error when the file cannot be written.
 void write_results(const std::filesystem::path& file, const SquealResults& results,
                    const mbs_export::Provenance& provenance);
 
-/// Reads what `write_results` wrote.
-/// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
-/// finite.
+/// Reads a file of `write_results`.
+/// @throws chladni::Error naming file and dataset, when something is missing, has a wrong size or
+///         is not finite.
 SquealResults read_results(const std::filesystem::path& path);
 SquealResults read_results(const files::Reader& file);
 

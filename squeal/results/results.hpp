@@ -13,15 +13,15 @@
 
 namespace chladni::squeal {
 
-/// Everything that a study may yield; what was not asked for is absent.
+/// All results of a study; results that were not asked for are absent.
 struct SquealResults {
-  std::optional<double> wheel_radius;  ///< m, for speeds on the road; absent where none was given
-  /// Largest relative difference of the two frequencies of a pair of modes, which eigenvalues are
-  /// computed without; absent when the disc is not axisymmetric. 1e-4 of split changes the growth
-  /// rate of the reference disc by 1e-4 of it, 1e-3 by 1e-2.
+  std::optional<double> wheel_radius;  ///< m, for road speeds; absent when none was given
+  /// Largest relative frequency difference within a pair of modes, which eigenvalues neglect;
+  /// absent when the disc is not axisymmetric. A split of 1e-4 changes the growth rate of the
+  /// reference disc by 1e-4 of its value, 1e-3 by 1e-2.
   std::optional<double> largest_split;
   std::optional<EigenvalueMap> eigenvalues;
-  bool searched_critical_speed = false;  ///< tells "none in the range" from "not asked for"
+  bool searched_critical_speed = false;  ///< distinguishes "none in the range" from "not asked for"
   std::optional<CriticalSpeed> critical_speed;
   std::optional<StabilityProfile> speed_stability;  ///< over the speeds of that search
   std::vector<CriticalValue> critical_values;
@@ -38,12 +38,12 @@ struct SquealResults {
   std::optional<Spectrum> spectrum;
   std::optional<Spectrogram> spectrogram;
   std::optional<MotionStatistics> motion_statistics;
-  /// Why an analysis failed after others had succeeded; nothing was done after it.
+  /// Why an analysis failed after others had succeeded; it was the last one performed.
   std::optional<std::string> failure;
-  /// What was asked for and is not there, by the names of the scene: the run was interrupted, or an
-  /// analysis failed.
+  /// Analyses that were asked for and have no result, by their names in the scene, because the run
+  /// was interrupted or an analysis failed.
   std::vector<std::string> missing;
-  std::string inputs;  ///< RunOrigin::inputs of an unfinished run; empty otherwise
+  std::string inputs;  ///< RunOrigin::inputs of an unfinished run, else empty
 };
 
 }  // namespace chladni::squeal

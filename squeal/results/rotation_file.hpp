@@ -5,10 +5,11 @@
 
 namespace chladni::squeal {
 
-/// Writes the group `rotation_stability`; see docs/reference/file_formats.md.
+/// Writes the group /rotation_stability of a result file; see docs/reference/file_formats.md.
 void write_rotation_stability(files::Writer& file, const RotationStability& stability);
 
-/// Reads it, also from files of earlier versions, which have neither method nor exponents.
+/// Reads the group /rotation_stability, also from files of earlier versions, which have neither
+/// method nor exponents.
 RotationStability read_rotation_stability(const files::Reader& file);
 
 }  // namespace chladni::squeal

@@ -5,7 +5,7 @@
 
 namespace chladni::squeal {
 
-/// The group `mode_sensitivity` of a result file.
+/// Write and read the group /mode_sensitivity of a result file.
 void write_sensitivity(files::Writer& file, const ModeSensitivity& sensitivity);
 ModeSensitivity read_sensitivity(const files::Reader& file);
 

@@ -11,25 +11,29 @@ namespace chladni::squeal {
 
 /// Writes the datasets `stability`, `range/...` and `unstable/...` of a group; see
 /// docs/reference/file_formats.md.
-/// @param unit  of the parameter
+/// @param unit  unit of the parameter
 void write_profile(files::Writer& file, const std::string& group, const StabilityProfile& profile,
                    const std::string& unit);
 
-/// Reads them; absent when the group has none, as in files of earlier versions.
+/// Reads the datasets of write_profile; absent when the group has none, as in files of earlier
+/// versions.
 std::optional<StabilityProfile> read_profile(const files::Reader& file, const std::string& group);
 
-/// Points as the datasets `values`, `growth` and `frequency` of a group.
-/// @param unit  of the parameter
+/// Writes points as the datasets `values`, `growth` and `frequency` of a group.
+/// @param unit  unit of the parameter
 void write_points(files::Writer& file, const std::string& group,
                   const std::vector<StabilityPoint>& points, const std::string& unit);
-/// @param n  how many there must be
+/// Reads the points of a group.
+/// @param n  required number of points
 std::vector<StabilityPoint> read_points(const files::Reader& file, const std::string& group,
                                         Eigen::Index n);
 
-/// Intervals as the points `from`, `to` and `worst` of a group, which is missing when there are
-/// none.
+/// Writes intervals as the points `from`, `to` and `worst` of a group, which is omitted when there
+/// are none.
+/// @param unit  unit of the parameter
 void write_intervals(files::Writer& file, const std::string& group,
                      const std::vector<UnstableInterval>& intervals, const std::string& unit);
+/// Reads the intervals of a group; empty when the group is missing.
 std::vector<UnstableInterval> read_intervals(const files::Reader& file, const std::string& group);
 
 }  // namespace chladni::squeal

@@ -11,64 +11,59 @@ namespace chladni::squeal {
 struct EigenvalueMap {
   Eigen::VectorXd speeds;   ///< [m] rad/s
   Eigen::MatrixXcd lambda;  ///< [m x n_modes] growth rate 1/s + i angular frequency rad/s
-  /// For each speed [n_modes x n_modes]: column j is the complex shape of the eigenvalue j,
-  /// displacements of the modes of the body as in `LimitCycle::amplitude`, then of those of pads
-  /// with a mass, of norm 1.
-  /// Empty for models without a body.
+  /// [m] of [n_modes x n_modes]: column j is the complex shape of eigenvalue j as in
+  /// `LimitCycle::amplitude`, then of pads with a mass; norm 1. Empty for models without a body.
   std::vector<Eigen::MatrixXcd> shapes = {};
-  /// 1-based in the body, of the first rows of the shapes; empty without shapes and in files of
-  /// earlier versions.
-  std::vector<int> mode_numbers = {};
+  std::vector<int> mode_numbers = {};  ///< 1-based in the body; empty without shapes, in old files
 };
 
 /// The least stable motion of the sliding disc at one value of a parameter.
 struct StabilityPoint {
-  double value;            ///< of the parameter, in its unit
-  double growth;           ///< 1/s; 0 where stability is lost or regained
+  double value;            ///< in the unit of the parameter
+  double growth;           ///< growth rate, 1/s; 0 at a limit of stability
   double frequency_Hz;     ///< of the motion
-  int n_newton_steps = 0;  ///< that led to a limit of stability; 0: bisection alone
+  int n_newton_steps = 0;  ///< Newton steps to a limit of stability; 0: bisection only
 };
 
 /// An interval of a parameter in which the sliding disc is unstable.
 struct UnstableInterval {
-  StabilityPoint from, to;  ///< limits of stability, or ends of the range that was searched
-  StabilityPoint worst;     ///< where the growth was largest among the values that were looked at
+  StabilityPoint from, to;  ///< limits of stability, or ends of the searched range
+  StabilityPoint worst;     ///< largest growth among the computed values
 };
 
-/// Stability of the sliding disc over a range of one parameter; see stability_search.hpp.
+/// Stability of the sliding disc over a range of a parameter; see stability_search.hpp.
 struct StabilityProfile {
-  StabilityPoint from, to;                 ///< the ends of the range
-  std::vector<UnstableInterval> unstable;  ///< by rising values
-  std::string method = {};  ///< "hill" for discs that are not axisymmetric; else empty
+  StabilityPoint from, to;                 ///< ends of the range
+  std::vector<UnstableInterval> unstable;  ///< by ascending values
+  std::string method = {};  ///< "hill" for discs that are not axisymmetric, else empty
 };
 
-/// What a range of a parameter does to the stability.
+/// Stability over a range of a parameter.
 enum class Stability {
   stable,    ///< in the whole range
   unstable,  ///< in the whole range
-  lost,      ///< the range holds a value from which on sliding is unstable
-  regained   ///< unstable at the lower end, and stable from a value of the range on
+  lost,      ///< becomes unstable at a value within the range
+  regained   ///< unstable at the lower end, becomes stable within the range
 };
 
-/// The lowest value of the range at which stability is lost: unstable just above, not just below.
+/// Lowest value at which stability is lost: unstable just above, stable just below.
 std::optional<StabilityPoint> first_loss(const StabilityProfile& profile);
 
-/// The lowest value of the range at which stability is regained: unstable just below.
+/// Lowest value at which stability is regained: unstable just below.
 std::optional<StabilityPoint> first_regain(const StabilityProfile& profile);
 
+/// Classifies the profile.
 Stability stability_of(const StabilityProfile& profile);
 
-/// "stable in the whole range", "unstable in the whole range", "lost within the range" or
-/// "regained within the range".
+/// The stability in words, such as "stable in the whole range" or "lost within the range".
 const char* name_of(Stability stability);
 
-/// How far a critical speed may be off because of what the body is made of, rad/s; parts of which
-/// nothing is known are absent.
+/// Estimated error of a critical speed due to the body, rad/s; unknown parts are absent.
 struct ErrorBudget {
-  std::optional<double> mesh = {};       ///< of the frequencies, estimated by finer meshes
-  std::optional<double> reduction = {};  ///< of the frequencies, against the FE model
-  std::optional<double> body = {};       ///< of the responses of the modes that the body keeps
-  /// The distance from the critical speed of all modes of the body, where the study chose some.
+  std::optional<double> mesh = {};       ///< by the mesh, from finer meshes
+  std::optional<double> reduction = {};  ///< by the reduction, compared with the FE model
+  std::optional<double> body = {};       ///< by the modes that the body lacks
+  /// Difference to the critical speed with all modes of the body, if the study selected modes.
   std::optional<double> left_out = {};
 
   bool is_empty() const { return !mesh && !reduction && !body && !left_out; }
@@ -79,81 +74,77 @@ struct ErrorBudget {
   }
 };
 
-/// The lowest speed at which the sliding disc loses its stability.
+/// Lowest speed at which the sliding disc loses its stability.
 struct CriticalSpeed {
   double speed;            ///< rad/s
-  double frequency_Hz;     ///< of the undamped oscillation there
-  int n_newton_steps = 0;  ///< 0: it was bisected, because Newton's method led elsewhere
+  double frequency_Hz;     ///< frequency of the undamped oscillation
+  int n_newton_steps = 0;  ///< 0: by bisection, because Newton's method left the bracket
   ErrorBudget budget = {};
 };
 
-/// Where the sliding disc loses or regains its stability over one parameter.
+/// Value of a parameter at which the sliding disc loses or regains its stability.
 struct CriticalValue {
-  std::string parameter;  ///< `key_of` a MapParameter
-  double speed;           ///< rad/s
-  /// The lowest value at which stability is lost, else the lowest at which it is regained: 1, N or
-  /// N/m; absent when there is neither in the range.
-  std::optional<double> value;
-  double frequency_Hz;  ///< of the undamped oscillation there
+  std::string parameter;        ///< `key_of` a MapParameter
+  double speed;                 ///< rad/s
+  std::optional<double> value;  ///< lowest loss of stability, else lowest regain; absent: neither
+  double frequency_Hz;          ///< frequency of the undamped oscillation
   int n_newton_steps;
   std::optional<StabilityProfile> profile = {};  ///< absent in files of earlier versions
 };
 
-/// The least stable eigenvalue of the sliding disc over the speed and one more parameter.
+/// Least stable eigenvalue of the sliding disc over the speed and another parameter.
 struct StabilityMap {
   std::string parameter;         ///< `key_of` a MapParameter
-  Eigen::VectorXd values;        ///< [m] of it: 1, N or N/m
+  Eigen::VectorXd values;        ///< [m] in the unit of the parameter
   Eigen::VectorXd speeds;        ///< [n] rad/s
   Eigen::MatrixXd growth;        ///< [m x n] largest growth rate, 1/s
-  Eigen::MatrixXd frequency_Hz;  ///< [m x n] of the oscillation with it
+  Eigen::MatrixXd frequency_Hz;  ///< [m x n] frequency of the least stable oscillation
 };
 
-/// Stability of a sliding disc of any kind over the speed; see rotation_stability.hpp.
+/// Stability of a disc that need not be axisymmetric over the speed; see rotation_stability.hpp.
 struct RotationStability {
   Eigen::VectorXd speeds;  ///< [m] rad/s
   Eigen::VectorXd growth;  ///< [m] largest growth rate, 1/s
-  /// [m] of the motion with it: in the inertial frame by Hill's method, in the frame of the disc by
-  /// Floquet's.
+  /// [m] of the least stable motion, in the inertial frame (Hill) or the frame of the disc
+  /// (Floquet).
   Eigen::VectorXd frequency_Hz;
-  std::optional<double> critical_speed;  ///< the first from which it grows, rad/s
+  std::optional<double> critical_speed;  ///< lowest speed with growth, rad/s
   std::string method = {};  ///< "hill" or "floquet"; empty in files of earlier versions: floquet
-  int harmonics = 0;        ///< K of Hill's method, the largest over the speeds
-  double error = 0.0;       ///< of the growth by Hill's method, estimated, the largest, 1/s
-  /// [m x r] the worst exponents by Hill's method, by falling growth: growth rate 1/s + i angular
-  /// frequency rad/s; empty by Floquet's.
+  int harmonics = 0;        ///< largest K of Hill's method over the speeds
+  double error = 0.0;       ///< largest estimated error of the growth by Hill's method, 1/s
+  /// [m x r] exponents of Hill's method by descending growth, 1/s + i rad/s; empty for Floquet's.
   Eigen::MatrixXcd exponents = {};
-  /// [m] largest growth rate of the disc that stands at some angle, 1/s; empty in files of earlier
-  /// versions.
+  /// [m] largest growth rate of the disc at rest over its angles, 1/s; empty in earlier files.
   Eigen::VectorXd frozen_growth = {};
 };
 
-/// What the lowest modes alone would say.
+/// Stability with the lowest modes only.
 struct ModeSubset {
   int n_modes;
   double highest_Hz;
   std::optional<double> critical_speed;         ///< rad/s; absent when there is none in the range
-  std::optional<double> critical_frequency_Hz;  ///< of the oscillation there
+  std::optional<double> critical_frequency_Hz;  ///< frequency of the oscillation
   double growth;               ///< largest growth rate at the critical speed of all modes, 1/s
-  std::string stability = {};  ///< over the speed, in the words of name_of(Stability)
+  std::string stability = {};  ///< over the speed, as name_of(Stability)
 };
 
-/// What one mode, or one pair of modes, does to the critical oscillation of all modes.
+/// Effect of one mode, or pair of modes, on the critical oscillation with all modes.
 struct ModeInfluence {
   int nodal_diameters;
   double frequency_Hz;   ///< of the mode
-  double participation;  ///< part of the kinetic energy of the critical oscillation
-  /// Growth rate of the critical oscillation at the critical speed when the mode is left out, 1/s;
-  /// absent for the mode that it consists of.
+  double participation;  ///< fraction of the kinetic energy of the critical oscillation
+  /// Growth rate at the critical speed without the mode, 1/s; absent if it dominates the
+  /// oscillation.
   std::optional<double> growth_without;
   std::optional<double> critical_speed_without;  ///< rad/s
 };
 
-/// Which modes move the critical speed.
+/// Influence of the modes on the critical speed.
 struct ModeSensitivity {
   double critical_speed;  ///< with all modes, rad/s
   double critical_frequency_Hz;
-  std::vector<ModeSubset> subsets;        ///< of the lowest 2, 8, 16 and of all modes
-  std::vector<ModeInfluence> influences;  ///< by rising frequency
+  std::vector<ModeSubset> subsets;        ///< with the lowest 2, 8, 16 and with all modes
+  std::vector<ModeInfluence> influences;  ///< by ascending frequency
 };
 
 }  // namespace chladni::squeal

@@ -10,71 +10,75 @@
 
 namespace chladni::squeal {
 
-/// Works in one period of a growing or decaying oscillation, relative to its energy: both are means
-/// over the phase, with the amplitude of one moment. The sum is 2 * growth / frequency.
+/// Work per period of a growing or decaying oscillation relative to its energy. Both are averaged
+/// over the phase at a constant amplitude. The sum is 2 * growth / frequency.
 struct PeriodWork {
-  double friction;  ///< of the friction of all pads; > 0 feeds the oscillation
-  double normal;    ///< of their normal forces
-  double damping;   ///< of the modes of the disc and of the suspensions of pads
+  double friction;  ///< work of the friction of all pads; > 0 feeds the oscillation
+  double normal;    ///< work of the normal forces
+  double damping;   ///< work of the modal damping and of the pads' suspensions
 };
 
 /// One motion of the sliding brake, followed by its shape over the values of a parameter.
 struct StabilityBranch {
   Eigen::VectorXcd lambda;                 ///< [m] growth rate 1/s + i angular frequency rad/s
-  std::vector<UnstableInterval> unstable;  ///< by rising values; empty: stable at all values
-  StabilityPoint worst;    ///< where its growth was largest among the values that were looked at
-  Eigen::VectorXd shares;  ///< [n_families] of its kinetic energy there; empty without families
-  double pads = 0.0;       ///< the share of pads with a mass
-  std::optional<PeriodWork> work = {};  ///< there; absent of stable ones and without families
+  std::vector<UnstableInterval> unstable;  ///< by ascending values; empty: stable at all values
+  StabilityPoint worst;                    ///< largest growth among the computed values
+  /// [n_families] fraction of the kinetic energy at `worst` in each family; empty without families.
+  Eigen::VectorXd shares;
+  double pads = 0.0;  ///< fraction in pads with a mass
+  /// At `worst`; absent for stable branches and without families.
+  std::optional<PeriodWork> work = {};
 
   bool is_unstable() const { return !unstable.empty(); }
 };
 
-/// A pair of modes of the disc, or a mode without nodal diameters.
+/// A pair of modes of the disc, or a single mode without nodal diameters.
 struct ModeFamily {
   int nodal_diameters;
   double frequency_Hz;
-  /// Of the motion along the axis; absent where the body has no picture, for modes in the plane,
+  /// Nodal circles of the axial motion; absent when the body has no picture, for in-plane modes,
   /// and in files of earlier versions.
   std::optional<int> nodal_circles = {};
-  std::optional<double> in_plane = {};  ///< share of its kinetic energy; absent where it is unknown
+  /// In-plane fraction of the kinetic energy; absent if unknown.
+  std::optional<double> in_plane = {};
 };
 
-/// All motions of the sliding brake that have a frequency of the band at some value of a parameter.
+/// All motions of the sliding brake with a frequency in the band at some value of a parameter.
 struct StabilityTable {
   std::string parameter;              ///< "speed", or `key_of` a MapParameter
-  std::optional<double> speed;        ///< of a table over another parameter, rad/s
+  std::optional<double> speed;        ///< speed of a table over another parameter, rad/s
   std::optional<FrequencyBand> band;  ///< absent: all motions
-  Eigen::VectorXd values;             ///< [m] of the parameter: rad/s, 1, N or N/m
-  std::vector<ModeFamily> families;   ///< of the disc, by rising frequency; empty without a body
-  std::vector<StabilityBranch> branches;  ///< by rising frequency at their worst value
-  /// "eigenvalues", or "hill" for discs that are not axisymmetric: then without families, shares
-  /// and works; empty in files of earlier versions: eigenvalues.
+  Eigen::VectorXd values;             ///< [m] in the unit of the parameter; rad/s for the speed
+  /// Modes of the disc by ascending frequency; empty without a body.
+  std::vector<ModeFamily> families;
+  std::vector<StabilityBranch> branches;  ///< by ascending frequency at `worst`
+  /// "eigenvalues", or "hill" for discs that are not axisymmetric, then without families, shares
+  /// and works. Empty in files of earlier versions, which used eigenvalues.
   std::string method = {};
-  double error = 0.0;  ///< of the growth rates by Hill's method, estimated, 1/s
+  double error = 0.0;  ///< estimated error of the growth rates by Hill's method, 1/s
 
   bool is_by_hill() const { return method == "hill"; }
 };
 
-/// The ratio -growth / |lambda| of the decaying or growing oscillation; negative where it grows.
+/// Damping ratio -growth / |lambda| of the oscillation; negative when it grows.
 double damping_ratio(const StabilityPoint& point);
 
 /// Whether the branch is unstable at all values of the table.
 bool is_always_unstable(const StabilityTable& table, const StabilityBranch& branch);
 
-/// The number of nodal diameters whose modes of the disc have the largest share of the branch;
-/// absent without a body.
+/// Number of nodal diameters with the largest share of the branch's energy; absent without a body.
 std::optional<int> nodal_diameters(const StabilityTable& table, const StabilityBranch& branch);
 
-/// Of the family with so many nodal diameters that has the largest share; absent where that is
-/// unknown.
+/// Number of nodal circles of the family that has the largest share among those with the nodal
+/// diameters of the branch; absent if unknown.
 std::optional<int> nodal_circles(const StabilityTable& table, const StabilityBranch& branch);
 
-/// The share of motion in the plane in the kinetic energy of the disc; absent where it is unknown
-/// of a family.
+/// In-plane fraction of the disc's kinetic energy in the branch; absent when it is unknown for a
+/// family.
 std::optional<double> in_plane_share(const StabilityTable& table, const StabilityBranch& branch);
 
-/// "no mode is unstable at any speed of the range" or "4 of 35 modes are unstable somewhere".
+/// A sentence on the table, such as "no mode is unstable at any speed of the range" or "4 of 35
+/// modes are unstable somewhere".
 std::string summary(const StabilityTable& table);
 
 }  // namespace chladni::squeal

@@ -5,11 +5,12 @@
 
 namespace chladni::squeal {
 
-/// Writes the group `stability`; see docs/reference/file_formats.md.
+/// Writes the group /stability of a result file; see docs/reference/file_formats.md.
 void write_stability_table(files::Writer& file, const StabilityTable& table);
 
-/// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
-/// finite.
+/// Reads the group /stability of a result file.
+/// @throws chladni::Error naming file and dataset, when something is missing, has a wrong size or
+///         is not finite.
 StabilityTable read_stability_table(const files::Reader& file);
 
 }  // namespace chladni::squeal

@@ -5,7 +5,7 @@
 
 namespace chladni::squeal {
 
-/// The group /motion_statistics of a result file.
+/// Write and read the group /motion_statistics of a result file.
 void write_statistics(files::Writer& file, const MotionStatistics& statistics);
 MotionStatistics read_statistics(const files::Reader& file);
 

@@ -9,21 +9,21 @@
 
 namespace chladni::squeal {
 
-/// The attribute `format` of such a file.
+/// Attribute `format` of a sweep file.
 inline constexpr auto sweep_format = "chladni-squeal-sweep";
 
-/// Writes `*.sweep.h5` as a whole or not at all; also one of which variants are still to do.
+/// Writes a file `*.sweep.h5` as a whole or not at all. Some variants may still be to do.
 /// @throws chladni::Error when the file cannot be written.
 void write_sweep(const std::filesystem::path& file, const SweepTable& sweep,
                  const mbs_export::Provenance& provenance);
 
-/// Reads what `write_sweep` wrote.
-/// @throws chladni::Error naming file and dataset for anything missing, of wrong size or not
-///         finite.
+/// Reads a file of `write_sweep`.
+/// @throws chladni::Error naming file and dataset, when something is missing, has a wrong size or
+///         is not finite.
 SweepTable read_sweep(const files::Reader& file);
 
-/// The table as comma-separated values: the number of the variant, the keys, the columns,
-/// `failure`. A cell is empty where nothing is known; numbers read back as the same double.
+/// The table as comma-separated values: number of the variant, keys, columns, `failure`. A cell is
+/// empty when its value is unknown; numbers read back as the same double.
 std::string csv_of(const SweepTable& sweep);
 
 }  // namespace chladni::squeal

@@ -8,19 +8,20 @@
 
 namespace chladni::squeal {
 
-/// "band-limited to 11400 Hz, 30000 samples in a second": which frequencies a history holds.
+/// The frequency content of a history as text: "band-limited to 11400 Hz, 30000 samples in a
+/// second".
 std::string spoken(const Band& band);
 
-/// A number that may be absent, with its dataset.
+/// Write and read the dataset of a number that may be absent.
 void write_optional(files::Writer& file, const std::string& name, const std::optional<double>& x,
                     const std::string& unit);
 std::optional<double> read_optional(const files::Reader& file, const std::string& name);
 
-/// An envelope below the group `group` of a result file.
+/// Write and read an envelope in the group `group` of a result file.
 void write_envelope(files::Writer& file, const std::string& group, const Envelope& envelope);
 Envelope read_envelope(const files::Reader& file, const std::string& group);
 
-/// The group /transient of a result file.
+/// Write and read the group /transient of a result file.
 void write_transient(files::Writer& file, const Transient& run);
 Transient read_transient(const files::Reader& file);
 

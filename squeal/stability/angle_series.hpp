@@ -4,22 +4,25 @@
 
 namespace chladni::squeal {
 
-/// Functions of an angle, one in each row, by their values at N angles equally spaced over the
-/// period, N a power of two: column s is that at 2 pi s / N.
+/// Samples of functions of an angle, one function in each row: column s has the values at
+/// 2 pi s / N, with N a power of two.
 using AngleSamples = Eigen::MatrixXcd;
-/// f(phi) = sum_k c_k exp(i k phi): column k is c_k for k < N / 2, column N - k is c_-k.
+/// Fourier coefficients of f(phi) = sum_k c_k exp(i k phi): column k is c_k for k < N / 2, and
+/// column N - k is c_-k.
 using AngleHarmonics = Eigen::MatrixXcd;
 
+/// The Fourier coefficients of samples.
 AngleHarmonics harmonics_of(AngleSamples f);
+/// The samples of a Fourier series.
 AngleSamples samples_of(AngleHarmonics c);
 
-/// k of a column of N harmonics, -N / 2 < k <= N / 2.
+/// The order k of a column among N harmonics, -N / 2 < k <= N / 2.
 inline Eigen::Index order_of(Eigen::Index column, Eigen::Index N)
 {
   return column <= N / 2 ? column : column - N;
 }
 
-/// The column of the harmonic k among N.
+/// The column of the order k among N harmonics.
 inline Eigen::Index column_of(Eigen::Index k, Eigen::Index N)
 {
   return k < 0 ? N + k : k;

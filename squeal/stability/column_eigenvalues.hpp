@@ -5,25 +5,26 @@
 
 namespace chladni::squeal {
 
-/// The i-th of a sequence of state matrices.
+/// The i-th state matrix of a sequence.
 using MatrixOf = std::function<Eigen::MatrixXd(Eigen::Index i)>;
 
-/// How a sequence was computed.
+/// How often each method computed the eigenvalues of a sequence.
 struct SequenceCount {
-  Eigen::Index by_discs;  ///< from the eigenvalues of the matrix before, see eigenvalue_discs.hpp
-  Eigen::Index by_qr;     ///< by the QR iteration
+  Eigen::Index by_discs;  ///< from the eigenvalues of the previous matrix; see eigenvalue_discs.hpp
+  Eigen::Index by_qr;     ///< by the QR algorithm
 };
 
-/// The least stable eigenvalue of each matrix of a sequence along which one parameter changes: that
-/// with the largest real part, Im >= 0, 1/s.
+/// The least stable eigenvalue of each matrix of a sequence along which one parameter changes: the
+/// one with the largest real part and Im >= 0, 1/s.
 struct LeastStableSequence {
   Eigen::VectorXcd lambda;
   SequenceCount count;
 };
 
-/// Where neighbours differ by a matrix of low rank, as where the pads of a disc change, all
-/// eigenvalues are extrapolated from matrix to matrix and corrected; where that finds no rightmost
-/// eigenvalue with certainty, and for all other sequences, the QR iteration does.
+/// Computes the least stable eigenvalues of n matrices. If neighbours differ by a matrix of low
+/// rank, as when the pads of a disc change, all eigenvalues are extrapolated from matrix to matrix
+/// and corrected. If this does not identify the rightmost eigenvalue with certainty, and for other
+/// sequences, the QR algorithm is used.
 LeastStableSequence least_stable_eigenvalues(const MatrixOf& A, Eigen::Index n);
 
 }  // namespace chladni::squeal

@@ -5,20 +5,21 @@
 
 namespace chladni::squeal {
 
-/// How an eigenvalue of A moves with A, by its left and right eigenvectors: d lambda = l^T dA r
-/// with l^T r = 1. True of simple eigenvalues; where two meet, l^T r = 0 before it is made 1, and
-/// the derivative is infinite.
+/// First-order change of an eigenvalue of A by its left and right eigenvectors, d lambda = l^T dA r
+/// with l^T r = 1. It holds for simple eigenvalues; where two coincide, l^T r = 0 before scaling,
+/// and the derivative is infinite.
 class EigenvalueChange {
  public:
-  /// Of the eigenvalue nearest to `expected`.
+  /// The change of the eigenvalue nearest to `expected`.
   EigenvalueChange(const Eigen::MatrixXd& A, const std::complex<double>& expected);
 
   std::complex<double> lambda() const { return lambda_; }
 
-  /// |l| |r| / |l^T r|: 1 for normal matrices, infinite where eigenvalues meet.
+  /// Condition number |l| |r| / |l^T r| of the eigenvalue: 1 for normal matrices, infinite where
+  /// eigenvalues coincide.
   double condition() const { return left_.norm() * right_.norm(); }
 
-  /// d lambda, in the unit of `dA`
+  /// d lambda for a change dA of the matrix, in the unit of `dA`.
   std::complex<double> of(const Eigen::MatrixXd& dA) const
   {
     return left_.cwiseProduct(dA * right_).sum();

@@ -5,11 +5,11 @@
 
 namespace chladni::squeal {
 
-/// How far a critical speed may be off because of what its body is made of. First order: errors of
-/// the frequencies of modes go through the sensitivities of the critical speed to them, added
-/// without sign. Parts of which the body tells nothing are absent: all but `left_out` where the
-/// critical oscillation is beyond the range whose errors it knows.
-/// @param brake  in whose range of speeds it is critical; with an inertial frame
+/// First-order estimate of the error of a critical speed due to the body. The errors of modal
+/// frequencies and ring motions are multiplied by the sensitivities of the critical speed to them
+/// and added without sign. Parts for which the body has no data are absent; so are all except
+/// `left_out` when the critical oscillation is beyond the range of known errors.
+/// @param brake  brake with an inertial frame, critical within its range of speeds
 ErrorBudget error_budget(const FlexibleDisc& brake, const CriticalSpeed& critical);
 
 }  // namespace chladni::squeal

@@ -8,24 +8,25 @@
 
 #include "squeal/results/stability_results.hpp"
 
-/// What is found in samples of motions that are followed over a parameter, however they were
-/// computed: a `Sample` says of motion j its growth(j), doubt_of(j), is_unstable(j) and point(j).
+/// Functions for samples of motions followed over a parameter, however they were computed. A
+/// `Sample` provides growth(j), doubt_of(j), is_unstable(j) and point(j) of motion j.
 namespace chladni::squeal {
 
-/// Three neighbours.
+/// Three neighbouring samples.
 template <class Sample>
 struct Neighbours {
   Sample low, middle, high;
 };
 
-/// How far motion j is from a change of its stability; it changes above zero.
+/// Signed distance of motion j from a change of the stability that it has in `from`; it changes
+/// above zero.
 template <class Sample>
 double height(const Sample& sample, Eigen::Index j, const Sample& from)
 {
   return from.is_unstable(j) ? -sample.growth(j) : sample.growth(j);
 }
 
-/// Whether the height is largest in the middle and may rise above zero beside it; see
+/// Whether the height has a maximum at the middle sample and may exceed zero near it; see
 /// stability_search.cpp.
 template <class Sample>
 bool may_change(const Neighbours<Sample>& t, Eigen::Index j)
@@ -39,8 +40,9 @@ bool may_change(const Neighbours<Sample>& t, Eigen::Index j)
   return middle >= low && middle >= high && middle + rise > t.middle.doubt_of(j);
 }
 
-/// A sample of the other stability about the extremum.
-/// @param between  (a, b): the sample half way from a to b
+/// Searches near the extremum for a sample whose stability differs from that of the middle sample.
+/// @param between  (a, b): the sample halfway between a and b
+/// @return absent when none is found
 template <class Sample, class Between>
 std::optional<Sample> beyond_extremum(Neighbours<Sample> t, Eigen::Index j, int halvings,
                                       const Between& between)
@@ -63,7 +65,7 @@ std::optional<Sample> beyond_extremum(Neighbours<Sample> t, Eigen::Index j, int 
 }
 
 /// The intervals of the samples in which motion j grows.
-/// @param limit_between  (a, b): where its stability changes between two neighbours
+/// @param limit_between  (a, b): limit of stability between two neighbouring samples
 template <class Samples, class Limit>
 std::vector<UnstableInterval> intervals_among(const Samples& samples, Eigen::Index j,
                                               const Limit& limit_between)

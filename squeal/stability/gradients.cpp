@@ -30,6 +30,7 @@ constexpr double pi = std::numbers::pi, step = 1e-5;
 struct Variable {
   std::string key, unit;
   double value;
+  double step;  ///< of differences; 0: a part of the value
   std::function<MatrixXd(double value, double speed)> A;
 };
 
@@ -41,44 +42,25 @@ MatrixXd matrix_of(const Brake& brake, double speed)
   return brake.state_matrix(speed);
 }
 
-std::vector<Variable> parameters_of(const Brake& brake)
+std::vector<Variable> variables_of(const Brake& brake)
 {
   std::vector<Variable> variables;
   for (const auto& [parameter, value] : brake.parameters()) {
     variables.push_back({.key = key_of(parameter),
                          .unit = std::string(find_parameter(parameter.name)->unit),
                          .value = value,
+                         .step = 0.0,
                          .A = [&brake, parameter = parameter](double x, double speed) {
                            return matrix_of(*brake.with(parameter, x), speed);
                          }});
   }
-  return variables;
-}
-
-/// "frequency of the pair with 3 nodal diameters at 1686.2 Hz"
-std::string name_of_mode(int nodal_diameters, double f_Hz)
-{
-  if (nodal_diameters == 0) return fmt::format("frequency of the mode at {:.6g} Hz", f_Hz);
-  return fmt::format("frequency of the pair with {} nodal diameters at {:.6g} Hz", nodal_diameters,
-                     f_Hz);
-}
-
-std::vector<Variable> frequencies_of(const FlexibleDisc& brake)
-{
-  const InertialDisc& disc = brake.inertial();
-  std::vector<Variable> variables;
-  Index size = 1;
-  for (Index i = 0; i < disc.n_modes(); i += size) {
-    const int n = disc.nodal_diameters[static_cast<std::size_t>(i)];
-    size = n > 0 ? 2 : 1;
-    const double f_Hz = disc.omega[i] / (2.0 * pi);
-    variables.push_back({.key = name_of_mode(n, f_Hz),
-                         .unit = "Hz",
-                         .value = f_Hz,
-                         .A = [&brake, &disc, i, size](double x, double speed) {
-                           InertialDisc changed = disc;
-                           changed.omega.segment(i, size).setConstant(2.0 * pi * x);
-                           return smooth_state_matrix(changed, brake.options(), speed);
+  for (BrakeNumber& number : brake.further_numbers()) {
+    variables.push_back({.key = std::move(number.key),
+                         .unit = std::move(number.unit),
+                         .value = number.value,
+                         .step = number.step,
+                         .A = [with = std::move(number.with)](double x, double speed) {
+                           return matrix_of(*with(x), speed);
                          }});
   }
   return variables;
@@ -98,8 +80,8 @@ MatrixXd derivative_at_zero(const Variable& p, double speed)
 /// dA/dp
 MatrixXd derivative(const Variable& p, double speed)
 {
-  if (p.value == 0.0) return derivative_at_zero(p, speed);
-  const double h = step * std::abs(p.value);
+  if (p.value == 0.0 && p.step == 0.0) return derivative_at_zero(p, speed);
+  const double h = p.step > 0.0 ? p.step : step * std::abs(p.value);
   return (p.A(p.value + h, speed) - p.A(p.value - h, speed)) / (2.0 * h);
 }
 
@@ -179,10 +161,7 @@ Gradients gradients(const Brake& brake, const StudyOptions& options)
   }
   for (const EigenvalueChange& motion : motions)
     result.motions.push_back({motion.lambda().real(), motion.lambda().imag() / (2.0 * pi)});
-  std::vector<Variable> variables = parameters_of(brake);
-  if (const FlexibleDisc* body = brake.body())
-    for (Variable& frequency : frequencies_of(*body)) variables.push_back(std::move(frequency));
-  for (const Variable& p : variables) {
+  for (const Variable& p : variables_of(brake)) {
     GradientRow row{.key = p.key, .unit = p.unit, .value = p.value};
     if (critical) {
       const double by_value = critical->change.of(derivative(p, critical->at.speed)).real();

@@ -6,17 +6,16 @@
 
 namespace chladni::squeal {
 
-/// Derivatives of the critical speed within `options.speeds` and of the growth rates at
+/// Derivatives of the critical speed within `options.speeds`, and of the growth rates at
 /// `options.gradients`, by each parameter of the brake and by the frequency of each mode or pair of
-/// its disc (with its damping in 1/s kept): by left and right eigenvectors,
+/// its disc (at constant damping in 1/s). With left and right eigenvectors,
 ///   d lambda / dp = l^T (dA/dp) r,
 /// and at the critical speed, where Re lambda(Omega, p) = 0, by the implicit function theorem
 ///   d Omega_c / dp = -(Re d lambda / dp) / (Re d lambda / d Omega).
-/// dA/dp are central differences over 1e-5 of the value, of second order, so that they err by some
-/// 1e-10 of the derivative; of a value of zero one-sided ones of second order over 1e-5 of what
-/// changes A by as much as it is.
-/// @throws chladni::Error where there is neither a critical speed in the range nor a speed of
-/// growth
+/// dA/dp are central differences of second order with a step of 1e-5 of the value, with a relative
+/// error of about 1e-10. For a value of zero they are one-sided differences of second order with
+/// 1e-5 of the change that changes A by its own size.
+/// @throws chladni::Error when there is neither a critical speed in the range nor a speed of growth
 ///         rates, and for a disc that is not axisymmetric.
 Gradients gradients(const Brake& brake, const StudyOptions& options);
 

@@ -7,18 +7,19 @@
 
 namespace chladni::squeal {
 
-/// Indices in `TurningModes`, ascending.
+/// Indices of states in `TurningModes`, ascending.
 using States = std::vector<Eigen::Index>;
 
-/// Two states that must be in one group.
+/// Two states that must belong to one group.
 struct Link {
   Eigen::Index i, j;
 };
 
-/// An invariant group, or what stands against it.
+/// An invariant group, or the link that prevents it.
 using Reduced = std::variant<NearGroup, Link>;
 
-/// For each of `groups` the fixed-point iteration of `near_groups`; they are disjoint.
+/// Performs the fixed-point iteration of `near_groups` for each of the disjoint `groups`.
+/// @param tolerance  1/s
 std::vector<Reduced> reduced(const TurningModes& modes, double tolerance,
                              const std::vector<States>& groups);
 

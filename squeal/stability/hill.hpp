@@ -9,42 +9,43 @@
 
 namespace chladni::squeal {
 
-/// Characteristic exponents of a sliding disc of any kind: its small motions in the inertial frame
-/// are sums of exp(lambda t) f(speed t), f with the period of a rotation.
+/// Characteristic exponents of a sliding disc that need not be axisymmetric. Its small motions in
+/// the inertial frame are sums of exp(lambda t) f(speed t), where f has the period of a rotation.
 struct HillExponents {
-  /// [n] 1/s, one of each complex pair, by falling growth; of the replicas lambda + i k nu speed
-  /// that one whose frequency is the motion's in the inertial frame.
+  /// [n] 1/s, one of each complex pair by descending growth. Of the replicas lambda + i k nu speed
+  /// it is the one with the frequency of the motion in the inertial frame.
   Eigen::VectorXcd lambda;
-  int harmonics;         ///< K, of the rotation, kept in the corrections by distant states
-  double error;          ///< estimated, of all growth rates, 1/s
-  Eigen::Index coupled;  ///< the largest number of states that are near each other
-  int nu;                ///< the equations have the period of this part of a rotation; 0: constant
+  int harmonics;         ///< highest harmonic K in the corrections by distant states
+  double error;          ///< estimated error of all growth rates, 1/s
+  Eigen::Index coupled;  ///< largest number of states in one group
+  int nu;                ///< the equations have nu periods in a rotation; 0: they are constant
 };
 
-/// Hill's method: the motion and the equations are expanded into harmonics of the rotation,
+/// Hill's method: motion and equations are expanded into harmonics of the rotation,
 ///   (lambda + i k nu speed) x_k = sum_j A_(k-j) x_j,  |k| <= K.
-/// This ladder is not solved as one matrix. In the eigenvectors of A_0 it is split into groups of
-/// states that are near each other in frequency; the corrections by all other states, harmonic by
-/// harmonic, make each group exact up to K (see near_groups.hpp), and the exponents of a group are
-/// those of its few equations (see group_exponents.hpp). So none can be lost: there is one for each
-/// state, and the sum of their growth rates is checked against the trace of A_0. K is doubled until
-/// the last harmonics move the exponents by less than `tolerance`.
+/// The infinite system is not solved as one matrix. In the eigenvectors of A_0 it is split into
+/// groups of states with close frequencies. Corrections by all other states, harmonic by harmonic,
+/// make each group exact up to K (see near_groups.hpp), and the exponents of a group follow from
+/// its few equations (see group_exponents.hpp). So no exponent is lost: there is one for each
+/// state, and the sum of the growth rates is checked against the trace of A_0. K is doubled until
+/// the last harmonics change the exponents by less than `tolerance`.
 class Hill {
  public:
-  /// @param tolerance  1/s
+  /// @param tolerance  error of the exponents, 1/s
   Hill(const Disc& disc, const SquealOptions& options, double tolerance = 1e-4);
 
+  /// The exponents at a speed.
   /// @param speed  rad/s, > 0
-  /// @throws chladni::Error when K = 512 nu is not enough.
+  /// @throws chladni::Error when K = 512 nu is not sufficient.
   HillExponents exponents(double speed) const;
 
-  /// The equations at this speed (rad/s) have the period of this part of a rotation; 0: constant.
+  /// Number of periods of the equations in a rotation at this speed (rad/s); 0: they are constant.
   int nu(double speed) const;
 
-  /// The largest growth rate (1/s) among the eigenvalues of the matrices A(phi) with the disc
-  /// standing at some angle phi, over 24 angles of a period, which lie in different periods: exact
-  /// for an axisymmetric disc alone.
-  /// @param nu  at this speed
+  /// Largest growth rate (1/s) of the matrices A(phi) with the disc frozen at an angle phi, over 24
+  /// angles of a period taken from different periods. This is the true growth only for an
+  /// axisymmetric disc.
+  /// @param nu  number of periods at this speed
   double frozen_growth(double speed, int nu) const;
 
  private:
@@ -55,7 +56,7 @@ class Hill {
   SquealOptions options_;
   double tolerance_;
   TurningCoordinates coordinates_;
-  int bound_;  ///< no harmonic of A is higher
+  int bound_;  ///< upper limit of the harmonics of A
 };
 
 }  // namespace chladni::squeal

@@ -7,16 +7,16 @@
 
 namespace chladni::squeal {
 
-/// The samples of `followed_modes` with more between them, in the same order of motions, at which
-/// one of the motions `which` may be unstable between two samples at which it is stable, or stable
-/// between two at which it is unstable: where its growth has a maximum that may rise above zero, or
-/// a minimum that may fall below, and where two of them, both stable, have one frequency.
+/// Adds samples to those of `followed_modes`, in the same order of motions, so that changes of the
+/// stability between two samples of equal stability are found for the motions `which`. It searches
+/// maxima of the growth that may exceed zero, minima that may fall below zero, and crossings of the
+/// frequencies of two stable motions.
 std::vector<ModeSample> with_hidden_changes(const StateMatrixOf& A, std::vector<ModeSample> samples,
                                             const std::vector<Eigen::Index>& which);
 
-/// The intervals in which motion j of the samples grows. Each limit is bisected to a narrow bracket
-/// and refined by Newton's method (hopf.hpp) if that ends within the bracket, on the same motion;
-/// else it is bisected to the last digit.
+/// Intervals in which motion j of the samples grows. Each limit is bisected to a narrow bracket and
+/// refined by Newton's method (hopf.hpp). If that leaves the bracket or the motion, bisection
+/// continues to the last digit.
 std::vector<UnstableInterval> unstable_intervals(const StateMatrixOf& A,
                                                  const std::vector<ModeSample>& samples,
                                                  Eigen::Index j);

@@ -8,14 +8,15 @@
 
 namespace chladni::squeal {
 
-/// The motions of x' = A x at one value of the parameter, one of each mode; see
+/// The motions of x' = A x at one value of the parameter, one for each mode; see
 /// oscillating_eigenvalues.
 struct ModeSample {
-  double value;
+  double value;             ///< of the parameter
   Eigen::VectorXcd lambda;  ///< [n] 1/s
   Eigen::MatrixXcd X;       ///< [2 n x n] right eigenvectors of norm 1
   Eigen::MatrixXcd Y;       ///< [2 n x n] left eigenvectors of norm 1, y^H A = lambda y^H
-  Eigen::VectorXd doubt;    ///< [n] growth that rounding can make of a neutral motion, 1/s
+  /// [n] growth rate that rounding errors may cause for a neutral motion, 1/s.
+  Eigen::VectorXd doubt;
 
   Eigen::Index size() const { return lambda.size(); }
   double growth(Eigen::Index j) const { return lambda[j].real(); }
@@ -24,18 +25,19 @@ struct ModeSample {
   StabilityPoint point(Eigen::Index j) const;
 };
 
-/// The motions in the order of `oscillating_eigenvalues`.
-/// @throws chladni::Error when the QR iteration does not converge.
+/// The motions at a value, in the order of `oscillating_eigenvalues`.
+/// @throws chladni::Error when the QR algorithm does not converge.
 ModeSample mode_sample(const StateMatrixOf& A, double value);
 
-/// Samples at equal distances, column j of each one motion that is followed by its shape: by the
-/// MAC of the left and of the right eigenvectors, |x_i^H x_j| |y_i^H y_j|, and by the distance of
-/// lambda from its extrapolation. Where shapes change so much between two samples that this does
-/// not tell two motions apart, it is followed through values between them.
-/// @param range  with one value or more
+/// Equally spaced samples whose column j is the same motion. Motions are followed by the MAC of
+/// left and right eigenvectors, |x_i^H x_j| |y_i^H y_j|, and by the distance of lambda from its
+/// extrapolation. If two motions cannot be distinguished between two samples, intermediate values
+/// are computed.
+/// @param range  with at least one value
 std::vector<ModeSample> followed_modes(const StateMatrixOf& A, const SearchRange& range);
 
-/// The sample at a value between two others of the same order, t = 0 at the first.
+/// The sample between two others with the same order of motions, at t = 0 ... 1 from the first to
+/// the second.
 ModeSample mode_sample_between(const StateMatrixOf& A, const ModeSample& low,
                                const ModeSample& high, double t);
 

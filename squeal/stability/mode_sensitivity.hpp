@@ -6,8 +6,8 @@
 
 namespace chladni::squeal {
 
-/// Which modes decide about the critical speed: it with the lowest 2, 8, 16 and all modes, and how
-/// it and the growth rate there change when one mode or pair of modes is left out.
+/// Influence of the modes on the critical speed: its values with the lowest 2, 8, 16 and all modes,
+/// and its change and the growth rate at it when one mode or pair of modes is left out.
 /// @throws chladni::Error when there is no critical speed in the range.
 ModeSensitivity mode_sensitivity(const InertialDisc& disc, const SquealOptions& options);
 

@@ -8,8 +8,7 @@
 
 namespace chladni::squeal {
 
-/// The complex shapes of the eigenvalues `map.lambda` of the sliding disc; see
-/// EigenvalueMap::shapes.
+/// Complex shapes of the eigenvalues `map.lambda` of the sliding disc; see EigenvalueMap::shapes.
 std::vector<Eigen::MatrixXcd> mode_shapes(const InertialDisc& disc, const SquealOptions& options,
                                           const EigenvalueMap& map);
 

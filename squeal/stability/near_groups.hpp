@@ -6,23 +6,23 @@
 
 namespace chladni::squeal {
 
-/// Some of the states of `TurningModes`, near each other in frequency, with what they need of all
-/// the others: y_q = X(phi) y_g is invariant, so that y_g' = F(phi) y_g holds without an
-/// approximation but the truncation of X to so many harmonics.
+/// A group of states of `TurningModes` with close frequencies, and the coupling to all other
+/// states: y_q = X(phi) y_g is invariant, so that y_g' = F(phi) y_g holds exactly except for the
+/// truncation of the harmonics of X.
 struct NearGroup {
   std::vector<Eigen::Index> states;
-  bool has_mirror;       ///< the complex conjugate states are another group, which is not listed
+  bool has_mirror;       ///< the complex conjugate states form another group, which is not listed
   AngleHarmonics F;      ///< [g g x N] 1/s, each column a matrix
-  Eigen::Index highest;  ///< harmonic kept of X
-  double error;          ///< estimated from the last harmonics kept, 1/s
+  Eigen::Index highest;  ///< highest harmonic of X
+  double error;          ///< error estimated from the last harmonics, 1/s
 };
 
 /// Splits the states into invariant groups. X solves the harmonic balance of
 ///   step dX/dphi = Lambda_q X - X Lambda_g + B_qg + B_qq X - X (B_gg + B_gq X)
-/// by fixed-point iteration, each harmonic divided by i k step - lambda_i + lambda_j. Where this
-/// does not converge, or needs more harmonics than there are for an error of `tolerance` (1/s), the
-/// two states that stand against it go into one group. All states are in a group or in the mirror
-/// image of one.
+/// by a fixed-point iteration, in which each harmonic is divided by i k step - lambda_i + lambda_j.
+/// If it does not converge, or needs too many harmonics for the error `tolerance` (1/s), the two
+/// states responsible are put into one group. Each state is in a group or in the mirror image of
+/// one.
 std::vector<NearGroup> near_groups(const TurningModes& modes, double tolerance);
 
 }  // namespace chladni::squeal

@@ -6,26 +6,27 @@
 
 namespace chladni::squeal {
 
-/// The least stable motion of any sliding disc at one speed (rad/s), axisymmetric or not.
+/// The least stable motion of a sliding disc at one speed; the disc need not be axisymmetric.
 struct RotationGrowth {
   double growth;        ///< 1/s
   double frequency_Hz;  ///< in the frame of the disc, from the energies of the motion
 };
 
-/// In the frame of the disc the pads go round, so that its linearised equations have the period of
-/// one rotation. Their monodromy matrix is the product of Strang steps over that time, exact modes
-/// and linearised pads; growth = ln |mu| / T of its largest eigenvalue mu (Floquet), extrapolated
-/// from two step lengths.
+/// Growth rate at a speed (rad/s) by Floquet's method. In the frame of the disc the pads rotate, so
+/// that the linearised equations have the period T of one rotation. Their monodromy matrix is the
+/// product of Strang steps with exact modes and linearised pads; growth = ln |mu| / T for its
+/// largest eigenvalue mu, extrapolated from two step sizes.
 RotationGrowth rotation_growth(const Disc& disc, const SquealOptions& options, double speed);
 
-/// The growth over `options.study.speeds` by `options.study.rotation_method`, on `n_threads`
-/// threads (0: as many as processors), and the first speed at which it turns positive: Hill's
-/// method (see hill.hpp), or `rotation_growth` at each speed, whose cost is that of one rotation
-/// for each of the 2 n_modes directions. The growth of the disc that stands still is beside it.
+/// Growth rates over `options.study.speeds` by `options.study.rotation_method`, and the lowest
+/// speed with growth: Hill's method (see hill.hpp), or `rotation_growth` at each speed, which
+/// integrates one rotation for each of the 2 n_modes directions. The growth of the frozen disc is
+/// added for comparison.
+/// @param n_threads  0: as many as processors
 RotationStability rotation_stability(const Disc& disc, const SquealOptions& options,
                                      unsigned n_threads = 0);
 
-/// What the speeds that were looked at say of the range.
+/// Classifies the stability over the computed speeds.
 Stability stability_of(const RotationStability& rotation);
 
 }  // namespace chladni::squeal

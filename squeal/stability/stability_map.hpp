@@ -6,8 +6,8 @@
 
 namespace chladni::squeal {
 
-/// The least stable eigenvalues of the brake over the speeds and over the parameter of `range`, on
-/// `n_threads` threads (0: as many as processors). The result does not depend on their number.
+/// Least stable eigenvalues of the brake over the speeds and the parameter of `range`.
+/// @param n_threads  0: as many as processors; the result does not depend on it
 StabilityMap stability_map(const Brake& brake, const MapCase& range, const SpeedRange& speeds,
                            unsigned n_threads = 0);
 

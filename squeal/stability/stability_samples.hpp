@@ -7,25 +7,27 @@
 
 namespace chladni::squeal {
 
-/// The spectrum of A at one value of the parameter.
+/// The eigenvalues of A at one value of the parameter.
 struct StabilitySample {
   double value;
-  Eigen::VectorXcd lambda;  ///< one of each mode, in the order of the branches
+  Eigen::VectorXcd lambda;  ///< one for each mode, in the order of the branches
   bool unstable;
 
   double growth() const { return lambda.real().maxCoeff(); }
 };
 
-/// Whether x' = A x grows faster than rounding can make of a neutral motion; see stability_over.
+/// Whether x' = A x grows faster than rounding errors can make a neutral motion grow; see
+/// stability_over.
 bool is_unstable(const Eigen::MatrixXd& A);
 
-/// Growth that rounding can make of a neutral motion whose eigenvalue has the condition 1, 1/s.
+/// Growth rate, 1/s, that rounding errors may cause for a neutral motion whose eigenvalue has the
+/// condition number 1.
 double rounding_of(const Eigen::VectorXcd& lambda);
 
-/// Samples at equal distances, branches followed by extrapolation.
+/// Equally spaced samples, with branches followed by extrapolation.
 std::vector<StabilitySample> scan(const StateMatrixOf& A, const SearchRange& range);
 
-/// The sample at a value between two others, t = 0 at the first.
+/// The sample between two others, at t = 0 ... 1 from the first to the second.
 StabilitySample sample_between(const StateMatrixOf& A, const StabilitySample& low,
                                const StabilitySample& high, double t);
 

@@ -14,13 +14,13 @@
 namespace chladni::squeal {
 
 /// All motions of a disc that need not be axisymmetric, by Hill's method (hill.hpp): characteristic
-/// exponents followed over the parameter (exponent_branches.hpp), on 32 values or more. Where the
-/// growth of a motion has an extremum near zero between the values, it is looked for there. What is
-/// found of a motion is kept for the next table.
+/// exponents followed over the parameter (exponent_branches.hpp) at 32 or more values. Extrema of
+/// the growth near zero between the values are searched. The results for a motion are kept for
+/// later tables.
 class TurningMotions {
  public:
-  /// Keeps a reference to the brake. The band of the search does not matter.
-  /// @throws chladni::Error where Hill's method does.
+  /// Keeps a reference to the brake; the band of the search is ignored.
+  /// @throws chladni::Error as Hill's method.
   TurningMotions(const FlexibleDisc& brake, const StabilityCase& search);
   TurningMotions(const TurningMotions&) = delete;
   TurningMotions& operator=(const TurningMotions&) = delete;
@@ -28,12 +28,12 @@ class TurningMotions {
   /// Whether these are the motions of this brake over the values of this search.
   bool are_of(const FlexibleDisc& brake, const StabilityCase& search) const;
 
-  /// The table of the motions that have a frequency of the band. It has neither families of modes
-  /// nor shares nor works, which need one shape for each motion.
-  /// @throws chladni::Error where Hill's method does.
+  /// The table of the motions with a frequency in the band. It has no families of modes, shares and
+  /// works, because these need one shape for each motion.
+  /// @throws chladni::Error as Hill's method.
   StabilityTable table(const std::optional<FrequencyBand>& band);
 
-  /// How often the exponents of a value were computed so far.
+  /// Number of evaluations of the exponents so far.
   int n_exponents() const { return n_exponents_; }
 
  private:
@@ -42,30 +42,31 @@ class TurningMotions {
   ExponentsAt exponents_;
   std::atomic<int> n_exponents_ = 0;
   std::vector<ExponentSample> samples_;
-  std::vector<std::optional<StabilityBranch>> branches_;  ///< those that a table had
+  /// Branches that an earlier table contained.
+  std::vector<std::optional<StabilityBranch>> branches_;
 };
 
-/// The tables of one run of several analyses: the motions of the same brake over the same values
-/// are computed once, by the analysis that needs them first.
+/// Tables for several analyses of one run: the motions of a brake over the same values are computed
+/// once, by the first analysis that needs them.
 class TurningTables {
  public:
-  /// Keeps a reference to the brake.
-  /// @throws chladni::Error where Hill's method does.
+  /// The table of a search. Keeps a reference to the brake.
+  /// @throws chladni::Error as Hill's method.
   StabilityTable table(const FlexibleDisc& brake, const StabilityCase& search);
 
-  /// How often the exponents of a value were computed so far.
+  /// Number of evaluations of the exponents so far.
   int n_exponents() const;
 
  private:
   std::list<TurningMotions> motions_;
 };
 
-/// The table of one analysis by itself.
-/// @throws chladni::Error where Hill's method does.
+/// The table of a single analysis.
+/// @throws chladni::Error as Hill's method.
 StabilityTable turning_table(const FlexibleDisc& brake, const StabilityCase& search);
 
-/// What a table says of the range as a whole: the least stable motions at its ends, and where any
-/// of its motions grows.
+/// Summary of a table over its range: the least stable motions at the ends, and the intervals in
+/// which any motion grows.
 StabilityProfile profile_of(const StabilityTable& table);
 
 }  // namespace chladni::squeal

@@ -12,23 +12,24 @@
 
 namespace chladni::squeal {
 
-/// A brake and what is to be found out about it.
+/// A brake and the options of its study.
 struct Study {
   const Brake& brake;
   const StudyOptions& options;
-  TurningTables& turning;  ///< what several analyses of a disc that is not axisymmetric need
+  TurningTables& turning;  ///< shared by the analyses of a disc that is not axisymmetric
 };
 
-/// How an analysis of analysis_options.hpp is done.
+/// Implementation of an analysis of analysis_options.hpp.
 struct AnalysisStep {
   std::string_view name;
-  double share;                          ///< of the time of a run, usually, in any unit
-  std::vector<std::string_view> serves;  ///< other analyses that begin with its result
-  /// Adds its result; of an analysis that needs a body, the brake has one.
+  double share;                          ///< usual share of the time of a run, in any unit
+  std::vector<std::string_view> serves;  ///< other analyses that use its result
+  /// Performs the analysis and adds its result. An analysis that needs a body is only called for a
+  /// brake with one.
   void (*perform)(const Study&, SquealResults&, const Keeping&);
 };
 
-/// The steps of all analyses, in the order in which they are done.
+/// The steps of all analyses, in the order in which they are performed.
 std::span<const AnalysisStep> analysis_steps();
 
 }  // namespace chladni::squeal

@@ -5,9 +5,9 @@
 
 namespace chladni::squeal {
 
-/// Checks that the options of a study make sense, each value on its own and all for the analyses
-/// asked for, and those of a brake with a body likewise.
-/// @throws chladni::Error that names the key of the scene, the value and what is allowed.
+/// Checks the options of a study, each value and their combination for the analyses asked for, and
+/// those of a brake with a body.
+/// @throws chladni::Error naming the key of the scene, the value and what is allowed.
 void validate(const Brake& brake, const StudyOptions& study);
 
 }  // namespace chladni::squeal

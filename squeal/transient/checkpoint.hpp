@@ -12,28 +12,28 @@
 
 namespace chladni::squeal {
 
-/// What a run is made from; another one cannot go on where this one was interrupted.
+/// Inputs of a run; only a run with the same inputs can continue an interrupted one.
 struct RunOrigin {
-  mbs_export::Provenance provenance;  ///< of the results
-  std::string inputs;  ///< digests of the files that it reads, and versions of the programs
+  mbs_export::Provenance provenance;  ///< provenance of the results
+  std::string inputs;                 ///< digests of the input files, and versions of the programs
 };
 
-/// The state of a long transient in a file, from which a run that was interrupted goes on. It is
-/// written now and then, as a whole (files/replacement.hpp), and removed when the run ends well.
+/// The state of a long transient in a file, from which an interrupted run continues. It is written
+/// periodically, as a whole (files/replacement.hpp), and removed when the run ends successfully.
 class Checkpoint {
  public:
-  /// @param interval  of the clock on the wall between two states, s
+  /// @param interval  wall time between two writes, s
   Checkpoint(std::filesystem::path file, RunOrigin origin, double interval);
 
-  /// The state in the file, from now on the one to begin with.
+  /// Reads the state in the file, with which the run will start.
   /// @return the origin of the run that wrote it
-  /// @throws chladni::Error when the file is damaged or none.
+  /// @throws chladni::Error when the file is missing or damaged.
   RunOrigin read();
 
-  /// Gives back, once, the state that was read.
-  /// @param exchange  names the members of the state to an archive
-  /// @return whether there was one
-  /// @throws chladni::Error when it is the state of something else.
+  /// Restores the state that was read, once.
+  /// @param exchange  passes the members of the state to an archive
+  /// @return whether there was a state
+  /// @throws chladni::Error when the state does not fit the members.
   template <class Exchange>
   bool give_back(const Exchange& exchange)
   {
@@ -44,13 +44,14 @@ class Checkpoint {
     return true;
   }
 
-  /// Whether the interval has passed since the last state.
+  /// Whether the interval has passed since the last write.
   bool is_due() const;
   bool was_written() const { return was_written_; }
-  /// Why the last state could not be written; empty when it was.
+  /// Why the last write failed; empty when it did not.
   const std::string& failure() const { return failure_; }
-  /// Writes the state. Where that fails the last one stays, and after the interval there is another
-  /// try.
+  /// Writes the state. If that fails, the previous file remains, and the next attempt is made after
+  /// the interval.
+  /// @param exchange  passes the members of the state to an archive
   template <class Exchange>
   void keep(const Exchange& exchange)
   {
@@ -59,6 +60,7 @@ class Checkpoint {
     write(archive.words());
   }
 
+  /// Removes the file.
   void remove() const;
 
  private:

@@ -9,22 +9,23 @@
 
 namespace chladni::squeal {
 
-/// Keeps one sample in `factor` of several signals, of which a windowed sinc has taken before what
-/// the lower rate cannot hold, so that nothing is folded down. The sample j that comes out belongs
-/// to the time of the sample j * factor that went in. At both ends the weights of the samples that
-/// there are sum to one, so that a constant stays as it is everywhere. Its memory depends on
-/// `factor` alone.
+/// Reduces the sampling rate of several signals by `factor`, after a windowed-sinc low-pass filter
+/// that prevents aliasing. Output sample j belongs to the time of input sample j * factor. Near
+/// both ends the weights of the available samples are scaled to the sum one, so that a constant is
+/// preserved everywhere. The memory depends on `factor` only.
 class DecimatorStage {
  public:
-  /// @param factor  at least 2
+  /// @param factor     at least 2
+  /// @param n_signals  number of signals
   DecimatorStage(int factor, Eigen::Index n_signals);
 
-  /// The next sample.
+  /// Adds the next sample.
   /// @param x  [n_signals]
-  /// @return [n_signals] the sample that is complete by now, if one has become so
+  /// @return [n_signals] the output sample that has become complete, if any
   std::optional<Eigen::VectorXd> add(const Eigen::VectorXd& x);
 
-  /// After the last sample: the next of those that only lack samples beyond the end.
+  /// After the last sample: the next of the remaining output samples, whose filter extends beyond
+  /// the end.
   std::optional<Eigen::VectorXd> take_rest();
 
   void exchange(StateArchive& archive) { archive(samples_, n_in_, n_out_); }
@@ -33,36 +34,39 @@ class DecimatorStage {
   Eigen::VectorXd emit();
 
   int factor_;
-  Eigen::Index half_;        ///< taps on either side of the middle one
+  Eigen::Index half_;        ///< number of taps on either side of the middle one
   Eigen::VectorXd taps_;     ///< [2 half_ + 1]
-  Eigen::MatrixXd samples_;  ///< [n_signals x 2 (2 half_ + 1)] the latest, each of them twice
+  Eigen::MatrixXd samples_;  ///< [n_signals x 2 (2 half_ + 1)] latest samples, each stored twice
   std::int64_t n_in_ = 0;
   std::int64_t n_out_ = 0;
 };
 
-/// How many samples are kept.
+/// Reduction of a sampling rate in stages.
 struct Decimation {
-  int factor = 1;    ///< of each stage; 1 keeps all
-  int n_stages = 0;  ///< none keeps all
+  int factor = 1;    ///< factor of each stage; 1 keeps all samples
+  int n_stages = 0;  ///< 0 keeps all samples
 
   std::int64_t every() const;  ///< factor^n_stages
 };
 
-/// Keeps at most `n_max` of `n` samples, in stages of at most 8 that have one factor.
+/// The decimation that keeps at most `n_max` of `n` samples, in stages of the same factor, at most
+/// 8.
 Decimation decimation_to(std::int64_t n, std::int64_t n_max);
 
-/// Part of the rate that comes out up to which a decimated signal is the signal itself, to 5e-4.
+/// Fraction of the output rate up to which a decimated signal equals the signal, within 5e-4.
 inline constexpr double decimated_band = 0.38;
 
-/// Stages of decimation one behind the other.
+/// Stages of decimation in series.
 class Decimator {
  public:
   Decimator(const Decimation& decimation, Eigen::Index n_signals);
 
-  /// @return as DecimatorStage::add
+  /// Adds the next sample.
+  /// @return the output sample that has become complete, if any
   std::optional<Eigen::VectorXd> add(const Eigen::VectorXd& x);
 
-  /// @return the samples that are left after the last one
+  /// Ends the signals.
+  /// @return the remaining output samples
   std::vector<Eigen::VectorXd> finish();
 
   void exchange(StateArchive& archive)

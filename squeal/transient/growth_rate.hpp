@@ -7,21 +7,22 @@
 
 namespace chladni::squeal {
 
-/// Slope of the least-squares line through ln(pad velocity) over the second half of the linear
-/// phase, which ends when the pad displacement first exceeds `linear_limit` (m). The first half is
-/// left to the modes that die out. Absent with less than eight points.
+/// Growth rate: slope of the least-squares line through ln(pad velocity) over the second half of
+/// the linear phase, which ends when the pad displacement first exceeds `linear_limit` (m). The
+/// first half is left out because decaying modes are still present. Absent for fewer than eight
+/// points.
+/// @return 1/s
 std::optional<double> growth_rate(const Envelope& envelope, double linear_limit);
 
-/// What is told as the growth at a speed: the eigenvalue's where there is one, else the measured
-/// one. A short run may show other motions than the least stable one. In 1/s.
+/// The growth rate to report, 1/s: that of the eigenvalue if known, else the measured one. A short
+/// transient may show other motions than the least stable one.
 double told_rate(const Growth& growth);
 
-/// Whether a growth rate that was measured in a transient belongs to another motion than the least
-/// stable one: it differs from the growth of the eigenvalue by more than a tenth of it, and by more
-/// than 0.01 1/s.
+/// Whether a growth rate measured in a transient belongs to another motion than the least stable
+/// one: it differs from that of the eigenvalue by more than a tenth and by more than 0.01 1/s.
 bool disagree(double measured, double of_eigenvalue);
 
-/// What to say of a transient with such a growth rate; empty when the two agree.
+/// A warning about a transient with such a growth rate; empty when the rates agree.
 std::string warning_of_growth(double measured, double of_eigenvalue);
 
 }  // namespace chladni::squeal

@@ -9,30 +9,32 @@
 
 namespace chladni::squeal {
 
-/// How to integrate a transient.
+/// Integration method of a transient with its parameters.
 struct IntegratorChoice {
-  IntegratorKind kind;   ///< never automatic
-  int steps_per_period;  ///< of the highest mode: with fixed steps, and at least with adaptive ones
-  double tolerance;      ///< of adaptive steps: error of a step, relative to |y|
-  std::string reason;    ///< why, for people
+  IntegratorKind kind;  ///< never `automatic`
+  /// Steps per period of the highest mode; for adaptive methods the minimum.
+  int steps_per_period;
+  double tolerance;    ///< for adaptive methods: error of a step relative to |y|
+  std::string reason;  ///< reason of the choice, for the user
 };
 
-/// The choice of the scene, or for "auto" the cheapest integrator that keeps `growth_error`:
-/// "generalised-alpha" when the disc with its pads at rest is stiff, that is when something decays
-/// faster than the highest mode oscillates, or when it becomes so where the start of the run may
-/// stop a pad on the disc; else "exponential" for an axisymmetric disc; else
-/// "splitting" unless its step would be so small that "dormand-prince" costs less. The error of a
-/// step length is that of the eigenvalues of the discrete motion near the sliding equilibrium.
+/// The integrator of the scene, or for "auto" the cheapest one within `growth_error`. It is
+/// "generalised-alpha" when the disc with its pads at rest is stiff, that is, when a motion decays
+/// faster than the highest mode oscillates, or becomes stiff because the start of the run may stop
+/// a pad on the disc. Otherwise it is "exponential" for an axisymmetric disc. Otherwise it is
+/// "splitting", unless its step would be so small that "dormand-prince" costs less. The error of a
+/// step size is that of the eigenvalues of the discretised motion near the sliding equilibrium.
 /// @throws chladni::Error when "exponential" is asked for and the disc is not axisymmetric.
 IntegratorChoice choose_integrator(const Disc& disc, const std::optional<InertialDisc>& inertial,
                                    const SquealOptions& options, const TransientCase& run);
 
-/// "splitting", ...; as in the scene.
+/// The name in the scene, such as "splitting".
 const char* name_of(IntegratorKind kind);
 
-/// Largest error (1/s) that steps of the splitting or of the generalised-alpha method add to a
-/// growth rate near the sliding equilibrium; 0 for the other kinds. Exact for the
-/// splitting, the leading term for the other one.
+/// Largest error (1/s) of a growth rate near the sliding equilibrium by steps of the splitting or
+/// of the generalised-alpha method; 0 for other methods. Exact for the splitting, the leading term
+/// for generalised-alpha.
+/// @param speed  rad/s
 double growth_error_of(IntegratorKind kind, const InertialDisc& disc, const SquealOptions& options,
                        double speed, int steps_per_period);
 

@@ -7,13 +7,15 @@
 
 namespace chladni::squeal {
 
-/// Steps of order 8 for one period of the highest frequency of a lumped brake, so that growth rates
-/// are right to about 1e-9 of the frequency.
+/// Steps of order 8 per period of the highest frequency of a lumped brake; growth rates are then
+/// accurate to about 1e-9 of the frequency.
 inline constexpr int lumped_steps_per_period = 40;
 
-/// A transient of a lumped brake at a constant speed by fixed steps of order 8, at t_i = i step.
-/// Where a contact opens or closes within a step, that step is of first order.
+/// A transient of a lumped brake at constant speed by fixed steps of order 8, at t_i = i step. A
+/// step in which a contact opens or closes is of first order.
 class LumpedSteps final : public TransientSteps {
+  /// @param brake  must outlive the steps
+  /// @param step   s
  public:
   /// @param brake  outlives the steps
   /// @param step   s
@@ -27,7 +29,7 @@ class LumpedSteps final : public TransientSteps {
  private:
   const LumpedBrake& brake_;
   double speed_, step_;
-  Eigen::VectorXd x_;  ///< at the next sample
+  Eigen::VectorXd x_;  ///< state at the next sample
   std::vector<ContactResult<double>> contacts_;
   std::int64_t n_ = 0;
   std::int64_t n_evaluations_ = 0;

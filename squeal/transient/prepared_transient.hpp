@@ -12,23 +12,24 @@
 
 namespace chladni::squeal {
 
-/// A transient that is ready to begin.
+/// A transient that is ready to start.
 struct PreparedTransient {
   RecordingPlan plan;
-  std::string integrator;  ///< as in the scene
-  std::string reason;      ///< why, for people
-  double rest_height;      ///< z of the first upper pad at rest, m
-  double first_sample;     ///< its time over the distance of the samples
+  std::string integrator;  ///< name as in the scene
+  std::string reason;      ///< reason of the choice, for the user
+  double rest_height;      ///< height z of the first upper pad at rest, m
+  double first_sample;     ///< time of the first sample divided by the sampling step
   std::unique_ptr<TransientSteps> steps;
-  std::optional<SnapshotRecorder> states;  ///< of a brake with a body; reads `modal`
-  const ModalSteps* modal;                 ///< the steps of a brake with a body; else null
+  std::optional<SnapshotRecorder> states;  ///< for a brake with a body; reads `modal`
+  const ModalSteps* modal;                 ///< the steps of a brake with a body, else null
 };
 
-/// @param brake, run  outlive the result
+/// Prepares a transient.
+/// @param brake, run  must outlive the result
 /// @throws chladni::Error as `transient`.
 PreparedTransient prepared_transient(const Brake& brake, const TransientCase& run);
 
-/// The lowest angular frequency of the small motions of the brake at a speed, rad/s.
+/// Lowest angular frequency of small motions of the brake at a speed (rad/s), rad/s.
 double lowest_frequency(const Brake& brake, double speed);
 
 }  // namespace chladni::squeal

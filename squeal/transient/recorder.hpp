@@ -11,17 +11,20 @@
 
 namespace chladni::squeal {
 
-/// The largest |x| of the peaks of a sampled oscillation, each refined by a parabola.
+/// Finds the largest |x| among the peaks of a sampled oscillation, each refined by a parabola.
 class PeakFinder {
+  /// Adds the next sample, at time `t` (s).
+  /// @param step  distance of the samples, s
  public:
   /// The next sample, at time `t`; samples are `step` apart (s).
   void add(double t, double x, double step);
 
-  /// The largest peak since the last call; absent when there was none.
+  /// A peak: its time and |x|.
   struct Peak {
     double t;
     double value;
   };
+  /// The largest peak since the last call; absent when there was none.
   std::optional<Peak> take();
 
   void exchange(StateArchive& archive);
@@ -33,39 +36,40 @@ class PeakFinder {
   std::optional<Peak> largest_;
 };
 
-/// What to record of a run of `n_steps` steps.
+/// Amount of data recorded of a run with `n_steps` steps.
 struct RecordingPlan {
   double step;  ///< s
   std::int64_t n_steps;
-  std::int64_t window;          ///< steps for one point of the envelope
-  std::int64_t n_fine_windows;  ///< points after which there are more steps for each
-  std::int64_t late_window;     ///< steps for one of those
-  Decimation history;           ///< of the steps
-  std::int64_t snapshots;       ///< steps for one snapshot
-  std::int64_t n_tail;          ///< steps of the tail
+  std::int64_t window;          ///< steps per point of the envelope
+  std::int64_t n_fine_windows;  ///< number of points with this window, before `late_window` applies
+  std::int64_t late_window;     ///< steps per point of the envelope afterwards
+  Decimation history;           ///< decimation of the history
+  std::int64_t snapshots;       ///< steps per snapshot
+  std::int64_t n_tail;          ///< number of steps in the tail
 };
 
-/// The motion at a sample.
+/// The state of the pads at a sample.
 struct Sample {
-  std::int64_t i;                                      ///< from 0
+  std::int64_t i;                                      ///< index, from 0
   double t;                                            ///< s
-  double speed;                                        ///< of rotation, rad/s
+  double speed;                                        ///< rotation speed, rad/s
   const std::vector<ContactResult<double>>& contacts;  ///< one for each pad pair
 };
 
-/// Collects the results of a transient while it runs.
+/// Records the results of a transient while it runs.
 class Recorder {
  public:
-  /// @param rest  height of the first upper pad when the disc is flat, m
+  /// @param rest  height of the first upper pad on the undeformed disc, m
   Recorder(const RecordingPlan& plan, double rest);
 
   void add(const Sample& sample);
-  /// After the last sample: completes what waits for more.
+  /// Completes pending data after the last sample.
   void finish();
   void exchange(StateArchive& archive);
+  /// Whether sample i belongs to the tail.
   bool in_tail(std::int64_t i) const { return i >= plan_.n_steps - plan_.n_tail; }
 
-  /// What was collected; `finished`, `speed` and `tail_a` are left to the caller.
+  /// The recorded data. `finished`, `speed` and `tail_a` are left to the caller.
   const Transient& transient() const { return transient_; }
 
  private:
@@ -81,7 +85,7 @@ class Recorder {
   Transient transient_{};
   Decimator history_;
   std::int64_t n_in_window_ = 0;
-  std::int64_t n_open_ = 0;  ///< in the window
+  std::int64_t n_open_ = 0;  ///< samples without contact in the window
   PeakFinder velocity_;
   PeakFinder displacement_;
 };

@@ -8,23 +8,25 @@
 
 namespace chladni::squeal {
 
-/// Samples of a signal at another rate while it is computed: convolution with a windowed sinc that
-/// cuts off below half of the lower rate, so that nothing is folded down. The signal counts as zero
-/// before it begins and after it ends.
+/// Converts a signal to another sampling rate while it is computed, by convolution with a windowed
+/// sinc whose cut-off is below half of the lower rate, so that there is no aliasing. The signal
+/// counts as zero before its begin and after its end.
 class Resampler {
  public:
-  /// @param step     of the samples that come in, s; the first one is at step / 2
-  /// @param rate_Hz  of those that go out, the first one at 0
+  /// @param step     distance of the input samples, s; the first one is at step / 2
+  /// @param rate_Hz  output rate; the first output sample is at t = 0
   Resampler(double step, int rate_Hz);
 
   void add(double x);
 
-  /// The samples that have become complete since the last call; after `finish`, the rest.
+  /// The output samples that have become complete since the last call; after `finish` all others.
   std::vector<float> take() { return std::exchange(out_, {}); }
+  /// Number of complete output samples that were not taken yet.
   std::size_t n_waiting() const { return out_.size(); }
+  /// Ends the signal.
   void finish();
 
-  /// What was not taken is no part of the state.
+  /// Archives the state, without the output samples that were not taken.
   void exchange(StateArchive& archive) { archive(in_, n_in_, n_out_); }
 
  private:
@@ -33,9 +35,9 @@ class Resampler {
 
   double step_;
   double rate_Hz_;
-  double half_width_;          ///< of the kernel, s
-  std::vector<double> table_;  ///< the kernel over 0 ... half_width_
-  std::vector<double> in_;     ///< ring of the latest samples
+  double half_width_;          ///< half width of the kernel, s
+  std::vector<double> table_;  ///< kernel values over 0 ... half_width_
+  std::vector<double> in_;     ///< ring buffer of the latest samples
   std::int64_t n_in_ = 0;
   std::int64_t n_out_ = 0;
   std::vector<float> out_;

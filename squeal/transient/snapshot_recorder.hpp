@@ -12,19 +12,20 @@
 
 namespace chladni::squeal {
 
-/// Keeps states of the modes while a transient runs: single ones over the whole run and, of an
+/// Records modal states while a transient runs: snapshots over the whole run and, for an
 /// axisymmetric disc, all displacements of the tail in the inertial frame.
 class SnapshotRecorder {
  public:
-  /// @param inertial, run  outlive the recorder
+  /// @param inertial, run  must outlive the recorder
   SnapshotRecorder(const Disc& disc, const std::optional<InertialDisc>& inertial,
                    const RecordingPlan& plan, const TransientCase& run);
 
-  /// The sample i at time t (s), at which the steps are now.
+  /// Records sample i at time t (s), which is the present state of the steps.
   void add(std::int64_t i, double t, const ModalSteps& steps);
 
+  /// The snapshots so far.
   Snapshots snapshots() const;
-  /// Transient::tail_a
+  /// The displacements for Transient::tail_a.
   Eigen::MatrixXd tail_a() const { return tail_a_.leftCols(n_tail_); }
 
   void exchange(StateArchive& archive);
@@ -34,7 +35,7 @@ class SnapshotRecorder {
   const std::optional<InertialDisc>& inertial_;
   RecordingPlan plan_;
   const TransientCase& run_;
-  Snapshots snapshots_;  ///< with room for all
+  Snapshots snapshots_;  ///< allocated for the whole run
   Eigen::MatrixXd tail_a_;
   Eigen::Index n_tail_ = 0;
 };

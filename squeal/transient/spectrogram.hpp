@@ -4,8 +4,8 @@
 
 namespace chladni::squeal {
 
-/// Of the whole history of a transient, in 200 windows at most, each at least 64 samples long, with
-/// the five strongest lines of each.
+/// Spectrogram of the whole history of a transient, in at most 200 windows of at least 64 samples,
+/// with the five strongest lines of each window.
 /// @throws chladni::Error for a history of fewer than 256 samples.
 Spectrogram spectrogram(const Transient& run);
 

@@ -111,8 +111,7 @@ double required_growth_rate(const Transient& run, double duration, double omega_
   if (duration >= least) {
     throw Error(
         fmt::format("growth: at {} rad/s the motion is small for too short a time to measure a "
-                    "growth rate; the "
-                    "analysis \"eigenvalues\" tells it",
+                    "growth rate; use the analysis \"eigenvalues\"",
                     run.speed));
   }
   throw Error(

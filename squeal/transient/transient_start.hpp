@@ -9,8 +9,8 @@
 
 namespace chladni::squeal {
 
-/// The state from which a transient starts, see `transient`: the pads at `angle` (rad) are
-/// displaced by `initial_pad_displacement`.
+/// Initial state of `transient`: the pads at `angle` (rad) are displaced by
+/// `initial_pad_displacement`.
 ModalState transient_start(const Disc& disc, const std::optional<InertialDisc>& inertial,
                            const TransientCase& run, double angle);
 

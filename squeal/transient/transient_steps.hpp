@@ -12,7 +12,7 @@
 
 namespace chladni::squeal {
 
-/// A transient as equally spaced samples; one class for each integrator.
+/// A transient as equally spaced samples, with a class for each integrator.
 class TransientSteps {
  public:
   TransientSteps() = default;
@@ -20,9 +20,9 @@ class TransientSteps {
   TransientSteps& operator=(const TransientSteps&) = delete;
   virtual ~TransientSteps() = default;
 
-  /// Goes on to the next sample.
-  /// @return the contacts there, one for each pad pair; not finite when the motion diverges; valid
-  ///         until the next call
+  /// Advances to the next sample.
+  /// @return contact states at the sample, one for each pad pair; not finite when the motion
+  ///         diverges; valid until the next call
   virtual const std::vector<ContactResult<double>>& next() = 0;
 
   virtual std::int64_t n_steps() const = 0;
@@ -30,22 +30,23 @@ class TransientSteps {
   virtual std::vector<ContactEvent> events() const { return {}; }
   virtual std::int64_t n_events() const { return 0; }
 
-  /// All that the samples to come depend on.
+  /// Archives all data that the further samples depend on.
   virtual void exchange(StateArchive& archive) = 0;
 };
 
 /// A transient of a disc with a body, sampled at t_i = (i + 1/2) step.
 class ModalSteps : public TransientSteps {
  public:
-  /// The modes of the disc at the sample, in the frame that rotates with the disc.
+  /// The modal state at the sample, in the frame that rotates with the disc.
   virtual ModalState state() const = 0;
 };
 
-/// Samples for one period of the highest mode with adaptive steps.
+/// Samples per period of the highest mode for adaptive integrators.
 inline constexpr int samples_per_period = 20;
 
-/// The steps of `choice.kind` from the state `start` at t = 0.
-/// @param step  of the samples, s; with "splitting" and "exponential" also of the integration
+/// The steps of the integrator `choice.kind` from the state `start` at t = 0.
+/// @param step  distance of the samples, s; for "splitting" and "exponential" also the integration
+///         step
 std::unique_ptr<ModalSteps> transient_steps(const Disc& disc, const SquealOptions& options,
                                             const TransientCase& run,
                                             const IntegratorChoice& choice, double step,

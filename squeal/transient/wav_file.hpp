@@ -9,27 +9,30 @@
 
 namespace chladni::squeal {
 
-/// What stands before the samples of a mono WAV file of 16 bits.
+/// Header data of a mono WAV file with 16 bits.
 struct WavFormat {
   std::int64_t n_samples;
   int rate_Hz;
-  double full_scale;         ///< the largest |x|; 0 for silence
-  std::string unit = "m/s";  ///< of `full_scale`
+  double full_scale;         ///< largest |x|; 0 for silence
+  std::string unit = "m/s";  ///< unit of `full_scale`
 };
 
-/// All bytes before the samples. A file beyond 4 GiB is an RF64 file: its sizes stand in a chunk
-/// `ds64`, and those of 32 bits are full. What full scale means stands in a comment (chunk LIST,
-/// INFO, ICMT): "full scale = 6.73 m/s".
+/// The header of the file, all bytes before the samples. A file above 4 GiB becomes an RF64 file:
+/// its sizes are in a chunk `ds64`, and the 32-bit sizes have their maximum. The value of full
+/// scale is in a comment (chunk LIST, INFO, ICMT): "full scale = 6.73 m/s".
 /// Source: EBU Tech 3306, MBWF / RF64 (2009).
 std::string wav_header(const WavFormat& format);
 
-/// Writes a WAV file piece by piece; an old one is left as it was until all is there.
+/// Writes a WAV file piece by piece; an existing file is replaced only by `commit`.
 class WavWriter {
  public:
+  /// Opens the file.
   /// @throws chladni::Error when the file cannot be written.
   WavWriter(const std::filesystem::path& path, const WavFormat& format);
 
+  /// Appends samples.
   void write(std::span<const float> x);
+  /// Completes the file.
   /// @return full scale; 1 for silence
   double commit();
 
@@ -38,9 +41,9 @@ class WavWriter {
   double scale_;
 };
 
-/// A whole WAV file, the largest sample of which is full scale.
+/// Writes a WAV file whose largest sample is full scale.
 /// @return full scale, the largest |x|; 1 for silence
-/// @throws chladni::Error when the file cannot be written; an old one is left as it was.
+/// @throws chladni::Error when the file cannot be written; an existing file then remains.
 double write_wav(const std::filesystem::path& path, std::span<const float> x, int rate_Hz,
                  const std::string& unit = "m/s");
 

@@ -35,7 +35,8 @@ WavSpool::~WavSpool()
 
 void WavSpool::fail() const
 {
-  throw Error(fmt::format("{}: samples of the sound: {}", spool_.string(), std::strerror(errno)));
+  throw Error(fmt::format("{}: the samples of the sound cannot be written or read: {}",
+                          spool_.string(), std::strerror(errno)));
 }
 
 void WavSpool::open_new()
@@ -54,7 +55,7 @@ void WavSpool::open_with(std::int64_t n)
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) fail();
   if (!S_ISREG(status.st_mode) || status.st_size < size) {
-    throw Error(fmt::format("{}: lacks samples of the sound; begin anew without --resume",
+    throw Error(fmt::format("{}: lacks samples of the sound; start again without --resume",
                             spool_.string()));
   }
   if (ftruncate(descriptor_, size) != 0 || lseek(descriptor_, 0, SEEK_END) < 0) fail();

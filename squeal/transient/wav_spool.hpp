@@ -11,12 +11,13 @@
 
 namespace chladni::squeal {
 
-/// The samples of a sound on their way to a WAV file. They go to a file of their own as they come,
-/// since the largest of them, which is full scale, is known at the end alone; so a long sound takes
-/// no memory.
+/// Collects the samples of a sound in a file of their own until the WAV file is written, because
+/// full scale is the largest sample, which is known only at the end. So a long sound needs no
+/// memory.
 class WavSpool {
  public:
-  /// @param spool  file for the samples, which nobody else uses meanwhile; a link is not followed
+  /// @param wav    the WAV file
+  /// @param spool  file for the samples, used by nobody else; a symbolic link is not followed
   WavSpool(std::filesystem::path wav, std::filesystem::path spool, int rate_Hz);
   ~WavSpool();
   WavSpool(const WavSpool&) = delete;
@@ -24,16 +25,18 @@ class WavSpool {
 
   int rate_Hz() const { return rate_Hz_; }  ///< of the samples
 
+  /// Appends samples.
   /// @throws chladni::Error when the file cannot be written.
   void add(const std::vector<float>& x);
 
   /// Writes the WAV file.
+  /// @throws chladni::Error when it cannot be written.
   void finish();
-  /// Full scale, m/s, when that was done.
+  /// Full scale, m/s; absent before `finish`.
   const std::optional<double>& full_scale() const { return full_scale_; }
 
-  /// The samples so far belong to the state of a run: from here on the file outlives the process.
-  /// @throws chladni::Error where the file of a state that is given back is missing or shorter.
+  /// Archives the position in the samples; from then on their file outlives the process.
+  /// @throws chladni::Error when a restored state's file of samples is missing or too short.
   void exchange(StateArchive& archive);
 
   /// Removes the file of the samples.
@@ -47,7 +50,7 @@ class WavSpool {
 
   std::filesystem::path wav_, spool_;
   int rate_Hz_;
-  int descriptor_ = -1;  ///< negative before the first sample
+  int descriptor_ = -1;  ///< file descriptor; negative before the first sample
   std::optional<files::UnfinishedFile> unfinished_;
   std::vector<float> waiting_;
   std::int64_t n_ = 0;

@@ -2,12 +2,12 @@
 
 namespace chladni::squeal {
 
-/// The kernel by which signals are brought to a lower rate: a sinc under a Blackman window with 24
-/// zeros on either side. It cuts off at 0.87 of the highest frequency `nyquist` that the lower rate
-/// holds: what lies below 0.76 of `nyquist` passes to 5e-4, what lies above `nyquist` is lowered by
-/// 74 dB. Times and frequencies are in one unit and its inverse.
+/// Low-pass kernel for a reduction of the sampling rate: a sinc with a Blackman window and 24 zeros
+/// on either side. Its cut-off is 0.87 of the highest frequency `nyquist` of the lower rate:
+/// frequencies below 0.76 of `nyquist` pass within 5e-4, frequencies above `nyquist` are attenuated
+/// by 74 dB. Times and frequencies have reciprocal units.
 
-/// Zeros of the sinc on either side.
+/// Number of zeros of the sinc on either side.
 inline constexpr int n_sinc_zeros = 24;
 
 /// Time beyond which the kernel is zero.

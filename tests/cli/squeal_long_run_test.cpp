@@ -70,7 +70,8 @@ TEST(LongRun, ThatWasKilledGoesOnToTheSameResults)
   write_text(killed.path() / "scene.toml", scene);
   const Ending anew = run(killed, squeal_run);
   EXPECT_EQ(anew.exit_code, 1) << "the state is not given up without a word";
-  EXPECT_NE(anew.err.find("--resume goes on from it, --overwrite begins anew"), std::string::npos)
+  EXPECT_NE(anew.err.find("continue it with --resume, or start again with --overwrite"),
+            std::string::npos)
       << anew.err;
   const Ending resumed = run(killed, squeal_run + "--resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;

@@ -80,7 +80,7 @@ def refusal(chladni, scene, folder, memory):
     """What a reduction has that is refused for its memory, what it needs, MiB, and how many modes were to be tried."""
     by_then, _, words = watched(chladni, "reduce", scene, "--output", folder, "--", "-cms_memory", memory)
     at_first = re.search(r"need at least (\d+) MiB", words)
-    later = re.search(r"(\d+) modes are to be tried, .* they need (\d+) MiB", words)
+    later = re.search(r"search goes on to (\d+) modes; .* they need (\d+) MiB", words)
     if at_first:
         return by_then, float(at_first[1]), None
     if later:

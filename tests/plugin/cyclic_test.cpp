@@ -302,7 +302,7 @@ TEST(CMSCyclic, RefusesEdgesThatDoNotMatch)
   refused("master 21 is in the high edge; give row 3 of the low edge", [](Solver& s) {
     petsc::check(s.set_masters({14, 21}));
   });
-  refused("harmonic 1 of no sectors", [](Solver& s) {
+  refused("harmonic 1 without sectors", [](Solver& s) {
     petsc::check(CMSSetCyclic(s.cms, 0, nullptr, nullptr, 1, nullptr));
     petsc::check(CMSSetHarmonic(s.cms, 1));
   });

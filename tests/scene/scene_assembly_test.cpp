@@ -105,11 +105,11 @@ TEST(SceneAssembly, SaysWhichKeyIsWrong)
       {"body = \"disc.body.h5\"", "body = \"disc.body.h5\"\nposition = [1.0, 0.0, 0.0]",
        "is that of the disc, which turns about the z axis of its own mesh"},
       {"[\"eigenvalues\"]", "[\"eigenvalues\", \"limit-cycle-branch\"]",
-       "is none of an assembly, whose contact is linear"},
+       "is not available for an assembly, whose contact is linear"},
       {"analyses = [",
        "transient = { speed_rad_s = 3.0, duration_s = 1.0, initial_pad_displacement = 1e-6 "
        "}\nanalyses = [",
-       "is none of an assembly, whose contact is linear; take it out"},
+       "is not available for an assembly, whose contact is linear; take it out"},
       {"[\"inner\", \"outer\"]", "[\"inner\", \"inner\"]", "names \"inner\" twice"},
       {"model = \"assembly\"", "", "belongs to an assembly"},
       {"span = 0.02", "span = 0.02\nstiffness = { x = 1.0 }", "joint[2].stiffness"},

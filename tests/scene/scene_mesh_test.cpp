@@ -186,7 +186,7 @@ TEST(SceneAccuracyError, NamesWhatItChoosesItself)
   starts(accurate("element_size = 0.01\n"),
          "scene.toml:6: mesh.element_size = 0.01: `accuracy` chooses it; take this key out");
   starts(accurate("", "[reduce]\nmethod = \"guyan\"\n"),
-         "scene.toml:18: reduce.method = \"guyan\": Guyan keeps no accuracy");
+         "scene.toml:18: reduce.method = \"guyan\": Guyan's method cannot keep an accuracy");
   starts(accurate("", "[reduce]\nmodes = 7\n"),
          "scene.toml:18: reduce.modes = 7: `accuracy` chooses what is kept; take this key out");
   starts("accuracy = 1e-3\n" + accurate().substr(accurate().find('\n') + 1),

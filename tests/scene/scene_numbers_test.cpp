@@ -87,8 +87,8 @@ std::string refusal(const std::string& key)
 TEST(SceneNumbers, ThatAreNotThereAreRefusedWithThoseThatAre)
 {
   EXPECT_EQ(refusal("squeal.pads.stifness"),
-            "scene.toml: squeal.pads.stifness is no number of the scene, and what varies must have "
-            "a value there; did you mean squeal.pads.stiffness?");
+            "scene.toml: squeal.pads.stifness is not a number in the scene, and only keys with a "
+            "value there can vary; did you mean squeal.pads.stiffness?");
   EXPECT_NE(refusal("squeal.model").find("there are: \"squeal.speeds.from_rad_s\""),
             std::string::npos);
   EXPECT_NE(refusal("squeal.pads[3].stiffness"), "");
@@ -97,8 +97,8 @@ TEST(SceneNumbers, ThatAreNotThereAreRefusedWithThoseThatAre)
 TEST(SceneNumbers, OfTheBodyAreRefused)
 {
   EXPECT_EQ(refusal("mesh.element_size"),
-            "scene.toml:10: mesh.element_size = 0.02: only keys of [squeal] can vary: all others "
-            "make another body, and that is made before");
+            "scene.toml:10: mesh.element_size = 0.02: only keys of [squeal] can vary: other "
+            "keys change the body, which is made before the sweep");
 }
 
 }  // namespace

@@ -106,23 +106,9 @@ TEST(Joints, LeaveTheRotationAboutTheNormalOfAShellAlone)
   EXPECT_EQ(error(), "");
 }
 
-/// A plate whose face nodes move along z alone in modes of their own as well, as many as there are.
-mbs_export::ModalBody bending_plate(const std::vector<Eigen::Vector3d>& face)
-{
-  mbs_export::ModalBody body = plate_body(plate, face);
-  const Eigen::Index n = std::ssize(face), rows = body.attachment_modes.rows();
-  body.attachment_modes.conservativeResize(rows, 6 + n);
-  body.attachment_modes.rightCols(n).setZero();
-  for (Eigen::Index i = 0; i < n; ++i) body.attachment_modes(6 * (i + 1) + 2, 6 + i) = 1.0;
-  body.omega.conservativeResize(6 + n);
-  body.omega.tail(n).setConstant(2.0 * pi * 2000.0);
-  body.kinds.resize(static_cast<std::size_t>(6 + n), mbs_export::ModeKind::constrained);
-  return body;
-}
-
 TEST(Joints, SayWhenTheyLockBodiesThatBend)
 {
-  const auto body = bending_plate(sector_points(ring_radius, sector, n_points));
+  const auto body = bending_plate(plate, sector_points(ring_radius, sector, n_points));
   const std::vector<Part> parts{placed(part_at("upper", 0.0), body),
                                 placed(part_at("lower", 0.0), body)};
   JointOptions joint{.ends = {PartNodes{"upper", "face"}, PartNodes{"lower", "face"}},

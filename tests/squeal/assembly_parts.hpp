@@ -47,6 +47,21 @@ inline mbs_export::ModalBody plate_body(const RigidPlate& plate,
   return body;
 }
 
+/// A plate whose face nodes move along z alone in modes of their own as well, as many as there are.
+inline mbs_export::ModalBody bending_plate(const RigidPlate& plate,
+                                           const std::vector<Eigen::Vector3d>& face)
+{
+  mbs_export::ModalBody body = plate_body(plate, face);
+  const Eigen::Index n = std::ssize(face), rows = body.attachment_modes.rows();
+  body.attachment_modes.conservativeResize(rows, 6 + n);
+  body.attachment_modes.rightCols(n).setZero();
+  for (Eigen::Index i = 0; i < n; ++i) body.attachment_modes(6 * (i + 1) + 2, 6 + i) = 1.0;
+  body.omega.conservativeResize(6 + n);
+  body.omega.tail(n).setConstant(2.0 * pi * 2000.0);
+  body.kinds.resize(static_cast<std::size_t>(6 + n), mbs_export::ModeKind::constrained);
+  return body;
+}
+
 /// Points in the middle of `n` equal parts of a sector about the x axis, seen from (r, 0, height).
 inline std::vector<Eigen::Vector3d> sector_points(double r, double sector, int n, double z = 0.0)
 {

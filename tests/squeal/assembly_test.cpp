@@ -33,7 +33,7 @@ Eigen::VectorXcd spectrum(const Eigen::MatrixXd& A)
 Eigen::MatrixXd matrix_of(const AssemblyOptions& options,
                           const std::vector<mbs_export::ModalBody>& bodies)
 {
-  return AssemblyBrake(assembly(options, bodies)).state_matrix(speed);
+  return AssemblyBrake(options, bodies).state_matrix(speed);
 }
 
 TEST(Assembly, OfRigidPlatesIsADiscBetweenPads)
@@ -244,7 +244,7 @@ TEST(Assembly, GivesItsLiningsTheValuesOfASquareMetreTimesTheirArea)
 
 TEST(Assembly, VariesWhatAllLiningsHave)
 {
-  const AssemblyBrake brake(assembly(two_plates(), bodies_of_two_plates()));
+  const AssemblyBrake brake(two_plates(), bodies_of_two_plates());
   AssemblyOptions other = two_plates();
   other.friction.kinetic = 0.3;
   for (FaceContact& contact : other.contacts) {
@@ -333,10 +333,10 @@ TEST(Assembly, SharesParametersThatDifferByRoundingAlone)
 {
   AssemblyOptions options = two_plates();
   options.contacts[1].stiffness.value *= 1.0 + 1e-13;
-  const AssemblyBrake equal(assembly(options, bodies_of_two_plates()));
+  const AssemblyBrake equal(options, bodies_of_two_plates());
   EXPECT_EQ(equal.parameters().size(), 4u);
   options.contacts[1].stiffness.value *= 1.1;
-  const AssemblyBrake other(assembly(options, bodies_of_two_plates()));
+  const AssemblyBrake other(options, bodies_of_two_plates());
   EXPECT_EQ(other.parameters().size(), 3u);
   EXPECT_EQ(other.assembly().notes.back().find("linings differ in stiffness:"), 0u);
   EXPECT_EQ(equal.assembly().notes.back().find("linings differ"), std::string::npos);

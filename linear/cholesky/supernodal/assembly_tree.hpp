@@ -9,16 +9,16 @@
 namespace chladni::linear {
 
 /// The columns of a Cholesky factor in supernodes: neighbouring columns with the same rows below
-/// them, here with some zeros stored so that there are fewer and wider ones. Children stand before
-/// their parents. Source: Liu, SIAM Review 34 (1992) 82; Ashcraft and Grimes, ACM TOMS 15 (1989)
-/// 291.
+/// them. Some zeros are stored so that supernodes are fewer and wider. Children come before their
+/// parents.
+/// Source: Liu, SIAM Review 34 (1992) 82; Ashcraft and Grimes, ACM TOMS 15 (1989) 291.
 struct AssemblyTree {
-  std::vector<int> position;              ///< [n] of each row of the matrix in the elimination
-  std::vector<int> row;                   ///< [n] the row at each position
-  std::vector<int> first_column;          ///< [n_supernodes + 1] positions
-  std::vector<int> parent;                ///< [n_supernodes], -1 at roots
+  std::vector<int> position;      ///< [n] place of each row of the matrix in the elimination
+  std::vector<int> row;           ///< [n] row at each place
+  std::vector<int> first_column;  ///< [n_supernodes + 1] first place of each
+  std::vector<int> parent;        ///< [n_supernodes]; -1 for a root
   std::vector<std::size_t> below_starts;  ///< [n_supernodes + 1]
-  std::vector<int> below_rows;            ///< positions below each supernode, ascending
+  std::vector<int> below_rows;            ///< places below each supernode, ascending
 
   int n_supernodes() const { return static_cast<int>(parent.size()); }
   int n_columns(int s) const { return first_column[s + 1] - first_column[s]; }
@@ -26,13 +26,14 @@ struct AssemblyTree {
   {
     return std::span(below_rows).subspan(below_starts[s], below_starts[s + 1] - below_starts[s]);
   }
-  /// Stored numbers of the factor in the columns of s.
+  /// Number of stored entries of the factor in the columns of s.
   double n_entries(int s) const;
   /// Floating-point operations of the elimination of s.
   double n_operations(int s) const;
 };
 
-/// @param places  [n] of the rows in the elimination order wanted; it is kept up to a postorder.
+/// Makes the tree of an elimination order.
+/// @param places  [n] wanted place of each row in the elimination; kept up to a postorder
 AssemblyTree assembly_tree(const QuotientGraph& graph, const std::vector<int>& places);
 
 }  // namespace chladni::linear

@@ -4,7 +4,7 @@
 
 namespace chladni::linear {
 
-/// The columns of a front, of which the first `n_columns` are eliminated: A = L D L^T.
+/// The columns of a front, the first `n_columns` of which are eliminated: A = L D L^T.
 struct FrontColumns {
   double* A;  ///< [n_rows x n_columns] by columns; lower triangle; becomes L, D on its diagonal
   double* W;  ///< as large; becomes L D below the diagonal
@@ -12,12 +12,13 @@ struct FrontColumns {
   int n_columns;
 };
 
-/// Without square roots and without pivoting: on stiff bodies that nearly float, a triangle L L^T
-/// loses three to sixty times as much of the rigid motions.
-/// @return the number of negative pivots, -1 at a pivot that is zero or no number.
+/// Eliminates without square roots and without pivoting. On stiff bodies that are nearly free, a
+/// factorisation L L^T loses three to sixty times as much of the rigid motions.
+/// @return the number of negative pivots; -1 at a pivot that is zero or NaN
 int eliminate_columns(const FrontColumns& front);
 
-/// C <- scale C - L_21 D L_21^T; lower triangle of what lies below the columns, by columns.
+/// C <- scale C - L_21 D L_21^T, the lower triangle of the rows below the columns, stored by
+/// columns.
 void subtract_from_rest(const FrontColumns& front, double scale, double* C);
 
 }  // namespace chladni::linear

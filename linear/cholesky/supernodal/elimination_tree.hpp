@@ -10,11 +10,11 @@ namespace chladni::linear {
 struct FundamentalSupernode {
   std::vector<int> columns;  ///< vertices in the order of their elimination
   std::vector<int> below;    ///< vertices, in the order of their elimination
-  int parent = -1;           ///< supernode
+  int parent = -1;           ///< index of the parent supernode; -1 for a root
 };
 
-/// Supernodes without any stored zero, children before parents.
-/// @param order  the vertices in the order of their elimination.
+/// The supernodes without stored zeros, children before parents.
+/// @param order  the vertices in the order of their elimination
 std::vector<FundamentalSupernode> fundamental_supernodes(const QuotientGraph& graph,
                                                          const std::vector<int>& order);
 

@@ -6,7 +6,7 @@
 
 namespace chladni::linear {
 
-/// The rows of a matrix that this rank eliminates, from wherever they are.
+/// The rows of a matrix that this rank eliminates, gathered from the ranks that own them.
 class GatheredRows {
  public:
   /// @param is_needed  [n rows]

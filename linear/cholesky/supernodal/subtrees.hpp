@@ -6,7 +6,7 @@
 
 namespace chladni::linear {
 
-/// Ranks first .. last - 1, which eliminate some supernodes alike.
+/// The ranks first .. last - 1, which eliminate the same supernodes.
 struct RankGroup {
   int first, last;
 
@@ -15,15 +15,17 @@ struct RankGroup {
   bool operator==(const RankGroup&) const = default;
 };
 
-/// The groups of more than one rank that a rank belongs to, the smallest first: all ranks, the half
-/// of them that it is in, and so on.
+/// The groups of more than one rank that a rank belongs to, smallest first: all ranks, the half of
+/// them with this rank, and so on.
 std::vector<RankGroup> groups_of(int rank, int n_ranks);
 
-/// Who eliminates which supernode. All ranks take what parts a tree into two subtrees for one half
-/// of them each, and so on down to whole subtrees of single ranks; a front is repeated on no other
-/// ranks than those whose subtrees hang below it. Each tree of a good part of the work is shared
-/// out by itself, so that it can be solved without the others.
-/// @return [n_supernodes] one rank, or a group of `groups_of`; a child's is within its parent's.
+/// Distributes the supernodes among ranks. The separator that divides a tree into two subtrees, one
+/// for each half of the ranks, is eliminated by all of them, and so on down to whole subtrees of
+/// single ranks. A front is repeated only on the ranks whose subtrees are below it. Each tree with
+/// a large share of the work is distributed separately, so that it can be solved without the
+/// others.
+/// @return [n_supernodes] one rank, or a group of `groups_of`; that of a child lies within its
+///         parent's
 /// Source: George, Liu and Ng, Parallel Computing 10 (1989) 287.
 std::vector<RankGroup> share_subtrees(const AssemblyTree& tree, int n_ranks);
 

@@ -15,31 +15,31 @@
 
 namespace chladni::linear {
 
-/// Supernodes of some trees, children first: those of this rank, and those that it shares with
-/// others, by their groups, the smallest first.
+/// Supernodes of some trees, children first: those of this rank, and those that it shares with its
+/// groups, smallest group first.
 struct Supernodes {
   std::vector<int> own;
   std::vector<std::vector<int>> shared;  ///< [groups of this rank]
 };
 
-/// Rows that are coupled to no others: what solves for them.
+/// The supernodes and the exchange with which to solve for rows that are coupled to no others.
 struct SupernodalPart {
   Supernodes supernodes;
   SlotExchange exchange;
 };
 
-/// What the pivots of A = L D L^T tell without a choice of pivots.
+/// The signs of the pivots of A = L D L^T without pivoting.
 struct PivotSigns {
   PetscInt n_negative;
-  /// The largest sum over j of L_ij^2 |D_jj| in units of what A_ii is made of: 1 of a definite
-  /// matrix, infinite where a pivot vanishes. By as much the elimination magnifies round-off.
+  /// The largest sum over j of L_ij^2 |D_jj| relative to the terms of A_ii: 1 for a definite
+  /// matrix, infinite if a pivot vanishes. The elimination amplifies round-off by this factor.
   double growth;
 };
 
-/// Sparse factor L D L^T of our own for many right-hand sides: nested dissection by METIS,
-/// multifrontal elimination without pivoting, and triangular solutions that read the factor as it
-/// stands in memory, tile by tile, once for all columns of a block. Whole subtrees belong to one
-/// rank; what stands above them, small for plates and shells, is repeated on the ranks below it.
+/// Our sparse factor L D L^T for many right-hand sides: nested dissection by METIS, multifrontal
+/// elimination without pivoting, and triangular solutions that read the factor in the order of
+/// memory, tile by tile, once for all columns of a block. Whole subtrees belong to one rank; the
+/// fronts above them, which are small for plates and shells, are repeated on the ranks below.
 class SupernodalFactor : public CholeskyFactor {
  public:
   explicit SupernodalFactor(MPI_Comm comm);
@@ -50,23 +50,23 @@ class SupernodalFactor : public CholeskyFactor {
   MatFactorError error() const override { return error_; }
   PetscInt n_negative_pivots() const override { return n_negative_; }
   bool is_reliable() const override;
-  /// Eliminates an analysed A of any inertia; nothing is kept.
-  /// @param size_of_diagonal  terms of each A_ii without their signs
+  /// Eliminates an analysed A of any inertia without keeping the factor.
+  /// @param size_of_diagonal  sums of the absolute terms of each A_ii
   /// @note   Collective.
   PivotSigns pivot_signs(Mat A, Vec size_of_diagonal);
   void release() override { tiles_.reset(); }
-  /// All of them: it chooses which go together.
+  /// All columns; `solve` groups them itself.
   PetscInt columns_at_a_time() const override { return std::numeric_limits<int>::max(); }
   void solve(LocalColumns X) override { solve(whole_, X); }
-  /// What solves for some rows alone.
-  /// @param rows  of the matrix; those of each rank ascend, and on the rank that owns them
-  /// @throws chladni::Error when others are coupled to them.
+  /// The data to solve for some rows alone.
+  /// @param rows  of the matrix; ascending on each rank, which owns them
   /// @note   Collective.
+  /// @throws chladni::Error when other rows are coupled to these.
   SupernodalPart part(IS rows) const;
   /// X <- A^-1 X for the rows of a part alone.
   void solve(const SupernodalPart& part, LocalColumns X);
   void solve(const SparseColumns& B, LocalColumns X) override;
-  /// X <- D^(-1/2) L^-1 X of a positive definite matrix, in the order of its rows.
+  /// X <- D^(-1/2) L^-1 X for a positive definite matrix, in the order of its rows.
   void solve_half(LocalColumns X);
   Memory forecast() const override;
   FactorSize size() const override;
@@ -85,7 +85,7 @@ class SupernodalFactor : public CholeskyFactor {
   bool is_counted_here(int s) const { return group_[s].first == rank_; }
   Supernodes of_trees(const std::vector<char>& roots) const;
   SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
-  /// What is done with the columns of a supernode that has been eliminated.
+  /// A function that uses the columns of a supernode after its elimination.
   using Visit = std::function<void(const Fronts& fronts, int s)>;
   void eliminate(Mat A, const Visit& visit);
   int eliminate_own(Fronts& fronts, const Visit& visit) const;
@@ -112,17 +112,18 @@ class SupernodalFactor : public CholeskyFactor {
   MatFactorError error_ = MAT_FACTOR_NOERROR;
   PetscInt n_negative_ = 0;
   AssemblyTree tree_;
-  std::vector<RankGroup> group_;          ///< [n_supernodes] who eliminates it
-  std::vector<RankGroup> groups_;         ///< of this rank with others, the smallest first
+  std::vector<RankGroup> group_;          ///< [n_supernodes] ranks that eliminate it
+  std::vector<RankGroup> groups_;         ///< of this rank with others, smallest first
   std::vector<MPI_Comm> group_comms_;     ///< [groups of this rank]
-  std::vector<int> tree_of_;              ///< [n_supernodes] the root above
-  std::vector<int> slot_;                 ///< [n positions] row of the panels, -1: not here
-  int n_slots_ = 0;                       ///< shared ones behind the own ones
+  std::vector<int> tree_of_;              ///< [n_supernodes] root of its tree
+  std::vector<int> slot_;                 ///< [n places] row of the panels; -1: not here
+  int n_slots_ = 0;                       ///< own slots, then shared ones
   std::vector<std::size_t> tile_starts_;  ///< [n_supernodes + 1]
-  std::vector<int> below_slots_;          ///< of all below_rows of the tree
+  std::vector<int> below_slots_;          ///< for all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
   SupernodalPart whole_;
-  double n_gathered_ = 0.0;  ///< entries of the rows that are gathered from other ranks, about
+  /// Approximate number of entries in the rows gathered from other ranks.
+  double n_gathered_ = 0.0;
 };
 
 }  // namespace chladni::linear
