@@ -1,15 +1,17 @@
 #!/usr/bin/python3
 """Runs the benchmarks one after the other and writes what they found.
 
-usage: bench.py [--quick] [--only NAME ...] OUTPUT
+usage: bench.py [--quick] [--only NAME ...] [--pages | --check] OUTPUT
 
-OUTPUT/results.json holds everything: machine, versions, and of each benchmark its commit, date and seconds, its
-JSON and its text. OUTPUT/results.md is made of it alone, and the table of results in README.md. With --quick small
-sizes are run, into a folder of their own, to see that everything works; the figures that documents show come from full
-runs. With --only the others stay as they were, with the commit and date that they had, results.md says that it is
-mixed, and README.md is left alone.
+Each benchmark writes its page and its JSON into OUTPUT. OUTPUT/results.json has the machine, the versions, and of each
+benchmark commit, date, seconds and the digest of its JSON. OUTPUT/README.md is an index that is made of these files alone:
+for each page a link and a few lines. With --quick small sizes are run, into a folder of their own, to see that everything
+works; the figures that documents show come from full runs. With --only the others stay as they were. With --pages nothing
+is run: index and README.md are made of the files that are there; with --check they must be what these files give. The three lines of the README.md of the project are
+written when OUTPUT is docs/results.
 """
 import argparse
+import hashlib
 import json
 import os
 import pathlib
@@ -144,11 +146,11 @@ def machine():
 
 
 def commit():
-    """Of the sources; what this program writes, docs/ and README.md, changes while it runs."""
+    """Of the sources; what this program writes, docs/results/ and README.md, changes while it runs."""
     git = lambda *words: subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True,
                                         check=False).stdout.strip()
     changed = " with changes" if git("status", "--porcelain", "--untracked-files=no", "--", ".",
-                                        ":!docs", ":!README.md") else ""
+                                        ":!docs/results", ":!README.md") else ""
     return git("rev-parse", "--short", "HEAD") + changed
 
 
@@ -166,72 +168,99 @@ def run_one(name, title, work, stem, out, quick):
     except RuntimeError as error:
         print(f"bench.py: {name}: {error}", file=sys.stderr)
         return {**stamp, "failed": str(error)}
-    found = {**stamp, "seconds": round(time.time() - start, 1), "load_before": load}
-    found["text"] = (out / f"{stem}.md").read_text(encoding="utf-8")
-    found["results"] = json.loads((out / f"{stem}.json").read_text(encoding="utf-8"))
-    return found
+    return {**stamp, "seconds": round(time.time() - start, 1), "load_before": load, "digest": digest(written[1])}
 
 
-def lowered(text):
-    """The text of one benchmark as a section: its headings one level down."""
-    return "\n".join("#" + line if line.startswith("#") else line for line in text.splitlines())
+def digest(path):
+    """Of a file of results, so that a stamp is known to be that of the file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
 
 
-def stamps(benchmarks, key):
-    """The different commits or dates of the benchmarks, in the order in which they come."""
-    return list(dict.fromkeys(found.get(key, "not recorded") for found in benchmarks.values()))
+def stamp_of(name, path, recorded):
+    """Commit, date, seconds and load of the results in a file; of those that were not written here what the file says."""
+    stamp = recorded.get(name, {})
+    if stamp.get("digest") == digest(path):
+        return stamp
+    found = json.loads(path.read_text(encoding="utf-8"))
+    machine = found.get("machine", {}) if isinstance(found, dict) else {}
+    return {"commit": machine.get("commit") if isinstance(machine, dict) else None}
 
 
-def common(benchmarks, key):
-    """What the header says of them."""
-    different = stamps(benchmarks, key)
-    return different[0] if len(different) == 1 else "mixed, as the sections say: " + ", ".join(different)
+def section(name, title, stem, out, recorded):
+    """A benchmark in the index: its link, and its facts."""
+    if "failed" in recorded.get(name, {}):
+        return [f"## {title}", "", "Failed:", "", "```", recorded[name]["failed"], "```", ""]
+    page, path = out / f"{stem}.md", out / f"{stem}.json"
+    if not (page.exists() and path.exists()):
+        return []
+    said = claims.facts(name, json.loads(path.read_text(encoding="utf-8")))
+    return [f"## [{heading(page)}]({stem}.md)", "", *([*(f"- {fact}" for fact in said), ""] if said else [])]
 
 
-def footer(found, benchmarks):
-    """What follows a section; commit and date too where they are not those of all."""
-    own = [f"{key} {found.get(key, 'not recorded')}" for key in ("commit", "date") if len(stamps(benchmarks, key)) > 1]
-    ran = [f"{found['seconds']:.0f} s", f"load of the machine before: {found['load_before']:.1f}"] if "seconds" in found else []
-    return f"*{'; '.join(ran + own)}*" if ran + own else ""
+def heading(page):
+    return page.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ")
 
 
-def markdown(results):
-    """results.md, of results.json alone."""
-    about, packages, benchmarks = results["machine"], results["versions"], results["benchmarks"]
+def runs(out, recorded):
+    """When each benchmark ran."""
+    lines = ["| page | commit | date | s | load before |", "|---|---|---|---|---|"]
+    for name, title, _, stem in BENCHMARKS:
+        if (out / f"{stem}.json").exists():
+            stamp = stamp_of(name, out / f"{stem}.json", recorded)
+            seconds, load = (f"{stamp[key]:{form}}" if key in stamp else "" for key, form in (("seconds", ".0f"), ("load_before", ".1f")))
+            lines.append(f"| [{title}]({stem}.md) | {stamp.get('commit') or ''} | {stamp.get('date', '')} | {seconds} | {load} |")
+    return lines
+
+
+def others(out):
+    """Pages in the folder that other programs write."""
+    own = {"README", *(stem for _, _, _, stem in BENCHMARKS)}
+    return [f"- [{heading(page)}]({page.name})" for page in sorted(out.glob("*.md")) if page.stem not in own]
+
+
+def index(out, results):
+    """README.md of the folder."""
+    about, packages, recorded = results["machine"], results["versions"], results["benchmarks"]
     lines = ["# Results", "",
-             f"Written by `./dev bench{' quick' if results['quick'] else ''}` from `results.json`; no number "
-             "here was typed. Times compare within one section only.", "",
-             "| | |", "|---|---|",
-             f"| commit | {common(benchmarks, 'commit')} |", f"| date | {common(benchmarks, 'date')} |",
-             f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
-             f"| system | {about['system']} |",
-             f"| memory | transparent huge pages: {about['huge_pages'] or 'none'}; page_reporting_order "
-             f"{about['page_reporting_order'] or 'none'} (above 10: a virtual machine keeps the pages it frees) |",
-             f"| packages | {', '.join(f'{k} {v}' for k, v in packages.items())} |", "",
-             "## In short", "", "The same table stands in README.md" +
-             (" as of the last run of all." if len(stamps(benchmarks, "commit")) > 1 else "."), "", *claims.table(benchmarks), ""]
-    for found in benchmarks.values():
-        if "failed" in found:
-            lines += [f"## {found['title']}", "", "Failed:", "", "```", found["failed"], "```", ""]
-        else:
-            lines += [lowered(found["text"]), ""]
-        lines += [footer(found, benchmarks), ""]
-    return "\n".join(lines)
+             f"An index of all benchmarks, written by `./dev bench{' quick' if results['quick'] else ''}` from the JSON files beside it; no "
+             "number here was typed. Times compare within one page only.", ""]
+    for name, title, _, stem in BENCHMARKS:
+        lines += section(name, title, stem, out, recorded)
+    if others(out):
+        lines += ["## Other pages that programs write", "", *others(out), ""]
+    return "\n".join([
+        *lines, "## Runs", "", "Empty cells: the benchmark was run by itself, and its page says what it knows.", "", *runs(out, recorded), "",
+        "| machine and software of the last run | |", "|---|---|",
+        f"| processor | {about['processor']}, {about['cores']} cores, {about['memory_GiB']} GiB |",
+        f"| system | {about['system']} |", f"| transparent huge pages | {about['huge_pages'] or 'none'} |",
+        f"| page_reporting_order (above 10: a virtual machine keeps the pages it frees) | {about['page_reporting_order'] or 'none'} |",
+        *(f"| {package} | {version} |" for package, version in packages.items()), ""])
 
 
 def earlier(out):
-    """The benchmarks of OUTPUT/results.json, each with its commit and date (before it had them: those of the file)."""
+    """OUTPUT/results.json, if there is one."""
     file = out / "results.json"
-    if not file.exists():
-        return {}
-    results = json.loads(file.read_text(encoding="utf-8"))
-    whole = {key: results[key] for key in ("commit", "date") if key in results}
-    return {name: {**whole, **found} for name, found in results["benchmarks"].items()}
+    return json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
 
 
 def write(out, results):
-    (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    (out / "results.md").write_text(markdown(results), encoding="utf-8")
+    (out / "results.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    (out / "README.md").write_text(index(out, results), encoding="utf-8")
+
+
+def readme(out):
+    """The project's README.md with its three lines of the results in a folder."""
+    read = lambda name: json.loads((out / f"{name}.json").read_text(encoding="utf-8"))
+    found = {name: read(stem) for name, _, _, stem in BENCHMARKS if name in ("scale", "peers", "squeal")}
+    return claims.put_into((ROOT / "README.md").read_text(encoding="utf-8"), found)
+
+
+def check(out):
+    """Whether the pages that are made of the results are theirs."""
+    old = [path for path, text in ((out / "README.md", index(out, earlier(out))), (ROOT / "README.md", readme(out)))
+           if path.read_text(encoding="utf-8") != text]
+    print("\n".join(f"FAILED: {path} is out of date: ./dev bench pages" for path in old) or "index and README.md are those of the results")
+    return 1 if old else 0
 
 
 def main():
@@ -239,18 +268,28 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="+", choices=[b[0] for b in BENCHMARKS], metavar="NAME")
+    parser.add_argument("--pages", action="store_true")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("output", type=pathlib.Path)
     arguments = parser.parse_args()
     out = arguments.output
+    if arguments.check:
+        return check(out)
     (out / "figures").mkdir(parents=True, exist_ok=True)
-    results = {"quick": arguments.quick, "machine": machine(), "versions": versions(),
-               "benchmarks": earlier(out) if arguments.only else {}}
-    for name, title, work, stem in BENCHMARKS:
-        if not arguments.only or name in arguments.only:
-            results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
-            write(out, results)
-    if not arguments.quick and not arguments.only:
-        claims.put_into(ROOT / "README.md", results["benchmarks"])
+    before = earlier(out)
+    if arguments.pages:
+        results = before
+        write(out, results)
+    else:
+        results = {"quick": arguments.quick, "machine": machine(), "versions": versions(),
+                   "benchmarks": before.get("benchmarks", {}) if arguments.only else {}}
+        for name, title, work, stem in BENCHMARKS:
+            if not arguments.only or name in arguments.only:
+                results["benchmarks"][name] = run_one(name, title, work, stem, out, arguments.quick)
+                write(out, results)
+    if out.resolve() == ROOT / "docs/results":
+        text = readme(out)
+        (ROOT / "README.md").write_text(text, encoding="utf-8")
     return 1 if any("failed" in found for found in results["benchmarks"].values()) else 0
 
 

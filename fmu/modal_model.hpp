@@ -22,7 +22,8 @@ struct ModalModel {
 /// Name of the model's file among the resources of its FMU.
 inline constexpr auto model_file = "body.chladni-fmu";
 
-/// The model as bytes, with numbers in the byte order of this machine; see docs/file_formats.md.
+/// The model as bytes, with numbers in the byte order of this machine; see
+/// docs/reference/file_formats.md.
 std::string packed(const ModalModel& model);
 
 /// The model that `packed` wrote.

@@ -1,5 +1,5 @@
 /* CMS: component mode synthesis (Guyan, Craig-Bampton and others) of any two symmetric PETSc
-   matrices, as a solver object in the style of PETSc and SLEPc. Plain C; docs/plugin.md is the
+   matrices, as a solver object in the style of PETSc and SLEPc. Plain C; docs/how-to/plugin.md is the
    guide.
 
      CMSCreate(comm, &cms);
@@ -140,7 +140,7 @@ PETSC_EXTERN PetscErrorCode CMSGetErrorBounds(CMS cms, PetscInt* n, const PetscR
 /* Returns counts, condition number and rigid-body residual. */
 PETSC_EXTERN PetscErrorCode CMSGetQuality(CMS cms, CMSQuality* quality);
 
-/* Prints a summary (ascii) or writes the reduced file of docs/file_formats.md (hdf5).
+/* Prints a summary (ascii) or writes the reduced file of docs/reference/file_formats.md (hdf5).
    -cms_view [ascii|hdf5:FILE] */
 PETSC_EXTERN PetscErrorCode CMSView(CMS cms, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode CMSViewFromOptions(CMS cms, PetscObject prefixed, const char name[]);

@@ -119,7 +119,7 @@ std::string scene_reference()
   constexpr std::string_view preface = R"(# Scene reference
 
 Every key of a scene file, SI units. `squeal scene-reference` prints this page from the table by which the programs check a
-scene; a test fails when it is not up to date (`squeal scene-reference > docs/scene_reference.md`).
+scene; a test fails when it is not up to date (`squeal scene-reference > docs/reference/scene.md`).
 
 A key of an inner table stands as `outer.inner`; a list of tables is written `[[outer]]` or `outer = [{ ... }]`; `*` is a name
 that you choose, or each of several. What must hold between keys is said by the message that a scene with a mistake gets.

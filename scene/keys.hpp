@@ -24,7 +24,7 @@ enum class KeyKind {
 };
 
 /// One key of the scene file: its allowed values and its meaning. The readers check values by these
-/// rows, and docs/scene_reference.md is generated from them.
+/// rows, and docs/reference/scene.md is generated from them.
 struct Key {
   std::string_view path;  ///< "mesh.rings.name"; `*` is a name that the user chooses
   KeyKind kind;
@@ -50,7 +50,7 @@ const Key* find_key(std::string_view path);
 /// The allowed words of a row as a list.
 std::vector<std::string> words_of(const Key& key);
 
-/// All rows as Markdown, for docs/scene_reference.md.
+/// All rows as Markdown, for docs/reference/scene.md.
 std::string scene_reference();
 
 }  // namespace chladni::scene

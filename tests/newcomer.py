@@ -1,4 +1,4 @@
-"""What a newcomer sees: a fresh clone, the commands of README.md under "Run it", and nothing else: no compiler cache, and
+"""What a newcomer sees: a fresh clone, the commands of docs/tutorial/first_run.md, and nothing else: no compiler cache, and
 none of the settings that ./dev makes for itself. What is installed goes to a folder that is removed again.
 
 Usage: newcomer.py OUTPUT.md. Called by `./dev newcomer`.
@@ -26,9 +26,9 @@ def shell(command, folder, environment):
 
 
 def commands():
-    """The indented lines of the section, each without its remark."""
-    section = (ROOT / "README.md").read_text().split("## Run it")[1].split("\n## ")[0]
-    return [line.strip().split("    #")[0].rstrip() for line in re.findall(r"^    (\S.*)$", section, re.M)]
+    """The indented lines of the page, each without its remark."""
+    page = (ROOT / "docs/tutorial/first_run.md").read_text()
+    return [line.strip().split("    #")[0].rstrip() for line in re.findall(r"^    (\S.*)$", page, re.M)]
 
 
 def exported(command, folder, environment):
@@ -50,7 +50,7 @@ def facts(load):
 
 def main(output):
     report = ["# A newcomer's log", "",
-              "Written by `./dev newcomer`: a fresh clone, then the commands of the README one by one, without compiler cache. Of "
+              "Written by `./dev newcomer`: a fresh clone, then the commands of docs/tutorial/first_run.md one by one, without compiler cache. Of "
               "each the last lines that it prints.", ""]  # fmt: skip
     load, missing = os.getloadavg()[0], not shutil.which("g++")
     with tempfile.TemporaryDirectory() as name:

@@ -1,5 +1,5 @@
-"""What the commands of README.md do on another Debian: a bare system in a folder, the committed files, ./dev demo and
-./dev test in it; as root. Adds a section of that system to a page, in place of an earlier one.
+"""`./dev demo` and `./dev test` on another Debian: a bare system in a folder and the committed files; as root. Adds a
+section of that system to a page, in place of an earlier one.
 
 Usage: on_system.py SUITE PAGE.md [FOLDER]. Called by `./dev test-on SUITE`. The system stays in FOLDER
 (/var/tmp/chladni-SUITE), so that a second call needs no download.

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 from scipy.linalg import eigh
 
-ETA = 0.02  # structural damping with which keep.tolerance compares responses, docs/theory.md
+ETA = 0.02  # structural damping with which keep.tolerance compares responses, docs/explanation/theory.md
 
 
 @dataclass(frozen=True)

@@ -146,7 +146,7 @@ def discrete_table(series):
 
 
 def hard_cases_table(rows):
-    yield "\n## Hard cases\n\nWhat they mean and where they end is in [squeal_models.md](squeal_models.md).\n\n"
+    yield "\n## Hard cases\n\nWhat they mean and where they end is in [squeal_models.md](../explanation/squeal_models.md).\n\n"
     yield "| case | setting | result | beside it |\n| --- | --- | --- | --- |\n"
     for row in rows:
         yield f"| {row['case']} | {row['setting']} | {row['result']} | {row['reference']} |\n"

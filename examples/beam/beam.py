@@ -167,7 +167,7 @@ def receptances(file, case, Omega):
 
 
 def largest_response_error(complete, file, case, n=3000):
-    """Over the range up to HIGHEST, as docs/theory.md defines it."""
+    """Over the range up to HIGHEST, as docs/explanation/theory.md defines it."""
     Omega = np.linspace(0, HIGHEST, n + 1)
     exact, incoherent = receptances(complete, case, Omega)
     difference = np.abs(receptances(file, case, Omega)[0] - exact)

@@ -10,9 +10,9 @@ namespace chladni::mbs_export {
 /// The value of the attribute `format` of a body file.
 inline constexpr auto body_format = "chladni-body";
 
-/// Writes *.body.h5, format "chladni-body" version 1 (docs/file_formats.md), in full precision,
-/// with the circumferential Fourier coefficients of each contact ring for other programs. The file
-/// appears completely or not at all.
+/// Writes *.body.h5, format "chladni-body" version 1 (docs/reference/file_formats.md), in full
+/// precision, with the circumferential Fourier coefficients of each contact ring for other
+/// programs. The file appears completely or not at all.
 /// @throws chladni::Error when the file cannot be written.
 void write_body(const std::string& path, const ModalBody& body);
 

@@ -3,7 +3,7 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/certificate.hpp"
 
-/// The group `certificate` of the reduced file (docs/file_formats.md).
+/// The group `certificate` of the reduced file (docs/reference/file_formats.md).
 namespace chladni::mbs_export {
 
 /// Writes the group; writes nothing if the certificate is empty.

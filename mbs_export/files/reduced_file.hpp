@@ -10,8 +10,8 @@ namespace chladni::mbs_export {
 /// The value of the attribute `format` of a reduced file.
 inline constexpr auto reduced_format = "chladni-reduced";
 
-/// Writes *.reduced.h5, format "chladni-reduced" version 1 (docs/file_formats.md), in full
-/// precision. The file appears completely or not at all.
+/// Writes *.reduced.h5, format "chladni-reduced" version 1 (docs/reference/file_formats.md), in
+/// full precision. The file appears completely or not at all.
 /// @throws chladni::Error when the file cannot be written.
 void write_reduced(const std::string& path, const ReducedSystem& reduced);
 

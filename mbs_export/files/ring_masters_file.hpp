@@ -3,8 +3,8 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/reduced_system.hpp"
 
-/// The parts of the reduced file about masters that are harmonics of rings (docs/file_formats.md).
-/// They are absent if each master is a DOF of a node.
+/// The parts of the reduced file about masters that are harmonics of rings
+/// (docs/reference/file_formats.md). They are absent if each master is a DOF of a node.
 namespace chladni::mbs_export {
 
 void write_ring_masters(files::Writer& file, const ReducedSystem& reduced);

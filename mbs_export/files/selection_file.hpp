@@ -5,7 +5,7 @@
 #include "files/hdf5.hpp"
 #include "mbs_export/modal_body.hpp"
 
-/// The group `selection` of the body file (docs/file_formats.md).
+/// The group `selection` of the body file (docs/reference/file_formats.md).
 namespace chladni::mbs_export {
 
 void write_selection(files::Writer& file, const SelectionTable& table);

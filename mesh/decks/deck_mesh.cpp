@@ -181,7 +181,7 @@ Mesh mesh_of(const Deck& deck, const std::vector<std::string>& line_groups)
   if (mesh.blocks.empty()) {
     throw Error(
         "it has neither shell elements nor beams of the group of a beam section; see "
-        "docs/meshes.md for what can be read");
+        "docs/how-to/meshes.md for what can be read");
   }
   mesh.notes.insert(mesh.notes.begin(), deck.notes.begin(), deck.notes.end());
   add_inner_nodes(mesh);

@@ -1,4 +1,4 @@
-"""What the axes of the arrays of a file are, by the names of its datasets (docs/file_formats.md)."""
+"""What the axes of the arrays of a file are, by the names of its datasets (docs/reference/file_formats.md)."""
 
 import re
 

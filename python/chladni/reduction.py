@@ -1,4 +1,4 @@
-"""Component-mode synthesis of any two symmetric matrices, of petsc4py or of scipy (docs/plugin.md is its theory)."""
+"""Component-mode synthesis of any two symmetric matrices, of petsc4py or of scipy (docs/how-to/plugin.md is its theory)."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ class CMS:
         self._cms.view((viewer or PETSc.Viewer.STDOUT(self._comm)).handle)
 
     def write(self, path: str) -> None:
-        """The reduced file of docs/file_formats.md, which `chladni.open` reads."""
+        """The reduced file of docs/reference/file_formats.md, which `chladni.open` reads."""
         self._cms.write(path)
 
     def _dense(self, rows: np.ndarray) -> PETSc.Mat:

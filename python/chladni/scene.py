@@ -25,7 +25,7 @@ Listener = Callable[[str, float], object]
 
 
 class Scene:
-    """One case from the mesh to the squeal, checked as the programs check a scene file (docs/scene_reference.md).
+    """One case from the mesh to the squeal, checked as the programs check a scene file (docs/reference/scene.md).
 
     Args:
         source: text of a scene file, or its keys as nested dicts

@@ -84,7 +84,7 @@ std::string read_benchmark(const std::string& file)
   const auto json = nlohmann::json::parse(text.str(), nullptr, false);
   if (!json.is_object() || !json.contains("studies") || !json["studies"].is_array()) {
     throw Error(
-        fmt::format("{}: must be the end_to_end.json of `./dev bench`; docs/report.md "
+        fmt::format("{}: must be the end_to_end.json of `./dev bench`; docs/how-to/report.md "
                     "says what is read of it",
                     file));
   }

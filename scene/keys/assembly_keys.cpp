@@ -14,7 +14,7 @@ constexpr Admissible friction{
 
 constexpr Key assembly_rows[] = {
     {"part", tables, "required for an assembly",
-     "a modal body of the brake; [assembly](several_bodies.md)"},
+     "a modal body of the brake; [assembly](../how-to/several_bodies.md)"},
     {"part.name", text, "required", "by which joints and contacts name it"},
     {"part.body", text, "required", "its file, as seen from the folder of --output"},
     {"part.position", numbers, "[0, 0, 0]", "of the origin of its mesh in the brake", place},

@@ -12,7 +12,7 @@ constexpr Key mesh_rows[] = {
     {"name", text, "disc", "stem of the files that the programs write; letters, digits, _ and -"},
     {"title", text, "the name", "for people"},
     {"accuracy", table, "as mesh and [reduce] are",
-     "chooses the mesh and the reduction; [how](meshes.md#a-mesh-for-an-accuracy)"},
+     "chooses the mesh and the reduction; [how](../how-to/meshes.md#a-mesh-for-an-accuracy)"},
     {"accuracy.error",
      number,
      "required",
@@ -24,7 +24,7 @@ constexpr Key mesh_rows[] = {
      "required",
      "of the frequencies that keep it",
      {.above = 0.0, .unit = "Hz"}},
-    {"mesh", table, "required, but for models without a body", "[meshes](meshes.md)"},
+    {"mesh", table, "required, except for models without a body", "[meshes](../how-to/meshes.md)"},
     {"mesh.generator",
      word,
      "or `file`",
@@ -91,7 +91,7 @@ constexpr Key mesh_rows[] = {
      "1; with `accuracy` what \"auto\" finds, where nothing is lost",
      "annulus, hat_disc, files: equal sectors about the z axis, of which one is meshed, 3 or more; "
      "1: the whole body; \"auto\": as many as the mesh of the whole body has; "
-     "[sectors](sectors.md)",
+     "[sectors](../how-to/sectors.md)",
      {.at_least = 1, .at_most = 1e4}},
     {"mesh.rings", tables, "none", "circles with nodes exactly on them"},
     {"mesh.rings.name", text, "required", "by which the scene speaks of it"},

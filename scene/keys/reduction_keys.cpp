@@ -22,7 +22,8 @@ constexpr Key reduction_rows[] = {
      "highest harmonic, cos and sin of six components each; half of the ring's nodes at most",
      {.at_least = 1}},
     {"interface.dofs", texts, "all six", "not available yet"},
-    {"reduce", table, "required for a reduction without `accuracy`", "[theory](theory.md)"},
+    {"reduce", table, "required for a reduction without `accuracy`",
+     "[theory](../explanation/theory.md)"},
     {"reduce.method",
      word,
      "auto with a tolerance, else required",
@@ -44,7 +45,8 @@ constexpr Key reduction_rows[] = {
     {"reduce.ranks_per_harmonic",
      integer,
      "as many as there are for each",
-     "of [sectors](sectors.md): MPI ranks that share one harmonic, of which less memory each has",
+     "of [sectors](../how-to/sectors.md): MPI ranks that share one harmonic, of which less memory "
+     "each has",
      {.at_least = 1}},
     {"reduce.mesh_errors", truth, "true with `accuracy`, else false",
      "estimate what the mesh lets each frequency of the body be off"},
@@ -64,7 +66,8 @@ constexpr Key reduction_rows[] = {
     {"reduce.stiffening",
      texts,
      "none",
-     "motions of the frame whose stress stiffens the [body](theory.md) held as `body.fixed` says; "
+     "motions of the frame whose stress stiffens the [body](../explanation/theory.md) held as "
+     "`body.fixed` says; "
      "for other programs: `[squeal]` does not use it",
      {},
      "spin-x | spin-y | spin-z | spin | angular-acceleration | acceleration"},
@@ -110,7 +113,8 @@ constexpr Key reduction_rows[] = {
     {"body.damping.ratio",
      number,
      "required for modal",
-     "of critical; one, a list of one for each mode, or a [table](damping.md) over the frequency",
+     "of critical; one, a list of one for each mode, or a [table](../how-to/damping.md) over the "
+     "frequency",
      {.at_least = 0.0, .below = 1.0}},
     {"body.damping.ratio.at_Hz",
      numbers,

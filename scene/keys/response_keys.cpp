@@ -10,7 +10,7 @@ constexpr Admissible place{.unit = "m"};
 constexpr Admissible frequency{.at_least = 0.0, .unit = "Hz"};
 
 constexpr Key response_rows[] = {
-    {"response", table, "not asked for", "[`chladni response`](response.md)"},
+    {"response", table, "not asked for", "[`chladni response`](../how-to/response.md)"},
     {"response.of",
      word,
      "body",

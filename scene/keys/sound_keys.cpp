@@ -8,7 +8,7 @@ using enum KeyKind;
 constexpr Admissible length{.above = 0.0, .unit = "m"};
 
 constexpr Key sound_rows[] = {
-    {"sound", table, "not asked for", "what `chladni sound` does, [sound](sound.md)"},
+    {"sound", table, "not asked for", "what `chladni sound` does, [sound](../how-to/sound.md)"},
     {"sound.microphones", tables, "none", "where the sound is listened to"},
     {"sound.microphones.name", text, "required", "each another one"},
     {"sound.microphones.position",

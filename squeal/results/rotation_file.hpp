@@ -5,7 +5,7 @@
 
 namespace chladni::squeal {
 
-/// Writes the group /rotation_stability of a result file; see docs/file_formats.md.
+/// Writes the group /rotation_stability of a result file; see docs/reference/file_formats.md.
 void write_rotation_stability(files::Writer& file, const RotationStability& stability);
 
 /// Reads the group /rotation_stability, also from files of earlier versions, which have neither

@@ -10,7 +10,7 @@
 namespace chladni::squeal {
 
 /// Writes the datasets `stability`, `range/...` and `unstable/...` of a group; see
-/// docs/file_formats.md.
+/// docs/reference/file_formats.md.
 /// @param unit  unit of the parameter
 void write_profile(files::Writer& file, const std::string& group, const StabilityProfile& profile,
                    const std::string& unit);

@@ -5,7 +5,7 @@
 
 namespace chladni::squeal {
 
-/// Writes the group /stability of a result file; see docs/file_formats.md.
+/// Writes the group /stability of a result file; see docs/reference/file_formats.md.
 void write_stability_table(files::Writer& file, const StabilityTable& table);
 
 /// Reads the group /stability of a result file.

@@ -29,7 +29,7 @@ constexpr int step_counts[] = {10, 14, 20, 28, 40, 56, 80, 112, 160, 224, 320, 4
 /// Steps of the splitting for one period of the highest mode from which on "dormand-prince", with
 /// its 12 evaluations for each of about 8 steps, needs no more evaluations than the splitting.
 constexpr int splitting_steps_max = 48;
-/// Of "exponential" and at least of "dormand-prince"; see docs/squeal_benchmarks.md.
+/// Of "exponential" and at least of "dormand-prince"; see docs/results/squeal_benchmarks.md.
 constexpr int exponential_steps = 16;
 constexpr int dormand_prince_steps = 6;
 /// Growth error (1/s) on the reference disc of 20 steps of the splitting for a period of the
@@ -114,7 +114,8 @@ double largest_error(const Eigen::VectorXcd& exact, const Eigen::VectorXcd& disc
 }
 
 /// The fewest steps that keep the growth error, the most that are tried when none does. For a disc
-/// that is not axisymmetric, as many as the reference disc needs (docs/squeal_benchmarks.md).
+/// that is not axisymmetric, as many as the reference disc needs
+/// (docs/results/squeal_benchmarks.md).
 int steps_for(IntegratorKind kind, const std::optional<InertialDisc>& disc,
               const SquealOptions& options, const TransientCase& run)
 {

@@ -39,7 +39,7 @@ def main(programs):
     with tempfile.TemporaryDirectory() as folder:
         for name in ("oscillator", "rigid_disc"):
             works(programs / "squeal", "run", EXAMPLES / name / "scene.toml", "--output", folder)
-        # As docs/sweeps.md shows it.
+        # As docs/how-to/sweeps.md shows it.
         works(programs / "squeal", "sweep", EXAMPLES / "rigid_disc/scene.toml", "--output", folder, "--analyses", "critical-speed",
               "--vary", "squeal.friction=0.3:0.6:7", "--vary", "squeal.pads.preload=2000,3000,4000")  # fmt: skip
         works(sys.executable, EXAMPLES / "mechanisms/compare.py", programs / "squeal", folder, folder)

@@ -27,7 +27,7 @@ map = { parameter = "stiffness", from = 1e6, to = 9e6, count = 10 }
 transient = { speed_rad_s = 18.85, duration_s = 0.3, initial_pad_displacement = 6.8e-8 }
 """
 # As the benchmark writes it, with a name that would end a script.
-BENCHMARK = json.loads((ROOT / "docs/end_to_end.json").read_text())
+BENCHMARK = json.loads((ROOT / "docs/results/end_to_end.json").read_text())
 BENCHMARK["studies"][0]["case"] = "disc </script>"
 
 # What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.

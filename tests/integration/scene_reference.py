@@ -1,4 +1,4 @@
-"""docs/scene_reference.md is what the program prints, and its table is complete.
+"""docs/reference/scene.md is what the program prints, and its table is complete.
 
 Each key that a reader asks for has a row, each row is asked for, and each key of the examples is in it.
 Usage: scene_reference.py PROGRAM_DIR
@@ -36,7 +36,7 @@ def paths_of(table, prefix=""):
 
 def main(programs):
     printed = subprocess.run([programs / "squeal", "scene-reference"], capture_output=True, text=True, check=True).stdout
-    document = (ROOT / "docs/scene_reference.md").read_text()
+    document = (ROOT / "docs/reference/scene.md").read_text()
     rows = re.findall(r"^\| `([\w.*]+)` \|", printed, re.M)
     fail_on("row without a meaning", {line.split("`")[1] for line in printed.splitlines() if line.startswith("| `") and line.endswith("|  |")})
     names = {row.split(".")[-1] for row in rows} - {"*"}
@@ -48,8 +48,8 @@ def main(programs):
     used = {path for scene in scenes for path in paths_of(tomllib.loads(scene.read_text()))}
     fail_on("key of the examples without a row", {path for path in used if not any(p.match(path) for p in patterns)})
     if document != printed:
-        sys.exit("FAILED: docs/scene_reference.md is out of date: squeal scene-reference > docs/scene_reference.md")
-    print(f"ok      docs/scene_reference.md is up to date, {len(rows)} keys in {len(scenes)} scenes")
+        sys.exit("FAILED: docs/reference/scene.md is out of date: squeal scene-reference > docs/reference/scene.md")
+    print(f"ok      docs/reference/scene.md is up to date, {len(rows)} keys in {len(scenes)} scenes")
 
 
 if __name__ == "__main__":

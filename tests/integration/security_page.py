@@ -1,4 +1,4 @@
-"""Each line of docs/security.md names tests, and these exist.
+"""Each line of docs/explanation/security.md names tests, and these exist.
 
 Usage: security_page.py SOURCE_DIR
 """
@@ -30,7 +30,7 @@ def rows(page):
 
 def wrong(source):
     tests = names_of_tests(source)
-    for cells in rows((source / "docs" / "security.md").read_text()):
+    for cells in rows((source / "docs/explanation/security.md").read_text()):
         named = re.findall(r"`([\w*]+\.[\w*]+)`", cells[-1])
         if not named:
             yield f"no test for: {cells[0]}"
@@ -40,5 +40,5 @@ def wrong(source):
 
 
 failures = list(wrong(Path(sys.argv[1])))
-print("\n".join(f"FAILED: {line}" for line in failures) or "each line of docs/security.md has a test")
+print("\n".join(f"FAILED: {line}" for line in failures) or "each line of docs/explanation/security.md has a test")
 sys.exit(bool(failures))

@@ -1,4 +1,4 @@
-"""Runs docs/tutorial.md: writes its files, runs its commands. What they print must be what stands there, but
+"""Runs docs/tutorial/brake.md: writes its files, runs its commands. What they print must be what stands there, but
 for the digits of numbers; --update writes it into the tutorial instead.
 
 Usage: tutorial.py PROGRAM_DIR [--update]
@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TUTORIAL = Path(__file__).parents[2] / "docs/tutorial.md"
+TUTORIAL = Path(__file__).parents[2] / "docs/tutorial/brake.md"
 BLOCK = re.compile(r"^```(\w+) ?(\S*)\n(.*?)^```\n(?:\n```text\n.*?^```\n)?", re.M | re.S)
 # Times and memory differ from run to run.
 VOLATILE = re.compile(r"^(phase |CPU of the factorisation|.* \d+\.\d{3} +\d+\.\d{3}$|peak memory)")
@@ -61,7 +61,7 @@ def main(programs, update=False):
         return
     changes = list(difflib.unified_diff(without_numbers(tutorial), without_numbers(written), "tutorial", "printed", n=0))
     if changes:
-        sys.exit("FAILED: the programs print something else; ./dev docs writes it anew\n" + "\n".join(changes))
+        sys.exit("FAILED: the programs print something else; ./dev pages writes it anew\n" + "\n".join(changes))
 
 
 if __name__ == "__main__":

@@ -106,7 +106,7 @@ TEST(Analyses, HaveOneStepEach)
 
 TEST(Analyses, OfModelsStandInTheirDocument)
 {
-  std::ifstream document(CHLADNI_SOURCE_DIR "/docs/rigid_disc.md");
+  std::ifstream document(CHLADNI_SOURCE_DIR "/docs/explanation/rigid_disc.md");
   std::string row;
   while (std::getline(document, row) && !row.starts_with("| `analyses` |")) {
   }

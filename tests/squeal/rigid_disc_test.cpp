@@ -140,7 +140,7 @@ TEST(RigidDisc, HasNoCriticalSpeedWithoutFriction)
       [&](double speed) { return first_order(rigid_disc_matrices(disc, speed)); }, speeds)));
 }
 
-// What docs/rigid_disc.md says about equation (3.2) of the source and its 10.4 pi.
+// What docs/explanation/rigid_disc.md says about equation (3.2) of the source and its 10.4 pi.
 TEST(RigidDiscNote, NoReadingOfTheSourceGivesItsCriticalSpeed)
 {
   const RigidDisc disc = source_disc();
