@@ -1,4 +1,4 @@
-"""The brake of examples/brake against its finite elements without any reduction, with and without interface modes.
+"""The brake of examples/brake against its finite elements without any reduction: with and without interface modes, and condensed.
 
 Usage: assembly.py PROGRAM_DIR
 """
@@ -54,6 +54,10 @@ def many():
 # The largest relative error that each may have below BAND_HZ. Many coordinates differ from the finite elements by what the
 # reductions lack; of few, the errors are those of plates and disc under a lining, which modes of free plates do not know.
 CASES = {"many": (many, 1e-3), "response modes": (with_response_modes, 8e-3), "modes alone": (modes_alone, 0.05)}
+
+
+# What condensed bodies of at most so many coordinates together are asked to keep, beside the finite elements.
+CONDENSED, AT_MOST = 1e-3, 60
 
 
 def text_without(text, table):
@@ -151,6 +155,16 @@ def seen_by_friction(values):
     return numpy.array([value for value in values if abs(value.real) > 1e-7 * abs(value)])
 
 
+def condensed(programs, folder, text):
+    """The scene with small bodies that `squeal condense` makes of the large ones at hand."""
+    (folder / "scene.toml").write_text(text)
+    run(programs / "squeal", "condense", folder / "scene.toml", "--output", folder / "out", "--up-to-Hz", BAND_HZ,
+        "--tolerance", CONDENSED / 2)  # fmt: skip
+    small, n = re.subn(r'(name = "(\w+)"[^\n]*\nbody = )"[^"]+"', r'\1"condensed/\2.body.h5"', text)
+    assert n == 4, "a part of the scene was not found"
+    return small
+
+
 def compared_scene():
     """The example at two speeds, with a disc whose matrices stand still."""
     text = (EXAMPLE / "scene.toml").read_text()
@@ -184,6 +198,12 @@ def main(programs):
             print(f"{what}: {len(values)} coordinates, errors {errors.max():.1e} at most, median {numpy.median(errors):.1e}")
             if not errors.max() < limit:
                 sys.exit(f"FAILED: {what}: {errors.max():.2e} is not below {limit}")
+            if what == "many":
+                values = eigenvalues_of(programs, folder, condensed(programs, folder, text))
+                errors = errors_of(values, exact)
+                print(f"condensed: {len(values)} coordinates, errors {errors.max():.1e} at most, median {numpy.median(errors):.1e}")
+                if len(values) > AT_MOST or not errors.max() < CONDENSED:
+                    sys.exit(f"FAILED: condensed: {len(values)} coordinates, {errors.max():.2e}")
         if not 3 * largest["response modes"] < largest["modes alone"]:
             sys.exit("FAILED: response modes do not reduce the largest error by three")
 

@@ -96,7 +96,8 @@ const GradientRow& row_of(const Gradients& found, const std::string& key)
 
 Gradients gradients_of(const AssemblyOptions& options, const Bodies& bodies)
 {
-  StudyOptions study{.speeds = {.from = 5.0, .to = 60.0, .count = 12}};
+  StudyOptions study{};
+  study.speeds = {.from = 5.0, .to = 60.0, .count = 12};
   study.gradients = GradientCase{.speed = growth_speed};
   return gradients(AssemblyBrake(options, bodies), study);
 }

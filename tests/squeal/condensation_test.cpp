@@ -1,0 +1,107 @@
+#include "squeal/assembly/condensation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "assembly_parts.hpp"
+#include "common/error.hpp"
+#include "squeal/models/assembly_brake.hpp"
+
+namespace chladni::squeal {
+namespace {
+
+using namespace test;
+using Bodies = std::vector<mbs_export::ModalBody>;
+
+/// A disc between plates whose face nodes have modes of their own, different ones on both sides.
+Bodies bending_bodies()
+{
+  const auto face = sector_points(ring_radius, sector, n_points);
+  Bodies bodies = bodies_of_two_plates();
+  bodies[1] = bodies[2] = bending_plate(plate, face);
+  bodies[2].omega.tail(n_points).setConstant(2.0 * pi * 2500.0);
+  return bodies;
+}
+
+CondensationOptions up_to(double f_Hz, double tolerance)
+{
+  return {.tolerance = tolerance, .highest = 2.0 * pi * f_Hz, .speed_from = 5.0, .speed_to = 40.0};
+}
+
+Eigen::Index coordinates(const Bodies& bodies)
+{
+  Eigen::Index n = 0;
+  for (const auto& body : bodies) n += body.n_modes();
+  return n;
+}
+
+/// The largest relative distance of an eigenvalue of the band from the nearest one of the other
+/// brake.
+double distance(const Bodies& exact, const Bodies& few, double at_speed, double friction,
+                double f_Hz)
+{
+  AssemblyOptions options = two_plates();
+  options.friction.kinetic = friction;
+  const Eigen::VectorXcd all = AssemblyBrake(options, exact).state_matrix(at_speed).eigenvalues();
+  const Eigen::VectorXcd found = AssemblyBrake(options, few).state_matrix(at_speed).eigenvalues();
+  double largest = 0.0;
+  for (const std::complex<double>& one : all)
+    if (one.imag() > 0.0 && one.imag() <= 2.0 * pi * f_Hz)
+      largest = std::max(largest, (found.array() - one).abs().minCoeff() / std::abs(one));
+  return largest;
+}
+
+TEST(Condensation, KeepsTheVibrationsOfTheBandWithFewerCoordinates)
+{
+  const Bodies bodies = bending_bodies();
+  Eigen::Index last = 0;
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const CondensedBodies found = condense(two_plates(), bodies, up_to(1500.0, tolerance));
+    EXPECT_LE(found.error, tolerance);
+    EXPECT_GT(found.n_eigenvalues, 8);
+    ASSERT_EQ(found.bodies.size(), 3u);
+    const Eigen::Index n = coordinates(found.bodies);
+    EXPECT_LT(n, coordinates(bodies));
+    EXPECT_GE(n, last);
+    last = n;
+    // Samples, the middle that was a check, and a state that was none.
+    for (const double at_speed : {5.0, 22.5, 40.0, 31.0})
+      for (const double friction : {0.0, 0.3, 0.6, 0.45}) {
+        EXPECT_LE(distance(bodies, found.bodies, at_speed, friction, 1500.0), 3.0 * tolerance)
+            << tolerance << ", " << at_speed << " rad/s, " << friction;
+      }
+  }
+}
+
+TEST(Condensation, OfADiscStaysAxisymmetric)
+{
+  const Bodies bodies = bending_bodies();
+  const CondensedBodies found = condense(two_plates(), bodies, up_to(1500.0, 1e-4));
+  const Assembly few = assembly(two_plates(), found.bodies);
+  EXPECT_LT(few.disc.largest_impurity, 1e-9);
+  EXPECT_LT(few.disc.largest_split, 1e-9);
+}
+
+TEST(Condensation, SaysWhatCannotBe)
+{
+  const auto error = [](const CondensationOptions& wanted) {
+    try {
+      condense(two_plates(), bending_bodies(), wanted);
+    } catch (const Error& failure) {
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(error(up_to(1e-3, 1e-3)).find("has no oscillation below 0.001 Hz"), std::string::npos)
+      << error(up_to(1e-3, 1e-3));
+  EXPECT_NE(error(up_to(1500.0, 1e-14)).find("where 1e-14 is asked"), std::string::npos)
+      << error(up_to(1500.0, 1e-14));
+}
+
+}  // namespace
+}  // namespace chladni::squeal
