@@ -39,6 +39,7 @@ std::string report_page(std::string_view title, const Json& content, std::string
   page = with(page, "/*GROUPS*/", page_parts::groups_js);
   page = with(page, "/*STABILITY*/", page_parts::stability_js);
   page = with(page, "/*RESPONSES*/", page_parts::responses_js);
+  page = with(page, "/*ORDERS*/", page_parts::orders_js);
   page = with(page, "/*SECTIONS*/", page_parts::sections_js);
   const std::string::size_type at = page.find("<!--CONTENT-->");
   const std::string scripts = "<script type=\"application/json\" id=\"content\">" +
