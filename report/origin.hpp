@@ -9,7 +9,7 @@
 /// Whether files are those of the scene as it is now.
 namespace chladni::report {
 
-enum class Made { reduction, body, results, radiation };
+enum class Made { reduction, body, results, radiation, sound };
 
 /// A file that was read, and what it tells of its making.
 struct Read {

@@ -10,7 +10,8 @@ enum class Step {
   reduction,  ///< of everything that describes the structure, its interface and [reduce]
   body,       ///< of [body]
   squeal,     ///< of [squeal]
-  radiation   ///< of what [sound] says of the body and of the air
+  radiation,  ///< of what [sound] says of the body and of the air
+  sound       ///< of all of [sound]
 };
 
 /// The keys that a step itself depends on and whose values differ between two texts of a scene:
