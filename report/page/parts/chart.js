@@ -12,7 +12,7 @@ function boxOf(options, {x, y}, width, rows) {
 }
 
 function drawXAxis(svg, {left, top, width, height}, x) {
-  for (const tick of x.ticks(Math.max(2, Math.floor(width / 70)))) {
+  for (const tick of x.ticks(Math.max(2, Math.floor(width / 55)))) {
     const at = left + width * x.at(tick);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top, y2: top + height, class: "grid"}),
                svgElement("text", {x: at, y: top + height + 16, "text-anchor": "middle"}, x.text(tick)));
@@ -20,7 +20,7 @@ function drawXAxis(svg, {left, top, width, height}, x) {
   svg.append(svgElement("text", {x: left + width / 2, y: top + height + 34, "text-anchor": "middle"}, x.label));
   if (!x.second) return;
   const {factor, unit} = x.second;
-  for (const tick of roundTicks(x.low * factor, x.high * factor, Math.max(2, Math.floor(width / 90)))) {
+  for (const tick of roundTicks(x.low * factor, x.high * factor, Math.max(2, Math.floor(width / 55)))) {
     const at = left + width * x.at(tick / factor);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top - 4, y2: top, class: "tick"}),
                svgElement("text", {x: at, y: top - 7, "text-anchor": "middle"}, formatted(tick, 6)));
@@ -96,12 +96,12 @@ function drawToWidth(figure, draw) {
 // chart({title, x, y: axes, paint, legend, labelled, points, valueAt, csv, choices}) -> figure
 function chart(options) {
   const svg = svgElement("svg", {role: "img", "aria-label": options.title, tabindex: "0"});
-  const readout = element("p", {class: "readout"}), figure = element("figure", {}, svg, readout);
+  const readout = element("p", {class: "readout"}), figure = element("figure", {}, svg);
   const shown = {options, svg, readout, state: {x: options.x, y: options.y}};
   shown.redraw = () => { shown.frame = drawChart(svg, options, shown.state, shown.width); };
   shown.show = (x, y) => { Object.assign(shown.state, {x, y}); svg.classList.toggle("closer", x !== options.x || y !== options.y); shown.redraw(); };
   shown.whole = () => shown.show(options.x, options.y);
-  figure.append(element("figcaption", {}, options.title), toolsOf(shown));
+  figure.append(element("div", {class: "tools"}, ...toolsOf(shown), readout), element("figcaption", {}, options.title));
   drawToWidth(figure, width => { shown.width = width; shown.redraw(); });
   lookCloser(shown);
   return figure;

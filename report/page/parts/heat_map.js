@@ -78,7 +78,7 @@ const nearestIndex = (values, wanted) => values.reduce((best, v, i) => Math.abs(
 
 // heatMap({x, y: {label, values}, z: rows over y, unit, quantity, title, rising: [low, high], largest}): without `rising`
 // orange is positive, as strong as it gets at `largest`, and a line goes along zero.
-function heatMap({x, y, z, unit, quantity, title, rising, largest, series = []}) {
+function heatMap({x, y, z, unit, quantity, title, rising, largest, series = [], over}) {
   const scale = rising ? risingScale(...rising) : signedScale(z, largest), half = [halfStep(x.values), halfStep(y.values)];
   const axis = (of, margin) => makeAxis({...of, low: of.values[0] - margin, high: of.values.at(-1) + margin, tight: true}, of.values);
   const pixels = {true: null, false: null};
@@ -94,9 +94,11 @@ function heatMap({x, y, z, unit, quantity, title, rising, largest, series = []})
       inside.append(svgElement("image", {href: pixels[paper], x: left, y: top, width: right - left, height: bottom - top,
                                          preserveAspectRatio: "none", style: "image-rendering: pixelated"}));
     },
-    paint: (inside, {toX, toY}) => {
+    paint: (inside, frame) => {
+      const {toX, toY} = frame;
       if (!rising) inside.append(svgElement("path", {d: zeroLine(x.values, y.values, z, toX, toY), stroke: "var(--ink)",
                                                      "stroke-width": 2, fill: "none"}));
       for (const one of series) drawSeries(inside, one, toX, toY);
+      if (over) over(inside, series, frame);
     }});
 }

@@ -123,15 +123,14 @@ function listenToKeys(shown) {
 
 // Buttons under a plot; those of `choices`, {text: y axis}, change the scale.
 function toolsOf(shown) {
-  const {options} = shown, tools = element("div", {class: "tools"});
-  tools.append(button("+", () => zoom(shown, 1 / 1.4), "zoom in"), button("−", () => zoom(shown, 1.4), "zoom out"),
-               button("whole", shown.whole, usage));
+  const {options} = shown;
+  const tools = [button("+", () => zoom(shown, 1 / 1.4), "zoom in"), button("−", () => zoom(shown, 1.4), "zoom out"),
+               button("whole", shown.whole, usage)];
   const choices = Object.entries(options.choices ?? {}).map(([text, axis]) => [axis, button(text, () => { options.y = axis; press(); shown.whole(); })]);
   const press = () => { for (const [axis, made] of choices) made.setAttribute("aria-pressed", String(axis === options.y)); };
   press();
-  tools.append(...choices.map(([, made]) => made));
-  tools.append(...filesOf(options.title, (svg, width) => drawChart(svg, options, shown.state, width, true), options.csv));
-  return tools;
+  const draw = (svg, width) => drawChart(svg, options, shown.state, width, true);
+  return [...tools, ...choices.map(([, made]) => made), ...filesOf(options.title, draw, options.csv)];
 }
 
 // Buttons that give the picture, drawn for paper into an SVG element of a width, and its numbers as files.
@@ -148,7 +147,7 @@ function svgText(title, draw) {
   draw(svg, width);
   svg.setAttribute("viewBox", `0 0 ${width} ${svg.getAttribute("height")}`);
   const rules = "text{font:12px 'DejaVu Sans',Arial,sans-serif;fill:var(--ink)} .label{font-size:10px} .frame{fill:none;stroke:var(--faint)} " +
-    ".grid{stroke:var(--line);fill:none} .zero,.tick{stroke:var(--ink)}";
+    ".grid{stroke:var(--line);fill:none} .zero,.tick{stroke:var(--ink)} .halo{paint-order:stroke;stroke:var(--ground);stroke-width:3px}";
   svg.prepend(svgElement("title", {}, title), svgElement("style", {}, rules),
               svgElement("rect", {width: "100%", height: "100%", fill: "var(--ground)"}));
   const text = new XMLSerializer().serializeToString(svg)
@@ -164,11 +163,17 @@ function csvText(rows) {
   return rows.map(row => row.map(cell).join(",")).join("\r\n") + "\r\n";
 }
 
-// Curves over the same places stand beside each other, others one below the other.
+// Curves over the same places share a column of them; each other curve has two columns of its own.
 function csvOfSeries(x, y, series) {
-  const names = series.map((one, k) => one.said || one.name || one.label || `curve ${k + 1}`);
-  const alike = series.every(one => one.x.length === series[0].x.length && one.x.every((v, i) => Object.is(v, series[0].x[i])));
-  if (alike && series.length)
-    return [[x.label, ...names.map(name => `${name}: ${y.label}`)], ...series[0].x.map((v, i) => [v, ...series.map(one => one.y[i])])];
-  return [["curve", x.label, y.label], ...series.flatMap((one, k) => one.x.map((v, i) => [names[k], v, one.y[i]]))];
+  const named = series.map((one, k) => ({...one, title: one.said || one.name || one.label || `curve ${k + 1}`}));
+  const groups = [];
+  for (const one of named) {
+    const group = groups.find(([first]) => first.x.length === one.x.length && first.x.every((v, i) => Object.is(v, one.x[i])));
+    if (group) group.push(one);
+    else groups.push([one]);
+  }
+  const columns = groups.flatMap(group => [[groups.length > 1 && group.length === 1 ? `${group[0].title}: ${x.label}` : x.label, ...group[0].x],
+                                           ...group.map(one => [`${one.title}: ${y.label}`, ...one.y])]);
+  const n = Math.max(0, ...columns.map(column => column.length));
+  return Array.from({length: n}, (_, i) => columns.map(column => column[i]));
 }

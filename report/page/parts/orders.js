@@ -10,7 +10,17 @@ function roundOrders({frequency_Hz, speed}) {
 function orderLine(order, values, speeds, isUpright) {
   const f = speeds.map(speed => order * speed / (2 * Math.PI));
   const name = `order ${formatted(order)}`;
-  return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, label: formatted(order, 5), said: name, first: true};
+  return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, said: name};
+}
+
+// The number of each order where its line ends in the picture.
+function nameOrders(svg, lines, {box, toX, toY}) {
+  for (const {x, y, said} of lines) {
+    const inside = x.map((v, i) => [toX(v), toY(y[i])]).filter(([px, py]) => px > box.left && px < box.left + box.width - 4 && py > box.top + 4);
+    const last = inside.reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
+    if (Number.isFinite(last[0]))
+      svg.append(svgElement("text", {x: last[0] - 4, y: Math.max(box.top + 12, last[1] - 3), "text-anchor": "end", class: "label halo"}, said.replace("order ", "")));
+  }
 }
 
 const speedsAt = ({map_t, t, speed}) => map_t.map(at => speed[nearestIndex(t, at)]);
@@ -25,7 +35,7 @@ function spectrogramFigure(of, orders) {
   const {map_t, frequency_Hz, level_dB, range_dB} = of, speeds = speedsAt(of);
   const series = orders.map(order => orderLine(order, map_t, speeds, true));
   return heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz}, unit: "dB", quantity: "level",
-                  z: level_dB.map(row => row.map(level => Math.max(-range_dB, level - range_dB))), rising: [-range_dB, 0], series,
+                  z: level_dB.map(row => row.map(level => Math.max(-range_dB, level - range_dB))), rising: [-range_dB, 0], series, over: nameOrders,
                   title: "Spectrogram of the pad velocity: level below the largest amplitude of the run; dashed: orders of the rotation"});
 }
 
@@ -39,10 +49,10 @@ function waterfallFigure(of, orders) {
   const lines = orders.map(order => orderLine(order, places, speeds, false));
   return chart({
     title: `Waterfall: spectra of the pad velocity over the ${sweeps ? "rotation speed" : "time"}, ${range_dB} dB high; dashed: orders of the rotation`,
-    height: 420, x: makeAxis({label: "frequency, Hz", tight: true}, frequency_Hz), y: makeAxis(y, places), points: lines, labelled: lines,
+    height: 420, x: makeAxis({label: "frequency, Hz", tight: true}, frequency_Hz), y: makeAxis(y, places), points: lines,
     csv: () => [["time, s", "speed, rad/s", ...frequency_Hz.map(f => `${f} Hz, dB`)],
                 ...map_t.map((at, k) => [at, speeds[k], ...level_dB.map(row => Math.max(-range_dB, row[k] - range_dB))])],
-    paint: (inside, {toX, toY}) => {
+    paint: (inside, {box, toX, toY}) => {
       const rise = (toY(low) - toY(low + room)) / range_dB;
       for (const k of shown) {
         const base = toY(places[k]), tops = frequency_Hz.map((f, i) => `${toX(f).toFixed(1)},${(base - rise * Math.max(0, level_dB[i][k])).toFixed(1)}`);
@@ -51,6 +61,7 @@ function waterfallFigure(of, orders) {
         inside.insertBefore(svgElement("path", {d: ground, fill: "var(--panel)", stroke: "none"}), inside.lastChild);
       }
       for (const line of lines) drawSeries(inside, line, toX, toY);
+      nameOrders(inside, lines, {box, toX, toY});
     }});
 }
 

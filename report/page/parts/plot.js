@@ -59,7 +59,7 @@ function plot(options) {
   return chart({
     title: options.title, height: options.height, y, x: makeAxis(options.x, [...series, ...bands].flatMap(s => s.x)),
     choices: Object.fromEntries(choices), legend: named, labelled: series, points: series.filter(one => !one.guide),
-    csv: () => csvOfPlot(options.x, options.y, series, bands),
+    csv: () => csvOfPlot(options.x, y, series, bands),
     paint: (inside, frame) => {
       const {toX, toY} = frame;
       for (const band of bands) drawBand(inside, band, toX, toY);

@@ -31,19 +31,20 @@ function feedbackTable({feedback}) {
                         [row("without the damping by sound", feedback.without), row("with it", feedback.with)]));
 }
 
+const marked = m => ({colour: m % 6, marker: ["circle", "square", "triangle"][m % 3]});
+
 // The level of each tone at each microphone, as lines from the ground of the picture.
 function tonesFigure({tones, microphones}) {
   const levels = microphones.map(({pressure}) => pressure.map(p => levelOf(p / Math.SQRT2)));
   const heard = levels.flat().filter(level => level > -20), low = Math.floor(Math.min(0, ...heard) / 10) * 10;
-  const series = microphones.map(({name}, m) => ({
-    name, colour: m % 6, marker: ["circle", "square", "triangle"][m % 3], x: tones.flatMap(tone => [tone.frequency_Hz, tone.frequency_Hz, NaN]),
-    y: levels[m].flatMap(level => [low, level, NaN])}));
+  const stems = levels.map((of, m) => ({colour: m % 6, guide: true, x: tones.flatMap(tone => [tone.frequency_Hz, tone.frequency_Hz, NaN]),
+                                        y: of.flatMap(level => [low, level, NaN])}));
+  const series = [...stems, ...microphones.map(({name}, m) => ({name, ...marked(m), line: false, x: tones.map(tone => tone.frequency_Hz), y: levels[m]}))];
   return plot({title: "Tones at the microphones", x: {label: "frequency, Hz", low: 0}, y: {label: "sound pressure level, dB", low}, series});
 }
 
 function loudnessFigures({loudness, microphones}) {
   const cases = [["without", "", "none"], ["with", ", damped by its sound", "6 3"]].filter(([key]) => loudness[key].speeds.length);
-  const marked = m => ({colour: m % 6, marker: ["circle", "square", "triangle"][m % 3]});
   const levels = cases.flatMap(([key, more, dash]) => microphones.map(({name}, m) =>
     ({x: loudness[key].speeds, y: loudness[key].levels.map(row => row[m]), name: name + more, dash, ...marked(m)})));
   const power = cases.map(([key, more, dash], k) => ({x: loudness[key].speeds, y: loudness[key].power, dash, name: `power${more}`, ...marked(k)}));
@@ -58,7 +59,7 @@ function drawPolar(svg, {degrees, levels, from, axes}, width) {
   svg.setAttribute("height", height);
   for (let level = top - from + 10; level <= top; level += 10) {
     svg.append(svgElement("circle", {cx, cy, r: r(level), class: "grid"}),
-               svgElement("text", {x: cx + 3, y: cy - r(level) - 2, class: "label"}, `${level} dB`));
+               svgElement("text", {x: cx + 0.38 * r(level), y: cy - 0.92 * r(level), class: "label halo"}, `${level} dB`));
   }
   axes.forEach((text, k) => {
     const angle = k * 2 * Math.PI / axes.length, x = Math.sin(angle), y = -Math.cos(angle), anchor = x > 0.5 ? "start" : x < -0.5 ? "end" : "middle";
@@ -73,8 +74,8 @@ function drawPolar(svg, {degrees, levels, from, axes}, width) {
 function polarFigure(title, curve) {
   const svg = svgElement("svg", {role: "img", "aria-label": title}), readout = element("p", {class: "readout"});
   const csv = () => [["angle, degrees", "level at 1 m, dB"], ...curve.degrees.map((angle, i) => [formatted(angle, 5), formatted(curve.levels[i], 5)])];
-  const figure = element("figure", {}, svg, readout, element("figcaption", {}, title),
-                         element("div", {class: "tools"}, ...filesOf(title, (into, width) => drawPolar(into, curve, width), csv)));
+  const files = filesOf(title, (into, width) => drawPolar(into, curve, width), csv);
+  const figure = element("figure", {}, svg, element("div", {class: "tools"}, ...files, readout), element("figcaption", {}, title));
   svg.addEventListener("pointermove", event => {
     const box = svg.getBoundingClientRect(), x = event.clientX - box.left - box.width / 2, y = event.clientY - box.top - box.height / 2;
     const angle = (Math.atan2(x, -y) * 180 / Math.PI + 360) % 360, i = nearestIndex(curve.degrees.map(d => (d + 360) % 360), angle);
