@@ -48,6 +48,22 @@ struct Found {
   Json sound;  ///< null without
 };
 
+/// The sound, or why it is left out: the other sections do without it. Null where there is none.
+Json sound_of(const ReportSource& source)
+{
+  const path file = source.folder / (source.scene.name + ".sound.h5");
+  if (!exists(file)) return Json();
+  const files::Reader reader(file.string());
+  const mbs_export::Provenance origin = file_parts::read_provenance(reader);
+  try {
+    require_of_scene(source.scene, {.file = file, .what = Made::sound, .origin = origin},
+                     source.stale);
+  } catch (const Error& stale) {
+    return Json::object({{"left_out", stale.what()}});
+  }
+  return sound_page(reader, path(file).replace_extension(".wav"));
+}
+
 Found find_files(const ReportSource& source)
 {
   Found found{.scene = source.scene, .body = {}, .certificate = {}, .results = {}, .sound = {}};
@@ -70,11 +86,7 @@ Found find_files(const ReportSource& source)
     found.results = squeal::read_results(reader);
     check(".squeal.h5", Made::results, file_parts::read_provenance(reader));
   }
-  if (exists(file(".sound.h5"))) {
-    const files::Reader reader(file(".sound.h5").string());
-    check(".sound.h5", Made::sound, file_parts::read_provenance(reader));
-    found.sound = sound_page(reader, file(".sound.wav"));
-  }
+  found.sound = sound_of(source);
   if (!found.body && !found.results) {
     throw Error(fmt::format(
         "{}: holds neither {} nor {}; make them with `chladni run {} --output {}` and `squeal run`",

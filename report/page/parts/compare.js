@@ -14,7 +14,9 @@ function growingPoints({campbell}) {
   return {x: at.map(([, i]) => campbell.speeds[i]), y: at.map(([, i, j]) => campbell.frequency_Hz[j][i])};
 }
 
-// [what, value of a run, text of a value]; a text alone is not subtracted.
+const loudest = ({sound}) => sound?.microphones?.length ? Math.max(...sound.microphones.map(({level_A_dB}) => level_A_dB)) : undefined;
+
+// [what, value of a run]: numbers are subtracted, texts are not.
 const compared = [
   ["modes of the body", run => run.modes?.length],
   ["squeals from, rad/s", run => run.critical?.speed],
@@ -30,8 +32,8 @@ const compared = [
   ["least normal force, N", run => chosenCycle(run)?.N_min],
   ["largest normal force, N", run => chosenCycle(run)?.N_max],
   ["effective pad velocity over the last rotations, m/s", run => run.statistics?.rms_velocity],
-  ["loudest microphone, dB(A)", run => run.sound?.microphones.length ? Math.max(...run.sound.microphones.map(m => m.level_A_dB)) : undefined],
-  ["radiated power, W", run => run.sound?.tones.length ? run.sound.tones.reduce((sum, tone) => sum + tone.power, 0) : undefined]];
+  ["loudest microphone, dB(A)", loudest],
+  ["radiated power, W", run => run.sound?.tones?.length ? run.sound.tones.reduce((sum, tone) => sum + tone.power, 0) : undefined]];
 
 // How a number differs from that of the first run; levels differ by decibels.
 function difference(what, first, value) {
@@ -43,8 +45,8 @@ function difference(what, first, value) {
 
 function comparisonTable(runs) {
   const text = value => value === null || value === undefined ? "–" : typeof value === "number" ? formatted(value, 5) : value;
-  const rows = compared.map(([what, of]) => [what, runs.map(of)]).filter(([, values]) => values.some(v => v !== null && v !== undefined))
-    .map(([what, values]) => [what, ...values.map((value, k) => text(value) + (k ? difference(what, values[0], value) : ""))]);
+  const known = compared.map(([what, of]) => [what, runs.map(of)]).filter(([, values]) => values.some(v => v !== null && v !== undefined));
+  const rows = known.map(([what, values]) => [what, ...values.map((v, k) => text(v) + (k ? difference(what, values[0], v) : ""))]);
   return scrolled(table(["", ...runs.map(run => run.label)], rows));
 }
 
@@ -60,22 +62,24 @@ function modesBeside(runs) {
   });
   if (of.some(names => !names.size)) return "";
   const names = [...of[0].keys()].filter(name => of.some((other, k) => k && other.has(name)));
-  const rows = names.map(name => [name, ...of.map((one, k) => formatted(one.get(name), 6) + (k ? difference(name, of[0].get(name), one.get(name)) : ""))]);
+  const cell = (name, k) => formatted(of[k].get(name), 6) + (k ? difference(name, of[0].get(name), of[k].get(name)) : "");
+  const rows = names.map(name => [name, ...of.map((one, k) => cell(name, k))]);
   return element("div", {}, element("h3", {}, "Frequencies of modes of the same shape, Hz"),
                  scrolled(table(["shape", ...runs.map(run => run.label)], rows)));
 }
 
 // One curve of each run that has it.
-function overlaid(runs, of, style = {}) {
-  return runs.map((run, k) => [run, k, of(run)]).filter(([, , curve]) => curve && curve.x.length)
-    .map(([run, k, curve]) => ({...curve, name: run.label, colour: k % 6, dash: k ? ["6 3", "2 3", "9 3 2 3"][(k - 1) % 3] : "none",
-                                marker: undefined, ...(style.marker ? {marker: ["circle", "square", "triangle"][k % 3], hollow: k > 0, line: style.line} : {})}));
+function overlaid(runs, of, {marked, line} = {}) {
+  const dashes = ["none", "6 3", "2 3", "9 3 2 3"];
+  return runs.map((run, k) => [run, k, of(run)]).filter(([, , curve]) => curve && curve.x.length).map(([run, k, curve]) => ({
+    ...curve, name: run.label, colour: k % 6, dash: dashes[k % 4], ...(marked ? {...markedAs(k), hollow: k > 0, line} : {})}));
 }
 
 const branchCurve = ({branch}) => branch && {x: withGap(branch.speed, branch.second_part), y: withGap(branch.pad_velocity, branch.second_part)};
 const envelopeCurve = ({transient}) => transient && {x: transient.t, y: transient.envelope};
 const spectrumCurve = ({spectrum}) => spectrum && {x: spectrum.frequency_Hz, y: spectrum.amplitude};
-const loudnessCurve = ({sound}) => sound?.loudness && {x: sound.loudness.without.speeds, y: sound.loudness.without.levels.map(row => Math.max(...row))};
+const loudnessCurve = ({sound}) => sound?.loudness && sound.loudness.without.levels.length &&
+  {x: sound.loudness.without.speeds, y: sound.loudness.without.levels.map(row => Math.max(...row))};
 
 function overlays(runs) {
   const growth = overlaid(runs, worstGrowth), made = [];
@@ -84,11 +88,11 @@ function overlays(runs) {
     made.push(plot({title: "Growth rate of the least stable motion", x: speedAxis, ...growthAxes(rows), series: growth}));
   }
   const add = (title, x, y, series) => { if (series.length) made.push(plot({title, x, y, series})); };
-  add("Frequencies that grow", speedAxis, {label: "frequency, Hz"}, overlaid(runs, growingPoints, {marker: true, line: false}));
-  add("Limit cycles over the speed", speedAxis, {label: "pad velocity, m/s"}, overlaid(runs, branchCurve, {marker: true}));
+  add("Frequencies that grow", speedAxis, {label: "frequency, Hz"}, overlaid(runs, growingPoints, {marked: true, line: false}));
+  add("Limit cycles over the speed", speedAxis, {label: "pad velocity, m/s"}, overlaid(runs, branchCurve, {marked: true}));
   add("Envelopes of the pad velocity", {label: "time, s"}, {label: "pad velocity, m/s", log: true}, overlaid(runs, envelopeCurve));
   add("Spectra of the pad velocity", {label: "frequency, Hz"}, {label: "amplitude, m/s", log: true}, overlaid(runs, spectrumCurve));
-  add("Level at the loudest microphone over the speed", speedAxis, {label: "sound pressure level, dB"}, overlaid(runs, loudnessCurve, {marker: true}));
+  add("Level at the loudest microphone over the speed", speedAxis, {label: "sound pressure level, dB"}, overlaid(runs, loudnessCurve, {marked: true}));
   return made;
 }
 

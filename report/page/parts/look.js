@@ -126,7 +126,8 @@ function toolsOf(shown) {
   const {options} = shown;
   const tools = [button("+", () => zoom(shown, 1 / 1.4), "zoom in"), button("−", () => zoom(shown, 1.4), "zoom out"),
                button("whole", shown.whole, usage)];
-  const choices = Object.entries(options.choices ?? {}).map(([text, axis]) => [axis, button(text, () => { options.y = axis; press(); shown.whole(); })]);
+  const choose = axis => { options.y = axis; press(); shown.whole(); };
+  const choices = Object.entries(options.choices ?? {}).map(([text, axis]) => [axis, button(text, () => choose(axis))]);
   const press = () => { for (const [axis, made] of choices) made.setAttribute("aria-pressed", String(axis === options.y)); };
   press();
   const draw = (svg, width) => drawChart(svg, options, shown.state, width, true);

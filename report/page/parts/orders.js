@@ -9,17 +9,17 @@ function roundOrders({frequency_Hz, speed}) {
 // Places where a line of so many events per rotation would be.
 function orderLine(order, values, speeds, isUpright) {
   const f = speeds.map(speed => order * speed / (2 * Math.PI));
-  const name = `order ${formatted(order)}`;
-  return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, said: name};
+  return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, said: `order ${formatted(order, 5)}`};
 }
 
 // The number of each order where its line ends in the picture.
 function nameOrders(svg, lines, {box, toX, toY}) {
   for (const {x, y, said} of lines) {
-    const inside = x.map((v, i) => [toX(v), toY(y[i])]).filter(([px, py]) => px > box.left && px < box.left + box.width - 4 && py > box.top + 4);
-    const last = inside.reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
-    if (Number.isFinite(last[0]))
-      svg.append(svgElement("text", {x: last[0] - 4, y: Math.max(box.top + 12, last[1] - 3), "text-anchor": "end", class: "label halo"}, said.replace("order ", "")));
+    const isInside = ([px, py]) => px > box.left && px < box.left + box.width - 4 && py > box.top + 4;
+    const last = x.map((v, i) => [toX(v), toY(y[i])]).filter(isInside).reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
+    if (!Number.isFinite(last[0])) continue;
+    const place = {x: last[0] - 4, y: Math.max(box.top + 12, last[1] - 3), "text-anchor": "end", class: "label halo"};
+    svg.append(svgElement("text", place, said.replace("order ", "")));
   }
 }
 
@@ -48,14 +48,16 @@ function waterfallFigure(of, orders) {
   const y = {...(sweeps ? speedAxis : {label: "time, s"}), low, high: high + room, tight: true};
   const lines = orders.map(order => orderLine(order, places, speeds, false));
   return chart({
-    title: `Waterfall: spectra of the pad velocity over the ${sweeps ? "rotation speed" : "time"}, ${range_dB} dB high; dashed: orders of the rotation`,
+    title: `Waterfall: spectra of the pad velocity over the ${sweeps ? "rotation speed" : "time"}, ${range_dB} dB high; ` +
+           "dashed: orders of the rotation",
     height: 420, x: makeAxis({label: "frequency, Hz", tight: true}, frequency_Hz), y: makeAxis(y, places), points: lines,
     csv: () => [["time, s", "speed, rad/s", ...frequency_Hz.map(f => `${f} Hz, dB`)],
                 ...map_t.map((at, k) => [at, speeds[k], ...level_dB.map(row => Math.max(-range_dB, row[k] - range_dB))])],
     paint: (inside, {box, toX, toY}) => {
       const rise = (toY(low) - toY(low + room)) / range_dB;
       for (const k of shown) {
-        const base = toY(places[k]), tops = frequency_Hz.map((f, i) => `${toX(f).toFixed(1)},${(base - rise * Math.max(0, level_dB[i][k])).toFixed(1)}`);
+        const base = toY(places[k]), top = i => (base - rise * Math.max(0, level_dB[i][k])).toFixed(1);
+        const tops = frequency_Hz.map((f, i) => `${toX(f).toFixed(1)},${top(i)}`);
         inside.append(svgElement("path", {d: `M${tops.join("L")}`, fill: "none", stroke: "var(--c0)", "stroke-width": 1}));
         const ground = `M${toX(frequency_Hz[0])},${base}L${tops.join("L")}L${toX(frequency_Hz.at(-1))},${base}z`;
         inside.insertBefore(svgElement("path", {d: ground, fill: "var(--panel)", stroke: "none"}), inside.lastChild);

@@ -36,9 +36,9 @@ function drawBand(svg, band, toX, toY) {
 function tellOfClipped(svg, series, {box, toX, toY}) {
   const beyond = far => series.filter(one => one.line !== false && one.y.some((v, i) => far(toY(v)) && toX(one.x[i]) >= box.left)).length;
   const below = beyond(at => at > box.top + box.height + 1), above = beyond(at => at < box.top - 1);
-  const tell = (n, sign, where, y) => n && svg.append(svgElement("text", {x: box.left + 6, y, class: "halo"}, `${sign} ${counted(n, "curve")} beyond the ${where} edge`));
-  tell(below, "▾", "lower", box.top + box.height - 6);
-  tell(above, "▴", "upper", box.top + 14);
+  const tell = (text, y) => svg.append(svgElement("text", {x: box.left + 6, y, class: "halo"}, text));
+  if (below) tell(`▾ ${counted(below, "curve")} beyond the lower edge`, box.top + box.height - 6);
+  if (above) tell(`▴ ${counted(above, "curve")} beyond the upper edge`, box.top + 14);
 }
 
 // The numbers of a plot as rows; a band has two columns.

@@ -38,7 +38,7 @@ function keyFigures(run) {
                  : `stability over the speed: ${run.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${speedText(cycle.speed)}` +
                  (cycle.doubt && ` (${cycle.doubt === "not settled" ? "end of the transient, " : ""}${cycle.doubt})`),
-               run.sound?.microphones.length && `${dB(Math.max(...run.sound.microphones.map(m => m.level_A_dB)))} dB(A)`];
+               loudest(run) !== undefined && `${dB(loudest(run))} dB(A)`];
   return key.filter(Boolean).join(" · ");
 }
 

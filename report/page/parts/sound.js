@@ -1,8 +1,10 @@
 // The sound of the squeal: to be heard, its levels, and where it goes.
 
 const referencePressure = 20e-6;  // Pa
+const silence = -20;  // dB: in the plane of a disc the two faces cancel each other, and rounding remains
 const levelOf = rms => 20 * Math.log10(Math.max(rms, 1e-30) / referencePressure);
-const dB = x => x === null || x === undefined ? "" : x.toFixed(1);
+const dB = x => x === null || x === undefined ? "" : x < silence ? "silent" : x.toFixed(1);
+const audible = level => level < silence ? NaN : level;
 
 function player({wav, wav_said}) {
   if (!wav_said) return "";
@@ -15,7 +17,7 @@ function microphonesTable({microphones}) {
   return scrolled(table(["microphone", "at x, y, z, m", "dB", "dB(A)", "dB of the peak", "around the axis, dB"],
     microphones.map(({name, position, level_dB, level_A_dB, peak_dB, around}) =>
       [name, position.map(x => formatted(x, 3)).join(", "), dB(level_dB), dB(level_A_dB), dB(peak_dB),
-       around.map(rms => rms > 0 ? dB(levelOf(rms)) : "silent").join(" to ")])));
+       around.map(rms => dB(levelOf(rms))).join(" to ")])));
 }
 
 function tonesTable({tones}) {
@@ -31,23 +33,27 @@ function feedbackTable({feedback}) {
                         [row("without the damping by sound", feedback.without), row("with it", feedback.with)]));
 }
 
-const marked = m => ({colour: m % 6, marker: ["circle", "square", "triangle"][m % 3]});
+const markedAs = m => ({colour: m % 6, marker: ["circle", "square", "triangle"][m % 3]});
 
 // The level of each tone at each microphone, as lines from the ground of the picture.
 function tonesFigure({tones, microphones}) {
-  const levels = microphones.map(({pressure}) => pressure.map(p => levelOf(p / Math.SQRT2)));
-  const heard = levels.flat().filter(level => level > -20), low = Math.floor(Math.min(0, ...heard) / 10) * 10;
+  const levels = microphones.map(({pressure}) => pressure.map(p => audible(levelOf(p / Math.SQRT2))));
+  const low = Math.floor(Math.min(0, ...levels.flat().filter(Number.isFinite)) / 10) * 10;
   const stems = levels.map((of, m) => ({colour: m % 6, guide: true, x: tones.flatMap(tone => [tone.frequency_Hz, tone.frequency_Hz, NaN]),
                                         y: of.flatMap(level => [low, level, NaN])}));
-  const series = [...stems, ...microphones.map(({name}, m) => ({name, ...marked(m), line: false, x: tones.map(tone => tone.frequency_Hz), y: levels[m]}))];
+  const x = tones.map(tone => tone.frequency_Hz);
+  const heard = microphones.map(({name}, m) => ({name, ...markedAs(m), line: false, x, y: levels[m]}));
+  const series = [...stems, ...heard.filter(({y}) => y.some(Number.isFinite))];
   return plot({title: "Tones at the microphones", x: {label: "frequency, Hz", low: 0}, y: {label: "sound pressure level, dB", low}, series});
 }
 
 function loudnessFigures({loudness, microphones}) {
   const cases = [["without", "", "none"], ["with", ", damped by its sound", "6 3"]].filter(([key]) => loudness[key].speeds.length);
   const levels = cases.flatMap(([key, more, dash]) => microphones.map(({name}, m) =>
-    ({x: loudness[key].speeds, y: loudness[key].levels.map(row => row[m]), name: name + more, dash, ...marked(m)})));
-  const power = cases.map(([key, more, dash], k) => ({x: loudness[key].speeds, y: loudness[key].power, dash, name: `power${more}`, ...marked(k)}));
+    ({x: loudness[key].speeds, y: loudness[key].levels.map(row => audible(row[m])), name: name + more, dash, ...markedAs(m)})))
+    .filter(({y}) => y.some(Number.isFinite));
+  const power = cases.map(([key, more, dash], k) =>
+    ({x: loudness[key].speeds, y: loudness[key].power, dash, name: `power${more}`, ...markedAs(k)}));
   return [plot({title: "Level over the rotation speed", x: speedAxis, y: {label: "sound pressure level, dB"}, series: levels}),
           plot({title: "Radiated power over the rotation speed", x: speedAxis, y: {label: "power, W", log: true}, series: power})];
 }
@@ -66,14 +72,15 @@ function drawPolar(svg, {degrees, levels, from, axes}, width) {
     svg.append(svgElement("line", {x1: cx, y1: cy, x2: cx + radius * x, y2: cy + radius * y, class: "grid"}),
                svgElement("text", {x: cx + (radius + 6) * x, y: cy + (radius + 14) * y + 4, "text-anchor": anchor}, text));
   });
-  const points = degrees.map((angle, i) => [cx + r(levels[i]) * Math.sin(angle * Math.PI / 180), cy - r(levels[i]) * Math.cos(angle * Math.PI / 180)]);
-  svg.append(svgElement("polygon", {points: points.map(p => p.map(v => v.toFixed(1)).join(",")).join(" "), fill: "none", stroke: "var(--c0)",
-                                    "stroke-width": 2}));
+  const point = (angle, level) => [cx + r(level) * Math.sin(angle * Math.PI / 180), cy - r(level) * Math.cos(angle * Math.PI / 180)];
+  const points = degrees.map((angle, i) => point(angle, levels[i]).map(v => v.toFixed(1)).join(",")).join(" ");
+  svg.append(svgElement("polygon", {points, fill: "none", stroke: "var(--c0)", "stroke-width": 2}));
 }
 
 function polarFigure(title, curve) {
   const svg = svgElement("svg", {role: "img", "aria-label": title}), readout = element("p", {class: "readout"});
-  const csv = () => [["angle, degrees", "level at 1 m, dB"], ...curve.degrees.map((angle, i) => [formatted(angle, 5), formatted(curve.levels[i], 5)])];
+  const csv = () => [["angle, degrees", "level at 1 m, dB"],
+                     ...curve.degrees.map((angle, i) => [formatted(angle, 5), formatted(curve.levels[i], 5)])];
   const files = filesOf(title, (into, width) => drawPolar(into, curve, width), csv);
   const figure = element("figure", {}, svg, element("div", {class: "tools"}, ...files, readout), element("figcaption", {}, title));
   svg.addEventListener("pointermove", event => {
@@ -99,6 +106,7 @@ function directivityFigures({directivity: {polar, azimuth, rms}}) {
 }
 
 function drawSound({sound}) {
+  if (sound.left_out) { section("sound", "Sound", note(`Left out: ${sound.left_out}.`)); return; }
   const told = sound.speed === null ? [] : [note(`Limit cycle at ${speedText(sound.speed)}, ${formatted(sound.frequency_Hz, 6)} Hz; ` +
     "levels are relative to 20 µPa, of the effective value, powers to 1 pW.")];
   const made = [sound.microphones.length && tonesFigure(sound), ...(sound.loudness ? loudnessFigures(sound) : []),

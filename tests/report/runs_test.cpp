@@ -1,0 +1,61 @@
+#include "report/page/runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+
+namespace chladni::report {
+namespace {
+
+using std::filesystem::path;
+
+struct Runs : testing::Test {
+  Runs()
+  {
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"one", "other"}) {
+      std::ofstream(folder / (std::string(name) + ".toml"))
+          << "name = \"" << name << "\"\ntitle = \"Disc\"\n";
+    }
+  }
+  ~Runs() override { std::filesystem::remove_all(folder); }
+
+  std::string file(const char* name) const { return (folder / name).string(); }
+  path folder = path(testing::TempDir()) / "runs_test";
+};
+
+TEST_F(Runs, OneFolderGoesWithAllScenesAndOneSceneWithAllFolders)
+{
+  const auto scenes = runs_of({.scenes = {file("one.toml"), file("other.toml")}, .outputs = {"a"}});
+  ASSERT_EQ(scenes.size(), 2U);
+  EXPECT_EQ(scenes[1].scene.name, "other");
+  EXPECT_EQ(scenes[1].folder, "a");
+  const auto folders = runs_of({.scenes = {file("one.toml")}, .outputs = {"a", "b"}});
+  ASSERT_EQ(folders.size(), 2U);
+  EXPECT_EQ(folders[1].scene.name, "one");
+  EXPECT_EQ(folders[1].folder, "b");
+}
+
+TEST_F(Runs, ThreeFoldersDoNotGoWithTwoScenes)
+{
+  EXPECT_THROW(
+      runs_of({.scenes = {file("one.toml"), file("other.toml")}, .outputs = {"a", "b", "c"}}),
+      Error);
+}
+
+TEST_F(Runs, AreToldApartByWhatDiffers)
+{
+  const auto folders = runs_of({.scenes = {file("one.toml")}, .outputs = {"a", "b"}});
+  EXPECT_EQ(labels_of(folders), (std::vector<std::string>{"a", "b"})) << "the titles are the same";
+  auto titled = runs_of({.scenes = {file("one.toml"), file("other.toml")}, .outputs = {"a"}});
+  titled[1].scene.title = "Stiffer disc";
+  EXPECT_EQ(labels_of(titled), (std::vector<std::string>{"Disc", "Stiffer disc"}));
+  titled[1].scene.title = "Disc";
+  EXPECT_EQ(labels_of(titled)[1], file("other.toml")) << "titles and folders are the same";
+}
+
+}  // namespace
+}  // namespace chladni::report
