@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 
 #include "report/page/numbers.hpp"
@@ -35,9 +36,39 @@ std::vector<Share> shares_of(const Eigen::VectorXcd& shape, const std::vector<in
   return all;
 }
 
+/// The dominant harmonic around the ring of (u_r, u_t), the displacements of its nodes in the plane
+/// in a mode; none when they do not move.
+std::optional<int> waves_in_plane(const mbs_export::ModalBody& body,
+                                  const mbs_export::ContactRing& ring, Index mode)
+{
+  const Index n = ring.angles.size();
+  if (std::ssize(ring.nodes) != n) return std::nullopt;
+  std::optional<int> dominant;
+  double largest = 0.0;
+  for (int d = 0; d <= n / 2; ++d) {
+    std::complex<double> u_r = 0.0, u_t = 0.0;
+    for (Index i = 0; i < n; ++i) {
+      const Index row = 6 * Index{ring.nodes[static_cast<std::size_t>(i)]};
+      if (row + 6 > body.attachment_modes.rows()) return std::nullopt;
+      const double x = body.attachment_modes(row, mode), y = body.attachment_modes(row + 1, mode),
+                   c = std::cos(ring.angles[i]), s = std::sin(ring.angles[i]);
+      const std::complex<double> wave = std::polar(1.0, -d * ring.angles[i]);
+      u_r += (c * x + s * y) * wave;
+      u_t += (c * y - s * x) * wave;
+    }
+    // A harmonic d > 0 stands for two terms of the series, d and -d.
+    const double size = (d > 0 ? 2.0 : 1.0) * (std::norm(u_r) + std::norm(u_t));
+    if (size > largest * (1.0 + 1e-9)) {
+      largest = size;
+      dominant = d;
+    }
+  }
+  return dominant;
+}
+
 }  // namespace
 
-ModeLooks mode_looks(const squeal::Disc& disc)
+ModeLooks mode_looks(const squeal::Disc& disc, const mbs_export::ModalBody& body)
 {
   ModeLooks looks;
   const std::vector<int> diameters = squeal::nodal_diameters(disc);
@@ -46,6 +77,13 @@ ModeLooks mode_looks(const squeal::Disc& disc)
         i < disc.figures.size() ? disc.figures[i] : squeal::ModeFigure{};
     looks[disc.mode_numbers[i]] = {
         .diameters = diameters[i], .circles = figure.circles, .in_plane = figure.in_plane};
+  }
+  const auto ring =
+      std::ranges::find(body.rings, disc.rings.front().name, &mbs_export::ContactRing::name);
+  if (ring == body.rings.end()) return looks;
+  for (const int number : disc.still) {
+    if (const auto waves = waves_in_plane(body, *ring, number - 1))
+      looks[number] = {.diameters = *waves, .circles = {}, .in_plane = 1.0};
   }
   return looks;
 }

@@ -20,7 +20,9 @@ struct ModeLook {
 /// By the 1-based number of the mode in the body.
 using ModeLooks = std::map<int, ModeLook>;
 
-ModeLooks mode_looks(const squeal::Disc& disc);
+/// @param disc  of all modes of the body; those that do not move its ring along the axis are looked
+///              at in the plane
+ModeLooks mode_looks(const squeal::Disc& disc, const mbs_export::ModalBody& body);
 
 /// Members `diameters`, `circles` and `in_plane`; null where one is unknown.
 std::vector<Json::Member> look_members(const ModeLook& look);

@@ -133,7 +133,8 @@ std::optional<squeal::Disc> disc_of(const Found& found)
 ModeLooks looks_of(const Found& found, const std::optional<squeal::Disc>& used)
 {
   if (!used) return {};
-  return mode_looks(squeal::make_disc(*found.body, squeal::ring_choice(*found.scene.squeal), {}));
+  const squeal::RingChoice rings = squeal::ring_choice(*found.scene.squeal);
+  return mode_looks(squeal::make_disc(*found.body, rings, {}), *found.body);
 }
 
 /// @throws chladni::Error naming the file when the results are of another body.

@@ -18,7 +18,7 @@ namespace chladni::report {
 struct ReportArguments {
   std::vector<std::string> scenes;        ///< of one run, or of some to be compared
   std::vector<std::string> outputs{"."};  ///< folders of their files; the page is in the first
-  std::string benchmark;                  ///< JSON of speed against error; empty for none
+  std::string benchmark = {};             ///< JSON of speed against error; empty for none
   bool stale = false;                     ///< files made before a change of the scene are shown too
 };
 

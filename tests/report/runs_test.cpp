@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 
 #include "common/error.hpp"
 
@@ -16,9 +18,13 @@ struct Runs : testing::Test {
   Runs()
   {
     std::filesystem::create_directories(folder);
-    for (const char* name : {"one", "other"}) {
-      std::ofstream(folder / (std::string(name) + ".toml"))
-          << "name = \"" << name << "\"\ntitle = \"Disc\"\n";
+    std::ifstream example(path(CHLADNI_SOURCE_DIR) / "examples/rigid_disc/scene.toml");
+    const std::string text{std::istreambuf_iterator<char>(example), {}};
+    for (const std::string name : {"one", "other"}) {
+      const std::string named =
+          std::regex_replace(text, std::regex("\"rigid\" "), '"' + name + '"');
+      std::ofstream(folder / (name + ".toml"))
+          << std::regex_replace(named, std::regex("Rigid disc of.*"), "Disc\"");
     }
   }
   ~Runs() override { std::filesystem::remove_all(folder); }

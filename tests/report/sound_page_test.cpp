@@ -44,10 +44,10 @@ TEST_F(SoundPage, ShowsTheAmplitudeOfEachToneAtEachMicrophone)
 {
   const files::Reader reader(write_sound(folder).string());
   const std::string text = sound_page(reader, folder / "disc.sound.wav").text();
-  EXPECT_NE(text.find(R"("name":"above")"), std::string::npos) << text;
-  EXPECT_NE(text.find(R"("pressure":[5])"), std::string::npos) << "|3 + 4i|: " << text;
-  EXPECT_NE(text.find(R"("wav":null)"), std::string::npos) << text;
-  EXPECT_NE(text.find(R"("directivity":null)"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"("name": "above")"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"("pressure": [5])"), std::string::npos) << "|3 + 4i|: " << text;
+  EXPECT_NE(text.find(R"("wav": null)"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"("directivity": null)"), std::string::npos) << text;
 }
 
 TEST_F(SoundPage, HoldsTheWavFileWhereItIsSmall)
@@ -55,7 +55,7 @@ TEST_F(SoundPage, HoldsTheWavFileWhereItIsSmall)
   const files::Reader reader(write_sound(folder).string());
   const path wav = folder / "disc.sound.wav";
   std::ofstream(wav) << "RIFF";
-  EXPECT_NE(sound_page(reader, wav).text().find(R"("wav":"UklGRg==")"), std::string::npos);
+  EXPECT_NE(sound_page(reader, wav).text().find(R"("wav": "UklGRg==")"), std::string::npos);
   resize_file(wav, 5'000'000);
   const std::string text = sound_page(reader, wav).text();
   EXPECT_NE(text.find("disc.sound.wav has 5.0 MB and is not in this page"), std::string::npos);

@@ -38,7 +38,7 @@ function keyFigures(run) {
                  : `stability over the speed: ${run.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${speedText(cycle.speed)}` +
                  (cycle.doubt && ` (${cycle.doubt === "not settled" ? "end of the transient, " : ""}${cycle.doubt})`),
-               loudest(run) !== undefined && `${dB(loudest(run))} dB(A)`];
+               loudest(run) !== undefined && `${dB(loudest(run))} dB(A) at the loudest microphone`];
   return key.filter(Boolean).join(" · ");
 }
 

@@ -17,7 +17,7 @@ function microphonesTable({microphones}) {
   return scrolled(table(["microphone", "at x, y, z, m", "dB", "dB(A)", "dB of the peak", "around the axis, dB"],
     microphones.map(({name, position, level_dB, level_A_dB, peak_dB, around}) =>
       [name, position.map(x => formatted(x, 3)).join(", "), dB(level_dB), dB(level_A_dB), dB(peak_dB),
-       around.map(rms => dB(levelOf(rms))).join(" to ")])));
+       [...new Set(around.map(rms => dB(levelOf(rms))))].join(" to ")])));
 }
 
 function tonesTable({tones}) {
