@@ -81,10 +81,9 @@ ModeLooks mode_looks(const squeal::Disc& disc, const mbs_export::ModalBody& body
   const auto ring =
       std::ranges::find(body.rings, disc.rings.front().name, &mbs_export::ContactRing::name);
   if (ring == body.rings.end()) return looks;
-  for (const int number : disc.still) {
+  for (const int number : disc.still)
     if (const auto waves = waves_in_plane(body, *ring, number - 1))
       looks[number] = {.diameters = *waves, .circles = {}, .in_plane = 1.0};
-  }
   return looks;
 }
 

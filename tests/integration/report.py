@@ -35,7 +35,8 @@ BENCHMARK["studies"][0]["case"] = "disc </script>"
 RUN_UP = (SQUEAL.replace("""analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", "limit-cycle-branch",
             "stability-map", "spectrum"]""", """analyses = ["critical-speed", "gradients", "transient", "spectrogram"]""")
           .replace("map = { parameter", "# map = { parameter")
-          .replace("duration_s = 0.3,", "duration_s = 1.0, speed_program = [{ t_s = 1.0, speed_rad_s = 45.0 }],"))
+          .replace("duration_s = 0.3,",
+                   "duration_s = 1.0, speed_program = [{ t_s = 1.0, speed_rad_s = 45.0 }],"))
 SCRIPT = """<script>
 addEventListener("error", event => { document.body.dataset.error = event.message; });
 </script><script>{
@@ -68,7 +69,8 @@ const at = (u, v) => ({clientX: around.left + of("x") + u * of("width"), clientY
                        bubbles: true, cancelable: true});
 const point = (type, u, v, more) => svg.dispatchEvent(new PointerEvent(type, {...at(u, v), pointerType: "mouse", ...more}));
 const numbers = () => [...svg.querySelectorAll("text")].map(text => text.textContent).join("|");
-const drag = more => { point("pointerdown", 0.3, 0.3, more); point("pointermove", 0.5, 0.6, more); point("pointerup", 0.5, 0.6, more); };
+const way = [["pointerdown", 0.3, 0.3], ["pointermove", 0.5, 0.6], ["pointerup", 0.5, 0.6]];
+const drag = more => { for (const [type, u, v] of way) point(type, u, v, more); };
 const wheel = (target, ctrlKey) => !target.dispatchEvent(new WheelEvent("wheel", {...at(0.4, 0.4), deltaY: -100, ctrlKey}));
 const whole = numbers();
 point("pointermove", 0.4, 0.4);
@@ -94,9 +96,8 @@ told.rpm = Number(/rpm/.test(document.getElementById("key-figures").textContent)
 """
 # The choice of a run shows all of it.
 CHOOSER = """
-const before = document.querySelectorAll("section").length;
 document.querySelectorAll(".runs button")[1].click();
-document.body.dataset.sections = Number(document.querySelectorAll("section").length === before);
+document.body.dataset.once = Number(["comparison", "modes", "origin"].every(id => document.querySelectorAll(`#${id}`).length === 1));
 document.body.dataset.scene = Number(document.querySelector("#origin pre").textContent.includes("friction = 0.7"));
 """
 
@@ -225,7 +226,8 @@ def look_closer(chromium, page):
     require("rad/s" in state["readout"] and "rpm" in state["readout"], f"the plot tells its values: {state['readout']}")
     require(state["zoomed"] == state["moved"] == state["whole"] == "1", "a box zooms, Shift moves, a double click shows the whole")
     require(state["wheel"] == "0101", "the wheel scrolls the page unless Ctrl is held")
-    require(state["files"] == state["buttons"] and int(state["pictures"]) * 2 == int(state["files"]) > 10, "each plot is saved as SVG and as CSV")
+    files, pictures = int(state["files"]), int(state["pictures"])
+    require(files == int(state["buttons"]) == 2 * pictures > 10, "each plot is saved as SVG and as CSV")
     require(state["lame"] == "0" and state["rpm"] == "1", "no number of a file failed, and speeds are told in rpm too")
 
 
@@ -263,7 +265,7 @@ def main(programs, chromium=None, screenshot=None):
         use(chromium, page)
         look_closer(chromium, page)
         chosen = used(chromium, both, CHOOSER)
-        require(chosen["sections"] == chosen["scene"] == "1", "the other run is shown in place of the first")
+        require(chosen["once"] == chosen["scene"] == "1", "the other run is shown in place of the first")
         photograph(chromium, page, screenshot or str(folder / "page.png"))
 
 
