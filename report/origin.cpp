@@ -17,7 +17,7 @@ namespace {
 
 /// The scenes that a file was made from, step by step; empty where a step has none.
 struct Texts {
-  std::string reduction, body, results, radiation;
+  std::string reduction, body, results, radiation, sound;
 };
 
 Texts texts_of(const Read& read)
@@ -28,21 +28,24 @@ Texts texts_of(const Read& read)
   };
   switch (read.what) {
     case Made::reduction:
-      return {.reduction = origin.scene, .body = {}, .results = {}, .radiation = {}};
+      return {.reduction = origin.scene, .body = {}, .results = {}, .radiation = {}, .sound = {}};
     case Made::body:
       return {.reduction = first(origin.reduction_scene, origin.scene),
               .body = origin.scene,
               .results = {},
-              .radiation = {}};
+              .radiation = {},
+              .sound = {}};
     case Made::results:
     case Made::radiation:
+    case Made::sound:
       break;
   }
   const bool radiates = read.what == Made::radiation;
   return {.reduction = first(origin.reduction_scene, origin.body_scene),
           .body = origin.body_scene,
           .results = radiates ? std::string() : origin.scene,
-          .radiation = radiates ? origin.scene : std::string()};
+          .radiation = radiates ? origin.scene : std::string(),
+          .sound = read.what == Made::sound ? origin.scene : std::string()};
 }
 
 /// "the mesh file disc.msh" when it is there and is not what it was.
@@ -71,12 +74,16 @@ std::string remedy_of(Made changed, const Read& read, const std::string& scene)
   const std::string folder = read.file.parent_path().string();
   const std::string words =
       fmt::format("{} --output {}", scene, folder.empty() ? std::string(".") : folder);
+  if (changed == Made::sound) return fmt::format("`chladni sound {}`", words);
   if (read.what == Made::radiation) return fmt::format("`chladni sound {} --radiation`", words);
-  if (changed == Made::results) return fmt::format("`squeal run {}`", words);
+  const std::string last =
+      read.what == Made::sound ? fmt::format(" and `chladni sound {}`", words) : std::string();
+  if (changed == Made::results) return fmt::format("`squeal run {}`{}", words, last);
   const char* program = read.what == Made::reduction ? "reduce"
                         : changed == Made::reduction ? "run"
                                                      : "body";
   const std::string first = fmt::format("`chladni {} {}`", program, words);
+  if (read.what == Made::sound) return fmt::format("{}, `squeal run {}`{}", first, words, last);
   return read.what == Made::results ? first + fmt::format(" and `squeal run {}`", words) : first;
 }
 
@@ -85,9 +92,11 @@ Verdict verdict_on(const scene::Scene& scene, const Read& read)
   using scene::Step;
   const Texts texts = texts_of(read);
   Verdict verdict;
-  Made first = Made::results;
   add(verdict.changes, scene::changed_keys(texts.results, scene.text, Step::squeal));
+  const bool is_sound_alone = read.what == Made::sound && verdict.changes.empty();
+  Made first = is_sound_alone ? Made::sound : Made::results;
   add(verdict.changes, scene::changed_keys(texts.radiation, scene.text, Step::radiation));
+  add(verdict.changes, scene::changed_keys(texts.sound, scene.text, Step::sound));
   const auto look_at = [&](const std::vector<std::string>& changes, Made what) {
     if (!changes.empty()) first = what;
     add(verdict.changes, changes);

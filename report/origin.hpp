@@ -10,7 +10,7 @@
 namespace chladni::report {
 
 /// The kinds of files that are made from a scene.
-enum class Made { reduction, body, results, radiation };
+enum class Made { reduction, body, results, radiation, sound };
 
 /// A file that was read, with its provenance.
 struct Read {

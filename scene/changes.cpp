@@ -101,6 +101,8 @@ bool is_of(Step step, std::string_view key, const Values& values)
              (is_damped_by_sound(values) && is_of_radiation(key));
     case Step::radiation:
       return is_of_radiation(key);
+    case Step::sound:
+      return table == "sound";
     case Step::reduction:
       break;
   }
@@ -125,9 +127,8 @@ std::vector<std::string> changed_keys(const std::string& then, const std::string
   const std::optional<toml::table> before = parsed(then), after = parsed(now);
   if (!before || !after) return {};
   const Values old_values = values_of(step, *before), new_values = values_of(step, *after);
-  const char* of_step = step == Step::squeal      ? "squeal"
-                        : step == Step::radiation ? "sound"
-                                                  : "mesh";
+  const bool is_of_sound = step == Step::radiation || step == Step::sound;
+  const char* of_step = step == Step::squeal ? "squeal" : is_of_sound ? "sound" : "mesh";
   if (!before->contains(of_step) || !after->contains(of_step)) return {};
   std::vector<std::string> changes;
   for (const auto& [key, value] : new_values) {

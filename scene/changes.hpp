@@ -10,7 +10,8 @@ enum class Step {
   reduction,  ///< structure, interface and [reduce]
   body,       ///< [body]
   squeal,     ///< [squeal]
-  radiation   ///< the keys of [sound] about body and air
+  radiation,  ///< the keys of [sound] about body and air
+  sound       ///< all of [sound]
 };
 
 /// The changes of the keys that a step itself depends on between two texts of a scene, such as

@@ -56,7 +56,7 @@ Json count_json(const std::string& of, const mbs_export::ModeCount& count)
 }  // namespace
 
 Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate& certificate,
-                const std::map<int, int>& diameters)
+                const ModeLooks& looks)
 {
   const auto places = certified_places(body, certificate);
   std::vector<Json> modes;
@@ -66,8 +66,8 @@ Json modes_json(const mbs_export::ModalBody& body, const mbs_export::Certificate
     std::vector<Json::Member> mode{{"number", number},
                                    {"frequency_Hz", rounded(body.omega[i] / two_pi)},
                                    {"kind", name_of(body.kinds[k])}};
-    if (const auto n = diameters.find(number); n != diameters.end())
-      mode.emplace_back("diameters", n->second);
+    if (const auto look = looks.find(number); look != looks.end())
+      for (Json::Member& member : look_members(look->second)) mode.push_back(std::move(member));
     if (const auto place = places[k]) {
       mode.emplace_back("estimate", rounded(mbs_export::estimated_errors(certificate)[*place]));
       if (*place < certificate.bounds.size())

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double range_dB = 60.0;
-constexpr Index frequencies_max = 160, times_max = 120;
+constexpr Index frequencies_max = 320, times_max = 120;
 
 /// The largest amplitude of each block of times and frequencies, in dB above the floor.
 Eigen::MatrixXd levels(const squeal::Spectrogram& of, Index every_t, Index every_f)
@@ -25,7 +25,8 @@ Eigen::MatrixXd levels(const squeal::Spectrogram& of, Index every_t, Index every
     for (Index k = 0; k < n_t; ++k) {
       const double a =
           of.amplitude.block(k * every_t, i * every_f, every_t, every_f).maxCoeff() / floor;
-      dB(i, k) = std::max(-range_dB, 20.0 * std::log10(std::max(a, 1e-9)));
+      const double level = std::max(-range_dB, 20.0 * std::log10(std::max(a, 1e-9)));
+      dB(i, k) = std::round(10.0 * level) / 10.0;  // shorter in the page
     }
   return dB;
 }

@@ -33,19 +33,15 @@ std::string report_page(std::string_view title, const Json& content, std::string
   // The content comes last, since it is the one part whose text is not ours.
   std::string page(page_parts::page_html);
   page = with(page, "/*STYLE*/", page_parts::style_css);
-  page = with(page, "/*PLOT*/", page_parts::plot_js);
-  page = with(page, "/*LABELS*/", page_parts::labels_js);
-  page = with(page, "/*VIEWER*/", page_parts::viewer_js);
-  page = with(page, "/*GROUPS*/", page_parts::groups_js);
-  page = with(page, "/*STABILITY*/", page_parts::stability_js);
-  page = with(page, "/*RESPONSES*/", page_parts::responses_js);
-  page = with(page, "/*SECTIONS*/", page_parts::sections_js);
+  std::string scripts;
+  for (const std::string_view script : page_parts::scripts) scripts += script;
+  page = with(page, "/*SCRIPTS*/", scripts);
   const std::string::size_type at = page.find("<!--CONTENT-->");
-  const std::string scripts = "<script type=\"application/json\" id=\"content\">" +
-                              as_script(content.text()) +
-                              "</script>\n<script type=\"application/json\" id=\"benchmark\">" +
-                              as_script(benchmark) + "</script>\n";
-  return with(page.substr(0, at), "<!--TITLE-->", as_html(title)) + scripts + page.substr(at);
+  const std::string texts = "<script type=\"application/json\" id=\"content\">" +
+                            as_script(content.text()) +
+                            "</script>\n<script type=\"application/json\" id=\"benchmark\">" +
+                            as_script(benchmark) + "</script>\n";
+  return with(page.substr(0, at), "<!--TITLE-->", as_html(title)) + texts + page.substr(at);
 }
 
 }  // namespace chladni::report

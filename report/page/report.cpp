@@ -1,6 +1,7 @@
 #include "report/page/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -18,10 +19,13 @@
 #include "report/describe_certificate.hpp"
 #include "report/origin.hpp"
 #include "report/output.hpp"
+#include "report/page/mode_looks.hpp"
 #include "report/page/modes.hpp"
 #include "report/page/numbers.hpp"
 #include "report/page/page.hpp"
+#include "report/page/runs.hpp"
 #include "report/page/shapes.hpp"
+#include "report/page/sound.hpp"
 #include "report/page/squeal_motions.hpp"
 #include "report/page/squeal_results.hpp"
 #include "report/version.hpp"
@@ -41,11 +45,28 @@ struct Found {
   std::optional<mbs_export::ModalBody> body;
   mbs_export::Certificate certificate;
   std::optional<squeal::SquealResults> results;
+  Json sound;  ///< null without
 };
+
+/// The sound, or why it is left out: the other sections do without it. Null where there is none.
+Json sound_of(const ReportSource& source)
+{
+  const path file = source.folder / (source.scene.name + ".sound.h5");
+  if (!exists(file)) return Json();
+  const files::Reader reader(file.string());
+  const mbs_export::Provenance origin = file_parts::read_provenance(reader);
+  try {
+    require_of_scene(source.scene, {.file = file, .what = Made::sound, .origin = origin},
+                     source.stale);
+  } catch (const Error& stale) {
+    return Json::object({{"left_out", stale.what()}});
+  }
+  return sound_page(reader, path(file).replace_extension(".wav"));
+}
 
 Found find_files(const ReportSource& source)
 {
-  Found found{.scene = source.scene, .body = {}, .certificate = {}, .results = {}};
+  Found found{.scene = source.scene, .body = {}, .certificate = {}, .results = {}, .sound = {}};
   const auto file = [&](const char* kind) { return source.folder / (found.scene.name + kind); };
   const auto check = [&](const char* kind, Made what, const mbs_export::Provenance& origin) {
     require_of_scene(found.scene, {.file = file(kind), .what = what, .origin = origin},
@@ -65,6 +86,7 @@ Found find_files(const ReportSource& source)
     found.results = squeal::read_results(reader);
     check(".squeal.h5", Made::results, file_parts::read_provenance(reader));
   }
+  found.sound = sound_of(source);
   if (!found.body && !found.results) {
     throw Error(fmt::format(
         "{}: holds neither {} nor {}; make them with `chladni run {} --output {}` and `squeal run`",
@@ -108,15 +130,11 @@ std::optional<squeal::Disc> disc_of(const Found& found)
   return std::nullopt;
 }
 
-std::map<int, int> diameters_of(const Found& found, const std::optional<squeal::Disc>& used)
+ModeLooks looks_of(const Found& found, const std::optional<squeal::Disc>& used)
 {
-  std::map<int, int> diameters;
-  if (!used) return diameters;
-  const squeal::Disc all =
-      squeal::make_disc(*found.body, squeal::ring_choice(*found.scene.squeal), {});
-  const std::vector<int> n = squeal::nodal_diameters(all);
-  for (std::size_t i = 0; i < n.size(); ++i) diameters[all.mode_numbers[i]] = n[i];
-  return diameters;
+  if (!used) return {};
+  const squeal::RingChoice rings = squeal::ring_choice(*found.scene.squeal);
+  return mode_looks(squeal::make_disc(*found.body, rings, {}), *found.body);
 }
 
 /// @throws chladni::Error naming the file when the results are of another body.
@@ -128,12 +146,12 @@ try {
   throw Error(fmt::format("{}.squeal.h5: {}", found.scene.name, error.what()));
 }
 
-std::vector<Json::Member> body_members(const Found& found)
+std::vector<Json::Member> body_members(const Found& found, const std::optional<squeal::Disc>& disc,
+                                       const ModeLooks& looks)
 {
-  const std::optional<squeal::Disc> disc = disc_of(found);
   const std::vector<Motion> motions = motions_of(found, disc);
   return {{"surface", shapes_json(*found.body, motions)},
-          {"modes", modes_json(*found.body, found.certificate, diameters_of(found, disc))},
+          {"modes", modes_json(*found.body, found.certificate, looks)},
           {"certified_support", texts(found.certificate.fixed)},
           {"support", texts(found.body->fixed)},
           {"counts", counts_json(found.certificate)},
@@ -141,20 +159,26 @@ std::vector<Json::Member> body_members(const Found& found)
           {"provenance", provenance_json(found.body->provenance)}};
 }
 
-Json content_of(const Found& found)
+Json content_of(const Found& found, const std::string& label)
 {
-  std::vector<Json::Member> members{
-      {"title", found.scene.title}, {"version", version}, {"scene", found.scene.text}};
+  const std::optional<squeal::Disc> disc = disc_of(found);
+  const ModeLooks looks = looks_of(found, disc);
+  std::vector<Json::Member> members{{"title", found.scene.title},
+                                    {"label", label},
+                                    {"version", version},
+                                    {"scene", found.scene.text}};
   std::vector<Json> tables;
   if (found.body) {
     tables.push_back(table_json("Modal body", describe(*found.body)));
-    for (Json::Member& member : body_members(found)) members.push_back(std::move(member));
+    for (Json::Member& member : body_members(found, disc, looks))
+      members.push_back(std::move(member));
   }
   if (found.results) {
     tables.push_back(table_json("Squeal", describe(*found.results)));
-    for (Json::Member& member : squeal_members(*found.results))
+    for (Json::Member& member : squeal_members(*found.results, looks))
       members.push_back(std::move(member));
   }
+  if (found.sound.text() != "null") members.emplace_back("sound", found.sound);
   members.emplace_back("tables", Json::array(tables));
   return Json::object(members);
 }
@@ -164,10 +188,19 @@ Json content_of(const Found& found)
 void declare_report(CLI::App& app, ReportArguments& arguments)
 {
   CLI::App* report = app.add_subcommand(
-      "report", "writes a page with pictures of a body and its squeal: NAME.report.html");
-  report->add_option("SCENE", arguments.scene, "the scene file (TOML)")->required();
-  report->add_option("--output", arguments.output, "folder of the scene's files, and of the report")
+      "report",
+      "writes a page with pictures of a body, its squeal and its sound: NAME.report.html");
+  report
+      ->add_option("SCENE", arguments.scenes,
+                   "the scene file (TOML); several are compared, in NAME.comparison.html")
+      ->required();
+  report
+      ->add_option("--output", arguments.outputs,
+                   "folder of the scene's files, and of the report; once for each scene, or for "
+                   "each run of one scene")
       ->type_name("DIR")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->capture_default_str();
   report
       ->add_option("--benchmark", arguments.benchmark,
@@ -177,7 +210,8 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
                    "also shows files that were made before the scene changed");
   report->footer(
       fmt::format("Example (after `chladni run` and `squeal run` with the same SCENE and DIR):\n"
-                  "  {} report scene.toml --output out\n"
+                  "  {0} report scene.toml --output out\n"
+                  "  {0} report scene.toml stiffer.toml --output out     (compares the two)\n"
                   "The page opens in any browser and loads nothing from elsewhere.",
                   app.get_name()));
 }
@@ -185,16 +219,31 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
 std::string report_html(const ReportSource& source, std::string_view benchmark)
 {
   const Found found = find_files(source);
-  return report_page(found.scene.title, content_of(found), benchmark);
+  return report_page(found.scene.title, content_of(found, found.scene.title), benchmark);
+}
+
+std::string comparison_html(const std::vector<ReportSource>& sources, std::string_view benchmark)
+{
+  const std::vector<std::string> labels = labels_of(sources);
+  std::vector<Json> runs;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    runs.push_back(content_of(find_files(sources[i]), labels[i]));
+  const std::string title = fmt::format("{}", fmt::join(labels, " beside "));
+  const Json content =
+      Json::object({{"title", title}, {"version", version}, {"runs", Json::array(runs)}});
+  return report_page(title, content, benchmark);
 }
 
 void write_report(const ReportArguments& arguments)
 {
-  const ReportSource source{.scene = scene::read_scene(arguments.scene),
-                            .folder = arguments.output,
-                            .stale = arguments.stale ? Stale::use : Stale::refuse};
-  const std::string page = report_html(source, read_benchmark(arguments.benchmark));
-  const path file = source.folder / (source.scene.name + ".report.html");
+  const std::vector<ReportSource> sources = runs_of(arguments);
+  const std::string benchmark = read_benchmark(arguments.benchmark);
+  const ReportSource& first = sources.front();
+  const bool is_one = sources.size() == 1;
+  const std::string page =
+      is_one ? report_html(first, benchmark) : comparison_html(sources, benchmark);
+  const path file =
+      first.folder / (first.scene.name + (is_one ? ".report.html" : ".comparison.html"));
   files::write_text(file, page);
   fmt::print("wrote {}, {:.1f} MB\n", file.string(), static_cast<double>(page.size()) / 1e6);
 }

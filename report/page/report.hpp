@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/origin.hpp"
 #include "scene/scene.hpp"
@@ -15,10 +16,10 @@ namespace chladni::report {
 
 /// Arguments of `chladni report` and `squeal report`.
 struct ReportArguments {
-  std::string scene;
-  std::string output = ".";  ///< folder of the scene's files and of the report
-  std::string benchmark;     ///< JSON file of a benchmark, speed against error; empty for none
-  bool stale = false;        ///< show files that were made before the scene changed
+  std::vector<std::string> scenes;        ///< of one run, or of some to be compared
+  std::vector<std::string> outputs{"."};  ///< folders of their files; the page is in the first
+  std::string benchmark = {};             ///< JSON of speed against error; empty for none
+  bool stale = false;                     ///< files made before a change of the scene are shown too
 };
 
 /// Declares the subcommand `report` of `app`; the values are in `arguments` after parsing.
@@ -31,13 +32,17 @@ struct ReportSource {
   Stale stale = Stale::refuse;
 };
 
-/// One self-contained HTML page about the files in the folder: the body, the certificate of its
-/// reduction and the results of squeal. Needs no PETSc.
-/// @param benchmark  JSON text of a benchmark to draw as well, or "null"
-/// @throws chladni::Error when there is neither a body nor a result, or a file is damaged.
+/// One self-contained page of what is in the folder: the body, the certificate of its reduction,
+/// the results of squeal and the sound. Needs no PETSc.
+/// @param benchmark  JSON text that the page draws too, or "null"
+/// @throws chladni::Error when there is neither a body nor results, or a file is damaged.
 std::string report_html(const ReportSource& source, std::string_view benchmark);
 
-/// Writes the page of report_html to NAME.report.html in the folder.
+/// The same of some runs: what differs between them, then all of one run, which the reader chooses.
+std::string comparison_html(const std::vector<ReportSource>& sources, std::string_view benchmark);
+
+/// Makes the page of one run, NAME.report.html in its folder, or of some, NAME.comparison.html in
+/// that of the first.
 /// @throws chladni::Error as report_html, and when the scene or the benchmark cannot be read.
 void write_report(const ReportArguments& arguments);
 

@@ -75,11 +75,12 @@ Json transient_json(const squeal::Transient& transient)
                        {"tail", orbit_json(transient.tail)}});
 }
 
-Json campbell_json(const squeal::EigenvalueMap& map)
+Json campbell_json(const squeal::EigenvalueMap& map, const ModeLooks& looks)
 {
   return Json::object({{"speeds", rounded(map.speeds)},
                        {"frequency_Hz", rounded_rows(map.lambda.imag().transpose() / two_pi)},
-                       {"growth", rounded_rows(map.lambda.real().transpose())}});
+                       {"growth", rounded_rows(map.lambda.real().transpose())},
+                       {"looks", motion_looks(map, looks)}});
 }
 
 Json unstable_modes_json(const squeal::StabilityTable& table)
@@ -202,10 +203,12 @@ Json cycle_json(const Cycle& cycle)
 
 }  // namespace
 
-std::vector<Json::Member> squeal_members(const squeal::SquealResults& results)
+std::vector<Json::Member> squeal_members(const squeal::SquealResults& results,
+                                         const ModeLooks& looks)
 {
   std::vector<Json::Member> members;
-  if (results.eigenvalues) members.emplace_back("campbell", campbell_json(*results.eigenvalues));
+  if (results.eigenvalues)
+    members.emplace_back("campbell", campbell_json(*results.eigenvalues, looks));
   if (results.critical_speed) {
     members.emplace_back(
         "critical", Json::object({{"speed", rounded(results.critical_speed->speed)},

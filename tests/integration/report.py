@@ -5,6 +5,7 @@ Usage: report.py PROGRAM_DIR [CHROMIUM [SCREENSHOT]]
 
 import json
 import re
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -30,9 +31,20 @@ transient = { speed_rad_s = 18.85, duration_s = 0.3, initial_pad_displacement = 
 BENCHMARK = json.loads((ROOT / "docs/results/end_to_end.json").read_text())
 BENCHMARK["studies"][0]["case"] = "disc </script>"
 
-# What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.
-READER = """<script>
+# Speeds up from rest: what the sections of orders and gradients show.
+RUN_UP = (SQUEAL.replace("""analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", "limit-cycle-branch",
+            "stability-map", "spectrum"]""", """analyses = ["critical-speed", "gradients", "transient", "spectrogram"]""")
+          .replace("map = { parameter", "# map = { parameter")
+          .replace("duration_s = 0.3,",
+                   "duration_s = 1.0, speed_program = [{ t_s = 1.0, speed_rad_s = 45.0 }],"))
+SCRIPT = """<script>
 addEventListener("error", event => { document.body.dataset.error = event.message; });
+</script><script>{
+%s
+}</script></body>"""
+
+# What a reader does: picks the third mode, turns the body with a key, shows the mesh, and starts it.
+READER = """
 document.querySelector("tr[data-motion='2']").click();
 document.body.dataset.motion = document.querySelector("select").value;
 // In the browser's virtual time no frames are drawn; a timer stands in for them.
@@ -46,7 +58,48 @@ setTimeout(() => {
   document.body.dataset.phase = window.viewer.phase;
   document.body.dataset.painted = window.viewer.painted;
 }, 1000);
-</script>"""
+"""
+
+# A plot under a mouse: values, a box, Shift, the wheel with and without Ctrl, a double click; and its files.
+LOOKER = """
+const svg = document.querySelector("#campbell svg"), around = svg.getBoundingClientRect(), told = document.body.dataset;
+const frame = svg.querySelector(".frame"), of = name => Number(frame.getAttribute(name));
+svg.setPointerCapture = () => {};
+const at = (u, v) => ({clientX: around.left + of("x") + u * of("width"), clientY: around.top + of("y") + v * of("height"),
+                       bubbles: true, cancelable: true});
+const point = (type, u, v, more) => svg.dispatchEvent(new PointerEvent(type, {...at(u, v), pointerType: "mouse", ...more}));
+const numbers = () => [...svg.querySelectorAll("text")].map(text => text.textContent).join("|");
+const way = [["pointerdown", 0.3, 0.3], ["pointermove", 0.5, 0.6], ["pointerup", 0.5, 0.6]];
+const drag = more => { for (const [type, u, v] of way) point(type, u, v, more); };
+const wheel = (target, ctrlKey) => !target.dispatchEvent(new WheelEvent("wheel", {...at(0.4, 0.4), deltaY: -100, ctrlKey}));
+const whole = numbers();
+point("pointermove", 0.4, 0.4);
+told.readout = svg.closest("figure").querySelector(".readout").textContent;
+drag();
+told.zoomed = Number(numbers() !== whole);
+const zoomed = numbers();
+drag({shiftKey: true});
+told.moved = Number(numbers() !== zoomed);
+svg.dispatchEvent(new MouseEvent("dblclick", {bubbles: true}));
+told.whole = Number(numbers() === whole);
+told.wheel = [wheel(svg, false), wheel(svg, true), wheel(document.getElementById("viewer"), false),
+              wheel(document.getElementById("viewer"), true)].map(Number).join("");
+const files = [];
+window.save = (name, type, text) => files.push(text);
+const kinds = [...document.querySelectorAll("figure button")].filter(button => /^(SVG|CSV)$/.test(button.textContent));
+kinds.forEach(button => button.click());
+told.files = files.length;
+told.buttons = kinds.length;
+told.pictures = files.filter(text => text.startsWith("<svg") && !text.includes("var(--")).length;
+told.lame = files.filter(text => /NaN|undefined|Infinity/.test(text)).length;
+told.rpm = Number(/rpm/.test(document.getElementById("key-figures").textContent));
+"""
+# The choice of a run shows all of it.
+CHOOSER = """
+document.querySelectorAll(".runs button")[1].click();
+document.body.dataset.once = Number(["comparison", "modes", "origin"].every(id => document.querySelectorAll(`#${id}`).length === 1));
+document.body.dataset.scene = Number(document.querySelector("#origin pre").textContent.includes("friction = 0.7"));
+"""
 
 
 def require(condition, what):
@@ -92,6 +145,9 @@ def look_at_disc(page, folder):
     require(3 < json_of_squeal < 60, f"critical speed {json_of_squeal} rad/s")
     mode = content["modes"][6]
     require(mode["diameters"] == 3 and 0 < mode["estimate"] < 0.01, f"mode 7 with diameters and error: {mode}")
+    # What turns with the normal of a thick plate moves in the plane.
+    require(mode["circles"] == 0 and mode["in_plane"] < 0.1, f"it moves along the axis without a nodal circle: {mode}")
+    require({look["diameters"] for look in content["campbell"]["looks"]} == {3}, "the branches are told by their nodal diameters")
     require(mode["bound"] >= mode["estimate"], "the certified bound is above the estimate")
     names = [motion["name"] for motion in content["surface"]["motions"]]
     require(any("Limit cycle" in name for name in names), "the limit cycle can be looked at")
@@ -107,6 +163,32 @@ def other_pages(programs, folder):
     run(programs / "squeal", "run", rigid, "--output", folder / "rigid")
     run(programs / "squeal", "report", rigid, "--output", folder / "rigid")
     return [next((folder / name).glob("*.report.html")) for name in ("beam", "rigid")]
+
+
+def make_comparison(programs, page):
+    """The disc beside itself with more friction, in a folder of its own; and what does not go together."""
+    scene, other = page.parent / "scene.toml", page.parent / "other"
+    other.mkdir()
+    shutil.copy(page.parent / "disc.body.h5", other)
+    rougher = other / "scene.toml"
+    rougher.write_text(scene.read_text().replace("friction = 0.6", "friction = 0.7"))
+    run(programs / "squeal", "run", rougher, "--output", other)
+    both = ("report", scene, rougher, "--output", page.parent)
+    odd = run(programs / "squeal", *both, "--output", other, "--output", other, code=1)
+    require("2 scenes and 3 folders" in odd.stderr, "folders that go with no scene are refused")
+    run(programs / "squeal", *both, "--output", other)
+    return next(page.parent.glob("*.comparison.html"))
+
+
+def make_run_up(programs, page):
+    folder = page.parent / "run_up"
+    folder.mkdir()
+    shutil.copy(page.parent / "disc.body.h5", folder)
+    text = (ROOT / "tests/data/coarse_disc.toml").read_text().replace("[body]", "sylvester = true\n\n[body]") + RUN_UP
+    (folder / "scene.toml").write_text(text)
+    run(programs / "squeal", "run", folder / "scene.toml", "--output", folder)
+    run(programs / "squeal", "report", folder / "scene.toml", "--output", folder)
+    return next(folder.glob("*.report.html"))
 
 
 def browse(chromium, page, *more):
@@ -129,13 +211,28 @@ def draw(chromium, page, needed):
     require(not empty, f"{page.name}: no number failed {empty}")
 
 
-def use(chromium, page):
-    """A copy of the page with a reader in it."""
+def used(chromium, page, reader):
+    """What the body of a copy of the page tells, with a reader in it."""
     copy = page.with_name("used.html")
-    copy.write_text(page.read_text().replace("</body>", READER + "</body>"))
+    copy.write_text(page.read_text().replace("</body>", SCRIPT % reader))
     shown = browse(chromium, copy, "--dump-dom").stdout
     state = dict(re.findall(r'data-([a-z]+)="([^"]*)"', re.search(r"<body[^>]*>", shown)[0]))
     require("error" not in state, f"nothing fails in use: {state}")
+    return state
+
+
+def look_closer(chromium, page):
+    state = used(chromium, page, LOOKER)
+    require("rad/s" in state["readout"] and "rpm" in state["readout"], f"the plot tells its values: {state['readout']}")
+    require(state["zoomed"] == state["moved"] == state["whole"] == "1", "a box zooms, Shift moves, a double click shows the whole")
+    require(state["wheel"] == "0101", "the wheel scrolls the page unless Ctrl is held")
+    files, pictures = int(state["files"]), int(state["pictures"])
+    require(files == int(state["buttons"]) == 2 * pictures > 10, "each plot is saved as SVG and as CSV")
+    require(state["lame"] == "0" and state["rpm"] == "1", "no number of a file failed, and speeds are told in rpm too")
+
+
+def use(chromium, page):
+    state = used(chromium, page, READER)
     require(state["motion"] == "2" and state["turned"] == "1", "a row shows its mode, a key turns the body")
     require(float(state["phase"]) > 0, "the motion plays")
     require(int(state["painted"]) > 20000, f"{state['painted']} pixels of the body are painted")
@@ -157,12 +254,18 @@ def main(programs, chromium=None, screenshot=None):
         page = make_disc(programs, folder)
         look_at_disc(page, folder)
         beam, rigid = other_pages(programs, folder)
+        both, run_up = make_comparison(programs, page), make_run_up(programs, page)
         if chromium is None:
             return
         draw(chromium, page, ["modes", "campbell", "map", "limit-cycle", "errors", "summary", "origin"])
         draw(chromium, beam, ["modes", "errors", "summary"])
         draw(chromium, rigid, ["campbell", "summary"])
+        draw(chromium, both, ["comparison", "modes", "campbell", "limit-cycle", "origin"])
+        draw(chromium, run_up, ["gradients", "orders"])
         use(chromium, page)
+        look_closer(chromium, page)
+        chosen = used(chromium, both, CHOOSER)
+        require(chosen["once"] == chosen["scene"] == "1", "the other run is shown in place of the first")
         photograph(chromium, page, screenshot or str(folder / "page.png"))
 
 

@@ -3,6 +3,9 @@
 Usage: sound.py PROGRAM_DIR
 """
 
+import base64
+import json
+import re
 import sys
 import tempfile
 import wave
@@ -84,6 +87,28 @@ def check_files(case, above):
         samples = np.frombuffer(sound.readframes(sound.getnframes()), np.int16)
         assert len(samples) == 22050 and abs(samples).max() == 32767
     assert "pressure_re" in Path(f"{name}.sound.vtu").read_text()
+
+
+def sound_on_page(case):
+    """What the page of `squeal report` holds of the sound; files of other steps may be older than the scene."""
+    run = case.run("squeal", "report", case.scene)
+    assert run.returncode == 0, run.stderr
+    page = (case.folder / "coarse.report.html").read_text()
+    return json.loads(re.search(r'id="content">(.*?)</script>', page, re.DOTALL)[1])["sound"]
+
+
+def check_page(case, summary):
+    """The page plays the sound and tells its levels; a sound of other microphones is left out, with a word."""
+    sound, above = sound_on_page(case), summary["microphones"][0]
+    assert np.isclose(sound["microphones"][0]["level_A_dB"], above["level_A_dB"], atol=1e-3), sound["microphones"]
+    assert len(sound["tones"]) == len(summary["tones"]), sound["tones"]
+    assert base64.b64decode(sound["wav"]) == (case.folder / "coarse.sound.wav").read_bytes()
+    assert np.shape(sound["directivity"]["rms"]) == (len(sound["directivity"]["polar"]), len(sound["directivity"]["azimuth"]))
+    scene = case.scene.read_text()
+    case.scene.write_text(scene.replace("[0.5, 0.0, 0.5]", "[0.6, 0.0, 0.5]"))
+    left_out = sound_on_page(case)["left_out"]
+    assert "sound.microphones" in left_out and "`chladni sound" in left_out and "squeal run" not in left_out, left_out
+    case.scene.write_text(scene)
 
 
 def check_way_back(case, summary):
@@ -174,6 +199,7 @@ def main(programs):
         case.works("chladni", "run")
         case.works("squeal", "run")
         summary = check_sound(case)
+        check_page(case, summary)
         check_way_back(case, summary)
         # Results that the sound has damped would be older than any change of the air.
         case.scene.write_text(scene)

@@ -51,6 +51,15 @@ TEST(ChangedKeys, TellWhatCameAndWhatWent)
             (Changes{"reduce.cutoff_Hz = 8000 (was not there)", "reduce.modes is gone (was 10)"}));
 }
 
+TEST(ChangedKeys, OfMicrophonesMatterToTheSoundAndNotToTheRadiation)
+{
+  const std::string sound = std::string(disc) + "[sound]\nharmonics = 3\n";
+  const std::string fewer = std::string(disc) + "[sound]\nharmonics = 2\n";
+  EXPECT_EQ(changed_keys(sound, fewer, Step::sound), Changes{"sound.harmonics = 2 (was 3)"});
+  EXPECT_EQ(changed_keys(sound, fewer, Step::radiation), Changes{});
+  EXPECT_EQ(changed_keys(sound, disc, Step::sound), Changes{}) << "no table, no sound";
+}
+
 TEST(ChangedKeys, AreNoMatterOfSpelling)
 {
   EXPECT_EQ(changed_keys(disc, with("0.6", "6e-1  # dry"), Step::squeal), Changes{});

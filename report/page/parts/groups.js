@@ -1,11 +1,5 @@
 // A mesh at rest with its groups: each has a colour, and its name beside it.
 
-// The colours of a page as numbers, for pixels.
-function pageColour(name) {
-  const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  return [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16));
-}
-
 const mixed = (a, b, part) => a.map((v, c) => Math.round(v + part * (b[c] - v)));
 const flat = colour => new Array(256).fill(colour);  // the same for any value
 const styled = colour => `rgb(${colour.join(", ")})`;
@@ -258,11 +252,6 @@ function groupControls(viewer, rows) {
     for (const row of rows)
       row.hidden = !viewer.groups[row.dataset.group].name.toLowerCase().includes(search.value.toLowerCase());
   });
-  const button = (text, act) => {
-    const made = element("button", {type: "button"}, text);
-    made.addEventListener("click", act);
-    return made;
-  };
   const boxes = viewer.surface.mesh.length ? [checkbox(viewer, "mesh", "showMesh")] : [];
   return {search, bar: element("div", {class: "controls"}, ...boxes, checkbox(viewer, "names", "showNames"),
     button("centre on the group", () => viewer.centreOn(viewer.active)), button("whole mesh", () => viewer.centreOn(-1)),
@@ -277,7 +266,7 @@ function drawGroups(content) {
   const listed = groupTable(viewer.groups), rows = [...listed.tBodies[0].rows];
   const {search, bar} = groupControls(viewer, rows);
   const figure = element("figure", {}, canvas, bar, legend,
-    note("Drag or use the arrow keys to turn; wheel, two fingers or + and - zoom."));
+    note("Drag or use the arrow keys to turn; Ctrl and wheel, two fingers, or + and - zoom."));
   if (content.drawing.said) figure.append(note(content.drawing.said));
   const side = element("div", {}, element("div", {class: "controls"}, search), scrolled(listed));
   section("groups", "Groups", element("div", {class: "viewer"}, figure, side));

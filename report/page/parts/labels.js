@@ -21,14 +21,12 @@ function placed(labels, top, bottom) {
 
 // Labels of the series, each where its curve leaves the plot on the right.
 function drawLabels(svg, series, box, toX, toY) {
-  const labels = series.filter(one => one.label).map(one => {
-    const last = one.y.findLastIndex(Number.isFinite);
+  const right = box.left + box.width, labels = series.filter(one => one.label).map(one => {
+    const last = one.x.findLastIndex((x, i) => Number.isFinite(one.y[i]) && toX(x) <= right + 0.5);
     return {text: one.label, colour: one.colour ?? 0, first: one.first, x: toX(one.x[last]), y: toY(one.y[last])};
-  }).filter(label => label.y >= box.top && label.y <= box.top + box.height);
-  for (const label of placed(labels, box.top + 4, box.top + box.height)) {
-    const right = box.left + box.width;
+  }).filter(label => label.x >= box.left && label.y >= box.top && label.y <= box.top + box.height);
+  for (const label of placed(labels, box.top + 4, box.top + box.height))
     svg.append(svgElement("path", {d: `M${label.x},${label.y}L${right},${label.y}L${right + 8},${label.at}`, fill: "none",
                                    stroke: `var(--c${label.colour})`, "stroke-width": 0.6}),
                svgElement("text", {x: right + 10, y: label.at + 3.5, class: "label"}, label.text));
-  }
 }

@@ -1,16 +1,93 @@
-// What a transient does while the rotation changes: spectrogram, strongest lines and their orders.
+// What a transient does while the rotation changes: spectrogram, waterfall with orders, strongest lines and their orders.
 
-function orderFigures({spectrogram}) {
-  const {map_t, t, speed, envelope, frequency_Hz, level_dB, range_dB, line_Hz, line_order} = spectrogram;
-  const time = {label: "time, s"};
-  const lines = values => values.map((one, k) => ({x: t, y: one.map(v => v ?? NaN), colour: k % 6, line: false, marker: "circle",
+// Orders of the rotation in round numbers that lie in the picture at the end of the run.
+function roundOrders({frequency_Hz, speed}) {
+  const fastest = Math.max(...speed) / (2 * Math.PI);
+  return fastest > 0 ? roundTicks(0, frequency_Hz.at(-1) / fastest, 5).filter(order => order > 0) : [];
+}
+
+// Places where a line of so many events per rotation would be.
+function orderLine(order, values, speeds, isUpright) {
+  const f = speeds.map(speed => order * speed / (2 * Math.PI));
+  return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, said: `order ${formatted(order, 5)}`};
+}
+
+// The number of each order where its line ends in the picture.
+function nameOrders(svg, lines, {box, toX, toY}) {
+  for (const {x, y, said} of lines) {
+    const isInside = ([px, py]) => px > box.left && px < box.left + box.width - 4 && py > box.top + 4;
+    const last = x.map((v, i) => [toX(v), toY(y[i])]).filter(isInside).reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
+    if (!Number.isFinite(last[0])) continue;
+    const place = {x: last[0] - 4, y: Math.max(box.top + 12, last[1] - 3), "text-anchor": "end", class: "label halo"};
+    svg.append(svgElement("text", place, said.replace("order ", "")));
+  }
+}
+
+const speedsAt = ({map_t, t, speed}) => map_t.map(at => speed[nearestIndex(t, at)]);
+
+// Whether the rotation becomes ever faster, or ever slower, so that it can be the axis of a run.
+function isSweep(speeds) {
+  const step = (speeds.at(-1) - speeds[0]) / (speeds.length - 1), largest = Math.max(...speeds.map(Math.abs));
+  return Math.abs(step) * speeds.length > 0.05 * largest && speeds.every((v, i) => i === 0 || (v - speeds[i - 1]) * step > 0);
+}
+
+function spectrogramFigure(of, orders) {
+  const {map_t, frequency_Hz, level_dB, range_dB} = of, speeds = speedsAt(of);
+  const series = orders.map(order => orderLine(order, map_t, speeds, true));
+  return heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz}, unit: "dB", quantity: "level",
+                  z: level_dB.map(row => row.map(level => Math.max(-range_dB, level - range_dB))), rising: [-range_dB, 0], series, over: nameOrders,
+                  title: "Spectrogram of the pad velocity: level below the largest amplitude of the run; dashed: orders of the rotation"});
+}
+
+// One spectrum behind the other, over the rotation speed where that only rises or only falls, else over the time.
+function waterfallFigure(of, orders) {
+  const {map_t, frequency_Hz, level_dB, range_dB} = of, speeds = speedsAt(of), sweeps = isSweep(speeds);
+  const places = sweeps ? speeds : map_t, n = places.length, every = Math.max(1, Math.ceil(n / 45));
+  const shown = places.map((v, k) => k).filter(k => k % every === 0).sort((a, b) => places[b] - places[a]);  // the last behind
+  const high = Math.max(...places), low = Math.min(...places), room = 0.12 * (high - low || 1);
+  const y = {...(sweeps ? speedAxis : {label: "time, s"}), low, high: high + room, tight: true};
+  const lines = orders.map(order => orderLine(order, places, speeds, false));
+  return chart({
+    title: `Waterfall: spectra of the pad velocity over the ${sweeps ? "rotation speed" : "time"}, ${range_dB} dB high; ` +
+           "dashed: orders of the rotation",
+    height: 420, x: makeAxis({label: "frequency, Hz", tight: true}, frequency_Hz), y: makeAxis(y, places), points: lines,
+    csv: () => [["time, s", "speed, rad/s", ...frequency_Hz.map(f => `${f} Hz, dB`)],
+                ...map_t.map((at, k) => [at, speeds[k], ...level_dB.map(row => Math.max(-range_dB, row[k] - range_dB))])],
+    paint: (inside, {box, toX, toY}) => {
+      const rise = (toY(low) - toY(low + room)) / range_dB;
+      for (const k of shown) {
+        const base = toY(places[k]), top = i => (base - rise * Math.max(0, level_dB[i][k])).toFixed(1);
+        const tops = frequency_Hz.map((f, i) => `${toX(f).toFixed(1)},${top(i)}`);
+        inside.append(svgElement("path", {d: `M${tops.join("L")}`, fill: "none", stroke: "var(--c0)", "stroke-width": 1}));
+        const ground = `M${toX(frequency_Hz[0])},${base}L${tops.join("L")}L${toX(frequency_Hz.at(-1))},${base}z`;
+        inside.insertBefore(svgElement("path", {d: ground, fill: "var(--panel)", stroke: "none"}), inside.lastChild);
+      }
+      for (const line of lines) drawSeries(inside, line, toX, toY);
+      nameOrders(inside, lines, {box, toX, toY});
+    }});
+}
+
+// Spectrogram and waterfall, with the orders that the reader asks for.
+function orderPictures(of) {
+  const made = element("div", {class: "figures"}), input = element("input", {type: "text", size: 24, "aria-label": "orders"});
+  const draw = () => {
+    const orders = input.value.split(/[,; ]+/).map(Number).filter(order => order > 0);
+    made.replaceChildren(spectrogramFigure(of, orders), waterfallFigure(of, orders));
+  };
+  input.value = roundOrders(of).map(order => formatted(order, 5)).join(", ");
+  input.addEventListener("change", draw);
+  draw();
+  return [element("div", {class: "controls"}, element("label", {}, "orders of the rotation, events per turn: ", input)), made];
+}
+
+function orderFigures({t, speed, envelope, line_Hz, line_order}) {
+  const time = {label: "time, s"}, unknownAsNaN = one => one.map(v => v ?? NaN);
+  const lines = values => values.map((one, k) => ({x: t, y: unknownAsNaN(one), colour: k % 6, line: false, marker: "circle",
                                                    name: k ? `line ${k + 1}` : "strongest line"}));
   return [
-    heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz}, z: level_dB, unit: "dB",
-             title: `Spectrogram of the pad velocity: dB above the line, which is ${range_dB} dB below the largest amplitude`}),
     plot({title: "Largest pad velocity over the run", x: time, y: {label: "pad velocity, m/s", log: true},
           series: [{x: t, y: envelope, colour: 0}]}),
-    plot({title: "Rotation speed", x: time, y: {label: "speed, rad/s"}, series: [{x: t, y: speed, colour: 1}]}),
+    plot({title: "Rotation speed", x: time, y: speedAxis, series: [{x: t, y: speed, colour: 1}]}),
     plot({title: "Strongest lines over the time", x: time, y: {label: "frequency, Hz"}, series: lines(line_Hz)}),
     plot({title: "Order tracks: frequency of the strongest lines over that of the rotation", x: time,
           y: {label: "order"}, series: lines(line_order)})];

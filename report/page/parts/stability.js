@@ -1,16 +1,28 @@
 // Stability of sliding: diagrams over a parameter, and the table of unstable modes.
 
-const speedAxis = {label: "rotation speed, rad/s"};
+const speedAxis = {label: "rotation speed, rad/s", second: {factor: rpmOfRadS, unit: "rpm"}};
 
-// Growth within a few times that of the motions that matter: what decays fast would hide it. All of
-// what was measured is seen.
-function growthAxis(rows, measured = []) {
+// Growth rates on a scale that shows all of them and where they cross zero; the other choice is a linear axis within a
+// few times the growth of the motions that matter. All of what was measured is seen on both.
+function growthAxes(rows, measured = []) {
   const values = [...rows.flat(), ...measured].filter(Number.isFinite).sort((a, b) => a - b);
-  const [lowest, largest] = [values[0], values.at(-1)], median = values[values.length >> 1];
+  const [lowest, largest] = [values[0], values.at(-1)], median = values[values.length >> 1], label = "growth rate, 1/s";
   const least = largest > 1e-6 ? -1.5 * largest : 4 * median, high = largest > 1e-6 ? 1.2 * largest : -0.1 * median;
   const low = Math.min(least, ...measured.map(rate => 1.1 * rate));
-  const axis = {label: "growth rate, 1/s"};
-  return lowest < low && low < high ? {...axis, low, high} : axis;
+  const near = lowest < low && low < high ? {label, low, high} : {label};
+  const all = signedAxis(label, [...rows, measured]);
+  return {choices: {"signed logarithm": all, "linear near zero": near}};
+}
+
+// Where curves go through zero, between the values that were looked at.
+function crossings(values, rows) {
+  const found = {x: [], y: [], line: false, marker: "circle", hollow: true, colour: 3, name: "crosses zero"};
+  for (const row of rows) for (let i = 0; i + 1 < row.length && found.x.length < 60; ++i) {
+    if (!(row[i] * row[i + 1] < 0)) continue;
+    found.x.push(values[i] + (values[i + 1] - values[i]) * row[i] / (row[i] - row[i + 1]));
+    found.y.push(0);
+  }
+  return found.x.length ? [found] : [];
 }
 
 // The number of each curve by rising frequency.
@@ -21,39 +33,40 @@ function numbers(rows) {
   return number;
 }
 
-function campbellFigures({campbell, critical}) {
-  const number = numbers(campbell.frequency_Hz), measured = content().growth ?? [];
-  const first = campbell.growth.map(row => row.some(growth => growth > 1e-6));
-  const labelled = j => ({label: String(number[j]), first: first[j]});
-  const curves = campbell.frequency_Hz.map((f, j) =>
-    ({x: campbell.speeds, y: f, colour: 0, ...labelled(j), name: j ? "" : "eigenfrequency"}));
-  const unstable = {x: [], y: [], line: false, marker: "circle", colour: 1, name: "grows"};
-  campbell.growth.forEach((row, j) => row.forEach((growth, i) => {
-    if (!(growth > 1e-6)) return;
-    unstable.x.push(campbell.speeds[i]);
-    unstable.y.push(campbell.frequency_Hz[j][i]);
-  }));
-  const marks = unstable.x.length ? [unstable] : [];
-  const star = key => critical ? [{x: [critical.speed], y: [key ? critical.frequency_Hz : 0], line: false, marker: "star",
-                                   colour: 3, name: "onset of squeal"}] : [];
-  const rates = campbell.growth.map((row, j) =>
-    ({x: campbell.speeds, y: row, colour: 0, ...labelled(j), name: j ? "" : "growth rate"}));
-  const zero = {x: [campbell.speeds[0], campbell.speeds.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
-  return [plot({title: "Campbell diagram: frequencies in the frame of the pads over the speed",
-                x: speedAxis, y: {label: "frequency, Hz"}, series: [...curves, ...marks, ...star(true)]}),
-          plot({title: "Growth rates: above zero the brake squeals", x: speedAxis, y: growthAxis(campbell.growth, measured.map(g => g.rate)),
-                series: [zero, ...rates, ...growthMarks(), ...star(false)]})];
-  function growthMarks() {
-    return measured.length ? [{x: measured.map(g => g.speed), y: measured.map(g => g.rate), line: false, marker: "square",
-                             colour: 2, name: "measured in transients"}] : [];
-  }
+// Each motion has the label of the mode that it is like, or a number.
+function campbellNames({frequency_Hz, looks}) {
+  const number = numbers(frequency_Hz);
+  return frequency_Hz.map((row, j) => ({label: shortName(looks?.[j]) || String(number[j]),
+                                        said: [`motion ${number[j]}`, longName(looks?.[j])].filter(Boolean).join(", ")}));
+}
+
+function campbellFigures({campbell, critical, growth: measured = []}) {
+  const {speeds, frequency_Hz, growth} = campbell, names = campbellNames(campbell);
+  const styled_as = (j, name) => ({...names[j], first: growth[j].some(rate => rate > 1e-6), name: j ? "" : name, colour: 0, width: 1.4});
+  const curves = frequency_Hz.map((y, j) => ({x: speeds, y, ...styled_as(j, "eigenfrequency")}));
+  const unstable = growth.flatMap((row, j) => {
+    const at = row.map((rate, i) => i).filter(i => row[i] > 1e-6);
+    return at.length ? [{x: at.map(i => speeds[i]), y: at.map(i => frequency_Hz[j][i]), line: false, marker: "circle", colour: 1,
+                         said: `${names[j].said}, grows`}] : [];
+  });
+  if (unstable.length) unstable[0].name = "grows";
+  const star = y => critical ? [{x: [critical.speed], y: [y], line: false, marker: "star", colour: 3, name: "onset of squeal"}] : [];
+  const rates = growth.map((y, j) => ({x: speeds, y, ...styled_as(j, "growth rate")}));
+  const marks = measured.length ? [{x: measured.map(g => g.speed), y: measured.map(g => g.rate), line: false, marker: "square",
+                                    colour: 2, name: "measured in transients"}] : [];
+  const brackets = saidOfNames(campbell.looks ?? []), note_of = brackets ? `; ${brackets}` : "";
+  return [plot({title: `Campbell diagram: frequencies in the frame of the pads over the speed${note_of}`, height: 320,
+                x: speedAxis, y: {label: "frequency, Hz"}, series: [...curves, ...unstable, ...star(critical?.frequency_Hz)]}),
+          plot({title: `Growth rates: above zero the brake squeals${note_of}`, height: 320, x: speedAxis,
+                ...growthAxes(growth, measured.map(g => g.rate)), series: [...rates, ...crossings(speeds, growth), ...marks, ...star(0)]})];
 }
 
 function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
   const others = exponents.slice(1).map((y, j) => ({x: speeds, y, colour: 0, width: 0.8, name: j ? "" : "next exponents"}));
   const standing = frozen.length ? [{x: speeds, y: frozen, colour: 1, dash: "5 4", name: "standing at its worst angle"}] : [];
   const series = [...others, {x: speeds, y: growth, colour: 2, name: "turning disc"}, ...standing];
-  return [plot({title: "Growth rates of the disc as it is", x: speedAxis, y: growthAxis([growth, frozen, ...exponents]), series})];
+  return [plot({title: "Growth rates of the disc as it is", x: speedAxis, ...growthAxes([growth, frozen, ...exponents]),
+                series: [...series, ...crossings(speeds, [growth])]})];
 }
 
 // Per cent of its energy that a motion takes from something in a period.
@@ -61,45 +74,46 @@ const inPeriod = x => x === null ? "" : `${formatted(100 * x, 3)} %`;
 
 const share = x => x === null ? "" : `${formatted(100 * x, 2)} %`;
 
+// "13.4 to 20.1"; speeds are in rpm too.
+function rangeText([from, to], isSpeed) {
+  return `${formatted(from)} to ${formatted(to)}${isSpeed ? ` (${formatted(from * rpmOfRadS)} to ${rpm(to)})` : ""}`;
+}
+
 function unstableModesTable({unstable_modes: {branches, parameter, unit}}) {
   const rows = branches.map((branch, j) => [j + 1, branch]).filter(([, {unstable}]) => unstable.length);
   if (!rows.length) return note("");
-  const known = rows.some(([, {diameters}]) => diameters !== null);
-  const circled = rows.some(([, {circles}]) => circles !== null), flat = rows.some(([, {in_plane}]) => in_plane !== null);
-  const header = ["mode", "frequency, Hz", ...(known ? ["nodal diameters"] : []), ...(circled ? ["nodal circles"] : []),
-                  ...(flat ? ["in plane"] : []),
-                  `unstable from, to (${parameter}${unit !== "1" ? `, ${unit}` : ""})`, "growth, 1/s", "damping ratio",
-                  ...(known ? ["gain from friction in a period"] : [])];
+  const known = rows.some(([, {diameters}]) => diameters !== null), flat = rows.some(([, {in_plane}]) => in_plane !== null);
+  const named = parameter === "speed" ? "rotation speed, rad/s (rpm)" : `${parameter}${unit !== "1" ? `, ${unit}` : ""}`;
+  const header = ["mode", "frequency, Hz", ...(known ? ["shape"] : []), ...(flat ? ["motion in the plane"] : []),
+                  `unstable from, to: ${named}`, "growth, 1/s", "damping ratio", ...(known ? ["gain from friction in a period"] : [])];
   return scrolled(table(header, rows.map(([number, branch]) => [
-    String(number), formatted(branch.worst_Hz, 6), ...(known ? [String(branch.diameters)] : []),
-    ...(circled ? [branch.circles === null ? "" : String(branch.circles)] : []), ...(flat ? [share(branch.in_plane)] : []),
-    branch.unstable.map(([from, to]) => `${formatted(from)} to ${formatted(to)}`).join(", "),
+    String(number), formatted(branch.worst_Hz, 6), ...(known ? [longName(branch)] : []), ...(flat ? [share(branch.in_plane)] : []),
+    branch.unstable.map(range => rangeText(range, parameter === "speed")).join("; "),
     formatted(branch.worst_growth), formatted(branch.damping_ratio, 3), ...(known ? [inPeriod(branch.friction_work)] : [])])));
 }
 
-// All modes over a parameter, labelled by their numbers and, in brackets, their nodal diameters.
+// All modes over a parameter, each labelled by what it is like.
 function unstableModesFigures({unstable_modes: table}) {
-  const named = table.parameter === "speed" ? speedAxis.label
-    : `${table.parameter}${table.unit !== "1" ? `, ${table.unit}` : ""}`;
-  const x = {label: named}, values = table.values, legend = new Map();
+  const isSpeed = table.parameter === "speed", {values, branches} = table, legend = new Set();
+  const x = isSpeed ? speedAxis : {label: `${table.parameter}${table.unit !== "1" ? `, ${table.unit}` : ""}`};
   const curves = [], rates = [], grow = [];
-  for (const [j, {frequency_Hz, growth, unstable, diameters}] of table.branches.entries()) {
-    const colour = unstable.length ? 1 + (diameters ?? 0) % 4 : 0, width = unstable.length ? 1.8 : 0.8;
-    const label = !unstable.length ? "stable modes" : diameters === null ? "unstable modes" : `${diameters} nodal diameters`;
-    const name = legend.has(label) ? "" : label;
-    legend.set(label, true);
-    const text = diameters === null ? String(j + 1) : `${j + 1} (${diameters})`;
-    const more = {colour, width, name, label: text, first: unstable.length > 0};
+  for (const [j, branch] of branches.entries()) {
+    const {frequency_Hz, growth, unstable, diameters} = branch, grows = unstable.length > 0;
+    const kind = !grows ? "stable modes" : diameters === null ? "unstable modes" : counted(diameters, "nodal diameter");
+    const more = {colour: grows ? 1 + (diameters ?? 0) % 4 : 0, width: grows ? 1.8 : 0.8, name: legend.has(kind) ? "" : kind, first: grows,
+                  label: shortName(branch) || String(j + 1), said: [`mode ${j + 1}`, longName(branch)].filter(Boolean).join(", ")};
+    legend.add(kind);
     curves.push({x: values, y: frequency_Hz, ...more});
     rates.push({x: values, y: growth, ...more});
     const inside = values.map(v => unstable.some(([from, to]) => from <= v && v <= to));
     if (inside.some(Boolean))
-      grow.push({x: values.filter((_, i) => inside[i]), y: frequency_Hz.filter((_, i) => inside[i]), colour,
-                 line: false, marker: "circle", name: grow.length ? "" : "grows"});
+      grow.push({x: values.filter((_, i) => inside[i]), y: frequency_Hz.filter((_, i) => inside[i]), colour: more.colour,
+                 line: false, marker: "circle", name: grow.length ? "" : "grows", said: `${more.said}, grows`});
   }
-  const zero = {x: [values[0], values.at(-1)], y: [0, 0], colour: 5, dash: "5 4", width: 1.2};
-  const named_by = table.branches.some(({diameters}) => diameters !== null)
-    ? "number of each mode and, in brackets, its nodal diameters" : "number of each mode";
-  return [plot({title: `Campbell diagram: ${table.summary}; ${named_by}`, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
-          plot({title: "Growth of each mode", x, y: growthAxis(table.branches.map(({growth}) => growth)), series: [zero, ...rates]})];
+  const limits = branches.flatMap(({unstable}) => unstable.flat()).filter(v => v > values[0] && v < values.at(-1));
+  const ends = {x: limits, y: limits.map(() => 0), line: false, marker: "circle", hollow: true, colour: 3, name: "limit of stability"};
+  const named = saidOfNames(branches) || "the number of each mode";
+  return [plot({title: `Campbell diagram: ${table.summary}; ${named}`, height: 320, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
+          plot({title: `Growth of each mode; ${named}`, height: 320, x, ...growthAxes(branches.map(({growth}) => growth)),
+                series: [...rates, ...(limits.length ? [ends] : [])]})];
 }

@@ -179,7 +179,7 @@ class Viewer {
     }
   }
 
-  // Turning with one pointer or the arrow keys, zooming with two pointers, wheel or + and -.
+  // Turning with one pointer or the arrow keys, zooming with two pointers, Ctrl and wheel, or + and -.
   listen() {
     const canvas = this.canvas, fingers = new Map();
     const spread = () => {
@@ -206,6 +206,7 @@ class Viewer {
       this.paint();
     });
     canvas.addEventListener("wheel", event => {
+      if (!event.ctrlKey) return;  // the page scrolls
       event.preventDefault();
       this.zoom = Math.max(0.3, Math.min(12, this.zoom * Math.exp(-event.deltaY * 0.001)));
       this.paint();
