@@ -112,8 +112,8 @@ bool read_radiation(const Table& root);
 /// [sound]; needs the mesh, the sections and the squeal of `scene`.
 std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& scene);
 
-/// [squeal] of a scene whose `model` is a rigid disc or an oscillator, which has no mesh and no
-/// body; absent for any other scene.
+/// [squeal] of a scene whose `model` is a rigid disc, a mass on a moving surface or an assembly,
+/// which has no mesh and no body of its own; absent for any other scene.
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 
 /// The names of the rings of a mesh.

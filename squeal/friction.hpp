@@ -15,7 +15,7 @@ namespace chladni::squeal {
 /// With eps > 0 there is no sticking: a contact that should stick creeps at less than about eps.
 struct FrictionLaw {
   double kinetic = 0.0;         ///< mu, far above `decay_speed`; of a table the factor
-  double rise = 0.0;            ///< mu_s - mu: what friction gains towards rest
+  double rise = 0.0;            ///< mu_s - mu: what friction gains towards rest, or loses
   double decay_speed = 1.0;     ///< v_s, m/s
   double regularisation = 0.0;  ///< eps, m/s
   std::shared_ptr<const FrictionTable> table = {};  ///< measured; without `rise`

@@ -57,7 +57,7 @@ constexpr Key squeal_rows[] = {
      "flexible disc",
      "the others need no mesh; an assembly takes [bodies of other scenes](several_bodies.md)",
      {},
-     "flexible disc | rigid disc | oscillator | assembly"},
+     "flexible disc | rigid disc | oscillator | two masses | tilting block | assembly"},
     {"squeal.ring", text, "required",
      "ring of the mesh on which the pads rub; or [two](squeal_models.md#two-contact-planes)"},
     {"squeal.ring.inboard", text, "required", "ring of one of the two contact planes"},

@@ -16,7 +16,7 @@ std::optional<double> friction_value(const FrictionLaw& law, std::string_view ke
 
 /// The law with another value of a key that it has; the others keep theirs, so that "kinetic"
 /// leaves "static" where it is.
-/// @throws chladni::Error when the kinetic coefficient would exceed the static one.
+/// @throws chladni::Error when the static coefficient would be negative.
 FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double value);
 
 /// Whether a scene gives the law by this key: a coefficient alone by "", a table by the others.
