@@ -7,7 +7,14 @@ namespace {
 using squeal::Drive;
 using squeal::RigidEquations;
 
-enum class ModelChoice { flexible_disc, rigid_disc, oscillator, assembly };
+enum class ModelChoice {
+  flexible_disc,
+  rigid_disc,
+  oscillator,
+  two_masses,
+  tilting_block,
+  assembly
+};
 
 /// The only pad pair of a rigid disc; its angle does not matter.
 Table read_only_pad(const Table& squeal)
@@ -23,7 +30,7 @@ Drive read_drive(const Table& table, const squeal::FrictionLaw& friction)
   if (!table.has("drive")) return Drive::speed;
   const auto drive =
       table.choice<Drive>("drive", {{"speed", Drive::speed}, {"moment", Drive::moment}});
-  if (drive == Drive::moment && (friction.rise > 0.0 || friction.regularisation > 0.0))
+  if (drive == Drive::moment && (friction.rise != 0.0 || friction.regularisation > 0.0))
     table.refuse("drive", "the constant moment 2 mu r_0 N_0 needs a constant friction coefficient");
   return drive;
 }
@@ -77,6 +84,41 @@ squeal::Oscillator read_oscillator(const Table& squeal)
   return oscillator;
 }
 
+squeal::TwoMasses read_two_masses(const Table& squeal)
+{
+  const Table table = squeal.table("two_masses");
+  return {.m_1 = table.number("pad_mass"),
+          .k_1 = table.number("pad_stiffness"),
+          .d_1 = table.number("pad_damping"),
+          .m_2 = table.number("disc_mass"),
+          .k_2 = table.number("disc_stiffness"),
+          .d_2 = table.number("disc_damping"),
+          .preload = table.number("preload"),
+          .radius = table.number("radius"),
+          .friction = read_plain_friction(squeal)};
+}
+
+squeal::TiltingBlock read_tilting_block(const Table& squeal)
+{
+  const Table table = squeal.table("tilting_block");
+  return {.mass = table.number("mass"),
+          .inertia = table.number("inertia"),
+          .k_x = table.number("stiffness_along"),
+          .k_y = table.number("stiffness_normal"),
+          .k_phi = table.number("stiffness_tilting"),
+          .d_x = table.number("damping_along"),
+          .d_y = table.number("damping_normal"),
+          .d_phi = table.number("damping_tilting"),
+          .height = table.number("height"),
+          .foot_length = table.number("foot_length"),
+          .foot_offset = table.number("foot_offset"),
+          .contact_stiffness = table.number("contact_stiffness"),
+          .preload = table.number("preload"),
+          .radius = table.number("radius"),
+          .friction = read_plain_friction(squeal),
+          .law = read_contact(squeal)};
+}
+
 /// The model that a scene asks for; a scene without [squeal] asks for none of these.
 ModelChoice read_choice(const Table& root)
 {
@@ -86,6 +128,8 @@ ModelChoice read_choice(const Table& root)
   return squeal.choice<ModelChoice>("model", {{"flexible disc", ModelChoice::flexible_disc},
                                               {"rigid disc", ModelChoice::rigid_disc},
                                               {"oscillator", ModelChoice::oscillator},
+                                              {"two masses", ModelChoice::two_masses},
+                                              {"tilting block", ModelChoice::tilting_block},
                                               {"assembly", ModelChoice::assembly}});
 }
 
@@ -130,6 +174,10 @@ std::optional<squeal::ModelOptions> read_squeal_model(const Table& root)
     options.model = read_rigid_disc(squeal);
   else if (choice == ModelChoice::oscillator)
     options.model = read_oscillator(squeal);
+  else if (choice == ModelChoice::two_masses)
+    options.model = read_two_masses(squeal);
+  else if (choice == ModelChoice::tilting_block)
+    options.model = read_tilting_block(squeal);
   else
     options.model = read_assembly(root);
   options.study = read_study(squeal, StudyOf::model);

@@ -113,8 +113,8 @@ bool read_radiation(const Table& root);
 /// Reads [sound]; needs the mesh, the sections and the squeal of `scene`.
 std::optional<sound::SoundOptions> read_sound(const Table& root, const Scene& scene);
 
-/// Reads [squeal] of a scene whose `model` is a rigid disc or an oscillator, without a mesh and a
-/// body; absent for other scenes.
+/// Reads [squeal] of a scene whose `model` is a rigid disc, masses on a moving surface or an
+/// assembly, without a mesh and a body of its own; absent for other scenes.
 std::optional<squeal::ModelOptions> read_squeal_model(const Table& root);
 
 /// The rings of a mesh.

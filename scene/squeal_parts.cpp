@@ -136,7 +136,7 @@ squeal::FrictionLaw read_friction(const Table& of)
   if (table.has("table")) return read_measured(table);
   squeal::FrictionLaw law{.kinetic = table.number("kinetic")};
   if (table.has("static")) {
-    law.rise = table.number("static", {.at_least = law.kinetic, .unit = "kinetic"}) - law.kinetic;
+    law.rise = table.number("static") - law.kinetic;
     law.decay_speed = table.number("decay_speed");
   }
   if (table.has("regularisation")) law.regularisation = table.number("regularisation");

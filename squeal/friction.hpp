@@ -17,7 +17,7 @@ namespace chladni::squeal {
 struct FrictionLaw {
   /// Kinetic coefficient mu, for v far above `decay_speed`; with a table a factor on it.
   double kinetic = 0.0;
-  double rise = 0.0;            ///< mu_s - mu, the increase of friction towards rest
+  double rise = 0.0;            ///< mu_s - mu, the change of friction towards rest; < 0: it falls
   double decay_speed = 1.0;     ///< v_s, m/s
   double regularisation = 0.0;  ///< eps, m/s
   std::shared_ptr<const FrictionTable> table = {};  ///< measured values; `rise` is then not used

@@ -25,7 +25,7 @@ inline constexpr MapParameter MapParameter::stiffness{"stiffness"};
 inline constexpr MapParameter MapParameter::damping{"damping"};
 
 /// The kinds of brakes that have a parameter.
-enum class ParameterOf { any, body, rigid_disc, oscillator };
+enum class ParameterOf { any, body, rigid_disc, oscillator, two_masses, tilting_block };
 
 /// A parameter with its unit and range.
 struct ParameterRow {
@@ -97,6 +97,28 @@ inline constexpr std::array parameters = {
     ParameterRow{"oscillator.contact_stiffness", "N/m", false, ParameterOf::oscillator},
     ParameterRow{"oscillator.preload", "N", false, ParameterOf::oscillator},
     ParameterRow{"oscillator.radius", "m", false, ParameterOf::oscillator},
+    ParameterRow{"two_masses.pad_mass", "kg", false, ParameterOf::two_masses},
+    ParameterRow{"two_masses.pad_stiffness", "N/m", false, ParameterOf::two_masses},
+    ParameterRow{"two_masses.pad_damping", "N s/m", true, ParameterOf::two_masses},
+    ParameterRow{"two_masses.disc_mass", "kg", false, ParameterOf::two_masses},
+    ParameterRow{"two_masses.disc_stiffness", "N/m", false, ParameterOf::two_masses},
+    ParameterRow{"two_masses.disc_damping", "N s/m", true, ParameterOf::two_masses},
+    ParameterRow{"two_masses.preload", "N", false, ParameterOf::two_masses},
+    ParameterRow{"two_masses.radius", "m", false, ParameterOf::two_masses},
+    ParameterRow{"tilting_block.mass", "kg", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.inertia", "kg m^2", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.stiffness_along", "N/m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.stiffness_normal", "N/m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.stiffness_tilting", "N m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.damping_along", "N s/m", true, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.damping_normal", "N s/m", true, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.damping_tilting", "N m s", true, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.height", "m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.foot_length", "m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.foot_offset", "m", true, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.contact_stiffness", "N/m", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.preload", "N", false, ParameterOf::tilting_block},
+    ParameterRow{"tilting_block.radius", "m", false, ParameterOf::tilting_block},
 };
 
 /// A parameter of a brake and its value.

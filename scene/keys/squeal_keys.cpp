@@ -59,7 +59,7 @@ constexpr Key squeal_rows[] = {
      "the others need no mesh; an assembly takes [bodies of other "
      "scenes](../how-to/several_bodies.md)",
      {},
-     "flexible disc | rigid disc | oscillator | assembly"},
+     "flexible disc | rigid disc | oscillator | two masses | tilting block | assembly"},
     {"squeal.ring", text, "required",
      "ring of the mesh on which the pads rub; or "
      "[two](../explanation/squeal_models.md#two-contact-planes)"},

@@ -11,11 +11,11 @@ std::optional<double> friction_value(const FrictionLaw& law, std::string_view ke
   const auto given = [](bool has, double value) {
     return has ? std::optional(value) : std::nullopt;
   };
-  const bool rises = law.rise > 0.0, is_measured = law.table != nullptr;
+  const bool varies = law.rise != 0.0, is_measured = law.table != nullptr;
   if (key.empty()) return law.kinetic;
   if (key == "kinetic") return given(!is_measured, law.kinetic);
-  if (key == "static") return given(rises, law.kinetic + law.rise);
-  if (key == "decay_speed") return given(rises, law.decay_speed);
+  if (key == "static") return given(varies, law.kinetic + law.rise);
+  if (key == "decay_speed") return given(varies, law.decay_speed);
   if (key == "regularisation") return law.regularisation;
   if (key == "temperature_C")
     return given(is_measured && law.table->temperatures.size() > 1, law.temperature);
@@ -24,11 +24,11 @@ std::optional<double> friction_value(const FrictionLaw& law, std::string_view ke
 
 FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double value)
 {
-  const double highest = law.kinetic + law.rise;
+  const double at_rest = law.kinetic + law.rise;
   if (key.empty() || key == "factor") {
     law.kinetic = value;
   } else if (key == "kinetic") {
-    law.rise = law.rise > 0.0 ? highest - value : 0.0;
+    law.rise = law.rise != 0.0 ? at_rest - value : 0.0;
     law.kinetic = value;
   } else if (key == "static") {
     law.rise = value - law.kinetic;
@@ -39,11 +39,11 @@ FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double va
   } else {
     law.temperature = value;
   }
-  if (law.rise < 0.0) {
+  if (law.kinetic + law.rise < 0.0) {
     throw Error(
-        fmt::format("[squeal] friction.static = {:.6g} is below friction.kinetic = {:.6g}; "
-                    "begin the range there",
-                    law.kinetic + law.rise, law.kinetic));
+        fmt::format("[squeal] friction = {:.6g} makes friction.static {:.6g}, which must not be "
+                    "negative; begin the range at {:.6g}",
+                    law.kinetic, law.kinetic + law.rise, -law.rise));
   }
   return law;
 }

@@ -17,7 +17,7 @@ std::optional<double> friction_value(const FrictionLaw& law, std::string_view ke
 
 /// The law with another value of a key that it has. Other keys keep their values; for example
 /// "kinetic" does not change "static".
-/// @throws chladni::Error when the kinetic coefficient would exceed the static one.
+/// @throws chladni::Error when the static coefficient would be negative.
 FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double value);
 
 /// Whether a scene states the law by this key: "" for a single coefficient, the others for a table.

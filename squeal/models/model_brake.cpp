@@ -1,8 +1,8 @@
 #include "squeal/models/model_brake.hpp"
 
 #include "squeal/models/assembly_brake.hpp"
-#include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/models/sliding_brake.hpp"
 
 namespace chladni::squeal {
 
@@ -13,7 +13,11 @@ std::unique_ptr<Brake> model_brake(const ModelOptions& options,
     return std::make_unique<AssemblyBrake>(*parts, bodies);
   if (const auto* study = std::get_if<RigidDiscStudy>(&options.model))
     return std::make_unique<RigidDiscBrake>(*study);
-  return std::make_unique<OscillatorBrake>(std::get<Oscillator>(options.model));
+  if (const auto* masses = std::get_if<TwoMasses>(&options.model))
+    return std::make_unique<SlidingBrake>(*masses);
+  if (const auto* block = std::get_if<TiltingBlock>(&options.model))
+    return std::make_unique<SlidingBrake>(*block);
+  return std::make_unique<SlidingBrake>(std::get<Oscillator>(options.model));
 }
 
 }  // namespace chladni::squeal

@@ -229,7 +229,7 @@ void validate_analyses(const StudyOptions& study)
 void validate_friction(const FrictionLaw& law, const std::string& key)
 {
   require_not_negative(law.kinetic, key);
-  require_not_negative(law.rise, key + ".static minus " + key + ".kinetic");
+  require_not_negative(law.kinetic + law.rise, key + ".static");
   require_positive(law.decay_speed, key + ".decay_speed");
   require_not_negative(law.regularisation, key + ".regularisation");
 }

@@ -20,7 +20,7 @@ ELSEWHERE = {
     "read_body.py": "../cli/chladni_export_test.cpp",
     "thesis_disc": "thesis_disc.py",
 }
-HERE = {"mechanisms", "oscillator", "rigid_disc"}
+HERE = {"mechanisms", "oscillator", "rigid_disc", "tilting_block", "two_masses"}
 
 
 def works(*command):
@@ -37,7 +37,7 @@ def main(programs):
         if name.split(".")[0] not in (Path(__file__).parent / test).read_text():
             sys.exit(f"FAILED: {test} does not run {name}")
     with tempfile.TemporaryDirectory() as folder:
-        for name in ("oscillator", "rigid_disc"):
+        for name in ("oscillator", "rigid_disc", "tilting_block", "two_masses"):
             works(programs / "squeal", "run", EXAMPLES / name / "scene.toml", "--output", folder)
         # As docs/how-to/sweeps.md shows it.
         works(programs / "squeal", "sweep", EXAMPLES / "rigid_disc/scene.toml", "--output", folder, "--analyses", "critical-speed",

@@ -568,6 +568,42 @@ TEST(Scene, ReadsAnOscillator)
   EXPECT_EQ(study.friction.kinetic, 0.3);
 }
 
+TEST(Scene, ReadsTwoMassesWhoseNormalForceIsConstant)
+{
+  const std::string text = R"([squeal]
+model = "two masses"
+two_masses = { pad_mass = 0.5, pad_stiffness = 2e6, pad_damping = 4.0, disc_mass = 2.0, disc_stiffness = 8e6, disc_damping = 12.0, preload = 1000.0, radius = 0.13 }
+friction = { kinetic = 0.3, static = 0.5, decay_speed = 0.5 }
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["critical-speed"]
+)";
+  const Scene scene = parse_scene(text, "scene.toml");
+  const auto& masses = std::get<squeal::TwoMasses>(scene.squeal_model->model);
+  EXPECT_EQ(masses.k_1, 2e6);
+  EXPECT_EQ(masses.d_2, 12.0);
+  EXPECT_DOUBLE_EQ(masses.friction.rise, 0.2);
+  EXPECT_TRUE(error_of(replaced(text, "friction = {", "contact = \"bilateral\"\nfriction = {"))
+                  .starts_with("scene.toml:4: squeal.contact is not a key here;"));
+}
+
+TEST(Scene, ReadsATiltingBlockWithFrictionThatRises)
+{
+  const Scene scene = parse_scene(R"([squeal]
+model = "tilting block"
+tilting_block = { mass = 1.0, inertia = 4e-4, stiffness_along = 1.2e7, stiffness_normal = 4e6, stiffness_tilting = 1800.0, damping_along = 5.0, damping_normal = 6.0, damping_tilting = 0.002, height = 0.02, foot_length = 0.04, foot_offset = -0.002, contact_stiffness = 7e6, preload = 500.0, radius = 0.13 }
+friction = { kinetic = 0.5, static = 0.3, decay_speed = 0.5 }
+contact = "signed"
+speeds = { from_rad_s = 3.0, to_rad_s = 63.0, count = 20 }
+analyses = ["critical-speed"]
+)",
+                                  "scene.toml");
+  const auto& block = std::get<squeal::TiltingBlock>(scene.squeal_model->model);
+  EXPECT_EQ(block.foot_offset, -0.002);
+  EXPECT_EQ(block.d_phi, 0.002);
+  EXPECT_DOUBLE_EQ(block.friction.rise, -0.2);
+  EXPECT_EQ(block.law, squeal::ContactLaw::signed_force);
+}
+
 TEST(Scene, ReadsPadsWithAGridABodyAndACaliper)
 {
   const std::string pads =
@@ -662,11 +698,11 @@ TEST(SceneError, NamesWhatAModelWithoutABodyCannotTake)
   };
   EXPECT_EQ(error_after(rigid_disc, "\"rigid disc\"", "\"rigid disk\""),
             "scene.toml:3: squeal.model = \"rigid disk\": must be one of \"flexible disc\", "
-            "\"rigid disc\", \"oscillator\", \"assembly\"");
+            "\"rigid disc\", \"oscillator\", \"two masses\", \"tilting block\", \"assembly\"");
   EXPECT_EQ(error_after(rigid_disc, "axial_inertia = 0.32", "axial_inertia = 0.0"),
             "scene.toml:4: squeal.rigid_disc.axial_inertia = 0: must be > 0 (kg m^2)");
-  EXPECT_EQ(error_after(rigid_disc, "static = 0.6", "static = 0.3"),
-            "scene.toml:6: squeal.friction.static = 0.3: must be >= 0.4 (kinetic)");
+  EXPECT_EQ(error_after(rigid_disc, "static = 0.6", "static = -0.3"),
+            "scene.toml:6: squeal.friction.static = -0.3: must be >= 0");
   EXPECT_EQ(error_after(rigid_disc, ", decay_speed = 0.5", ""),
             "scene.toml:6: squeal.friction.decay_speed is missing: must be a number > 0 (m/s)");
   EXPECT_EQ(error_after(rigid_disc, "pad_radius = 0.13", "pad_radius = 0.13, drive = \"moment\""),

@@ -13,8 +13,8 @@
 #include "source_disc.hpp"
 #include "squeal/analysis_options.hpp"
 #include "squeal/models/flexible_disc.hpp"
-#include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/study/analysis_steps.hpp"
 #include "squeal/study/run.hpp"
 
@@ -57,7 +57,7 @@ TEST(Brake, WithOtherParametersIsTheOneThatIsMadeOfThem)
     std::vector<std::unique_ptr<Brake>> brakes;
     brakes.push_back(changed(FlexibleDisc(disc, options)));
     brakes.push_back(changed(RigidDiscBrake({.disc = rigid})));
-    brakes.push_back(changed(OscillatorBrake(oscillator)));
+    brakes.push_back(changed(SlidingBrake(oscillator)));
     return brakes;
   }();
   options.friction.kinetic = rigid.friction.kinetic = oscillator.friction.kinetic = friction;
@@ -65,7 +65,7 @@ TEST(Brake, WithOtherParametersIsTheOneThatIsMadeOfThem)
   options.pads[0].stiffness = rigid.spring.linear = oscillator.contact_stiffness = stiffness;
   const FlexibleDisc flexible(disc, options);
   const RigidDiscBrake of_rigid({.disc = rigid});
-  const OscillatorBrake of_oscillator(oscillator);
+  const SlidingBrake of_oscillator(oscillator);
   const Brake* const made[] = {&flexible, &of_rigid, &of_oscillator};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(found[i]->state_matrix(20.0), made[i]->state_matrix(20.0)) << i;
@@ -79,7 +79,7 @@ TEST(Brake, HasTheStateMatrixOfItsMotion)
   // the motion, which is smooth there.
   const FlexibleDisc flexible(disc_of({kirchhoff_3()}), reference_options());
   const RigidDiscBrake rigid({.disc = source_disc()});
-  const OscillatorBrake oscillator(mass_on_a_belt());
+  const SlidingBrake oscillator(mass_on_a_belt());
   for (const Brake* brake :
        {static_cast<const Brake*>(&flexible), static_cast<const Brake*>(&rigid),
         static_cast<const Brake*>(&oscillator)}) {

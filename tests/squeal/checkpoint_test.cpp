@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
-#include "squeal/models/oscillator.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/transient/transient.hpp"
 #include "tests/files/scratch_folder.hpp"
 
@@ -97,16 +97,16 @@ TEST(Checkpoint, GoesOnAsIfNothingHadHappenedToTheLastBit)
 
 TEST(Checkpoint, OfAModelGoesOnAsIfNothingHadHappened)
 {
-  const OscillatorBrake model(Oscillator{.mass = 1.0,
-                                         .k_x = 1.2e7,
-                                         .k_y = 4e6,
-                                         .k_xy = 1e6,
-                                         .d_x = 5.0,
-                                         .d_y = 5.0,
-                                         .contact_stiffness = 7e6,
-                                         .preload = 500.0,
-                                         .radius = 0.13,
-                                         .friction = {.kinetic = 0.185}});
+  const SlidingBrake model(Oscillator{.mass = 1.0,
+                                      .k_x = 1.2e7,
+                                      .k_y = 4e6,
+                                      .k_xy = 1e6,
+                                      .d_x = 5.0,
+                                      .d_y = 5.0,
+                                      .contact_stiffness = 7e6,
+                                      .preload = 500.0,
+                                      .radius = 0.13,
+                                      .friction = {.kinetic = 0.185}});
   const TransientCase run{.speed = 20.0, .duration = 1.0, .initial_pad_displacement = 1e-4};
   const ScratchFolder folder;
   const std::string file = folder.file("a.checkpoint.h5");

@@ -8,6 +8,7 @@
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/oscillator.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/stability/stability_search.hpp"
 #include "tests/squeal/motions_side_by_side.hpp"
 
@@ -96,7 +97,7 @@ Oscillator damped_belt(double d)
 CriticalValue critical_friction(const Oscillator& o, double from, double to)
 {
   return critical_value(
-      OscillatorBrake(o),
+      SlidingBrake(o),
       {.parameter = MapParameter::friction, .from = from, .to = to, .speed = 10.0});
 }
 
@@ -142,7 +143,7 @@ TEST(CriticalValue, OfTheStiffnessIsLostAndRegainedWhereTheClosedFormSays)
   const double low = 0.5 * sum - root, high = 0.5 * sum + root;
   const auto critical_stiffness = [&](double from) {
     return critical_value(
-        OscillatorBrake(o),
+        SlidingBrake(o),
         {.parameter = MapParameter::stiffness, .from = from, .to = 2e7, .speed = 10.0});
   };
   const CriticalValue lost = critical_stiffness(1e6);

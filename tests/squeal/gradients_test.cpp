@@ -12,8 +12,8 @@
 #include "common/error.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/brake/state_matrix.hpp"
-#include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/results/result_file.hpp"
 #include "squeal/stability/stability.hpp"
 #include "tests/files/scratch_folder.hpp"
@@ -192,17 +192,17 @@ TEST(Gradients, OfFrequenciesAreCentralDifferences)
 
 TEST(Gradients, OfModelsWithoutABodyAreCentralDifferences)
 {
-  const OscillatorBrake oscillator({.mass = 1.0,
-                                    .k_x = 4.2e3,
-                                    .k_y = 3e3,
-                                    .k_xy = 8e2,
-                                    .d_x = 0.4,
-                                    .d_y = 0.3,
-                                    .contact_stiffness = 1.5e3,
-                                    .preload = 20.0,
-                                    .radius = 0.2,
-                                    .friction = {.kinetic = 0.4, .rise = 0.2, .decay_speed = 1.0},
-                                    .law = ContactLaw::bilateral});
+  const SlidingBrake oscillator({.mass = 1.0,
+                                 .k_x = 4.2e3,
+                                 .k_y = 3e3,
+                                 .k_xy = 8e2,
+                                 .d_x = 0.4,
+                                 .d_y = 0.3,
+                                 .contact_stiffness = 1.5e3,
+                                 .preload = 20.0,
+                                 .radius = 0.2,
+                                 .friction = {.kinetic = 0.4, .rise = 0.2, .decay_speed = 1.0},
+                                 .law = ContactLaw::bilateral});
   StudyOptions study{.speeds = {.from = 1.0, .to = 60.0, .count = 40}, .analyses = {}};
   study.gradients = GradientCase{.speed = 4.0};
   expect_derivatives(oscillator, study);

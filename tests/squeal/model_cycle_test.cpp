@@ -8,8 +8,8 @@
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/models/model_brake.hpp"
-#include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/study/run.hpp"
 
@@ -109,7 +109,7 @@ TEST(Oscillator, SticksAndSlipsBesideStableSliding)
   // stick-slip cycle lives on above that speed and vanishes in a fold: hysteresis.
   const Oscillator o = falling_friction();
   const double V_c = -0.5 * std::log(60.0 * 0.5 / (500.0 * 0.3));
-  const OscillatorBrake model(o);
+  const SlidingBrake model(o);
   EXPECT_GT(least_stable_eigenvalue(model.state_matrix(0.98 * V_c / o.radius)).real(), 0.0);
   EXPECT_LT(least_stable_eigenvalue(model.state_matrix(1.02 * V_c / o.radius)).real(), 0.0);
   const LimitCycleBranch branch = limit_cycle_branch(

@@ -9,6 +9,7 @@
 #include "squeal/models/model_brake.hpp"
 #include "squeal/models/oscillator.hpp"
 #include "squeal/models/rigid_disc_brake.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/study/run.hpp"
 #include "squeal/transient/transient.hpp"
@@ -114,7 +115,7 @@ Oscillator belt()
 
 double growth_at(const Oscillator& oscillator, double speed)
 {
-  return least_stable_eigenvalue(OscillatorBrake(oscillator).state_matrix(speed)).real();
+  return least_stable_eigenvalue(SlidingBrake(oscillator).state_matrix(speed)).real();
 }
 
 TEST(Oscillator, FluttersWhereItsTwoFrequenciesMeet)
@@ -146,6 +147,37 @@ TEST(Oscillator, IsUnstableOnTheFallingSlopeWithoutAnyCoupling)
   EXPECT_GT(growth_at(o, 2.0), 1.0);
 }
 
+TEST(Oscillator, IsDampedByFrictionThatRisesWithTheSpeed)
+{
+  // As above, lambda = -(d_x + N_0 mu'(V)) / (2 m) + i ..., now with mu' > 0; y is damped more.
+  Oscillator o = belt();
+  o.k_xy = 0.0;
+  o.d_y = 2000.0;
+  o.friction = {.kinetic = 0.4, .rise = -0.3, .decay_speed = 0.5};
+  for (const double speed : {2.0, 10.0}) {
+    const double slope = 0.3 / 0.5 * std::exp(-0.13 * speed / 0.5);
+    EXPECT_NEAR(growth_at(o, speed), -0.5 * 500.0 * slope, 1e-8) << speed;
+  }
+  EXPECT_LT(growth_at(o, 2.0), -50.0);
+}
+
+TEST(RigidModel, IsDampedByFrictionThatRisesWithTheSpeed)
+{
+  // The slope of mu adds (h^2 / 2) N_0 mu'(v) to one damping constant, over 2 Theta in the rate of
+  // both modes together, half their trace; mu itself is the same at this speed.
+  RigidDisc rising = source_disc(), constant = source_disc();
+  const double v = rising.radius * 8.0;
+  rising.friction = {.kinetic = 0.6, .rise = -0.2, .decay_speed = 0.8};
+  constant.friction = {.kinetic = friction_coefficient(rising.friction, v)};
+  const auto trace = [](const RigidDisc& disc) {
+    return RigidDiscBrake({.disc = disc}).state_matrix(8.0).trace();
+  };
+  const double slope = 0.2 / 0.8 * std::exp(-v / 0.8), h = rising.thickness;
+  EXPECT_NEAR(trace(rising) - trace(constant), -0.5 * h * h * rising.preload * slope / rising.Theta,
+              1e-9);
+  EXPECT_LT(trace(rising), trace(constant));
+}
+
 TEST(Oscillator, SticksAndSlipsAtTheSpeedOfTheBelt)
 {
   // The mass is carried along by the belt until the spring pulls it off: its largest velocity in
@@ -157,7 +189,7 @@ TEST(Oscillator, SticksAndSlipsAtTheSpeedOfTheBelt)
   o.mass = 2.0;
   o.d_x = o.d_y = 2.0;
   o.friction = {.kinetic = 0.3, .rise = 0.3, .decay_speed = 0.05, .regularisation = 1e-3};
-  const OscillatorBrake model(o);
+  const SlidingBrake model(o);
   const double speed = 0.5, V = 0.13 * speed;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
   x[2] = 0.5 * V;
@@ -186,13 +218,13 @@ TEST(Oscillator, LeavesTheBeltWhenItMay)
 {
   Oscillator o = belt();
   o.friction.kinetic = 0.6;
-  const OscillatorBrake model(o);
+  const SlidingBrake model(o);
   const Eigen::VectorXd off = model.start(-2.0 * model.rest_compression());
   EXPECT_EQ(model.contact(off, 10.0).upper.N, 0.0);
   EXPECT_EQ(model.contact(off, 10.0).upper.f_t, 0.0);
   o.law = ContactLaw::bilateral;
-  EXPECT_LT(OscillatorBrake(o).contact(off, 10.0).upper.N, 0.0);
-  EXPECT_GT(OscillatorBrake(o).contact(off, 10.0).upper.f_t, 0.0);
+  EXPECT_LT(SlidingBrake(o).contact(off, 10.0).upper.N, 0.0);
+  EXPECT_GT(SlidingBrake(o).contact(off, 10.0).upper.f_t, 0.0);
 }
 
 TEST(ModelTransient, RefusesWhatItCannotIntegrate)

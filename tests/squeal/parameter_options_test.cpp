@@ -140,8 +140,10 @@ TEST(Parameters, OfTheKineticCoefficientLeaveTheStaticOne)
   options.friction.rise = 0.6 - 0.5;
   EXPECT_EQ(brake.with({"friction.kinetic"}, 0.5)->state_matrix(8.0),
             FlexibleDisc(disc_of({kirchhoff_3()}), options).state_matrix(8.0));
-  EXPECT_NE(complaint(brake, {"friction.kinetic"}, 0.7).find("is below friction.kinetic"),
-            std::string::npos);
+  options.friction.kinetic = 0.7;
+  options.friction.rise = (0.4 + 0.2) - 0.7;
+  EXPECT_EQ(brake.with({"friction.kinetic"}, 0.7)->state_matrix(8.0),
+            FlexibleDisc(disc_of({kirchhoff_3()}), options).state_matrix(8.0));
 }
 
 TEST(Parameters, AreThoseOfTheScene)
@@ -209,8 +211,12 @@ TEST(Parameters, ThatABrakeLacksAreNamed)
   const std::string text = complaint(brake, {"pads.body.mass"}, 0.3);
   EXPECT_NE(text.find("\"pads.body.mass\" cannot vary"), std::string::npos) << text;
   EXPECT_NE(complaint(brake, {"friction.static"}, 0.9), "");  // Coulomb's law has none
-  const FlexibleDisc falling(disc_of({kirchhoff_3()}), full_options());
-  EXPECT_NE(complaint(falling, {"friction.static"}, 0.1).find("below friction.kinetic"),
+  // "friction" moves all of mu, here with a static coefficient 0.2 below the kinetic one.
+  SquealOptions rising = full_options();
+  rising.friction.rise = -0.2;
+  const FlexibleDisc brake_of_rising(disc_of({kirchhoff_3()}), rising);
+  EXPECT_EQ(complaint(brake_of_rising, MapParameter::friction, 0.3), "");
+  EXPECT_NE(complaint(brake_of_rising, MapParameter::friction, 0.1).find("begin the range at 0.2"),
             std::string::npos);
 }
 

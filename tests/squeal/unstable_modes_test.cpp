@@ -13,6 +13,7 @@
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/models/model_brake.hpp"
 #include "squeal/models/oscillator.hpp"
+#include "squeal/models/sliding_brake.hpp"
 #include "squeal/results/result_file.hpp"
 #include "squeal/stability/mode_samples.hpp"
 #include "squeal/stability/stability.hpp"
@@ -198,11 +199,11 @@ TEST(UnstableModes, OfTheOscillatorBeginAtItsFlutter)
   oscillator.friction.kinetic = 0.3;
   const double flutter = flutter_friction(oscillator);
   const StabilityTable table =
-      unstable_modes(OscillatorBrake(oscillator), {.over = MapParameter::friction,
-                                                   .from = 0.5 * flutter,
-                                                   .to = 1.6 * flutter,
-                                                   .count = 12,
-                                                   .speed = 20.0});
+      unstable_modes(SlidingBrake(oscillator), {.over = MapParameter::friction,
+                                                .from = 0.5 * flutter,
+                                                .to = 1.6 * flutter,
+                                                .count = 12,
+                                                .speed = 20.0});
   const std::vector<StabilityBranch> rows = unstable_ones(table);
   ASSERT_EQ(rows.size(), 1u);
   // Two eigenvalues meet there: both the growth and its doubt go with the root of the distance.
