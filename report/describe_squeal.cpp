@@ -61,6 +61,9 @@ void add_budget(TextTable& table, const squeal::ErrorBudget& budget)
   add_part("modes left out", budget.left_out);
   table.rows.push_back({fmt::format("its error ({})", fmt::join(parts, ", ")),
                         fmt::format("+- {:.2g}", budget.sum()), "rad/s"});
+  // Without a tolerance of [body] keep nothing is known of them, and they may count most.
+  if (!budget.body)
+    table.rows.push_back({"not in this error: modes that the body lacks", "unknown", ""});
 }
 
 /// Why there is no value at which stability is lost.

@@ -5,6 +5,7 @@ Usage: deviations.py PROGRAM_DIR MPIRUN
 
 import sys
 import tempfile
+from functools import cache
 from pathlib import Path
 
 import h5py
@@ -102,6 +103,7 @@ def of_sector(programs, parts, more="", **options):
     return Body(programs, meshed(1), SCENE.format(sectors=f"sectors = {N}", parts=parts, more=more), **options)
 
 
+@cache
 def of_whole(programs, parts, odd=(), more="", scene=SCENE):
     return Body(programs, meshed(N, odd), scene.format(sectors="", parts=parts, more=more))
 
