@@ -61,7 +61,9 @@ Json sound_of(const ReportSource& source)
   } catch (const Error& stale) {
     return Json::object({{"left_out", stale.what()}});
   }
-  return sound_page(reader, path(file).replace_extension(".wav"));
+  const auto& sound = source.scene.sound;
+  return sound_page(reader, {.file = path(file).replace_extension(".wav"),
+                             .microphone = sound && sound->wav ? sound->wav->microphone : ""});
 }
 
 Found find_files(const ReportSource& source)
