@@ -202,7 +202,7 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
       ->type_name("DIR")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->capture_default_str();
+      ->default_str(".");
   report
       ->add_option("--benchmark", arguments.benchmark,
                    "end_to_end.json of ./dev bench: speed against error, drawn too")
