@@ -61,7 +61,9 @@ Json sound_of(const ReportSource& source)
   } catch (const Error& stale) {
     return Json::object({{"left_out", stale.what()}});
   }
-  return sound_page(reader, path(file).replace_extension(".wav"));
+  const auto& sound = source.scene.sound;
+  return sound_page(reader, {.file = path(file).replace_extension(".wav"),
+                             .microphone = sound && sound->wav ? sound->wav->microphone : ""});
 }
 
 Found find_files(const ReportSource& source)
@@ -201,7 +203,7 @@ void declare_report(CLI::App& app, ReportArguments& arguments)
       ->type_name("DIR")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->capture_default_str();
+      ->default_str(".");
   report
       ->add_option("--benchmark", arguments.benchmark,
                    "also draws speed against error from the end_to_end.json of ./dev bench")

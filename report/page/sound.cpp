@@ -31,8 +31,9 @@ std::vector<std::byte> bytes_of(const path& file)
 }
 
 /// `wav` and what is said of it; both null without the file.
-std::vector<Json::Member> wav_members(const path& file)
+std::vector<Json::Member> wav_members(const SoundWav& wav)
 {
+  const path& file = wav.file;
   if (!exists(file)) return {{"wav", Json()}, {"wav_said", Json()}};
   const std::string name = file.filename().string();
   if (file_size(file) > most_wav_bytes) {
@@ -42,8 +43,9 @@ std::vector<Json::Member> wav_members(const path& file)
                                      name, static_cast<double>(file_size(file)) / 1e6)}};
   }
   return {{"wav", packed(bytes_of(file))},
-          {"wav_said", name + ": the pressure at a microphone. The largest one has full scale, so "
-                              "that the loudness is that of your device."}};
+          {"wav_said", fmt::format("{}: the pressure at the microphone '{}'. Its largest value is "
+                                   "full scale, so that your device makes the loudness.",
+                                   name, wav.microphone)}};
 }
 
 Json tone_json(const Reader& file, const std::string& group, int h)
@@ -140,7 +142,7 @@ Json feedback_json(const Reader& file)
 
 }  // namespace
 
-Json sound_page(const Reader& file, const path& wav)
+Json sound_page(const Reader& file, const SoundWav& wav)
 {
   file.expect_format("chladni-sound", 1);
   const auto found = [&](const char* name) {

@@ -109,7 +109,8 @@ def check_drawing(chromium, page, unstable):
     labels = re.findall(r'class="label">([^<]+)<', campbell)
     assert len(labels) >= len(unstable), labels
     for branch in unstable:
-        assert any(f"({branch['nodal_diameters']})" in label for label in labels), (labels, branch["nodal_diameters"])
+        shape = f"({branch['nodal_diameters']}, {branch['nodal_circles']})"
+        assert any(re.fullmatch(rf"\d+ {re.escape(shape)}", label) for label in labels), (labels, shape)
 
 
 def main(programs, chromium=None):

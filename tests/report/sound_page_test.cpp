@@ -43,7 +43,7 @@ struct SoundPage : testing::Test {
 TEST_F(SoundPage, ShowsTheAmplitudeOfEachToneAtEachMicrophone)
 {
   const files::Reader reader(write_sound(folder).string());
-  const std::string text = sound_page(reader, folder / "disc.sound.wav").text();
+  const std::string text = sound_page(reader, {folder / "disc.sound.wav", "above"}).text();
   EXPECT_NE(text.find(R"("name": "above")"), std::string::npos) << text;
   EXPECT_NE(text.find(R"("pressure": [5])"), std::string::npos) << "|3 + 4i|: " << text;
   EXPECT_NE(text.find(R"("wav": null)"), std::string::npos) << text;
@@ -55,9 +55,10 @@ TEST_F(SoundPage, HoldsTheWavFileWhereItIsSmall)
   const files::Reader reader(write_sound(folder).string());
   const path wav = folder / "disc.sound.wav";
   std::ofstream(wav) << "RIFF";
-  EXPECT_NE(sound_page(reader, wav).text().find(R"("wav": "UklGRg==")"), std::string::npos);
+  EXPECT_NE(sound_page(reader, {wav, "above"}).text().find(R"("wav": "UklGRg==")"),
+            std::string::npos);
   resize_file(wav, 5'000'000);
-  const std::string text = sound_page(reader, wav).text();
+  const std::string text = sound_page(reader, {wav, "above"}).text();
   EXPECT_NE(text.find("disc.sound.wav has 5.0 MB and is not in this page"), std::string::npos);
   EXPECT_LT(text.size(), 10'000U);
 }

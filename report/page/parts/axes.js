@@ -10,11 +10,14 @@ function roundTicks(low, high, n) {
   return ticks;
 }
 
+// Powers of ten; of a range with few of them 2 and 5 times these too.
 function powerTicks(low, high, n) {
   const ticks = [], first = Math.ceil(Math.log10(low) - 1e-9), last = Math.log10(high) + 1e-9;
   const step = Math.max(1, Math.ceil((last - first) / n));
   for (let k = first; k <= last; k += step) ticks.push(10 ** k);
-  return ticks.length > 1 ? ticks : roundTicks(low, high, 4).filter(x => x > 0);
+  if (ticks.length > 2) return ticks;
+  const finer = [-1, 0, 1].flatMap(k => [1, 2, 5].map(factor => factor * 10 ** (first + k))).filter(x => low <= x && x <= high);
+  return finer.length > 1 ? finer : roundTicks(low, high, 4).filter(x => x > 0);
 }
 
 // Zero, and powers of ten on both sides of it, no nearer to each other than 1 / n of the axis.

@@ -1,6 +1,7 @@
 // A figure with two axes as SVG that fills the width it is given: what curves, maps and waterfalls share.
 
 let clipCount = 0;
+const between = (low, n, high) => Math.max(low, Math.min(high, n));
 
 // Room around the plot: for the legend above, the numbers of the axes, and names of curves on the right.
 function boxOf(options, {x, y}, width, rows) {
@@ -12,7 +13,7 @@ function boxOf(options, {x, y}, width, rows) {
 }
 
 function drawXAxis(svg, {left, top, width, height}, x) {
-  for (const tick of x.ticks(Math.max(2, Math.floor(width / 55)))) {
+  for (const tick of x.ticks(between(2, Math.floor(width / 55), 14))) {
     const at = left + width * x.at(tick);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top, y2: top + height, class: "grid"}),
                svgElement("text", {x: at, y: top + height + 16, "text-anchor": "middle"}, x.text(tick)));
@@ -20,7 +21,7 @@ function drawXAxis(svg, {left, top, width, height}, x) {
   svg.append(svgElement("text", {x: left + width / 2, y: top + height + 34, "text-anchor": "middle"}, x.label));
   if (!x.second) return;
   const {factor, unit} = x.second;
-  for (const tick of roundTicks(x.low * factor, x.high * factor, Math.max(2, Math.floor(width / 55)))) {
+  for (const tick of roundTicks(x.low * factor, x.high * factor, between(2, Math.floor(width / 55), 14))) {
     const at = left + width * x.at(tick / factor);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top - 4, y2: top, class: "tick"}),
                svgElement("text", {x: at, y: top - 7, "text-anchor": "middle"}, formatted(tick, 6)));

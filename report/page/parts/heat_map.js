@@ -1,6 +1,6 @@
 // Values over two axes as colours.
 
-const between = (stops, part) => {
+const blended = (stops, part) => {
   const place = Math.max(0, Math.min(1, part)) * (stops.length - 1), k = Math.min(stops.length - 2, Math.floor(place));
   return stops[k].map((c, i) => Math.round(c + (place - k) * (stops[k + 1][i] - c)));
 };
@@ -8,13 +8,13 @@ const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 
 // From blue over a neutral grey to orange, for values of either sign: told apart with any colour vision.
 function divergingColour(value, dark = isDark()) {
-  return between(dark ? [[106, 190, 245], [48, 112, 168], [58, 62, 68], [190, 92, 22], [255, 178, 90]]
+  return blended(dark ? [[106, 190, 245], [48, 112, 168], [58, 62, 68], [190, 92, 22], [255, 178, 90]]
                       : [[5, 74, 130], [86, 160, 210], [238, 238, 236], [232, 140, 60], [150, 62, 0]], (value + 1) / 2);
 }
 
 // From the ground to a strong colour, for values that have a least one.
 function risingColour(part, dark = isDark()) {
-  return between(dark ? [[26, 30, 36], [20, 66, 104], [46, 140, 196], [150, 205, 190], [255, 232, 150]]
+  return blended(dark ? [[26, 30, 36], [20, 66, 104], [46, 140, 196], [150, 205, 190], [255, 232, 150]]
                       : [[247, 249, 251], [176, 212, 232], [66, 146, 198], [14, 82, 142], [20, 26, 50]], part);
 }
 

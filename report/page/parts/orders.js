@@ -83,7 +83,8 @@ function orderPictures(of) {
 function orderFigures({t, speed, envelope, line_Hz, line_order}) {
   const time = {label: "time, s"}, unknownAsNaN = one => one.map(v => v ?? NaN);
   const lines = values => values.map((one, k) => ({x: t, y: unknownAsNaN(one), colour: k % 6, line: false, marker: "circle",
-                                                   name: k ? `line ${k + 1}` : "strongest line"}));
+                                                   name: k ? `line ${k + 1}` : "strongest line"}))
+    .filter(({y}) => y.some(Number.isFinite));
   return [
     plot({title: "Largest pad velocity over the run", x: time, y: {label: "pad velocity, m/s", log: true},
           series: [{x: t, y: envelope, colour: 0}]}),

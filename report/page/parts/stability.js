@@ -100,8 +100,9 @@ function unstableModesFigures({unstable_modes: table}) {
   for (const [j, branch] of branches.entries()) {
     const {frequency_Hz, growth, unstable, diameters} = branch, grows = unstable.length > 0;
     const kind = !grows ? "stable modes" : diameters === null ? "unstable modes" : counted(diameters, "nodal diameter");
-    const more = {colour: grows ? 1 + (diameters ?? 0) % 4 : 0, width: grows ? 1.8 : 0.8, name: legend.has(kind) ? "" : kind, first: grows,
-                  label: shortName(branch) || String(j + 1), said: [`mode ${j + 1}`, longName(branch)].filter(Boolean).join(", ")};
+    const more = {colour: grows ? 1 + (diameters ?? 0) % 4 : 0, width: grows ? 1.8 : 0.8, name: legend.has(kind) ? "" : kind,
+                  first: grows, label: grows ? `${j + 1} ${shortName(branch)}`.trim() : shortName(branch) || String(j + 1),
+                  said: [`mode ${j + 1}`, longName(branch)].filter(Boolean).join(", ")};
     legend.add(kind);
     curves.push({x: values, y: frequency_Hz, ...more});
     rates.push({x: values, y: growth, ...more});
@@ -112,7 +113,7 @@ function unstableModesFigures({unstable_modes: table}) {
   }
   const limits = branches.flatMap(({unstable}) => unstable.flat()).filter(v => v > values[0] && v < values.at(-1));
   const ends = {x: limits, y: limits.map(() => 0), line: false, marker: "circle", hollow: true, colour: 3, name: "limit of stability"};
-  const named = saidOfNames(branches) || "the number of each mode";
+  const brackets = saidOfNames(branches), named = brackets ? `labels: number of an unstable mode, ${brackets}` : "labels: number of each mode";
   return [plot({title: `Campbell diagram: ${table.summary}; ${named}`, height: 320, x, y: {label: "frequency, Hz"}, series: [...curves, ...grow]}),
           plot({title: `Growth of each mode; ${named}`, height: 320, x, ...growthAxes(branches.map(({growth}) => growth)),
                 series: [...rates, ...(limits.length ? [ends] : [])]})];

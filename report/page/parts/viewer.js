@@ -186,6 +186,10 @@ class Viewer {
       const [one, other] = [...fingers.values()];
       return Math.hypot(one.x - other.x, one.y - other.y);
     };
+    const zoomBy = factor => {
+      this.zoom = Math.max(0.3, Math.min(12, this.zoom * factor));
+      this.paint();
+    };
     canvas.addEventListener("pointerdown", event => {
       canvas.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
@@ -196,11 +200,7 @@ class Viewer {
       if (!fingers.has(event.pointerId)) return;
       const before = fingers.size === 2 ? spread() : 0;
       fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-      if (fingers.size > 1) {
-        if (before) this.zoom = Math.max(0.3, Math.min(12, this.zoom * spread() / before));
-        this.paint();
-        return;
-      }
+      if (fingers.size > 1) return zoomBy(before ? spread() / before : 1);
       this.turn += event.movementX * 0.008;
       this.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.tilt - event.movementY * 0.008));
       this.paint();
@@ -208,10 +208,14 @@ class Viewer {
     canvas.addEventListener("wheel", event => {
       if (!event.ctrlKey) return;  // the page scrolls
       event.preventDefault();
-      this.zoom = Math.max(0.3, Math.min(12, this.zoom * Math.exp(-event.deltaY * 0.001)));
-      this.paint();
+      zoomBy(Math.exp(-event.deltaY * 0.001));
     }, {passive: false});
-    canvas.addEventListener("keydown", event => {
+    this.listenToKeys();
+    new ResizeObserver(() => requestAnimationFrame(() => this.motion && this.paint())).observe(canvas);
+  }
+
+  listenToKeys() {
+    this.canvas.addEventListener("keydown", event => {
       const step = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]}[event.key];
       const zoom = {"+": 1.15, "-": 1 / 1.15}[event.key];
       if (!step && !zoom) return;
@@ -220,7 +224,6 @@ class Viewer {
       if (zoom) this.zoom *= zoom;
       this.paint();
     });
-    new ResizeObserver(() => requestAnimationFrame(() => this.motion && this.paint())).observe(canvas);
   }
 
   // A second and a half for one period, while the page shows the canvas.
