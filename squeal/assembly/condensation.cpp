@@ -23,25 +23,25 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXcd;
 using mbs_export::ModalBody;
 
 /// A state of the brake in which it is looked at.
-struct Sample {
+struct BrakeState {
   double speed;     ///< rad/s
   double friction;  ///< part of the friction of the scene
 };
 
 /// A sample, and what the complete brake does in it.
-struct KnownSample {
-  Sample at;
+struct KnownState {
+  BrakeState at;
   BandModes modes;
 };
 
-MatrixXd matrix_of(const Assembly& all, const Sample& at)
+MatrixXd matrix_of(const Assembly& all, const BrakeState& at)
 {
   std::vector<Lining> linings = all.linings;
   for (Lining& lining : linings) lining.friction = scaled(lining.friction, at.friction);
   return state_matrix(all, linings, at.speed);
 }
 
-KnownSample known(const Assembly& all, const Sample& at, double highest)
+KnownState known(const Assembly& all, const BrakeState& at, double highest)
 {
   return {at, band_modes(matrix_of(all, at), highest)};
 }
@@ -84,7 +84,7 @@ class Condensing {
   int n_eigenvalues() const
   {
     int n = 0;
-    for (const KnownSample& sample : samples_) n += static_cast<int>(sample.modes.lambda.size());
+    for (const KnownState& sample : samples_) n += static_cast<int>(sample.modes.lambda.size());
     return n;
   }
 
@@ -115,25 +115,25 @@ class Condensing {
   }
 
   /// In a state that may be none of the samples.
-  double error_at(const CondensedBodies& condensed, const KnownSample& sample) const
+  double error_at(const CondensedBodies& condensed, const KnownState& sample) const
   {
     const Assembly few = assembly(options_, condensed.bodies);
     return error_of(sample.modes.lambda, matrix_of(few, sample.at), wanted_.highest);
   }
 
-  KnownSample middle() const
+  KnownState middle() const
   {
     return known(all_, {0.5 * (wanted_.speed_from + wanted_.speed_to), 0.5}, wanted_.highest);
   }
 
-  void add(KnownSample sample) { samples_.push_back(std::move(sample)); }
+  void add(KnownState sample) { samples_.push_back(std::move(sample)); }
 
  private:
   /// The shapes of all parts in all samples, the largest first.
   std::vector<PartShape> shapes_of_all() const
   {
     std::vector<PartMotions> motions;
-    for (const KnownSample& sample : samples_)
+    for (const KnownState& sample : samples_)
       motions.push_back(part_motions(all_, options_, bodies_, sample.modes));
     return principal_shapes(all_, options_, bodies_, motions, 0.5 * wanted_.highest);
   }
@@ -154,7 +154,7 @@ class Condensing {
     try {
       const Assembly brake = assembly(options_, few.bodies);
       few.error = 0.0;
-      for (const KnownSample& sample : samples_) {
+      for (const KnownState& sample : samples_) {
         const double error =
             error_of(sample.modes.lambda, matrix_of(brake, sample.at), wanted_.highest);
         few.error = std::max(few.error, error);
@@ -169,7 +169,7 @@ class Condensing {
   std::span<const ModalBody> bodies_;
   const CondensationOptions& wanted_;
   Assembly all_;
-  std::vector<KnownSample> samples_;
+  std::vector<KnownState> samples_;
 };
 
 }  // namespace
@@ -179,7 +179,7 @@ CondensedBodies condense(const AssemblyOptions& options, std::span<const ModalBo
 {
   Condensing condensing(options, bodies, wanted);
   CondensedBodies found = condensing.fewest();
-  KnownSample check = condensing.middle();
+  KnownState check = condensing.middle();
   const double error = condensing.error_at(found, check);
   if (error <= wanted.tolerance) {
     found.error = std::max(found.error, error);

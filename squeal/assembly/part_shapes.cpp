@@ -32,12 +32,12 @@ MatrixXd beside(const MatrixXd& A, const MatrixXd& B)
 }
 
 /// Left singular vectors of diag(weights) Y over the weights, and the singular values.
-struct Components {
+struct PrincipalComponents {
   MatrixXd shapes;
   VectorXd sizes;
 };
 
-Components components(const MatrixXd& Y, const VectorXd& weights)
+PrincipalComponents principal_components(const MatrixXd& Y, const VectorXd& weights)
 {
   const MatrixXd weighted = weights.asDiagonal() * Y;
   const Eigen::BDCSVD<MatrixXd> svd(weighted, Eigen::ComputeThinU);
@@ -78,7 +78,7 @@ void add_disc(std::vector<PartShape>& shapes, std::size_t part, const Assembly& 
       Y = beside(Y, real_columns(motion.disc(cosines, every)));
       if (n > 0) Y = beside(Y, real_columns(motion.disc(sines, every)));
     }
-    const Components found = components(Y, weights_of(disc.omega(cosines), omega));
+    const PrincipalComponents found = principal_components(Y, weights_of(disc.omega(cosines), omega));
     for (Index k = 0; k < found.sizes.size(); ++k) {
       MatrixXd columns = MatrixXd::Zero(n_modes, n > 0 ? 2 : 1);
       for (Index row = 0; row < std::ssize(all.disc_modes); ++row) {
@@ -129,7 +129,7 @@ std::vector<PartShape> principal_shapes(const Assembly& all, const AssemblyOptio
     }
     MatrixXd Y;
     for (const PartMotions& motion : motions) Y = beside(Y, real_columns(motion.parts[i]));
-    const Components found = components(Y, weights_of(bodies[i].omega, omega));
+    const PrincipalComponents found = principal_components(Y, weights_of(bodies[i].omega, omega));
     for (Index k = 0; k < found.sizes.size(); ++k)
       shapes.push_back({i, found.shapes.col(k), found.sizes[k]});
   }
