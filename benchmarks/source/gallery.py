@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Which figures of the source do we reproduce, and with which numbers? Writes OUTPUT/gallery.{json,md} and OUTPUT/figures/source_*.png.
 
-usage: gallery.py [--quick] [--programs DIR] OUTPUT
+usage: gallery.py [--quick] [--programs DIR] [--keep DIR] OUTPUT
 
 The source is Steinbrecher 2015 (docs/theory.md). A number of it stands in these scripts as its text has it; ours are of the
 programs. --quick takes coarse meshes and few speeds.
