@@ -111,6 +111,7 @@ BENCHMARKS = [
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
     ("response-modes", "Response modes", script("squeal/response_modes.py"), "response_modes"),
     ("sound", "Sound", sound, "sound_benchmarks"),
+    ("source", "The figures of the source", script("source/gallery.py"), "gallery"),
     ("end-to-end", "End to end", script("end_to_end/frontier.py"), "end_to_end"),
 ]
 

@@ -39,7 +39,7 @@ FrictionLaw with_friction_value(FrictionLaw law, std::string_view key, double va
   } else {
     law.temperature = value;
   }
-  if (law.kinetic + law.rise < 0.0) {
+  if (law.rise < 0.0 && law.kinetic + law.rise < 0.0) {
     throw Error(
         fmt::format("[squeal] friction = {:.6g} makes friction.static {:.6g}, which must not be "
                     "negative; begin the range at {:.6g}",

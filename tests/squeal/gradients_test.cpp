@@ -192,17 +192,18 @@ TEST(Gradients, OfFrequenciesAreCentralDifferences)
 
 TEST(Gradients, OfModelsWithoutABodyAreCentralDifferences)
 {
-  const SlidingBrake oscillator({.mass = 1.0,
-                                 .k_x = 4.2e3,
-                                 .k_y = 3e3,
-                                 .k_xy = 8e2,
-                                 .d_x = 0.4,
-                                 .d_y = 0.3,
-                                 .contact_stiffness = 1.5e3,
-                                 .preload = 20.0,
-                                 .radius = 0.2,
-                                 .friction = {.kinetic = 0.4, .rise = 0.2, .decay_speed = 1.0},
-                                 .law = ContactLaw::bilateral});
+  const SlidingBrake oscillator(
+      Oscillator{.mass = 1.0,
+                 .k_x = 4.2e3,
+                 .k_y = 3e3,
+                 .k_xy = 8e2,
+                 .d_x = 0.4,
+                 .d_y = 0.3,
+                 .contact_stiffness = 1.5e3,
+                 .preload = 20.0,
+                 .radius = 0.2,
+                 .friction = {.kinetic = 0.4, .rise = 0.2, .decay_speed = 1.0},
+                 .law = ContactLaw::bilateral});
   StudyOptions study{.speeds = {.from = 1.0, .to = 60.0, .count = 40}, .analyses = {}};
   study.gradients = GradientCase{.speed = 4.0};
   expect_derivatives(oscillator, study);
