@@ -109,6 +109,7 @@ BENCHMARKS = [
             ("--modes", "100", "500", "--cut", "5")), "reduction_many_modes"),
     ("body", "Bodies", script("body/run.py"), "body_benchmarks"),
     ("squeal", "Squeal", squeal, "squeal_benchmarks"),
+    ("condensed", "Small bodies for one brake", script("squeal/condensed_bodies.py"), "condensed_bodies"),
     ("response-modes", "Response modes", script("squeal/response_modes.py"), "response_modes"),
     ("sound", "Sound", sound, "sound_benchmarks"),
     ("source", "The figures of the source", script("source/gallery.py"), "gallery"),

@@ -25,6 +25,7 @@
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
 #include "report/origin.hpp"
+#include "report/output.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cli {
@@ -174,7 +175,16 @@ Exported export_reduced(const ExportArguments& arguments, const Source& source,
 /// The body in the file, or that of the scene as it is.
 mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& source)
 {
-  if (!source.scene) return mbs_export::read_body(source.reduced_file);
+  if (!source.scene) {
+    mbs_export::ModalBody body = mbs_export::read_body(source.reduced_file);
+    if (body.condensation) {
+      throw Error(fmt::format(
+          "{}: is condensed for the vibrations of one brake, \"{}\", and has no other motions; "
+          "export the body that it was made of",
+          source.reduced_file, report::printable(body.condensation->brake)));
+    }
+    return body;
+  }
   return make_body_of(*source.scene, read_reduced_of(arguments, source));
 }
 

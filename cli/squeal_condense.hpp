@@ -17,8 +17,8 @@ struct CondenseArguments {
 
 void declare_condense(CLI::App& app, CondenseArguments& arguments);
 
-/// Writes condensed/PART.body.h5 for each part of the assembly of a scene, with as few coordinates
-/// as keep the eigenvalues of the brake, and prints how many these are.
+/// Writes NAME.condensed/PART.body.h5 for each part of the assembly of a scene, with as few
+/// coordinates as keep the eigenvalues of the brake, and prints how many these are.
 /// @throws chladni::Error when the scene has no assembly, and from reading, condensing and writing.
 void run_condense(const CondenseArguments& arguments);
 

@@ -60,6 +60,14 @@ struct SelectionTable {
   std::vector<SelectionStep> with_interface_modes;
 };
 
+/// What the modes of a body were condensed for; other motions of the body are lost.
+struct Condensation {
+  std::string brake;  ///< title of the scene of the assembly
+  double highest;     ///< end of the band of its vibrations that are kept, rad/s
+  double tolerance;   ///< asked for the eigenvalues of the assembly, relative
+  double error;       ///< their largest relative error
+};
+
 /// A body of n_modes modal coordinates q with mass matrix I and stiffness diag(omega^2):
 /// q'' + C q' + diag(omega^2) q = (mode shapes)^T forces. A squeal study needs nothing else.
 struct ModalBody {
@@ -96,6 +104,7 @@ struct ModalBody {
   std::optional<Stiffening> stiffening = {};
   std::optional<SelectionTable> selection = {};          ///< if a tolerance chose the modes
   std::optional<SectorHarmonics> sector_harmonics = {};  ///< for a body of equal sectors
+  std::optional<Condensation> condensation = {};         ///< of a body for one assembly alone
   /// of the reduced system; valid for the body if `fixed` is the same
   Certificate certificate = {};
   Provenance provenance;

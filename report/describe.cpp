@@ -158,6 +158,12 @@ TextTable describe(const mbs_export::ModalBody& body)
   add(table, "moment of inertia about z", body.inertia(2, 2), "kg m^2");
   add_stiffening(table, body.stiffening);
   add_picture(table, body.picture);
+  if (body.condensation) {
+    table.rows.push_back(
+        {"condensed for the vibrations of", printable(body.condensation->brake), ""});
+    add(table, "up to", body.condensation->highest / (2.0 * pi), "Hz");
+    add(table, "largest error of its eigenvalues", body.condensation->error, "");
+  }
   return table;
 }
 

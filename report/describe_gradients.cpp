@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t rows_told = 20;
 
-/// "+0.012" of a change by +1 %
-std::string change_by_one_per_cent(double value, double derivative)
+/// "+0.012" of the usual change
+std::string effect(const squeal::GradientRow& row, double derivative)
 {
-  return fmt::format("{:+.3g}", 0.01 * value * derivative);
+  return fmt::format("{:+.3g}", squeal::usual_change(row).value * derivative);
 }
 
 }  // namespace
@@ -30,11 +30,12 @@ TextTable gradients_table(const squeal::Gradients& gradients)
     table.header.push_back(fmt::format("growth of {:.5g} Hz, 1/s", motion.frequency_Hz));
   for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
     const squeal::GradientRow& row = gradients.rows[i];
-    std::vector<std::string> cells{row.key, fmt::format("{:.6g}", row.value), row.unit};
-    if (gradients.critical_speed)
-      cells.push_back(change_by_one_per_cent(row.value, row.critical_speed.value_or(0.0)));
-    for (const double growth : row.growth)
-      cells.push_back(change_by_one_per_cent(row.value, growth));
+    const std::string change = squeal::usual_change(row).name;
+    std::vector<std::string> cells{
+        change == "1 %" ? row.key : fmt::format("{} (by +{})", row.key, change),
+        fmt::format("{:.6g}", row.value), row.unit};
+    if (gradients.critical_speed) cells.push_back(effect(row, row.critical_speed.value_or(0.0)));
+    for (const double growth : row.growth) cells.push_back(effect(row, growth));
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -54,9 +55,9 @@ void add_gradients(TextTable& table, const squeal::Gradients& gradients)
                               : row.growth.size() > 0 ? row.growth[0]
                                                       : 0.0;
     add(table,
-        fmt::format("+1 % of {} moves the {} by", row.key,
+        fmt::format("+{} of {} moves the {} by", squeal::usual_change(row).name, row.key,
                     of_speed ? "critical speed" : "largest growth"),
-        0.01 * row.value * derivative, of_speed ? "rad/s" : "1/s");
+        squeal::usual_change(row).value * derivative, of_speed ? "rad/s" : "1/s");
   }
 }
 

@@ -24,6 +24,8 @@ std::vector<std::string> part_names(const AssemblyOptions& options)
 squeal::PartOptions read_part(const Table& table, const AssemblyOptions& so_far)
 {
   squeal::PartOptions part{.name = table.text("name"), .body = table.text("body")};
+  if (part.name.find_first_of("/\\") != std::string::npos)
+    table.refuse("name", "must be a name without a slash: it becomes that of a file");
   if (part.name.empty() || part.name.find('.') != std::string::npos || part.name == "ground")
     table.refuse("name", "must be a name without a point, and not \"ground\"");
   if (contains(part_names(so_far), part.name))

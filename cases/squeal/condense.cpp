@@ -36,13 +36,28 @@ std::string scene_file_from(const path& folder, const path& body_file,
   return std::filesystem::relative(scene, folder).generic_string();
 }
 
+/// What was condensed would be lost, and what is small already has errors that nobody would see.
+void refuse_condensed(const scene::Scene& scene, const std::vector<path>& sources,
+                      const std::vector<path>& condensed)
+{
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    for (const path& file : condensed)
+      if (std::filesystem::weakly_canonical(sources[i]) ==
+          std::filesystem::weakly_canonical(file)) {
+        throw Error(
+            fmt::format("{}: part[{}].body: {} is a condensed body, which would be written "
+                        "over; name the large body that it was made of",
+                        scene.path, i + 1, sources[i].string()));
+      }
+}
+
 }  // namespace
 
 std::vector<path> condensed_files(const scene::Scene& scene, const SquealFiles& files)
 {
   std::vector<path> condensed;
   for (const squeal::PartOptions& part : assembly_of(scene).parts)
-    condensed.push_back(files.folder / "condensed" / (part.name + ".body.h5"));
+    condensed.push_back(files.folder / (scene.name + ".condensed") / (part.name + ".body.h5"));
   return condensed;
 }
 
@@ -51,6 +66,9 @@ CondensedBrake condensed_brake(const scene::Scene& scene, const SquealFiles& fil
 {
   const squeal::AssemblyOptions& options = assembly_of(scene);
   const squeal::SpeedRange& speeds = study_of(scene).speeds;
+  const std::vector<path> sources = part_files(*scene.squeal_model, files);
+  std::vector<path> condensed = condensed_files(scene, files);
+  refuse_condensed(scene, sources, condensed);
   const std::vector<mbs_export::ModalBody> bodies = part_bodies(scene, files, stale);
   CondensedBrake brake{
       .parts = {},
@@ -58,9 +76,8 @@ CondensedBrake condensed_brake(const scene::Scene& scene, const SquealFiles& fil
                                 {.tolerance = request.tolerance,
                                  .highest = 2.0 * std::numbers::pi * request.up_to_Hz,
                                  .speed_from = speeds.from,
-                                 .speed_to = speeds.to})};
-  const std::vector<path> sources = part_files(*scene.squeal_model, files);
-  std::vector<path> condensed = condensed_files(scene, files);
+                                 .speed_to = speeds.to,
+                                 .brake = scene.title})};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     mbs_export::ModalBody& body = brake.found.bodies[i];
     body.provenance.scene_file = scene_file_from(condensed[i].parent_path(), sources[i], bodies[i]);

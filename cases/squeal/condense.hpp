@@ -34,7 +34,7 @@ struct CondensedBrake {
 CondensedBrake condensed_brake(const scene::Scene& scene, const SquealFiles& files,
                                StaleChoice stale, const CondenseRequest& request);
 
-/// The files that `write` makes: condensed/PART.body.h5 in the folder of the results.
+/// The files that `write` makes: NAME.condensed/PART.body.h5 in the folder of the results.
 std::vector<std::filesystem::path> condensed_files(const scene::Scene& scene,
                                                    const SquealFiles& files);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <variant>
@@ -112,6 +114,20 @@ void add_note_of_stiffening(std::span<const mbs_export::ModalBody> bodies,
       "stiffness at rest");
 }
 
+/// Up to where condensed bodies are those of their brake.
+void add_note_of_condensation(std::span<const mbs_export::ModalBody> bodies,
+                              std::vector<std::string>& notes)
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const mbs_export::ModalBody& body : bodies)
+    if (body.condensation) lowest = std::min(lowest, body.condensation->highest);
+  if (lowest == std::numeric_limits<double>::infinity()) return;
+  notes.push_back(
+      fmt::format("condensed bodies have the vibrations of their brake up to {:.6g} Hz; what is "
+                  "told of higher ones is not the brake's",
+                  lowest / (2.0 * std::numbers::pi)));
+}
+
 /// A brake without a mesh: a few equations, or bodies of other scenes.
 SquealCase model_case(const scene::Scene& scene, const SquealFiles& files, StaleChoice stale)
 {
@@ -126,6 +142,7 @@ SquealCase model_case(const scene::Scene& scene, const SquealFiles& files, Stale
   }
   made.notes = dynamic_cast<const squeal::AssemblyBrake&>(*made.brake).assembly().notes;
   add_note_of_stiffening(bodies, made.notes);
+  add_note_of_condensation(bodies, made.notes);
   return made;
 }
 

@@ -205,9 +205,9 @@ Assembly apart(InertialDisc disc, PartModes modes, bool convection)
 }
 
 /// Adds all linings.
-void add_linings(Assembly& all, const AssemblyOptions& options, std::span<const Part> parts)
+void add_linings(Assembly& all, const AssemblyOptions& options, std::span<const Part> parts,
+                 const DiscFaces& faces)
 {
-  const DiscFaces faces = disc_faces(options, all.disc);
   const std::vector<Eigen::Index> first = first_coordinates(parts);
   for (std::size_t i = 0; i < options.contacts.size(); ++i) {
     const FaceContact& contact = options.contacts[i];
@@ -236,7 +236,7 @@ Assembly assembly(const AssemblyOptions& options, std::span<const ModalBody> bod
   all.disc_modes = disc.mode_numbers;
   all.notes = notes_of(disc);
   all.notes.insert(all.notes.end(), joints.notes.begin(), joints.notes.end());
-  add_linings(all, options, placed.parts);
+  add_linings(all, options, placed.parts, disc_faces(options, all.disc));
   check_held(all, placed.parts);
   return all;
 }
@@ -245,10 +245,15 @@ Assembly neighbour(const Assembly& about, const AssemblyOptions& options,
                    std::span<const ModalBody> bodies)
 {
   const Placed placed = placed_parts(options, bodies);
-  const JoinedParts joints = joined(placed.parts, options.joints);
+  // Where parts met once, they have moved apart by less than any check of a scene should allow.
+  std::vector<JointOptions> meeting = options.joints;
+  for (JointOptions& joint : meeting) joint.span = std::numeric_limits<double>::infinity();
+  const JoinedParts joints = joined(placed.parts, meeting);
   Assembly all = apart(about.disc, modes_about(about, joints), options.convection);
   all.disc_modes = about.disc_modes;
-  add_linings(all, options, placed.parts);
+  DiscFaces faces = disc_faces(options, all.disc);
+  faces.are_checked = false;
+  add_linings(all, options, placed.parts, faces);
   return all;
 }
 

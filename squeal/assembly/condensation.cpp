@@ -3,24 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <complex>
+#include <array>
 #include <cstddef>
 #include <numbers>
 #include <utility>
 
-#include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/condensed_body.hpp"
+#include "squeal/assembly/assembly.hpp"
+#include "squeal/assembly/condensation_error.hpp"
 #include "squeal/assembly/part_shapes.hpp"
 #include "squeal/stability/band_modes.hpp"
 
 namespace chladni::squeal {
 namespace {
 
-using Complex = std::complex<double>;
-using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXcd;
+using Eigen::MatrixXd;
 using mbs_export::ModalBody;
+using Bodies = std::vector<ModalBody>;
 
 /// A state of the brake in which it is looked at.
 struct BrakeState {
@@ -28,7 +28,7 @@ struct BrakeState {
   double friction;  ///< part of the friction of the scene
 };
 
-/// A sample, and what the complete brake does in it.
+/// A state, and what the complete brake does in it.
 struct KnownState {
   BrakeState at;
   BandModes modes;
@@ -41,95 +41,94 @@ MatrixXd matrix_of(const Assembly& all, const BrakeState& at)
   return state_matrix(all, linings, at.speed);
 }
 
-KnownState known(const Assembly& all, const BrakeState& at, double highest)
+/// A body without what no assembly needs.
+ModalBody lean(ModalBody body)
 {
-  return {at, band_modes(matrix_of(all, at), highest)};
+  body.picture = {};
+  body.resultants.clear();
+  return body;
 }
 
-/// The largest distance of one of `from` from the nearest one of `to`, relative.
-double farthest(const VectorXcd& from, const VectorXcd& to)
-{
-  double largest = 0.0;
-  for (const Complex& one : from) {
-    largest = std::max(largest,
-                       to.size() == 0 ? 1.0 : (to.array() - one).abs().minCoeff() / std::abs(one));
-  }
-  return largest;
-}
+/// Shapes of all parts, the largest first, and how many of them are taken.
+struct Choice {
+  std::vector<PartShape> shapes;
+  std::size_t n = 0;
+  CondensationError error = {};
+};
 
-/// Of the eigenvalues within the band both ways. Those near its end may lie beyond it in one of the
-/// brakes.
-double error_of(const VectorXcd& exact, const MatrixXd& A, double highest)
-{
-  const VectorXcd all = A.eigenvalues();
-  const VectorXcd in_band = band_modes(A, (1.0 - 1e-2) * highest).lambda;
-  return std::max(farthest(exact, all), farthest(in_band, exact));
-}
-
-/// The parts of a brake, which become fewer modes.
 class Condensing {
  public:
   Condensing(const AssemblyOptions& options, std::span<const ModalBody> bodies,
              const CondensationOptions& wanted)
-      : options_(options), bodies_(bodies), wanted_(wanted), all_(assembly(options, bodies))
+      : options_(options), wanted_(wanted), all_(assembly(options, bodies))
   {
+    for (const ModalBody& body : bodies) bodies_.push_back(lean(body));
     for (const double speed : {wanted.speed_from, wanted.speed_to})
-      for (const double friction : {0.0, 1.0}) add(known(all_, {speed, friction}, wanted.highest));
-    if (n_eigenvalues() == 0) {
-      throw Error(fmt::format("the brake has no oscillation below {:.6g} Hz; take a wider band",
-                              wanted.highest / (2.0 * std::numbers::pi)));
-    }
-  }
-
-  int n_eigenvalues() const
-  {
+      for (const double friction : {0.0, 1.0}) add(state(speed, friction));
     int n = 0;
     for (const KnownState& sample : samples_) n += static_cast<int>(sample.modes.lambda.size());
-    return n;
-  }
-
-  /// The fewest shapes that keep the tolerance in all samples, by bisection.
-  CondensedBodies fewest() const
-  {
-    const std::vector<PartShape> shapes = shapes_of_all();
-    const auto size = shapes.size();
-    std::size_t too_few = 0, enough = size;
-    CondensedBodies best = with(shapes);
-    if (!(best.error <= wanted_.tolerance)) {
-      throw Error(fmt::format(
-          "all shapes of the brake's vibrations up to {:.6g} Hz leave an error of {:.2g} where "
-          "{:.2g} is asked; take a wider band, or a larger tolerance",
-          wanted_.highest / (2.0 * std::numbers::pi), best.error, wanted_.tolerance));
+    if (n == 0) {
+      throw Error(
+          fmt::format("the brake has no oscillation below {:.6g} Hz; take a wider band", end_Hz()));
     }
-    while (enough - too_few > 1) {
-      const std::size_t middle = (too_few + enough) / 2;
-      CondensedBodies tried = with(std::span(shapes).first(middle));
-      if (tried.error <= wanted_.tolerance) {
-        best = std::move(tried);
-        enough = middle;
-      } else {
-        too_few = middle;
-      }
-    }
-    return best;
-  }
-
-  /// In a state that may be none of the samples.
-  double error_at(const CondensedBodies& condensed, const KnownState& sample) const
-  {
-    const Assembly few = assembly(options_, condensed.bodies);
-    return error_of(sample.modes.lambda, matrix_of(few, sample.at), wanted_.highest);
-  }
-
-  KnownState middle() const
-  {
-    return known(all_, {0.5 * (wanted_.speed_from + wanted_.speed_to), 0.5}, wanted_.highest);
   }
 
   void add(KnownState sample) { samples_.push_back(std::move(sample)); }
 
+  KnownState state(double speed, double friction) const
+  {
+    return {{speed, friction}, band_modes(matrix_of(all_, {speed, friction}), wanted_.highest)};
+  }
+
+  /// As few shapes as bisection finds to keep the tolerance in all samples.
+  Choice choose()
+  {
+    Choice choice{.shapes = shapes_of_all()};
+    choice.n = choice.shapes.size();
+    choice.error = error_of(choice.shapes);
+    if (!(choice.error.eigenvalues <= wanted_.tolerance)) {
+      throw Error(fmt::format(
+          "all shapes of the brake's vibrations up to {:.6g} Hz leave an error of {:.2g} where "
+          "{:.2g} is asked; take a wider band, or a larger tolerance{}",
+          end_Hz(), choice.error.eigenvalues, wanted_.tolerance,
+          why_.empty() ? why_ : fmt::format(" (the condensed brake: {})", why_)));
+    }
+    std::size_t too_few = 0;
+    while (choice.n - too_few > 1) {
+      const std::size_t middle = (too_few + choice.n) / 2;
+      const CondensationError error = error_of(std::span(choice.shapes).first(middle));
+      if (error.eigenvalues <= wanted_.tolerance) {
+        choice.error = error;
+        choice.n = middle;
+      } else {
+        too_few = middle;
+      }
+    }
+    return choice;
+  }
+
+  /// In a state that may be none of the samples.
+  CondensationError error_in(const Choice& choice, const KnownState& at)
+  {
+    const Bodies few = with(std::span(choice.shapes).first(choice.n), bodies_);
+    return condensation_error(at.modes.lambda, matrix_of(assembly(options_, few), at.at), wanted_);
+  }
+
+  /// Bodies with some of the shapes of each part; none where a part has no shape.
+  static Bodies with(std::span<const PartShape> shapes, std::span<const ModalBody> bodies)
+  {
+    Bodies few;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const MatrixXd of_part = columns_of(shapes, i, bodies[i].n_modes());
+      if (of_part.cols() == 0) return {};
+      few.push_back(mbs_export::condensed(bodies[i], of_part));
+    }
+    return few;
+  }
+
  private:
-  /// The shapes of all parts in all samples, the largest first.
+  double end_Hz() const { return wanted_.highest / (2.0 * std::numbers::pi); }
+
   std::vector<PartShape> shapes_of_all() const
   {
     std::vector<PartMotions> motions;
@@ -138,38 +137,36 @@ class Condensing {
     return principal_shapes(all_, options_, bodies_, motions, 0.5 * wanted_.highest);
   }
 
-  /// The bodies with these shapes. A brake that they do not hold, or whose disc is none, is no
-  /// better than none.
-  CondensedBodies with(std::span<const PartShape> shapes) const
+  /// A brake that the bodies do not hold, or whose disc is none, is no better than none.
+  CondensationError error_of(std::span<const PartShape> shapes)
   {
-    CondensedBodies few{.bodies = {},
-                        .error = 1.0,
-                        .n_samples = static_cast<int>(samples_.size()),
-                        .n_eigenvalues = n_eigenvalues()};
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const MatrixXd of_part = columns_of(shapes, i, bodies_[i].n_modes());
-      if (of_part.cols() == 0) return few;
-      few.bodies.push_back(mbs_export::condensed(bodies_[i], of_part));
+    constexpr CondensationError useless{.eigenvalues = 1.0};
+    why_.clear();
+    const Bodies few = with(shapes, bodies_);
+    if (few.empty()) {
+      why_ = "a part has no share in the vibrations of the band";
+      return useless;
     }
     try {
-      const Assembly brake = assembly(options_, few.bodies);
-      few.error = 0.0;
+      const Assembly brake = assembly(options_, few);
+      CondensationError error;
       for (const KnownState& sample : samples_) {
-        const double error =
-            error_of(sample.modes.lambda, matrix_of(brake, sample.at), wanted_.highest);
-        few.error = std::max(few.error, error);
+        error = worst_of(
+            error, condensation_error(sample.modes.lambda, matrix_of(brake, sample.at), wanted_));
       }
-    } catch (const Error&) {
-      few.error = 1.0;
+      return error;
+    } catch (const Error& failure) {
+      why_ = failure.what();
+      return useless;
     }
-    return few;
   }
 
   const AssemblyOptions& options_;
-  std::span<const ModalBody> bodies_;
   const CondensationOptions& wanted_;
   Assembly all_;
+  Bodies bodies_;
   std::vector<KnownState> samples_;
+  std::string why_;  ///< the last condensed brake was none
 };
 
 }  // namespace
@@ -178,15 +175,30 @@ CondensedBodies condense(const AssemblyOptions& options, std::span<const ModalBo
                          const CondensationOptions& wanted)
 {
   Condensing condensing(options, bodies, wanted);
-  CondensedBodies found = condensing.fewest();
-  KnownState check = condensing.middle();
-  const double error = condensing.error_at(found, check);
-  if (error <= wanted.tolerance) {
-    found.error = std::max(found.error, error);
-    return found;
+  Choice choice = condensing.choose();
+  // Parts of the ranges of speed and friction that are none of the samples.
+  constexpr std::array<std::array<double, 2>, 3> between{{{0.5, 0.5}, {0.25, 0.75}, {0.75, 0.25}}};
+  for (const auto& [of_speeds, of_friction] : between) {
+    KnownState check = condensing.state(
+        wanted.speed_from + of_speeds * (wanted.speed_to - wanted.speed_from), of_friction);
+    const CondensationError error = condensing.error_in(choice, check);
+    if (error.eigenvalues <= wanted.tolerance) {
+      choice.error = worst_of(choice.error, error);
+      continue;
+    }
+    condensing.add(std::move(check));
+    choice = condensing.choose();
   }
-  condensing.add(std::move(check));
-  return condensing.fewest();
+  CondensedBodies found{
+      .bodies = Condensing::with(std::span(choice.shapes).first(choice.n), bodies),
+      .error = choice.error};
+  for (ModalBody& body : found.bodies) {
+    body.condensation = mbs_export::Condensation{.brake = wanted.brake,
+                                                 .highest = wanted.highest,
+                                                 .tolerance = wanted.tolerance,
+                                                 .error = choice.error.eigenvalues};
+  }
+  return found;
 }
 
 }  // namespace chladni::squeal

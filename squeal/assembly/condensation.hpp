@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mbs_export/modal_body.hpp"
-#include "squeal/assembly/assembly.hpp"
+#include "squeal/assembly_options.hpp"
 
 namespace chladni::squeal {
 
@@ -14,27 +14,37 @@ struct CondensationOptions {
   double tolerance;             ///< largest relative error of an eigenvalue of the band
   double highest;               ///< end of the band, rad/s
   double speed_from, speed_to;  ///< rad/s
+  std::string brake = {};       ///< title of the scene, for the bodies
 };
 
-/// Bodies that move as they do in the vibrations of one brake, and what that costs.
+/// How well a brake of condensed bodies does what that of the complete bodies does.
+struct CondensationError {
+  double eigenvalues = 0.0;  ///< largest relative error of one of the band, all states
+  double growth = 0.0;       ///< largest error of the real part of one of them, 1/s
+  int n_eigenvalues = 0;     ///< compared, of all states
+  int n_states = 0;          ///< pairs of speed and friction that were compared
+  /// Motions beyond the band that grow with the condensed bodies, at most in one of the states.
+  int n_unstable_beyond = 0;
+};
+
+/// Bodies that move as they do in the vibrations of one brake.
 struct CondensedBodies {
   std::vector<mbs_export::ModalBody> bodies;  ///< of the parts, in their order
-  double error;       ///< largest relative error of an eigenvalue of the band, all samples
-  int n_samples;      ///< pairs of speed and friction from which the shapes were taken
-  int n_eigenvalues;  ///< compared, of all samples
+  CondensationError error;
 };
 
 /// Condenses each body of an assembly to the shapes that it takes in the eigenvectors of the whole
 /// brake within a band: principal components of its share, weighted by energy, of all eigenvectors
-/// at the ends of the speed range, without friction and with it. Shapes of the disc are taken with
-/// all their rotations, so that it stays axisymmetric. As many shapes are kept, the largest first,
-/// as keep the eigenvalues of the band within the tolerance, both ways: each one is found, and none
-/// is found that is not one. The middle of speeds and frictions is a check; where it does not keep
-/// the tolerance, it becomes a sample.
-/// Rigid-body motions and modes that have no share in the band are lost: the bodies are those of
-/// this brake.
+/// at the ends of the speed range, without friction and with it. Shapes of the disc are taken in
+/// all positions, so that it stays axisymmetric. Shapes are kept by size, as many as bisection
+/// finds to keep the tolerance: each eigenvalue of the band has one of its own within it, no other
+/// is in the band, and what grows or decays by more than 1e-4 of its frequency still does so.
+/// States between the ends are checks; one that fails becomes a sample, and shapes are chosen
+/// again.
+/// Rigid-body motions and whatever has no share in the band are lost: the bodies are those of this
+/// brake. Motions beyond the band are not the brake's.
 /// @param bodies  of the parts, in their order
-/// @throws chladni::Error as `assembly`; when the band has no eigenvalue; and when all shapes
+/// @throws chladni::Error as `assembly`; when the band has no oscillation; and when all shapes
 ///         together do not keep the tolerance.
 CondensedBodies condense(const AssemblyOptions& options,
                          std::span<const mbs_export::ModalBody> bodies,

@@ -31,6 +31,7 @@ double side_of(const FaceContact& contact, const Part& part, const DiscFaces& di
   const Eigen::RowVectorXd z = part.positions.row(2)(nodes);
   const double sigma = z.mean() > 0.5 * (lower + upper) ? 1.0 : -1.0;
   const double plane = sigma > 0.0 ? upper : lower;
+  if (!disc.are_checked) return sigma;
   const Eigen::RowVectorXd gap = (sigma * (z.array() - plane) - contact.height).matrix();
   Eigen::Index worst = 0;
   if (gap.cwiseAbs().maxCoeff(&worst) <= touching * contact.height) return sigma;
@@ -133,7 +134,7 @@ void put_shares(std::vector<FaceNode>& nodes, const FaceContact& contact, bool i
 
 DiscFaces disc_faces(const AssemblyOptions& options, const InertialDisc& disc)
 {
-  DiscFaces faces{.rings = ring_places(disc), .planes = {}};
+  DiscFaces faces{.rings = ring_places(disc), .planes = {}, .are_checked = true};
   const RingPlace& first = faces.rings.front();
   for (auto ring = faces.rings.begin(); ring != faces.rings.end(); ++ring) {
     const auto same = std::find_if(faces.rings.begin(), ring, [&](const RingPlace& other) {
@@ -173,7 +174,7 @@ std::vector<FaceNode> face_nodes(const FaceContact& contact, const Part& part,
   std::vector<FaceNode> nodes;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const double r = std::hypot(x(0, i), x(1, i));
-    check_radius(disc, r, what);
+    if (disc.are_checked) check_radius(disc, r, what);
     nodes.push_back({.node = set[static_cast<std::size_t>(i)],
                      .height = contact.height,
                      .angle = angles.values[i],

@@ -27,6 +27,7 @@ struct FaceNode {
 struct DiscFaces {
   std::vector<RingPlace> rings;
   std::array<double, 2> planes;  ///< z of the lower and of the upper contact plane, m
+  bool are_checked = true;       ///< whether a face must touch a plane, within the rings
 };
 
 /// The nodes of a face on the disc. The motion of the disc between its rings is interpolated by the

@@ -57,11 +57,12 @@ Assembly with_notes(Assembly assembly)
   return assembly;
 }
 
-/// Whether rigid joints allow a small change of a place.
+/// Whether rigid joints allow a small change of a place to both sides.
 bool is_free(const BrakeNumber& place)
 {
   try {
     place.with(place.value + place.step);
+    place.with(place.value - place.step);
     return true;
   } catch (const Error&) {
     return false;
@@ -158,24 +159,40 @@ void AssemblyBrake::add_frequencies(std::vector<BrakeNumber>& numbers) const
   for (std::size_t i = 0; i < source_->options.parts.size(); ++i) {
     const PartOptions& part = source_->options.parts[i];
     if (part.name == source_->options.disc) continue;
-    for (const double omega : source_->bodies[i].omega) {
-      const Eigen::Index at = row++;
-      if (!(omega > 0.0)) continue;
-      const double f_Hz = omega / (2.0 * std::numbers::pi);
-      numbers.push_back(
-          {.key = fmt::format("frequency of the mode of \"{}\" at {:.6g} Hz", part.name, f_Hz),
-           .unit = "Hz",
-           .value = f_Hz,
-           .step = 0.0,
-           .with = [this, at, omega](double x_Hz) {
-             const double changed_omega = 2.0 * std::numbers::pi * x_Hz;
-             Assembly changed = *assembly_;
-             const Eigen::RowVectorXd x = changed.X.row(at);
-             changed.K += (changed_omega * changed_omega - omega * omega) * x.transpose() * x;
-             return of(std::move(changed));
-           }});
-    }
+    const Eigen::VectorXd& omega = source_->bodies[i].omega;
+    for (Eigen::Index mode = 0; mode < omega.size(); ++mode, ++row)
+      if (omega[mode] > 0.0) numbers.push_back(frequency_of(part.name, mode, omega[mode], row));
   }
+}
+
+BrakeNumber AssemblyBrake::frequency_of(const std::string& part, Eigen::Index mode, double omega,
+                                        Eigen::Index row) const
+{
+  constexpr double from_Hz = 2.0 * std::numbers::pi;
+  return {.key = fmt::format("frequency of mode {} of \"{}\" at {:.6g} Hz", mode + 1, part,
+                             omega / from_Hz),
+          .unit = "Hz",
+          .value = omega / from_Hz,
+          .step = 0.0,
+          .with =
+              [this, row, omega](double f_Hz) {
+                Assembly changed = *assembly_;
+                const Eigen::RowVectorXd x = changed.X.row(row);
+                const double lambda = std::pow(from_Hz * f_Hz, 2) - omega * omega;
+                changed.K += lambda * x.transpose() * x;
+                return of(std::move(changed));
+              },
+          .derivative =
+              [this, row, omega](double /*speed*/) {
+                const Eigen::Index n = assembly_->n_coordinates(), n_b = assembly_->omega.size();
+                const Eigen::RowVectorXd x = assembly_->X.row(row);
+                const Eigen::RowVectorXd over_scales =
+                    x.cwiseQuotient(state_scales(*assembly_).tail(n_b).transpose());
+                Eigen::MatrixXd dA = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+                dA.block(2 * n - n_b, n - n_b, n_b, n_b) =
+                    -2.0 * omega * from_Hz * x.transpose() * over_scales;
+                return dA;
+              }};
 }
 
 std::unique_ptr<AutonomousMotion> AssemblyBrake::motion(double /*speed*/) const

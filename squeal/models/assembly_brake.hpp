@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "squeal/assembly/assembly.hpp"
@@ -44,6 +45,9 @@ class AssemblyBrake final : public Brake {
   std::unique_ptr<Brake> of(Assembly assembly) const;
   BrakeNumber number_of(AssemblyNumber number) const;
   void add_frequencies(std::vector<BrakeNumber>& numbers) const;
+  /// @param row  of the part's mode in `Assembly::X`
+  BrakeNumber frequency_of(const std::string& part, Eigen::Index mode, double omega,
+                           Eigen::Index row) const;
 
   std::shared_ptr<const Source> source_;
   std::shared_ptr<const Assembly> assembly_;

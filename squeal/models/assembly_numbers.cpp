@@ -14,7 +14,7 @@
 namespace chladni::squeal {
 namespace {
 
-/// Steps of places (m) and of angles (degrees) that no check of the assembly notices.
+/// Steps of places (m) and of angles (degrees).
 constexpr double step_of_place = 1e-6, step_of_angle = 1e-4;
 
 constexpr std::array<std::string_view, 6> component_keys{"x", "y", "z", "rx", "ry", "rz"};
@@ -99,7 +99,7 @@ void add_contact(std::vector<AssemblyNumber>& numbers, const FaceContact& contac
     numbers.push_back({.key = std::move(number.key),
                        .unit = std::string(number.unit),
                        .value = number.value,
-                       .step = 0.0,
+                       .step = number.step,
                        .set = [i, with = std::move(number.with)](AssemblyOptions& o, double x) {
                          o.contacts[i].friction = with(x);
                        }});
@@ -132,7 +132,7 @@ void add_disc(std::vector<AssemblyNumber>& numbers, const AssemblyOptions& optio
     numbers.push_back({.key = std::move(number.key),
                        .unit = std::string(number.unit),
                        .value = number.value,
-                       .step = 0.0,
+                       .step = number.step,
                        .set = [with = std::move(number.with)](AssemblyOptions& o, double x) {
                          o.friction = with(x);
                        }});

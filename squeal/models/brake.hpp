@@ -24,6 +24,8 @@ struct BrakeNumber {
   double step;  ///< a small change of the value, by which to take differences; 0: a part of it
   /// The brake with another value, in the same coordinates; valid while the brake lives.
   std::function<std::unique_ptr<Brake>(double value)> with;
+  /// dA / d value at a speed (rad/s), where it is known without a difference; else empty.
+  std::function<Eigen::MatrixXd(double speed)> derivative = {};
 };
 
 /// State matrix A of x' = A x about the sliding equilibrium as a function of the speed (rad/s).

@@ -32,7 +32,7 @@ std::vector<BrakeNumber> friction_point_numbers(
     numbers.push_back({.key = std::move(point.key),
                        .unit = std::string(point.unit),
                        .value = point.value,
-                       .step = 0.0,
+                       .step = point.step,
                        .with = [with = std::move(point.with), brake](double value) {
                          return brake(with(value));
                        }});

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -41,12 +43,22 @@ FrictionNumber mu_of_point(const FrictionLaw& law, std::size_t at, std::size_t p
   return {.key = fmt::format("{}.mu[{}]", row, point + 1),
           .unit = "1",
           .value = curve.mu[point],
+          .step = 1e-6,
           .with = [law, at, point](double value) {
             const FrictionCurve& old = law.table->curves[at];
             std::vector<double> mu = old.mu;
             mu[point] = value;
             return with_curve(law, at, friction_curve(old.speeds, std::move(mu)));
           }};
+}
+
+/// The distance to the nearer neighbour.
+double nearest(const std::vector<double>& ascending, std::size_t i)
+{
+  double distance = std::numeric_limits<double>::infinity();
+  if (i > 0) distance = ascending[i] - ascending[i - 1];
+  if (i + 1 < ascending.size()) distance = std::min(distance, ascending[i + 1] - ascending[i]);
+  return distance;
 }
 
 FrictionNumber speed_of_point(const FrictionLaw& law, std::size_t at, std::size_t point,
@@ -56,6 +68,7 @@ FrictionNumber speed_of_point(const FrictionLaw& law, std::size_t at, std::size_
   return {.key = fmt::format("{}.speed_m_s[{}]", row, point + 1),
           .unit = "m/s",
           .value = curve.speeds[point],
+          .step = 1e-5 * nearest(curve.speeds, point),
           .with = [law, at, point](double value) {
             const FrictionCurve& old = law.table->curves[at];
             std::vector<double> speeds = old.speeds;
@@ -90,6 +103,7 @@ std::vector<FrictionNumber> friction_numbers(const FrictionLaw& law, const std::
         {.key = name.empty() ? key : fmt::format("{}.{}", key, name),
          .unit = unit,
          .value = *friction_value(law, name),
+         .step = 0.0,
          .with = [law, name](double value) { return with_friction_value(law, name, value); }});
   }
   for (FrictionNumber& point : friction_points(law, key)) numbers.push_back(std::move(point));

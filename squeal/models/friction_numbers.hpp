@@ -14,6 +14,7 @@ struct FrictionNumber {
   std::string key;        ///< "friction.static", "pads[2].friction.table[1].mu[3]"
   std::string_view unit;  ///< of its value
   double value;
+  double step;  ///< small change of the value for differences; 0: a part of the value
   std::function<FrictionLaw(double value)> with;  ///< the law with another value of this number
 };
 

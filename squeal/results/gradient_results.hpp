@@ -37,8 +37,16 @@ struct Gradients {
   std::vector<GradientRow> rows;
 };
 
-/// Absolute change of the critical speed (rad/s), or without one of the largest growth rate (1/s),
-/// when the value changes by one per cent.
-double effect_of_one_per_cent(const Gradients& gradients, const GradientRow& row);
+/// A change by which numbers are compared: one per cent of the value, or for places and angles of
+/// parts, whose values depend on the origin, 0.1 mm and 0.1 degrees.
+struct UsualChange {
+  double value;      ///< in the unit of the row
+  const char* name;  ///< "1 %"
+};
+UsualChange usual_change(const GradientRow& row);
+
+/// Effect of the usual change of a value on the critical speed or, without one, on the largest
+/// growth rate; absolute value, rad/s or 1/s.
+double effect_of_usual_change(const Gradients& gradients, const GradientRow& row);
 
 }  // namespace chladni::squeal

@@ -32,6 +32,7 @@ struct Variable {
   double value;
   double step;  ///< of differences; 0: a part of the value
   std::function<MatrixXd(double value, double speed)> A;
+  std::function<MatrixXd(double speed)> dA;  ///< empty: by differences of A
 };
 
 /// In coordinates in which it can be differentiated.
@@ -46,22 +47,23 @@ std::vector<Variable> variables_of(const Brake& brake)
 {
   std::vector<Variable> variables;
   for (const auto& [parameter, value] : brake.parameters()) {
-    variables.push_back({.key = key_of(parameter),
-                         .unit = std::string(find_parameter(parameter.name)->unit),
-                         .value = value,
-                         .step = 0.0,
-                         .A = [&brake, parameter = parameter](double x, double speed) {
-                           return matrix_of(*brake.with(parameter, x), speed);
-                         }});
+    variables.push_back(
+        {.key = key_of(parameter),
+         .unit = std::string(find_parameter(parameter.name)->unit),
+         .value = value,
+         .step = 0.0,
+         .A = [&brake, parameter = parameter](
+                  double x, double speed) { return matrix_of(*brake.with(parameter, x), speed); },
+         .dA = {}});
   }
   for (BrakeNumber& number : brake.further_numbers()) {
     variables.push_back({.key = std::move(number.key),
                          .unit = std::move(number.unit),
                          .value = number.value,
                          .step = number.step,
-                         .A = [with = std::move(number.with)](double x, double speed) {
-                           return matrix_of(*with(x), speed);
-                         }});
+                         .A = [with = std::move(number.with)](
+                                  double x, double speed) { return matrix_of(*with(x), speed); },
+                         .dA = std::move(number.derivative)});
   }
   return variables;
 }
@@ -80,6 +82,7 @@ MatrixXd derivative_at_zero(const Variable& p, double speed)
 /// dA/dp
 MatrixXd derivative(const Variable& p, double speed)
 {
+  if (p.dA) return p.dA(speed);
   if (p.value == 0.0 && p.step == 0.0) return derivative_at_zero(p, speed);
   const double h = p.step > 0.0 ? p.step : step * std::abs(p.value);
   return (p.A(p.value + h, speed) - p.A(p.value - h, speed)) / (2.0 * h);
@@ -138,9 +141,16 @@ void require_something(const std::optional<CriticalOscillation>& critical,
 
 }  // namespace
 
-double effect_of_one_per_cent(const Gradients& gradients, const GradientRow& row)
+UsualChange usual_change(const GradientRow& row)
 {
-  const double change = 0.01 * std::abs(row.value);
+  if (!row.key.starts_with("part[")) return {0.01 * row.value, "1 %"};
+  if (row.unit == "m") return {1e-4, "0.1 mm"};
+  return {0.1, "0.1 degrees"};
+}
+
+double effect_of_usual_change(const Gradients& gradients, const GradientRow& row)
+{
+  const double change = std::abs(usual_change(row).value);
   if (gradients.critical_speed && row.critical_speed) return change * std::abs(*row.critical_speed);
   return row.growth.size() > 0 ? change * std::abs(row.growth[0]) : 0.0;
 }
@@ -174,7 +184,7 @@ Gradients gradients(const Brake& brake, const StudyOptions& options)
     result.rows.push_back(std::move(row));
   }
   std::ranges::stable_sort(result.rows, std::ranges::greater(), [&](const GradientRow& row) {
-    return effect_of_one_per_cent(result, row);
+    return effect_of_usual_change(result, row);
   });
   return result;
 }

@@ -13,7 +13,7 @@ void read_results(const std::string& path)
 {
   const squeal::SquealResults results = squeal::read_results(path);
   report::format_table(report::describe(results));
-  report::Json::object(report::squeal_members(results)).text();
+  report::Json::object(report::squeal_members(results, {})).text();
   report::squeal_motions(results, {1, 3}, 3);
 }
 

@@ -159,8 +159,8 @@ def condensed(programs, folder, text):
     """The scene with small bodies that `squeal condense` makes of the large ones at hand."""
     (folder / "scene.toml").write_text(text)
     run(programs / "squeal", "condense", folder / "scene.toml", "--output", folder / "out", "--up-to-Hz", f"{BAND_HZ:g}",
-        "--tolerance", str(CONDENSED / 2))  # fmt: skip
-    small, n = re.subn(r'(name = "(\w+)"[^\n]*\nbody = )"[^"]+"', r'\1"condensed/\2.body.h5"', text)
+        "--tolerance", str(0.8 * CONDENSED))  # fmt: skip
+    small, n = re.subn(r'(name = "(\w+)"[^\n]*\nbody = )"[^"]+"', r'\1"brake.condensed/\2.body.h5"', text)
     assert n == 4, "a part of the scene was not found"
     return small
 

@@ -25,7 +25,7 @@ def expect(good, what):
 
 
 def with_condensed(text):
-    small, n = re.subn(r'(name = "(\w+)"[^\n]*\nbody = )"[^"]+"', r'\1"condensed/\2.body.h5"', text)
+    small, n = re.subn(r'(name = "(\w+)"[^\n]*\nbody = )"[^"]+"', r'\1"brake.condensed/\2.body.h5"', text)
     assert n == 4
     return small
 
@@ -64,7 +64,7 @@ def main(programs, folder):
     told = json.loads(summary.read_text())
     before, after = (sum(part[key] for part in told["parts"]) for key in ("coordinates_before", "coordinates"))
     expect(after < before and told["error"] <= TOLERANCE, f"{before} coordinates become {after}, error {told['error']:.1e}")
-    expect("condensed/outer.body.h5" in printed and str(after) in printed, "the table names files and sizes")
+    expect("brake.condensed/outer.body.h5" in printed and str(after) in printed, "the table names files and sizes")
 
     small = folder / "small.toml"
     small.write_text(with_condensed(text))
@@ -77,7 +77,7 @@ def main(programs, folder):
         expect(max(missed, invented) < 2 * TOLERANCE, f"at {speed:g} rad/s off by {missed:.1e}, {invented:.1e} the other way")
 
     for part in ("disc", "outer", "inner", "caliper"):
-        done = start(programs / "chladni", "check", folder / f"out/condensed/{part}.body.h5")
+        done = start(programs / "chladni", "check", folder / f"out/brake.condensed/{part}.body.h5")
         expect(done.returncode == 0, f"{part}: a sound body {done.stdout if done.returncode else ''}")
     gradients = changed(with_condensed(text), ('analyses = ["eigenvalues"]', 'analyses = ["gradients"]\ngradients = { speed_rad_s = 30.0 }'))
     small.write_text(gradients)
@@ -93,6 +93,7 @@ def main(programs, folder):
     expect(done.returncode != 0 and "section.thickness" in done.stderr, f"stale: {done.stderr.strip()}")
     run(*condense, "--overwrite", "--stale")
 
+    refused(programs, small, folder, ("--stale", "--up-to-Hz", "2000"), "brake.condensed/disc.body.h5 is a condensed body")
     refused(programs, scene, folder, ("--stale", "--up-to-Hz", "1e-2"), "no oscillation below 0.01 Hz")
     refused(programs, scene, folder, ("--stale",), "--up-to-Hz")
     refused(programs, scene, folder, ("--stale", "--up-to-Hz", "2000", "--tolerance", "0"), "--tolerance")

@@ -57,7 +57,8 @@ inline mbs_export::ModalBody bending_plate(const RigidPlate& plate,
   body.attachment_modes.rightCols(n).setZero();
   for (Eigen::Index i = 0; i < n; ++i) body.attachment_modes(6 * (i + 1) + 2, 6 + i) = 1.0;
   body.omega.conservativeResize(6 + n);
-  body.omega.tail(n).setConstant(2.0 * pi * 2000.0);
+  for (Eigen::Index i = 0; i < n; ++i)
+    body.omega[6 + i] = 2.0 * pi * (2000.0 + 10.0 * static_cast<double>(i));
   body.kinds.resize(static_cast<std::size_t>(6 + n), mbs_export::ModeKind::constrained);
   return body;
 }

@@ -219,7 +219,7 @@ TEST(Gradients, OfAValueOfZeroAreOneSided)
   const auto row = std::ranges::find(found.rows, "pads[2].damping", &GradientRow::key);
   ASSERT_NE(row, found.rows.end());
   EXPECT_EQ(row->value, 0.0);
-  EXPECT_EQ(effect_of_one_per_cent(found, *row), 0.0);
+  EXPECT_EQ(effect_of_usual_change(found, *row), 0.0);
   constexpr double h = 1e-2;
   const auto damped = brake.with({"damping", 2}, h), more = brake.with({"damping", 2}, 2.0 * h);
   const double at_0 = critical_speed_near(state_matrix_at(brake), found),
@@ -235,8 +235,8 @@ TEST(Gradients, StandByFallingEffectOfOnePerCent)
   const Gradients found = gradients(FlexibleDisc(damped_disc(), options), options.study);
   EXPECT_TRUE(found.motions.empty());
   for (std::size_t i = 1; i < found.rows.size(); ++i) {
-    EXPECT_GE(effect_of_one_per_cent(found, found.rows[i - 1]),
-              effect_of_one_per_cent(found, found.rows[i]));
+    EXPECT_GE(effect_of_usual_change(found, found.rows[i - 1]),
+              effect_of_usual_change(found, found.rows[i]));
   }
 }
 
