@@ -6,7 +6,7 @@
 
 #include "cases/squeal/squeal_case.hpp"
 #include "scene/scene.hpp"
-#include "squeal/assembly/condensation.hpp"
+#include "squeal/condensation/condensation.hpp"
 
 namespace chladni::cases {
 

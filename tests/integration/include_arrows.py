@@ -45,6 +45,8 @@ ALLOWED = {
     "squeal/assembly": (*BODIES, "squeal", "squeal/results", "squeal/brake"),
     "squeal/models": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/assembly", "squeal/motion"),
     "squeal/stability": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models"),
+    "squeal/condensation": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/assembly", "squeal/models",
+                            "squeal/stability"),
     "squeal/transient": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",
                          "squeal/stability"),
     "squeal/cycle": (*BODIES, "squeal", "squeal/results", "squeal/brake", "squeal/motion", "squeal/models",

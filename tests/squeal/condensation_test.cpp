@@ -1,4 +1,4 @@
-#include "squeal/assembly/condensation.hpp"
+#include "squeal/condensation/condensation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "squeal/assembly/condensation.hpp"
+#include "squeal/condensation/condensation.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "common/error.hpp"
 #include "mbs_export/condensed_body.hpp"
 #include "squeal/assembly/assembly.hpp"
-#include "squeal/assembly/condensation_error.hpp"
-#include "squeal/assembly/part_shapes.hpp"
+#include "squeal/condensation/condensation_error.hpp"
+#include "squeal/condensation/part_shapes.hpp"
 #include "squeal/stability/band_modes.hpp"
 
 namespace chladni::squeal {

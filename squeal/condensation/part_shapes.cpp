@@ -1,4 +1,4 @@
-#include "squeal/assembly/part_shapes.hpp"
+#include "squeal/condensation/part_shapes.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -78,7 +78,8 @@ void add_disc(std::vector<PartShape>& shapes, std::size_t part, const Assembly& 
       Y = beside(Y, real_columns(motion.disc(cosines, every)));
       if (n > 0) Y = beside(Y, real_columns(motion.disc(sines, every)));
     }
-    const PrincipalComponents found = principal_components(Y, weights_of(disc.omega(cosines), omega));
+    const PrincipalComponents found =
+        principal_components(Y, weights_of(disc.omega(cosines), omega));
     for (Index k = 0; k < found.sizes.size(); ++k) {
       MatrixXd columns = MatrixXd::Zero(n_modes, n > 0 ? 2 : 1);
       for (Index row = 0; row < std::ssize(all.disc_modes); ++row) {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "squeal/assembly/condensation.hpp"
+#include "squeal/condensation/condensation.hpp"
 
 namespace chladni::squeal {
 

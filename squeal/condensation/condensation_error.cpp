@@ -1,4 +1,4 @@
-#include "squeal/assembly/condensation_error.hpp"
+#include "squeal/condensation/condensation_error.hpp"
 
 #include <algorithm>
 #include <cmath>
