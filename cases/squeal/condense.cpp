@@ -51,6 +51,23 @@ void refuse_condensed(const scene::Scene& scene, const std::vector<path>& source
       }
 }
 
+squeal::CondensedBodies condensed_bodies(const scene::Scene& scene,
+                                         const std::vector<mbs_export::ModalBody>& bodies,
+                                         const CondenseRequest& request)
+{
+  const squeal::SpeedRange& speeds = study_of(scene).speeds;
+  try {
+    return squeal::condense(assembly_of(scene), bodies,
+                            {.tolerance = request.tolerance,
+                             .highest = 2.0 * std::numbers::pi * request.up_to_Hz,
+                             .speed_from = speeds.from,
+                             .speed_to = speeds.to,
+                             .brake = scene.title});
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", scene.path, error.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<path> condensed_files(const scene::Scene& scene, const SquealFiles& files)
@@ -65,19 +82,11 @@ CondensedBrake condensed_brake(const scene::Scene& scene, const SquealFiles& fil
                                StaleChoice stale, const CondenseRequest& request)
 {
   const squeal::AssemblyOptions& options = assembly_of(scene);
-  const squeal::SpeedRange& speeds = study_of(scene).speeds;
   const std::vector<path> sources = part_files(*scene.squeal_model, files);
   std::vector<path> condensed = condensed_files(scene, files);
   refuse_condensed(scene, sources, condensed);
   const std::vector<mbs_export::ModalBody> bodies = part_bodies(scene, files, stale);
-  CondensedBrake brake{
-      .parts = {},
-      .found = squeal::condense(options, bodies,
-                                {.tolerance = request.tolerance,
-                                 .highest = 2.0 * std::numbers::pi * request.up_to_Hz,
-                                 .speed_from = speeds.from,
-                                 .speed_to = speeds.to,
-                                 .brake = scene.title})};
+  CondensedBrake brake{.parts = {}, .found = condensed_bodies(scene, bodies, request)};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     mbs_export::ModalBody& body = brake.found.bodies[i];
     body.provenance.scene_file = scene_file_from(condensed[i].parent_path(), sources[i], bodies[i]);

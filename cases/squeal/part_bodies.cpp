@@ -22,9 +22,17 @@ void require_of_own_scene(const path& file, const mbs_export::ModalBody& body, r
   if (body.provenance.scene_file.empty()) return;
   const path own = (file.parent_path() / body.provenance.scene_file).lexically_normal();
   if (!std::filesystem::is_regular_file(own)) return;
-  report::require_of_scene(scene::read_scene(own.string()),
-                           {.file = file, .what = report::Made::body, .origin = body.provenance},
-                           stale);
+  try {
+    report::require_of_scene(scene::read_scene(own.string()),
+                             {.file = file, .what = report::Made::body, .origin = body.provenance},
+                             stale);
+  } catch (const Error& error) {
+    if (!body.condensation) throw;
+    throw Error(
+        fmt::format("{}; this body is condensed: make the large one anew where it was, then "
+                    "run `squeal condense` again",
+                    error.what()));
+  }
 }
 
 }  // namespace
