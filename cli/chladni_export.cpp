@@ -181,7 +181,7 @@ mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& so
       throw Error(fmt::format(
           "{}: is condensed for the vibrations of one brake, \"{}\", and has no other motions; "
           "export the body that it was made of",
-          source.reduced_file, report::printable(body.condensation->brake)));
+          source.reduced_file.string(), report::printable(body.condensation->brake)));
     }
     return body;
   }
