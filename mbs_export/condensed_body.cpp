@@ -20,6 +20,7 @@ MatrixXd orthonormal(MatrixXd shapes)
   for (Index j = 0; j < shapes.cols(); ++j)
     if (const double norm = shapes.col(j).norm(); norm > 0.0)
       shapes.col(n++) = shapes.col(j) / norm;
+  if (n == 0) return MatrixXd(shapes.rows(), 0);
   const MatrixXd unit = shapes.leftCols(n);
   Eigen::ColPivHouseholderQR<MatrixXd> qr(unit);
   qr.setThreshold(independent);

@@ -174,7 +174,7 @@ const std::vector<Refusal> refusals{
     {plate + "*Material, name=B\n*Elastic\n1., .3\n*Plastic\n1., 0.\n", {"*PLASTIC", "not known"}},
     {plate + "*Nset, nset=Ref\n1\n*Surface, type=NODE, name=S\n2\n"
              "*Coupling, constraint name=C, ref node=Ref, surface=S\n*Kinematic\n",
-     {"*COUPLING", "node 1 is one of an element"}},
+     {"*COUPLING", "node 1 belongs to an element"}},
     {plate + "*Element, type=B31, elset=Rib\n7, 1, 2\n"
              "*Beam Section, elset=Rib, material=Steel, section=L\n4., 2., 1., 1.\n",
      {"*BEAM SECTION", "the profile L"}},

@@ -119,7 +119,7 @@ TEST_F(HostileFile, ThatNeverEndsIsEnded)
   const auto begin = std::chrono::steady_clock::now();
   const std::string code = square_geo + "For i In {1:1000000000}\nx = i;\nEndFor\n";
   expect_words(error_of({.file = write("a.geo", code), .most_seconds = 1.0}),
-               {"a.geo", "after 1 s", "--trust-mesh"});
+               {"a.geo", "within 1 s", "--trust-mesh"});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(taken.count(), 10.0);
 }
