@@ -125,15 +125,15 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
   Certificate certificate = std::move(certified.certificate);
   if (!certified.modes.are_all)
     certified.modes = modes_everywhere(support, reduced.model, {}, body.comm());
-  Completeness found =
-      count_modes({.lambda = std::move(certified.modes.pairs.lambda),
-                   .residuals = std::move(certified.residuals),
-                   .n_zero = certified.modes.n_zero,
-                   .comm = body.comm(),
-                   .ends_at = end_of_counts(options.basis, reduced.model)},
-                  [&, held = support.held()](double sigma) {
-                    return linear::eigenvalues_below(body.K, body.M, sigma, held, source);
-                  });
+  Completeness found = count_modes(
+      {.lambda = std::move(certified.modes.pairs.lambda),
+       .residuals = std::move(certified.residuals),
+       .n_zero = certified.modes.n_zero,
+       .comm = body.comm(),
+       .ends_at = end_of_counts(options.basis, reduced.model)},
+      [&, held = support.held()](double sigma) {
+        return linear::eigenvalues_below(body.K, body.M, {sigma, gap_of_counts}, held, source);
+      });
   certificate.range = found.range;
   certificate.complete = found.complete;
   certificate.bounds = std::move(found.bounds);
@@ -144,7 +144,8 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
   }
   if (options.basis.method == Method::craig_bampton) {
     certificate.fixed_interface = count_fixed_interface(reduced.model.omega, [&](double sigma) {
-      return linear::eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, sigma, source);
+      return linear::eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, {sigma, gap_of_counts},
+                                       source);
     });
   }
   return certificate;

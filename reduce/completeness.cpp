@@ -97,7 +97,8 @@ EigenvalueCount counted(const EigenvalueCount& count)
 EigenvalueCount count_near(const ReducedSpectrum& ritz, double sigma,
                            const std::function<int(double)>& eigenvalues_below)
 {
-  constexpr std::array aside{0.0, 3e-5, -3e-5, 1e-4};  // within what parts two clusters
+  constexpr std::array aside{0.0, gap_of_counts, -gap_of_counts,
+                             1e-4};  // within what parts two clusters
   for (std::size_t i = 0;; ++i) {
     const double shift = sigma * (1.0 + aside[i]);
     const int found = static_cast<int>(n_below(ritz.lambda, shift)) + ritz.n_zero;

@@ -10,6 +10,9 @@
 
 namespace chladni::reduce {
 
+/// Shifts of counts stand at least this far from all eigenvalues that were found, relatively.
+inline constexpr double gap_of_counts = 3e-5;
+
 /// The number of eigenvalues below sigma: of the full pencil (by Sylvester's law), and of the
 /// reduced pencil.
 struct EigenvalueCount {

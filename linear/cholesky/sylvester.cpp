@@ -132,10 +132,12 @@ bool is_chosen(const OptionSource& own)
 /// The negative pivots of A = K - sigma M by our own elimination, which chooses none, where their
 /// signs are as good. They are those of A + E with |x^T E x| up to growth eps sum_j (K_jj + sigma
 /// M_jj) x_j^2, which moves eigenvalues near sigma by growth eps (1 + max K_jj / (sigma M_jj)),
-/// relatively; shifts stand 3e-5 and more from all of them.
-std::optional<PetscInt> n_negative_without_choice(Mat A, const Diagonals& diagonals, double sigma)
+/// relatively.
+std::optional<PetscInt> n_negative_without_choice(Mat A, const Diagonals& diagonals,
+                                                  const CountShift& shift)
 {
-  constexpr double eps = std::numeric_limits<double>::epsilon(), harmless = 1e-6;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const double harmless = shift.gap / 30.0, sigma = shift.sigma;
   const double round_off = eps * (1.0 + stiffest(diagonals) / sigma);
   if (!(round_off < harmless)) return std::nullopt;
   petsc::Vector size;
@@ -180,14 +182,15 @@ PetscInt n_negative_by_mumps(Mat A, double sigma, const OptionSource& own)
 
 }  // namespace
 
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source)
+PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const OptionSource& source)
 {
-  return eigenvalues_below(K, M, sigma, {}, source);
+  return eigenvalues_below(K, M, shift, {}, source);
 }
 
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
+PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const std::vector<PetscInt>& held,
                            const OptionSource& source)
 {
+  const double sigma = shift.sigma;
   const petsc::IndexSet rows = held.empty() ? petsc::IndexSet() : free_rows(K, held);
   const Diagonals diagonals{.k = diagonal(K, rows), .m = diagonal(M, rows)};
   check_stiffness_is_seen(diagonals, sigma);
@@ -198,7 +201,7 @@ PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscIn
   }
   const OptionSource own = source.part("sylvester_");
   if (!is_chosen(own))
-    if (const auto n = n_negative_without_choice(as_aij(A), diagonals, sigma)) return *n;
+    if (const auto n = n_negative_without_choice(as_aij(A), diagonals, shift)) return *n;
   return n_negative_by_mumps(A, sigma, own);
 }
 

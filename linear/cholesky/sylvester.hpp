@@ -14,21 +14,27 @@ class SingularShift : public Error {
   using Error::Error;
 };
 
+/// Where eigenvalues are counted.
+struct CountShift {
+  double sigma;      ///< rad^2/s^2; not an eigenvalue itself: choose it in a gap
+  double gap = 0.0;  ///< relative distance to the nearest eigenvalue, at least; 0: unknown
+};
+
 /// Number of eigenvalues of K x = lambda M x below sigma. By Sylvester's law of inertia it is the
-/// number of negative pivots of L D L^T = K - sigma M. Uses our own elimination or, if that
-/// amplifies round-off for lack of pivoting, MUMPS. M must be positive semidefinite.
-/// @param sigma  rad^2/s^2; not an eigenvalue itself: choose it in a gap
+/// number of negative pivots of L D L^T = K - sigma M. Uses our own elimination, which does not
+/// pivot, where its round-off moves eigenvalues by less than a thirtieth of the gap, and MUMPS
+/// elsewhere. M must be positive semidefinite.
 /// @note   Collective; one factorisation, which is not kept.
 /// @throws SingularShift when the factorisation fails: sigma is an eigenvalue to round-off.
 /// Options: `-<prefix>sylvester_mat_mumps_...`, `-<prefix>sylvester_pc_factor_mat_solver_type`; any
 /// of them chooses MUMPS.
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const OptionSource& source = {});
+PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const OptionSource& source = {});
 
 /// Number of eigenvalues below sigma without the rows and columns of `held` DOFs.
 /// @param held  global indices, the same list on every rank
 /// @note   Collective; one factorisation, which is not kept.
 /// @throws SingularShift as the function above.
-PetscInt eigenvalues_below(Mat K, Mat M, double sigma, const std::vector<PetscInt>& held,
+PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const std::vector<PetscInt>& held,
                            const OptionSource& source = {});
 
 }  // namespace chladni::linear

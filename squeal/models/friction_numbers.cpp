@@ -99,12 +99,13 @@ std::vector<FrictionNumber> friction_numbers(const FrictionLaw& law, const std::
   std::vector<FrictionNumber> numbers;
   for (const auto& [name, unit] : keys_of_law) {
     if (!is_said_by(law, name)) continue;
-    numbers.push_back(
-        {.key = name.empty() ? key : fmt::format("{}.{}", key, name),
-         .unit = unit,
-         .value = *friction_value(law, name),
-         .step = 0.0,
-         .with = [law, name](double value) { return with_friction_value(law, name, value); }});
+    numbers.push_back({.key = name.empty() ? key : fmt::format("{}.{}", key, name),
+                       .unit = unit,
+                       .value = *friction_value(law, name),
+                       .step = 0.0,
+                       .with = [law, name = name](double value) {
+                         return with_friction_value(law, name, value);
+                       }});
   }
   for (FrictionNumber& point : friction_points(law, key)) numbers.push_back(std::move(point));
   return numbers;
