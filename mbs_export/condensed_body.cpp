@@ -56,6 +56,13 @@ Condensed ritz_vectors(const ModalBody& body, const MatrixXd& Q)
   return modes;
 }
 
+/// A V; of what the body does not have, nothing.
+MatrixXd along(const MatrixXd& A, const MatrixXd& V)
+{
+  if (A.cols() == 0) return {};
+  return A * V;
+}
+
 MatrixXd projected(const MatrixXd& A, const MatrixXd& V)
 {
   if (A.size() == 0) return {};
@@ -79,14 +86,13 @@ ModalBody condensed(const ModalBody& body, const MatrixXd& shapes)
   result.kinds = std::move(modes.kinds);
   result.C = projected(body.C, V);
   result.H = projected(body.H, V);
-  result.attachment_modes = body.attachment_modes * V;
+  result.attachment_modes = along(body.attachment_modes, V);
   for (ContactRing& ring : result.rings) {
-    ring.W = ring.W * V;
-    ring.W_r = ring.W_r * V;
-    ring.W_t = ring.W_t * V;
+    ring.W = along(ring.W, V);
+    ring.W_r = along(ring.W_r, V);
+    ring.W_t = along(ring.W_t, V);
   }
-  if (body.picture.transformation.size() > 0)
-    result.picture.transformation = body.picture.transformation * V;
+  result.picture.transformation = along(body.picture.transformation, V);
   for (ResultantModes& one : result.resultants) one.S = one.S * V;
   if (body.mass_integrals) result.mass_integrals = in_coordinates(*body.mass_integrals, V);
   if (body.stiffening) result.stiffening = in_coordinates(*body.stiffening, V);
