@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "plate/plate_options.hpp"
+#include "report/output.hpp"
 
 namespace chladni::cases {
 namespace {
@@ -48,6 +49,15 @@ void refuse_export(const scene::Scene& scene, const mbs_export::formats::ExportE
   if (error.key().starts_with(springs))
     refuse_springs(scene, error.key().substr(springs.size()), error.why());
   scene::refuse_key(scene, error.key(), error.why());
+}
+
+void refuse_condensed(const mbs_export::ModalBody& body, const std::string& file)
+{
+  if (!body.condensation) return;
+  throw Error(fmt::format(
+      "{}: is condensed for the vibrations of one brake, \"{}\", and has no other motions; "
+      "export the body that it was made of",
+      file, report::printable(body.condensation->brake)));
 }
 
 std::vector<std::string> damping_left_out(const std::string& format, const Damping& damping,

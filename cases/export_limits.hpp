@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mbs_export/formats/export_error.hpp"
-#include "mbs_export/reduced_system.hpp"
+#include "mbs_export/modal_body.hpp"
 #include "scene/scene.hpp"
 
 /// Messages of `chladni export` about parts of a scene that the other program's format cannot hold.
@@ -16,6 +16,11 @@ namespace chladni::cases {
 /// @throws chladni::Error naming file, line and key.
 [[noreturn]] void refuse_export(const scene::Scene& scene,
                                 const mbs_export::formats::ExportError& error);
+
+/// Refuses a body that `squeal condense` made: it has no motions but those of one brake.
+/// @param file  the body's
+/// @throws chladni::Error naming the file and the brake.
+void refuse_condensed(const mbs_export::ModalBody& body, const std::string& file);
 
 /// The damping of [body] that a file of this format lacks, one sentence for each part.
 /// @param n_free_rigid  number of rigid motions that the supports leave to the body

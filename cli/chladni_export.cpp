@@ -25,7 +25,6 @@
 #include "mbs_export/formats/nastran.hpp"
 #include "mbs_export/formats/sid.hpp"
 #include "report/origin.hpp"
-#include "report/output.hpp"
 #include "scene/scene.hpp"
 
 namespace chladni::cli {
@@ -177,12 +176,7 @@ mbs_export::ModalBody body_of(const ExportArguments& arguments, const Source& so
 {
   if (!source.scene) {
     mbs_export::ModalBody body = mbs_export::read_body(source.reduced_file);
-    if (body.condensation) {
-      throw Error(fmt::format(
-          "{}: is condensed for the vibrations of one brake, \"{}\", and has no other motions; "
-          "export the body that it was made of",
-          source.reduced_file.string(), report::printable(body.condensation->brake)));
-    }
+    if (arguments.format != "mat") cases::refuse_condensed(body, source.reduced_file.string());
     return body;
   }
   return make_body_of(*source.scene, read_reduced_of(arguments, source));

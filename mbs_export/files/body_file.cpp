@@ -9,6 +9,7 @@
 
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/files/certificate_file.hpp"
+#include "mbs_export/files/condensation_file.hpp"
 #include "mbs_export/files/file_parts.hpp"
 #include "mbs_export/files/provenance.hpp"
 #include "mbs_export/files/selection_file.hpp"
@@ -203,26 +204,6 @@ Preparation read_preparation(const files::Reader& file)
           .condition_directions = directions};
 }
 
-void write_condensation(files::Writer& file, const std::optional<Condensation>& condensation)
-{
-  if (!condensation) return;
-  file.write("condensation/brake", condensation->brake);
-  file.write("condensation/highest", condensation->highest, "rad/s");
-  file.write("condensation/tolerance", condensation->tolerance, "1");
-  file.write("condensation/error", condensation->error, "1");
-}
-
-std::optional<Condensation> read_condensation(const files::Reader& file)
-{
-  if (!file.contains("condensation/highest")) return std::nullopt;
-  Condensation found{.brake = file.text("condensation/brake"),
-                     .highest = file.real("condensation/highest"),
-                     .tolerance = file.real("condensation/tolerance"),
-                     .error = file.real("condensation/error")};
-  if (!(found.highest > 0.0)) file.fail("condensation/highest", "expected a positive frequency");
-  return found;
-}
-
 std::vector<ContactRing> read_rings(const files::Reader& file, Index n_nodes, Index n_modes)
 {
   std::vector<ContactRing> rings;
@@ -268,7 +249,7 @@ void write_body(const std::string& path, const ModalBody& body)
   write_preparation(file, body);
   if (body.selection) write_selection(file, *body.selection);
   file_parts::write_sector_harmonics(file, body.sector_harmonics);
-  write_condensation(file, body.condensation);
+  file_parts::write_condensation(file, body.condensation);
   write_certificate(file, body.certificate);
   file_parts::write_provenance(file, body.provenance);
   file.commit();
@@ -317,7 +298,7 @@ ModalBody read_body(const files::Reader& file)
           .stiffening = file_parts::read_stiffening(file, n),
           .selection = read_selection(file),
           .sector_harmonics = file_parts::read_sector_harmonics(file, n),
-          .condensation = read_condensation(file),
+          .condensation = file_parts::read_condensation(file),
           .certificate = read_certificate(file),
           .provenance = file_parts::read_provenance(file)};
 }

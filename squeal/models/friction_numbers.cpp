@@ -36,22 +36,6 @@ FrictionLaw with_curve(FrictionLaw law, std::size_t at, FrictionCurve curve)
   return law;
 }
 
-FrictionNumber mu_of_point(const FrictionLaw& law, std::size_t at, std::size_t point,
-                           const std::string& row)
-{
-  const FrictionCurve& curve = law.table->curves[at];
-  return {.key = fmt::format("{}.mu[{}]", row, point + 1),
-          .unit = "1",
-          .value = curve.mu[point],
-          .step = 1e-6,
-          .with = [law, at, point](double value) {
-            const FrictionCurve& old = law.table->curves[at];
-            std::vector<double> mu = old.mu;
-            mu[point] = value;
-            return with_curve(law, at, friction_curve(old.speeds, std::move(mu)));
-          }};
-}
-
 /// The distance to the nearer neighbour.
 double nearest(const std::vector<double>& ascending, std::size_t i)
 {
@@ -61,19 +45,30 @@ double nearest(const std::vector<double>& ascending, std::size_t i)
   return distance;
 }
 
-FrictionNumber speed_of_point(const FrictionLaw& law, std::size_t at, std::size_t point,
-                              const std::string& row)
+/// A number of a point of a curve.
+struct PointNumber {
+  std::string_view name, unit;
+  std::vector<double> FrictionCurve::*values;
+};
+
+constexpr PointNumber mu_of_points{"mu", "1", &FrictionCurve::mu};
+constexpr PointNumber speeds_of_points{"speed_m_s", "m/s", &FrictionCurve::speeds};
+
+/// @param at    index of the curve in the table of the law
+/// @param step  of differences, in the unit of the number
+FrictionNumber number_of_point(const FrictionLaw& law, std::size_t at, std::size_t point,
+                               const PointNumber& number, double step)
 {
   const FrictionCurve& curve = law.table->curves[at];
-  return {.key = fmt::format("{}.speed_m_s[{}]", row, point + 1),
-          .unit = "m/s",
-          .value = curve.speeds[point],
-          .step = 1e-5 * nearest(curve.speeds, point),
-          .with = [law, at, point](double value) {
-            const FrictionCurve& old = law.table->curves[at];
-            std::vector<double> speeds = old.speeds;
-            speeds[point] = value;
-            return with_curve(law, at, friction_curve(std::move(speeds), old.mu));
+  return {.key = fmt::format("{}[{}]", number.name, point + 1),
+          .unit = number.unit,
+          .value = (curve.*(number.values))[point],
+          .step = step,
+          .with = [law, at, point, values = number.values](double value) {
+            FrictionCurve changed = law.table->curves[at];
+            (changed.*values)[point] = value;
+            return with_curve(law, at,
+                              friction_curve(std::move(changed.speeds), std::move(changed.mu)));
           }};
 }
 
@@ -86,9 +81,17 @@ std::vector<FrictionNumber> friction_points(const FrictionLaw& law, const std::s
   for (std::size_t at = 0; at < law.table->curves.size(); ++at) {
     const FrictionCurve& curve = law.table->curves[at];
     const std::string row = fmt::format("{}.table[{}]", key, curve.row);
+    const auto add = [&](FrictionNumber number) {
+      number.key = fmt::format("{}.{}", row, number.key);
+      numbers.push_back(std::move(number));
+    };
     for (std::size_t point = 0; point < curve.mu.size(); ++point) {
-      numbers.push_back(mu_of_point(law, at, point, row));
-      if (curve.speeds.size() > 1) numbers.push_back(speed_of_point(law, at, point, row));
+      constexpr double of_mu = 1e-6, of_distance = 1e-5;
+      add(number_of_point(law, at, point, mu_of_points, of_mu));
+      if (curve.speeds.size() > 1) {
+        add(number_of_point(law, at, point, speeds_of_points,
+                            of_distance * nearest(curve.speeds, point)));
+      }
     }
   }
   return numbers;

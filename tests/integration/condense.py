@@ -79,6 +79,9 @@ def main(programs, folder):
     for part in ("disc", "outer", "inner", "caliper"):
         done = start(programs / "chladni", "check", folder / f"out/brake.condensed/{part}.body.h5")
         expect(done.returncode == 0, f"{part}: a sound body {done.stdout if done.returncode else ''}")
+    done = start(programs / "chladni", "export", folder / "out/brake.condensed/outer.body.h5", "--format", "fmu",
+                 "--output", folder / "outer.fmu")  # fmt: skip
+    expect(done.returncode != 0 and "is condensed for the vibrations of one brake" in done.stderr, f"no export: {done.stderr.strip()}")
     gradients = changed(with_condensed(text), ('analyses = ["eigenvalues"]', 'analyses = ["gradients"]\ngradients = { speed_rad_s = 30.0 }'))
     small.write_text(gradients)
     run(programs / "squeal", "run", small, "--output", folder / "out", "--overwrite")
