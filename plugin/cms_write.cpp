@@ -136,9 +136,9 @@ void write_file(CMS cms, const std::string& path)
         "only; give damping alone, and take the rest by CMSGetReducedOperators()");
   }
   mbs_export::ReducedSystem described;
-  const char* name = nullptr;
-  petsc::check(PetscObjectGetName(reinterpret_cast<PetscObject>(cms), &name));
-  described.title = name;
+  // PETSc would name an object that has no name by its address, which differs from run to run.
+  const char* name = reinterpret_cast<PetscObject>(cms)->name;
+  described.title = name ? name : "CMS";
   if (in.sectors)
     described.title += fmt::format(", harmonic {} of {} sectors", in.harmonic, in.sectors->count);
   add_attachments(described, places_of_masters(in, comm));

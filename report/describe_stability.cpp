@@ -58,7 +58,7 @@ std::string participation(const StabilityTable& table, const StabilityBranch& br
   const std::optional<int> circles = nodal_circles(table, branch);
   const std::optional<double> in_plane = in_plane_share(table, branch);
   return fmt::format(
-      "; {} nodal diameters{}{}: {}", *diameters,
+      "; {} nodal diameter{}{}{}: {}", *diameters, *diameters == 1 ? "" : "s",
       circles ? fmt::format(", {} circle{}", *circles, *circles == 1 ? "" : "s") : "",
       in_plane && *in_plane > least_share ? fmt::format(", {:.0f} % in plane", 100.0 * *in_plane)
                                           : "",
@@ -110,9 +110,9 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
   for (const StabilityBranch& branch : stability.branches) {
     if (!branch.is_unstable()) continue;
     const std::string name =
-        fmt::format("{:.2f} Hz, {}{}{}; damping ratio {:.3g}, growth up to",
+        fmt::format("largest growth, at {:.2f} Hz; {}; damping ratio {:.3g}{}{}",
                     branch.worst.frequency_Hz, where(stability, branch),
-                    participation(stability, branch), feeding(branch), damping_ratio(branch.worst));
+                    damping_ratio(branch.worst), participation(stability, branch), feeding(branch));
     add(table, name, branch.worst.growth, "1/s");
   }
 }

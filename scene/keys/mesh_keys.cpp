@@ -76,7 +76,7 @@ constexpr Key mesh_rows[] = {
     {"mesh.element_order",
      integer,
      "3, chosen with `accuracy`; .geo and .step too",
-     "of quadrilaterals and triangles",
+     "of quadrilaterals and triangles; shells of order 4 are quadrilaterals (a structured mesh)",
      {.at_least = 1, .at_most = 4}},
     {"mesh.pattern",
      word,

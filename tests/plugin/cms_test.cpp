@@ -718,26 +718,40 @@ std::string common_path()
   return std::filesystem::temp_directory_path() / fmt::format("cms_{}.reduced.h5", process);
 }
 
-TEST(CMS, WritesTheReducedFileThroughAViewer)
+/// What a viewer of HDF5 files writes.
+mbs_export::ReducedSystem written_file(CMS cms)
 {
   const std::string path = common_path();
-  Solver solver;
-  petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "chain"));
-  petsc::check(solver.solve());
   PetscViewer viewer = nullptr;
   petsc::check(PetscViewerCreate(PETSC_COMM_WORLD, &viewer));
   petsc::check(PetscViewerSetType(viewer, PETSCVIEWERHDF5));
   petsc::check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
   petsc::check(PetscViewerFileSetName(viewer, path.c_str()));
-  petsc::check(CMSView(solver.cms, viewer));
+  petsc::check(CMSView(cms, viewer));
   petsc::check(PetscViewerDestroy(&viewer));
-  const mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  mbs_export::ReducedSystem file = mbs_export::read_reduced(path);
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
+  return file;
+}
+
+TEST(CMS, WritesTheReducedFileThroughAViewer)
+{
+  Solver solver;
+  petsc::check(PetscObjectSetName(reinterpret_cast<PetscObject>(solver.cms), "chain"));
+  petsc::check(solver.solve());
+  const mbs_export::ReducedSystem file = written_file(solver.cms);
   EXPECT_EQ(file.title, "chain");
   EXPECT_EQ(file.n_masters(), 2);
   EXPECT_EQ(file.attachment_nodes[1].number, n - 1);
   EXPECT_GT(file.certificate.eta2.size(), 0);
-  MPI_Barrier(PETSC_COMM_WORLD);
-  if (petsc::rank(PETSC_COMM_WORLD) == 0) std::filesystem::remove(path);
+}
+
+TEST(CMS, WithoutANameWritesTheSameTitleInEachRun)
+{
+  Solver solver;
+  petsc::check(solver.solve());
+  EXPECT_EQ(written_file(solver.cms).title, "CMS");
 }
 
 TEST(CMS, SaysThatItKeepsThePartnerOfTheLastMode)

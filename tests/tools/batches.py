@@ -16,6 +16,7 @@ ALIAS = re.compile(r"using (\w+) = (.*);")
 OPENED = re.compile(r"^using namespace ([\w:]+);", re.M)
 USING = re.compile(r"^using (\w+::[\w:, ]+);", re.M)
 CONSTANT = re.compile(r"(?<![.\w])(\w+)(?: = |\{|\[)")  # not a member that is set
+MAIN = re.compile(r"^int main\(", re.M)
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 
 
@@ -25,6 +26,8 @@ def hidden_names(path):
     names = {what.split("::")[-1]: what for used in USING.findall(whole) for what in used.split(", ")}
     if OPENED.search(whole):
         names["using namespace"] = " ".join(OPENED.findall(whole))
+    if MAIN.search(whole):
+        names["main"] = path
     for text in HIDDEN.findall(whole):
         for line in text.splitlines():
             if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""clang-tidy over sources that have changed since they passed, several of a folder at a time.
+"""clang-tidy over sources that have changed since they passed, many at a time.
 
 usage: tidy.py BUILD_FOLDER SOURCE...
 
@@ -23,6 +23,7 @@ from batches import batches
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PASSED = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "chladni" / "lint"
+MOST = 24  # sources at a time: 1 GB of memory
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 
@@ -67,22 +68,39 @@ def complaints(path, flags, *options):
     return "" if done.returncode == 0 else done.stdout + done.stderr
 
 
+def rules_of(path):
+    """The file of rules that holds for a source."""
+    return next(folder / ".clang-tidy" for folder in path.parents if (folder / ".clang-tidy").is_file())
+
+
+def together(flags):
+    """The flags of several sources in one list; of a folder of headers or a macro the first place counts."""
+    words = []
+    for some in flags:
+        at = 0
+        while at < len(some):
+            word = some[at : at + 2] if some[at] in ("-isystem", "-I", "-D") else some[at : at + 1]
+            at += len(word)
+            if word not in words:
+                words.append(word)
+    return [part for word in words for part in word]
+
+
 def read_together(paths, flags, folder):
-    """What is wrong with files of one folder, read as one; below a copy of the rules of that folder."""
-    own = folder / paths[0].parent.relative_to(ROOT)
+    """What is wrong with files of one set of rules, read as one; beside a copy of these rules."""
+    rules = rules_of(paths[0])
+    own = folder / rules.parent.relative_to(ROOT) / paths[0].stem
     own.mkdir(parents=True, exist_ok=True)
-    rules = paths[0].parent / ".clang-tidy"
-    if rules.is_file():
-        (own / ".clang-tidy").write_text(rules.read_text(encoding="utf-8"), encoding="utf-8")
-    together = own / f"with_{paths[0].name}"
-    together.write_text("".join(f'#include "{path}"\n' for path in paths), encoding="utf-8")
-    return complaints(together, flags, "--checks=-bugprone-suspicious-include")  # that of a .cpp
+    (own / ".clang-tidy").write_text(rules.read_text(encoding="utf-8"), encoding="utf-8")
+    batch = own / f"with_{paths[0].name}"
+    batch.write_text("".join(f'#include "{path}"\n' for path in paths), encoding="utf-8")
+    return complaints(batch, together(flags[path] for path in paths), "--checks=-bugprone-suspicious-include")  # that of a .cpp
 
 
 def tidy(paths, flags, folder):
     """What is wrong with a batch; marks the files that have passed."""
     wrong = {path: "" for path in paths}
-    if len(paths) == 1 or read_together(paths, flags[paths[0]], folder):
+    if len(paths) == 1 or read_together(paths, flags, folder):
         wrong = {path: complaints(path, flags[path]) for path in paths}
     for path in paths:
         if not wrong[path]:
@@ -100,7 +118,7 @@ def main():
     # What is not built here, for want of an optional library, cannot be read either.
     paths = [p for p in (pathlib.Path(name).resolve() for name in sys.argv[2:]) if p in flags]
     paths = [p for p in paths if not mark_of(p).exists()]
-    groups = batches(paths, lambda path: (path.parent, *flags[path]))
+    groups = batches(paths, rules_of, MOST)
     wrong = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
         for found in workers.map(lambda batch: tidy(batch, flags, folder), groups):
