@@ -81,21 +81,23 @@ Json branch_json(const StabilityTable& table, const StabilityBranch& branch)
   const std::optional<int> diameters = nodal_diameters(table, branch);
   const std::optional<int> circles = nodal_circles(table, branch);
   const std::optional<double> in_plane = in_plane_share(table, branch);
-  return Json::object({{"unstable", Json::array(unstable)},
-                       {"worst_value", branch.worst.value},
-                       {"worst_growth_1_s", branch.worst.growth},
-                       {"worst_frequency_Hz", branch.worst.frequency_Hz},
-                       {"damping_ratio", damping_ratio(branch.worst)},
-                       {"nodal_diameters", diameters ? Json(*diameters) : Json()},
-                       {"nodal_circles", circles ? Json(*circles) : Json()},
-                       {"in_plane", in_plane ? Json(*in_plane) : Json()},
-                       {"shares", numbers_json(branch.shares)},
-                       {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
-                       {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
-                       {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
-                       {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
-                       {"growth_1_s", numbers_json(branch.lambda.real())},
-                       {"frequency_Hz", frequencies_json(branch.lambda.imag())}});
+  return Json::object(
+      {{"unstable", Json::array(unstable)},
+       {"worst_value", branch.worst.value},
+       {"worst_growth_1_s", branch.worst.growth},
+       {"worst_frequency_Hz", branch.worst.frequency_Hz},
+       {"worst_growth_errors_1_s", branch.budget.is_empty() ? Json() : budget_json(branch.budget)},
+       {"damping_ratio", damping_ratio(branch.worst)},
+       {"nodal_diameters", diameters ? Json(*diameters) : Json()},
+       {"nodal_circles", circles ? Json(*circles) : Json()},
+       {"in_plane", in_plane ? Json(*in_plane) : Json()},
+       {"shares", numbers_json(branch.shares)},
+       {"pads", table.is_by_hill() ? Json() : Json(branch.pads)},
+       {"friction_work", branch.work ? Json(branch.work->friction) : Json()},
+       {"normal_work", branch.work ? Json(branch.work->normal) : Json()},
+       {"damping_work", branch.work ? Json(branch.work->damping) : Json()},
+       {"growth_1_s", numbers_json(branch.lambda.real())},
+       {"frequency_Hz", frequencies_json(branch.lambda.imag())}});
 }
 
 }  // namespace
@@ -107,14 +109,31 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
     table.rows.push_back({"method of the table", "Hill", ""});
     add(table, "estimated error of the table's growth rates", stability.error, "1/s");
   }
+  bool lacks_part = false;
   for (const StabilityBranch& branch : stability.branches) {
     if (!branch.is_unstable()) continue;
     const std::string name =
         fmt::format("largest growth, at {:.2f} Hz; {}; damping ratio {:.3g}{}{}",
                     branch.worst.frequency_Hz, where(stability, branch),
                     damping_ratio(branch.worst), participation(stability, branch), feeding(branch));
-    add(table, name, branch.worst.growth, "1/s");
+    if (branch.budget.is_empty()) {
+      add(table, name, branch.worst.growth, "1/s");
+      continue;
+    }
+    table.rows.push_back(
+        {name, fmt::format("{:.6g} +- {:.2g}", branch.worst.growth, branch.budget.sum()), "1/s"});
+    lacks_part = lacks_part || !branch.budget.body;
   }
+  if (lacks_part)
+    table.rows.push_back({"not in these errors: modes that the body lacks", "unknown", ""});
+}
+
+Json budget_json(const squeal::ErrorBudget& budget)
+{
+  return Json::object({{"mesh", optional_json(budget.mesh)},
+                       {"reduction", optional_json(budget.reduction)},
+                       {"body", optional_json(budget.body)},
+                       {"modes_left_out", optional_json(budget.left_out)}});
 }
 
 Json stability_table_json(const StabilityTable& stability)

@@ -7,9 +7,12 @@
 namespace chladni::report {
 
 /// Adds the number of unstable modes, then a row for each by ascending frequency: its unstable
-/// interval, growth rate and damping ratio at the largest growth, and the modes that take part
-/// there.
+/// interval, growth rate with its error and damping ratio at the largest growth, and the modes that
+/// take part there.
 void add_unstable_modes(TextTable& table, const squeal::StabilityTable& stability);
+
+/// JSON of the parts of an error; null where they are unknown.
+Json budget_json(const squeal::ErrorBudget& budget);
 
 /// JSON of all branches over all values of the parameter, with their unstable intervals and
 /// participating modes.

@@ -176,14 +176,6 @@ Json critical_values_json(const std::vector<squeal::CriticalValue>& values)
   return Json::array(searches);
 }
 
-Json budget_json(const squeal::ErrorBudget& budget)
-{
-  return Json::object({{"mesh", optional_json(budget.mesh)},
-                       {"reduction", optional_json(budget.reduction)},
-                       {"body", optional_json(budget.body)},
-                       {"modes_left_out", optional_json(budget.left_out)}});
-}
-
 Json rotation_json(const squeal::RotationStability& stability)
 {
   std::vector<Json> growth;

@@ -31,12 +31,6 @@ Eigen::MatrixXcd complex_matrix(const Eigen::MatrixXd& re, const Eigen::MatrixXd
   return re + std::complex<double>(0.0, 1.0) * im;
 }
 
-constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 4> budget_parts{
-    {{"mesh", &ErrorBudget::mesh},
-     {"reduction", &ErrorBudget::reduction},
-     {"body", &ErrorBudget::body},
-     {"modes_left_out", &ErrorBudget::left_out}}};
-
 void write_critical_speed(Writer& file, const SquealResults& results)
 {
   const auto& critical = results.critical_speed;

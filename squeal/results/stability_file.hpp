@@ -1,13 +1,22 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/hdf5.hpp"
 #include "squeal/results/stability_results.hpp"
 
 namespace chladni::squeal {
+
+/// The parts of an ErrorBudget and their names in files.
+inline constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 4>
+    budget_parts{{{"mesh", &ErrorBudget::mesh},
+                  {"reduction", &ErrorBudget::reduction},
+                  {"body", &ErrorBudget::body},
+                  {"modes_left_out", &ErrorBudget::left_out}}};
 
 /// Writes the datasets `stability`, `range/...` and `unstable/...` of a group; see
 /// docs/reference/file_formats.md.

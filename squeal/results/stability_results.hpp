@@ -58,12 +58,13 @@ Stability stability_of(const StabilityProfile& profile);
 /// The stability in words, such as "stable in the whole range" or "lost within the range".
 const char* name_of(Stability stability);
 
-/// Estimated error of a critical speed due to the body, rad/s; unknown parts are absent.
+/// Estimated error of a critical speed or a growth rate due to the body, in its unit; unknown parts
+/// are absent.
 struct ErrorBudget {
   std::optional<double> mesh = {};       ///< by the mesh, from finer meshes
   std::optional<double> reduction = {};  ///< by the reduction, compared with the FE model
   std::optional<double> body = {};       ///< by the modes that the body lacks
-  /// Difference to the critical speed with all modes of the body, if the study selected modes.
+  /// Difference to the value with all modes of the body, if the study selected modes.
   std::optional<double> left_out = {};
 
   bool is_empty() const { return !mesh && !reduction && !body && !left_out; }

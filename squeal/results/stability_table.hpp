@@ -28,6 +28,8 @@ struct StabilityBranch {
   double pads = 0.0;  ///< fraction in pads with a mass
   /// At `worst`; absent for stable branches and without families.
   std::optional<PeriodWork> work = {};
+  /// Of `worst.growth`, 1/s; empty for stable branches, by Hill's method and without a body.
+  ErrorBudget budget = {};
 
   bool is_unstable() const { return !unstable.empty(); }
 };

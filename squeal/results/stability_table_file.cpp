@@ -1,5 +1,8 @@
 #include "squeal/results/stability_table_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <complex>
 #include <cstdint>
 #include <optional>
@@ -87,6 +90,29 @@ void write_works(Writer& file, const StabilityTable& table)
   file.write("stability/work/damping", damping, "1");
 }
 
+/// -1 stands for what is unknown.
+void write_errors(Writer& file, const StabilityTable& table)
+{
+  for (const auto& [name, part] : budget_parts) {
+    std::vector<double> errors;
+    for (const StabilityBranch& branch : table.branches)
+      errors.push_back((branch.budget.*part).value_or(-1.0));
+    if (std::ranges::all_of(errors, [](double error) { return error < 0.0; })) continue;
+    file.write(fmt::format("stability/errors/{}", name), errors, "1/s");
+  }
+}
+
+void read_errors(const Reader& file, std::vector<StabilityBranch>& branches)
+{
+  for (const auto& [name, part] : budget_parts) {
+    const std::string path = fmt::format("stability/errors/{}", name);
+    if (!file.contains(path)) continue;
+    const Eigen::VectorXd errors = file.vector(path, std::ssize(branches));
+    for (Index j = 0; j < errors.size(); ++j)
+      if (errors[j] >= 0.0) branches[static_cast<std::size_t>(j)].budget.*part = errors[j];
+  }
+}
+
 void write_branches(Writer& file, const StabilityTable& table, const std::string& unit)
 {
   const auto m = std::ssize(table.branches);
@@ -172,6 +198,7 @@ std::vector<StabilityBranch> read_branches(const Reader& file, Index n_values, I
   }
   read_intervals_of_branches(file, branches);
   read_works(file, branches);
+  read_errors(file, branches);
   return branches;
 }
 
@@ -193,6 +220,7 @@ void write_stability_table(Writer& file, const StabilityTable& table)
   if (table.branches.empty()) return;
   write_branches(file, table, unit);
   write_works(file, table);
+  write_errors(file, table);
 }
 
 StabilityTable read_stability_table(const Reader& file)

@@ -23,16 +23,17 @@ constexpr double step = 1e-5;
 /// a rotation about the circumferential direction.
 constexpr std::array<Index, 5> rows_of_functions{2, 4, 3, 0, 1};
 
-/// The critical oscillation, and how its growth changes.
-class CriticalGrowth {
+/// An oscillation, and how its growth changes.
+class GrowingMotion {
  public:
-  CriticalGrowth(const FlexibleDisc& brake, const CriticalSpeed& critical)
+  GrowingMotion(const FlexibleDisc& brake, double speed, const std::complex<double>& lambda)
       : disc_(brake.inertial()),
         options_(brake.options()),
-        speed_(critical.speed),
-        lambda_(state_matrix(disc_, options_, speed_),
-                {0.0, 2.0 * std::numbers::pi * critical.frequency_Hz})
+        speed_(speed),
+        lambda_(state_matrix(disc_, options_, speed_), lambda)
   {}
+
+  std::complex<double> lambda() const { return lambda_.lambda(); }
 
   /// Of the growth, by the speed; 1/s for each rad/s.
   double by_speed() const
@@ -85,11 +86,10 @@ class CriticalGrowth {
   EigenvalueChange lambda_;
 };
 
-/// The sum over all modes and pairs of error times sensitivity, without sign, as a speed; rad/s.
+/// The sum over all modes and pairs of error times sensitivity, without sign; 1/s.
 /// @param errors       [n_modes] relative
 /// @param sensitivity  of the growth, of a mode or pair by its first coordinate and their number
-double sum_over_modes(const InertialDisc& disc, const CriticalGrowth& growth,
-                      const Eigen::VectorXd& errors,
+double sum_over_modes(const InertialDisc& disc, const Eigen::VectorXd& errors,
                       const std::function<double(Index first, Index size)>& sensitivity)
 {
   double sum = 0.0;
@@ -98,36 +98,58 @@ double sum_over_modes(const InertialDisc& disc, const CriticalGrowth& growth,
     size = disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 ? 2 : 1;
     if (errors[i] > 0.0) sum += std::abs(sensitivity(i, size)) * errors[i];
   }
-  return sum / std::abs(growth.by_speed());
+  return sum;
 }
 
-}  // namespace
-
-ErrorBudget error_budget(const FlexibleDisc& brake, const CriticalSpeed& critical)
+/// What the errors of the body's modes do to the growth, 1/s.
+ErrorBudget by_errors_of_modes(const InertialDisc& disc, const GrowingMotion& growth)
 {
-  const InertialDisc& disc = brake.inertial();
-  const CriticalGrowth growth(brake, critical);
   ErrorBudget budget;
   const ModeErrors& errors = disc.errors;
+  if (std::abs(growth.lambda().imag()) > errors.range) return budget;
   const auto by_frequency = [&](Index i, Index size) { return growth.by_frequency(i, size); };
-  const bool is_known = 2.0 * std::numbers::pi * critical.frequency_Hz <= errors.range;
-  if (is_known && errors.mesh.size() > 0) {
-    double sum = sum_over_modes(disc, growth, errors.mesh, by_frequency);
+  if (errors.mesh.size() > 0) {
+    double sum = sum_over_modes(disc, errors.mesh, by_frequency);
     for (std::size_t f = 0; f < rows_of_functions.size() && errors.mesh_shapes.size() > 0; ++f) {
-      sum += sum_over_modes(disc, growth, errors.mesh_shapes.row(rows_of_functions[f]),
+      sum += sum_over_modes(disc, errors.mesh_shapes.row(rows_of_functions[f]),
                             [&](Index i, Index size) { return growth.by_motion(i, size, {f}); });
     }
     budget.mesh = sum;
   }
-  if (is_known && errors.reduction.size() > 0)
-    budget.reduction = sum_over_modes(disc, growth, errors.reduction, by_frequency);
-  if (is_known && errors.responses) {
+  if (errors.reduction.size() > 0)
+    budget.reduction = sum_over_modes(disc, errors.reduction, by_frequency);
+  if (errors.responses) {
     // A response is quadratic in the motion of its place.
     double sum = 0.0;
     for (std::size_t f = 0; f < rows_of_functions.size(); ++f)
       sum += std::abs(growth.by_motion(0, disc.n_modes(), {f}));
-    budget.body = 0.5 * *errors.responses * sum / std::abs(growth.by_speed());
+    budget.body = 0.5 * *errors.responses * sum;
   }
+  return budget;
+}
+
+}  // namespace
+
+ErrorBudget growth_error_budget(const FlexibleDisc& brake, double speed,
+                                const std::complex<double>& lambda)
+{
+  const GrowingMotion growth(brake, speed, lambda);
+  ErrorBudget budget = by_errors_of_modes(brake.inertial(), growth);
+  if (const FlexibleDisc* complete = brake.complete(); complete && complete->is_autonomous()) {
+    const EigenvalueChange of_all(complete->state_matrix(speed), growth.lambda());
+    budget.left_out = std::abs(of_all.lambda().real() - growth.lambda().real());
+  }
+  return budget;
+}
+
+ErrorBudget error_budget(const FlexibleDisc& brake, const CriticalSpeed& critical)
+{
+  const GrowingMotion growth(brake, critical.speed,
+                             {0.0, 2.0 * std::numbers::pi * critical.frequency_Hz});
+  ErrorBudget budget = by_errors_of_modes(brake.inertial(), growth);
+  const double slope = std::abs(growth.by_speed());
+  for (auto* part : {&budget.mesh, &budget.reduction, &budget.body})
+    if (*part) **part /= slope;
   if (const FlexibleDisc* complete = brake.complete(); complete && complete->is_autonomous()) {
     const auto of_all = critical_speed(
         stability_over_speed(state_matrix_at(*complete), brake.options().study.speeds));

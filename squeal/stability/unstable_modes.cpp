@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "squeal/models/flexible_disc.hpp"
+#include "squeal/stability/error_budget.hpp"
 #include "squeal/stability/mode_limits.hpp"
 #include "squeal/stability/mode_samples.hpp"
 #include "squeal/stability/period_work.hpp"
@@ -87,15 +89,18 @@ const ModeSample& add_worst(StabilityBranch& branch, const std::vector<ModeSampl
   return worst;
 }
 
-/// The works in a period of motion j; absent without a body, and where it does not oscillate.
-std::optional<PeriodWork> work_of(const Brake& brake, const StabilityCase& search,
-                                  const ModeSample& sample, Index j)
+/// The works in a period of motion j, and the error of its growth; both absent without a body, and
+/// where it does not oscillate.
+void add_work_and_error(StabilityBranch& branch, const Brake& brake, const StabilityCase& search,
+                        const ModeSample& sample, Index j)
 {
-  if (!brake.body() || !(sample.lambda[j].imag() > 0.0)) return std::nullopt;
-  if (!search.over)
-    return period_work(*brake.body(), sample.value, sample.lambda[j], sample.X.col(j));
-  const auto there = brake.with(*search.over, sample.value);
-  return period_work(*there->body(), search.speed, sample.lambda[j], sample.X.col(j));
+  const std::complex<double> lambda = sample.lambda[j];
+  if (!brake.body() || !(lambda.imag() > 0.0)) return;
+  const auto there = search.over ? brake.with(*search.over, sample.value) : nullptr;
+  const FlexibleDisc& body = there ? *there->body() : *brake.body();
+  const double speed = there ? search.speed : sample.value;
+  branch.work = period_work(body, speed, lambda, sample.X.col(j));
+  branch.budget = growth_error_budget(body, speed, lambda);
 }
 
 /// Of the mode of the body that has the largest part in a coordinate of the inertial disc.
@@ -176,7 +181,7 @@ StabilityTable unstable_modes(const Brake& brake, const StabilityCase& search,
     table.branches[k].unstable = unstable_intervals(A, samples, which[k]);
     StabilityBranch& branch = table.branches[k];
     const ModeSample& worst = add_worst(branch, samples, which[k], brake.body());
-    if (branch.is_unstable()) branch.work = work_of(brake, search, worst, which[k]);
+    if (branch.is_unstable()) add_work_and_error(branch, brake, search, worst, which[k]);
   }
   std::ranges::stable_sort(table.branches, {},
                            [](const StabilityBranch& b) { return b.worst.frequency_Hz; });

@@ -1,4 +1,4 @@
-"""The error that `squeal run` tells of a critical speed holds what a finer mesh and more modes find.
+"""The errors that `squeal run` tells of a critical speed and of growth rates hold what a finer mesh and more modes find.
 
 Five discs on coarse meshes against the same on meshes with errors more than ten times smaller; a body of a rough
 tolerance against one of all modes; one pair of modes against all of the body.
@@ -69,17 +69,24 @@ speeds = {{ from_rad_s = 2.0, to_rad_s = 600.0, count = 60 }}
 friction = 0.6
 contact = "bilateral"
 pads = [{{ angle_deg = 0.0, stiffness = 6e6, damping = 0.0, preload = 2000.0 }}]
-analyses = ["critical-speed"]
+analyses = ["critical-speed", "stability"]
 """
 
 
+def growing(found):
+    """The mode that grows most."""
+    return max(found["stability_table"]["branches"], key=lambda branch: branch["worst_growth_1_s"])
+
+
 def critical(programs, folder, text):
-    """The speed in rad/s, and what is told of its error."""
+    """The speed in rad/s and the errors told of it, then the same of the largest growth rate in 1/s."""
     file = folder / "scene.toml"
     file.write_text(text)
     summary(programs / "chladni", "run", file, "--output", folder, "--overwrite")
     found = summary(programs / "squeal", "run", file, "--output", folder, "--overwrite")
-    return found["critical_speed_rad_s"], found.get("critical_speed_errors_rad_s")
+    worst = growing(found)
+    return (found["critical_speed_rad_s"], found.get("critical_speed_errors_rad_s"),
+            worst["worst_growth_1_s"], worst["worst_growth_errors_1_s"])
 
 
 def check(name, told, found, most=3):
@@ -94,15 +101,17 @@ def main(programs):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for disc, (*_, coarse, fine) in DISCS.items():
-            speed, told = critical(programs, folder, scene(disc, coarse, 2))
-            exact, _ = critical(programs, folder, scene(disc, fine, 3, estimated="false"))
+            speed, told, growth, doubt = critical(programs, folder, scene(disc, coarse, 2))
+            exact, _, exact_growth, _ = critical(programs, folder, scene(disc, fine, 3, estimated="false"))
             good &= check(f"mesh of the {disc} disc", told["mesh"], abs(speed - exact))
+            good &= check("   and its growth, 1/s", doubt["mesh"], abs(growth - exact_growth))
         all_modes = '"all"'
         rough = f"keep = {{ tolerance = 0.05, up_to_Hz = {UP_TO_HZ} }}"
-        few, told = critical(programs, folder, scene("thick", 0.03, 2, keep=rough, modes=all_modes))
-        full, _ = critical(programs, folder, scene("thick", 0.03, 2, modes=all_modes))
+        few, told, few_growth, doubt = critical(programs, folder, scene("thick", 0.03, 2, keep=rough, modes=all_modes))
+        full, _, full_growth, _ = critical(programs, folder, scene("thick", 0.03, 2, modes=all_modes))
         good &= check("body of a tolerance of 0.05", told["body"], abs(few - full), 100)
-        pair, told = critical(programs, folder, scene("thick", 0.03, 2))
+        good &= check("   and its growth, 1/s", doubt["body"], abs(few_growth - full_growth), 100)
+        pair, told, *_ = critical(programs, folder, scene("thick", 0.03, 2))
         good &= check("one pair of modes", told["modes_left_out"], abs(pair - full))
     return 0 if good else 1
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "common/error.hpp"
@@ -242,6 +243,41 @@ TEST(UnstableModes, OfABandAreThoseWithFrequenciesInIt)
             "to 14289.9 Hz; end it there, or take a body with more modes");
 }
 
+TEST(UnstableModes, TellTheErrorOfTheirGrowth)
+{
+  constexpr double error = 1e-4;
+  const StabilityCase search = over_speeds(1.0, 20.0, 20);
+  Disc disc = disc_of({kirchhoff_3()});
+  Disc off = disc;
+  off.omega *= 1.0 + error;
+  disc.errors = {.mesh = Eigen::VectorXd::Constant(2, error),
+                 .reduction = Eigen::VectorXd::Constant(2, 0.1 * error),
+                 .range = 2.0 * disc.omega.maxCoeff()};
+  const auto all = std::make_shared<const FlexibleDisc>(plate());
+  const StabilityBranch row =
+      unstable_ones(unstable_modes(FlexibleDisc(disc, reference_options(), all), search)).at(0);
+  const auto growth_there = [&](const FlexibleDisc& other) {
+    const std::vector<StabilityBranch> rows = unstable_ones(unstable_modes(other, search));
+    const auto nearest = std::ranges::min_element(rows, {}, [&](const StabilityBranch& branch) {
+      return std::abs(branch.worst.frequency_Hz - row.worst.frequency_Hz);
+    });
+    EXPECT_EQ(nearest->worst.value, row.worst.value);
+    return nearest->worst.growth;
+  };
+  const double found =
+      std::abs(growth_there(FlexibleDisc(off, reference_options())) - row.worst.growth);
+  EXPECT_GT(found, 1e-5);
+  EXPECT_NEAR(row.budget.mesh.value(), found, 1e-2 * found);
+  EXPECT_NEAR(row.budget.reduction.value(), 0.1 * found, 1e-3 * found);
+  EXPECT_FALSE(row.budget.body);
+  const double left_out = std::abs(growth_there(*all) - row.worst.growth);
+  EXPECT_NEAR(row.budget.left_out.value(), left_out, 1e-9 + 1e-6 * left_out);
+  disc.errors.range = 0.5 * disc.omega.maxCoeff();
+  EXPECT_TRUE(unstable_ones(unstable_modes(FlexibleDisc(disc, reference_options()), search))
+                  .at(0)
+                  .budget.is_empty());
+}
+
 TEST(UnstableModes, ComeBackFromTheirFile)
 {
   const files::test::ScratchFolder folder;
@@ -254,7 +290,8 @@ TEST(UnstableModes, ComeBackFromTheirFile)
                                           .count = 4,
                                           .speed = 6.0 * pi,
                                           .band = FrequencyBand{500.0, 14000.0}};
-  const SquealResults written = run(plate(options), options.study);
+  SquealResults written = run(plate(options), options.study);
+  written.stability_table->branches.at(1).budget = {.mesh = 0.0, .left_out = 0.3};
   write_results(folder.path() / "table.squeal.h5", written, {});
   const StabilityTable a = written.stability_table.value();
   const StabilityTable b = read_results(folder.path() / "table.squeal.h5").stability_table.value();
@@ -266,6 +303,10 @@ TEST(UnstableModes, ComeBackFromTheirFile)
   EXPECT_EQ(b.families[3].nodal_diameters, a.families[3].nodal_diameters);
   EXPECT_EQ(b.families[3].frequency_Hz, a.families[3].frequency_Hz);
   ASSERT_EQ(b.branches.size(), a.branches.size());
+  EXPECT_TRUE(b.branches[0].budget.is_empty());
+  EXPECT_EQ(b.branches[1].budget.mesh, 0.0);
+  EXPECT_FALSE(b.branches[1].budget.body);
+  EXPECT_EQ(b.branches[1].budget.left_out, 0.3);
   EXPECT_GE(unstable_ones(a).size(), 4u);
   for (std::size_t j = 0; j < a.branches.size(); ++j) {
     EXPECT_EQ(b.branches[j].lambda, a.branches[j].lambda);
