@@ -24,12 +24,11 @@ std::string effect(const squeal::GradientRow& row, double derivative)
 
 TextTable gradients_table(const squeal::Gradients& gradients)
 {
-  TextTable table{.header = {"what to change by +1 %", "value", "unit"}, .rows = {}};
+  TextTable table{.header = {"number raised by 1 %", "value", "unit"}, .rows = {}};
   if (gradients.critical_speed) table.header.emplace_back("critical speed, rad/s");
   for (const squeal::GradientMotion& motion : gradients.motions)
-    table.header.push_back(fmt::format("growth of {:.5g} Hz, 1/s", motion.frequency_Hz));
-  for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
-    const squeal::GradientRow& row = gradients.rows[i];
+    table.header.push_back(fmt::format("growth at {:.5g} Hz, 1/s", motion.frequency_Hz));
+  for (const squeal::GradientRow& row : gradients.rows) {
     const std::string change = squeal::usual_change(row).name;
     std::vector<std::string> cells{
         change == "1 %" ? row.key : fmt::format("{} (by +{})", row.key, change),
