@@ -17,7 +17,8 @@ constexpr std::size_t rows_told = 20;
 /// "+0.012" of the usual change
 std::string effect(const squeal::GradientRow& row, double derivative)
 {
-  return fmt::format("{:+.3g}", squeal::usual_change(row).value * derivative);
+  const double change = squeal::usual_change(row).value * derivative;
+  return change == 0.0 ? "0" : fmt::format("{:+.3g}", change);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ const compared = [
   ["stability over the speed", run => run.stability],
   ["largest growth rate in the range, 1/s", run => worstGrowth(run) && Math.max(...worstGrowth(run).y)],
   ["unstable modes", run => run.unstable_modes?.branches.filter(branch => branch.unstable.length).length],
+  ["vibration at the end of the run", run => chosenCycle(run) && (chosenCycle(run).doubt || "limit cycle")],
   ["limit cycle at, rad/s", run => chosenCycle(run)?.speed],
   ["limit cycle, Hz", run => chosenCycle(run)?.frequency_Hz],
   ["pad velocity, m/s", run => chosenCycle(run)?.pad_velocity],
@@ -105,6 +106,9 @@ function mapsBeside(runs) {
 }
 
 function drawComparison(runs) {
+  const [bodies, start, ...controls] = bodiesBeside(runs);
   section("comparison", "Comparison", note("In brackets: the difference from the first run."), comparisonTable(runs),
-          figures(...overlays(runs), ...mapsBeside(runs)), modesBeside(runs));
+          figures(...overlays(runs), ...mapsBeside(runs)), modesBeside(runs),
+          ...(bodies ? [element("h3", {}, "Bodies in motion"), ...controls, bodies] : []));
+  start?.();
 }

@@ -12,7 +12,7 @@ function drawBars(svg, bars, width) {
     svg.append(svgElement("text", {x: 8, y}, name),
                svgElement("rect", {x: isUp ? zero : end, y: y + 6, width: length, height: 10, fill: `var(--c${isUp ? 1 : 0})`}),
                svgElement("text", {x: end + (isUp ? 5 : -5), y: y + 15, "text-anchor": isUp ? "start" : "end"}, text),
-               svgElement("line", {x1: zero, x2: zero, y1: y + 4, y2: y + 18, class: "tick"}));
+               svgElement("line", {x1: zero, x2: zero, y1: y + 5, y2: y + 17, class: "tick"}));
   });
 }
 
@@ -22,11 +22,11 @@ function barsFigure({header, rows}, column) {
     .sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
   if (!all.length) return null;
   const bars = all.slice(0, barsShown), what = `Change of the ${header[column]}`;
-  const title = `${what}: the ${bars.length === all.length ? "" : `${bars.length} `}largest effects of ${all.length}`;
+  const title = `${what}: ${bars.length === all.length ? "all effects" : `the ${bars.length} largest of ${all.length} effects`}`;
   const svg = svgElement("svg", {role: "img", "aria-label": title});
   const files = filesOf(what, (into, width) => drawBars(into, bars, width),
                         () => [[header[0], what], ...all.map(({name, value}) => [name, value])]);
-  const figure = element("figure", {}, svg, element("div", {class: "tools"}, ...files), element("figcaption", {}, title));
+  const figure = element("figure", {class: "bars"}, svg, element("div", {class: "tools"}, ...files), element("figcaption", {}, title));
   drawToWidth(figure, width => { svg.replaceChildren(); drawBars(svg, bars, width); });
   return figure;
 }
