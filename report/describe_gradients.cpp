@@ -17,19 +17,19 @@ constexpr std::size_t rows_told = 20;
 /// "+0.012" of the usual change
 std::string effect(const squeal::GradientRow& row, double derivative)
 {
-  return fmt::format("{:+.3g}", squeal::usual_change(row).value * derivative);
+  const double change = squeal::usual_change(row).value * derivative;
+  return change == 0.0 ? "0" : fmt::format("{:+.3g}", change);
 }
 
 }  // namespace
 
 TextTable gradients_table(const squeal::Gradients& gradients)
 {
-  TextTable table{.header = {"what to change by +1 %", "value", "unit"}, .rows = {}};
+  TextTable table{.header = {"number raised by 1 %", "value", "unit"}, .rows = {}};
   if (gradients.critical_speed) table.header.emplace_back("critical speed, rad/s");
   for (const squeal::GradientMotion& motion : gradients.motions)
-    table.header.push_back(fmt::format("growth of {:.5g} Hz, 1/s", motion.frequency_Hz));
-  for (std::size_t i = 0; i < std::min(rows_told, gradients.rows.size()); ++i) {
-    const squeal::GradientRow& row = gradients.rows[i];
+    table.header.push_back(fmt::format("growth at {:.5g} Hz, 1/s", motion.frequency_Hz));
+  for (const squeal::GradientRow& row : gradients.rows) {
     const std::string change = squeal::usual_change(row).name;
     std::vector<std::string> cells{
         change == "1 %" ? row.key : fmt::format("{} (by +{})", row.key, change),

@@ -6,11 +6,10 @@
 
 namespace chladni::report {
 
-/// The change of each result when a number changes by one per cent, the largest effects first, at
-/// most 20.
+/// The change of each result when a number changes by one per cent, the largest effects first.
 TextTable gradients_table(const squeal::Gradients& gradients);
 
-/// Adds the rows with the largest effects to a table of quantities.
+/// Adds the rows with the largest effects, at most 20, to a table of quantities.
 void add_gradients(TextTable& table, const squeal::Gradients& gradients);
 
 /// The gradients as JSON.

@@ -44,7 +44,7 @@ std::vector<Json::Member> wav_members(const SoundWav& wav)
   }
   return {{"wav", packed(bytes_of(file))},
           {"wav_said", fmt::format("{}: the pressure at the microphone '{}'. Its largest value is "
-                                   "full scale, so that your device makes the loudness.",
+                                   "full scale, so the volume of your device sets how loud it is.",
                                    name, wav.microphone)}};
 }
 

@@ -17,8 +17,8 @@ constexpr double pi = std::numbers::pi;
 std::string name_of_mode(int nodal_diameters, double f_Hz)
 {
   if (nodal_diameters == 0) return fmt::format("frequency of the mode at {:.6g} Hz", f_Hz);
-  return fmt::format("frequency of the pair with {} nodal diameters at {:.6g} Hz", nodal_diameters,
-                     f_Hz);
+  return fmt::format("frequency of the pair with {} nodal diameter{} at {:.6g} Hz", nodal_diameters,
+                     nodal_diameters == 1 ? "" : "s", f_Hz);
 }
 
 }  // namespace

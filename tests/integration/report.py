@@ -34,7 +34,7 @@ BENCHMARK["studies"][0]["case"] = "disc </script>"
 # Speeds up from rest: what the sections of orders and gradients show.
 RUN_UP = (SQUEAL.replace("""analyses = ["eigenvalues", "critical-speed", "transient", "limit-cycle-direct", "limit-cycle-branch",
             "stability-map", "spectrum"]""", """analyses = ["critical-speed", "gradients", "transient", "spectrogram"]""")
-          .replace("map = { parameter", "# map = { parameter")
+          .replace("map = { parameter", "gradients = { speed_rad_s = 45.0 }  # map = { parameter")
           .replace("duration_s = 0.3,",
                    "duration_s = 1.0, speed_program = [{ t_s = 1.0, speed_rad_s = 45.0 }],"))
 SCRIPT = """<script>
@@ -94,10 +94,38 @@ told.pictures = files.filter(text => text.startsWith("<svg") && !text.includes("
 told.lame = files.filter(text => /NaN|undefined|Infinity/.test(text)).length;
 told.rpm = Number(/rpm/.test(document.getElementById("key-figures").textContent));
 """
+# A finger scrolls the page over the body and turns it sideways; after a tap it turns it in all directions.
+FINGER = """
+const {viewer} = window, canvas = viewer.canvas, around = canvas.getBoundingClientRect(), told = document.body.dataset;
+canvas.setPointerCapture = () => {};
+const touch = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type, {
+  clientX: around.left + x, clientY: around.top + y, pointerType: "touch", pointerId: 7, bubbles: true}));
+const drag = () => { touch("pointerdown", 50, 50); touch("pointermove", 90, 80); touch("pointerup", 90, 80); };
+const look = () => `${viewer.turn.toFixed(3)} ${viewer.tilt.toFixed(3)}`;
+const first = look();
+told.free = getComputedStyle(canvas).touchAction;
+drag();
+const second = look();
+touch("pointerdown", 50, 50); touch("pointerup", 50, 50);
+told.held = getComputedStyle(canvas).touchAction;
+drag();
+told.looks = [first, second, look()].join(" ");
+"""
+# Bars of the gradients: the largest first, as long as their numbers say.
+BARS = """
+const told = document.body.dataset, bars = [...document.querySelectorAll("#gradients figure")].map(figure => ({
+  widths: [...figure.querySelectorAll("rect")].map(bar => Number(bar.getAttribute("width")))}));
+told.bars = bars.length;
+told.sorted = Number(bars.every(({widths}) => widths.length > 1 && widths.every((w, i) => i === 0 || w <= widths[i - 1])));
+"""
 # The choice of a run shows all of it.
 CHOOSER = """
 document.querySelectorAll(".runs button")[1].click();
 document.body.dataset.once = Number(["comparison", "modes", "origin"].every(id => document.querySelectorAll(`#${id}`).length === 1));
+const bodies = [...document.querySelectorAll(".bodies canvas")], pixels = () => bodies.map(canvas => canvas.toDataURL());
+const still = pixels();
+bodies[1].dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
+document.body.dataset.bodies = Number(bodies.length === 2 && pixels().every((picture, k) => picture !== still[k]));
 document.body.dataset.scene = Number(document.querySelector("#origin pre").textContent.includes("friction = 0.7"));
 """
 
@@ -238,6 +266,13 @@ def use(chromium, page):
     require(int(state["painted"]) > 20000, f"{state['painted']} pixels of the body are painted")
 
 
+def touch(chromium, page):
+    state = used(chromium, page, FINGER)
+    (turn, tilt), (turned, same), (further, tilted) = zip(*[iter(state["looks"].split())] * 2)
+    require(state["free"] == "pan-y" and turned != turn and same == tilt, f"a finger turns the body sideways and scrolls the page: {state}")
+    require(state["held"] == "none" and further != turned and tilted != same, "after a tap it turns the body in all directions")
+
+
 def photograph(chromium, page, file):
     browse(chromium, page, f"--screenshot={file}")
     from matplotlib.image import imread
@@ -263,8 +298,12 @@ def main(programs, chromium=None, screenshot=None):
         draw(chromium, both, ["comparison", "modes", "campbell", "limit-cycle", "origin"])
         draw(chromium, run_up, ["gradients", "orders"])
         use(chromium, page)
+        touch(chromium, page)
+        bars = used(chromium, run_up, BARS)
+        require(int(bars["bars"]) > 1 and bars["sorted"] == "1", f"the gradients are bars, the largest first: {bars}")
         look_closer(chromium, page)
         chosen = used(chromium, both, CHOOSER)
+        require(chosen["bodies"] == "1", "the bodies of two runs stand beside each other and turn together")
         require(chosen["once"] == chosen["scene"] == "1", "the other run is shown in place of the first")
         photograph(chromium, page, screenshot or str(folder / "page.png"))
 

@@ -8,7 +8,7 @@ function boxOf(options, {x, y}, width, rows) {
   const height = options.height ?? 260, longest = Math.max(...y.ticks(height / 40).map(tick => y.text(tick).length));
   const named = Math.max(0, ...(options.labelled ?? []).map(one => (one.label ?? "").length));
   const left = 32 + 7 * longest, right = y.second ? 58 : named ? 14 + 6 * named : 14;
-  const top = (rows ? 10 + 18 * rows : 10) + (x.second ? 18 : 0);
+  const top = (rows ? 10 + 18 * rows : 10) + (x.second ? 20 : 0);
   return {left, top, width: width - left - right, height};
 }
 
@@ -24,9 +24,9 @@ function drawXAxis(svg, {left, top, width, height}, x) {
   for (const tick of roundTicks(x.low * factor, x.high * factor, between(2, Math.floor(width / 55), 14))) {
     const at = left + width * x.at(tick / factor);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top - 4, y2: top, class: "tick"}),
-               svgElement("text", {x: at, y: top - 7, "text-anchor": "middle"}, formatted(tick, 6)));
+               svgElement("text", {x: at, y: top - 9, "text-anchor": "middle"}, formatted(tick, 6)));
   }
-  svg.append(svgElement("text", {x: left - 8, y: top - 7, "text-anchor": "end"}, unit));
+  svg.append(svgElement("text", {x: left - 8, y: top - 9, "text-anchor": "end"}, unit));
 }
 
 function drawYAxis(svg, {left, top, width, height}, y) {
@@ -46,15 +46,29 @@ function drawYAxis(svg, {left, top, width, height}, y) {
   svg.append(svgElement("text", {transform: `translate(${right + 52} ${top + height / 2}) rotate(-90)`, "text-anchor": "middle"}, unit));
 }
 
+// A text in lines of at most so many letters; a longer word has a line of its own.
+function wrapped(text, most) {
+  const lines = [""];
+  for (const word of text.split(" ")) {
+    const longer = `${lines.at(-1)} ${word}`.trim();
+    if (longer.length <= most || !lines.at(-1)) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
 function drawLegend(svg, entries, left, top, width) {
+  const letter = 6.6;
   let x = left, rows = entries.length ? 1 : 0;
   for (const entry of entries) {
-    const needed = 30 + 6.6 * entry.name.length, alone = entry.marker && entry.line === false;
-    if (x + needed > left + width && x > left) { x = left; ++rows; }
+    const lines = wrapped(entry.name, Math.floor((width - 30) / letter)), alone = entry.marker && entry.line === false;
+    const needed = 30 + letter * Math.max(...lines.map(line => line.length));
+    if (x > left && (lines.length > 1 || x + needed > left + width)) { x = left; ++rows; }
     const y = top + 18 * (rows - 1);
     drawSeries(svg, {...entry, x: alone ? [x + 10] : [x, x + 20], y: alone ? [y - 4] : [y - 4, y - 4],
                      marker: alone ? entry.marker : undefined}, v => v, v => v);
-    svg.append(svgElement("text", {x: x + 25, y}, entry.name));
+    lines.forEach((line, k) => svg.append(svgElement("text", {x: x + 25, y: y + 18 * k}, line)));
+    rows += lines.length - 1;
     x += needed + 10;
   }
   return rows;
@@ -94,11 +108,14 @@ function drawToWidth(figure, draw) {
   new ResizeObserver(() => requestAnimationFrame(redraw)).observe(figure);
 }
 
+// The axis up to its `shown`, which the picture begins with: "whole" goes on to the end.
+const asShown = axis => axis.shown < axis.high ? axis.part(0, axis.at(axis.shown)) : axis;
+
 // chart({title, x, y: axes, paint, legend, labelled, points, valueAt, csv, choices}) -> figure
 function chart(options) {
   const svg = svgElement("svg", {role: "img", "aria-label": options.title, tabindex: "0"});
   const readout = element("p", {class: "readout"}), figure = element("figure", {}, svg);
-  const shown = {options, svg, readout, state: {x: options.x, y: options.y}};
+  const shown = {options, svg, readout, state: {x: asShown(options.x), y: asShown(options.y)}};
   shown.redraw = () => { shown.frame = drawChart(svg, options, shown.state, shown.width); };
   shown.show = (x, y) => { Object.assign(shown.state, {x, y}); svg.classList.toggle("closer", x !== options.x || y !== options.y); shown.redraw(); };
   shown.whole = () => shown.show(options.x, options.y);

@@ -25,6 +25,7 @@ const compared = [
   ["stability over the speed", run => run.stability],
   ["largest growth rate in the range, 1/s", run => worstGrowth(run) && Math.max(...worstGrowth(run).y)],
   ["unstable modes", run => run.unstable_modes?.branches.filter(branch => branch.unstable.length).length],
+  ["vibration at the end of the run", run => chosenCycle(run) && (chosenCycle(run).doubt || "limit cycle")],
   ["limit cycle at, rad/s", run => chosenCycle(run)?.speed],
   ["limit cycle, Hz", run => chosenCycle(run)?.frequency_Hz],
   ["pad velocity, m/s", run => chosenCycle(run)?.pad_velocity],
@@ -40,14 +41,14 @@ function difference(what, first, value) {
   if (typeof first !== "number" || typeof value !== "number" || first === value) return "";
   const change = value - first, sign = change > 0 ? "+" : "";
   if (/dB/.test(what) || first === 0) return ` (${sign}${formatted(change, 3)})`;
-  return ` (${sign}${formatted(100 * change / Math.abs(first), 3)} %)`;
+  return ` (${sign}${formatted(100 * change / Math.abs(first), 3)}${unbroken}%)`;
 }
 
 function comparisonTable(runs) {
   const text = value => value === null || value === undefined ? "–" : typeof value === "number" ? formatted(value, 5) : value;
   const known = compared.map(([what, of]) => [what, runs.map(of)]).filter(([, values]) => values.some(v => v !== null && v !== undefined));
   const rows = known.map(([what, values]) => [what, ...values.map((v, k) => text(v) + (k ? difference(what, values[0], v) : ""))]);
-  return scrolled(table(["", ...runs.map(run => run.label)], rows));
+  return scrolled(table(["", ...runs.map(run => run.label)], rows), "whole");
 }
 
 // Modes of one name stand beside each other, the lowest first, as often as each body has them.
@@ -61,6 +62,8 @@ function modesBeside(runs) {
     }));
   });
   if (of.some(names => !names.size)) return "";
+  const isSame = one => one.size === of[0].size && [...one].every(([name, f_Hz]) => of[0].get(name) === f_Hz);
+  if (of.every(isSame)) return note("The bodies of all runs have the same natural frequencies.");
   const names = [...of[0].keys()].filter(name => of.some((other, k) => k && other.has(name)));
   const cell = (name, k) => formatted(of[k].get(name), 6) + (k ? difference(name, of[0].get(name), of[k].get(name)) : "");
   const rows = names.map(name => [name, ...of.map((one, k) => cell(name, k))]);
@@ -103,6 +106,9 @@ function mapsBeside(runs) {
 }
 
 function drawComparison(runs) {
+  const [bodies, start, ...controls] = bodiesBeside(runs);
   section("comparison", "Comparison", note("In brackets: the difference from the first run."), comparisonTable(runs),
-          figures(...overlays(runs), ...mapsBeside(runs)), modesBeside(runs));
+          figures(...overlays(runs), ...mapsBeside(runs)), modesBeside(runs),
+          ...(bodies ? [element("h3", {}, "Bodies in motion"), ...controls, bodies] : []));
+  start?.();
 }

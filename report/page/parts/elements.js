@@ -31,8 +31,9 @@ function formatted(x, digits = 4) {
 }
 
 const rpmOfRadS = 30 / Math.PI;
-const rpm = speed => `${formatted(speed * rpmOfRadS)} rpm`;
-const speedText = (speed, digits = 4) => `${formatted(speed, digits)} rad/s (${rpm(speed)})`;
+const unbroken = "\u00a0";  // a space that keeps what it joins on one line
+const rpm = speed => `${formatted(speed * rpmOfRadS)}${unbroken}rpm`;
+const speedText = (speed, digits = 4) => `${formatted(speed, digits)}${unbroken}rad/s (${rpm(speed)})`;
 
 // Each rotation speed that a text names in rad/s, in rpm beside it.
 const withRpm = text => text.replace(/(-?\d[\d.]*(?:e[-+]?\d+)?) rad\/s(?! \()/g, (all, speed) => `${all} (${rpm(Number(speed))})`);

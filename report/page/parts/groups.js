@@ -266,7 +266,7 @@ function drawGroups(content) {
   const listed = groupTable(viewer.groups), rows = [...listed.tBodies[0].rows];
   const {search, bar} = groupControls(viewer, rows);
   const figure = element("figure", {}, canvas, bar, legend,
-    note("Drag or use the arrow keys to turn; Ctrl and wheel, two fingers, or + and - zoom."));
+    note(howToTurn()));
   if (content.drawing.said) figure.append(note(content.drawing.said));
   const side = element("div", {}, element("div", {class: "controls"}, search), scrolled(listed));
   section("groups", "Groups", element("div", {class: "viewer"}, figure, side));

@@ -42,7 +42,8 @@ function readAt(shown, {u, v}, px, py) {
   const more = options.valueAt ? options.valueAt(x, y) : "";
   if (near) svg.append(svgElement("circle", {cx: near.px, cy: near.py, r: 6, class: "mark"}));
   const name = near && (near.one.said ?? near.one.name ?? "");
-  const found = near ? `${name ? `${name}: ` : "nearest point: "}${formatted(near.one.x[near.i], 5)}, ${formatted(near.one.y[near.i], 5)}` : "";
+  const withUnit = (axis, value) => `${formatted(value, 5)}${unbroken}${unitOf(axis.label)}`.trim();
+  const found = near ? `${name ? `${name}: ` : "nearest point: "}${withUnit(state.x, near.one.x[near.i])}, ${withUnit(state.y, near.one.y[near.i])}` : "";
   readout.textContent = [here, more, found].filter(Boolean).join(" · ");
 }
 

@@ -50,7 +50,7 @@ function checkbox(viewer, text, key) {
 
 // Buttons to look from somewhere.
 function directions(viewer) {
-  const from = (text, turn, tilt) => button(text, () => { Object.assign(viewer, {turn, tilt, zoom: 1}); viewer.paint(); });
+  const from = (text, turn, tilt) => button(text, () => { Object.assign(viewer, {turn, tilt, zoom: 1}); viewer.paintAll(); });
   return [from("from above", 0, 0), from("from the side", 0, Math.PI / 2), from("oblique", -0.5, 1.05)];
 }
 
@@ -96,7 +96,7 @@ function drawModes(content) {
   window.viewer = viewer;
   controls = viewerControls(viewer, content, choose);
   const figure = element("figure", {}, canvas, controls.bar, legend,
-    note("Drag or use the arrow keys to turn; Ctrl and wheel, two fingers, or + and - zoom."));
+    note(howToTurn()));
   if (surface.left_out) figure.append(note(`${surface.left_out} modes are not drawn, to keep this page small.`));
   section("modes", "Modes", element("div", {class: "viewer"}, figure, side));
   viewer.listen();

@@ -4,6 +4,7 @@ function markerPath(kind, x, y) {
   const r = 4;
   if (kind === "square") return `M${x - r},${y - r}h${2 * r}v${2 * r}h${-2 * r}z`;
   if (kind === "triangle") return `M${x},${y - r}L${x + r},${y + r}H${x - r}z`;
+  if (kind === "dot") return `M${x - 2},${y}a2,2 0 1,0 4,0a2,2 0 1,0 -4,0z`;
   if (kind === "star") return `M${x - 7},${y}H${x + 7}M${x},${y - 7}V${y + 7}M${x - 5},${y - 5}l10,10M${x - 5},${y + 5}l10,-10`;
   return `M${x - r},${y}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0z`;
 }

@@ -17,7 +17,7 @@ function table(header, rows) {
   return made;
 }
 
-const scrolled = made => element("div", {class: "scroll", tabindex: "0"}, made);
+const scrolled = (made, more = "") => element("div", {class: `scroll${more && ` ${more}`}`, tabindex: "0"}, made);
 const percent = x => x === undefined ? "" : x < 1e-12 ? "< 1e-10 %" : `${formatted(100 * x, 2)} %`;
 
 // `shared`: what maps beside each other have in common, and whose map it is.
@@ -50,7 +50,7 @@ function drawRun(run, benchmark) {
   if (run.campbell) section("campbell", "Stability over the speed", figures(...campbellFigures(run)));
   if (run.unstable_modes) section("modes-of-squeal", "Unstable modes", unstableModesTable(run), figures(...unstableModesFigures(run)));
   if (run.rotation) section("rotation", "Stability of the turning disc", figures(...rotationFigures(run)));
-  if (run.gradients) section("gradients", "What to change", gradientsTable(run));
+  if (run.gradients) drawGradients(run);
   if (run.map) section("map", "Stability map", figures(...mapFigures(run)));
   const cycles = cycleFigures(run);
   if (cycles.length || chosenCycle(run)) section("limit-cycle", "Limit cycle", cycleTable(run), figures(...cycles));
@@ -86,7 +86,7 @@ function drawRuns(runs, benchmark) {
     said.textContent = keyFigures(runs[chosen]);
     drawRun(runs[chosen], benchmark);
   };
-  const said = note(""), bar = element("div", {class: "runs"}, element("div", {class: "controls"}, "All of the run ", ...choices), said);
+  const said = note(""), bar = element("div", {class: "runs"}, element("div", {class: "controls"}, "Run shown below ", ...choices), said);
   document.getElementById("sections").append(bar);
   kept.add(bar);
   choose(0);

@@ -14,9 +14,9 @@ function player({wav, wav_said}) {
 }
 
 function microphonesTable({microphones}) {
-  return scrolled(table(["microphone", "at x, y, z, m", "dB", "dB(A)", "dB of the peak", "around the axis, dB"],
+  return scrolled(table(["microphone", "position x, y, z, m", "level, dB", "level, dB(A)", "peak level, dB", "level around the axis, dB"],
     microphones.map(({name, position, level_dB, level_A_dB, peak_dB, around}) =>
-      [name, position.map(x => formatted(x, 3)).join(", "), dB(level_dB), dB(level_A_dB), dB(peak_dB),
+      [name, position.map(x => formatted(x, 3)).join(`,${unbroken}`), dB(level_dB), dB(level_A_dB), dB(peak_dB),
        [...new Set(around.map(rms => dB(levelOf(rms))))].join(" to ")])));
 }
 
@@ -60,12 +60,12 @@ function loudnessFigures({loudness, microphones}) {
 
 // Levels over an angle that begins at the top and goes clockwise, degrees; rings are 10 dB apart.
 function drawPolar(svg, {degrees, levels, from, axes}, width) {
-  const height = Math.min(400, width), cx = width / 2, cy = height / 2, radius = height / 2 - 26;
+  const sideways = 12 + 6.6 * Math.max(...axes.map(text => text.length)), height = Math.min(400, width - 2 * (sideways - 26));
+  const cx = width / 2, cy = height / 2, radius = height / 2 - 26;
   const top = Math.ceil(Math.max(...levels) / 10) * 10, r = level => radius * Math.max(0, level - top + from) / from;
   svg.setAttribute("height", height);
   for (let level = top - from + 10; level <= top; level += 10) {
-    svg.append(svgElement("circle", {cx, cy, r: r(level), class: "grid"}),
-               svgElement("text", {x: cx + 0.38 * r(level), y: cy - 0.92 * r(level), class: "label halo"}, `${level} dB`));
+    svg.append(svgElement("circle", {cx, cy, r: r(level), class: "grid"}));
   }
   axes.forEach((text, k) => {
     const angle = k * 2 * Math.PI / axes.length, x = Math.sin(angle), y = -Math.cos(angle), anchor = x > 0.5 ? "start" : x < -0.5 ? "end" : "middle";
@@ -75,6 +75,8 @@ function drawPolar(svg, {degrees, levels, from, axes}, width) {
   const point = (angle, level) => [cx + r(level) * Math.sin(angle * Math.PI / 180), cy - r(level) * Math.cos(angle * Math.PI / 180)];
   const points = degrees.map((angle, i) => point(angle, levels[i]).map(v => v.toFixed(1)).join(",")).join(" ");
   svg.append(svgElement("polygon", {points, fill: "none", stroke: "var(--c0)", "stroke-width": 2}));
+  for (let level = top - from + 10; level <= top; level += 10)
+    svg.append(svgElement("text", {x: cx + 0.38 * r(level), y: cy - 0.92 * r(level), class: "label halo"}, `${level} dB`));
 }
 
 function polarFigure(title, curve) {
@@ -101,14 +103,14 @@ function directivityFigures({directivity: {polar, azimuth, rms}}) {
   const through = {from: 40, axes: ["axis z", "90°", "180°", "90°"], degrees: [...polar.map(degrees), ...back.map(k => 360 - degrees(polar[k]))],
                    levels: [...rms.map(row => levelOf(row[j])), ...back.map(k => levelOf(rms[k][opposite]))]};
   const around = {from: 40, axes: ["0° (x)", "90° (y)", "180°", "270°"], degrees: azimuth.map(degrees), levels: rms[i].map(levelOf)};
-  return [polarFigure(`Directivity through the axis: level at 1 m by the far field, at the azimuth ${formatted(degrees(azimuth[j]), 3)}°`, through),
-          polarFigure(`Directivity around the axis: level at 1 m by the far field, ${formatted(degrees(polar[i]), 3)}° from it`, around)];
+  return [polarFigure(`Directivity in a plane through the axis: far-field level referred to 1 m, at the azimuth ${formatted(degrees(azimuth[j]), 3)}°`, through),
+          polarFigure(`Directivity around the axis: far-field level referred to 1 m, ${formatted(degrees(polar[i]), 3)}° from the axis`, around)];
 }
 
 function drawSound({sound}) {
   if (sound.left_out) { section("sound", "Sound", note(`Left out: ${sound.left_out}.`)); return; }
-  const told = sound.speed === null ? [] : [note(`Limit cycle at ${speedText(sound.speed)}, ${formatted(sound.frequency_Hz, 6)} Hz; ` +
-    "levels are relative to 20 µPa, of the effective value, powers to 1 pW.")];
+  const told = sound.speed === null ? [] : [note(`Limit cycle at ${speedText(sound.speed)}, ${formatted(sound.frequency_Hz, 6)} Hz. ` +
+    "Sound pressure levels are those of the effective (RMS) value, relative to 20 µPa; power levels are relative to 1 pW.")];
   const made = [sound.microphones.length && tonesFigure(sound), ...(sound.loudness ? loudnessFigures(sound) : []),
                 ...(sound.directivity ? directivityFigures(sound) : [])];
   section("sound", "Sound", ...told, player(sound), ...(sound.microphones.length ? [microphonesTable(sound)] : []),

@@ -52,10 +52,15 @@ function readMotion(motion) {
   return {re, im, component, largest};
 }
 
+const howToTurn = () => matchMedia("(pointer: coarse)").matches
+  ? "Drag sideways to turn; tap the body to turn it in all directions, tap again to scroll the page. Two fingers zoom."
+  : "Drag or use the arrow keys to turn; Ctrl and wheel, two fingers, or + and - zoom.";
+
+// Viewers with the same `others` are turned, zoomed and played together.
 class Viewer {
   constructor(canvas, surface) {
     Object.assign(this, {canvas, surface: readSurface(surface), turn: -0.5, tilt: 1.05, zoom: 1, amplitude: 0.12,
-                         phase: 0, showMesh: false, showNodes: true, painted: 0, lift: 0, owner: null});
+                         phase: 0, showMesh: false, showNodes: true, painted: 0, lift: 0, owner: null, others: []});
     if (this.surface.triangles.length === 0) Object.assign(this, {turn: 0, tilt: Math.PI / 2});  // beams: from the side
     this.x = new Float32Array(this.surface.n);
     this.y = new Float32Array(this.surface.n);
@@ -68,6 +73,13 @@ class Viewer {
   show(motion) {
     this.motion = readMotion(motion);
     this.paint();
+  }
+
+  // Paints this one, and the others from where this one is looked at.
+  paintAll() {
+    const {turn, tilt, zoom, phase} = this;
+    this.paint();
+    for (const other of this.others) if (other !== this && other.motion) Object.assign(other, {turn, tilt, zoom, phase}).paint();
   }
 
   resize() {
@@ -179,31 +191,39 @@ class Viewer {
     }
   }
 
-  // Turning with one pointer or the arrow keys, zooming with two pointers, Ctrl and wheel, or + and -.
+  // Turning with one pointer or the arrow keys, zooming with two pointers, Ctrl and wheel, or + and -. One finger turns
+  // about the axis alone, for its way up or down scrolls the page, until a tap gives all its ways to the body.
   listen() {
     const canvas = this.canvas, fingers = new Map();
+    let start = null;
+    const isTap = event => start && event.pointerType === "touch" && event.timeStamp - start.timeStamp < 400 &&
+      Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) < 8;
     const spread = () => {
       const [one, other] = [...fingers.values()];
       return Math.hypot(one.x - other.x, one.y - other.y);
     };
     const zoomBy = factor => {
       this.zoom = Math.max(0.3, Math.min(12, this.zoom * factor));
-      this.paint();
+      this.paintAll();
     };
     canvas.addEventListener("pointerdown", event => {
       canvas.setPointerCapture(event.pointerId);
+      start = fingers.size ? null : event;
       fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     });
+    canvas.addEventListener("pointerup", event => { if (isTap(event)) canvas.classList.toggle("held"); });
+    document.addEventListener("pointerdown", event => { if (event.target !== canvas) canvas.classList.remove("held"); });
     for (const end of ["pointerup", "pointercancel"])
       canvas.addEventListener(end, event => fingers.delete(event.pointerId));
     canvas.addEventListener("pointermove", event => {
       if (!fingers.has(event.pointerId)) return;
-      const before = fingers.size === 2 ? spread() : 0;
+      const before = fingers.size === 2 ? spread() : 0, last = fingers.get(event.pointerId);
+      const turnsOnly = event.pointerType === "touch" && !canvas.classList.contains("held");
       fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
       if (fingers.size > 1) return zoomBy(before ? spread() / before : 1);
-      this.turn += event.movementX * 0.008;
-      this.tilt = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.tilt - event.movementY * 0.008));
-      this.paint();
+      this.turn += (event.clientX - last.x) * 0.008;
+      if (!turnsOnly) this.tilt = between(-Math.PI / 2, this.tilt - (event.clientY - last.y) * 0.008, Math.PI / 2);
+      this.paintAll();
     });
     canvas.addEventListener("wheel", event => {
       if (!event.ctrlKey) return;  // the page scrolls
@@ -222,7 +242,7 @@ class Viewer {
       event.preventDefault();
       if (step) { this.turn += step[0]; this.tilt += step[1]; }
       if (zoom) this.zoom *= zoom;
-      this.paint();
+      this.paintAll();
     });
   }
 
@@ -235,7 +255,7 @@ class Viewer {
       const box = this.canvas.getBoundingClientRect();
       if (last !== null && box.bottom > 0 && box.top < innerHeight) {
         this.phase += (now - last) / 1500 * 2 * Math.PI;
-        this.paint();
+        this.paintAll();
       }
       last = now;
       requestAnimationFrame(step);
