@@ -99,6 +99,8 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
                       {"unstable", Json::array(unstable)},
                       {"worst_Hz", rounded(branch.worst.frequency_Hz)},
                       {"worst_growth", rounded(branch.worst.growth)},
+                      {"growth_error",
+                       branch.budget.is_empty() ? Json() : rounded(branch.budget.sum())},
                       {"damping_ratio", rounded(damping_ratio(branch.worst))},
                       {"friction_work", branch.work ? rounded(branch.work->friction) : Json()},
                       {"diameters", diameters ? Json(*diameters) : Json()},
