@@ -251,6 +251,7 @@ int perform_with_petsc(const CLI::App& app, chladni::cli::ChladniArguments argum
   try {
     arguments.solver = chladni::linear::read_solver_options(PETSC_COMM_WORLD);
     perform(app, arguments);
+    chladni::cli::tell_of_unused_options(arguments.petsc_options);
     chladni::report::finish_printing();
     return chladni::cli::exit_ok;
   } catch (const std::exception& error) {

@@ -1,13 +1,20 @@
 #include "cli/petsc_session.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 #include <slepcsys.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <string_view>
+#include <utility>
 
 #include "common/all_ranks.hpp"
 #include "common/petsc.hpp"
 #include "linear/blas_kernels.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cli {
 
@@ -18,6 +25,30 @@ namespace {
 void start_no_daemon()
 {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+}
+
+/// How options begin that PETSc reads when it ends.
+constexpr std::array<std::string_view, 9> read_at_the_end{"options_",        "log",      "malloc",
+                                                          "memory_",         "objects_", "mpidump",
+                                                          "get_total_flops", "viewer_",  "x_"};
+
+/// Those of the words that are names of options and that nothing has asked for.
+std::vector<std::string> unused_options(const std::vector<std::string>& options)
+{
+  PetscInt n = 0;
+  char **names = nullptr, **values = nullptr;
+  petsc::check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
+  std::vector<std::string> unused;
+  for (PetscInt i = 0; i < n; ++i) {
+    const std::string_view name = names[i];
+    const bool comes_late = std::ranges::any_of(
+        read_at_the_end, [&](std::string_view beginning) { return name.starts_with(beginning); });
+    std::string word = fmt::format("-{}", name);
+    if (!comes_late && std::ranges::find(options, word) != options.end())
+      unused.push_back(std::move(word));
+  }
+  petsc::check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+  return unused;
 }
 
 }  // namespace
@@ -42,6 +73,16 @@ PetscSession::PetscSession(const std::vector<std::string>& options)
 PetscSession::~PetscSession()
 {
   SlepcFinalize();
+}
+
+void tell_of_unused_options(const std::vector<std::string>& options)
+{
+  const std::vector<std::string> unused = unused_options(options);
+  if (unused.empty() || petsc::rank(PETSC_COMM_WORLD) != 0) return;
+  report::tell_note(
+      fmt::format("nothing here used the PETSc option{} {}; check the spelling (-help lists those "
+                  "that there are)",
+                  unused.size() == 1 ? "" : "s", fmt::join(unused, ", ")));
 }
 
 void abort_all_ranks(int exit_code)

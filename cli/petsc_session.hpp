@@ -17,6 +17,12 @@ class PetscSession {
   PetscSession& operator=(const PetscSession&) = delete;
 };
 
+/// Prints a note that names the options that nothing has asked for, such as misspelt ones; not
+/// those that PETSc reads when it ends.
+/// @param options  PETSc options as words
+/// @note  Collective.
+void tell_of_unused_options(const std::vector<std::string>& options);
+
 /// Ends all ranks with this exit code without waiting for them.
 [[noreturn]] void abort_all_ranks(int exit_code);
 

@@ -13,6 +13,14 @@ namespace {
 
 using std::numbers::pi;
 
+/// Below this only round-off sounds: 2e-10 Pa, 1e-5 of the threshold of hearing.
+constexpr double silence_dB = -100.0;
+
+std::string level_text(double dB)
+{
+  return dB < silence_dB ? "silent" : fmt::format("{:.2f}", dB);
+}
+
 std::string tones_table(const sound::SoundResults& results)
 {
   const auto estimate = [](const std::optional<double>& error) {
@@ -38,8 +46,8 @@ std::string microphones_table(const sound::SoundResults& results)
                   .rows = {}};
   for (std::size_t i = 0; i < results.heard.size(); ++i) {
     const sound::Heard& heard = results.heard[i];
-    table.rows.push_back({results.microphones[i].name, fmt::format("{:.2f}", heard.rms_dB),
-                          fmt::format("{:.2f}", heard.A_dB), fmt::format("{:.2f}", heard.peak_dB),
+    table.rows.push_back({results.microphones[i].name, level_text(heard.rms_dB),
+                          level_text(heard.A_dB), level_text(heard.peak_dB),
                           fmt::format("{:.4g}", heard.peak),
                           fmt::format("{:.4g} to {:.4g}", std::numbers::sqrt2 * heard.least,
                                       std::numbers::sqrt2 * heard.largest)});
@@ -96,7 +104,7 @@ std::string loudness_table(const sound::SoundResults& results)
     row.push_back(sounds ? fmt::format("{:.4g}", at.pad_velocity) : "");
     row.push_back(sounds ? fmt::format("{:.4g}", at.power) : "");
     for (std::size_t i = 0; i < results.microphones.size(); ++i)
-      row.push_back(sounds ? fmt::format("{:.2f}", at.rms_dB[i]) : "");
+      row.push_back(sounds ? level_text(at.rms_dB[i]) : "");
     table.rows.push_back(row);
   }
   return format_table(table);

@@ -93,19 +93,18 @@ Json unstable_modes_json(const squeal::StabilityTable& table)
     std::vector<Json> unstable;
     for (const squeal::UnstableInterval& interval : branch.unstable)
       unstable.push_back(Json::array({rounded(interval.from.value), rounded(interval.to.value)}));
-    branches.push_back(
-        Json::object({{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / two_pi))},
-                      {"growth", rounded(Eigen::VectorXd(branch.lambda.real()))},
-                      {"unstable", Json::array(unstable)},
-                      {"worst_Hz", rounded(branch.worst.frequency_Hz)},
-                      {"worst_growth", rounded(branch.worst.growth)},
-                      {"growth_error",
-                       branch.budget.is_empty() ? Json() : rounded(branch.budget.sum())},
-                      {"damping_ratio", rounded(damping_ratio(branch.worst))},
-                      {"friction_work", branch.work ? rounded(branch.work->friction) : Json()},
-                      {"diameters", diameters ? Json(*diameters) : Json()},
-                      {"circles", circles ? Json(*circles) : Json()},
-                      {"in_plane", in_plane ? rounded(*in_plane) : Json()}}));
+    branches.push_back(Json::object(
+        {{"frequency_Hz", rounded(Eigen::VectorXd(branch.lambda.imag() / two_pi))},
+         {"growth", rounded(Eigen::VectorXd(branch.lambda.real()))},
+         {"unstable", Json::array(unstable)},
+         {"worst_Hz", rounded(branch.worst.frequency_Hz)},
+         {"worst_growth", rounded(branch.worst.growth)},
+         {"growth_error", branch.budget.is_empty() ? Json() : rounded(branch.budget.sum())},
+         {"damping_ratio", rounded(damping_ratio(branch.worst))},
+         {"friction_work", branch.work ? rounded(branch.work->friction) : Json()},
+         {"diameters", diameters ? Json(*diameters) : Json()},
+         {"circles", circles ? Json(*circles) : Json()},
+         {"in_plane", in_plane ? rounded(*in_plane) : Json()}}));
   }
   return Json::object({{"parameter", table.parameter},
                        {"unit", squeal::unit_of(table.parameter)},

@@ -51,6 +51,11 @@ def wrong(programs, source, folder):
     expected = "-cms_lanczos_block_size 4 -cms_lanczos_tolerance 1e-10"
     if done.returncode or provenance(file) != expected:
         yield f"provenance {provenance(file)!r} instead of {expected!r}: {done.stderr.strip()}"
+    if "nothing here used" in done.stderr:
+        yield f"a note of options that were used: {done.stderr.strip()}"
+    done = start(*reduce, "--", "-cms_lanczos_tolerence", "1e-10", "-log_view", cwd=folder, env=surroundings)
+    if done.returncode or "used the PETSc option -cms_lanczos_tolerence;" not in done.stderr:
+        yield f"no note of an option that there is not: {done.stderr.strip()}"
 
 
 def descendants(pid):
