@@ -3,10 +3,10 @@
 let clipCount = 0;
 const between = (low, n, high) => Math.max(low, Math.min(high, n));
 
-// Room around the plot: for the legend above, the numbers of the axes, and names of curves on the right.
+// Room around the plot: for the legend above, the numbers of the axes, and names of curves on the right, which have at most `room` letters.
 function boxOf(options, {x, y}, width, rows) {
   const height = options.height ?? 260, longest = Math.max(...y.ticks(height / 40).map(tick => y.text(tick).length));
-  const named = Math.max(0, ...(options.labelled ?? []).map(one => (one.label ?? "").length));
+  const named = Math.max(options.room ?? 0, ...(options.labelled ?? []).map(one => (one.label ?? "").length));
   const left = 32 + 7 * longest, right = y.second ? 58 : named ? 14 + 6 * named : 14;
   const top = (rows ? 10 + 18 * rows : 10) + (x.second ? 20 : 0);
   return {left, top, width: width - left - right, height};
