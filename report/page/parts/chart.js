@@ -24,9 +24,9 @@ function drawXAxis(svg, {left, top, width, height}, x) {
   for (const tick of roundTicks(x.low * factor, x.high * factor, between(2, Math.floor(width / 55), 14))) {
     const at = left + width * x.at(tick / factor);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top - 4, y2: top, class: "tick"}),
-               svgElement("text", {x: at, y: top - 9, "text-anchor": "middle"}, formatted(tick, 6)));
+               svgElement("text", {x: at, y: top - 11, "text-anchor": "middle"}, formatted(tick, 6)));
   }
-  svg.append(svgElement("text", {x: left - 8, y: top - 9, "text-anchor": "end"}, unit));
+  svg.append(svgElement("text", {x: left - 8, y: top - 11, "text-anchor": "end"}, unit));
 }
 
 function drawYAxis(svg, {left, top, width, height}, y) {

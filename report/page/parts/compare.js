@@ -17,7 +17,7 @@ function growingPoints({campbell}) {
 const loudest = ({sound}) => sound?.microphones?.length ? Math.max(...sound.microphones.map(({level_A_dB}) => level_A_dB)) : undefined;
 
 // What a run came to is no limit cycle before it has settled.
-const settledText = cycle => cycle.doubt === "not settled" ? "end of the transient, not settled" : `limit cycle${cycle.doubt && `, ${cycle.doubt}`}`;
+const settledText = cycle => cycle.doubt === "not settled" ? cycle.doubt : `limit cycle${cycle.doubt && `, ${cycle.doubt}`}`;
 const areCycles = runs => runs.map(chosenCycle).every(cycle => cycle?.doubt !== "not settled");
 const settledName = more => runs => `${areCycles(runs) ? "limit cycle" : "vibration"}${more}`;
 

@@ -58,7 +58,7 @@ function cycleTable(content) {
     });
   if (!rows.length) return "";
   const what = chosenCycle(content).doubt === "not settled" ? "vibration" : "limit cycle";
-  return scrolled(table([what, "rotation speed", "frequency, Hz", "pad velocity, m/s", "pad displacement, mm", "normal force, N"], rows));
+  return scrolled(table([what, "rotation speed", "frequency, Hz", "pad velocity, m/s", "pad displacement, mm", "normal force, N"], rows), "folded");
 }
 
 // The motion over the last rotations: how large, at which lines, and how it changes as the disc turns.

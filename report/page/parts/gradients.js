@@ -33,8 +33,8 @@ function barsFigure({header, rows}, column) {
 
 // Values with their units in one column: the table is less wide.
 function gradientsTable({header, rows}) {
-  const value = (number, unit) => formatted(Number(number), 6) + (unit === "1" ? "" : ` ${unit}`);
-  return scrolled(table([header[0], "value", ...header.slice(3)], rows.map(([key, number, unit, ...effects]) => [key, value(number, unit), ...effects])));
+  const value = (number, unit) => formatted(Number(number), 6) + (unit === "1" ? "" : `${unbroken}${unit}`);
+  return scrolled(table([header[0], "value", ...header.slice(3)], rows.map(([key, number, unit, ...effects]) => [key, value(number, unit), ...effects])), "folded");
 }
 
 function drawGradients({gradients}) {

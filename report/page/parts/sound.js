@@ -17,7 +17,7 @@ function microphonesTable({microphones}) {
   return scrolled(table(["microphone", "position x, y, z, m", "level, dB", "level, dB(A)", "peak level, dB", "level around the axis, dB"],
     microphones.map(({name, position, level_dB, level_A_dB, peak_dB, around}) =>
       [name, position.map(x => formatted(x, 3)).join(`,${unbroken}`), dB(level_dB), dB(level_A_dB), dB(peak_dB),
-       [...new Set(around.map(rms => dB(levelOf(rms))))].join(" to ")])));
+       [...new Set(around.map(rms => dB(levelOf(rms))))].join(` to${unbroken}`)])));
 }
 
 function tonesTable({tones}) {
@@ -57,13 +57,14 @@ function loudnessFigures({loudness, microphones}) {
           plot({title: "Radiated power over the rotation speed", x: speedAxis, y: {label: "power, W", log: true}, series: power})];
 }
 
-// The angle, degrees, at which names of the rings of these radii are farthest from `obstacles`.
-function angleForNames(radii, cx, cy, obstacles) {
-  const clearance = angle => Math.min(...radii.flatMap(r => obstacles.map(([x, y]) => {
-    const dx = Math.abs(cx + r * Math.sin(angle * Math.PI / 180) - x), dy = Math.abs(cy - r * Math.cos(angle * Math.PI / 180) - y);
-    return Math.hypot(Math.max(dx - 18, 0), Math.max(dy - 5, 0));
-  })));
-  return Array.from({length: 72}, (_, k) => 5 * k).map(angle => [clearance(angle), angle]).reduce((a, b) => b[0] > a[0] + 1e-6 ? b : a)[1];
+// The angle, degrees, near 45 at which the name of a ring of radius r covers none of the places `taken`, or as few as can be.
+function angleForName(r, cx, cy, taken) {
+  const clearance = angle => {
+    const x = cx + r * Math.sin(angle * Math.PI / 180), y = cy - r * Math.cos(angle * Math.PI / 180);
+    return Math.min(...taken.map(([u, v]) => Math.hypot(Math.max(Math.abs(u - x) - 18, 0), Math.max(Math.abs(v - y) - 5, 0))));
+  };
+  const angles = Array.from({length: 72}, (_, k) => 45 + (k % 2 ? -5 : 5) * Math.ceil(k / 2)), free = angles.find(angle => clearance(angle) > 4);
+  return free ?? angles.reduce((best, angle) => clearance(angle) > clearance(best) ? angle : best);
 }
 
 // Levels over an angle that begins at the top and goes clockwise, degrees; rings are 10 dB apart.
@@ -71,22 +72,21 @@ function drawPolar(svg, {degrees, levels, from, axes}, width) {
   const sideways = 12 + 6.6 * Math.max(...axes.map(text => text.length)), height = Math.min(400, width - 2 * (sideways - 26));
   const cx = width / 2, cy = height / 2, radius = height / 2 - 26;
   const top = Math.ceil(Math.max(...levels) / 10) * 10, r = level => radius * Math.max(0, level - top + from) / from;
-  const rings = Array.from({length: from / 10}, (_, k) => top - from + 10 * (k + 1)), obstacles = [];
+  const rings = Array.from({length: from / 10}, (_, k) => top - from + 10 * (k + 1)), taken = [];
   svg.setAttribute("height", height);
   svg.append(...rings.map(level => svgElement("circle", {cx, cy, r: r(level), class: "grid"})));
   axes.forEach((text, k) => {
     const angle = k * 2 * Math.PI / axes.length, x = Math.sin(angle), y = -Math.cos(angle), anchor = x > 0.5 ? "start" : x < -0.5 ? "end" : "middle";
-    obstacles.push([cx + (radius + 16) * x, cy + (radius + 14) * y]);
+    for (const away of [-12, 0, 12]) taken.push([cx + (radius + 22) * x + away, cy + (radius + 14) * y]);
     svg.append(svgElement("line", {x1: cx, y1: cy, x2: cx + radius * x, y2: cy + radius * y, class: "grid"}),
                svgElement("text", {x: cx + (radius + 6) * x, y: cy + (radius + 14) * y + 4, "text-anchor": anchor}, text));
   });
   const point = (angle, level) => [cx + r(level) * Math.sin(angle * Math.PI / 180), cy - r(level) * Math.cos(angle * Math.PI / 180)];
   const corners = degrees.map((angle, i) => point(angle, levels[i])), points = corners.map(at => at.map(v => v.toFixed(1)).join(",")).join(" ");
-  corners.forEach(([x, y], i) => { const [u, v] = corners.at(i - 1); obstacles.push([x, y], [(x + u) / 2, (y + v) / 2]); });
+  corners.forEach(([x, y], i) => { const [u, v] = corners.at(i - 1); for (const part of [0, 0.25, 0.5, 0.75]) taken.push([x + part * (u - x), y + part * (v - y)]); });
   svg.append(svgElement("polygon", {points, fill: "none", stroke: "var(--c0)", "stroke-width": 2}));
-  const angle = angleForNames(rings.map(r), cx, cy, obstacles);
   for (const level of rings) {
-    const [x, y] = point(angle, level);
+    const [x, y] = point(angleForName(r(level), cx, cy, taken), level);
     svg.append(svgElement("text", {x, y: y + 3.5, "text-anchor": "middle", class: "label halo"}, `${level} dB`));
   }
 }
