@@ -137,7 +137,8 @@ function trackName({ranks}, line_Hz) {
 // A physical line keeps its colour whichever rank it has; a broader ground marks the strongest.
 function trackSeries(t, line_Hz, values) {
   const of = tracksOf(line_Hz), n_named = Math.min(5, of.filter(({ranks}) => ranks.size > 0.05 * t.length).length);
-  const tracks = of.map((track, k) => ({
+  const named = of.slice(0, n_named).sort((a, b) => a.last_Hz - b.last_Hz);
+  const tracks = [...named, ...of.slice(n_named)].map((track, k) => ({
     x: t, y: t.map((_, i) => track.ranks.has(i) ? values[track.ranks.get(i)][i] ?? NaN : NaN), line: false, marker: "dot",
     colour: k < n_named ? k : 5, said: trackName(track, line_Hz), name: k < n_named ? trackName(track, line_Hz) : k === n_named ? "other lines" : ""}));
   const strongest = {x: t, y: values[0].map(v => v ?? NaN), colour: 5, line: false, marker: "square", name: "strongest line"};

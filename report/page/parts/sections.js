@@ -66,7 +66,7 @@ function drawRun(run, benchmark) {
                   benchmark && benchmarkFigure(benchmark)].filter(Boolean);
   if (errors.length) section("errors", "Size and time against error", figures(...errors));
   section("summary", "Summary", figures(...run.tables.map(({title, header, rows}) =>
-    element("div", {}, element("h3", {}, title), scrolled(table(header, rows))))));
+    element("div", {}, element("h3", {}, title), scrolled(table(header, rows), "texts")))));
   drawOrigin(run);
 }
 

@@ -17,7 +17,7 @@ function microphonesTable({microphones}) {
   return scrolled(table(["microphone", "position x, y, z, m", "level, dB", "level, dB(A)", "peak level, dB", "level around the axis, dB"],
     microphones.map(({name, position, level_dB, level_A_dB, peak_dB, around}) =>
       [name, position.map(x => formatted(x, 3)).join(`,${unbroken}`), dB(level_dB), dB(level_A_dB), dB(peak_dB),
-       [...new Set(around.map(rms => dB(levelOf(rms))))].join(` to${unbroken}`)])));
+       [...new Set(around.map(rms => dB(levelOf(rms))))].join(` to${unbroken}`)])), "whole");
 }
 
 function tonesTable({tones}) {
@@ -30,7 +30,7 @@ function feedbackTable({feedback}) {
   const row = (name, brake) => [name, brake.critical_speed === null ? `none: ${brake.stability}` : speedText(brake.critical_speed),
                                 formatted(brake.growth), formatted(brake.frequency_Hz, 6), formatted(brake.pad_velocity)];
   return scrolled(table([`at ${speedText(feedback.speed)}`, "squeals from", "growth, 1/s", "limit cycle, Hz", "pad velocity, m/s"],
-                        [row("without the damping by sound", feedback.without), row("with it", feedback.with)]));
+                        [row("without the damping by sound", feedback.without), row("with it", feedback.with)]), "whole");
 }
 
 const markedAs = m => ({colour: m % 6, marker: ["circle", "square", "triangle"][m % 3]});
