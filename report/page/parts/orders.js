@@ -35,15 +35,14 @@ function highestInside(points, {left, top, width}) {
 }
 
 // The number of each order where its line ends in the picture: outside of the frame where there is room, so that it covers nothing.
-function nameOrders(lines, {svg, box, toX, toY}, hasRoom) {
+function nameOrders(inside, lines, {svg, box, toX, toY}, hasRoom) {
   const right = box.left + box.width;
   for (const {x, y, said} of lines) {
-    const [px, py] = highestInside(x.map((v, i) => [toX(v), toY(y[i])]), box);
+    const name = said.replace("order ", ""), [px, py] = highestInside(x.map((v, i) => [toX(v), toY(y[i])]), box);
     if (!Number.isFinite(px)) continue;
-    const place = py < box.top + 2 ? {x: px, y: box.top - 3, "text-anchor": "middle"}
-      : px > right - 8 && hasRoom ? {x: right + 4, y: py + 3.5}
-      : {x: Math.min(px, right) - 4, y: Math.max(box.top + 12, py - 3), "text-anchor": "end"};
-    svg.append(svgElement("text", {...place, class: "label halo"}, said.replace("order ", "")));
+    const outside = py < box.top + 2 ? {x: px, y: box.top - 3, "text-anchor": "middle"} : px > right - 8 && hasRoom ? {x: right + 4, y: py + 3.5} : null;
+    const within = {x: Math.max(Math.min(px, right) - 4, box.left + 4 + 6.4 * name.length), y: Math.max(box.top + 12, py - 3), "text-anchor": "end"};
+    (outside ? svg : inside).append(svgElement("text", {...outside ?? within, class: "label halo"}, name));
   }
 }
 
@@ -60,7 +59,7 @@ function spectrogramFigure(of, orders) {
   const series = orders.map(order => orderLine(order, map_t, speeds, true));
   return heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz, shown: highestHeard(of)},
                   unit: "dB", quantity: "level", z: level_dB, rising: [floor_dB, 0], series, height: 384,
-                  room: Math.max(0, ...series.map(({said}) => said.length - "order ".length)), over: (_, lines, frame) => nameOrders(lines, frame, true),
+                  room: Math.max(0, ...series.map(({said}) => said.length - "order ".length)), over: (inside, lines, frame) => nameOrders(inside, lines, frame, true),
                   title: "Spectrogram of the pad velocity: level relative to the largest amplitude of the run; dashed: orders of the rotation"});
 }
 
@@ -90,7 +89,7 @@ function waterfallFigure(of, orders) {
         inside.insertBefore(svgElement("path", {d: ground, fill: "var(--panel)", stroke: "none"}), inside.lastChild);
       }
       for (const line of lines) drawSeries(inside, line, toX, toY);
-      nameOrders(lines, frame, false);
+      nameOrders(inside, lines, frame, false);
     }});
 }
 
