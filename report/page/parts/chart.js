@@ -3,10 +3,10 @@
 let clipCount = 0;
 const between = (low, n, high) => Math.max(low, Math.min(high, n));
 
-// Room around the plot: for the legend above, the numbers of the axes, and names of curves on the right.
+// Room around the plot: for the legend above, the numbers of the axes, and names of curves on the right, which have at most `room` letters.
 function boxOf(options, {x, y}, width, rows) {
   const height = options.height ?? 260, longest = Math.max(...y.ticks(height / 40).map(tick => y.text(tick).length));
-  const named = Math.max(0, ...(options.labelled ?? []).map(one => (one.label ?? "").length));
+  const named = Math.max(options.room ?? 0, ...(options.labelled ?? []).map(one => (one.label ?? "").length));
   const left = 32 + 7 * longest, right = y.second ? 58 : named ? 14 + 6 * named : 14;
   const top = (rows ? 10 + 18 * rows : 10) + (x.second ? 20 : 0);
   return {left, top, width: width - left - right, height};
@@ -24,9 +24,9 @@ function drawXAxis(svg, {left, top, width, height}, x) {
   for (const tick of roundTicks(x.low * factor, x.high * factor, between(2, Math.floor(width / 55), 14))) {
     const at = left + width * x.at(tick / factor);
     svg.append(svgElement("line", {x1: at, x2: at, y1: top - 4, y2: top, class: "tick"}),
-               svgElement("text", {x: at, y: top - 9, "text-anchor": "middle"}, formatted(tick, 6)));
+               svgElement("text", {x: at, y: top - 11, "text-anchor": "middle"}, formatted(tick, 6)));
   }
-  svg.append(svgElement("text", {x: left - 8, y: top - 9, "text-anchor": "end"}, unit));
+  svg.append(svgElement("text", {x: left - 8, y: top - 11, "text-anchor": "end"}, unit));
 }
 
 function drawYAxis(svg, {left, top, width, height}, y) {

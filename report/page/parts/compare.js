@@ -16,7 +16,12 @@ function growingPoints({campbell}) {
 
 const loudest = ({sound}) => sound?.microphones?.length ? Math.max(...sound.microphones.map(({level_A_dB}) => level_A_dB)) : undefined;
 
-// [what, value of a run]: numbers are subtracted, texts are not.
+// What a run came to is no limit cycle before it has settled.
+const settledText = cycle => cycle.doubt === "not settled" ? cycle.doubt : `limit cycle${cycle.doubt && `, ${cycle.doubt}`}`;
+const areCycles = runs => runs.map(chosenCycle).every(cycle => cycle?.doubt !== "not settled");
+const settledName = more => runs => `${areCycles(runs) ? "limit cycle" : "vibration"}${more}`;
+
+// [what, or its name for these runs; value of a run]: numbers are subtracted, texts are not.
 const compared = [
   ["modes of the body", run => run.modes?.length],
   ["squeals from, rad/s", run => run.critical?.speed],
@@ -25,9 +30,9 @@ const compared = [
   ["stability over the speed", run => run.stability],
   ["largest growth rate in the range, 1/s", run => worstGrowth(run) && Math.max(...worstGrowth(run).y)],
   ["unstable modes", run => run.unstable_modes?.branches.filter(branch => branch.unstable.length).length],
-  ["vibration at the end of the run", run => chosenCycle(run) && (chosenCycle(run).doubt || "limit cycle")],
-  ["limit cycle at, rad/s", run => chosenCycle(run)?.speed],
-  ["limit cycle, Hz", run => chosenCycle(run)?.frequency_Hz],
+  ["vibration", run => chosenCycle(run) && settledText(chosenCycle(run))],
+  [settledName(" at, rad/s"), run => chosenCycle(run)?.speed],
+  [settledName(", Hz"), run => chosenCycle(run)?.frequency_Hz],
   ["pad velocity, m/s", run => chosenCycle(run)?.pad_velocity],
   ["pad displacement, mm", run => chosenCycle(run) && 1e3 * chosenCycle(run).pad_displacement],
   ["least normal force, N", run => chosenCycle(run)?.N_min],
@@ -46,7 +51,7 @@ function difference(what, first, value) {
 
 function comparisonTable(runs) {
   const text = value => value === null || value === undefined ? "–" : typeof value === "number" ? formatted(value, 5) : value;
-  const known = compared.map(([what, of]) => [what, runs.map(of)]).filter(([, values]) => values.some(v => v !== null && v !== undefined));
+  const known = compared.map(([what, of]) => [typeof what === "string" ? what : what(runs), runs.map(of)]).filter(([, values]) => values.some(v => v !== null && v !== undefined));
   const rows = known.map(([what, values]) => [what, ...values.map((v, k) => text(v) + (k ? difference(what, values[0], v) : ""))]);
   return scrolled(table(["", ...runs.map(run => run.label)], rows), "whole");
 }

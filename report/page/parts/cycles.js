@@ -56,8 +56,9 @@ function cycleTable(content) {
       return [name + (cycle.doubt && `, ${cycle.doubt}`), speedText(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
               formatted(1e3 * cycle.pad_displacement, 5), `${formatted(cycle.N_min, 4)} … ${formatted(cycle.N_max, 4)}`];
     });
-  return rows.length ? scrolled(table(["limit cycle", "rotation speed", "frequency, Hz", "pad velocity, m/s",
-                                       "pad displacement, mm", "normal force, N"], rows)) : "";
+  if (!rows.length) return "";
+  const what = chosenCycle(content).doubt === "not settled" ? "vibration" : "limit cycle";
+  return scrolled(table([what, "rotation speed", "frequency, Hz", "pad velocity, m/s", "pad displacement, mm", "normal force, N"], rows), "folded");
 }
 
 // The motion over the last rotations: how large, at which lines, and how it changes as the disc turns.

@@ -31,9 +31,15 @@ function barsFigure({header, rows}, column) {
   return figure;
 }
 
+// Values with their units in one column: the table is less wide.
+function gradientsTable({header, rows}) {
+  const value = (number, unit) => formatted(Number(number), 6) + (unit === "1" ? "" : `${unbroken}${unit}`);
+  return scrolled(table([header[0], "value", ...header.slice(3)], rows.map(([key, number, unit, ...effects]) => [key, value(number, unit), ...effects])), "folded");
+}
+
 function drawGradients({gradients}) {
   const effects = gradients.header.map((_, column) => column).slice(3);
   section("gradients", "What to change", note("Each number is raised by itself, by 1 % or by what stands in brackets; " +
             "the changes of the results are computed from derivatives and hold for small steps."),
-          figures(...effects.map(column => barsFigure(gradients, column))), scrolled(table(gradients.header, gradients.rows)));
+          figures(...effects.map(column => barsFigure(gradients, column))), gradientsTable(gradients));
 }

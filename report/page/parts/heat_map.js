@@ -76,14 +76,14 @@ const halfStep = values => values.length > 1 ? (values.at(-1) - values[0]) / (va
 
 const nearestIndex = (values, wanted) => values.reduce((best, v, i) => Math.abs(v - wanted) < Math.abs(values[best] - wanted) ? i : best, 0);
 
-// heatMap({x, y: {label, values}, z: rows over y, unit, quantity, title, rising: [low, high], largest}): without `rising`
+// heatMap({x, y: {label, values}, z: rows over y, unit, quantity, title, height, rising: [low, high], largest}): without `rising`
 // orange is positive, as strong as it gets at `largest`, and a line goes along zero.
-function heatMap({x, y, z, unit, quantity, title, rising, largest, series = [], over}) {
+function heatMap({x, y, z, unit, quantity, title, height = 300, rising, largest, series = [], over, room}) {
   const scale = rising ? risingScale(...rising) : signedScale(z, largest), half = [halfStep(x.values), halfStep(y.values)];
   const axis = (of, margin) => makeAxis({...of, low: of.values[0] - margin, high: of.values.at(-1) + margin, tight: true}, of.values);
   const pixels = {true: null, false: null};
   return chart({
-    title, height: 300, x: axis(x, half[0]), y: axis(y, half[1]), points: series,
+    title, height, room, x: axis(x, half[0]), y: axis(y, half[1]), points: series,
     bar: (svg, width, paper) => drawColourBar(svg, scale, unit, width, paper),
     valueAt: (u, v) => `${quantity} ${formatted(z[nearestIndex(y.values, v)][nearestIndex(x.values, u)])} ${unit}`,
     csv: () => [[`${y.label} \\ ${x.label}`, ...x.values], ...y.values.map((v, j) => [v, ...z[j]])],

@@ -21,14 +21,28 @@ function orderLine(order, values, speeds, isUpright) {
   return {x: isUpright ? values : f, y: isUpright ? f : values, colour: 1, dash: "5 4", width: 1.1, said: `order ${formatted(order, 5)}`};
 }
 
-// The number of each order where its line ends in the picture.
-function nameOrders(svg, lines, {box, toX, toY}) {
+// Where a line is highest in the picture: a point of it, or where it leaves.
+function highestInside(points, {left, top, width}) {
+  const right = left + width, isInside = ([x, y]) => x >= left && x <= right + 0.5 && y >= top - 0.5, found = points.filter(isInside);
+  const between = (a, b, part) => [a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])];
+  for (let i = 0; i + 1 < points.length; ++i) {
+    const [a, b] = [points[i], points[i + 1]];
+    if (isInside(a) === isInside(b)) continue;
+    found.push(...[between(a, b, (top - a[1]) / (b[1] - a[1])), between(a, b, (right - a[0]) / (b[0] - a[0]))]
+      .filter(at => isInside(at) && Math.min(a[1], b[1]) <= at[1] + 0.5 && at[1] <= Math.max(a[1], b[1]) + 0.5));
+  }
+  return found.reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
+}
+
+// The number of each order where its line ends in the picture: outside of the frame where there is room, so that it covers nothing.
+function nameOrders(inside, lines, {svg, box, toX, toY}, hasRoom) {
+  const right = box.left + box.width;
   for (const {x, y, said} of lines) {
-    const isInside = ([px, py]) => px > box.left && px < box.left + box.width - 4 && py > box.top + 4;
-    const last = x.map((v, i) => [toX(v), toY(y[i])]).filter(isInside).reduce((a, b) => b[1] < a[1] ? b : a, [NaN, Infinity]);
-    if (!Number.isFinite(last[0])) continue;
-    const place = {x: last[0] - 4, y: Math.max(box.top + 12, last[1] - 3), "text-anchor": "end", class: "label halo"};
-    svg.append(svgElement("text", place, said.replace("order ", "")));
+    const name = said.replace("order ", ""), [px, py] = highestInside(x.map((v, i) => [toX(v), toY(y[i])]), box);
+    if (!Number.isFinite(px)) continue;
+    const outside = py < box.top + 2 ? {x: px, y: box.top - 3, "text-anchor": "middle"} : px > right - 8 && hasRoom ? {x: right + 4, y: py + 3.5} : null;
+    const within = {x: Math.max(Math.min(px, right) - 4, box.left + 4 + 6.4 * name.length), y: Math.max(box.top + 12, py - 3), "text-anchor": "end"};
+    (outside ? svg : inside).append(svgElement("text", {...outside ?? within, class: "label halo"}, name));
   }
 }
 
@@ -44,7 +58,8 @@ function spectrogramFigure(of, orders) {
   const {map_t, frequency_Hz, level_dB, floor_dB} = of, speeds = speedsAt(of);
   const series = orders.map(order => orderLine(order, map_t, speeds, true));
   return heatMap({x: {label: "time, s", values: map_t}, y: {label: "frequency, Hz", values: frequency_Hz, shown: highestHeard(of)},
-                  unit: "dB", quantity: "level", z: level_dB, rising: [floor_dB, 0], series, over: nameOrders,
+                  unit: "dB", quantity: "level", z: level_dB, rising: [floor_dB, 0], series, height: 384,
+                  room: Math.max(0, ...series.map(({said}) => said.length - "order ".length)), over: (inside, lines, frame) => nameOrders(inside, lines, frame, true),
                   title: "Spectrogram of the pad velocity: level relative to the largest amplitude of the run; dashed: orders of the rotation"});
 }
 
@@ -55,14 +70,16 @@ function waterfallFigure(of, orders) {
   const shown = places.map((v, k) => k).filter(k => k % every === 0).sort((a, b) => places[b] - places[a]);  // the last behind
   const high = Math.max(...places), low = Math.min(...places), room = 0.12 * (high - low || 1);
   const y = {...(sweeps ? speedAxis : {label: "time, s"}), low, high: high + room, tight: true};
-  const lines = orders.map(order => orderLine(order, places, speeds, false));
+  const upwards = [...places].sort((a, b) => a - b).concat(y.high);  // of a run over the speed, orders go on above the last spectrum
+  const lines = orders.map(order => sweeps ? orderLine(order, upwards, upwards, false) : orderLine(order, places, speeds, false));
   return chart({
     title: `Waterfall: spectra of the pad velocity over the ${sweeps ? "rotation speed" : "time"}, peaks up to ${-floor_dB} dB high; ` +
            "dashed: orders of the rotation",
     height: 420, x: makeAxis({label: "frequency, Hz", tight: true, shown: highestHeard(of)}, frequency_Hz), y: makeAxis(y, places), points: lines,
     csv: () => [["time, s", "speed, rad/s", ...frequency_Hz.map(f => `${f} Hz, dB`)],
                 ...map_t.map((at, k) => [at, speeds[k], ...level_dB.map(row => row[k])])],
-    paint: (inside, {box, toX, toY}) => {
+    paint: (inside, frame) => {
+      const {toX, toY} = frame;
       const rise = (toY(low) - toY(low + room)) / -floor_dB;
       for (const k of shown) {
         const base = toY(places[k]), top = i => (base - rise * (level_dB[i][k] - floor_dB)).toFixed(1);
@@ -72,7 +89,7 @@ function waterfallFigure(of, orders) {
         inside.insertBefore(svgElement("path", {d: ground, fill: "var(--panel)", stroke: "none"}), inside.lastChild);
       }
       for (const line of lines) drawSeries(inside, line, toX, toY);
-      nameOrders(inside, lines, {box, toX, toY});
+      nameOrders(inside, lines, frame, false);
     }});
 }
 
@@ -92,11 +109,43 @@ function orderPictures(of) {
                   element("label", {}, "range of the levels ", range)), made];
 }
 
+// The lines of all windows as tracks, the longest first: each line goes on with the one that is nearest in frequency, within 5 %.
+function tracksOf(line_Hz) {
+  const tracks = [];
+  for (let i = 0; i < line_Hz[0].length; ++i) {
+    const lines = line_Hz.map((row, rank) => ({rank, f_Hz: row[i]})).filter(({f_Hz}) => f_Hz > 0), taken = new Set();
+    const pairs = lines.flatMap(line => tracks.map(track => ({line, track, away: Math.abs(line.f_Hz / track.last_Hz - 1)})))
+      .filter(({away}) => away < 0.05).sort((a, b) => a.away - b.away);
+    const go = (line, track) => {
+      taken.add(line).add(track);
+      track.last_Hz = line.f_Hz;
+      track.ranks.set(i, line.rank);
+    };
+    for (const {line, track} of pairs) if (!taken.has(line) && !taken.has(track)) go(line, track);
+    for (const line of lines.filter(line => !taken.has(line))) go(line, tracks[tracks.push({ranks: new Map()}) - 1]);
+  }
+  return tracks.sort((a, b) => b.ranks.size - a.ranks.size);
+}
+
+// "1695 Hz", or "210 to 420 Hz" of a track that moves.
+function trackName({ranks}, line_Hz) {
+  const all = [...ranks].map(([i, rank]) => line_Hz[rank][i]), low = Math.min(...all), high = Math.max(...all);
+  return high < 1.05 * low ? `${formatted(all.at(-1))} Hz` : `${formatted(low)} to ${formatted(high)} Hz`;
+}
+
+// A physical line keeps its colour whichever rank it has; a broader ground marks the strongest.
+function trackSeries(t, line_Hz, values) {
+  const of = tracksOf(line_Hz), n_named = Math.min(5, of.filter(({ranks}) => ranks.size > 0.05 * t.length).length);
+  const named = of.slice(0, n_named).sort((a, b) => a.last_Hz - b.last_Hz);
+  const tracks = [...named, ...of.slice(n_named)].map((track, k) => ({
+    x: t, y: t.map((_, i) => track.ranks.has(i) ? values[track.ranks.get(i)][i] ?? NaN : NaN), line: false, marker: "dot",
+    colour: k < n_named ? k : 5, said: trackName(track, line_Hz), name: k < n_named ? trackName(track, line_Hz) : k === n_named ? "other lines" : ""}));
+  const strongest = {x: t, y: values[0].map(v => v ?? NaN), colour: 5, line: false, marker: "square", name: "strongest line"};
+  return [strongest, ...tracks].filter(({y}) => y.some(Number.isFinite));
+}
+
 function orderFigures({t, speed, envelope, line_Hz, line_order}) {
-  const time = {label: "time, s"}, unknownAsNaN = one => one.map(v => v ?? NaN);
-  const lines = values => values.map((one, k) => ({x: t, y: unknownAsNaN(one), colour: k % 6, line: false, marker: "dot",
-                                                   name: k ? `no. ${k + 1}` : "strongest line"}))
-    .filter(({y}) => y.some(Number.isFinite));
+  const time = {label: "time, s"}, lines = values => trackSeries(t, line_Hz, values);
   return [
     plot({title: "Largest pad velocity over the run", x: time, y: {label: "pad velocity, m/s", log: true},
           series: [{x: t, y: envelope, colour: 0}]}),

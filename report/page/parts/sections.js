@@ -28,18 +28,22 @@ function mapFigures({map}, shared = {}) {
                    title: `Stability map${whose}: growth rate of the least stable oscillation; the line is the limit of stability`})];
 }
 
+// "squeals from 13.35 rad/s (127.5 rpm), at 1695 Hz"
+const whereItSqueals = ({words}) => withRpm(words.replace(" rad/s on at ", " rad/s, at "));
+const unitsKept = text => text.replace(/(\d) (rad\/s|Hz|m\/s|dB)/g, `$1${unbroken}$2`);
+
 // What a reader wants to know first.
 function keyFigures(run) {
   const cycle = chosenCycle(run);
   const key = [run.modes && `${run.modes.length} modes`,
                run.groups && `${run.groups.length} groups`,
-               run.critical && withRpm(run.critical.words),
+               run.critical && whereItSqueals(run.critical),
                !run.critical && run.stability && (run.stability === "unstable in the whole range" ? "unstable at all speeds"
                  : `stability over the speed: ${run.stability}`),
                cycle && `pad velocity ${formatted(cycle.pad_velocity)} m/s at ${speedText(cycle.speed)}` +
                  (cycle.doubt && ` (${cycle.doubt === "not settled" ? "end of the transient, " : ""}${cycle.doubt})`),
                loudest(run) !== undefined && `${dB(loudest(run))} dB(A) at the loudest microphone`];
-  return key.filter(Boolean).join(" · ");
+  return unitsKept(key.filter(Boolean).join(" · "));
 }
 
 // All that one run has to say.
@@ -62,7 +66,7 @@ function drawRun(run, benchmark) {
                   benchmark && benchmarkFigure(benchmark)].filter(Boolean);
   if (errors.length) section("errors", "Size and time against error", figures(...errors));
   section("summary", "Summary", figures(...run.tables.map(({title, header, rows}) =>
-    element("div", {}, element("h3", {}, title), scrolled(table(header, rows))))));
+    element("div", {}, element("h3", {}, title), scrolled(table(header, rows), "texts")))));
   drawOrigin(run);
 }
 
