@@ -9,6 +9,7 @@
 #include "cases/attachments.hpp"
 #include "cases/chosen_mesh.hpp"
 #include "linear/progress.hpp"
+#include "mbs_export/responses/measured_beside.hpp"
 #include "mbs_export/responses/response_option_error.hpp"
 #include "plate/dofs/drilling.hpp"
 #include "reduce/harmonic_response.hpp"
@@ -133,7 +134,7 @@ FrequencyResponses unanswered(const scene::Scene& scene, const PlacedNodes& plac
   FrequencyResponses asked{.title = scene.title,
                            .model = options.model,
                            .quantity = options.quantity,
-                           .Omega = mbs_export::angular_frequencies(options.range),
+                           .Omega = mbs_export::angular_frequencies(options),
                            .loss_factor = options.loss_factor,
                            .damping = mbs_export::name_of(scene.body.damping.type),
                            .loads = {},
@@ -145,6 +146,8 @@ FrequencyResponses unanswered(const scene::Scene& scene, const PlacedNodes& plac
   }
   for (const ResponseDof& output : outputs)
     asked.outputs.push_back(point_of(placed.named(), output));
+  if (options.measurement)
+    asked.measured = mbs_export::measured_beside(*options.measurement, asked);
   return asked;
 }
 

@@ -53,6 +53,9 @@ struct SoundChoice {
 /// Further arguments of `chladni response`.
 struct ResponseChoice {
   std::string universal_file;  ///< universal file to write; empty for none
+  std::string measured;        ///< universal file of measured responses; empty for none
+  double distance = 0.0;       ///< largest distance from a measured node to its place, m; 0: none
+  std::string length_unit;     ///< unit of length if the measurement does not state one
 };
 
 /// Arguments of `chladni mac`.

@@ -12,6 +12,7 @@
 #include "cases/ranks.hpp"
 #include "cli/arguments.hpp"
 #include "cli/chladni_commands.hpp"
+#include "cli/declare_measurements.hpp"
 #include "cli/petsc_session.hpp"
 #include "cli/seal.hpp"
 #include "cli/self_description.hpp"
@@ -60,7 +61,8 @@ constexpr Subcommand on_scenes[] = {
      "frequency responses of the body, the reduced system or the FE model: NAME.response.h5, .csv, "
      ".html",
      "Examples:\n  chladni response scene.toml --output out --json out/response.json\n"
-     "  mpirun -n 2 chladni response scene.toml --output out    ([response] of = \"fe\")",
+     "  mpirun -n 2 chladni response scene.toml --output out    ([response] of = \"fe\")\n"
+     "  chladni response scene.toml --output out --measured hammer.uff --distance 0.005",
      chladni::cli::response_command},
     {"sound", "the sound of the limit cycle that `squeal run` found: NAME.sound.h5, .vtu, .wav",
      "Examples:\n  chladni sound scene.toml --output out --json out/sound.json\n"
@@ -119,19 +121,12 @@ void declare_export(CLI::App& app, chladni::cli::ExportArguments& arguments)
       "  chladni export scene.toml --from out --format fmu-brake --output brake.fmu");
 }
 
-void declare_length_unit(CLI::App& app, std::string& unit)
-{
-  app.add_option("--length-unit", unit, "unit of length of a deck, .unv, .med or .vtu file")
-      ->type_name("UNIT")
-      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
-}
-
 void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
 {
   CLI::App* imported = app.add_subcommand(
       "import", "writes a scene with the mesh and model of a Nastran or Abaqus deck");
   imported->add_option("DECK", arguments.deck, "*.bdf, *.nas, *.dat or *.inp")->required();
-  declare_length_unit(*imported, arguments.length_unit);
+  chladni::cli::declare_length_unit(*imported, arguments.length_unit);
   imported->get_option("--length-unit")->required();
   imported
       ->add_option("--force-unit", arguments.force_unit,
@@ -141,24 +136,6 @@ void declare_import(CLI::App& app, chladni::cli::ImportArguments& arguments)
   imported->add_option("--output", arguments.output, "scene file to write; default: print it")
       ->type_name("FILE");
   imported->footer("Example:\n  chladni import disc.bdf --length-unit mm --output scene.toml");
-}
-
-void declare_mac(CLI::App& app, chladni::cli::MacArguments& arguments)
-{
-  CLI::App* mac = app.add_subcommand("mac", "compares measured mode shapes with those of a body");
-  mac->add_option("BODY", arguments.body, "*.body.h5")->required();
-  mac->add_option("MEASURED", arguments.measured,
-                  "universal file with modes (55) and nodes (15, 2411)")
-      ->required();
-  mac->add_option("--distance", arguments.distance,
-                  "largest distance from a measured node to its node of the body, m")
-      ->type_name("METRES")
-      ->check(CLI::PositiveNumber)
-      ->required();
-  declare_length_unit(*mac, arguments.length_unit);
-  mac->add_option("--json", arguments.json, "writes the MAC matrix as JSON")->type_name("FILE");
-  mac->footer(
-      "Example:\n  chladni mac out/disc.body.h5 modes.unv --distance 0.002 --json mac.json");
 }
 
 /// What tells of files of Chladni.
@@ -191,11 +168,8 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
       "--quality", arguments.mesh.quality,
       "reports element quality and unusable elements; SCENE may be a .msh, .geo, .step, .unv, "
       ".med, .vtu or a deck");
-  declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
-  app.get_subcommand("response")
-      ->add_option("--uff", arguments.response.universal_file,
-                   "also writes the responses to a universal file (datasets 58, 2411, 164)")
-      ->type_name("FILE");
+  chladni::cli::declare_length_unit(*app.get_subcommand("mesh"), arguments.mesh.length_unit);
+  chladni::cli::declare_response(*app.get_subcommand("response"), arguments.response);
   for (const char* reader : {"body", "response", "sound"})
     chladni::cli::declare_stale(*app.get_subcommand(reader), arguments.scene.stale);
   app.get_subcommand("sound")->add_flag("--radiation", arguments.sound.radiation_only,
@@ -204,7 +178,7 @@ void declare_subcommands(CLI::App& app, chladni::cli::ChladniArguments& argument
   declare_readers(app, arguments);
   declare_export(app, arguments.exported);
   declare_import(app, arguments.imported);
-  declare_mac(app, arguments.mac);
+  chladni::cli::declare_mac(app, arguments.mac);
   chladni::report::declare_report(app, arguments.report);
   chladni::cli::declare_seal(app, arguments.seal);
   chladni::cli::declare_self_description(app, arguments.self);

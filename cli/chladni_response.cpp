@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "cases/fe_responses.hpp"
@@ -12,6 +14,7 @@
 #include "common/error.hpp"
 #include "files/text_file.hpp"
 #include "mbs_export/files/body_file.hpp"
+#include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/responses/response_csv.hpp"
 #include "mbs_export/responses/response_file.hpp"
 #include "mbs_export/responses/universal_responses.hpp"
@@ -46,6 +49,22 @@ Files files_of(const scene::Scene& scene, const ChladniArguments& arguments)
           .universal = arguments.response.universal_file};
 }
 
+/// What a measurement left out.
+void tell_left_out(const scene::Scene& scene, const mbs_export::FrequencyResponses& responses)
+{
+  if (!scene.response->measurement) return;
+  const mbs_export::MeasuredFunctions& measured = *scene.response->measurement->functions;
+  const std::size_t n = measured.functions.size(), n_used = responses.measured.functions.size();
+  std::vector<std::string> notes = measured.notes;
+  if (n_used < n) {
+    notes.push_back(
+        fmt::format("{}: {} of {} frequency responses are between other nodes or "
+                    "directions than those of [response]",
+                    measured.file, n - n_used, n));
+  }
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", report::printable(note));
+}
+
 void write_and_print(const ChladniArguments& arguments, const Files& files,
                      const mbs_export::FrequencyResponses& responses, const report::Cost& cost)
 {
@@ -60,8 +79,26 @@ void write_and_print(const ChladniArguments& arguments, const Files& files,
              report::format_table(report::describe(responses)),
              report::format_table(report::list_peaks(responses)),
              report::format_table(report::cost_table(cost)));
+  if (!responses.measured.functions.empty()) {
+    fmt::print("beside {}\n{}\n", report::printable(responses.measured.file),
+               report::format_table(report::list_measured(responses)));
+  }
   for (const path& file : files.all()) fmt::print("wrote {}\n", file.string());
   write_summary(arguments.scene, report::responses_json(responses), cost);
+}
+
+/// The measured responses in the range of the scene.
+mbs_export::Measurement measurement_of(const ResponseChoice& choice,
+                                       const mbs_export::FrequencyRange& range)
+{
+  std::optional<double> metres, distance;
+  if (!choice.length_unit.empty()) metres = metres_of(choice.length_unit);
+  if (choice.distance > 0.0) distance = choice.distance;
+  const mbs_export::MeasuredFunctions all =
+      mbs_export::read_measured_functions(choice.measured, metres);
+  return {.functions = std::make_shared<const mbs_export::MeasuredFunctions>(
+              mbs_export::within(all, range.from_Hz, range.to_Hz)),
+          .distance = distance};
 }
 
 mbs_export::FrequencyResponses of_reduction(const scene::Scene& scene,
@@ -80,6 +117,7 @@ void respond_reduced(const ChladniArguments& arguments, const scene::Scene& scen
   const ReservedOutputs reserved = reserve_outputs(arguments.scene, files.all());
   mbs_export::FrequencyResponses responses = of_reduction(scene, arguments.scene);
   responses.provenance.scene_file = scene_file_of(arguments.scene);
+  tell_left_out(scene, responses);
   clock.end_phase("responses");
   write_and_print(arguments, files, responses, report::cost_so_far(clock.phases()));
 }
@@ -101,6 +139,7 @@ void respond_fe(const ChladniArguments& arguments, const scene::Scene& asked)
   cases::on_first_rank([&] {
     responses.provenance = cases::provenance(scene, said_of_solvers(arguments), model.mesh);
     responses.provenance.scene_file = scene_file_of(arguments.scene);
+    tell_left_out(scene, responses);
     write_and_print(arguments, files, responses, cost);
   });
 }
@@ -109,13 +148,15 @@ void respond_fe(const ChladniArguments& arguments, const scene::Scene& asked)
 
 void response_command(const ChladniArguments& arguments)
 {
-  const scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
+  scene::Scene scene = read_scene_to_mesh(arguments, scene::Purpose::fe_model);
   if (!scene.response) {
     throw Error(
         fmt::format("{}: response is missing: `chladni response` needs a [response] with "
                     "loads, outputs, from_Hz, to_Hz and count",
                     scene.path));
   }
+  if (!arguments.response.measured.empty())
+    scene.response->measurement = measurement_of(arguments.response, scene.response->range);
   if (scene.response->model == mbs_export::ResponseModel::fe) return respond_fe(arguments, scene);
   cases::on_first_rank([&] { respond_reduced(arguments, scene); });
 }

@@ -226,7 +226,9 @@ std::string describe_file(const std::filesystem::path& path)
   }
   if (format == mbs_export::response_format) {
     const mbs_export::FrequencyResponses responses = mbs_export::read_responses(file);
-    return titled(responses) + "\n" + format_table(list_peaks(responses));
+    const bool is_measured = !responses.measured.functions.empty();
+    return titled(responses) + "\n" + format_table(list_peaks(responses)) +
+           (is_measured ? "\n" + format_table(list_measured(responses)) : "");
   }
   if (format == squeal::sweep_format) return format_table(describe(squeal::read_sweep(file)));
   if (format == squeal::results_format) return format_table(describe(squeal::read_results(file)));

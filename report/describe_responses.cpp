@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "mbs_export/responses/measured_beside.hpp"
 #include "report/quantities.hpp"
 
 namespace chladni::report {
@@ -14,6 +15,7 @@ using mbs_export::FrequencyResponses;
 using mbs_export::ResponsePoint;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr std::size_t most = 40;  // rows of a table
 
 /// A load, an output, and its largest amplitude.
 struct Found {
@@ -42,6 +44,41 @@ std::string unit_of_peak(const FrequencyResponses& responses, const Found& found
   return unit_of(responses.quantity, responses.outputs[found.output], responses.loads[found.load]);
 }
 
+/// A measured response and how it agrees with the computed one.
+struct Agreement {
+  const mbs_export::MeasuredResponse* measured;
+  std::string output, load;
+  double frac, ratio;
+};
+
+std::vector<Agreement> agreements(const FrequencyResponses& responses)
+{
+  std::vector<Agreement> all;
+  for (const mbs_export::MeasuredResponse& one : responses.measured.functions) {
+    const Eigen::VectorXcd computed = responses.H[one.load].col(one.output);
+    all.push_back({.measured = &one,
+                   .output = responses.outputs[static_cast<std::size_t>(one.output)].name,
+                   .load = responses.loads[one.load].name,
+                   .frac = mbs_export::response_assurance(one.H, computed),
+                   .ratio = mbs_export::amplitude_ratio(one.H, computed)});
+  }
+  return all;
+}
+
+Json measured_json(const FrequencyResponses& responses)
+{
+  std::vector<Json> all;
+  for (const Agreement& one : agreements(responses)) {
+    all.push_back(Json::object({{"load", one.load},
+                                {"output", one.output},
+                                {"name", one.measured->name},
+                                {"line", one.measured->line},
+                                {"frac", one.frac},
+                                {"amplitude_ratio", one.ratio}}));
+  }
+  return Json::array(all);
+}
+
 }  // namespace
 
 Peak peak_of(const FrequencyResponses& responses, std::size_t load, Eigen::Index output)
@@ -63,6 +100,8 @@ TextTable describe(const FrequencyResponses& responses)
   add(table, "last frequency", responses.Omega[responses.Omega.size() - 1] / two_pi, "Hz");
   add_count(table, "loads", std::ssize(responses.loads));
   add_count(table, "outputs", std::ssize(responses.outputs));
+  if (!responses.measured.functions.empty())
+    add_count(table, "measured responses", std::ssize(responses.measured.functions));
   for (const mbs_export::SectionForceResponses& one : responses.section_forces) {
     add_count(table, "points with section forces of " + one.points.name,
               one.points.positions.rows());
@@ -72,7 +111,6 @@ TextTable describe(const FrequencyResponses& responses)
 
 TextTable list_peaks(const FrequencyResponses& responses)
 {
-  constexpr std::size_t most = 40;
   std::vector<Found> all = all_peaks(responses);
   const std::size_t n = all.size();
   if (n > most) {
@@ -91,6 +129,25 @@ TextTable list_peaks(const FrequencyResponses& responses)
   return table;
 }
 
+TextTable list_measured(const FrequencyResponses& responses)
+{
+  std::vector<Agreement> all = agreements(responses);
+  const std::size_t n = all.size();
+  if (n > most) {
+    std::ranges::stable_sort(all, {}, &Agreement::frac);
+    all.resize(most);
+  }
+  TextTable table{.header = {"output / load", "measured in line", "FRAC", "computed / measured"},
+                  .rows = {}};
+  for (const Agreement& one : all) {
+    table.rows.push_back({printable(fmt::format("{} / {}", one.output, one.load)),
+                          fmt::format("{}", one.measured->line), fmt::format("{:.4f}", one.frac),
+                          fmt::format("{:.4g}", one.ratio)});
+  }
+  if (n > most) table.rows.push_back({fmt::format("and {} more", n - most), "", "", ""});
+  return table;
+}
+
 std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
 {
   std::vector<Json> peaks;
@@ -102,15 +159,21 @@ std::vector<Json::Member> responses_json(const FrequencyResponses& responses)
                                   {"frequency_Hz", found.peak.f_Hz}}));
   }
   const double first = responses.Omega[0], last = responses.Omega[responses.Omega.size() - 1];
-  return {{"model", name_of(responses.model)},
-          {"quantity", name_of(responses.quantity)},
-          {"damping", responses.damping},
-          {"loss_factor", responses.loss_factor},
-          {"frequencies_Hz", Json::array({Json(first / two_pi), Json(last / two_pi)})},
-          {"n_frequencies", responses.Omega.size()},
-          {"loads", names_of(responses.loads)},
-          {"outputs", names_of(responses.outputs)},
-          {"peaks", Json::array(peaks)}};
+  std::vector<Json::Member> members{
+      {"model", name_of(responses.model)},
+      {"quantity", name_of(responses.quantity)},
+      {"damping", responses.damping},
+      {"loss_factor", responses.loss_factor},
+      {"frequencies_Hz", Json::array({Json(first / two_pi), Json(last / two_pi)})},
+      {"n_frequencies", responses.Omega.size()},
+      {"loads", names_of(responses.loads)},
+      {"outputs", names_of(responses.outputs)},
+      {"peaks", Json::array(peaks)}};
+  if (!responses.measured.functions.empty()) {
+    members.push_back({"measured_file", responses.measured.file});
+    members.push_back({"measured", measured_json(responses)});
+  }
+  return members;
 }
 
 }  // namespace chladni::report

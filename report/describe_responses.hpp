@@ -26,9 +26,14 @@ TextTable describe(const mbs_export::FrequencyResponses& responses);
 /// The peak of each output for each load, at most the 40 largest.
 TextTable list_peaks(const mbs_export::FrequencyResponses& responses);
 
+/// The FRAC of each measured response with the computed one, and how large this is beside it; at
+/// most the 40 that agree least.
+TextTable list_measured(const mbs_export::FrequencyResponses& responses);
+
 /// JSON members `model`, `quantity`, `damping`, `loss_factor`, `frequencies_Hz` (first and last),
 /// `n_frequencies`, `loads`, `outputs`, and `peaks`: for each load and output `load`, `output`,
-/// `unit`, `amplitude`, `frequency_Hz`.
+/// `unit`, `amplitude`, `frequency_Hz`. With measured responses also `measured_file` and
+/// `measured`: for each `load`, `output`, `name`, `line` in the file, `frac`, `amplitude_ratio`.
 std::vector<Json::Member> responses_json(const mbs_export::FrequencyResponses& responses);
 
 }  // namespace chladni::report

@@ -41,6 +41,7 @@ std::vector<ResponsePlace> read_places(const Table& table, std::string_view key,
     if (!names.empty() && !contains(names, place.at))
       one.refuse("at", no_such_name(kind, place.at, names));
     if (one.has("near")) place.near = read_vector(one, "near");
+    if (one.has("measured_node")) place.measured_node = one.integer("measured_node");
     places.push_back(std::move(place));
   }
   if (places.empty()) table.refuse(key, "must name a place, as [{ at = \"tip\", dofs = [\"z\"] }]");

@@ -4,28 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numbers>
 #include <set>
 
 #include "common/error.hpp"
-#include "mbs_export/measured/universal_lines.hpp"
+#include "mbs_export/measured/record_reader.hpp"
+#include "mbs_export/measured/universal_geometry.hpp"
 
 namespace chladni::mbs_export {
 namespace {
 
-using Eigen::Index, Eigen::Vector3d;
+using Eigen::Index;
 using Complex = std::complex<double>;
 
 /// Datasets of other things that do not change what shapes mean: trace lines and the header.
 constexpr std::array passed_over{82, 151};
-
-/// A node as the file gives it.
-struct FileNode {
-  Vector3d position;  ///< in the unit of the file
-  std::int64_t defined_in, displaced_in;
-};
-using FileNodes = std::map<std::int64_t, FileNode>;
 
 /// One dataset 55.
 struct FileShape {
@@ -35,52 +28,6 @@ struct FileShape {
   std::vector<std::int64_t> nodes;
   std::vector<Complex> motion;  ///< three of each node
 };
-
-void add_node(FileNodes& nodes, const RecordReader& records, const std::vector<std::int64_t>& label,
-              const std::vector<double>& x)
-{
-  const FileNode node{{x[0], x[1], x[2]}, label[1], label[2]};
-  if (!nodes.emplace(label[0], node).second)
-    records.fail(fmt::format("node {} is there twice", label[0]));
-}
-
-/// Dataset 15: a line for each node, 4I10, 3E13.5.
-void read_nodes_15(FileNodes& nodes, RecordReader& records, const UniversalDataset& dataset)
-{
-  constexpr std::size_t columns = 40;
-  for (const std::string& line : dataset.lines) {
-    const std::vector<std::int64_t> label = records.integers("a node", 4);
-    UniversalDataset place{dataset.number, dataset.first_line, {}};
-    place.lines.push_back(line.size() > columns ? line.substr(columns) : "");
-    const std::filesystem::path nowhere;
-    RecordReader coordinates(nowhere, place);
-    try {
-      add_node(nodes, records, label, coordinates.reals("coordinates", 3, 13, 3));
-    } catch (const Error&) {
-      records.fail(
-          "expected four whole numbers of 10 columns and three coordinates of 13, of a node "
-          "that is there once");
-    }
-  }
-}
-
-/// Dataset 2411: two lines for each node.
-void read_nodes_2411(FileNodes& nodes, RecordReader& records)
-{
-  while (!records.at_end()) {
-    const std::vector<std::int64_t> label = records.integers("a node", 4);
-    add_node(nodes, records, label, records.reals("coordinates", 3, 25, 3));
-  }
-}
-
-/// Metres of a unit of length: record 2 of dataset 164 has what divides lengths of the file.
-double read_metres(RecordReader& records)
-{
-  records.line("units");
-  const double per_metre = records.reals("factors of length, force and temperature", 3, 25, 3)[0];
-  if (!(per_metre > 0.0)) records.fail("the factor of lengths is not positive");
-  return 1.0 / per_metre;
-}
 
 /// What record 6 says of the values.
 struct ShapeKind {
@@ -146,10 +93,8 @@ FileShape read_shape(RecordReader& records, const UniversalDataset& dataset)
 
 /// What a file holds.
 struct Contents {
-  FileNodes nodes;
+  UniversalGeometry geometry;
   std::vector<FileShape> shapes;
-  std::optional<double> metres;
-  bool has_systems = false;
 };
 
 Contents contents_of(const std::filesystem::path& path)
@@ -157,16 +102,10 @@ Contents contents_of(const std::filesystem::path& path)
   Contents contents;
   for (const UniversalDataset& dataset : read_universal_datasets(path)) {
     RecordReader records(path, dataset);
-    if (dataset.number == 15)
-      read_nodes_15(contents.nodes, records, dataset);
-    else if (dataset.number == 2411)
-      read_nodes_2411(contents.nodes, records);
-    else if (dataset.number == 55)
+    if (dataset.binary) records.fail("is binary; write the file in ASCII");
+    if (contents.geometry.take(records, dataset)) continue;
+    if (dataset.number == 55)
       contents.shapes.push_back(read_shape(records, dataset));
-    else if (dataset.number == 164)
-      contents.metres = read_metres(records);
-    else if (dataset.number == 18 || dataset.number == 2420)
-      contents.has_systems = true;
     else if (std::ranges::find(passed_over, dataset.number) == passed_over.end())
       records.fail("is none that this program reads: modes (55), nodes (15, 2411) and units (164)");
   }
@@ -174,17 +113,16 @@ Contents contents_of(const std::filesystem::path& path)
 }
 
 /// The node of the first shape, in metres and in the axes of the model.
-MeasuredNode node_of(const std::filesystem::path& path, const Contents& contents,
+MeasuredNode node_of(const std::filesystem::path& path, const UniversalGeometry& geometry,
                      std::int64_t number, double metres)
 {
-  const auto found = contents.nodes.find(number);
-  if (found == contents.nodes.end()) {
+  const auto found = geometry.nodes().find(number);
+  if (found == geometry.nodes().end()) {
     throw Error(fmt::format("{}: a shape has node {}, and no dataset 15 or 2411 says where that is",
                             path.string(), number));
   }
-  const FileNode& node = found->second;
-  const auto is_global = [](std::int64_t system) { return system == 0 || system == 1; };
-  if (contents.has_systems && (!is_global(node.defined_in) || !is_global(node.displaced_in))) {
+  const UniversalNode& node = found->second;
+  if (!geometry.is_in_global_axes(node)) {
     throw Error(
         fmt::format("{}: node {} has a coordinate system of its own ({}, {}); write nodes "
                     "and shapes in the global one",
@@ -200,7 +138,8 @@ MeasuredModes read_measured_modes(const std::filesystem::path& path, std::option
   const Contents contents = contents_of(path);
   if (contents.shapes.empty())
     throw Error(fmt::format("{}: has no mode shapes (dataset 55)", path.string()));
-  const std::optional<double> unit = contents.metres ? contents.metres : metres;
+  const std::optional<double> unit =
+      contents.geometry.units() ? std::optional(contents.geometry.units()->metres) : metres;
   if (!unit) {
     throw Error(fmt::format("{}: does not say its unit of length (dataset 164); give --length-unit",
                             path.string()));
@@ -212,7 +151,7 @@ MeasuredModes read_measured_modes(const std::filesystem::path& path, std::option
       .names = {},
       .shapes = Eigen::MatrixXcd(3 * std::ssize(nodes), std::ssize(contents.shapes))};
   for (const std::int64_t number : nodes)
-    modes.nodes.push_back(node_of(path, contents, number, *unit));
+    modes.nodes.push_back(node_of(path, contents.geometry, number, *unit));
   for (Index k = 0; k < modes.f_Hz.size(); ++k) {
     const FileShape& shape = contents.shapes[static_cast<std::size_t>(k)];
     if (shape.nodes != nodes) {

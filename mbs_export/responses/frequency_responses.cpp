@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "mbs_export/body_damping.hpp"
+#include "mbs_export/measured/measured_functions.hpp"
+#include "mbs_export/responses/measured_beside.hpp"
 #include "mbs_export/responses/response_option_error.hpp"
 
 namespace chladni::mbs_export {
@@ -187,6 +189,12 @@ VectorXd angular_frequencies(const FrequencyRange& range)
   return Omega;
 }
 
+VectorXd angular_frequencies(const ResponseOptions& options)
+{
+  if (!options.measurement) return angular_frequencies(options.range);
+  return two_pi * options.measurement->functions->f_Hz;
+}
+
 Complex rate_factor(ResponseQuantity quantity, double Omega)
 {
   if (quantity == ResponseQuantity::mobility) return {0.0, Omega};
@@ -205,8 +213,11 @@ std::string unit_of(ResponseQuantity quantity, const ResponsePoint& output,
 
 ResponsePoint point_of(const NamedNodes& model, const ResponseDof& dof)
 {
-  ResponsePoint point{
-      .name = dof.name, .component = dof.component, .node = 0, .position = {0.0, 0.0, 0.0}};
+  ResponsePoint point{.name = dof.name,
+                      .component = dof.component,
+                      .node = 0,
+                      .position = {0.0, 0.0, 0.0},
+                      .measured_node = dof.measured_node};
   for (const int node : dof.nodes) {
     point.position += model.nodes[static_cast<std::size_t>(node)].position /
                       static_cast<double>(dof.nodes.size());
@@ -237,7 +248,7 @@ FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOpti
   FrequencyResponses found{.title = body.title,
                            .model = options.model,
                            .quantity = options.quantity,
-                           .Omega = angular_frequencies(options.range),
+                           .Omega = angular_frequencies(options),
                            .loss_factor = options.loss_factor,
                            .damping = body.C.size() > 0 ? "of the modes" : "none",
                            .loads = {},
@@ -246,6 +257,7 @@ FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOpti
                            .provenance = body.provenance};
   for (const ResponseDof& dof : loads) found.loads.push_back(point_of(model, dof));
   for (const ResponseDof& dof : outputs) found.outputs.push_back(point_of(model, dof));
+  if (options.measurement) found.measured = measured_beside(*options.measurement, found);
   const Index n_f = found.Omega.size();
   found.H = room(B.cols(), n_f, U.rows());
   const std::vector<const ResultantModes*> resultants = chosen_resultants(body, options);

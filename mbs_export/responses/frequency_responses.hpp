@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,22 @@ struct ResponsePoint {
   int component;             ///< 0 to 5
   std::int64_t node;         ///< number in the mesh; 0 if several nodes share a load
   Eigen::Vector3d position;  ///< m; the mean of several nodes
+  std::optional<std::int64_t> measured_node = {};  ///< number of the node in a measurement
+};
+
+/// A measured response beside the computed one of a load and an output.
+struct MeasuredResponse {
+  std::string name;   ///< first line of text in the file
+  std::int64_t line;  ///< of the file, where it begins
+  std::size_t load;
+  Eigen::Index output;
+  Eigen::VectorXcd H;  ///< [n_f] as that of FrequencyResponses
+};
+
+/// Measured responses at the frequencies of the computed ones.
+struct MeasuredResponses {
+  std::string file;
+  std::vector<MeasuredResponse> functions = {};
 };
 
 /// Section forces (1 + i eta) S q per unit of each load at all frequencies, for a material with the
@@ -42,11 +59,14 @@ struct FrequencyResponses {
   /// says.
   std::vector<Eigen::MatrixXcd> H;
   std::vector<SectionForceResponses> section_forces = {};
+  MeasuredResponses measured = {};
   Provenance provenance = {};
 };
 
 /// The frequencies of a range, rad/s, ascending.
 Eigen::VectorXd angular_frequencies(const FrequencyRange& range);
+/// Those of the measurement, or of the range without one.
+Eigen::VectorXd angular_frequencies(const ResponseOptions& options);
 
 /// (i Omega)^p with p = 0 for a receptance, 1 for a mobility, 2 for an accelerance.
 std::complex<double> rate_factor(ResponseQuantity quantity, double Omega);
@@ -69,7 +89,7 @@ std::string name_of(ResponseQuantity quantity);
 /// equation of all modes is solved at each frequency.
 /// @throws ResponseOptionError for a place that the body does not have, a load on a DOF that does
 ///         not move, an unknown group of section forces, and a frequency at which an undamped mode
-///         is in resonance: |k - Omega^2 m| < 1e-9 (k + Omega^2 m).
+///         is in resonance: |k - Omega^2 m| < 1e-9 (k + Omega^2 m); and as measured_beside.
 FrequencyResponses frequency_responses(const ModalBody& body, const ResponseOptions& options);
 
 }  // namespace chladni::mbs_export

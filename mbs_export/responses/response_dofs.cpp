@@ -107,7 +107,7 @@ std::vector<ResponseDof> response_loads(const NamedNodes& model,
       const std::string name =
           nodes.size() == 1 ? name_of(model, asked, component, nodes.front())
                             : fmt::format("{}.{}", asked.place.at, component_name(component));
-      loads.push_back({name, asked.key + ".dofs", component, nodes});
+      loads.push_back({name, asked.key + ".dofs", component, nodes, asked.place.measured_node});
       refuse_drilling_moment(model, loads.back());
     }
   }
@@ -121,10 +121,21 @@ std::vector<ResponseDof> response_outputs(const NamedNodes& model,
   std::vector<ResponseDof> outputs;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const KeyedPlace asked{places[i], fmt::format("outputs[{}]", i + 1)};
-    for (const int node : nodes_of(model, asked))
+    const std::vector<int> nodes = nodes_of(model, asked);
+    if (asked.place.measured_node && nodes.size() > 1) {
+      throw ResponseOptionError(
+          asked.key + ".measured_node",
+          fmt::format("\"{}\" has {} nodes, and one node was measured; choose "
+                      "the nearest by `near`",
+                      asked.place.at, nodes.size()));
+    }
+    for (const int node : nodes)
       for (const int component : asked.place.components) {
-        outputs.push_back(
-            {name_of(model, asked, component, node), asked.key + ".dofs", component, {node}});
+        outputs.push_back({name_of(model, asked, component, node),
+                           asked.key + ".dofs",
+                           component,
+                           {node},
+                           asked.place.measured_node});
       }
   }
   refuse_twins(outputs);

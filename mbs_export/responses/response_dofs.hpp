@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,8 @@ struct ResponseDof {
   std::string name;  ///< "tip.z", or "track.z (node 17)" of a set of several nodes
   std::string key;   ///< key of the scene's table [response] that asks for it, "loads[1].dofs"
   int component;     ///< 0 to 5
-  std::vector<int> nodes;  ///< places in NamedNodes::nodes
+  std::vector<int> nodes;                          ///< places in NamedNodes::nodes
+  std::optional<std::int64_t> measured_node = {};  ///< number of the node in a measurement
 };
 
 /// The attachment nodes and sets of a model.
@@ -31,7 +34,8 @@ std::vector<ResponseDof> response_loads(const NamedNodes& model,
 
 /// One output for each node and component.
 /// @throws ResponseOptionError for an unknown or empty set, two nodes equally near, and an output
-///         that is named twice. Drilling rotations are allowed.
+///         that is named twice, and one measured node for several nodes. Drilling rotations are
+///         allowed.
 std::vector<ResponseDof> response_outputs(const NamedNodes& model,
                                           const std::vector<ResponsePlace>& places);
 

@@ -8,6 +8,7 @@
 
 #include "mbs_export/files/file_parts.hpp"
 #include "mbs_export/files/provenance.hpp"
+#include "mbs_export/responses/measured_beside.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -125,6 +126,56 @@ SectionForceResponses read_section_force(const files::Reader& file, const std::s
   return one;
 }
 
+void write_measured(files::Writer& file, const FrequencyResponses& responses)
+{
+  const MeasuredResponses& measured = responses.measured;
+  if (measured.functions.empty()) return;
+  const Index n = std::ssize(measured.functions);
+  std::vector<std::string> names;
+  std::vector<std::int64_t> lines, loads, outputs;
+  MatrixXcd H(responses.Omega.size(), n);
+  Eigen::VectorXd assurance(n);
+  for (Index i = 0; i < n; ++i) {
+    const MeasuredResponse& one = measured.functions[static_cast<std::size_t>(i)];
+    names.push_back(one.name);
+    lines.push_back(one.line);
+    loads.push_back(static_cast<std::int64_t>(one.load));
+    outputs.push_back(one.output);
+    H.col(i) = one.H;
+    assurance[i] = response_assurance(one.H, responses.H[one.load].col(one.output));
+  }
+  file.write("measured/file", measured.file);
+  file.write("measured/names", names);
+  file.write("measured/lines", std::span<const std::int64_t>(lines), "1");
+  file.write("measured/loads", std::span<const std::int64_t>(loads), "1");
+  file.write("measured/outputs", std::span<const std::int64_t>(outputs), "1");
+  write_complex(file, "measured/H", H, "as of the computed response");
+  file.write("measured/assurance", assurance, "1");
+}
+
+MeasuredResponses read_measured(const files::Reader& file, const FrequencyResponses& responses)
+{
+  MeasuredResponses measured{.file = file.text("measured/file")};
+  const std::vector<std::string> names = file.texts("measured/names");
+  const Index n = std::ssize(names);
+  const std::vector<std::int64_t> lines = file.integers("measured/lines", n);
+  const std::vector<int> loads = file_parts::read_indices(file, "measured/loads",
+                                                          std::ssize(responses.loads), n),
+                         outputs = file_parts::read_indices(file, "measured/outputs",
+                                                            std::ssize(responses.outputs), n);
+  const MatrixXcd H = read_complex(file, "measured/H", {responses.Omega.size(), n});
+  for (Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!(H.col(i).cwiseAbs().maxCoeff() > 0.0)) file.fail("measured/H_re", "has a zero response");
+    measured.functions.push_back({.name = names[at],
+                                  .line = lines[at],
+                                  .load = static_cast<std::size_t>(loads[at]),
+                                  .output = outputs[at],
+                                  .H = H.col(i)});
+  }
+  return measured;
+}
+
 /// The value of an enumeration whose name a dataset holds.
 template <class Value, std::size_t n>
 Value read_word(const files::Reader& file, const std::string& name,
@@ -156,6 +207,7 @@ void write_responses(const std::filesystem::path& path, const FrequencyResponses
     write_complex(file, "responses/" + load.name + "/H", responses.H[l], units_of(responses, load));
   }
   write_section_forces(file, responses);
+  write_measured(file, responses);
   file_parts::write_provenance(file, responses.provenance);
   file.commit();
 }
@@ -193,6 +245,7 @@ FrequencyResponses read_responses(const files::Reader& file)
   if (file.contains("section_force_names"))
     for (const std::string& name : file.texts("section_force_names"))
       responses.section_forces.push_back(read_section_force(file, name, responses));
+  if (file.contains("measured/names")) responses.measured = read_measured(file, responses);
   return responses;
 }
 

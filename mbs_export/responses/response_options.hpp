@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@ struct ResponsePlace {
   std::vector<int> components = {};  ///< 0 to 5
   /// m; only the node of the set that is nearest to this position
   std::optional<std::array<double, 3>> near = {};
+  std::optional<std::int64_t> measured_node = {};  ///< number of the node in a measurement
 };
 
 enum class ResponseModel { body, reduced, fe };
@@ -30,6 +33,16 @@ struct FrequencyRange {
   Spacing spacing = Spacing::linear;
 };
 
+struct MeasuredFunctions;
+
+/// Measured frequency responses to compare with.
+struct Measurement {
+  std::shared_ptr<const MeasuredFunctions> functions;
+  /// m; largest distance from a measured node to its load or output. Without it only places with a
+  /// `measured_node` are compared.
+  std::optional<double> distance = {};
+};
+
 /// The table [response] of a scene.
 struct ResponseOptions {
   ResponseModel model = ResponseModel::body;
@@ -40,6 +53,8 @@ struct ResponseOptions {
   double loss_factor = 0.0;  ///< eta of K (1 + i eta), in addition to the body's damping
   /// groups whose section forces are computed
   std::vector<std::string> section_forces = {};
+  /// Its frequencies replace `count` and `spacing` of the range.
+  std::optional<Measurement> measurement = {};
 };
 
 }  // namespace chladni::mbs_export

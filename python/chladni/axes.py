@@ -130,6 +130,8 @@ _OF_RESPONSES: _Rows = [
     (r"outputs/positions", ("output", "xyz"), {"output": "names"}),
     (r"outputs/\w+", ("output",), {}),
     (r"responses/[^/]+/H_(re|im)", ("frequency", "output"), {"frequency": "/frequencies", "output": "/outputs/names"}),
+    (r"measured/H_(re|im)", ("frequency", "measured"), {"frequency": "/frequencies"}),
+    (r"measured/(names|lines|loads|outputs|assurance)", ("measured",), {}),
     (r"section_force_names", ("section",), {}),
     (r"section_forces/[^/]+/(kinds|units)", ("kind",), {}),
     (r"section_forces/[^/]+/elements", ("point",), {}),

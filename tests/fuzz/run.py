@@ -23,7 +23,7 @@ READERS = {
     "reduced": "damaged `*.reduced.h5`, then `check_reduced`",
     "squeal": "damaged `*.squeal.h5`, then what `squeal info` and `squeal report` make of it",
     "radiation": "damaged `*.radiation.h5`, then the damping of a disc",
-    "measured": "measured modes in universal files (dataset 55), `chladni mac`",
+    "measured": "measured modes and functions in universal files (datasets 55 and 58, 58b), `chladni mac` and `chladni response`",
     "scene": "scene files",
     "geo": "what is asked of `.geo` files before Gmsh reads them",
     "deck": "decks of Nastran and Abaqus, as meshes and as declarations",

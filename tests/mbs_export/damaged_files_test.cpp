@@ -3,10 +3,14 @@
 // error.
 #include <gtest/gtest.h>
 
+#include "common/error.hpp"
 #include "mbs_export/check_body.hpp"
 #include "mbs_export/files/body_file.hpp"
 #include "mbs_export/files/reduced_file.hpp"
+#include "mbs_export/measured/measured_functions.hpp"
+#include "mbs_export/measured/measured_modes.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
+#include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/replay.hpp"
 
 namespace chladni::mbs_export {
@@ -26,10 +30,24 @@ void feed_reduced(std::span<const std::uint8_t> bytes)
              [](const std::string& path) { check_reduced(read_reduced(path)); });
 }
 
+void feed_measured(std::span<const std::uint8_t> bytes)
+{
+  const fuzz::MemoryFile file(bytes);
+  try {
+    read_measured_modes(file.path(), 1.0);
+  } catch (const Error&) {
+  }
+  try {
+    within(read_measured_functions(file.path(), 1.0), 10.0, 1000.0);
+  } catch (const Error&) {
+  }
+}
+
 TEST(DamagedFiles, ThatOnceBrokeAReaderEndInAClearError)
 {
   EXPECT_GT(replay_corpus("body", feed_body), 0);
   EXPECT_GT(replay_corpus("reduced", feed_reduced), 0);
+  EXPECT_GT(replay_corpus("measured", feed_measured), 0);
   EXPECT_GT(replay_corpus("slow_reduced", feed_reduced), 0);  // as long as trials may take
 }
 
@@ -46,6 +64,10 @@ TEST(DamagedFiles, EndInAValueOrAClearError)
 {
   feed_random_damage(feed_body, 200);
   feed_random_damage(feed_reduced, 200);
+  for (const char* const name : {"modes.unv", "functions.unv", "functions_58b.unv"}) {
+    fuzz::feed_changed_bytes(
+        feed_measured, CHLADNI_SOURCE_DIR "/tests/fuzz/corpus/measured/" + std::string(name), 500);
+  }
 }
 
 }  // namespace

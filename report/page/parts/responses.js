@@ -1,4 +1,4 @@
-// Frequency responses: amplitude and phase of the outputs for each load.
+// Frequency responses: amplitude and phase of the outputs for each load, measured ones dashed in the same colour.
 
 // A phase that jumps from -180 to 180 degrees is not joined by a line.
 function withoutJumps(x, phase) {
@@ -15,12 +15,15 @@ function responseFigures({frequency_Hz, logarithmic, quantity}, load, curves) {
   const axis = {label: "frequency, Hz", log: Boolean(logarithmic), tight: true};
   const unit = curves[0].unit;
   const style = (curve, k) => ({name: curve.name, colour: k % 6, width: 1.5});
+  const styleOfMeasured = (curve, k) => ({name: `${curve.name}, measured`, colour: k % 6, width: 1.2, dash: "5 3"});
+  const drawn = of => curves.flatMap((curve, k) => [{...style(curve, k), ...of(curve)},
+    ...(curve.measured ? [{...styleOfMeasured(curve, k), ...of(curve.measured)}] : [])]);
   return [plot({title: `Amplitude of the ${quantity} for a unit load at ${load.name}`, x: axis,
                 y: {label: `${quantity}, ${unit}`, log: true},
-                series: curves.map((curve, k) => ({...style(curve, k), x: frequency_Hz, y: curve.amplitude}))}),
+                series: drawn(curve => ({x: frequency_Hz, y: curve.amplitude}))}),
           plot({title: `Phase of the ${quantity} for a unit load at ${load.name}`, x: axis,
                 y: {label: "phase, degrees", low: -190, high: 190},
-                series: curves.map((curve, k) => ({...style(curve, k), ...withoutJumps(frequency_Hz, curve.phase)}))})];
+                series: drawn(curve => withoutJumps(frequency_Hz, curve.phase))})];
 }
 
 function drawResponses(responses) {
