@@ -13,6 +13,7 @@ ELSEWHERE = {
     "brake": "assembly.py",
     "fmu": "fmu.py",
     "hat_disc": "hat_disc.py",
+    "matlab": "octave.py",
     "library": "../install/install.py",
     "plugin": "plugin.py",
     "python": "../python/CMakeLists.txt",
