@@ -11,8 +11,10 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 ELSEWHERE = {
     "beam": "beam.py",
     "brake": "assembly.py",
+    "decks": "public_decks.py",
     "fmu": "fmu.py",
     "hat_disc": "hat_disc.py",
+    "matlab": "octave.py",
     "library": "../install/install.py",
     "plugin": "plugin.py",
     "python": "../python/CMakeLists.txt",
