@@ -4,11 +4,13 @@
 
 #include <numbers>
 
+#include "files/text_file.hpp"
 #include "mbs_export/make_body.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/responses/response_csv.hpp"
 #include "mbs_export/responses/response_file.hpp"
 #include "mbs_export/responses/response_option_error.hpp"
+#include "mbs_export/responses/universal_responses.hpp"
 #include "tests/files/scratch_folder.hpp"
 #include "tests/mbs_export/bending_beam.hpp"
 
@@ -127,6 +129,34 @@ TEST(ResponseAssurance, IsOneOfProportionalFunctionsAndBelowOfOthers)
   EXPECT_NEAR(response_assurance(1e200 * x, 1e-200 * y), 5.0 / (18.0 * 3.0), 1e-15);
   EXPECT_EQ(response_assurance(x, Eigen::Vector3cd::Zero()), 0.0);
   EXPECT_NEAR(amplitude_ratio(x, y), std::sqrt(3.0 / 18.0), 1e-15);
+}
+
+TEST(MeasuredFunctions, AreWhatTheWriterWrote)
+{
+  const files::test::ScratchFolder folder;
+  BodyOptions held;
+  held.fixed = {"A"};
+  const ModalBody body = make_body(test::regression_beam(), held);
+  for (const Spacing spacing : {Spacing::linear, Spacing::logarithmic}) {
+    const FrequencyResponses written = frequency_responses(
+        body, {.quantity = ResponseQuantity::mobility,
+               .loads = {{.at = "C", .components = {2, 4}}},
+               .outputs = {{.at = "B", .components = {2, 4}}},
+               .range = {.from_Hz = 1.0, .to_Hz = 3.0, .count = 7, .spacing = spacing},
+               .loss_factor = 0.1});
+    files::write_text(folder.file("beam.unv"), universal_file_of(written));
+    const MeasuredFunctions measured = read_measured_functions(folder.file("beam.unv"), {});
+    ASSERT_EQ(measured.functions.size(), 4U);
+    EXPECT_LT((measured.f_Hz * 2.0 * std::numbers::pi - written.Omega).cwiseAbs().maxCoeff(),
+              1e-5 * written.Omega[6]);  // six digits
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::VectorXcd H = written.H[i / 2].col(Eigen::Index(i % 2));
+      EXPECT_LT((measured.functions[i].H - H).norm(), 1e-11 * H.norm());  // twelve digits
+      EXPECT_EQ(measured.functions[i].quantity, ResponseQuantity::mobility);
+      EXPECT_EQ(measured.functions[i].output.component, i % 2 == 0 ? 2 : 4);
+    }
+    EXPECT_TRUE(measured.notes.empty());
+  }
 }
 
 class ComparedBeam : public ::testing::Test {

@@ -7,13 +7,8 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
-#include <numbers>
 
-#include "mbs_export/make_body.hpp"
-#include "mbs_export/responses/frequency_responses.hpp"
-#include "mbs_export/responses/universal_responses.hpp"
 #include "tests/files/scratch_folder.hpp"
-#include "tests/mbs_export/bending_beam.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -113,6 +108,27 @@ TEST_F(MeasuredFunctionsFile, HasUnitsDirectionsAndNodes)
                 "  1.0000000000000000D+03  1.0000000000000000D+00") +
            in_double);
   EXPECT_NEAR(std::abs(newtons.functions[0].H[1] - Complex(-3.0, -4.0) * 1e-3), 0.0, 1e-17);
+}
+
+TEST_F(MeasuredFunctionsFile, HasRotationsForMomentsInSi)
+{
+  const MeasuredFunctions turned =
+      read(geometry + with(with(in_double, "7  -3", "7   5"), "9   3", "9   4"));
+  EXPECT_EQ(turned.functions[0].load.component, 3);
+  // For each mN mm.
+  EXPECT_NEAR(std::abs(turned.functions[0].H[1] - Complex(3.0, 4.0) * 1e6), 0.0, 1e-8);
+}
+
+TEST_F(MeasuredFunctionsFile, KnowsNodesWithAxesOfASensor)
+{
+  const std::string nodes = with(geometry, "9         0         0", "9         0         1");
+  EXPECT_TRUE(read("    -1\n  2420\n         1\n    -1\n" + nodes + in_double)
+                  .nodes.at(9)
+                  .is_in_global_axes);
+  const MeasuredFunctions measured =
+      read("    -1\n    18\n         1\n    -1\n" + nodes + in_double);
+  EXPECT_FALSE(measured.nodes.at(9).is_in_global_axes);
+  EXPECT_TRUE(measured.nodes.at(7).is_in_global_axes);
 }
 
 TEST_F(MeasuredFunctionsFile, HasTheSameValuesInAllForms)
@@ -241,32 +257,6 @@ TEST_F(MeasuredFunctionsFile, RefusesByItsLineWhatBreaksTheFormat)
   EXPECT_NE(
       refused(geometry.substr(geometry.find("    15\n") - 7) + in_double).find("--length-unit"),
       std::string::npos);
-}
-
-TEST_F(MeasuredFunctionsFile, IsWhatTheWriterWrote)
-{
-  BodyOptions held;
-  held.fixed = {"A"};
-  const ModalBody body = make_body(test::regression_beam(), held);
-  for (const Spacing spacing : {Spacing::linear, Spacing::logarithmic}) {
-    const FrequencyResponses written = frequency_responses(
-        body, {.quantity = ResponseQuantity::mobility,
-               .loads = {{.at = "C", .components = {2, 4}}},
-               .outputs = {{.at = "B", .components = {2, 4}}},
-               .range = {.from_Hz = 1.0, .to_Hz = 3.0, .count = 7, .spacing = spacing},
-               .loss_factor = 0.1});
-    const MeasuredFunctions measured = read(universal_file_of(written));
-    ASSERT_EQ(measured.functions.size(), 4U);
-    EXPECT_LT((measured.f_Hz * 2.0 * std::numbers::pi - written.Omega).cwiseAbs().maxCoeff(),
-              1e-5 * written.Omega[6]);  // six digits
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::VectorXcd H = written.H[i / 2].col(Eigen::Index(i % 2));
-      EXPECT_LT((measured.functions[i].H - H).norm(), 1e-11 * H.norm());  // twelve digits
-      EXPECT_EQ(measured.functions[i].quantity, ResponseQuantity::mobility);
-      EXPECT_EQ(measured.functions[i].output.component, i % 2 == 0 ? 2 : 4);
-    }
-    EXPECT_TRUE(measured.notes.empty());
-  }
 }
 
 TEST_F(MeasuredFunctionsFile, IsCutToARangeWithBothEnds)
