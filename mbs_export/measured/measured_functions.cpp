@@ -29,15 +29,13 @@ FileOfFunctions read_functions(const std::filesystem::path& path)
   FileOfFunctions contents;
   for (const UniversalDataset& dataset : read_universal_datasets(path)) {
     RecordReader records(path, dataset);
-    if (dataset.binary && dataset.number != 58) {
-      ++contents.left_out[dataset.number];
-    } else if (dataset.number == 58) {
+    if (dataset.number == 58) {
       auto function = read_function_58(records, dataset);
       if (function.why_not.empty())
         contents.functions.push_back(std::move(function));
       else
         ++contents.unsuitable[function.why_not];
-    } else if (!contents.geometry.take(records, dataset)) {
+    } else if (dataset.binary || !contents.geometry.take(records, dataset)) {
       ++contents.left_out[dataset.number];
     }
   }
