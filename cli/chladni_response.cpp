@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "mbs_export/responses/universal_responses.hpp"
 #include "report/describe_responses.hpp"
 #include "report/page/responses.hpp"
+#include "report/progress.hpp"
 
 namespace chladni::cli {
 namespace {
@@ -62,7 +62,7 @@ void tell_left_out(const scene::Scene& scene, const mbs_export::FrequencyRespons
                     "directions than those of [response]",
                     measured.file, n - n_used, n));
   }
-  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", report::printable(note));
+  for (const std::string& note : notes) report::tell_note(report::printable(note));
 }
 
 void write_and_print(const ChladniArguments& arguments, const Files& files,

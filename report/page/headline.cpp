@@ -9,7 +9,7 @@ namespace chladni::report {
 std::string where_it_squeals(const squeal::SquealResults& results)
 {
   const squeal::CriticalSpeed& critical = *results.critical_speed;
-  std::string end = "rad/s on";
+  std::string end = "rad/s";
   std::string others;
   if (results.speed_stability) {
     const squeal::StabilityProfile& profile = *results.speed_stability;
@@ -22,7 +22,7 @@ std::string where_it_squeals(const squeal::SquealResults& results)
     if (profile.unstable.size() > 1)
       others = fmt::format(", and in {} other range(s) of speeds", profile.unstable.size() - 1);
   }
-  return fmt::format("squeals from {:.4g} {} at {:.4g} Hz{}", critical.speed, end,
+  return fmt::format("squeals from {:.4g} {}, at {:.4g} Hz{}", critical.speed, end,
                      critical.frequency_Hz, others);
 }
 

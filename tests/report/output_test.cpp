@@ -69,14 +69,14 @@ TEST(Headline, SaysWhereStabilityReturns)
 {
   squeal::SquealResults results;
   results.critical_speed = {.speed = 13.4, .frequency_Hz = 1000.0};
-  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s on at 1000 Hz");
+  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s, at 1000 Hz");
   const squeal::StabilityPoint first{.value = 1.0, .growth = 1.0, .frequency_Hz = 1000.0};
   const squeal::StabilityPoint last{.value = 60.0, .growth = 1.0, .frequency_Hz = 1000.0};
   results.speed_stability = {.from = first, .to = last, .unstable = {unstable_between(13.4, 60.0)}};
-  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s on at 1000 Hz");
+  EXPECT_EQ(where_it_squeals(results), "squeals from 13.4 rad/s, at 1000 Hz");
   results.speed_stability->unstable = {unstable_between(1.0, 3.0), unstable_between(13.4, 20.0)};
   EXPECT_EQ(where_it_squeals(results),
-            "squeals from 13.4 to 20 rad/s at 1000 Hz, and in 1 other range(s) of speeds");
+            "squeals from 13.4 to 20 rad/s, at 1000 Hz, and in 1 other range(s) of speeds");
 }
 
 TEST(TextTable, CommandsNoTerminal)

@@ -29,7 +29,7 @@ function mapFigures({map}, shared = {}) {
 }
 
 // "squeals from 13.35 rad/s (127.5 rpm), at 1695 Hz"
-const whereItSqueals = ({words}) => withRpm(words.replace(" rad/s on at ", " rad/s, at "));
+const whereItSqueals = ({words}) => withRpm(words);
 const unitsKept = text => text.replace(/(\d) (rad\/s|Hz|m\/s|dB)/g, `$1${unbroken}$2`);
 
 // What a reader wants to know first.
