@@ -1,5 +1,3 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "cyclic/turn.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 
 namespace chladni::cases {

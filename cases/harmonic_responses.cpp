@@ -1,6 +1,5 @@
 #include "cases/harmonic_responses.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "cases/harmonic_options.hpp"
 #include "common/eigen_every.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/loaded_dofs.hpp"
 #include "mbs_export/response_error.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <map>
 
@@ -12,6 +11,7 @@
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/cholesky/factorization.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "mbs_export/body_option_error.hpp"

@@ -1,7 +1,5 @@
 #include "cyclic/harmonic_operators.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 #include "common/eigen_every.hpp"
 #include "common/petsc_compat.hpp"
 #include "cyclic/sector_dofs.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::cyclic {
 

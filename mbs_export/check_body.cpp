@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/check_parts.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/held_dofs.hpp"

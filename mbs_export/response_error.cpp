@@ -1,11 +1,11 @@
 #include "mbs_export/response_error.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <complex>
 #include <numbers>
 
 #include "common/eigen_every.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/interface_modes.hpp"
 
 namespace chladni::mbs_export {

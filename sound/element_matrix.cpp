@@ -1,6 +1,5 @@
 #include "sound/element_matrix.hpp"
-
-#include <Eigen/LU>
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::sound {
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
 #include "benchmarks/squeal/targets.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
 #include "squeal/stability/rotation_stability.hpp"

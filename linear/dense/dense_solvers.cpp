@@ -5,14 +5,25 @@ namespace Eigen {
 template class SelfAdjointEigenSolver<MatrixXd>;
 template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute<MatrixXd>(
     const EigenBase<MatrixXd>&, int);
+template class SelfAdjointEigenSolver<MatrixXcd>;
+template SelfAdjointEigenSolver<MatrixXcd>& SelfAdjointEigenSolver<MatrixXcd>::compute<MatrixXcd>(
+    const EigenBase<MatrixXcd>&, int);
 template class GeneralizedSelfAdjointEigenSolver<MatrixXd>;
 template class EigenSolver<MatrixXd>;
 template EigenSolver<MatrixXd>& EigenSolver<MatrixXd>::compute<MatrixXd>(const EigenBase<MatrixXd>&,
                                                                          bool);
+template class ComplexEigenSolver<MatrixXcd>;
+template ComplexEigenSolver<MatrixXcd>& ComplexEigenSolver<MatrixXcd>::compute<MatrixXcd>(
+    const EigenBase<MatrixXcd>&, bool);
 template class LLT<MatrixXd>;
 template LLT<MatrixXd>& LLT<MatrixXd>::compute<MatrixXd>(const EigenBase<MatrixXd>&);
 template class PartialPivLU<MatrixXd>;
+template class PartialPivLU<MatrixXcd>;
 template class HouseholderQR<MatrixXd>;
+template class HouseholderQR<MatrixXcd>;
 template class ColPivHouseholderQR<MatrixXd>;
+template class CompleteOrthogonalDecomposition<MatrixXd>;
+template class JacobiSVD<MatrixXd>;
+template class BDCSVD<MatrixXd>;
 
 }  // namespace Eigen

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/body_damping.hpp"
 #include "mbs_export/measured/measured_functions.hpp"
 #include "mbs_export/responses/measured_beside.hpp"

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "mbs_export/attachment_motion.hpp"
 
 namespace chladni::squeal {

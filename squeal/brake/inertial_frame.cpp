@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/pair_damping.hpp"
 #include "squeal/brake/rotation_generator.hpp"
 

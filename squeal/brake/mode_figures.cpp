@@ -1,8 +1,9 @@
 #include "squeal/brake/mode_figures.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,9 +1,10 @@
 #include "squeal/brake/rotation_generator.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

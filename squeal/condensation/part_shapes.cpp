@@ -1,12 +1,12 @@
 #include "squeal/condensation/part_shapes.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 
 #include "common/eigen_every.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

@@ -1,7 +1,6 @@
 #include "squeal/models/rigid_disc.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

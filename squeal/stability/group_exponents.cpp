@@ -1,7 +1,7 @@
 #include "squeal/stability/group_exponents.hpp"
 #include "common/eigen_every.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,11 +1,11 @@
 #include "squeal/stability/hopf.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/stability/stability.hpp"
 #include "squeal/stability/stability_map.hpp"
 #include "squeal/stability/stability_search.hpp"

@@ -1,6 +1,5 @@
 #include "squeal/stability/mode_samples.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>

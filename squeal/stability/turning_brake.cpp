@@ -1,9 +1,10 @@
 #include "squeal/stability/turning_brake.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::squeal {
 namespace {

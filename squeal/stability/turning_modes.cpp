@@ -1,6 +1,5 @@
 #include "squeal/stability/turning_modes.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/brake/pad_system.hpp"
 #include "squeal/brake/point_shapes.hpp"
 #include "squeal/brake/state_matrix.hpp"

@@ -1,6 +1,5 @@
 #include "squeal/transient/prepared_transient.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,8 +1,7 @@
 #include "cyclic/exact_pairs.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/QR>
 
 namespace chladni::cyclic {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "cyclic/symmetric_half.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::cyclic {
 namespace {

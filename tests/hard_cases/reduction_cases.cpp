@@ -1,6 +1,5 @@
 // Reduction of badly scaled, nearly singular and degenerate systems. The exact values come from
 // dense matrices in long double.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -8,6 +7,7 @@
 #include "common/petsc_compat.hpp"
 #include "hard_case.hpp"
 #include "linear/cholesky/sylvester.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "reduce/basis_rows.hpp"
 #include "reduce/completeness.hpp"
 #include "reduce/craig_bampton.hpp"

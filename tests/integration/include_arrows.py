@@ -85,6 +85,9 @@ CUTS = {
 }
 # One source of the folder knows this header.
 ONLY_IN = {"sound": ("gmsh.h", "mesh_air.cpp")}
+# These cost the compiler up to a minute in each source; they are compiled once behind this header, for all who may include it.
+SOLVERS = ("Eigen/Eigenvalues", "Eigen/SVD", "Eigen/Dense")
+COMPILED_ONCE = "linear/dense/dense_solvers.hpp"
 
 
 def room_of(path, rooms):
@@ -97,6 +100,8 @@ def is_allowed(room, header, name=""):
     """Whether a source of this name in `room` may include the header."""
     folder = room.split("/")[0]
     if header.startswith(CUTS.get(room, CUTS.get(folder, ()))):
+        return False
+    if header in SOLVERS and name != Path(COMPILED_ONCE).name and is_allowed(room, COMPILED_ONCE):
         return False
     only, source = ONLY_IN.get(folder, ("", ""))
     if only and header == only and name != source:

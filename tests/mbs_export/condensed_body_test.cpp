@@ -1,9 +1,8 @@
 #include "mbs_export/condensed_body.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <complex>
 #include <random>

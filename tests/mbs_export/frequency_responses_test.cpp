@@ -1,9 +1,9 @@
 #include "mbs_export/responses/frequency_responses.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "mbs_export/response_error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 #include <slepceps.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <set>
 #include <string>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "mbs_export/files/reduced_file.hpp"
 #include "tests/plugin/random_ring.hpp"

@@ -1,8 +1,8 @@
 #include "reduce/full_responses.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <numeric>
 
 #include "reduce/basis_rows.hpp"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "assembly_parts.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/models/assembly_brake.hpp"
 #include "squeal/models/assembly_numbers.hpp"
 #include "squeal/models/friction_numbers.hpp"

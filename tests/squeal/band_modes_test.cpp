@@ -1,9 +1,8 @@
 #include "squeal/stability/band_modes.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <complex>
 #include <random>

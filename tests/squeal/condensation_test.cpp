@@ -1,8 +1,8 @@
 #include "squeal/condensation/condensation.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <string>

@@ -3,12 +3,12 @@
 // reading; the others are its own matrices with the terms by which they differ.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <optional>
 #include <vector>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "squeal/stability/stability.hpp"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/cvode.hpp"
 #include "squeal/brake/inertial_frame.hpp"

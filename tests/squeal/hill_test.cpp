@@ -1,8 +1,8 @@
 #include "squeal/stability/hill.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "common/error.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "source_disc.hpp"
 #include "squeal/models/model_brake.hpp"
 #include "squeal/models/oscillator.hpp"

@@ -1,7 +1,6 @@
 // Numbers that squeal.json of the references prints, each of them by the program's own matrices.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"
 #include "squeal/brake/inertial_frame.hpp"
 #include "squeal/brake/state_matrix.hpp"

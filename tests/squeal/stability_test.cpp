@@ -1,8 +1,7 @@
 #include "squeal/stability/stability.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
 
 #include "references/squeal/analytic_body.hpp"
 #include "references/squeal/kirchhoff_modes.hpp"

@@ -1,8 +1,8 @@
 #include "squeal/stability/unstable_modes.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>

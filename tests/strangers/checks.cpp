@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string_view>
+
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::strangers {
 

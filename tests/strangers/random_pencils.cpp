@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "building.hpp"
+#include "linear/dense/dense_solvers.hpp"
 
 namespace chladni::strangers {
 
