@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "mbs_export/check_parts.hpp"
 #include "mbs_export/contact_rings.hpp"
 #include "mbs_export/held_dofs.hpp"
@@ -72,7 +72,7 @@ void add_rigid_modes(std::vector<Check>& checks, const ModalBody& body)
   for (Index row = 0; row < Phi.rows(); ++row)
     carried[row] = body.attachment_modes.row(row).isZero() ? 0.0 : 1.0;
   const MatrixXd R_carried = carried.asDiagonal() * R;
-  const MatrixXd A = R_carried.completeOrthogonalDecomposition().solve(Phi);
+  const MatrixXd A = linear::least_squares(R_carried, Phi);
   const double misfit = (R_carried * A - Phi).norm() / Phi.norm();
   checks.push_back(
       bounded("shape of rigid modes", misfit, 1e-6, "distance from rigid motions of the nodes"));

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 namespace chladni::mbs_export {
 namespace {
@@ -24,8 +24,7 @@ MatrixXd orthonormal(MatrixXd shapes)
   const MatrixXd unit = shapes.leftCols(n);
   Eigen::ColPivHouseholderQR<MatrixXd> qr(unit);
   qr.setThreshold(independent);
-  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(unit.rows(), qr.rank());
-  return Q;
+  return linear::columns_of_Q(qr, qr.rank());
 }
 
 /// Frequencies and kinds of the vectors that take the place of the modes.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "mbs_export/body_option_error.hpp"
 
 namespace chladni::mbs_export {
@@ -47,7 +47,7 @@ InterfaceBasis interface_basis(const VectorXd& omega_n, const MatrixXd& response
   if (P.size() == 0) return {MatrixXd(omega_n.size(), 0), VectorXd(0), static_cast<int>(P.cols())};
   Eigen::ColPivHouseholderQR<MatrixXd> qr(P);
   qr.setThreshold(1e-8);
-  const MatrixXd V = qr.householderQ() * MatrixXd::Identity(P.rows(), qr.rank());
+  const MatrixXd V = linear::columns_of_Q(qr, qr.rank());
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
       MatrixXd(V.transpose() * omega_n.cwiseAbs2().asDiagonal() * V));
   return {V * solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(),

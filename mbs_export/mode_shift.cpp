@@ -8,7 +8,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "mbs_export/body_option_error.hpp"
 
 namespace chladni::mbs_export {
@@ -66,7 +66,7 @@ std::vector<int> rigid_then_elastic(const FreeModes& modes, const MatrixXd& Q_he
   rest.leftCols(modes.n_rigid).setZero();
   if (!chosen.empty()) {
     const Eigen::HouseholderQR<MatrixXd> qr(Q_held(every, chosen));
-    const MatrixXd V = qr.householderQ() * MatrixXd::Identity(Q_held.rows(), Index(chosen.size()));
+    const MatrixXd V = linear::columns_of_Q(qr, Index(chosen.size()));
     rest -= V * (V.transpose() * rest).eval();
   }
   for (const int i : independent_columns(rest, 1e-14))

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/eigenmodes.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "mbs_export/rigid_body.hpp"
 
 namespace chladni::mbs_export {
@@ -26,7 +26,7 @@ MatrixXd rigid_basis(const ReducedSystem& reduced)
   Eigen::ColPivHouseholderQR<MatrixXd> qr(R);
   qr.setThreshold(1e-10);
   if (qr.rank() == 0) return MatrixXd(R.rows(), 0);
-  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
+  const MatrixXd basis = linear::columns_of_Q(qr, qr.rank());
   const Eigen::LLT<MatrixXd> MR(MatrixXd(basis.transpose() * reduced.M * basis));
   if (MR.info() != Eigen::Success) {
     throw Error(

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/eigen_every.hpp"
-#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/eigenmodes.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 namespace chladni::reduce {
 
@@ -49,7 +49,7 @@ MatrixXd at_rest(const MatrixXd& R, const std::vector<int>& rows)
   constexpr double round_off = 1e-10;
   Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(R(rows, every).transpose()));
   qr.setThreshold(round_off);
-  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(R.cols(), R.cols());
+  const MatrixXd Q = linear::columns_of_Q(qr, R.cols());
   return R * Q.rightCols(R.cols() - qr.rank());
 }
 

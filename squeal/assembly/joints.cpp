@@ -10,7 +10,7 @@
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "squeal/assembly/part_components.hpp"
 
 namespace chladni::squeal {
@@ -260,7 +260,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& B)
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   // What two joints ask for twice is asked for once.
   qr.setThreshold(1e-9);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd Q = linear::columns_of_Q(qr, n);
   return Q.rightCols(n - qr.rank());
 }
 

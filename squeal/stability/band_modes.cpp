@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/eigen_every.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -55,8 +55,7 @@ MatrixXcd first_block(Index n)
 
 MatrixXcd orthonormal_columns(const MatrixXcd& V)
 {
-  const Eigen::HouseholderQR<MatrixXcd> qr(V);
-  return qr.householderQ() * MatrixXcd::Identity(V.rows(), V.cols());
+  return linear::columns_of_Q(Eigen::HouseholderQR<MatrixXcd>(V), V.cols());
 }
 
 /// An orthonormal basis of the block Krylov space of (A - sigma)^-1, and (A - sigma)^-1 of it.

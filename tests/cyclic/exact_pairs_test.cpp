@@ -1,5 +1,5 @@
 #include "cyclic/exact_pairs.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ MatrixXd quarter_turns(Index n)
 MatrixXd mixture(Index n, unsigned seed)
 {
   std::srand(seed);
-  return Eigen::HouseholderQR<MatrixXd>(MatrixXd::Random(n, n)).householderQ();
+  return linear::columns_of_Q(Eigen::HouseholderQR<MatrixXd>(MatrixXd::Random(n, n)), n);
 }
 
 TEST(ExactPairs, AreFoundInAnyMixtureOfAClusterOfFour)

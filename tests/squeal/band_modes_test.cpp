@@ -1,5 +1,5 @@
 #include "squeal/stability/band_modes.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ MatrixXd mixed(const std::vector<Complex>& lambda)
   std::normal_distribution<double> normal;
   for (double& entry : mixing.reshaped()) entry = normal(random);
   const Eigen::HouseholderQR<MatrixXd> qr(mixing);
-  const MatrixXd Q = qr.householderQ();
+  const MatrixXd Q = linear::columns_of_Q(qr, mixing.rows());
   return Q * A * Q.transpose();
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "references/squeal/analytic_body.hpp"
 
 namespace chladni::squeal {
@@ -165,7 +165,8 @@ mbs_export::ModalBody mixed(mbs_export::ModalBody body, const Eigen::MatrixXd& b
 Eigen::MatrixXd orthogonal(Eigen::Index n)
 {
   srand(7);
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Random(n, n)).householderQ();
+  return linear::columns_of_Q(Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Random(n, n)),
+                              n);
 }
 
 TEST(InertialDisc, FindsPairsInASpaceThatMixesThem)
