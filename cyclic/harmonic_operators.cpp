@@ -109,7 +109,7 @@ namespace {
 MatrixXd shared_motions(const MatrixXd& R, double mu)
 {
   constexpr double same = 1e-7;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (R + R.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (R + R.transpose())));
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < R.rows(); ++k)
     if (std::abs(eigen.eigenvalues()[k] - std::cos(mu)) < same) columns.push_back(k);

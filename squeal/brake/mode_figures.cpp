@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 
 namespace chladni::squeal {
 namespace {
@@ -60,7 +60,7 @@ Eigen::Vector2d amplitude(const mbs_export::Picture& picture, const std::vector<
     right += picture.transformation(3 * i + 2, mode) * wave;
   }
   if (d == 0) return {right[0] / A(0, 0), 0.0};
-  return A.completeOrthogonalDecomposition().solve(right);
+  return linear::least_squares(A, right);
 }
 
 int circles_of(const mbs_export::Picture& picture, Index mode, int diameters)

@@ -81,7 +81,8 @@ MatrixXd solve(const SkewProblem& problem)
 MatrixXcd real_basis(const MatrixXcd& E)
 {
   const MatrixXd projector = (E * E.adjoint()).real();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (projector + projector.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
+      MatrixXd(0.5 * (projector + projector.transpose())));
   return solver.eigenvectors().rightCols(E.cols()).cast<Complex>();
 }
 
@@ -128,7 +129,8 @@ MatrixXd rotation_generator(const RingHarmonics& harmonics, const VectorXd& omeg
 
 std::vector<HarmonicSpace> harmonic_spaces(const MatrixXd& S)
 {
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(Complex(0.0, -1.0) * S.cast<Complex>());
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(
+      MatrixXcd(Complex(0.0, -1.0) * S.cast<Complex>()));
   const VectorXd& sigma = solver.eigenvalues();
   std::vector<HarmonicSpace> spaces;
   for (Eigen::Index first = 0; first < sigma.size();) {
