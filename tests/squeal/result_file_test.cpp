@@ -120,7 +120,7 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
                          &original = *written.limit_cycle_direct;
   EXPECT_EQ(direct.frequency_Hz, original.frequency_Hz);
   EXPECT_EQ(direct.multipliers, original.multipliers);
-  EXPECT_EQ(direct.stable, original.stable);
+  EXPECT_EQ(direct.multiplier_error, original.multiplier_error);
   EXPECT_EQ(direct.n_contact_evaluations, original.n_contact_evaluations);
   EXPECT_EQ(direct.x, original.x);
   EXPECT_EQ(direct.amplitude, original.amplitude);
