@@ -193,7 +193,7 @@ std::string doubt_of(const squeal::DirectLimitCycle& cycle)
 
 Json errors_of(const squeal::LimitCycle& /*cycle*/)
 {
-  return {};
+  return Json();
 }
 
 /// What frequency and amplitudes may be off by.

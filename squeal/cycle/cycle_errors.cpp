@@ -59,17 +59,18 @@ PadMotion pad_motion(AutonomousMotion& motion, const Eigen::MatrixXd& states)
 }
 
 /// The errors of frequency, velocity and displacement; absent when no sharper cycle is found.
-std::optional<std::array<double, 3>> errors_by_integration(AutonomousMotion& motion,
-                                                           const DirectLimitCycle& cycle)
+std::optional<Eigen::Vector3d> errors_by_integration(AutonomousMotion& motion,
+                                                     const DirectLimitCycle& cycle)
 {
   const auto at = sharper_start(motion, {cycle.x, 1.0 / cycle.frequency_Hz});
   if (!at) return std::nullopt;
   const PadMotion pad =
       pad_motion(motion, states_over_period(motion, *at, n_sharp_samples, sharp_tolerance));
   const PadAmplitudes amplitudes = pad_amplitudes(pad.z, pad.z_dot);
-  return {{std::abs(1.0 / at->period - cycle.frequency_Hz),
-           std::abs(amplitudes.velocity - cycle.pad_velocity),
-           std::abs(amplitudes.displacement - cycle.pad_displacement)}};
+  return Eigen::Vector3d(1.0 / at->period - cycle.frequency_Hz,
+                         amplitudes.velocity - cycle.pad_velocity,
+                         amplitudes.displacement - cycle.pad_displacement)
+      .cwiseAbs();
 }
 
 /// How a limit cycle changes with the disc.
@@ -175,7 +176,7 @@ CycleErrors cycle_errors(const Brake& brake, const DirectLimitCycle& cycle)
   if (body && knows_errors(body->inertial().errors)) {
     const ChangingCycle changing(*body, *motion, cycle);
     const ErrorsByModes by_modes =
-        errors_by_modes(body->inertial(), 2.0 * pi * cycle.frequency_Hz, told.size(),
+        errors_by_modes(body->inertial(), 2.0 * pi * cycle.frequency_Hz, std::ssize(told),
                         [&](const DiscScaling& scale) { return changing.by(scale); });
     for (std::size_t i = 0; i < told.size(); ++i)
       errors.*told[i] = by_modes.budget(static_cast<Eigen::Index>(i));
@@ -187,7 +188,7 @@ CycleErrors cycle_errors(const Brake& brake, const DirectLimitCycle& cycle)
   }
   if (const auto by_integration = errors_by_integration(*motion, cycle))
     for (std::size_t i = 0; i < told.size(); ++i)
-      (errors.*told[i]).integration = (*by_integration)[i];
+      (errors.*told[i]).integration = (*by_integration)[static_cast<Eigen::Index>(i)];
   return errors;
 }
 

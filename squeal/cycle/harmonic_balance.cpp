@@ -156,8 +156,8 @@ HarmonicCycle LinearBalance::change(AutonomousMotion& more, AutonomousMotion& le
   const Eigen::MatrixXd residual =
       residual_of(more, at_, gamma_) - residual_of(less, at_, gamma_);
   rhs.head(N) = -residual.reshaped() / difference;
-  const Eigen::VectorXd change = solver_.solve(rhs);
-  return {change.head(N).reshaped(at_.X.rows(), at_.X.cols()), at_.omega * change[N]};
+  const Eigen::VectorXd solved = solver_.solve(rhs);
+  return {solved.head(N).reshaped(at_.X.rows(), at_.X.cols()), at_.omega * solved[N]};
 }
 
 HarmonicCycle series_of(const Eigen::MatrixXd& states, double omega, int n_harmonics)

@@ -203,6 +203,12 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
   return std::nullopt;
 }
 
+/// Whether no smaller tolerance follows; powers of the factor are rounded.
+bool is_last(double tolerance)
+{
+  return tolerance < 2.0 * last_tolerance;
+}
+
 FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
 {
   const Eigen::VectorXd f = motion.rate_at(at.x);
@@ -229,7 +235,7 @@ template <class Finer>
 PeriodicOrbit with_verdict(PeriodicOrbit orbit, const Finer& finer)
 {
   while (!(orbit.multipliers.distance() >= sure * orbit.multipliers.error) &&
-         orbit.tolerance > last_tolerance) {
+         !is_last(orbit.tolerance)) {
     std::optional<PeriodicOrbit> next = finer(orbit.at, tolerance_factor * orbit.tolerance);
     if (!next) {
       // The orbit hardly exists, so that its multipliers are not known either.
@@ -283,7 +289,7 @@ std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const Cycl
     auto orbit = after_step(motion, at, tolerance);
     if (!orbit) return std::nullopt;
     orbit->n_newton_steps = ++n_newton_steps;
-    if (orbit->multipliers.defect < defect_max || tolerance <= last_tolerance) {
+    if (orbit->multipliers.defect < defect_max || is_last(tolerance)) {
       return with_verdict(std::move(*orbit), [&](const CycleStart& from, double finer) {
         return after_step(motion, from, finer);
       });
