@@ -35,8 +35,8 @@ void add_with_error(TextTable& table, const ToldNumber& told)
 
 squeal::ErrorBudget in_mm(squeal::ErrorBudget budget)
 {
-  for (auto* part : {&budget.mesh, &budget.reduction, &budget.body, &budget.left_out,
-                     &budget.integration})
+  for (auto* part :
+       {&budget.mesh, &budget.reduction, &budget.body, &budget.left_out, &budget.integration})
     if (*part) **part *= 1e3;
   return budget;
 }

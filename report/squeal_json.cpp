@@ -94,23 +94,23 @@ Json direct_json(const squeal::DirectLimitCycle& cycle)
   std::vector<Json> multipliers;
   for (const std::complex<double>& value : cycle.multipliers)
     multipliers.push_back(Json::array({value.real(), value.imag()}));
-  return Json::object({{"speed_rad_s", cycle.speed},
-                       {"frequency_Hz", cycle.frequency_Hz},
-                       {"pad_velocity_m_s", cycle.pad_velocity},
-                       {"pad_displacement_m", cycle.pad_displacement},
-                       {"friction_work_J", cycle.energy.friction.sum()},
-                       {"normal_work_J", cycle.energy.normal.sum()},
-                       {"damping_work_J", cycle.energy.damping},
-                       {"frequency_errors_Hz", cycle_error_json(cycle.errors.frequency_Hz)},
-                       {"pad_velocity_errors_m_s", cycle_error_json(cycle.errors.pad_velocity)},
-                       {"pad_displacement_errors_m",
-                        cycle_error_json(cycle.errors.pad_displacement)},
-                       {"stable", stability == squeal::CycleStability::stable ? 1 : 0},
-                       {"stability", squeal::name_of(stability)},
-                       {"multipliers", Json::array(multipliers)},
-                       {"multiplier_error", optional_json(cycle.multiplier_error)},
-                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
-                       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
+  return Json::object(
+      {{"speed_rad_s", cycle.speed},
+       {"frequency_Hz", cycle.frequency_Hz},
+       {"pad_velocity_m_s", cycle.pad_velocity},
+       {"pad_displacement_m", cycle.pad_displacement},
+       {"friction_work_J", cycle.energy.friction.sum()},
+       {"normal_work_J", cycle.energy.normal.sum()},
+       {"damping_work_J", cycle.energy.damping},
+       {"frequency_errors_Hz", cycle_error_json(cycle.errors.frequency_Hz)},
+       {"pad_velocity_errors_m_s", cycle_error_json(cycle.errors.pad_velocity)},
+       {"pad_displacement_errors_m", cycle_error_json(cycle.errors.pad_displacement)},
+       {"stable", stability == squeal::CycleStability::stable ? 1 : 0},
+       {"stability", squeal::name_of(stability)},
+       {"multipliers", Json::array(multipliers)},
+       {"multiplier_error", optional_json(cycle.multiplier_error)},
+       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
+       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
 }
 
 Json branch_point_json(const squeal::BranchPoint& point)

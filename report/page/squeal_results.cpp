@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "report/describe_gradients.hpp"
 #include "report/describe_cycles.hpp"
+#include "report/describe_gradients.hpp"
 #include "report/page/headline.hpp"
 #include "report/page/motion_statistics.hpp"
 #include "report/page/numbers.hpp"

@@ -89,7 +89,8 @@ class ChangingCycle {
     const std::unique_ptr<SlidingDisc> more = scaled(scale, 1.0 + step),
                                        less = scaled(scale, 1.0 - step);
     const HarmonicCycle change = balance_.change(*more, *less, 2.0 * step);
-    const PadMotion at_more = pad_after(*more, change, step), at_less = pad_after(*less, change, -step);
+    const PadMotion at_more = pad_after(*more, change, step),
+                    at_less = pad_after(*less, change, -step);
     const Eigen::VectorXd z = (at_more.z - at_less.z) / (2.0 * step),
                           z_dot = (at_more.z_dot - at_less.z_dot) / (2.0 * step);
     const double velocity = peak(pad_.z_dot) > peak(-pad_.z_dot) ? peak_change(pad_.z_dot, z_dot)
@@ -104,8 +105,8 @@ class ChangingCycle {
     const Eigen::Index affordable = (n_equations / motion.size() - 1) / 2;
     const int n_harmonics =
         std::clamp(static_cast<int>(affordable), n_harmonics_min, n_harmonics_max);
-    const Eigen::MatrixXd states = states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz},
-                                                      n_samples, tolerance);
+    const Eigen::MatrixXd states =
+        states_over_period(motion, {cycle.x, 1.0 / cycle.frequency_Hz}, n_samples, tolerance);
     return series_of(states, 2.0 * pi * cycle.frequency_Hz, n_harmonics);
   }
 
@@ -154,8 +155,7 @@ std::optional<Eigen::Vector3d> errors_by_modes_left_out(const FlexibleDisc& brak
   };
   const auto of_few = balanced_numbers(motion, near(states));
   if (!of_few) return std::nullopt;
-  const auto of_all =
-      balanced_numbers(*motion_of_all, near(with_all_modes(brake, *all, states)));
+  const auto of_all = balanced_numbers(*motion_of_all, near(with_all_modes(brake, *all, states)));
   if (!of_all) return std::nullopt;
   return (*of_all - *of_few).cwiseAbs();
 }

@@ -12,7 +12,8 @@ Eigen::MatrixXd selection(const Disc& few, const Disc& all)
 {
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(all.n_modes(), few.n_modes());
   for (Eigen::Index j = 0; j < few.n_modes(); ++j) {
-    const auto at = std::ranges::find(all.mode_numbers, few.mode_numbers[static_cast<std::size_t>(j)]);
+    const auto at =
+        std::ranges::find(all.mode_numbers, few.mode_numbers[static_cast<std::size_t>(j)]);
     if (at != all.mode_numbers.end()) S(at - all.mode_numbers.begin(), j) = 1.0;
   }
   return S;

@@ -17,15 +17,16 @@ FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::Ve
   const Eigen::MatrixXd in_Q = Q.transpose() * X * Q;
   const Eigen::MatrixXd B = in_Q.bottomRightCorner(n - 1, n - 1);
 
-  FloquetMultipliers multipliers{Eigen::VectorXcd(n), (X * f_start - f_end).norm() / speed, 0.0};
+  FloquetMultipliers multipliers{Eigen::VectorXcd(n), (X * f_start - f_end).norm() / speed, 0.0,
+                                 0.0};
   multipliers.values[0] = in_Q(0, 0);
   multipliers.values.tail(n - 1) = Eigen::EigenSolver<Eigen::MatrixXd>(B, false).eigenvalues();
   std::sort(multipliers.values.begin() + 1, multipliers.values.end(),
             [](const auto& a, const auto& b) {
               return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
             });
-  multipliers.error =
-      multipliers.defect * EigenvalueChange(B, multipliers.values[1]).condition();
+  multipliers.condition = EigenvalueChange(B, multipliers.values[1]).condition();
+  multipliers.error = multipliers.defect * multipliers.condition;
   return multipliers;
 }
 

@@ -12,7 +12,8 @@ struct FloquetMultipliers {
   /// |X f(x_0) - f(x_T)| / |f|, which is zero for the exact monodromy matrix X: the measured error
   /// of X.
   double defect;
-  double error;  ///< estimated error of the largest modulus of the others
+  double condition;  ///< condition number of the largest of the others
+  double error;      ///< estimated error of the largest modulus of the others
 
   /// The largest modulus of the multipliers except the one along the cycle.
   double largest() const { return std::abs(values[1]); }

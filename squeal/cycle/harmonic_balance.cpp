@@ -91,8 +91,8 @@ Eigen::MatrixXd residual_derivative(AutonomousMotion& motion, const HarmonicCycl
   return J;
 }
 
-/// The equations for (X, ln omega): the derivative by X is bordered by that by ln omega, which makes
-/// omega as large as all else, and by the phase condition <X', dX> = 0.
+/// The equations for (X, ln omega): the derivative by X is bordered by that by ln omega, which
+/// makes omega as large as all else, and by the phase condition <X', dX> = 0.
 /// @param by_X  the derivative of the residual by X
 Eigen::MatrixXd bordered(const Eigen::MatrixXd& by_X, const HarmonicCycle& cycle)
 {
@@ -153,8 +153,7 @@ HarmonicCycle LinearBalance::change(AutonomousMotion& more, AutonomousMotion& le
 {
   const Eigen::Index N = at_.X.size();
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
-  const Eigen::MatrixXd residual =
-      residual_of(more, at_, gamma_) - residual_of(less, at_, gamma_);
+  const Eigen::MatrixXd residual = residual_of(more, at_, gamma_) - residual_of(less, at_, gamma_);
   rhs.head(N) = -residual.reshaped() / difference;
   const Eigen::VectorXd solved = solver_.solve(rhs);
   return {solved.head(N).reshaped(at_.X.rows(), at_.X.cols()), at_.omega * solved[N]};

@@ -30,6 +30,12 @@ constexpr double defect_max = 1e-6;
 /// Distance from 1 of the largest multiplier, in its errors, from which on stability is told from
 /// one tolerance.
 constexpr double sure = 100.0;
+/// Error of the multipliers by that of the orbit, in tolerances over the distance from 1; 4 for the
+/// normal form of a fold.
+constexpr double orbit_error = 10.0;
+/// Change of the largest multiplier by a step, relative to its distance from 1, that is none.
+constexpr double settled_part = 0.01;
+constexpr int settling_steps_max = 4;
 constexpr int newton_steps_max = 25;
 /// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
 /// leaves the square of what the one before left.
@@ -209,10 +215,15 @@ bool is_last(double tolerance)
   return tolerance < 2.0 * last_tolerance;
 }
 
-FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
+/// With the error of the orbit: that of its integration is magnified by 1 / |mu - 1|.
+FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow,
+                                  double tolerance)
 {
   const Eigen::VectorXd f = motion.rate_at(at.x);
-  return floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
+  FloquetMultipliers multipliers =
+      floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
+  multipliers.error += orbit_error * tolerance * multipliers.condition / multipliers.distance();
+  return multipliers;
 }
 
 /// A step with the fine derivative from an orbit that is nearly closed, of which the returned one
@@ -225,27 +236,53 @@ std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleSta
   // The end moves with the tolerance; with the fine derivative one step takes it back.
   const Eigen::VectorXd change = newton_step(motion, from, now);
   if (!(size_of(change, from) < nearly_converged)) return std::nullopt;
-  const FloquetMultipliers multipliers = multipliers_of(motion, from, now);
+  const FloquetMultipliers multipliers = multipliers_of(motion, from, now, tolerance);
   return PeriodicOrbit{moved(from, change), multipliers, 1, tolerance};
 }
 
-/// The orbit at a tolerance at which its stability is told, if there is one.
-/// @param finer  the orbit at another tolerance of the integration; absent when it is not found
-template <class Finer>
-PeriodicOrbit with_verdict(PeriodicOrbit orbit, const Finer& finer)
+/// The orbit at which steps leave the multipliers as they are; absent when there is none, as beside
+/// a fold that the tolerance does not resolve.
+/// @param step  the orbit after a step from another one, with the multipliers of that
+template <class Step>
+std::optional<PeriodicOrbit> settled_orbit(const PeriodicOrbit& near, const Step& step)
 {
-  while (!(orbit.multipliers.distance() >= sure * orbit.multipliers.error) &&
-         !is_last(orbit.tolerance)) {
-    std::optional<PeriodicOrbit> next = finer(orbit.at, tolerance_factor * orbit.tolerance);
-    if (!next) {
-      // The orbit hardly exists, so that its multipliers are not known either.
-      orbit.multipliers.error = std::max(orbit.multipliers.error, orbit.multipliers.distance());
-      return orbit;
-    }
-    next->multipliers.error = std::abs(next->multipliers.largest() - orbit.multipliers.largest());
-    next->n_newton_steps += orbit.n_newton_steps;
-    orbit = std::move(*next);
+  std::optional<PeriodicOrbit> orbit = near;
+  for (int i = 0; i < settling_steps_max; ++i) {
+    auto next = step(orbit->at);
+    if (!next) return std::nullopt;
+    next->n_newton_steps += orbit->n_newton_steps;
+    const double change = next->multipliers.largest() - orbit->multipliers.largest();
+    if (std::abs(change) <= settled_part * next->multipliers.distance()) return next;
+    orbit = std::move(next);
   }
+  return std::nullopt;
+}
+
+/// The orbit at a tolerance at which its stability is told, if there is one.
+/// @param step  the orbit after a step at a tolerance of the integration; absent when none is found
+template <class Step>
+PeriodicOrbit with_verdict(PeriodicOrbit orbit, const Step& step)
+{
+  const auto is_told = [&orbit] {
+    return orbit.multipliers.distance() >= sure * orbit.multipliers.error;
+  };
+  if (is_told()) return orbit;
+  double tolerance = orbit.tolerance;
+  const auto settled = [&] {
+    return settled_orbit(orbit, [&](const CycleStart& from) { return step(from, tolerance); });
+  };
+  std::optional<PeriodicOrbit> now = settled();
+  while (now) {
+    orbit = std::move(*now);
+    if (is_last(tolerance)) return orbit;
+    tolerance *= tolerance_factor;
+    now = settled();
+    if (!now) break;
+    now->multipliers.error = std::abs(now->multipliers.largest() - orbit.multipliers.largest());
+    if (now->multipliers.distance() >= sure * now->multipliers.error) return *now;
+  }
+  // The orbit hardly exists, so that its multipliers are not known either.
+  orbit.multipliers.error = std::max(orbit.multipliers.error, orbit.multipliers.distance());
   return orbit;
 }
 
@@ -304,7 +341,7 @@ std::optional<PeriodicOrbit> orbit_as_it_is(AutonomousMotion& motion, const Cycl
                                   double tolerance) -> std::optional<PeriodicOrbit> {
     const Flow now = flow(motion, from, tolerance);
     if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
-    return PeriodicOrbit{from, multipliers_of(motion, from, now), 0, tolerance};
+    return PeriodicOrbit{from, multipliers_of(motion, from, now, tolerance), 0, tolerance};
   };
   auto orbit = orbit_at(at, first_tolerance);
   if (orbit) orbit = with_verdict(std::move(*orbit), orbit_at);

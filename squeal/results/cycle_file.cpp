@@ -90,10 +90,9 @@ struct Told {
   ErrorBudget CycleErrors::*budget;
 };
 
-constexpr Told told_with_errors[] = {
-    {"frequency", "Hz", &CycleErrors::frequency_Hz},
-    {"pad_velocity", "m/s", &CycleErrors::pad_velocity},
-    {"pad_displacement", "m", &CycleErrors::pad_displacement}};
+constexpr Told told_with_errors[] = {{"frequency", "Hz", &CycleErrors::frequency_Hz},
+                                     {"pad_velocity", "m/s", &CycleErrors::pad_velocity},
+                                     {"pad_displacement", "m", &CycleErrors::pad_displacement}};
 
 std::string error_path(const Told& number, const char* part)
 {

@@ -74,7 +74,7 @@ struct DirectLimitCycle {
   /// Estimated error of the largest modulus of the others, by integration and shooting; absent in
   /// files of earlier versions.
   std::optional<double> multiplier_error = {};
-  int n_newton_steps;  ///< steps of the successful search
+  int n_newton_steps;                  ///< steps of the successful search
   std::int64_t n_contact_evaluations;  ///< number of all contact evaluations; see SlidingDisc
   Eigen::VectorXd x;                   ///< a state on the cycle; see SlidingDisc
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based numbers of the body's modes
@@ -97,8 +97,8 @@ struct BranchPoint {
   std::optional<double> multiplier_error = {};
 };
 
-/// Whether the largest multiplier is below or above 1, or neither within its error; 1e-6 in files of
-/// earlier versions, to which they integrated.
+/// Whether the largest multiplier is below or above 1, or neither within its error; 1e-6 in files
+/// of earlier versions, to which they integrated.
 CycleStability stability_of(const DirectLimitCycle& cycle);
 CycleStability stability_of(const BranchPoint& point);
 

@@ -45,7 +45,8 @@ class GrowingMotion {
       scale(disc, factor);
       return state_matrix(disc, options_, speed_);
     };
-    return Eigen::VectorXd::Constant(1, change(scaled(1.0 + step), scaled(1.0 - step)) / (2.0 * step));
+    return Eigen::VectorXd::Constant(1,
+                                     change(scaled(1.0 + step), scaled(1.0 - step)) / (2.0 * step));
   }
 
  private:

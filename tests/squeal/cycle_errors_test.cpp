@@ -8,7 +8,6 @@
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,22 +74,33 @@ TEST(CycleStability, IsNotWrongNearAFoldOrAHopfPoint)
     for (const double s : squares) {
       const SubcriticalHopf field{2.0 - s + s * s, twist};
       PlanarMotion motion(field);
-      const double multiplier = field.multiplier(s);
       const auto orbit =
           periodic_orbit(motion, {Eigen::Vector2d(std::sqrt(s), 0.0), field.period(s)});
       if (!orbit) continue;  // beside the fold Newton's method has no simple root
-      SCOPED_TRACE(testing::Message() << "twist " << twist << ", s " << s << ", multiplier - 1 "
-                                      << multiplier - 1.0 << ", told error "
-                                      << orbit->multipliers.error);
-      EXPECT_FALSE(is_wrong(verdict_of(orbit->multipliers), multiplier));
+      // The other cycle of this speed, with r^2 = 1 - s, may be as near.
+      const double found = orbit->at.x.squaredNorm();
+      const double multiplier =
+          field.multiplier(std::abs(found - s) < std::abs(found - (1.0 - s)) ? s : 1.0 - s);
+      const CycleStability verdict = verdict_of(orbit->multipliers);
+      SCOPED_TRACE(
+          fmt::format("twist {}, s - 1/2 = {:.3g}, found {:.3g}: multiplier {:.3g} + 1, "
+                      "told {:.3g} + 1 +- {:.1e}",
+                      twist, s - 0.5, found - 0.5, multiplier - 1.0,
+                      orbit->multipliers.largest() - 1.0, orbit->multipliers.error));
+      EXPECT_FALSE(is_wrong(verdict, multiplier));
+      if (verdict != CycleStability::undecided) {
+        EXPECT_NEAR(orbit->multipliers.largest(), multiplier, orbit->multipliers.error + 1e-12);
+      }
       if (std::abs(multiplier - 1.0) > 1e-5) continue;
       ++n_within;
-      n_decided += verdict_of(orbit->multipliers) != CycleStability::undecided;
+      n_decided += verdict != CycleStability::undecided;
     }
   }
-  std::printf("%d within 1e-5, %d decided\n", n_within, n_decided);
+  // Those beside the Hopf point are decided, those beside the fold are where its place, which moves
+  // with the tolerance, does not come between.
   EXPECT_GT(n_within, 10);
-  EXPECT_GT(n_decided, n_within / 2);
+  EXPECT_GT(n_decided, 5);
+  EXPECT_LT(n_decided, n_within);
 }
 
 /// A cycle at a tolerance of 1e-13 with three times the exponentials of the sharpest that tell an
@@ -179,8 +189,8 @@ std::vector<Case> cases()
   SquealOptions heavy = reference_options(ContactLaw::unilateral);
   heavy.pads.front().stiffness = 2e7;
   heavy.pads.front().body = PadBody{.mass = 0.1, .axial = Suspension{9e6, 2.0}};
-  all.push_back({"pad with a mass",
-                 std::make_shared<FlexibleDisc>(disc_of({kirchhoff_3()}), heavy), 6.0 * pi});
+  all.push_back({"pad with a mass", std::make_shared<FlexibleDisc>(disc_of({kirchhoff_3()}), heavy),
+                 6.0 * pi});
   all.push_back({"oscillator", std::make_shared<SlidingBrake>(falling_friction()), 2.0});
   return all;
 }
@@ -193,8 +203,6 @@ TEST(CycleErrors, OfTheIntegrationAreThoseThatAFinerOneFinds)
     const CycleErrors errors = cycle_errors(*brake, cycle);
     const Reference reference = reference_of(*brake, cycle);
     const auto check = [&](const char* what, double told, double found, double size) {
-      std::printf("%-24s %-13s told %8.1e found %8.1e of %.6g\n", name.c_str(), what, told, found,
-                  size);
       EXPECT_GE(told + 1e-11 * size, 0.5 * found) << what;
       EXPECT_LE(told, 2.0 * found + 1e-11 * size) << what;
     };
@@ -205,9 +213,6 @@ TEST(CycleErrors, OfTheIntegrationAreThoseThatAFinerOneFinds)
     check("displacement", errors.pad_displacement.integration.value(),
           std::abs(cycle.pad_displacement - reference.displacement), cycle.pad_displacement);
     const double found = std::abs(std::abs(cycle.multipliers[1]) - reference.multiplier);
-    std::printf("%-24s %-13s told %8.1e found %8.1e of %.9g, defect %.1e, evaluations %ld\n",
-                name.c_str(), "multiplier", *cycle.multiplier_error, found, reference.multiplier,
-                std::abs(cycle.multipliers[0] - 1.0), long(cycle.n_contact_evaluations));
     EXPECT_GE(*cycle.multiplier_error + 1e-11, found);
     EXPECT_FALSE(is_wrong(stability_of(cycle), reference.multiplier));
   }
@@ -220,8 +225,9 @@ std::array<double, 3> numbers_of(const DirectLimitCycle& cycle)
 
 TEST(CycleErrors, OfTheBodyAreThoseOfABodyThatIsOffSoMuch)
 {
-  // Of first order, for errors of 1e-6 of all frequencies or all motions of the ring: derivatives
-  // by a few harmonics are off by up to a tenth where contact is lost.
+  // Of first order, for errors of 1e-6 of the frequencies of each pair: derivatives by a few
+  // harmonics are off by up to a fifth where contact is lost, and where they nearly vanish by a
+  // thirtieth of what the same part of the number itself is.
   constexpr double error = 1e-6;
   for (const auto& [name, brake, speed] : cases()) {
     const FlexibleDisc* body = brake->body();
@@ -243,9 +249,8 @@ TEST(CycleErrors, OfTheBodyAreThoseOfABodyThatIsOffSoMuch)
                                        errors.pad_displacement.reduction.value()};
       for (std::size_t k = 0; k < 3; ++k) {
         const double found = std::abs(numbers_of(*other)[k] - numbers_of(cycle)[k]);
-        std::printf("%-24s mode %d number %d told %8.1e found %8.1e\n", name.c_str(), int(i),
-                    int(k), told[k], found);
-        EXPECT_NEAR(told[k], found, 0.1 * found);
+        EXPECT_NEAR(told[k], found, 0.2 * found + 0.03 * error * numbers_of(cycle)[k])
+            << "mode " << i << ", number " << k;
       }
     }
   }
