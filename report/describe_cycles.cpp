@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "report/describe_stability.hpp"
 #include "report/quantities.hpp"
 
 namespace chladni::report {
@@ -14,6 +15,31 @@ namespace {
 
 /// Of the strongest lines of a spectrum, in a table.
 constexpr int n_lines_told = 5;
+
+/// A number of a limit cycle, and its error with its parts.
+struct ToldNumber {
+  const char* name;
+  const char* unit;
+  double value;
+  squeal::ErrorBudget budget;
+};
+
+void add_with_error(TextTable& table, const ToldNumber& told)
+{
+  const std::string name = fmt::format("direct limit cycle: {}", told.name);
+  add(table, name, told.value, told.unit);
+  if (told.budget.is_empty()) return;
+  table.rows.push_back({fmt::format("its error ({})", parts_of(told.budget)),
+                        fmt::format("+- {:.2g}", told.budget.sum()), told.unit});
+}
+
+squeal::ErrorBudget in_mm(squeal::ErrorBudget budget)
+{
+  for (auto* part :
+       {&budget.mesh, &budget.reduction, &budget.body, &budget.left_out, &budget.integration})
+    if (*part) **part *= 1e3;
+  return budget;
+}
 
 }  // namespace
 
@@ -25,6 +51,18 @@ double rpm(double rad_s)
 std::string spoken(double rad_s)
 {
   return fmt::format("{:.6g} rad/s ({:.4g} rpm)", rad_s, rpm(rad_s));
+}
+
+std::string doubt_of_stability(squeal::CycleStability stability)
+{
+  switch (stability) {
+    case squeal::CycleStability::stable:
+      return "";
+    case squeal::CycleStability::unstable:
+      return "not stable";
+    default:
+      return "stable or not: undecided within its error";
+  }
 }
 
 void add_limit_cycle(TextTable& table, const squeal::LimitCycle& cycle)
@@ -65,13 +103,19 @@ void add_statistics(TextTable& table, const squeal::MotionStatistics& statistics
 void add_direct_limit_cycle(TextTable& table, const squeal::DirectLimitCycle& cycle)
 {
   add(table, "direct limit cycle: speed", cycle.speed, "rad/s");
-  add(table, "direct limit cycle: frequency", cycle.frequency_Hz, "Hz");
-  add(table, "direct limit cycle: pad velocity", cycle.pad_velocity, "m/s");
-  add(table, "direct limit cycle: pad displacement", 1e3 * cycle.pad_displacement, "mm");
+  add_with_error(table, {"frequency", "Hz", cycle.frequency_Hz, cycle.errors.frequency_Hz});
+  add_with_error(table, {"pad velocity", "m/s", cycle.pad_velocity, cycle.errors.pad_velocity});
+  add_with_error(table, {"pad displacement", "mm", 1e3 * cycle.pad_displacement,
+                         in_mm(cycle.errors.pad_displacement)});
   add(table, "direct limit cycle: least normal force", cycle.N_min, "N");
   add(table, "direct limit cycle: largest normal force", cycle.N_max, "N");
   add(table, "direct limit cycle: largest multiplier", std::abs(cycle.multipliers[1]), "");
-  if (!cycle.stable) table.rows.push_back({"direct limit cycle", "not stable", ""});
+  if (cycle.multiplier_error) {
+    table.rows.push_back(
+        {"its error (integration)", fmt::format("+- {:.1g}", *cycle.multiplier_error), ""});
+  }
+  const std::string doubt = doubt_of_stability(squeal::stability_of(cycle));
+  if (!doubt.empty()) table.rows.push_back({"direct limit cycle", doubt, ""});
   add_count(table, "direct limit cycle: contact evaluations", cycle.n_contact_evaluations);
   if (!cycle.way.empty()) table.rows.push_back({"direct limit cycle: found", cycle.way, ""});
 }

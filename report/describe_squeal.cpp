@@ -51,15 +51,7 @@ struct Searched {
 void add_budget(TextTable& table, const squeal::ErrorBudget& budget)
 {
   if (budget.is_empty()) return;
-  std::vector<std::string> parts;
-  const auto add_part = [&](const char* name, const std::optional<double>& part) {
-    if (part) parts.push_back(fmt::format("{} {:.1g}", name, *part));
-  };
-  add_part("mesh", budget.mesh);
-  add_part("reduction", budget.reduction);
-  add_part("body", budget.body);
-  add_part("modes left out", budget.left_out);
-  table.rows.push_back({fmt::format("its error ({})", fmt::join(parts, ", ")),
+  table.rows.push_back({fmt::format("its error ({})", parts_of(budget)),
                         fmt::format("+- {:.2g}", budget.sum()), "rad/s"});
   // Without a tolerance of [body] keep nothing is known of them, and they may count most.
   if (!budget.body)

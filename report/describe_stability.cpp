@@ -128,6 +128,20 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
     table.rows.push_back({"not in these errors: modes that the body lacks", "unknown", ""});
 }
 
+std::string parts_of(const squeal::ErrorBudget& budget)
+{
+  std::vector<std::string> parts;
+  const auto add_part = [&](const char* name, const std::optional<double>& part) {
+    if (part) parts.push_back(fmt::format("{} {:.1g}", name, *part));
+  };
+  add_part("mesh", budget.mesh);
+  add_part("reduction", budget.reduction);
+  add_part("body", budget.body);
+  add_part("modes left out", budget.left_out);
+  add_part("integration", budget.integration);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 Json budget_json(const squeal::ErrorBudget& budget)
 {
   return Json::object({{"mesh", optional_json(budget.mesh)},

@@ -78,22 +78,39 @@ Json statistics_json(const squeal::MotionStatistics& statistics)
                        {"lines", Json::array(lines)}});
 }
 
+/// Its errors as they are told of other results, and that of the integration.
+Json cycle_error_json(const squeal::ErrorBudget& budget)
+{
+  return Json::object({{"mesh", optional_json(budget.mesh)},
+                       {"reduction", optional_json(budget.reduction)},
+                       {"body", optional_json(budget.body)},
+                       {"modes_left_out", optional_json(budget.left_out)},
+                       {"integration", optional_json(budget.integration)}});
+}
+
 Json direct_json(const squeal::DirectLimitCycle& cycle)
 {
+  const squeal::CycleStability stability = squeal::stability_of(cycle);
   std::vector<Json> multipliers;
   for (const std::complex<double>& value : cycle.multipliers)
     multipliers.push_back(Json::array({value.real(), value.imag()}));
-  return Json::object({{"speed_rad_s", cycle.speed},
-                       {"frequency_Hz", cycle.frequency_Hz},
-                       {"pad_velocity_m_s", cycle.pad_velocity},
-                       {"pad_displacement_m", cycle.pad_displacement},
-                       {"friction_work_J", cycle.energy.friction.sum()},
-                       {"normal_work_J", cycle.energy.normal.sum()},
-                       {"damping_work_J", cycle.energy.damping},
-                       {"stable", cycle.stable ? 1 : 0},
-                       {"multipliers", Json::array(multipliers)},
-                       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
-                       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
+  return Json::object(
+      {{"speed_rad_s", cycle.speed},
+       {"frequency_Hz", cycle.frequency_Hz},
+       {"pad_velocity_m_s", cycle.pad_velocity},
+       {"pad_displacement_m", cycle.pad_displacement},
+       {"friction_work_J", cycle.energy.friction.sum()},
+       {"normal_work_J", cycle.energy.normal.sum()},
+       {"damping_work_J", cycle.energy.damping},
+       {"frequency_errors_Hz", cycle_error_json(cycle.errors.frequency_Hz)},
+       {"pad_velocity_errors_m_s", cycle_error_json(cycle.errors.pad_velocity)},
+       {"pad_displacement_errors_m", cycle_error_json(cycle.errors.pad_displacement)},
+       {"stable", stability == squeal::CycleStability::stable ? 1 : 0},
+       {"stability", squeal::name_of(stability)},
+       {"multipliers", Json::array(multipliers)},
+       {"multiplier_error", optional_json(cycle.multiplier_error)},
+       {"n_contact_evaluations", double(cycle.n_contact_evaluations)},
+       {"way", cycle.way.empty() ? Json() : Json(cycle.way)}});
 }
 
 Json branch_point_json(const squeal::BranchPoint& point)
@@ -102,7 +119,9 @@ Json branch_point_json(const squeal::BranchPoint& point)
                        {"frequency_Hz", point.frequency_Hz},
                        {"pad_velocity_m_s", point.pad_velocity},
                        {"pad_displacement_m", point.pad_displacement},
-                       {"largest_multiplier", point.largest_multiplier}});
+                       {"largest_multiplier", point.largest_multiplier},
+                       {"multiplier_error", optional_json(point.multiplier_error)},
+                       {"stability", squeal::name_of(squeal::stability_of(point))}});
 }
 
 Json branch_json(const squeal::LimitCycleBranch& branch)

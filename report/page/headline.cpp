@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+
+#include "report/describe_cycles.hpp"
 
 namespace chladni::report {
 
@@ -35,8 +38,9 @@ std::string name_of(const squeal::LimitCycle& cycle)
 
 std::string name_of(const squeal::DirectLimitCycle& cycle)
 {
-  return fmt::format("Limit cycle at {:.5g} rad/s{}", cycle.speed,
-                     cycle.stable ? "" : ", not stable");
+  const std::string doubt = doubt_of_stability(squeal::stability_of(cycle));
+  return fmt::format("Limit cycle at {:.5g} rad/s{}{}", cycle.speed, doubt.empty() ? "" : ", ",
+                     doubt);
 }
 
 }  // namespace chladni::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "report/describe_cycles.hpp"
 #include "report/describe_gradients.hpp"
 #include "report/page/headline.hpp"
 #include "report/page/motion_statistics.hpp"
@@ -137,9 +138,9 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
   std::vector<squeal::BranchPoint> points = branch.points;
   if (branch.origin) points.insert(points.begin(), branch.origin->first);
   std::vector<double> speed, velocity, frequency_Hz, multiplier;
-  std::vector<Json> stable;  // a multiplier beside a Hopf point may be rounded to 1
+  std::vector<Json> stability;  // a multiplier beside a Hopf point may be rounded to 1
   for (const squeal::BranchPoint& point : points) {
-    stable.push_back(point.largest_multiplier < 1.0 ? 1 : 0);
+    stability.emplace_back(squeal::name_of(squeal::stability_of(point)));
     speed.push_back(point.speed);
     velocity.push_back(point.pad_velocity);
     frequency_Hz.push_back(point.frequency_Hz);
@@ -152,7 +153,7 @@ Json branch_json(const squeal::LimitCycleBranch& branch)
         branch.second_part ? Json(static_cast<int>(*branch.second_part + before)) : Json()},
        {"pad_velocity", rounded(velocity)},
        {"frequency_Hz", rounded(frequency_Hz)},
-       {"stable", Json::array(stable)},
+       {"stability", Json::array(stability)},
        {"largest_multiplier", rounded(multiplier)}});
 }
 
@@ -187,7 +188,23 @@ std::string doubt_of(const squeal::LimitCycle& cycle)
 
 std::string doubt_of(const squeal::DirectLimitCycle& cycle)
 {
-  return cycle.stable ? "" : "not stable";
+  return doubt_of_stability(squeal::stability_of(cycle));
+}
+
+Json errors_of(const squeal::LimitCycle& /*cycle*/)
+{
+  return Json();
+}
+
+/// What frequency and amplitudes may be off by.
+Json errors_of(const squeal::DirectLimitCycle& cycle)
+{
+  const auto sum = [](const squeal::ErrorBudget& budget) {
+    return budget.is_empty() ? Json() : rounded(budget.sum());
+  };
+  return Json::object({{"frequency_Hz", sum(cycle.errors.frequency_Hz)},
+                       {"pad_velocity", sum(cycle.errors.pad_velocity)},
+                       {"pad_displacement", sum(cycle.errors.pad_displacement)}});
 }
 
 template <class Cycle>
@@ -199,6 +216,7 @@ Json cycle_json(const Cycle& cycle)
                        {"pad_displacement", rounded(cycle.pad_displacement)},
                        {"N_min", rounded(cycle.N_min)},
                        {"N_max", rounded(cycle.N_max)},
+                       {"errors", errors_of(cycle)},
                        {"doubt", doubt_of(cycle)}});
 }
 

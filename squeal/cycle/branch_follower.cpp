@@ -19,8 +19,6 @@ constexpr int steps_max = 2000;
 constexpr double end_at_rest = 1e-3;
 /// Of the place of a fold, relative to the step in which it is.
 constexpr double fold_error = 1e-3;
-/// Of the integration of a cycle at a fold.
-constexpr double orbit_tolerance = 1e-9;
 
 /// The direction of the speed along the branch.
 double slope(const ArcPoint& point)
@@ -38,7 +36,8 @@ BranchPoint point_of(const DirectLimitCycle& cycle)
           .pad_displacement = cycle.pad_displacement,
           .N_min = cycle.N_min,
           .N_max = cycle.N_max,
-          .largest_multiplier = std::abs(cycle.multipliers[1])};
+          .largest_multiplier = std::abs(cycle.multipliers[1]),
+          .multiplier_error = cycle.multiplier_error};
 }
 
 BranchFollower::BranchFollower(const Brake& brake, const SpeedRange& range)
@@ -129,10 +128,9 @@ void BranchFollower::add(const CycleStart& near, double speed,
 std::optional<BranchPoint> BranchFollower::as_it_is(const ArcPoint& point) const
 {
   const std::unique_ptr<AutonomousMotion> motion = brake_.motion(point.speed);
-  const Flow end = flow(*motion, point.at, orbit_tolerance);
-  if (!end.end.allFinite() || !end.derivative.allFinite()) return std::nullopt;
-  return point_of(
-      measured_cycle(brake_, *motion, {point.at, end.derivative, 0, orbit_tolerance}, point.speed));
+  const auto orbit = orbit_as_it_is(*motion, point.at);
+  if (!orbit) return std::nullopt;
+  return point_of(measured_cycle(brake_, *motion, *orbit, point.speed));
 }
 
 }  // namespace chladni::squeal

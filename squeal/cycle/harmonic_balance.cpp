@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "linear/dense/dense_solvers.hpp"
 
@@ -18,14 +19,19 @@ constexpr double worn_out = 0.4;
 /// Largest change of X in one step, relative.
 constexpr double largest_change = 0.5;
 
-/// [2 n_harmonics + 1 x n_samples] 1, cos(k tau_j), sin(k tau_j).
-Eigen::MatrixXd waves(const HarmonicResolution& resolution)
+int n_harmonics_of(const HarmonicCycle& cycle)
 {
-  const Eigen::ArrayXd tau = Eigen::ArrayXd::LinSpaced(
-      resolution.n_samples, 0.0, 2.0 * pi * (1.0 - 1.0 / resolution.n_samples));
-  Eigen::MatrixXd gamma(2 * resolution.n_harmonics + 1, resolution.n_samples);
+  return static_cast<int>(cycle.X.cols() / 2);
+}
+
+/// [2 n_harmonics + 1 x n_samples] 1, cos(k tau_j), sin(k tau_j).
+Eigen::MatrixXd waves(int n_harmonics, Eigen::Index n_samples)
+{
+  const Eigen::ArrayXd tau =
+      Eigen::ArrayXd::LinSpaced(n_samples, 0.0, 2.0 * pi * (1.0 - 1.0 / double(n_samples)));
+  Eigen::MatrixXd gamma(2 * n_harmonics + 1, n_samples);
   gamma.row(0).setOnes();
-  for (int k = 1; k <= resolution.n_harmonics; ++k) {
+  for (int k = 1; k <= n_harmonics; ++k) {
     gamma.row(2 * k - 1) = (k * tau).cos().transpose();
     gamma.row(2 * k) = (k * tau).sin().transpose();
   }
@@ -85,6 +91,20 @@ Eigen::MatrixXd residual_derivative(AutonomousMotion& motion, const HarmonicCycl
   return J;
 }
 
+/// The equations for (X, ln omega): the derivative by X is bordered by that by ln omega, which
+/// makes omega as large as all else, and by the phase condition <X', dX> = 0.
+/// @param by_X  the derivative of the residual by X
+Eigen::MatrixXd bordered(const Eigen::MatrixXd& by_X, const HarmonicCycle& cycle)
+{
+  const Eigen::Index N = by_X.rows();
+  const Eigen::VectorXd border = cycle.omega * derivative(cycle.X).reshaped();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(N + 1, N + 1);
+  J.topLeftCorner(N, N) = by_X;
+  J.col(N).head(N) = border;
+  J.row(N).head(N) = border.transpose();
+  return J;
+}
+
 /// The start with zeros in the higher harmonics.
 HarmonicCycle padded(const HarmonicCycle& start, int n_harmonics)
 {
@@ -100,22 +120,16 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
 {
   assert(start.X.cols() <= 2 * resolution.n_harmonics + 1);
   assert(resolution.n_samples > 2 * resolution.n_harmonics);
-  const Eigen::MatrixXd gamma = waves(resolution);
+  const Eigen::MatrixXd gamma = waves(resolution.n_harmonics, resolution.n_samples);
   HarmonicCycle cycle = padded(start, resolution.n_harmonics);
   const Eigen::Index N = cycle.X.size();
   Eigen::MatrixXd by_X;
   double before = 0.0;  // the last change, none while the derivative is to be made
   for (int i = 0; i < newton_steps_max; ++i) {
     if (before == 0.0) by_X = residual_derivative(motion, cycle, gamma);
-    const Eigen::MatrixXd X_tau = derivative(cycle.X);
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(N + 1, N + 1);
-    J.topLeftCorner(N, N) = by_X;
-    // omega scaled by itself, as all else has the size of omega X.
-    J.col(N).head(N) = cycle.omega * X_tau.reshaped();
-    J.row(N).head(N) = cycle.omega * X_tau.reshaped().transpose();
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
     rhs.head(N) = -residual_of(motion, cycle, gamma).reshaped();
-    const Eigen::VectorXd change = J.partialPivLu().solve(rhs);
+    const Eigen::VectorXd change = bordered(by_X, cycle).partialPivLu().solve(rhs);
     const double size = change.head(N).norm() / cycle.X.norm() + std::abs(change[N]);
     if (!std::isfinite(size)) return std::nullopt;
     const double damping = std::min(1.0, largest_change / size);
@@ -126,6 +140,33 @@ std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const Ha
     before = worn ? 0.0 : size;
   }
   return std::nullopt;
+}
+
+LinearBalance::LinearBalance(AutonomousMotion& motion, HarmonicCycle at, int n_samples)
+    : at_(std::move(at)),
+      gamma_(waves(n_harmonics_of(at_), n_samples)),
+      solver_(bordered(residual_derivative(motion, at_, gamma_), at_))
+{}
+
+HarmonicCycle LinearBalance::change(AutonomousMotion& more, AutonomousMotion& less,
+                                    double difference) const
+{
+  const Eigen::Index N = at_.X.size();
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(N + 1);
+  const Eigen::MatrixXd residual = residual_of(more, at_, gamma_) - residual_of(less, at_, gamma_);
+  rhs.head(N) = -residual.reshaped() / difference;
+  const Eigen::VectorXd solved = solver_.solve(rhs);
+  return {solved.head(N).reshaped(at_.X.rows(), at_.X.cols()), at_.omega * solved[N]};
+}
+
+HarmonicCycle series_of(const Eigen::MatrixXd& states, double omega, int n_harmonics)
+{
+  return {states * projection(waves(n_harmonics, states.cols())), omega};
+}
+
+Eigen::MatrixXd samples_of(const HarmonicCycle& cycle, int n_samples)
+{
+  return cycle.X * waves(n_harmonics_of(cycle), n_samples);
 }
 
 Eigen::VectorXd start_of(const HarmonicCycle& cycle)

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "linear/dense/dense_solvers.hpp"
 #include "squeal/motion/autonomous_motion.hpp"
 
 namespace chladni::squeal {
@@ -30,6 +31,33 @@ struct HarmonicResolution {
 /// @return absent when Newton's method does not converge
 std::optional<HarmonicCycle> harmonic_balance(AutonomousMotion& motion, const HarmonicCycle& start,
                                               const HarmonicResolution& resolution);
+
+/// The equations of harmonic balance, linearised about a periodic motion.
+class LinearBalance {
+ public:
+  /// @param n_samples  of the forces per period
+  LinearBalance(AutonomousMotion& motion, HarmonicCycle at, int n_samples);
+
+  const HarmonicCycle& at() const { return at_; }
+
+  /// Derivative of the periodic motion by a parameter of f.
+  /// @param more, less  the motion with a larger and a smaller value of the parameter
+  /// @param difference  of the two values
+  HarmonicCycle change(AutonomousMotion& more, AutonomousMotion& less, double difference) const;
+
+ private:
+  HarmonicCycle at_;
+  Eigen::MatrixXd gamma_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
+};
+
+/// The first harmonics of a motion with these equally spaced samples of one period.
+/// @param states  [size x n_samples]
+HarmonicCycle series_of(const Eigen::MatrixXd& states, double omega, int n_harmonics);
+
+/// Equally spaced samples of one period.
+/// @return [size x n_samples]
+Eigen::MatrixXd samples_of(const HarmonicCycle& cycle, int n_samples);
 
 /// The state x(0) of a series.
 Eigen::VectorXd start_of(const HarmonicCycle& cycle);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "squeal/brake/inertial_frame.hpp"
+#include "squeal/cycle/pad_amplitudes.hpp"
 #include "squeal/models/flexible_disc.hpp"
 #include "squeal/motion/sliding_disc.hpp"
 
@@ -33,16 +34,6 @@ struct PadSamples {
   }
 };
 
-/// The largest of samples of one period, refined by a parabola unless it is a plateau.
-double peak(const Eigen::VectorXd& x)
-{
-  Eigen::Index i = 0;
-  const double top = x.maxCoeff(&i);
-  const double left = x[(i + x.size() - 1) % x.size()], right = x[(i + 1) % x.size()];
-  const double bend = left - 2.0 * top + right;
-  return left < top && right < top ? top - (right - left) * (right - left) / (8.0 * bend) : top;
-}
-
 /// The lowest speed of sliding of the first pads, by finer samples about that of the given ones:
 /// where it nearly stops, sliding turns within microseconds.
 double lowest_slip(AutonomousMotion& motion, const PadSamples& pad, const Eigen::MatrixXd& states,
@@ -63,16 +54,16 @@ double lowest_slip(AutonomousMotion& motion, const PadSamples& pad, const Eigen:
 /// All but modes and energies.
 DirectLimitCycle seen_at_pad(const PadSamples& pad, const PeriodicOrbit& orbit, double speed)
 {
-  const Eigen::VectorXcd multipliers = floquet_multipliers(orbit.monodromy);
+  const PadAmplitudes amplitudes = pad_amplitudes(pad.z, pad.z_dot);
   return {.speed = speed,
           .frequency_Hz = 1.0 / orbit.at.period,
-          .pad_velocity = std::max(peak(pad.z_dot), peak(-pad.z_dot)),
-          .pad_displacement = 0.5 * (peak(pad.z) + peak(-pad.z)),
+          .pad_velocity = amplitudes.velocity,
+          .pad_displacement = amplitudes.displacement,
           .N_min = -peak(-pad.N),
           .N_max = peak(pad.N),
           .slip_speed_min = pad.slip_speed.minCoeff(),
-          .multipliers = multipliers,
-          .stable = (multipliers.tail(multipliers.size() - 1).cwiseAbs().array() < 1.0).all(),
+          .multipliers = orbit.multipliers.values,
+          .multiplier_error = orbit.multipliers.error,
           .n_newton_steps = orbit.n_newton_steps,
           .n_contact_evaluations = 0,
           .x = orbit.at.x,

@@ -24,7 +24,18 @@ constexpr double exponentials_per_period = 36.0;
 constexpr double rough_exponentials_per_period = 12.0;
 constexpr double first_tolerance = 1e-9;
 constexpr double last_tolerance = 1e-13;
-constexpr double multiplier_error = 1e-6;
+/// From one tolerance to the next.
+constexpr double tolerance_factor = 1e-2;
+constexpr double defect_max = 1e-6;
+/// Distance from 1 of the largest multiplier, in its errors, from which on stability is told from
+/// one tolerance.
+constexpr double sure = 100.0;
+/// Error of the multipliers by that of the orbit, in tolerances over the distance from 1; 4 for the
+/// normal form of a fold.
+constexpr double orbit_error = 10.0;
+/// Change of the largest multiplier by a step, relative to its distance from 1, that is none.
+constexpr double settled_part = 0.01;
+constexpr int settling_steps_max = 4;
 constexpr int newton_steps_max = 25;
 /// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
 /// leaves the square of what the one before left.
@@ -160,6 +171,12 @@ double size_of(const Eigen::VectorXd& change, const CycleStart& at)
   return change.head(n).norm() / at.x.norm() + std::abs(change[n]);
 }
 
+CycleStart moved(const CycleStart& at, const Eigen::VectorXd& change)
+{
+  const Eigen::Index n = at.x.size();
+  return {at.x + change.head(n), at.period * (1.0 + change[n])};
+}
+
 /// An orbit without its multipliers.
 struct ClosedOrbit {
   CycleStart at;
@@ -169,7 +186,6 @@ struct ClosedOrbit {
 /// Newton's method at the first tolerance of the integration.
 std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
 {
-  const Eigen::Index n = at.x.size();
   constexpr double tolerance = first_tolerance;
   Flow now{};
   bool renew = true;
@@ -184,8 +200,7 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
     const double size = size_of(change, at);
     if (!std::isfinite(size)) return std::nullopt;
     const double damping = std::min(1.0, largest_change / size);
-    at.x += damping * change.head(n);
-    at.period *= 1.0 + damping * change[n];
+    at = moved(at, damping * change);
     if (!(at.period > 0.0)) return std::nullopt;
     if (size < nearly_converged) return ClosedOrbit{at, i};
     renew = damping < 1.0 || size > (renew ? 1e-2 : worn_out * before);
@@ -194,9 +209,81 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
   return std::nullopt;
 }
 
-double error_along(const Eigen::MatrixXd& monodromy)
+/// Whether no smaller tolerance follows; powers of the factor are rounded.
+bool is_last(double tolerance)
 {
-  return std::abs(floquet_multipliers(monodromy)[0] - 1.0);
+  return tolerance < 2.0 * last_tolerance;
+}
+
+/// With the error of the orbit: that of its integration is magnified by 1 / |mu - 1|.
+FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow,
+                                  double tolerance)
+{
+  const Eigen::VectorXd f = motion.rate_at(at.x);
+  FloquetMultipliers multipliers =
+      floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
+  multipliers.error += orbit_error * tolerance * multipliers.condition / multipliers.distance();
+  return multipliers;
+}
+
+/// A step with the fine derivative from an orbit that is nearly closed, of which the returned one
+/// has the multipliers.
+std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleStart& from,
+                                        double tolerance)
+{
+  const Flow now = flow(motion, from, tolerance);
+  if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
+  // The end moves with the tolerance; with the fine derivative one step takes it back.
+  const Eigen::VectorXd change = newton_step(motion, from, now);
+  if (!(size_of(change, from) < nearly_converged)) return std::nullopt;
+  const FloquetMultipliers multipliers = multipliers_of(motion, from, now, tolerance);
+  return PeriodicOrbit{moved(from, change), multipliers, 1, tolerance};
+}
+
+/// The orbit at which steps leave the multipliers as they are; absent when there is none, as beside
+/// a fold that the tolerance does not resolve.
+/// @param step  the orbit after a step from another one, with the multipliers of that
+template <class Step>
+std::optional<PeriodicOrbit> settled_orbit(const PeriodicOrbit& near, const Step& step)
+{
+  std::optional<PeriodicOrbit> orbit = near;
+  for (int i = 0; i < settling_steps_max; ++i) {
+    auto next = step(orbit->at);
+    if (!next) return std::nullopt;
+    next->n_newton_steps += orbit->n_newton_steps;
+    const double change = next->multipliers.largest() - orbit->multipliers.largest();
+    if (std::abs(change) <= settled_part * next->multipliers.distance()) return next;
+    orbit = std::move(next);
+  }
+  return std::nullopt;
+}
+
+/// The orbit at a tolerance at which its stability is told, if there is one.
+/// @param step  the orbit after a step at a tolerance of the integration; absent when none is found
+template <class Step>
+PeriodicOrbit with_verdict(PeriodicOrbit orbit, const Step& step)
+{
+  const auto is_told = [&orbit] {
+    return orbit.multipliers.distance() >= sure * orbit.multipliers.error;
+  };
+  if (is_told()) return orbit;
+  double tolerance = orbit.tolerance;
+  const auto settled = [&] {
+    return settled_orbit(orbit, [&](const CycleStart& from) { return step(from, tolerance); });
+  };
+  std::optional<PeriodicOrbit> now = settled();
+  while (now) {
+    orbit = std::move(*now);
+    if (is_last(tolerance)) return orbit;
+    tolerance *= tolerance_factor;
+    now = settled();
+    if (!now) break;
+    now->multipliers.error = std::abs(now->multipliers.largest() - orbit.multipliers.largest());
+    if (now->multipliers.distance() >= sure * now->multipliers.error) return *now;
+  }
+  // The orbit hardly exists, so that its multipliers are not known either.
+  orbit.multipliers.error = std::max(orbit.multipliers.error, orbit.multipliers.distance());
+  return orbit;
 }
 
 }  // namespace
@@ -235,31 +322,39 @@ std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const Cycl
   if (!closed) return std::nullopt;
   CycleStart at = closed->at;
   int n_newton_steps = closed->n_newton_steps;
-  for (double tolerance = first_tolerance;; tolerance *= 1e-2) {
-    const Flow now = flow(motion, at, tolerance);
-    if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
-    // The end moves with the tolerance; with the fine derivative one step takes it back.
-    const Eigen::VectorXd change = newton_step(motion, at, now);
-    if (!(size_of(change, at) < nearly_converged)) return std::nullopt;
-    const double error = error_along(now.derivative);
-    at.x += change.head(at.x.size());
-    at.period *= 1.0 + change[at.x.size()];
-    ++n_newton_steps;
-    if (error < multiplier_error || tolerance <= last_tolerance)
-      return PeriodicOrbit{at, now.derivative, n_newton_steps, tolerance};
+  for (double tolerance = first_tolerance;; tolerance *= tolerance_factor) {
+    auto orbit = after_step(motion, at, tolerance);
+    if (!orbit) return std::nullopt;
+    orbit->n_newton_steps = ++n_newton_steps;
+    if (orbit->multipliers.defect < defect_max || is_last(tolerance)) {
+      return with_verdict(std::move(*orbit), [&](const CycleStart& from, double finer) {
+        return after_step(motion, from, finer);
+      });
+    }
+    at = orbit->at;
   }
 }
 
-Eigen::VectorXcd floquet_multipliers(const Eigen::MatrixXd& monodromy)
+std::optional<PeriodicOrbit> orbit_as_it_is(AutonomousMotion& motion, const CycleStart& at)
 {
-  Eigen::VectorXcd values = monodromy.eigenvalues();
-  Eigen::Index along = 0;
-  (values.array() - 1.0).abs().minCoeff(&along);
-  std::swap(values[0], values[along]);
-  std::sort(values.begin() + 1, values.end(), [](const auto& a, const auto& b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
-  });
-  return values;
+  const auto orbit_at = [&motion](const CycleStart& from,
+                                  double tolerance) -> std::optional<PeriodicOrbit> {
+    const Flow now = flow(motion, from, tolerance);
+    if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
+    return PeriodicOrbit{from, multipliers_of(motion, from, now, tolerance), 0, tolerance};
+  };
+  auto orbit = orbit_at(at, first_tolerance);
+  if (orbit) orbit = with_verdict(std::move(*orbit), orbit_at);
+  return orbit;
+}
+
+std::optional<CycleStart> sharper_start(AutonomousMotion& motion, const CycleStart& at)
+{
+  const Flow now = flow_or_nowhere(motion, at, sharp_tolerance, fine(first_tolerance));
+  if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
+  const Eigen::VectorXd change = newton_step(motion, at, now);
+  if (!(size_of(change, at) < nearly_converged)) return std::nullopt;
+  return moved(at, change);
 }
 
 }  // namespace chladni::squeal

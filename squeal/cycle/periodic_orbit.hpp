@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "squeal/cycle/floquet.hpp"
 #include "squeal/motion/autonomous_motion.hpp"
 
 namespace chladni::squeal {
@@ -37,22 +38,31 @@ Eigen::MatrixXd states_over_period(AutonomousMotion& motion, const CycleStart& s
 /// A periodic motion, x(T) = x(0).
 struct PeriodicOrbit {
   CycleStart at;
-  Eigen::MatrixXd monodromy;  ///< [size x size] dx(T) / dx(0)
+  FloquetMultipliers multipliers;
   int n_newton_steps;
-  /// Tolerance of the integration, small enough for an accurate multiplier along the cycle.
-  double tolerance;
+  double tolerance;  ///< of the integration, small enough for accurate multipliers
 };
 
 /// The periodic motion near `start` by shooting: Newton's method on
 ///   x(T; x_0) - x_0 = 0,   f(x_0) . dx_0 = 0
 /// for x_0 and T. A monodromy matrix is reused as long as it reduces the change tenfold; the last
-/// one belongs to the returned orbit. The tolerance of the integration is reduced until the
-/// multiplier along the cycle is 1 within 1e-6.
+/// one belongs to the returned orbit. The tolerance of the integration is reduced until the defect
+/// of the monodromy matrix is below 1e-6, and further while the largest multiplier is within a
+/// hundred of its errors of 1. With two tolerances its error is their difference, in which the
+/// error of the orbit is included.
 /// @return absent when Newton's method does not converge
 std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const CycleStart& start);
 
-/// Eigenvalues of the monodromy matrix: first the one nearest to 1, then the others by descending
-/// modulus.
-Eigen::VectorXcd floquet_multipliers(const Eigen::MatrixXd& monodromy);
+/// A point of a branch as a periodic motion, without Newton steps, as at folds no step converges.
+/// Its multipliers are computed as those of `periodic_orbit`.
+/// @return absent when a contact switches endlessly
+std::optional<PeriodicOrbit> orbit_as_it_is(AutonomousMotion& motion, const CycleStart& at);
+
+/// Tolerance of the integration of an orbit that shows the error of others.
+inline constexpr double sharp_tolerance = 1e-12;
+
+/// The start of an orbit after one more Newton step at the sharp tolerance.
+/// @return absent when the step is not small
+std::optional<CycleStart> sharper_start(AutonomousMotion& motion, const CycleStart& at);
 
 }  // namespace chladni::squeal

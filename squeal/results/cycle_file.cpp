@@ -12,6 +12,7 @@
 #include "mbs_export/files/file_parts.hpp"
 #include "squeal/results/analysis_file.hpp"
 #include "squeal/results/file_checks.hpp"
+#include "squeal/results/stability_file.hpp"
 #include "squeal/results/transient_file.hpp"
 
 namespace chladni::squeal {
@@ -40,6 +41,25 @@ constexpr Column columns[] = {{"speeds", "rad/s", &BranchPoint::speed},
                               {"N_max", "N", &BranchPoint::N_max},
                               {"largest_multiplier", "1", &BranchPoint::largest_multiplier}};
 
+/// -1 stands for what is unknown.
+void write_multiplier_errors(Writer& file, const std::string& name,
+                             const std::vector<BranchPoint>& points)
+{
+  std::vector<double> errors;
+  for (const BranchPoint& point : points) errors.push_back(point.multiplier_error.value_or(-1.0));
+  file.write(name, errors, "1");
+}
+
+/// Files of earlier versions have none.
+void read_multiplier_errors(const Reader& file, const std::string& name,
+                            std::vector<BranchPoint>& points)
+{
+  if (!file.contains(name)) return;
+  const Eigen::VectorXd errors = file.vector(name, std::ssize(points));
+  for (Eigen::Index i = 0; i < errors.size(); ++i)
+    if (errors[i] >= 0.0) points[static_cast<std::size_t>(i)].multiplier_error = errors[i];
+}
+
 void write_points(Writer& file, const std::string& group, const std::vector<BranchPoint>& points)
 {
   for (const Column& column : columns) {
@@ -47,6 +67,7 @@ void write_points(Writer& file, const std::string& group, const std::vector<Bran
     for (const BranchPoint& point : points) values.push_back(point.*column.member);
     file.write(group + column.name, values, column.unit);
   }
+  write_multiplier_errors(file, group + "multiplier_error", points);
 }
 
 std::vector<BranchPoint> read_points(const Reader& file, const std::string& group)
@@ -58,7 +79,40 @@ std::vector<BranchPoint> read_points(const Reader& file, const std::string& grou
     for (Eigen::Index i = 0; i < n; ++i)
       points[static_cast<std::size_t>(i)].*column.member = values[i];
   }
+  read_multiplier_errors(file, group + "multiplier_error", points);
   return points;
+}
+
+/// A number with an error, as its group in the file.
+struct Told {
+  const char* name;
+  const char* unit;
+  ErrorBudget CycleErrors::*budget;
+};
+
+constexpr Told told_with_errors[] = {{"frequency", "Hz", &CycleErrors::frequency_Hz},
+                                     {"pad_velocity", "m/s", &CycleErrors::pad_velocity},
+                                     {"pad_displacement", "m", &CycleErrors::pad_displacement}};
+
+std::string error_path(const Told& number, const char* part)
+{
+  return fmt::format("limit_cycle_direct/errors/{}/{}", number.name, part);
+}
+
+void write_cycle_errors(Writer& file, const CycleErrors& errors)
+{
+  for (const Told& number : told_with_errors)
+    for (const auto& [name, part] : budget_parts)
+      write_optional(file, error_path(number, name), (errors.*number.budget).*part, number.unit);
+}
+
+CycleErrors read_cycle_errors(const Reader& file)
+{
+  CycleErrors errors;
+  for (const Told& number : told_with_errors)
+    for (const auto& [name, part] : budget_parts)
+      (errors.*number.budget).*part = read_optional(file, error_path(number, name));
+  return errors;
 }
 
 std::optional<std::size_t> read_second_part(const Reader& file, std::size_t n_points)
@@ -84,7 +138,9 @@ void write_direct(Writer& file, const DirectLimitCycle& cycle)
   file.write("limit_cycle_direct/slip_speed_min", cycle.slip_speed_min, "m/s");
   file.write("limit_cycle_direct/multipliers_re", cycle.multipliers.real(), "1");
   file.write("limit_cycle_direct/multipliers_im", cycle.multipliers.imag(), "1");
-  file.write("limit_cycle_direct/stable", std::int64_t{cycle.stable}, "1");
+  const bool is_stable = stability_of(cycle) == CycleStability::stable;
+  file.write("limit_cycle_direct/stable", std::int64_t{is_stable}, "1");
+  write_optional(file, "limit_cycle_direct/multiplier_error", cycle.multiplier_error, "1");
   file.write("limit_cycle_direct/newton_steps", std::int64_t{cycle.n_newton_steps}, "1");
   file.write("limit_cycle_direct/contact_evaluations", cycle.n_contact_evaluations, "1");
   file.write("limit_cycle_direct/x", cycle.x, "m kg^(1/2) / s");
@@ -92,6 +148,7 @@ void write_direct(Writer& file, const DirectLimitCycle& cycle)
   file.write("limit_cycle_direct/amplitude_re", cycle.amplitude.real(), "m kg^(1/2)");
   file.write("limit_cycle_direct/amplitude_im", cycle.amplitude.imag(), "m kg^(1/2)");
   write_energy(file, cycle.energy);
+  write_cycle_errors(file, cycle.errors);
   if (!cycle.way.empty()) file.write("limit_cycle_direct/way", cycle.way);
 }
 
@@ -113,7 +170,7 @@ DirectLimitCycle read_direct(const Reader& file)
       .slip_speed_min = file.real("limit_cycle_direct/slip_speed_min"),
       .multipliers = complex_vector(file.vector("limit_cycle_direct/multipliers_re", size),
                                     file.vector("limit_cycle_direct/multipliers_im", size)),
-      .stable = file.integer("limit_cycle_direct/stable") != 0,
+      .multiplier_error = read_optional(file, "limit_cycle_direct/multiplier_error"),
       .n_newton_steps = mbs_export::file_parts::read_count(file, "limit_cycle_direct/newton_steps"),
       .n_contact_evaluations = file.integer("limit_cycle_direct/contact_evaluations"),
       .x = std::move(x),
@@ -121,7 +178,8 @@ DirectLimitCycle read_direct(const Reader& file)
       .amplitude = complex_vector(file.vector("limit_cycle_direct/amplitude_re", n),
                                   file.vector("limit_cycle_direct/amplitude_im", n)),
       .energy = read_energy(file),
-      .way = file.contains("limit_cycle_direct/way") ? file.text("limit_cycle_direct/way") : ""};
+      .way = file.contains("limit_cycle_direct/way") ? file.text("limit_cycle_direct/way") : "",
+      .errors = read_cycle_errors(file)};
 }
 
 void write_branch(Writer& file, const LimitCycleBranch& branch)

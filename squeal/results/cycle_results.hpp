@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "squeal/results/stability_results.hpp"
+
 namespace chladni::squeal {
 
 /// The periodic motion at the end of a transient.
@@ -40,6 +42,23 @@ struct CycleEnergy {
   double stored;
 };
 
+/// Whether small disturbances of a limit cycle decay.
+enum class CycleStability {
+  stable,    ///< they decay
+  unstable,  ///< they grow
+  undecided  ///< the largest multiplier is 1 within its error, as at a fold or a Hopf point
+};
+
+/// The stability in a word: "stable", "unstable" or "undecided".
+const char* name_of(CycleStability stability);
+
+/// Estimated errors of the numbers of a limit cycle; all parts are absent where they are unknown.
+struct CycleErrors {
+  ErrorBudget frequency_Hz = {};
+  ErrorBudget pad_velocity = {};      ///< m/s
+  ErrorBudget pad_displacement = {};  ///< m
+};
+
 /// A periodic motion found directly, x(T) = x(0) in the inertial frame.
 struct DirectLimitCycle {
   double speed;             ///< rad/s
@@ -52,8 +71,10 @@ struct DirectLimitCycle {
   /// [2 n_modes] Floquet multipliers, the factors of disturbances over one period: first the one
   /// along the cycle, which is 1, then the others by descending modulus.
   Eigen::VectorXcd multipliers;
-  bool stable;         ///< whether all multipliers except the first are below 1 in modulus
-  int n_newton_steps;  ///< steps of the successful search
+  /// Estimated error of the largest modulus of the others, by integration and shooting; absent in
+  /// files of earlier versions.
+  std::optional<double> multiplier_error = {};
+  int n_newton_steps;                  ///< steps of the successful search
   std::int64_t n_contact_evaluations;  ///< number of all contact evaluations; see SlidingDisc
   Eigen::VectorXd x;                   ///< a state on the cycle; see SlidingDisc
   std::vector<int> mode_numbers;       ///< [n_modes] 1-based numbers of the body's modes
@@ -61,6 +82,7 @@ struct DirectLimitCycle {
   CycleEnergy energy;
   /// Successful start of the search, in words; empty in files of earlier versions.
   std::string way = {};
+  CycleErrors errors = {};
 };
 
 /// The quantities that a branch stores of each limit cycle; see DirectLimitCycle.
@@ -72,7 +94,13 @@ struct BranchPoint {
   double N_min;               ///< N
   double N_max;               ///< N
   double largest_multiplier;  ///< largest modulus of the multipliers except the one along the cycle
+  std::optional<double> multiplier_error = {};
 };
+
+/// Whether the largest multiplier is below or above 1, or neither within its error; 1e-6 in files
+/// of earlier versions, to which they integrated.
+CycleStability stability_of(const DirectLimitCycle& cycle);
+CycleStability stability_of(const BranchPoint& point);
 
 /// The Hopf point at which a branch of limit cycles leaves the sliding equilibrium.
 struct BranchOrigin {

@@ -12,11 +12,12 @@
 namespace chladni::squeal {
 
 /// The parts of an ErrorBudget and their names in files.
-inline constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 4>
+inline constexpr std::array<std::pair<const char*, std::optional<double> ErrorBudget::*>, 5>
     budget_parts{{{"mesh", &ErrorBudget::mesh},
                   {"reduction", &ErrorBudget::reduction},
                   {"body", &ErrorBudget::body},
-                  {"modes_left_out", &ErrorBudget::left_out}}};
+                  {"modes_left_out", &ErrorBudget::left_out},
+                  {"integration", &ErrorBudget::integration}}};
 
 /// Writes the datasets `stability`, `range/...` and `unstable/...` of a group; see
 /// docs/reference/file_formats.md.

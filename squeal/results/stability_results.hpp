@@ -58,20 +58,20 @@ Stability stability_of(const StabilityProfile& profile);
 /// The stability in words, such as "stable in the whole range" or "lost within the range".
 const char* name_of(Stability stability);
 
-/// Estimated error of a critical speed or a growth rate due to the body, in its unit; unknown parts
-/// are absent.
+/// Estimated error of a result, in its unit; unknown parts are absent.
 struct ErrorBudget {
   std::optional<double> mesh = {};       ///< by the mesh, from finer meshes
   std::optional<double> reduction = {};  ///< by the reduction, compared with the FE model
   std::optional<double> body = {};       ///< by the modes that the body lacks
   /// Difference to the value with all modes of the body, if the study selected modes.
   std::optional<double> left_out = {};
+  std::optional<double> integration = {};  ///< by the integration of a periodic motion
 
-  bool is_empty() const { return !mesh && !reduction && !body && !left_out; }
+  bool is_empty() const { return !mesh && !reduction && !body && !left_out && !integration; }
   double sum() const
   {
     return mesh.value_or(0.0) + reduction.value_or(0.0) + body.value_or(0.0) +
-           left_out.value_or(0.0);
+           left_out.value_or(0.0) + integration.value_or(0.0);
   }
 };
 

@@ -1,7 +1,9 @@
 #include "squeal/study/analysis_steps.hpp"
 
 #include <mutex>
+#include <utility>
 
+#include "squeal/cycle/cycle_errors.hpp"
 #include "squeal/cycle/limit_cycle.hpp"
 #include "squeal/cycle/limit_cycle_branch.hpp"
 #include "squeal/cycle/limit_cycle_direct.hpp"
@@ -135,8 +137,10 @@ void find_limit_cycle(const Study& /*study*/, SquealResults& results, const Keep
 
 void find_limit_cycle_direct(const Study& study, SquealResults& results, const Keeping& /*keeping*/)
 {
-  results.limit_cycle_direct =
+  DirectLimitCycle cycle =
       limit_cycle_direct(study.brake, study.options.limit_cycle_direct.value().speed);
+  cycle.errors = cycle_errors(study.brake, cycle);
+  results.limit_cycle_direct = std::move(cycle);
 }
 
 void find_limit_cycle_branch(const Study& study, SquealResults& results, const Keeping& keeping)

@@ -1,4 +1,4 @@
-"""The errors that `squeal run` tells of a critical speed and of growth rates hold what a finer mesh and more modes find.
+"""The errors that `squeal run` tells of a critical speed, of growth rates and of limit cycles hold what a finer mesh and more modes find.
 
 Five discs on coarse meshes against the same on meshes that tell of errors more than ten times smaller; a body of a rough
 tolerance against one of all modes; one pair of modes against all of the body.
@@ -6,6 +6,7 @@ tolerance against one of all modes; one pair of modes against all of the body.
 Usage: error_budget.py PROGRAM_DIR
 """
 
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -27,6 +28,7 @@ DISCS = {
                   0.13, 0.025, 0.018),
 }
 UP_TO_HZ = 6000
+FASTER = 1.5  # the speed of the limit cycle, relative to the critical speed
 
 
 def scene(disc, size, order, **changes):
@@ -78,6 +80,21 @@ def growing(found):
     return max(found["stability_table"]["branches"], key=lambda branch: branch["worst_growth_1_s"])
 
 
+def limit_cycle(programs, folder, text, speed):
+    """The limit cycle at a speed in rad/s of the scene that was run last."""
+    file = folder / "scene.toml"
+    file.write_text(re.sub("analyses = .*", f'analyses = ["limit-cycle-direct"]\n'
+                           f"limit_cycle_direct = {{ speed_rad_s = {speed:.17g} }}", text))
+    return summary(programs / "squeal", "run", file, "--output", folder, "--overwrite")["limit_cycle_direct"]
+
+
+def check_cycle(what, part, cycle, exact, most):
+    """Told and found errors of a cycle's numbers; frequencies have the errors of the modes, amplitudes those of the growth too."""
+    return all([check(f"{what}, {name}", cycle[f"{key}_errors_{unit}"][part], abs(cycle[f"{key}_{unit}"] - exact[f"{key}_{unit}"]), most)
+                for name, key, unit in (("frequency, Hz", "frequency", "Hz"), ("velocity, m/s", "pad_velocity", "m_s"),
+                                        ("displacement, m", "pad_displacement", "m"))])
+
+
 def critical(programs, folder, text):
     """The speed in rad/s and the errors told of it, then the same of the largest growth rate in 1/s."""
     file = folder / "scene.toml"
@@ -104,9 +121,12 @@ def main(programs):
         folder = Path(name)
         for disc, (*_, coarse, fine) in DISCS.items():
             speed, told, growth, doubt = critical(programs, folder, scene(disc, coarse, 2))
+            cycle = limit_cycle(programs, folder, scene(disc, coarse, 2), FASTER * speed)
             exact, left, exact_growth, left_doubt = critical(programs, folder, scene(disc, fine, 3))
+            exact_cycle = limit_cycle(programs, folder, scene(disc, fine, 3), FASTER * speed)
             good &= check(f"mesh of the {disc} disc", told["mesh"], abs(speed - exact), 4)
             good &= check("   and its growth, 1/s", doubt["mesh"], abs(growth - exact_growth))
+            good &= check_cycle("   its limit cycle", "mesh", cycle, exact_cycle, 4)
             if left["mesh"] > 0.1 * told["mesh"] or left_doubt["mesh"] > 0.1 * doubt["mesh"]:
                 sys.exit(f"FAILED: the reference of the {disc} disc has errors of {left['mesh']:.1e} rad/s and "
                          f"{left_doubt['mesh']:.1e} 1/s itself")

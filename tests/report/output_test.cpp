@@ -146,7 +146,7 @@ TEST(SquealMotions, BeginWithWhatIsALimitCycle)
   squeal::SquealResults results = limit_cycle_of({1, 3}, 2);
   results.limit_cycle->settled = false;
   results.limit_cycle_direct = squeal::DirectLimitCycle{};
-  results.limit_cycle_direct->stable = true;
+  results.limit_cycle_direct->multipliers = Eigen::VectorXcd::Constant(2, 0.5);
   results.limit_cycle_direct->mode_numbers = {1, 3};
   results.limit_cycle_direct->amplitude = Eigen::VectorXcd::Constant(2, 2.0);
   const auto motions = squeal_motions(results, {1, 3}, 4);

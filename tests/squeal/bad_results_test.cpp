@@ -148,7 +148,10 @@ TEST(Version1, OfResultsIsReadBitByBit)
   EXPECT_EQ(b.transient->events[1].pad, 1);
   EXPECT_EQ(b.limit_cycle->amplitude, a.limit_cycle->amplitude);
   EXPECT_EQ(b.limit_cycle_direct->multipliers, a.limit_cycle_direct->multipliers);
+  EXPECT_FALSE(b.limit_cycle_direct->multiplier_error);
+  EXPECT_EQ(stability_of(*b.limit_cycle_direct), CycleStability::stable);
   EXPECT_EQ(b.limit_cycle_branch->folds[0].pad_velocity, 0.7);
+  EXPECT_FALSE(b.limit_cycle_branch->folds[0].multiplier_error);
   EXPECT_EQ(b.spectrum->amplitude, a.spectrum->amplitude);
   EXPECT_EQ(b.failure, a.failure);
   const Radiation radiation =

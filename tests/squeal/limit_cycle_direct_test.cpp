@@ -49,7 +49,7 @@ TEST(DirectLimitCycle, IsThatOfTheReferenceForEachContactLaw)
     EXPECT_NEAR(cycle.N_min, reference.N_min, 1e-3 * reference.N_max);
     EXPECT_NEAR(cycle.N_max, reference.N_max, 1e-3 * reference.N_max);
     EXPECT_NEAR(cycle.slip_speed_min, reference.slip_speed_min, 0.03);
-    EXPECT_TRUE(cycle.stable);
+    EXPECT_EQ(stability_of(cycle), CycleStability::stable);
     EXPECT_EQ(cycle.speed, 6.0 * pi);
     // Differences of 1e-4 gave the multipliers of the reference: 2e-4 at the kinks.
     EXPECT_NEAR(std::abs(cycle.multipliers[1]), reference.multiplier, 3e-4);

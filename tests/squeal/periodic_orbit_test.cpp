@@ -103,7 +103,7 @@ TEST(PeriodicOrbit, IsThatOfVanDerPolWithTheMultipliersOfLiouville)
   const int n = 2000;
   const Eigen::MatrixXd x = states_over_period(motion, orbit->at, n, 1e-11);
   const double divergence = (1.0 - x.row(0).array().square()).mean() * orbit->at.period;
-  const Eigen::VectorXcd multipliers = floquet_multipliers(orbit->monodromy);
+  const Eigen::VectorXcd multipliers = orbit->multipliers.values;
   EXPECT_NEAR(multipliers[0].real(), 1.0, 1e-6);
   EXPECT_NEAR(multipliers[1].real(), std::exp(divergence), 1e-6);
 }

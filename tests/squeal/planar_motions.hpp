@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <numbers>
 
 #include "squeal/motion/autonomous_motion.hpp"
 
@@ -57,22 +58,30 @@ struct VanDerPol {
 /// Its period (Andersen, Geer, SIAM J. Appl. Math. 42 (1982) 678, and many since).
 inline constexpr double van_der_pol_period = 6.66328685932313;
 
-/// r' = r (speed - 2 + r^2 - r^4), phi' = 1: rest is unstable above 2; from there an unstable cycle
-/// goes back to the fold at 7 / 4, r^2 = 1 / 2, and a stable one forward again.
+/// r' = r (speed - 2 + r^2 - r^4), phi' = 1 + twist r^2: rest is unstable above 2; from there an
+/// unstable cycle goes back to the fold at 7 / 4, r^2 = 1 / 2, and a stable one forward again. With
+/// a twist, disturbances of r grow into ones of the phase, so that 1 is a defective double
+/// eigenvalue of the monodromy matrix at the fold.
 struct SubcriticalHopf {
   double speed;
+  double twist = 0.0;
 
   Eigen::Vector2d rate(const Eigen::VectorXd& x) const
   {
-    const double s = x.squaredNorm(), g = speed - 2.0 + s - s * s;
-    return {g * x[0] - x[1], g * x[1] + x[0]};
+    const double s = x.squaredNorm(), g = speed - 2.0 + s - s * s, w = 1.0 + twist * s;
+    return {g * x[0] - w * x[1], g * x[1] + w * x[0]};
   }
   Eigen::Matrix2d jacobian(const Eigen::VectorXd& x) const
   {
-    const double s = x.squaredNorm(), g = speed - 2.0 + s - s * s, slope = 2.0 - 4.0 * s;
-    return Eigen::Matrix2d{{g + slope * x[0] * x[0], slope * x[0] * x[1] - 1.0},
-                           {slope * x[0] * x[1] + 1.0, g + slope * x[1] * x[1]}};
+    const double s = x.squaredNorm(), g = speed - 2.0 + s - s * s, w = 1.0 + twist * s;
+    const Eigen::RowVector2d by_x = 2.0 * x.transpose();
+    Eigen::Matrix2d J{{g, -w}, {w, g}};
+    J += (1.0 - 2.0 * s) * x * by_x + twist * Eigen::Vector2d(-x[1], x[0]) * by_x;
+    return J;
   }
+  /// The cycle with r^2 = s, at speed 2 - s + s^2: its period and its multiplier.
+  double period(double s) const { return 2.0 * std::numbers::pi / (1.0 + twist * s); }
+  double multiplier(double s) const { return std::exp(period(s) * (2.0 * s - 4.0 * s * s)); }
 };
 
 }  // namespace chladni::squeal::test

@@ -70,6 +70,10 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
   written.limit_cycle_branch->second_part = 2;
   written.limit_cycle_direct->way = "by a detour";
   written.critical_speed->budget = {.mesh = 0.1, .reduction = 2e-9, .body = {}, .left_out = 0.3};
+  written.limit_cycle_direct->errors = {.frequency_Hz = {.mesh = 0.2, .integration = 0.0},
+                                        .pad_displacement = {.body = 3e-6}};
+  ASSERT_TRUE(written.limit_cycle_branch->points.at(1).multiplier_error);
+  written.limit_cycle_branch->points[1].multiplier_error = {};
   write_results(file.path, written, {});
   const SquealResults read = read_results(file.path);
   EXPECT_EQ(read.largest_split, written.largest_split);
@@ -114,13 +118,20 @@ TEST(ResultFile, ReturnsEveryValueItWasGiven)
               written.limit_cycle_branch->points[i].speed);
     EXPECT_EQ(read.limit_cycle_branch->points[i].largest_multiplier,
               written.limit_cycle_branch->points[i].largest_multiplier);
+    EXPECT_EQ(read.limit_cycle_branch->points[i].multiplier_error,
+              written.limit_cycle_branch->points[i].multiplier_error);
   }
   ASSERT_TRUE(read.limit_cycle_direct);
   const DirectLimitCycle &direct = *read.limit_cycle_direct,
                          &original = *written.limit_cycle_direct;
   EXPECT_EQ(direct.frequency_Hz, original.frequency_Hz);
   EXPECT_EQ(direct.multipliers, original.multipliers);
-  EXPECT_EQ(direct.stable, original.stable);
+  EXPECT_EQ(direct.multiplier_error, original.multiplier_error);
+  EXPECT_EQ(direct.errors.frequency_Hz.mesh, 0.2);
+  EXPECT_EQ(direct.errors.frequency_Hz.integration, 0.0);
+  EXPECT_FALSE(direct.errors.frequency_Hz.reduction);
+  EXPECT_TRUE(direct.errors.pad_velocity.is_empty());
+  EXPECT_EQ(direct.errors.pad_displacement.body, 3e-6);
   EXPECT_EQ(direct.n_contact_evaluations, original.n_contact_evaluations);
   EXPECT_EQ(direct.x, original.x);
   EXPECT_EQ(direct.amplitude, original.amplitude);

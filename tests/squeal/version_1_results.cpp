@@ -102,7 +102,6 @@ void add_motions(SquealResults& results)
                        .N_max = 900.0,
                        .slip_speed_min = 1.5,
                        .multipliers = VectorXcd::Constant(4, 0.5 + 0.1 * i),
-                       .stable = true,
                        .n_newton_steps = 6,
                        .n_contact_evaluations = 5000,
                        .x = thirds(4),

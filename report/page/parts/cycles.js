@@ -23,13 +23,14 @@ function cycleFigures(content) {
     }
   }
   if (branch) {
-    const stable = branch.stable.map(Boolean);
+    const {stability} = branch;
     const gap = branch.second_part, speed = withGap(branch.speed, gap);
-    const pick = wanted => withGap(branch.pad_velocity.map((v, i) => stable[i] === wanted ? v : NaN), gap);
+    const pick = wanted => withGap(branch.pad_velocity.map((v, i) => stability[i] === wanted ? v : NaN), gap);
+    const others = [["unstable", "not stable", 1], ["undecided", "stable or not: undecided within the error", 2]]
+      .filter(([wanted]) => stability.includes(wanted))
+      .map(([wanted, name, colour]) => ({x: speed, y: pick(wanted), colour, dash: "4 4", marker: "circle", hollow: true, name}));
     made.push(plot({title: "Limit cycles over the speed", x: speedAxis, y: {label: "pad velocity, m/s"},
-                    series: [{x: speed, y: pick(true), colour: 0, marker: "circle", name: "stable"},
-                             ...(stable.includes(false) ? [{x: speed, y: pick(false), colour: 1, dash: "4 4",
-                                                            marker: "circle", hollow: true, name: "not stable"}] : [])]}));
+                    series: [{x: speed, y: pick("stable"), colour: 0, marker: "circle", name: "stable"}, ...others]}));
   }
   if (content.spectrum)
     made.push(plot({title: "Spectrum of the pad velocity over the last periods" +
@@ -49,12 +50,18 @@ function chosenCycle({limit_cycle, limit_cycle_direct}) {
   return limit_cycle && !limit_cycle.doubt ? limit_cycle : limit_cycle_direct ?? limit_cycle;
 }
 
+// A number of a cycle and what it may be off by.
+function known(cycle, name, digits, scale = 1) {
+  const error = cycle.errors?.[name] ?? null;
+  return formatted(scale * cycle[name], digits) + (error === null ? "" : ` ± ${formatted(scale * error, 2)}`);
+}
+
 function cycleTable(content) {
   const rows = [["limit_cycle", "end of the transient"], ["limit_cycle_direct", "periodic motion, found as such"]]
     .filter(([key]) => content[key]).map(([key, name]) => {
       const cycle = content[key];
-      return [name + (cycle.doubt && `, ${cycle.doubt}`), speedText(cycle.speed, 5), formatted(cycle.frequency_Hz, 6), formatted(cycle.pad_velocity, 5),
-              formatted(1e3 * cycle.pad_displacement, 5), `${formatted(cycle.N_min, 4)} … ${formatted(cycle.N_max, 4)}`];
+      return [name + (cycle.doubt && `, ${cycle.doubt}`), speedText(cycle.speed, 5), known(cycle, "frequency_Hz", 6), known(cycle, "pad_velocity", 5),
+              known(cycle, "pad_displacement", 5, 1e3), `${formatted(cycle.N_min, 4)} … ${formatted(cycle.N_max, 4)}`];
     });
   if (!rows.length) return "";
   const what = chosenCycle(content).doubt === "not settled" ? "vibration" : "limit cycle";

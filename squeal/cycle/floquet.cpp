@@ -1,0 +1,33 @@
+#include "squeal/cycle/floquet.hpp"
+
+#include <algorithm>
+
+#include "linear/dense/dense_solvers.hpp"
+#include "squeal/stability/eigenvalue_change.hpp"
+
+namespace chladni::squeal {
+
+FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::VectorXd& f_start,
+                                       const Eigen::VectorXd& f_end)
+{
+  const Eigen::Index n = X.rows();
+  const double speed = f_start.norm();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr{Eigen::MatrixXd(f_start)};
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd in_Q = Q.transpose() * X * Q;
+  const Eigen::MatrixXd B = in_Q.bottomRightCorner(n - 1, n - 1);
+
+  FloquetMultipliers multipliers{Eigen::VectorXcd(n), (X * f_start - f_end).norm() / speed, 0.0,
+                                 0.0};
+  multipliers.values[0] = in_Q(0, 0);
+  multipliers.values.tail(n - 1) = Eigen::EigenSolver<Eigen::MatrixXd>(B, false).eigenvalues();
+  std::sort(multipliers.values.begin() + 1, multipliers.values.end(),
+            [](const auto& a, const auto& b) {
+              return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+            });
+  multipliers.condition = EigenvalueChange(B, multipliers.values[1]).condition();
+  multipliers.error = multipliers.defect * multipliers.condition;
+  return multipliers;
+}
+
+}  // namespace chladni::squeal

@@ -1,0 +1,93 @@
+#include "squeal/stability/errors_by_modes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace chladni::squeal {
+namespace {
+
+using Eigen::Index, Eigen::VectorXd;
+
+/// Where the errors of W, W_r, W_t, V_r and V_t stand in ModeErrors::mesh_shapes: a radial slope is
+/// a rotation about the circumferential direction.
+constexpr std::array<Index, 5> rows_of_functions{2, 4, 3, 0, 1};
+
+/// The frequency of a mode or a pair.
+DiscScaling of_frequency(Index first, Index size)
+{
+  return [=](InertialDisc& disc, double factor) { disc.omega.segment(first, size) *= factor; };
+}
+
+/// What the rings do in some modes.
+/// @param f  which of W, W_r, W_t, V_r, V_t
+DiscScaling of_motion(Index first, Index size, std::size_t f)
+{
+  return [=](InertialDisc& disc, double factor) {
+    for (InertialRing& ring : disc.rings) {
+      const std::vector<VectorXd*> amplitudes = amplitudes_of(ring);
+      if (f < amplitudes.size()) amplitudes[f]->segment(first, size) *= factor;
+    }
+  };
+}
+
+/// The results of a disc, and how they change.
+struct ChangingResults {
+  const InertialDisc& disc;
+  Index n;
+  const DerivativeByDisc& derivative;
+
+  /// The sum over all modes and pairs of error times derivative, without sign.
+  /// @param errors   [n_modes] relative
+  /// @param scaling  of a mode or pair by its first coordinate and their number
+  template <class Scaling>
+  VectorXd sum_over_modes(const VectorXd& errors, const Scaling& scaling) const
+  {
+    VectorXd sum = VectorXd::Zero(n);
+    Index size = 1;
+    for (Index i = 0; i < errors.size(); i += size) {
+      size = disc.nodal_diameters[static_cast<std::size_t>(i)] > 0 ? 2 : 1;
+      if (errors[i] > 0.0) sum += errors[i] * derivative(scaling(i, size)).cwiseAbs();
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+ErrorBudget ErrorsByModes::budget(Index result) const
+{
+  const auto part = [result](const std::optional<VectorXd>& errors) {
+    return errors ? std::optional((*errors)[result]) : std::nullopt;
+  };
+  return {.mesh = part(mesh), .reduction = part(reduction), .body = part(body)};
+}
+
+ErrorsByModes errors_by_modes(const InertialDisc& disc, double omega, Index n_results,
+                              const DerivativeByDisc& derivative)
+{
+  ErrorsByModes found;
+  const ModeErrors& errors = disc.errors;
+  if (omega > errors.range) return found;
+  const ChangingResults results{disc, n_results, derivative};
+  if (errors.mesh.size() > 0) {
+    found.mesh = results.sum_over_modes(errors.mesh, of_frequency);
+    for (std::size_t f = 0; f < rows_of_functions.size() && errors.mesh_shapes.size() > 0; ++f) {
+      *found.mesh += results.sum_over_modes(
+          errors.mesh_shapes.row(rows_of_functions[f]),
+          [f](Index first, Index size) { return of_motion(first, size, f); });
+    }
+  }
+  if (errors.reduction.size() > 0)
+    found.reduction = results.sum_over_modes(errors.reduction, of_frequency);
+  if (errors.responses) {
+    // A response is quadratic in the motion of its place.
+    found.body = VectorXd::Zero(n_results);
+    for (std::size_t f = 0; f < rows_of_functions.size(); ++f)
+      *found.body += derivative(of_motion(0, disc.n_modes(), f)).cwiseAbs();
+    *found.body *= 0.5 * *errors.responses;
+  }
+  return found;
+}
+
+}  // namespace chladni::squeal
