@@ -7,8 +7,10 @@
 #include "cases/shell_section_forces.hpp"
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
+#include "plate/elements/beam_axes.hpp"
 #include "plate/elements/beam_element.hpp"
 #include "plate/sections/directors.hpp"
+#include "plate/sections/section_map.hpp"
 
 namespace chladni::cases {
 namespace {
@@ -20,21 +22,19 @@ constexpr Index n_kinds = 6;
 
 Index points_of_line(const mesh::ElementBlock& block)
 {
-  return block.shape == mesh::Shape::line ? Index{2} * block.order : 0;
+  return block.shape == mesh::Shape::line ? Index{block.nodes_per_element} : 0;
 }
 
-/// Places, axes and element numbers of the ends of all beams.
+/// Places, axes and element numbers of the nodes of all lines.
 void add_points(ResultantModes& forces, const ChosenElement& line, const plate::NodeVectors& x,
                 const plate::BeamSection& section)
 {
-  for (Index i = 0; i + 1 < x.rows(); ++i) {
-    const Eigen::Matrix3d axes = plate::beam_axes(x.row(i + 1) - x.row(i), section);
-    for (Index end = 0; end < 2; ++end) {
-      const Index point = line.first_point + 2 * i + end;
-      forces.positions.row(point) = x.row(i + end);
-      forces.axes.row(point) << axes.row(0), axes.row(1), axes.row(2);
-      forces.elements.push_back(line.block.numbers[line.element]);
-    }
+  const std::vector<Eigen::Matrix3d> axes = plate::node_axes(x, section);
+  for (Index i = 0; i < x.rows(); ++i) {
+    const Eigen::Matrix3d& here = axes[static_cast<std::size_t>(i)];
+    forces.positions.row(line.first_point + i) = x.row(i);
+    forces.axes.row(line.first_point + i) << here.row(0), here.row(1), here.row(2);
+    forces.elements.push_back(line.block.numbers[line.element]);
   }
 }
 
@@ -50,12 +50,15 @@ ResultantModes beam_section_forces(const Chosen& chosen, const plate::BeamSectio
                         .positions = ResultantModes::Rows(n_points, 3),
                         .axes = ResultantModes::Rows(n_points, 9),
                         .S = MatrixXd(n_kinds * n_points, u.cols())};
+  const std::vector<char> on_surface = plate::nodes_on_surfaces(fe.mesh);
   for (const ChosenElement& line : chosen.elements) {
+    const plate::LineFields fields =
+        plate::line_fields(on_surface, line.block.element_nodes(line.element));
     const plate::NodeVectors x = plate::element_positions(fe.mesh, line.block, line.element);
     add_points(forces, line, x, section);
     const MatrixXd u_e = rows_of_element(chosen, line, u);
-    forces.S.middleRows(n_kinds * line.first_point, 12 * (x.rows() - 1)) =
-        plate::beam_section_forces(x, section) * u_e;
+    forces.S.middleRows(n_kinds * line.first_point, n_kinds * x.rows()) =
+        plate::beam_section_forces(x, section, fields) * u_e;
   }
   drop_silent_kinds(forces);
   return forces;

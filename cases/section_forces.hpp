@@ -11,7 +11,7 @@
 namespace chladni::cases {
 
 /// The section forces of beams and shells: for beams N, Q_y, Q_z, M_x, M_y, M_z (on the face with
-/// normal +x, in the local axes) at both ends of every beam of each group, for shells those of
+/// normal +x, in the local axes) at the nodes of every line of each group, for shells those of
 /// `shell_section_forces`. Kinds that no component of the model can cause are left out.
 /// @note   Collective, as `rows_of`.
 /// @throws chladni::Error for a group without section, or without any of the chosen elements.

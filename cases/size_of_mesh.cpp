@@ -23,7 +23,7 @@ bool is_step(const mesh::MeshOptions& mesh)
   return mesh.file && (mesh.file->ends_with(".step") || mesh.file->ends_with(".stp"));
 }
 
-/// Visits the options of the generator that has elements of an order; none of a beam.
+/// Visits the options of the generator that has surfaces; none of a beam.
 template <class Visit>
 void of_plane_generator(const mesh::MeshOptions& mesh, const Visit& visit)
 {
@@ -110,7 +110,10 @@ void set_size(mesh::MeshOptions& mesh, const MeshSize& size)
   if (mesh.hat_disc) set(mesh.hat_disc);
   if (mesh.pad) set(mesh.pad);
   if (mesh.rectangle) set(mesh.rectangle);
-  if (mesh.beam) mesh.beam->element_size = size.size;
+  if (mesh.beam) {
+    mesh.beam->element_size = size.size;
+    mesh.beam->element_order = size.order;
+  }
   if (!mesh.file) return;
   mesh.element_order = size.order;
   if (is_step(mesh)) mesh.element_size = size.size;
@@ -120,7 +123,7 @@ void set_size(mesh::MeshOptions& mesh, const MeshSize& size)
 int order_of(const mesh::MeshOptions& mesh)
 {
   constexpr int usual = 3;
-  int order = mesh.beam ? 1 : mesh.element_order.value_or(usual);
+  int order = mesh.beam ? mesh.beam->element_order : mesh.element_order.value_or(usual);
   of_plane_generator(mesh, [&](const auto& options) { order = options.element_order; });
   return order;
 }
@@ -134,8 +137,7 @@ std::optional<double> edge_row_of(const mesh::MeshOptions& mesh)
 
 std::vector<int> other_orders(const mesh::MeshOptions& mesh)
 {
-  if (mesh.beam) return {};
-  bool has_triangles = true;
+  bool has_triangles = !mesh.beam;
   of_plane_generator(mesh, [&](const auto& options) {
     has_triangles = options.pattern != mesh::Pattern::structured;
   });

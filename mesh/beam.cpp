@@ -33,8 +33,9 @@ std::vector<double> stations(const BeamMeshOptions& options, double length)
 std::vector<double> node_distances(const BeamMeshOptions& options, double length)
 {
   std::vector<double> nodes{0.0};
-  const auto divide = [&](double to, int n) {
+  const auto divide = [&](double to, int n_elements) {
     const double from = nodes.back();
+    const int n = options.element_order * n_elements;
     for (int i = 1; i <= n; ++i) nodes.push_back(from + (to - from) * i / n);
   };
   if (options.elements) {
@@ -74,18 +75,18 @@ void add_nodes(Mesh& mesh, const BeamMeshOptions& options, const std::vector<dou
   }
 }
 
-void add_elements(Mesh& mesh, int n_elements)
+void add_elements(Mesh& mesh, int order)
 {
   ElementBlock block{.shape = Shape::line,
-                     .order = 1,
-                     .nodes_per_element = 2,
+                     .order = order,
+                     .nodes_per_element = order + 1,
                      .numbers = {},
                      .nodes = {},
                      .group = {}};
-  for (int e = 0; e < n_elements; ++e) {
-    block.numbers.push_back(e + 1);
+  for (int first = 0; first + 1 < mesh.n_nodes(); first += order) {
+    block.numbers.push_back(std::ssize(block.numbers) + 1);
     block.group.push_back(0);
-    block.nodes.insert(block.nodes.end(), {e, e + 1});
+    for (int i = 0; i <= order; ++i) block.nodes.push_back(first + i);
   }
   mesh.blocks.push_back(std::move(block));
 }
@@ -99,7 +100,7 @@ Mesh beam(const BeamMeshOptions& options)
   const std::vector<double> nodes = node_distances(options, length);
   Mesh mesh;
   add_nodes(mesh, options, nodes);
-  add_elements(mesh, static_cast<int>(nodes.size()) - 1);
+  add_elements(mesh, options.element_order);
   Group line{.name = "beam", .dimension = 1, .nodes = std::vector<int>(nodes.size())};
   std::iota(line.nodes.begin(), line.nodes.end(), 0);
   mesh.groups = {line,

@@ -95,7 +95,7 @@ struct BeamPoint {
   double distance;  ///< from the start, m
 };
 
-/// A straight line of two-node elements from start to end. Groups: "beam" (the line), "start",
+/// A straight line from start to end. Groups: "beam" (the line), "start",
 /// "end" and one for each point.
 struct BeamMeshOptions {
   std::array<double, 3> start;       ///< m
@@ -103,6 +103,7 @@ struct BeamMeshOptions {
   std::optional<int> elements = {};  ///< number of equal elements; each point must meet a node
   std::optional<double> element_size = {};  ///< m, largest; pieces between points are divided
   std::vector<BeamPoint> points = {};
+  int element_order = 1;
 };
 
 /// What happens to nodes of unconnected elements of a file that stand at one place.

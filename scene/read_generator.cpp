@@ -195,6 +195,7 @@ mesh::BeamMeshOptions read_beam(const Table& mesh, Size size)
                     {.at_least = 1e-6 * length, .at_most = length, .unit = "m, up to the length"});
   }
   beam.points = read_points(mesh, length);
+  if (mesh.has("element_order")) beam.element_order = read_element_order(mesh);
   return beam;
 }
 

@@ -83,9 +83,9 @@ std::vector<std::string> notes_of(const Table& root, const Scene& scene)
   const bool has_tolerance = scene.reduce.tolerance || scene.body.keep.tolerance;
   if (has_tolerance && !scene.stiffening.empty() && !scene.beams.empty()) {
     notes.push_back(fmt::format(
-        "{}: reduce.stiffening: the axial force is constant in each beam; the tolerance "
-        "does not include the resulting error of the stiffened frequencies, which falls with the "
-        "square of the length of the beams: compare with shorter beams",
+        "{}: reduce.stiffening: the axial force of a beam of order p is of degree p - 1; the "
+        "tolerance does not include the resulting error of the stiffened frequencies, which falls "
+        "with the square of the length of two-node beams: compare with shorter or higher ones",
         scene.path));
   }
   return notes;

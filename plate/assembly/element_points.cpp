@@ -11,8 +11,10 @@ PlacedPoints element_points(const MassModel& model, const mesh::ElementBlock& bl
   const int group = block.group[element];
   const NodeVectors x = element_positions(model.mesh, block, element);
   if (block.shape == mesh::Shape::line) {
-    return {.points = beam_mass_points(x, model.structure.beams[model.sections.beam[group]]),
-            .arms = {}};
+    const LineFields fields = line_fields(model.sections.on_surface, block.element_nodes(element));
+    return {
+        .points = beam_mass_points(x, model.structure.beams[model.sections.beam[group]], fields),
+        .arms = {}};
   }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
   const ShellNodes shell = shell_nodes(model.mesh, block, element, model.normals, section);

@@ -54,7 +54,8 @@ MatrixXd stress_stiffness(const LoadedElement& of, const VectorXd& u_e)
   const int group = block.group[element];
   if (block.shape == mesh::Shape::line) {
     return beam_geometric_stiffness(element_positions(model.mesh, block, element),
-                                    model.structure.beams[model.sections.beam[group]], u_e);
+                                    model.structure.beams[model.sections.beam[group]], u_e,
+                                    line_fields(model.sections.on_surface, of.nodes()));
   }
   const ShellSection& section = model.structure.shells[model.sections.shell[group]];
   return shell_geometric_stiffness(block.shape, block.order,

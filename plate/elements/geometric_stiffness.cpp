@@ -1,9 +1,7 @@
 #include "plate/elements/geometric_stiffness.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
 
-#include "plate/elements/beam_element.hpp"
 #include "plate/elements/element_rules.hpp"
 #include "plate/elements/shell_resultants.hpp"
 
@@ -14,7 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
-using Eigen::RowVector3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -64,33 +61,13 @@ Matrix3d rotation_to_displacement(const Vector3d& D)
   return S;
 }
 
-using Shapes = Eigen::Matrix<double, 6, 12>;
-
-/// d/dx of `beam_shapes`, which are cubic in xi: differences over a step h have an error c h^2 that
-/// two steps cancel.
-Shapes slopes_at(double xi, const RowVector3d& along, const BeamSection& section)
+/// d/ds of u and theta: of u the strains without the turn of the axis with theta.
+SectionForms slopes_of(const AxisPoint& point)
 {
-  const auto difference = [&](double h) -> Shapes {
-    return (beam_shapes(xi + h, along, section) - beam_shapes(xi - h, along, section)) / (2.0 * h);
-  };
-  return (4.0 * difference(0.5) - difference(1.0)) / (3.0 * along.norm());
-}
-
-/// Of one beam, in the global axes, for an axial force of 1 N.
-Eigen::Matrix<double, 12, 12> unit_beam(const RowVector3d& along, const BeamSection& section)
-{
-  // Slopes are of degree two: their squares need three points.
-  static const GaussRule rule = gauss_legendre(3);
-  const double r_z = section.I_z / section.area, r_y = section.I_y / section.area;
-  // The local components u, v, w, phi, psi_y, psi_z: a turn about y moves points by z, about z by
-  // y.
-  const Eigen::Vector<double, 6> weights(1.0, 1.0, 1.0, r_y + r_z, r_y, r_z);
-  Eigen::Matrix<double, 12, 12> K = Eigen::Matrix<double, 12, 12>::Zero();
-  for (Index q = 0; q < rule.x.size(); ++q) {
-    const Shapes slopes = slopes_at(0.5 * (1.0 + rule.x[q]), along, section);
-    K += 0.5 * along.norm() * rule.w[q] * slopes.transpose() * weights.asDiagonal() * slopes;
-  }
-  return K;
+  SectionForms slopes = point.strain;
+  slopes.row(1) += point.motion.row(5);
+  slopes.row(2) -= point.motion.row(4);
+  return slopes;
 }
 
 }  // namespace
@@ -117,13 +94,18 @@ MatrixXd shell_geometric_stiffness(mesh::Shape shape, int order, const ShellNode
 }
 
 MatrixXd beam_geometric_stiffness(const NodeVectors& x, const BeamSection& section,
-                                  const VectorXd& u_e)
+                                  const VectorXd& u_e, LineFields of_line)
 {
-  const VectorXd forces = beam_section_forces(x, section) * u_e;
+  const double r_z = section.I_z / section.area, r_y = section.I_y / section.area;
+  // The local components u, v, w, phi, psi_y, psi_z: a turn about y moves points by z, about z by
+  // y.
+  const Eigen::Vector<double, 6> weights(1.0, 1.0, 1.0, r_y + r_z, r_y, r_z);
+  const BeamFields fields = beam_fields(x, section, of_line);
   MatrixXd K = MatrixXd::Zero(6 * x.rows(), 6 * x.rows());
-  for (Index i = 0; i + 1 < x.rows(); ++i) {
-    const RowVector3d along = x.row(i + 1) - x.row(i);
-    K.block<12, 12>(6 * i, 6 * i) += forces[12 * i] * unit_beam(along, section);
+  for (const AxisPoint& point : fields.strained) {
+    const double N = fields.stiffness[0] * point.strain.row(0).dot(u_e);
+    const SectionForms slopes = slopes_of(point);
+    K += N * point.length * slopes.transpose() * weights.asDiagonal() * slopes;
   }
   return K;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
+#include "plate/elements/beam_fields.hpp"
 #include "plate/elements/covariant_strains.hpp"
 #include "plate/plate_options.hpp"
 
@@ -19,16 +20,17 @@ namespace chladni::plate {
 Eigen::MatrixXd shell_geometric_stiffness(mesh::Shape shape, int order, const ShellNodes& nodes,
                                           const Material& material, const Eigen::VectorXd& u_e);
 
-/// K_sigma of the chain of beams of `beam_matrices` by the axial force N of each, uniform over its
-/// section, with the interpolation of `beam_shapes`. It has the terms of a string, of its twist and
-/// of the bending of its section,
+/// K_sigma of the line of `beam_matrices` by its axial force N, which is uniform over the section
+/// and of degree p - 1 along the line. It has the terms of a string, of its twist and of the
+/// bending of its section,
 ///   N int u'^2 + v'^2 + w'^2 + (I_y + I_z) / A phi'^2 + I_z / A psi_z'^2 + I_y / A psi_y'^2 dx.
 /// @param x    [n x 3] nodes from end to end, m
 /// @param u_e  [6 n] static displacements and rotations, m, rad
 /// @return [6 n squared] symmetric, N/m, N, N m
 /// @throws chladni::Error as `beam_axes`.
 Eigen::MatrixXd beam_geometric_stiffness(const NodeVectors& x, const BeamSection& section,
-                                         const Eigen::VectorXd& u_e);
+                                         const Eigen::VectorXd& u_e,
+                                         LineFields of_line = LineFields::best);
 
 /// The stiffness of a force F at the end of a rigid arm r that turns with a node. The end moves by
 /// theta x r + theta x (theta x r) / 2, so the forces that hold F there resist theta by

@@ -21,24 +21,6 @@ Eigen::SelfAdjointEigenSolver<MatrixXd> jacobi_matrix(const VectorXd& off_diagon
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(J);
 }
 
-MatrixXd lagrange_derivative(const VectorXd& nodes, const VectorXd& x)
-{
-  const Eigen::Index n = nodes.size();
-  MatrixXd dL = MatrixXd::Zero(x.size(), n);
-  for (Eigen::Index q = 0; q < x.size(); ++q) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index k = 0; k < n; ++k) {
-        if (k == i) continue;
-        double term = 1.0 / (nodes[i] - nodes[k]);
-        for (Eigen::Index j = 0; j < n; ++j)
-          if (j != i && j != k) term *= (x[q] - nodes[j]) / (nodes[i] - nodes[j]);
-        dL(q, i) += term;
-      }
-    }
-  }
-  return dL;
-}
-
 /// Row by row Kronecker product: nodes xi fastest, as the lattice order.
 MatrixXd row_products(const MatrixXd& along_xi, const MatrixXd& along_eta)
 {
@@ -58,8 +40,8 @@ Basis quadrilateral_basis(int order, const Points& points)
   const MatrixXd L_xi = lagrange(nodes, points.xi);
   const MatrixXd L_eta = lagrange(nodes, points.eta);
   return {.N = row_products(L_xi, L_eta),
-          .N_xi = row_products(lagrange_derivative(nodes, points.xi), L_eta),
-          .N_eta = row_products(L_xi, lagrange_derivative(nodes, points.eta))};
+          .N_xi = row_products(lagrange_derivatives(nodes, points.xi), L_eta),
+          .N_eta = row_products(L_xi, lagrange_derivatives(nodes, points.eta))};
 }
 
 Points triangle_lattice(int order)
@@ -154,6 +136,24 @@ MatrixXd lagrange(const VectorXd& nodes, const VectorXd& x)
       if (k != i) L.col(i).array() *= (x.array() - nodes[k]) / (nodes[i] - nodes[k]);
   }
   return L;
+}
+
+MatrixXd lagrange_derivatives(const VectorXd& nodes, const VectorXd& x)
+{
+  const Eigen::Index n = nodes.size();
+  MatrixXd dL = MatrixXd::Zero(x.size(), n);
+  for (Eigen::Index q = 0; q < x.size(); ++q) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index k = 0; k < n; ++k) {
+        if (k == i) continue;
+        double term = 1.0 / (nodes[i] - nodes[k]);
+        for (Eigen::Index j = 0; j < n; ++j)
+          if (j != i && j != k) term *= (x[q] - nodes[j]) / (nodes[i] - nodes[j]);
+        dL(q, i) += term;
+      }
+    }
+  }
+  return dL;
 }
 
 Points tensor_points(const VectorXd& xi, const VectorXd& eta)

@@ -32,6 +32,9 @@ Eigen::VectorXd gauss_lobatto(int n);
 /// Values of the Lagrange polynomials of `nodes` at `x`, [n_x x n_nodes].
 Eigen::MatrixXd lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& x);
 
+/// Derivatives of the Lagrange polynomials of `nodes` at `x`, [n_x x n_nodes].
+Eigen::MatrixXd lagrange_derivatives(const Eigen::VectorXd& nodes, const Eigen::VectorXd& x);
+
 /// Tensor product of two sets of coordinates, xi fastest; weights 1.
 Points tensor_points(const Eigen::VectorXd& xi, const Eigen::VectorXd& eta);
 

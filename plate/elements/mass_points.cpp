@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "plate/elements/beam_element.hpp"
 #include "plate/elements/strain_energy.hpp"
 
 namespace chladni::plate {
@@ -16,7 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
-using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 MassPoints empty_points(Index n_points, Index n_nodes)
@@ -85,28 +83,22 @@ MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nod
   return points;
 }
 
-MassPoints beam_mass_points(const NodeVectors& x, const BeamSection& section)
+MassPoints beam_mass_points(const NodeVectors& x, const BeamSection& section, LineFields fields)
 {
-  static const GaussRule rule = gauss_legendre(4);
   const double y = std::sqrt(section.I_z / section.area), z = std::sqrt(section.I_y / section.area);
   const std::array<std::pair<double, double>, 4> section_points{
       {{y, z}, {y, -z}, {-y, z}, {-y, -z}}};
-  MassPoints points = empty_points((x.rows() - 1) * rule.x.size() * 4, x.rows());
+  const std::vector<AxisPoint> axis = beam_fields(x, section, fields).moved;
+  MassPoints points = empty_points(4 * std::ssize(axis), x.rows());
   Index p = 0;
-  for (Index i = 0; i + 1 < x.rows(); ++i) {
-    const RowVector3d along = x.row(i + 1) - x.row(i);
-    const Matrix3d axes = beam_axes(along, section);
-    for (Index q = 0; q < rule.x.size(); ++q) {
-      const double xi = 0.5 * (1.0 + rule.x[q]);
-      const Eigen::Matrix<double, 6, 12> shapes = beam_shapes(xi, along, section);
-      for (const auto& [y_p, z_p] : section_points) {
-        const Eigen::Matrix<double, 3, 12> u =
-            axes.transpose() * section_displacement(y_p, z_p, section.has_rotary_inertia) * shapes;
-        points.dm[p] = section.material.density * section.area * along.norm() * rule.w[q] / 8.0;
-        points.x.row(p) = x.row(i) + xi * along + y_p * axes.row(1) + z_p * axes.row(2);
-        for (std::size_t c = 0; c < 3; ++c) points.N[c].row(p).segment<12>(6 * i) = u.row(Index(c));
-        ++p;
-      }
+  for (const AxisPoint& at : axis) {
+    for (const auto& [y_p, z_p] : section_points) {
+      const MatrixXd u = at.axes.transpose() *
+                         section_displacement(y_p, z_p, section.has_rotary_inertia) * at.motion;
+      points.dm[p] = section.material.density * section.area * at.length / 4.0;
+      points.x.row(p) = at.x + y_p * at.axes.row(1) + z_p * at.axes.row(2);
+      for (std::size_t c = 0; c < 3; ++c) points.N[c].row(p) = u.row(Index(c));
+      ++p;
     }
   }
   return points;

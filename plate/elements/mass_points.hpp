@@ -3,6 +3,7 @@
 #include <array>
 
 #include "mesh/mesh.hpp"
+#include "plate/elements/beam_fields.hpp"
 #include "plate/elements/covariant_strains.hpp"
 #include "plate/plate_options.hpp"
 
@@ -19,11 +20,12 @@ struct MassPoints {
 /// The Gauss points of the consistent mass of a shell, two through the thickness.
 MassPoints shell_mass_points(mesh::Shape shape, int order, const ShellNodes& nodes, double density);
 
-/// The mass points of the chain of beams of `beam_matrices`: four Gauss points along each beam,
-/// with four points of the section that have its area and second moments. Without rotary inertia
-/// the points do not move along the axis when the section turns.
+/// The mass points of the line of `beam_matrices`: the Gauss points of its mass, each with four
+/// points of the section that have its area and second moments. Without rotary inertia the points
+/// do not move along the axis when the section turns.
 /// @param x  [n x 3] nodes from end to end, m
-MassPoints beam_mass_points(const NodeVectors& x, const BeamSection& section);
+MassPoints beam_mass_points(const NodeVectors& x, const BeamSection& section,
+                            LineFields fields = LineFields::best);
 
 /// The mass points of a rigid body that follows the motion of one node: its centre and six points
 /// on the principal axes.

@@ -80,7 +80,6 @@ RowVector3d ArcEdge::correction(double t) const
 ArcElement::ArcElement(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element)
     : shape_(block.shape)
 {
-  if (shape_ == mesh::Shape::line) return;
   const std::vector<std::vector<int>> edges = mesh::edges_of(block, element);
   for (std::size_t k = 0; k < edges.size(); ++k) {
     MatrixX3d nodes(std::ssize(edges[k]), 3);

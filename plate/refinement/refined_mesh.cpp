@@ -18,7 +18,7 @@ using Parameters = std::vector<std::array<double, 2>>;
 
 constexpr int highest_order(Shape shape)
 {
-  return shape == Shape::quadrilateral ? 4 : 3;
+  return shape == Shape::triangle ? 3 : 4;
 }
 
 /// An element of the original at work.
@@ -269,7 +269,7 @@ bool can_rise(const Mesh& mesh)
 {
   const int order = mesh.blocks.front().order;
   const bool exists = std::ranges::all_of(mesh.blocks, [&](const ElementBlock& block) {
-    return block.shape != Shape::line && block.order == order && order < highest_order(block.shape);
+    return block.order == order && order < highest_order(block.shape);
   });
   return exists && keeps_points(mesh, refined(mesh, {.parts = 1, .order = order + 1}).mesh);
 }

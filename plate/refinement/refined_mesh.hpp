@@ -44,8 +44,8 @@ bool has_wide_edges(const mesh::Mesh& mesh, const std::vector<double>& rows);
 /// True if groups of points and rings have all their nodes in the refined mesh.
 bool keeps_points(const mesh::Mesh& mesh, const mesh::Mesh& refined);
 
-/// True if all elements are surfaces of one order, the next order exists for all, and no group of
-/// points and no ring loses nodes in it.
+/// True if all elements are of one order, the next order exists for all, and no group of points and
+/// no ring loses nodes in it.
 bool can_rise(const mesh::Mesh& mesh);
 
 /// Displacements and rotations of the refined nodes, interpolated by the original's shape

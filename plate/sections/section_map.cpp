@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "plate/elements/beam_axes.hpp"
 #include "plate/elements/beam_element.hpp"
 #include "plate/elements/shell_element.hpp"
 #include "plate/sections/directors.hpp"
@@ -48,18 +49,32 @@ double loss_factor_of(const Section& section)
   return section.loss_factor.value_or(section.material.loss_factor);
 }
 
-/// The axes of all beams of a line are defined.
-void check_axes(const NodeVectors& x, const BeamSection& section)
+}  // namespace
+
+std::vector<char> nodes_on_surfaces(const mesh::Mesh& mesh)
 {
-  for (Eigen::Index i = 0; i + 1 < x.rows(); ++i) beam_axes(x.row(i + 1) - x.row(i), section);
+  std::vector<char> on_surface(mesh.positions.size(), 0);
+  for (const mesh::ElementBlock& block : mesh.blocks)
+    if (block.shape != mesh::Shape::line)
+      for (const int node : block.nodes) on_surface[static_cast<std::size_t>(node)] = 1;
+  return on_surface;
 }
 
-}  // namespace
+LineFields line_fields(const std::vector<char>& on_surface, std::span<const int> nodes)
+{
+  const auto is_on_surface = [&](int node) {
+    return on_surface[static_cast<std::size_t>(node)] != 0;
+  };
+  const bool is_rib =
+      nodes.size() > 2 && std::ranges::any_of(nodes.subspan(1, nodes.size() - 2), is_on_surface);
+  return is_rib ? LineFields::isoparametric : LineFields::best;
+}
 
 SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
 {
   const SectionMap map{.shell = section_of_group(mesh, structure.shells),
-                       .beam = section_of_group(mesh, structure.beams)};
+                       .beam = section_of_group(mesh, structure.beams),
+                       .on_surface = nodes_on_surfaces(mesh)};
   for (const ShellSection& section : structure.shells) check_thickness(mesh, section);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (kind_of(block) == Kind::shell) check_element_exists(block.shape, block.order);
@@ -71,7 +86,7 @@ SectionMap map_sections(const mesh::Mesh& mesh, const Structure& structure)
                         block.numbers[e]));
       }
       if (kind_of(block) == Kind::beam)
-        check_axes(element_positions(mesh, block, e), structure.beams[section]);
+        node_axes(element_positions(mesh, block, e), structure.beams[section]);
     }
   }
   return map;
@@ -82,8 +97,11 @@ PlacedMatrices element_matrices(const mesh::Mesh& mesh, const mesh::ElementBlock
 {
   const int index = index_of_section(context.sections, block, element);
   const NodeVectors x = element_positions(mesh, block, element);
-  if (kind_of(block) == Kind::beam)
-    return {.matrices = beam_matrices(x, context.structure.beams[index]), .arms = {}};
+  if (kind_of(block) == Kind::beam) {
+    const LineFields fields =
+        line_fields(context.sections.on_surface, block.element_nodes(element));
+    return {.matrices = beam_matrices(x, context.structure.beams[index], fields), .arms = {}};
+  }
   const ShellSection& section = context.structure.shells[index];
   const ShellNodes shell = shell_nodes(mesh, block, element, context.normals, section);
   PlacedMatrices placed{

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "plate/elements/beam_fields.hpp"
 #include "plate/elements/covariant_strains.hpp"
 #include "plate/elements/element_matrices.hpp"
 #include "plate/plate_options.hpp"
@@ -11,9 +13,17 @@ namespace chladni::plate {
 
 /// The section of each group of the mesh as an index into Structure; -1 for none.
 struct SectionMap {
-  std::vector<int> shell;  ///< [n_groups]
-  std::vector<int> beam;   ///< [n_groups]
+  std::vector<int> shell;        ///< [n_groups]
+  std::vector<int> beam;         ///< [n_groups]
+  std::vector<char> on_surface;  ///< [n_nodes] true for the nodes of surface elements
 };
+
+/// [n_nodes] True for the nodes of surface elements.
+std::vector<char> nodes_on_surfaces(const mesh::Mesh& mesh);
+
+/// The fields of a line: where it shares its inner nodes with surfaces, theirs, which makes a rib
+/// converge as they do.
+LineFields line_fields(const std::vector<char>& on_surface, std::span<const int> nodes);
 
 /// Finds the section of each group. It checks the whole mesh, so that either all ranks throw or
 /// none.

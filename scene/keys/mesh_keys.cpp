@@ -75,8 +75,9 @@ constexpr Key mesh_rows[] = {
      "about that; at most the width of the body", length},
     {"mesh.element_order",
      integer,
-     "3, chosen with `accuracy`; .geo and .step too",
-     "of quadrilaterals and triangles; shells of order 4 are quadrilaterals (a structured mesh)",
+     "3, of beam 1, chosen with `accuracy`; .geo and .step too",
+     "of quadrilaterals, triangles and lines; shells of order 4 are quadrilaterals (a structured "
+     "mesh)",
      {.at_least = 1, .at_most = 4}},
     {"mesh.pattern",
      word,

@@ -65,6 +65,28 @@ TEST(BeamMesh, RefusesAPointBetweenNodesAndABeamWithoutLength)
   EXPECT_THROW(beam(options), Error);
 }
 
+TEST(Beam, HasLinesOfAnOrderWithEquidistantNodesFromEndToEnd)
+{
+  BeamMeshOptions options = slanted();
+  options.element_order = 3;
+  const Mesh coarse = beam(slanted()), mesh = beam(options);
+  const ElementBlock& lines = mesh.blocks.front();
+  EXPECT_EQ(lines.order, 3);
+  EXPECT_EQ(lines.n_elements(), coarse.blocks.front().n_elements());
+  EXPECT_EQ(mesh.n_nodes(), 3 * (coarse.n_nodes() - 1) + 1);
+  for (int e = 0; e < lines.n_elements(); ++e) {
+    const std::span<const int> nodes = lines.element_nodes(e);
+    ASSERT_EQ(std::ssize(nodes), 4);
+    const auto& a = mesh.positions[static_cast<std::size_t>(nodes[0])];
+    const auto& b = mesh.positions[static_cast<std::size_t>(nodes[3])];
+    const auto& at = mesh.positions[static_cast<std::size_t>(nodes[1])];
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(at[c], (2.0 * a[c] + b[c]) / 3.0, 1e-14);
+    if (e > 0) {
+      EXPECT_EQ(nodes[0], lines.element_nodes(e - 1)[3]);
+    }
+  }
+}
+
 TEST(Partition, DividesABeamAmongRanksInPieces)
 {
   const Mesh mesh = beam(slanted());

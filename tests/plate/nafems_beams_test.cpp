@@ -8,6 +8,7 @@
 
 #include "plate/dofs/point_elements.hpp"
 #include "plate/elements/beam_element.hpp"
+#include "tests/plate/beam_lines.hpp"
 
 namespace chladni::plate {
 namespace {
@@ -57,7 +58,7 @@ TEST(NafemsBeams, CantileverWithOffCentreMasses)
                         .I_z = I,
                         .J = 2.0 * I};
   const Index n = 20;
-  ElementMatrices beam = beam_matrices(ten_metres(n), rod);
+  ElementMatrices beam = testing::beam_mesh(ten_metres(n), 1, rod);
   for (const auto& [mass, y] : {std::pair{1e4, 2.0}, {1e3, -2.0}}) {
     beam.M.bottomRightCorner<6, 6>() +=
         point_mass_matrix({.at = "tip", .mass = mass, .offset = {0.0, y, 0.0}});
@@ -80,8 +81,8 @@ TEST(NafemsBeams, DeepSimplySupportedBeam)
                          .shear_factor_y = 0.85,
                          .shear_factor_z = 0.85};
   const Index n = 40;
-  const VectorXd f =
-      frequencies(beam_matrices(ten_metres(n), deep), {0, 1, 2, 3, 6 * n + 1, 6 * n + 2}, 9);
+  const VectorXd f = frequencies(testing::beam_mesh(ten_metres(n), 1, deep),
+                                 {0, 1, 2, 3, 6 * n + 1, 6 * n + 2}, 9);
   // R0016; the inertia of static shapes leaves 2.5e-4 n^2 in bending, linear twist (k h)^2 / 24.
   expect_each(f, {42.650, 42.650, 71.200, 125.00, 148.15, 148.15, 213.61, 283.47, 283.47}, 3e-3);
 }

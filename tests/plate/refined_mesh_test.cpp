@@ -102,6 +102,31 @@ TEST(RefinedMesh, CutsElementsAtFreeEdges)
   }
 }
 
+TEST(RefinedMesh, KeepsLinesOnTheCircleOfTheirNodes)
+{
+  mesh::ElementBlock block{.shape = mesh::Shape::line,
+                           .order = 2,
+                           .nodes_per_element = 3,
+                           .numbers = {1, 2, 3, 4},
+                           .nodes = {0, 1, 2, 2, 3, 4, 4, 5, 6, 6, 7, 0},
+                           .group = {0, 0, 0, 0}};
+  mesh::Mesh ring{.node_numbers = {1, 2, 3, 4, 5, 6, 7, 8},
+                  .positions = {},
+                  .blocks = {block},
+                  .groups = {{.name = "rim", .dimension = 1, .nodes = {0, 1, 2, 3, 4, 5, 6, 7}}},
+                  .notes = {}};
+  for (int i = 0; i < 8; ++i) {
+    ring.positions.push_back({0.2 * std::cos(0.25 * std::numbers::pi * i),
+                              0.2 * std::sin(0.25 * std::numbers::pi * i), 0.0});
+  }
+  for (const Refinement& how : {Refinement{.parts = 2, .order = 2}, Refinement{.order = 4}}) {
+    const RefinedMesh fine = refined(ring, how);
+    EXPECT_EQ(fine.mesh.n_nodes(), 16);
+    EXPECT_LT(off_circle(fine.mesh, "rim", 0.2), 1e-12);
+  }
+  EXPECT_TRUE(can_rise(ring));
+}
+
 TEST(RefinedMesh, KnowsWhichElementsHaveANextOrder)
 {
   EXPECT_TRUE(can_rise(disc(mesh::Pattern::structured, 3)));

@@ -887,7 +887,7 @@ TEST(Scene, SaysThatAToleranceDoesNotSeeTheStressOfBeams)
   };
   const Scene scene = with_tolerance(stiffened);
   ASSERT_EQ(scene.notes.size(), 1u);
-  EXPECT_EQ(scene.notes[0].find("beam.toml: reduce.stiffening: the axial force is constant"), 0u);
+  EXPECT_EQ(scene.notes[0].find("beam.toml: reduce.stiffening: the axial force of"), 0u);
   EXPECT_TRUE(with_tolerance(replaced(stiffened, "stiffening = [\"spin-y\"]\n", "")).notes.empty());
 }
 

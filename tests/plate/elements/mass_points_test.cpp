@@ -4,6 +4,7 @@
 
 #include "plate/elements/beam_element.hpp"
 #include "sample_elements.hpp"
+#include "tests/plate/beam_lines.hpp"
 
 namespace chladni::plate {
 namespace {
@@ -34,21 +35,26 @@ TEST(MassPoints, OfEachShellMakeItsMassMatrix)
 
 TEST(MassPoints, OfBeamsMakeTheirMassMatrixWithAndWithoutRotaryInertia)
 {
-  NodeVectors x(3, 3);
-  x << 0.0, 0.1, 0.2, 1.0, 0.4, 0.1, 1.5, 1.4, 0.3;
-  for (const BeamTheory theory : {BeamTheory::bernoulli_euler, BeamTheory::timoshenko}) {
-    for (const bool rotary : {true, false}) {
-      const BeamSection section{.group = "beam",
-                                .material = testing::steel_like,
-                                .theory = theory,
-                                .area = 0.3,
-                                .I_y = 0.02,
-                                .I_z = 0.05,
-                                .J = 0.04,
-                                .has_rotary_inertia = rotary,
-                                .orientation = std::array{0.1, 0.3, 1.0}};
-      const MatrixXd M = beam_matrices(x, section).M;
-      EXPECT_LT((mass_matrix(beam_mass_points(x, section)) - M).norm(), 1e-14 * M.norm());
+  NodeVectors curved(3, 3);
+  curved << 0.0, 0.1, 0.2, 1.0, 0.4, 0.1, 1.5, 1.4, 0.3;
+  const Eigen::RowVector3d end(1.5, 1.4, 0.3);
+  for (const NodeVectors& x :
+       {curved, testing::line({0, 0, 0}, end, 1), testing::line({0, 0, 0}, end, 2),
+        testing::line({0, 0, 0}, end, 4)}) {
+    for (const BeamTheory theory : {BeamTheory::bernoulli_euler, BeamTheory::timoshenko}) {
+      for (const bool rotary : {true, false}) {
+        const BeamSection section{.group = "beam",
+                                  .material = testing::steel_like,
+                                  .theory = theory,
+                                  .area = 0.3,
+                                  .I_y = 0.02,
+                                  .I_z = 0.05,
+                                  .J = 0.04,
+                                  .has_rotary_inertia = rotary,
+                                  .orientation = std::array{0.1, 0.3, 1.0}};
+        const MatrixXd M = beam_matrices(x, section).M;
+        EXPECT_LT((mass_matrix(beam_mass_points(x, section)) - M).norm(), 1e-14 * M.norm());
+      }
     }
   }
 }
