@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
 #include "squeal/stability/eigenvalue_change.hpp"
 
 namespace chladni::squeal {
@@ -13,7 +13,7 @@ FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::Ve
   const Eigen::Index n = X.rows();
   const double speed = f_start.norm();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr{Eigen::MatrixXd(f_start)};
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd Q = linear::columns_of_Q(qr, n);
   const Eigen::MatrixXd in_Q = Q.transpose() * X * Q;
   const Eigen::MatrixXd B = in_Q.bottomRightCorner(n - 1, n - 1);
 
