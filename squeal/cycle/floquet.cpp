@@ -9,7 +9,7 @@ namespace chladni::squeal {
 namespace {
 
 /// Errors of X in other directions than that of the defect, relative to it.
-constexpr double other_directions = 3.0;
+constexpr double other_directions = 5.0;
 
 }  // namespace
 

@@ -29,7 +29,7 @@ struct FloquetMultipliers {
 ///   Q^T X Q = [1 c^T; 0 B],
 /// and the others are the eigenvalues of B. At a fold and at a Hopf point 1 is a double eigenvalue
 /// of X, whose computed values are off by the square root of the error of X; it is a simple one of
-/// B. The estimated error is three times the defect, which shows one direction of many, times the
+/// B. The estimated error is five times the defect, which shows one direction of many, times the
 /// condition number of the eigenvalue of B.
 /// @param X         monodromy matrix, [size x size] with size > 1
 /// @param f_start   f(x_0)

@@ -28,6 +28,8 @@ constexpr int newton_steps_max = 25;
 /// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
 /// leaves the square of what the one before left.
 constexpr double nearly_converged = 1e-5;
+/// Largest change of x_0, relative, by a step that settles an orbit beside a fold or a Hopf point.
+constexpr double settling_change = 1e-2;
 /// Largest change of x_0 in one step, relative.
 constexpr double largest_change = 0.5;
 /// A derivative that does not reduce the change by this factor is computed anew.
@@ -214,14 +216,15 @@ FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at
 
 /// A step with the fine derivative from an orbit that is nearly closed, of which the returned one
 /// has the multipliers.
+/// @param largest  largest change of x_0 by the step, relative
 std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleStart& from,
-                                        double tolerance)
+                                        double tolerance, double largest)
 {
   const Flow now = flow(motion, from, tolerance);
   if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
   // The end moves with the tolerance; with the fine derivative one step takes it back.
   const Eigen::VectorXd change = newton_step(motion, from, now);
-  if (!(size_of(change, from) < nearly_converged)) return std::nullopt;
+  if (!(size_of(change, from) < largest)) return std::nullopt;
   const FloquetMultipliers multipliers = multipliers_of(motion, from, now);
   return PeriodicOrbit{moved(from, change), multipliers, 1, tolerance};
 }
@@ -263,12 +266,12 @@ std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const Cycl
   CycleStart at = closed->at;
   int n_newton_steps = closed->n_newton_steps;
   for (double tolerance = first_tolerance;; tolerance *= tolerance_factor) {
-    auto orbit = after_step(motion, at, tolerance);
+    auto orbit = after_step(motion, at, tolerance, nearly_converged);
     if (!orbit) return std::nullopt;
     orbit->n_newton_steps = ++n_newton_steps;
     if (orbit->multipliers.defect < defect_max || is_last(tolerance)) {
       return with_verdict(*orbit, [&](const CycleStart& from, double finer) {
-        return after_step(motion, from, finer);
+        return after_step(motion, from, finer, settling_change);
       });
     }
     at = orbit->at;
