@@ -6,6 +6,12 @@
 #include "squeal/stability/eigenvalue_change.hpp"
 
 namespace chladni::squeal {
+namespace {
+
+/// Errors of X in other directions than that of the defect, relative to it.
+constexpr double other_directions = 5.0;
+
+}  // namespace
 
 FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::VectorXd& f_start,
                                        const Eigen::VectorXd& f_end)
@@ -26,7 +32,7 @@ FloquetMultipliers floquet_multipliers(const Eigen::MatrixXd& X, const Eigen::Ve
               return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
             });
   multipliers.condition = EigenvalueChange(B, multipliers.values[1]).condition();
-  multipliers.error = multipliers.defect * multipliers.condition;
+  multipliers.error = other_directions * multipliers.defect * multipliers.condition;
   return multipliers;
 }
 

@@ -19,6 +19,9 @@ struct FloquetMultipliers {
   double largest() const { return std::abs(values[1]); }
   /// Distance of the largest modulus from 1, where stability changes.
   double distance() const { return std::abs(largest() - 1.0); }
+  /// Whether the distance is a hundred times the error, so that a rough estimate of that tells the
+  /// stability.
+  bool is_told() const { return distance() >= 100.0 * error; }
 };
 
 /// The multipliers of a motion x' = f(x) with the one along the cycle removed before: with
@@ -26,7 +29,8 @@ struct FloquetMultipliers {
 ///   Q^T X Q = [1 c^T; 0 B],
 /// and the others are the eigenvalues of B. At a fold and at a Hopf point 1 is a double eigenvalue
 /// of X, whose computed values are off by the square root of the error of X; it is a simple one of
-/// B. The estimated error is the defect times the condition number of the eigenvalue of B.
+/// B. The estimated error is five times the defect, which shows one direction of many, times the
+/// condition number of the eigenvalue of B.
 /// @param X         monodromy matrix, [size x size] with size > 1
 /// @param f_start   f(x_0)
 /// @param f_end     f(x_T)

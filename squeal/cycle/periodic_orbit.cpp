@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linear/dense/dense_solvers.hpp"
+#include "squeal/cycle/cycle_verdict.hpp"
 #include "squeal/motion/dormand_prince.hpp"
 
 namespace chladni::squeal {
@@ -22,33 +23,31 @@ constexpr double steps_per_period_min = 6.0;
 constexpr double exponentials_per_period = 36.0;
 /// Of the derivatives that only lead Newton's method, whose errors of 1e-3 it outruns.
 constexpr double rough_exponentials_per_period = 12.0;
-constexpr double first_tolerance = 1e-9;
-constexpr double last_tolerance = 1e-13;
-/// From one tolerance to the next.
-constexpr double tolerance_factor = 1e-2;
 constexpr double defect_max = 1e-6;
-/// Distance from 1 of the largest multiplier, in its errors, from which on stability is told from
-/// one tolerance.
-constexpr double sure = 100.0;
-/// Error of the multipliers by that of the orbit, in tolerances over the distance from 1; 4 for the
-/// normal form of a fold.
-constexpr double orbit_error = 10.0;
-/// Change of the largest multiplier by a step, relative to its distance from 1, that is none.
-constexpr double settled_part = 0.01;
-constexpr int settling_steps_max = 4;
 constexpr int newton_steps_max = 25;
 /// Change of x_0, relative, from which on the step with the fine derivative is the last one: it
 /// leaves the square of what the one before left.
 constexpr double nearly_converged = 1e-5;
+/// Largest change of x_0, relative, by a step that settles an orbit beside a fold or a Hopf point.
+constexpr double settling_change = 1e-2;
 /// Largest change of x_0 in one step, relative.
 constexpr double largest_change = 0.5;
 /// A derivative that does not reduce the change by this factor is computed anew.
 constexpr double worn_out = 0.1;
 
+/// How much shorter steps are than at the first tolerance, by a method of order 8.
+double shortening(double tolerance)
+{
+  return std::min(1.0, std::pow(tolerance / first_tolerance, 0.125));
+}
+
+/// Not only the error of a step follows the tolerance: that of the interpolation, by which the end
+/// of the period is found, follows the longest step alone.
 StepControl control_of(const AutonomousMotion& motion, double tolerance)
 {
-  const double largest = 2.0 * pi / (motion.omega_highest() * steps_per_period_min);
-  return {tolerance, largest, 0.25 * largest};
+  const double longest =
+      shortening(tolerance) * 2.0 * pi / (motion.omega_highest() * steps_per_period_min);
+  return {tolerance, longest, 0.25 * longest};
 }
 
 std::vector<double> sides_of(const AutonomousMotion& motion)
@@ -81,7 +80,7 @@ struct Exponentials {
 /// Of order 4 beside an integration of order 8.
 Exponentials fine(double tolerance)
 {
-  return {exponentials_per_period / (2.0 * pi) * std::pow(first_tolerance / tolerance, 0.125), 2};
+  return {exponentials_per_period / (2.0 * pi * shortening(tolerance)), 2};
 }
 
 constexpr Exponentials rough{rough_exponentials_per_period / (2.0 * pi), 1};
@@ -209,81 +208,25 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
   return std::nullopt;
 }
 
-/// Whether no smaller tolerance follows; powers of the factor are rounded.
-bool is_last(double tolerance)
-{
-  return tolerance < 2.0 * last_tolerance;
-}
-
-/// With the error of the orbit: that of its integration is magnified by 1 / |mu - 1|.
-FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow,
-                                  double tolerance)
+FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
 {
   const Eigen::VectorXd f = motion.rate_at(at.x);
-  FloquetMultipliers multipliers =
-      floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
-  multipliers.error += orbit_error * tolerance * multipliers.condition / multipliers.distance();
-  return multipliers;
+  return floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
 }
 
 /// A step with the fine derivative from an orbit that is nearly closed, of which the returned one
 /// has the multipliers.
+/// @param largest  largest change of x_0 by the step, relative
 std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleStart& from,
-                                        double tolerance)
+                                        double tolerance, double largest)
 {
   const Flow now = flow(motion, from, tolerance);
   if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
   // The end moves with the tolerance; with the fine derivative one step takes it back.
   const Eigen::VectorXd change = newton_step(motion, from, now);
-  if (!(size_of(change, from) < nearly_converged)) return std::nullopt;
-  const FloquetMultipliers multipliers = multipliers_of(motion, from, now, tolerance);
+  if (!(size_of(change, from) < largest)) return std::nullopt;
+  const FloquetMultipliers multipliers = multipliers_of(motion, from, now);
   return PeriodicOrbit{moved(from, change), multipliers, 1, tolerance};
-}
-
-/// The orbit at which steps leave the multipliers as they are; absent when there is none, as beside
-/// a fold that the tolerance does not resolve.
-/// @param step  the orbit after a step from another one, with the multipliers of that
-template <class Step>
-std::optional<PeriodicOrbit> settled_orbit(const PeriodicOrbit& near, const Step& step)
-{
-  std::optional<PeriodicOrbit> orbit = near;
-  for (int i = 0; i < settling_steps_max; ++i) {
-    auto next = step(orbit->at);
-    if (!next) return std::nullopt;
-    next->n_newton_steps += orbit->n_newton_steps;
-    const double change = next->multipliers.largest() - orbit->multipliers.largest();
-    if (std::abs(change) <= settled_part * next->multipliers.distance()) return next;
-    orbit = std::move(next);
-  }
-  return std::nullopt;
-}
-
-/// The orbit at a tolerance at which its stability is told, if there is one.
-/// @param step  the orbit after a step at a tolerance of the integration; absent when none is found
-template <class Step>
-PeriodicOrbit with_verdict(PeriodicOrbit orbit, const Step& step)
-{
-  const auto is_told = [&orbit] {
-    return orbit.multipliers.distance() >= sure * orbit.multipliers.error;
-  };
-  if (is_told()) return orbit;
-  double tolerance = orbit.tolerance;
-  const auto settled = [&] {
-    return settled_orbit(orbit, [&](const CycleStart& from) { return step(from, tolerance); });
-  };
-  std::optional<PeriodicOrbit> now = settled();
-  while (now) {
-    orbit = std::move(*now);
-    if (is_last(tolerance)) return orbit;
-    tolerance *= tolerance_factor;
-    now = settled();
-    if (!now) break;
-    now->multipliers.error = std::abs(now->multipliers.largest() - orbit.multipliers.largest());
-    if (now->multipliers.distance() >= sure * now->multipliers.error) return *now;
-  }
-  // The orbit hardly exists, so that its multipliers are not known either.
-  orbit.multipliers.error = std::max(orbit.multipliers.error, orbit.multipliers.distance());
-  return orbit;
 }
 
 }  // namespace
@@ -323,12 +266,12 @@ std::optional<PeriodicOrbit> periodic_orbit(AutonomousMotion& motion, const Cycl
   CycleStart at = closed->at;
   int n_newton_steps = closed->n_newton_steps;
   for (double tolerance = first_tolerance;; tolerance *= tolerance_factor) {
-    auto orbit = after_step(motion, at, tolerance);
+    auto orbit = after_step(motion, at, tolerance, nearly_converged);
     if (!orbit) return std::nullopt;
     orbit->n_newton_steps = ++n_newton_steps;
     if (orbit->multipliers.defect < defect_max || is_last(tolerance)) {
-      return with_verdict(std::move(*orbit), [&](const CycleStart& from, double finer) {
-        return after_step(motion, from, finer);
+      return with_verdict(*orbit, [&](const CycleStart& from, double finer) {
+        return after_step(motion, from, finer, settling_change);
       });
     }
     at = orbit->at;
@@ -341,10 +284,10 @@ std::optional<PeriodicOrbit> orbit_as_it_is(AutonomousMotion& motion, const Cycl
                                   double tolerance) -> std::optional<PeriodicOrbit> {
     const Flow now = flow(motion, from, tolerance);
     if (!now.end.allFinite() || !now.derivative.allFinite()) return std::nullopt;
-    return PeriodicOrbit{from, multipliers_of(motion, from, now, tolerance), 0, tolerance};
+    return PeriodicOrbit{from, multipliers_of(motion, from, now), 0, tolerance};
   };
   auto orbit = orbit_at(at, first_tolerance);
-  if (orbit) orbit = with_verdict(std::move(*orbit), orbit_at);
+  if (orbit) orbit = with_verdict(*orbit, orbit_at);
   return orbit;
 }
 
