@@ -8,11 +8,14 @@
 
 namespace chladni::linear {
 
-InverseForm inverse_form(Mat factor, petsc::Matrix B)
+InverseForm inverse_form(Mat factor, petsc::Matrix B, IS rows)
 {
   SupernodalFactor* ours = supernodal_of(factor);
   if (ours != nullptr && ours->n_negative_pivots() == 0) {
-    ours->solve_half(LocalArray(B).columns());
+    if (rows == nullptr)
+      ours->solve_half(LocalArray(B).columns());
+    else
+      ours->solve_half(ours->part(rows), LocalArray(B).columns());
     return {.left = std::move(B), .forces = {}};
   }
   petsc::Matrix solutions = uninitialized_dense(B, LocalRows(B).n_cols());
