@@ -35,14 +35,13 @@ constexpr double largest_change = 0.5;
 /// A derivative that does not reduce the change by this factor is computed anew.
 constexpr double worn_out = 0.1;
 
-/// How much shorter steps are than at the first tolerance, by a method of order 8.
+/// Of the longest step, relative to that at the first tolerance: the error of the interpolation, by
+/// which the end of a period is found, follows it alone.
 double shortening(double tolerance)
 {
   return std::min(1.0, std::pow(tolerance / first_tolerance, 0.125));
 }
 
-/// Not only the error of a step follows the tolerance: that of the interpolation, by which the end
-/// of the period is found, follows the longest step alone.
 StepControl control_of(const AutonomousMotion& motion, double tolerance)
 {
   const double longest =
@@ -210,8 +209,7 @@ std::optional<ClosedOrbit> shoot(AutonomousMotion& motion, CycleStart at)
 
 FloquetMultipliers multipliers_of(AutonomousMotion& motion, const CycleStart& at, const Flow& flow)
 {
-  const Eigen::VectorXd f = motion.rate_at(at.x);
-  return floquet_multipliers(flow.derivative, f, motion.rate_at(flow.end));
+  return floquet_multipliers(flow.derivative, motion.rate_at(at.x), motion.rate_at(flow.end));
 }
 
 /// A step with the fine derivative from an orbit that is nearly closed, of which the returned one
@@ -225,8 +223,7 @@ std::optional<PeriodicOrbit> after_step(AutonomousMotion& motion, const CycleSta
   // The end moves with the tolerance; with the fine derivative one step takes it back.
   const Eigen::VectorXd change = newton_step(motion, from, now);
   if (!(size_of(change, from) < largest)) return std::nullopt;
-  const FloquetMultipliers multipliers = multipliers_of(motion, from, now);
-  return PeriodicOrbit{moved(from, change), multipliers, 1, tolerance};
+  return PeriodicOrbit{moved(from, change), multipliers_of(motion, from, now), 1, tolerance};
 }
 
 }  // namespace
