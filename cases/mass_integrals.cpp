@@ -1,8 +1,5 @@
 #include "cases/mass_integrals.hpp"
 
-#include <array>
-#include <vector>
-
 #include "common/eigen_every.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 #include "reduce/project_form.hpp"
@@ -16,11 +13,7 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
 {
   const plate::MassModel model =
       plate::mass_model(fe.mesh, structure, fe.system.dofs, PETSC_COMM_WORLD);
-  // Of zz: M = S_xx + S_yy + S_zz.
-  constexpr std::array<std::size_t, 5> computed{0, 1, 3, 4, 5};
-  std::vector<plate::Axes> axes;
-  for (const std::size_t i : computed) axes.push_back(mbs_export::product_axes[i]);
-  auto [moments, products] = plate::inertia_integrals(model, axes);
+  const plate::MassMoments moments = plate::mass_moments(model);
   const MatrixXd V = reduce::project_vectors(reduced.reduction.Q_CB, reduced.body.dofs,
                                              moments.displacement)(reduced.places, every)
                          .transpose();
@@ -31,21 +24,13 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
                                       .position_displacement = V.bottomRows<9>(),
                                       .products = {}};
   auto& S = integrals.products;
-  std::vector<reduce::FormBlocks> forms;
-  for (std::size_t i = 0; i < computed.size(); ++i) {
-    forms.push_back({.A = reduce::split(products[i], reduced.body.dofs),
-                     .symmetry = axes[i].first == axes[i].second ? FormSymmetry::symmetric
-                                                                 : FormSymmetry::none});
-    products[i] = {};
+  for (const std::size_t i : {0, 1, 3, 4, 5}) {
+    const auto [k, l] = mbs_export::product_axes[i];
+    S[i] = projected(reduced, plate::displacement_product(model, k, l),
+                     k == l ? FormSymmetry::symmetric : FormSymmetry::none);
+    if (k == l) S[i] = 0.5 * (S[i] + S[i].transpose()).eval();
   }
-  const std::vector<MatrixXd> projected =
-      reduce::project_forms(reduced.reduction.Q_CB, reduced.body.K_blocks.ss, forms);
-  for (std::size_t i = 0; i < computed.size(); ++i) {
-    const MatrixXd S_kl = projected[i](reduced.places, reduced.places);
-    const bool is_symmetric = axes[i].first == axes[i].second;
-    S[computed[i]] = is_symmetric ? MatrixXd(0.5 * (S_kl + S_kl.transpose())) : S_kl;
-  }
-  S[2] = reduced.system.M - S[0] - S[1];
+  S[2] = reduced.system.M - S[0] - S[1];  // M = S_xx + S_yy + S_zz
   return integrals;
 }
 

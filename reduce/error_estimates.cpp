@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
-#include "common/eigen_every.hpp"
 #include "linear/cholesky/inverse_form.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/sparse_product.hpp"
 #include "linear/progress.hpp"
-#include "reduce/pair_groups.hpp"
 
 namespace chladni::reduce {
 
@@ -94,71 +91,23 @@ std::vector<double> form_of_diagonal(const Blocks& A, Mat u_s, const MatrixXd& x
   return sums;
 }
 
-/// Y <- Y + X S in the rows that a group moves; X has zeros in the others, in columns that S takes.
-void add_product_in(const PairGroup& group, Mat X, const MatrixXd& S, Mat Y)
-{
-  if (!group.set) return linear::add_product(1.0, X, S, Y);
-  std::vector<PetscInt> columns;
-  for (PetscInt j = 0; j < S.rows(); ++j)
-    if (!S.row(j).isZero(0.0)) columns.push_back(j);
-  const MatrixXd S_of_columns = S(columns, every);
-  const linear::LocalRows x(X);
-  PetscInt ld = 0;
-  PetscScalar* y = nullptr;
-  petsc::check(MatDenseGetLDA(Y, &ld));
-  petsc::check(MatDenseGetArray(Y, &y));
-  constexpr std::size_t piece = 512;  // rows: these columns in a second-level cache
-  for (std::size_t first = 0; first < group.rows.size(); first += piece) {
-    const auto rows =
-        std::span(group.rows).subspan(first, std::min(piece, group.rows.size() - first));
-    MatrixXd some(std::ssize(rows), std::ssize(columns));
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        some(Eigen::Index(i), Eigen::Index(j)) = x(rows[i], columns[j]);
-    const MatrixXd sum = linear::product(some, S_of_columns);
-    for (Eigen::Index j = 0; j < sum.cols(); ++j)
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        y[rows[i] + std::size_t(j) * ld] += sum(Eigen::Index(i), j);
-  }
-  petsc::check(MatDenseRestoreArray(Y, &y));
-}
-
-/// A X for X that is zero but in the rows of a group.
-class ProductIn {
- public:
-  ProductIn(const PairGroup& group, Mat A)
-  {
-    if (group.set)
-      product_.emplace(A, group.rows);
-    else
-      product_.emplace(A);
-  }
-  void apply(Mat X, Mat Y) const { product_->apply(X, Y); }
-
- private:
-  std::optional<linear::SparseProduct> product_;
-};
-
 /// r_s = K_ss Phi x_q - lambda (M_ss u_s + M_sm x_m): the constraint modes balance K by themselves,
 /// and leaving them out avoids the difference of two large forces.
-Residuals residuals(const Condensation& system, const ReducedPairs& pairs, const PairGroup& group)
+Residuals residuals(const Condensation& system, const ReducedPairs& pairs)
 {
   const auto& [K_ss, Q_CB, K, M] = system;
   PetscInt n_m = 0;
   petsc::check(MatGetSize(Q_CB.Psi, nullptr, &n_m));
   const MatrixXd x_m = pairs.X.topRows(n_m), x_q = pairs.X.bottomRows(pairs.X.rows() - n_m);
   petsc::Matrix elastic = zero_block(Q_CB.Psi, pairs.X.cols());  // Phi x_q
-  if (Q_CB.modes) add_product_in(group, Q_CB.modes->Phi, x_q, elastic);
+  if (Q_CB.modes) linear::add_product(1.0, Q_CB.modes->Phi, x_q, elastic);
   petsc::Matrix r = linear::uninitialized_dense(K.ss, pairs.X.cols());
+  linear::SparseProduct(K.ss).apply(elastic, r);
+  linear::add_product(1.0, Q_CB.Psi, x_m, elastic);  // now u_s
   petsc::Matrix product = linear::uninitialized_dense(K.ss, pairs.X.cols());
-  {
-    const ProductIn times_K(group, K.ss);
-    times_K.apply(elastic, r);
-    add_product_in(group, Q_CB.Psi, x_m, elastic);  // now u_s
-    times_K.apply(elastic, product);
-  }
+  linear::SparseProduct(K.ss).apply(elastic, product);
   std::vector<double> rayleigh = quadratic_forms(K, product, elastic, x_m);
-  ProductIn(group, M.ss).apply(elastic, product);
+  linear::SparseProduct(M.ss).apply(elastic, product);
   const std::vector<double> inertia = quadratic_forms(M, product, elastic, x_m);
   std::vector<double> inertia_of_diagonal = form_of_diagonal(M, elastic, x_m);
   for (std::size_t k = 0; k < rayleigh.size(); ++k) {
@@ -175,52 +124,29 @@ Residuals residuals(const Condensation& system, const ReducedPairs& pairs, const
           .rayleigh = std::move(rayleigh)};
 }
 
-/// Some pairs of a group.
-ReducedPairs slice(const ReducedPairs& pairs, std::span<const PetscInt> numbers)
+ReducedPairs slice(const ReducedPairs& pairs, PetscInt first, PetscInt last)
 {
-  ReducedPairs some{.X = MatrixXd(pairs.X.rows(), std::ssize(numbers)), .lambda = {}};
-  for (const PetscInt j : numbers) {
-    some.X.col(std::ssize(some.lambda)) = pairs.X.col(j);
-    some.lambda.push_back(pairs.lambda[std::size_t(j)]);
-  }
-  return some;
+  return {.X = pairs.X.middleCols(first, last - first),
+          .lambda = {pairs.lambda.begin() + first, pairs.lambda.begin() + last}};
 }
-
-/// Pairs by their numbers, and the form of K_ss^-1 on their residuals.
-struct Solved {
-  std::span<const PetscInt> pairs;
-  linear::InverseForm form;
-};
 
 /// r_i^T K_ss^-1 r_j / sqrt(lambda_i lambda_j) of the newest block with itself and all before.
-void add_inner_products(const std::vector<Solved>& blocks, const std::vector<double>& lambda,
-                        MatrixXd& H)
+void add_inner_products(const std::vector<linear::InverseForm>& forms,
+                        const std::vector<double>& lambda, MatrixXd& H)
 {
-  const Solved& newest = blocks.back();
-  for (const Solved& block : blocks) {
-    const MatrixXd products = linear::inner_product(block.form.left, newest.form.right());
+  const Mat right = forms.back().right();
+  PetscInt newest = 0, first = 0;
+  for (const linear::InverseForm& form : std::span(forms).first(forms.size() - 1))
+    newest += linear::LocalRows(form.left).n_cols();
+  for (const linear::InverseForm& form : forms) {
+    const MatrixXd products = linear::inner_product(form.left, right);
     for (PetscInt j = 0; j < products.cols(); ++j) {
       for (PetscInt i = 0; i < products.rows(); ++i) {
-        const PetscInt a = block.pairs[std::size_t(i)], b = newest.pairs[std::size_t(j)];
-        H(a, b) = H(b, a) = products(i, j) / std::sqrt(lambda[a] * lambda[b]);
+        const double scale = std::sqrt(lambda[first + i] * lambda[newest + j]);
+        H(first + i, newest + j) = H(newest + j, first + i) = products(i, j) / scale;
       }
     }
-  }
-}
-
-/// The first-order errors of some pairs.
-void note(const Residuals& of, const ReducedPairs& some, const Solved& solved,
-          ErrorEstimates& estimates)
-{
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  const std::vector<double> squares =
-      linear::column_products(solved.form.left, solved.form.right());
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    const auto pair = std::size_t(solved.pairs[i]);
-    estimates.eta2[pair] = std::max(0.0, squares[i]) / some.lambda[i];
-    const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
-    estimates.rounding[pair] =
-        4.0 * eps * terms + 2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0);
+    first += static_cast<PetscInt>(products.rows());
   }
 }
 
@@ -229,33 +155,28 @@ void note(const Residuals& of, const ReducedPairs& some, const Solved& solved,
 ErrorEstimates error_estimates(const Condensation& system, const ReducedPairs& pairs,
                                Purpose purpose)
 {
-  constexpr std::size_t most = 32;  // pairs at a time: bounds the memory
-  const std::size_t n_pairs = pairs.lambda.size();
-  ErrorEstimates estimates{.eta2 = std::vector<double>(n_pairs),
-                           .rounding = std::vector<double>(n_pairs)};
+  constexpr PetscInt most = 32;  // pairs at a time: bounds the memory
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const auto n_pairs = static_cast<PetscInt>(pairs.lambda.size());
+  ErrorEstimates estimates;
   const bool with_inner_products = purpose == Purpose::bounds;
-  if (with_inner_products) {
-    const auto n = static_cast<Eigen::Index>(n_pairs);
-    estimates.inner_products = MatrixXd::Zero(n, n);
-  }
-  std::vector<Solved> blocks;  // of the pairs so far
-  std::size_t n_done = 0;
-  const std::vector<PairGroup> groups = pair_groups(system, pairs);
-  for (const PairGroup& group : groups) {
-    for (std::size_t first = 0; first < group.pairs.size(); first += most) {
-      linear::report_progress(double(n_done) / double(n_pairs));
-      const auto numbers =
-          std::span(group.pairs).subspan(first, std::min(most, group.pairs.size() - first));
-      const ReducedPairs some = slice(pairs, numbers);
-      if (!with_inner_products) blocks.clear();
-      Residuals of = residuals(system, some, group);
-      blocks.push_back(
-          {.pairs = numbers,
-           .form = linear::inverse_form(system.K_ss.factor(), std::move(of.r_s), group.set)});
-      note(of, some, blocks.back(), estimates);
-      if (with_inner_products) add_inner_products(blocks, pairs.lambda, estimates.inner_products);
-      n_done += numbers.size();
+  if (with_inner_products) estimates.inner_products = MatrixXd::Zero(n_pairs, n_pairs);
+  std::vector<linear::InverseForm> forms;  // of K_ss^-1, on r of the pairs so far
+  for (PetscInt first = 0; first < n_pairs; first += most) {
+    linear::report_progress(double(first) / n_pairs);
+    const ReducedPairs some = slice(pairs, first, std::min(first + most, n_pairs));
+    if (!with_inner_products) forms.clear();
+    Residuals of = residuals(system, some);
+    forms.push_back(linear::inverse_form(system.K_ss.factor(), std::move(of.r_s)));
+    const std::vector<double> squares =
+        linear::column_products(forms.back().left, forms.back().right());
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      estimates.eta2.push_back(std::max(0.0, squares[i]) / some.lambda[i]);
+      const double terms = of.energy_of_diagonal[i] / some.lambda[i] + of.inertia_of_diagonal[i];
+      estimates.rounding.push_back(4.0 * eps * terms +
+                                   2.0 * std::abs(some.lambda[i] / of.rayleigh[i] - 1.0));
     }
+    if (with_inner_products) add_inner_products(forms, pairs.lambda, estimates.inner_products);
   }
   return estimates;
 }

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "linear/kernels/basis_forms.hpp"
 #include "linear/kernels/small_matrices.hpp"
 
 namespace chladni::reduce {
@@ -23,51 +22,26 @@ struct Columns {
   PetscInt first;
 };
 
-std::vector<Columns> columns_of(const CraigBamptonBasis& Q_CB, PetscInt n_m)
-{
-  std::vector<Columns> X{{Q_CB.Psi, 0}};
-  if (Q_CB.modes) X.push_back({Q_CB.modes->Phi, n_m});
-  return X;
-}
-
-/// A_mm + A_ms X + X^T A_sm
-MatrixXd form_of_masters(const CraigBamptonBasis& Q_CB, const Blocks& A)
-{
-  const MatrixXd A_mm = linear::replicate(A.mm);
-  MatrixXd A_r = MatrixXd::Zero(A_mm.rows() + Q_CB.n_modes(), A_mm.rows() + Q_CB.n_modes());
-  add_block(A_r, 0, 0, A_mm);
-  petsc::Matrix A_ms_T;  // that its product with X is one with sparse columns
-  petsc::check(MatTranspose(A.ms, MAT_INITIAL_MATRIX, A_ms_T.put()));
-  for (const auto& [X, first] : columns_of(Q_CB, static_cast<PetscInt>(A_mm.rows()))) {
-    add_block(A_r, first, 0, linear::inner_product_sparse(X, A.sm));
-    add_block(A_r, 0, first, linear::inner_product_sparse(X, A_ms_T).transpose());
-  }
-  return A_r;
-}
-
-std::vector<Mat> matrices_of(const CraigBamptonBasis& Q_CB)
-{
-  std::vector<Mat> X;
-  for (const Columns& some : columns_of(Q_CB, 0)) X.push_back(some.X);
-  return X;
-}
-
 }  // namespace
 
 /// With Q_CB = [I 0; X], X = [Psi Phi]: A_r = A_mm + A_ms X + X^T A_sm + X^T A_ss X.
 MatrixXd project_form(const CraigBamptonBasis& Q_CB, const Blocks& A, linear::FormSymmetry symmetry)
 {
-  return form_of_masters(Q_CB, A) + linear::parted_form(matrices_of(Q_CB), A.ss, symmetry);
-}
-
-std::vector<MatrixXd> project_forms(const CraigBamptonBasis& Q_CB, Mat K_ss,
-                                    std::span<const FormBlocks> forms)
-{
-  std::vector<linear::SparseForm> of_slaves;
-  for (const auto& [A, symmetry] : forms) of_slaves.push_back({.A = A.ss, .symmetry = symmetry});
-  std::vector<MatrixXd> projected = linear::basis_forms(matrices_of(Q_CB), K_ss, of_slaves);
-  for (std::size_t f = 0; f < forms.size(); ++f) projected[f] += form_of_masters(Q_CB, forms[f].A);
-  return projected;
+  const MatrixXd A_mm = linear::replicate(A.mm);
+  const auto n_m = static_cast<PetscInt>(A_mm.rows());
+  std::vector<Columns> X{{Q_CB.Psi, 0}};
+  if (Q_CB.modes) X.push_back({Q_CB.modes->Phi, n_m});
+  MatrixXd A_r = MatrixXd::Zero(n_m + Q_CB.n_modes(), n_m + Q_CB.n_modes());
+  add_block(A_r, 0, 0, A_mm);
+  petsc::Matrix A_ms_T;  // that its product with X is one with sparse columns
+  petsc::check(MatTranspose(A.ms, MAT_INITIAL_MATRIX, A_ms_T.put()));
+  for (const Columns& part : X) {
+    add_block(A_r, part.first, 0, linear::inner_product_sparse(part.X, A.sm));
+    add_block(A_r, 0, part.first, linear::inner_product_sparse(part.X, A_ms_T).transpose());
+  }
+  std::vector<Mat> columns;
+  for (const Columns& part : X) columns.push_back(part.X);
+  return A_r + linear::parted_form(columns, A.ss, symmetry);
 }
 
 MatrixXd project_vectors(const CraigBamptonBasis& Q_CB, const DofPartition& dofs, Mat V)

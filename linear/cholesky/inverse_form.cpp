@@ -8,14 +8,11 @@
 
 namespace chladni::linear {
 
-InverseForm inverse_form(Mat factor, petsc::Matrix B, IS rows)
+InverseForm inverse_form(Mat factor, petsc::Matrix B)
 {
   SupernodalFactor* ours = supernodal_of(factor);
   if (ours != nullptr && ours->n_negative_pivots() == 0) {
-    if (rows == nullptr)
-      ours->solve_half(LocalArray(B).columns());
-    else
-      ours->solve_half(ours->part(rows), LocalArray(B).columns());
+    ours->solve_half(LocalArray(B).columns());
     return {.left = std::move(B), .forces = {}};
   }
   petsc::Matrix solutions = uninitialized_dense(B, LocalRows(B).n_cols());

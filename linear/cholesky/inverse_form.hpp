@@ -16,8 +16,7 @@ struct InverseForm {
 /// = right = D^(-1/2) L^-1 B, stored in the place of B. With any other factor left = A^-1 B and
 /// right = B.
 /// @param factor  of A
-/// @param rows    which are coupled to no others, where B is zero but in these; null: all of them
 /// @note   Collective.
-InverseForm inverse_form(Mat factor, petsc::Matrix B, IS rows = nullptr);
+InverseForm inverse_form(Mat factor, petsc::Matrix B);
 
 }  // namespace chladni::linear

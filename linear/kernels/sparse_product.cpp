@@ -2,18 +2,66 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "linear/kernels/as_aij.hpp"
 #include "linear/kernels/dense_matrices.hpp"
-#include "linear/kernels/panel_product.hpp"
+#include "linear/kernels/gather.hpp"
 #include "linear/log_event.hpp"
 
 namespace chladni::linear {
 
 namespace {
 
-constexpr PetscInt narrow = narrow_panel, wide = wide_panel;
+constexpr PetscInt narrow = 8;  // columns of a panel: a cache line
+constexpr PetscInt wide = 16;
+
+struct Csr {
+  const PetscInt* starts;
+  const PetscInt* columns;
+  const PetscScalar* values;
+};
+
+// The widest instructions of the processor at hand; Debian's baseline has two numbers in one.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define CHLADNI_FITTING_INSTRUCTIONS \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define CHLADNI_FITTING_INSTRUCTIONS
+#endif
+
+/// Y <- Y + A panel, Y row by row like the panel.
+template <PetscInt width>
+[[gnu::always_inline]] inline void add_panel(const Csr& A, PetscInt n_rows,
+                                             const double* __restrict panel, double* __restrict Y)
+{
+  constexpr PetscInt ahead = 16;
+  const PetscInt last = A.starts[n_rows] - 1;
+  for (PetscInt i = 0; i < n_rows; ++i) {
+    double sum[width];
+    for (PetscInt c = 0; c < width; ++c) sum[c] = Y[std::size_t(i) * width + c];
+    for (PetscInt k = A.starts[i]; k < A.starts[i + 1]; ++k) {
+      // Rows of the panel stand far apart: ask for them early.
+      const double* soon = panel + std::size_t(A.columns[std::min(k + ahead, last)]) * width;
+      for (PetscInt line = 0; line < width; line += narrow) __builtin_prefetch(soon + line);
+      const double a = A.values[k];
+      const double* x = panel + std::size_t(A.columns[k]) * width;
+      for (PetscInt c = 0; c < width; ++c) sum[c] += a * x[c];
+    }
+    for (PetscInt c = 0; c < width; ++c) Y[std::size_t(i) * width + c] = sum[c];
+  }
+}
+
+CHLADNI_FITTING_INSTRUCTIONS
+void add_narrow(const Csr& A, PetscInt n_rows, const double* panel, double* Y)
+{
+  add_panel<narrow>(A, n_rows, panel, Y);
+}
+
+CHLADNI_FITTING_INSTRUCTIONS
+void add_wide(const Csr& A, PetscInt n_rows, const double* panel, double* Y)
+{
+  add_panel<wide>(A, n_rows, panel, Y);
+}
 
 /// n columns, row by row, the rest of the width zero.
 void pack(const double* X, PetscInt ldx, PetscInt n_rows, PetscInt n, PetscInt width, double* panel)
@@ -36,39 +84,92 @@ void unpack(const double* panel, PetscInt width, PetscInt n_rows, PetscInt n, do
 
 }  // namespace
 
-namespace {
-
-std::vector<PetscInt> all_rows(Mat A)
+SparseProduct::Rows SparseProduct::borrow(Mat sequential)
 {
+  Rows rows{.matrix = sequential};
   PetscInt n = 0;
-  petsc::check(MatGetLocalSize(A, &n, nullptr));
-  std::vector<PetscInt> rows(static_cast<std::size_t>(n));
-  std::iota(rows.begin(), rows.end(), 0);
+  PetscBool done = PETSC_FALSE;
+  petsc::check(
+      MatGetRowIJ(sequential, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows.starts, &rows.columns, &done));
+  if (!done)
+    throw Error("SparseProduct: the matrix is not of type AIJ; convert it with MatConvert");
+  petsc::check(MatSeqAIJGetArrayRead(sequential, &rows.values));
   return rows;
 }
 
-}  // namespace
+void SparseProduct::give_back(Rows& rows)
+{
+  if (rows.matrix == nullptr) return;
+  PetscInt n = 0;
+  PetscBool done = PETSC_FALSE;
+  MatSeqAIJRestoreArrayRead(rows.matrix, &rows.values);
+  MatRestoreRowIJ(rows.matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows.starts, &rows.columns, &done);
+}
 
-SparseProduct::SparseProduct(Mat A) : SparseProduct(A, all_rows(A)) {}
-
-SparseProduct::SparseProduct(Mat A, std::vector<PetscInt> rows)
-    : A_(as_aij(A)), rows_(std::move(rows))
+SparseProduct::SparseProduct(Mat A) : A_(as_aij(A)), comm_(petsc::communicator(A))
 {
   petsc::check(MatGetLocalSize(A, &n_rows_, nullptr));
-  const OwnAndOther parts = own_and_other(A_);
-  own_.emplace(parts.own);
-  if (parts.other != nullptr) {
-    other_.emplace(parts.other);
+  PetscBool is_distributed = PETSC_FALSE;
+  petsc::check(PetscObjectTypeCompare((PetscObject)(Mat)A_, MATMPIAIJ, &is_distributed));
+  if (is_distributed) {
+    Mat own = nullptr, other = nullptr;
+    const PetscInt* ghosts = nullptr;
+    petsc::check(MatMPIAIJGetSeqAIJ(A_, &own, &other, &ghosts));
+    petsc::check(MatGetSize(other, nullptr, &n_ghosts_));
+    own_ = borrow(own);
+    other_ = borrow(other);
     const PetscInt* ranges = nullptr;
     petsc::check(MatGetOwnershipRanges(A, &ranges));
-    ghosts_ = GhostRows(std::span(parts.ghosts, std::size_t(parts.n_ghosts)), ranges,
-                        petsc::communicator(A));
+    plan_exchange({ghosts, ranges});
+  } else {
+    own_ = borrow(A_);
   }
-  panel_ = aligned_numbers((std::size_t(n_rows_) + ghosts_.size()) * wide);
+  panel_ = aligned_numbers((std::size_t(n_rows_) + n_ghosts_) * wide);
   product_ = aligned_numbers(std::size_t(n_rows_) * wide);
 }
 
-SparseProduct::~SparseProduct() = default;
+SparseProduct::~SparseProduct()
+{
+  give_back(own_);
+  give_back(other_);
+}
+
+/// Asks the owners for the ghosts, which ascend and so stand by rank.
+void SparseProduct::plan_exchange(const Ghosts& ghosts)
+{
+  const int n_ranks = petsc::size(comm_);
+  const int rank = petsc::rank(comm_);
+  send_counts_.resize(n_ranks);
+  receive_counts_.resize(n_ranks);
+  for (int r = 0; r < n_ranks; ++r) {
+    const PetscInt* end = ghosts.columns + n_ghosts_;
+    receive_counts_[r] =
+        static_cast<int>(std::lower_bound(ghosts.columns, end, ghosts.first_rows[r + 1]) -
+                         std::lower_bound(ghosts.columns, end, ghosts.first_rows[r]));
+  }
+  MPI_Alltoall(receive_counts_.data(), 1, MPI_INT, send_counts_.data(), 1, MPI_INT, comm_);
+  const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
+  send_rows_.resize(send_at.back());
+  MPI_Alltoallv(ghosts.columns, receive_counts_.data(), receive_at.data(), MPIU_INT,
+                send_rows_.data(), send_counts_.data(), send_at.data(), MPIU_INT, comm_);
+  for (int& row : send_rows_) row -= ghosts.first_rows[rank];
+  outbox_.resize(send_rows_.size() * wide);
+}
+
+/// The rows of the ghosts behind the own ones.
+void SparseProduct::exchange(PetscInt width) const
+{
+  if (send_counts_.empty()) return;
+  for (std::size_t i = 0; i < send_rows_.size(); ++i) {
+    std::copy_n(panel_.get() + std::size_t(send_rows_[i]) * width, width,
+                outbox_.data() + i * width);
+  }
+  const std::vector<int> send_at = offsets(send_counts_), receive_at = offsets(receive_counts_);
+  const RowType row(width);
+  MPI_Alltoallv(outbox_.data(), send_counts_.data(), send_at.data(), row,
+                panel_.get() + std::size_t(n_rows_) * width, receive_counts_.data(),
+                receive_at.data(), row, comm_);
+}
 
 void SparseProduct::apply(Mat X, Mat Y) const
 {
@@ -81,14 +182,16 @@ void SparseProduct::apply(Mat X, Mat Y) const
   for (PetscInt first = 0; first < x.n_cols();) {
     const PetscInt width = x.n_cols() - first > narrow ? wide : narrow;
     const PetscInt n = std::min(width, x.n_cols() - first);
-    const auto add = width == wide ? add_wide_product : add_narrow_product;
+    const auto add = width == wide ? add_wide : add_narrow;
     pack(x.values() + std::size_t(first) * x.leading_dimension(), x.leading_dimension(), n_rows_, n,
          width, panel_.get());
-    double* ghosts = panel_.get() + std::size_t(n_rows_) * width;
-    ghosts_.take(panel_.get(), width, ghosts);
+    exchange(width);
     std::fill_n(product_.get(), std::size_t(n_rows_) * width, 0.0);
-    add(own_->arrays(), rows_, panel_.get(), product_.get());
-    if (other_) add(other_->arrays(), rows_, ghosts, product_.get());
+    add({own_.starts, own_.columns, own_.values}, n_rows_, panel_.get(), product_.get());
+    if (n_ghosts_ > 0) {
+      add({other_.starts, other_.columns, other_.values}, n_rows_,
+          panel_.get() + std::size_t(n_rows_) * width, product_.get());
+    }
     unpack(product_.get(), width, n_rows_, n, y + std::size_t(first) * ldy, ldy);
     first += n;
   }

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "common/petsc.hpp"
 #include "linear/kernels/aligned_numbers.hpp"
-#include "linear/kernels/borrowed_rows.hpp"
-#include "linear/kernels/ghost_rows.hpp"
 
 namespace chladni::linear {
 
@@ -19,9 +16,6 @@ class SparseProduct {
   ///           change during the lifetime of this object
   /// @note   Collective on the communicator of A.
   explicit SparseProduct(Mat A);
-  /// Products in some rows alone; the others become zero.
-  /// @param rows  of this rank, counted from its first, ascending
-  SparseProduct(Mat A, std::vector<PetscInt> rows);
   ~SparseProduct();
   SparseProduct(const SparseProduct&) = delete;
   SparseProduct& operator=(const SparseProduct&) = delete;
@@ -31,13 +25,31 @@ class SparseProduct {
   void apply(Mat X, Mat Y) const;
 
  private:
+  /// A sequential matrix of PETSc with its arrays borrowed.
+  struct Rows {
+    Mat matrix = nullptr;
+    const PetscInt* starts = nullptr;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+  };
+  /// Global columns of other ranks that the rows of this rank need, and the first row of each rank.
+  struct Ghosts {
+    const PetscInt* columns;
+    const PetscInt* first_rows;
+  };
+  static Rows borrow(Mat sequential);
+  static void give_back(Rows& rows);
+  void plan_exchange(const Ghosts& ghosts);
+  void exchange(PetscInt width) const;
+
   petsc::Matrix A_;  ///< AIJ
+  MPI_Comm comm_;
   PetscInt n_rows_ = 0;
-  /// Columns of this rank, and of others (by place among the ghosts).
-  std::optional<BorrowedRows> own_, other_;
-  std::vector<PetscInt> rows_;  ///< that are multiplied
-  GhostRows ghosts_;
+  PetscInt n_ghosts_ = 0;
+  Rows own_, other_;  ///< columns of this rank, and of others (by place among the ghosts)
+  std::vector<int> send_rows_, send_counts_, receive_counts_;
   AlignedNumbers panel_, product_;
+  mutable std::vector<double> outbox_;
 };
 
 /// A X for a dense X with the rows of A.

@@ -9,7 +9,6 @@
 
 #include "linear/cholesky/factorization.hpp"
 #include "linear/cholesky/part_solver.hpp"
-#include "linear/kernels/basis_forms.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/form_parts.hpp"
 #include "linear/kernels/gather.hpp"
@@ -201,45 +200,6 @@ TEST(PartedForm, KnowsEntriesOnOneSideOfTheDiagonalAndRowsWithoutAny)
   const Eigen::MatrixXd F = parted_form(std::array<Mat, 2>{X, Y}, A, FormSymmetry::none);
   EXPECT_LT((F - whole).norm(), 1e-14 * whole.norm());
   EXPECT_GT((F - F.transpose()).norm(), 0.1 * whole.norm());
-}
-
-/// [X Y]^T A [X Y], from products with all of A.
-Eigen::MatrixXd form_of_both(Mat A, Mat X, Mat Y)
-{
-  const petsc::Matrix AX = sparse_product(A, X), AY = sparse_product(A, Y);
-  const Eigen::MatrixXd above = inner_product(X, AX), below = inner_product(Y, AY);
-  Eigen::MatrixXd all(above.rows() + below.rows(), above.rows() + below.rows());
-  all << above, inner_product(X, AY), inner_product(Y, AX), below;
-  return all;
-}
-
-TEST(BasisForms, AreThoseOfTheWhole)
-{
-  constexpr PetscInt n = 9302;  // rows, more than are taken at once
-  const petsc::Matrix K = chains(n, 3);
-  const petsc::Matrix B = testing::matrix(n, 2, [&](PetscInt i) {  // couples the chains
-    testing::Row row;
-    if (i % 3 == 0 && i + 1 < n) row.emplace_back(i + 1, 1.5);
-    if (i % 3 == 0 && i >= 2) row.emplace_back(i - 2, -0.5);
-    return row;
-  });
-  const petsc::Matrix C = testing::matrix(n, 3, [&](PetscInt i) {  // symmetric, couples them too
-    testing::Row row{{i, 1.0 + i % 7}};
-    if (i % 3 == 0 && i + 1 < n) row.emplace_back(i + 1, 0.3);
-    if (i % 3 == 1) row.emplace_back(i - 1, 0.3);
-    return row;
-  });
-  const petsc::Matrix X = columns_of_chains(K, 80), Y = columns_of_chains(K, 27);
-  const std::array<Mat, 2> both{X, Y};
-  const std::array<SparseForm, 3> forms{
-      {{K, FormSymmetry::symmetric}, {B, FormSymmetry::none}, {C, FormSymmetry::symmetric}}};
-  const std::vector<Eigen::MatrixXd> found = basis_forms(both, K, forms);
-  for (std::size_t f = 0; f < forms.size(); ++f) {
-    const Eigen::MatrixXd whole = form_of_both(forms[f].A, X, Y);
-    EXPECT_LT((found[f] - whole).norm(), 1e-13 * whole.norm()) << f;  // sums of n terms
-    const bool is_symmetric = forms[f].symmetry == FormSymmetry::symmetric;
-    EXPECT_EQ(found[f] == Eigen::MatrixXd(found[f].transpose()), is_symmetric) << f;
-  }
 }
 
 TEST(PartSolver, SolvesForThePartAsTheWholeDoes)

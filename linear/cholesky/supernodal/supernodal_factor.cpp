@@ -66,13 +66,7 @@ void SupernodalFactor::analyze(Mat A)
     places.resize(n);
     MPI_Bcast(places.data(), n, MPI_INT, 0, comm_);
   }
-  analyze(A, places);
-}
-
-void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
-{
   const LogEvent event(Event::analysis);
-  const auto n = static_cast<int>(places.size());
   tiles_.reset();  // of another matrix
   panel_values_.reset();
   error_ = MAT_FACTOR_NOERROR;
@@ -90,8 +84,7 @@ void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
   whole_.exchange = exchange_of(rows, here);
   MatInfo info{};
   petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
-  n_entries_ = info.nz_used;
-  n_gathered_ = petsc::size(comm_) == 1 ? 0.0 : n_entries_ * n_slots_ / n;
+  n_gathered_ = petsc::size(comm_) == 1 ? 0.0 : info.nz_used * n_slots_ / n;
 }
 
 /// Own supernodes first, then the shared ones, those of the smallest group first.
@@ -165,11 +158,7 @@ void SupernodalFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
-  error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
-  n_negative_ = 0;
-  const Eliminated all = eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
-  error_ = all.error;
-  n_negative_ = all.n_negative;
+  eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
 }
 
 /// Pivots of one sign, positive or negative, need no choice.
