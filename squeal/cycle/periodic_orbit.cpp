@@ -35,8 +35,7 @@ constexpr double largest_change = 0.5;
 /// A derivative that does not reduce the change by this factor is computed anew.
 constexpr double worn_out = 0.1;
 
-/// Of the longest step, relative to that at the first tolerance: the error of the interpolation, by
-/// which the end of a period is found, follows it alone.
+/// Of the longest step, relative to that at the first tolerance.
 double shortening(double tolerance)
 {
   return std::min(1.0, std::pow(tolerance / first_tolerance, 0.125));
