@@ -32,6 +32,7 @@ const char* name_of(CycleStability stability)
 
 CycleStability stability_of(const DirectLimitCycle& cycle)
 {
+  if (cycle.multipliers.size() < 2) return CycleStability::undecided;
   return stability_by(std::abs(cycle.multipliers[1]), cycle.multiplier_error);
 }
 
