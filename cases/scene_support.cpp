@@ -1,5 +1,7 @@
 #include "cases/scene_support.hpp"
 
+#include <cmath>
+
 #include "common/eigen_every.hpp"
 #include "mbs_export/held_dofs.hpp"
 #include "mbs_export/held_modes.hpp"
@@ -29,6 +31,7 @@ reduce::SupportedModes SceneSupport::modes(const reduce::ReducedModel& model,
                                    {.lambda_max = wanted.lambda_max, .most = wanted.most});
   reduce::SupportedModes modes{
       .pairs = {.X = Eigen::MatrixXd::Zero(model.K.rows(), held.omega.size()), .lambda = {}},
+      .are_all = std::isinf(wanted.lambda_max) && wanted.most >= model.K.rows(),
       .n_zero = held.n_rigid,
       .n_free_zero = held.n_free_rigid};
   modes.pairs.X(places, every) = held.X;

@@ -1,8 +1,12 @@
 #include "mbs_export/orthogonalize.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "common/eigen_every.hpp"
 #include "common/error.hpp"
+#include "linear/dense/decoupled_coordinates.hpp"
+#include "linear/dense/dense_solvers.hpp"
 #include "linear/dense/eigenmodes.hpp"
 #include "linear/dense/orthogonal_factor.hpp"
 #include "mbs_export/rigid_body.hpp"
@@ -61,11 +65,38 @@ RigidModes unresisted(const ReducedSystem& reduced, const MatrixXd& basis)
   return {R, n_rigid > 0 ? energies.eigenvalues().head(n_rigid).cwiseAbs().maxCoeff() : 0.0};
 }
 
+/// R V, V orthogonal, such that each motion moves coordinates of one set alone, of those that
+/// neither K_r nor M_r couples: bending of a flat body, or its motion in the plane. R itself where
+/// there is one set.
+MatrixXd by_sets(const MatrixXd& R, const ReducedSystem& reduced)
+{
+  const auto sets = linear::decoupled_coordinates(reduced.K, reduced.M);
+  if (R.cols() == 0 || sets.size() == 1) return R;
+  // Sum of k R_k^T M_r R_k: of a motion of set k the eigenvalue k.
+  MatrixXd numbers = MatrixXd::Zero(R.cols(), R.cols());
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const MatrixXd R_k = R(sets[k], every);
+    numbers += double(k) * R_k.transpose() * (reduced.M(sets[k], sets[k]) * R_k);
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> motions(numbers);
+  MatrixXd some = MatrixXd::Zero(R.rows(), R.cols());
+  for (Index j = 0; j < R.cols(); ++j) {
+    constexpr double distinct = 1e-6;
+    const double k = std::round(motions.eigenvalues()[j]);
+    if (std::abs(motions.eigenvalues()[j] - k) > distinct) return R;
+    const auto& set = sets[static_cast<std::size_t>(k)];
+    some(set, j) = R(set, every) * motions.eigenvectors().col(j);
+  }
+  return some;
+}
+
 }  // namespace
 
 RigidModes rigid_modes(const ReducedSystem& reduced)
 {
-  return unresisted(reduced, rigid_basis(reduced));
+  RigidModes modes = unresisted(reduced, rigid_basis(reduced));
+  modes.R = by_sets(modes.R, reduced);
+  return modes;
 }
 
 FreeModes orthogonalize(const ReducedSystem& reduced)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/dense/decoupled_coordinates.hpp"
 #include "linear/kernels/small_matrices.hpp"
 #include "linear/kernels/symmetric_eigen.hpp"
 
@@ -152,8 +153,21 @@ Combinations combinations_everywhere(const std::vector<double>& energies, const 
   return found;
 }
 
+/// The set of each coordinate, of those that K_G does not couple.
+std::vector<int> sets_of_coordinates(const MatrixXd& K_G)
+{
+  std::vector<int> set_of(std::size_t(K_G.rows()), 0);
+  int number = 0;
+  for (const std::vector<Eigen::Index>& set : linear::decoupled_coordinates(K_G, K_G)) {
+    for (const Eigen::Index i : set) set_of[std::size_t(i)] = number;
+    ++number;
+  }
+  return set_of;
+}
+
 /// (I - U U^T) A (I - U U^T) of the scaled A = K_G and orthonormal U, symmetric to the last bit and
-/// without scales; rows that hold round-off alone are zero.
+/// without scales; rows that hold round-off alone are zero, and so is what does not couple in K_G:
+/// motions of several sets are sums of motions of each.
 MatrixXd without_motions(const MatrixXd& K_G, const MatrixXd& U, const std::vector<double>& scales)
 {
   constexpr double round_off = 64.0 * eps;
@@ -179,9 +193,10 @@ MatrixXd without_motions(const MatrixXd& K_G, const MatrixXd& U, const std::vect
     }
   }
   const auto is_zero = [&](Eigen::Index i) { return r == n || K(i, i) < round_off; };
+  const std::vector<int> set_of = sets_of_coordinates(K_G);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i <= j; ++i) {
-      const bool vanishes = is_zero(i) || is_zero(j);
+      const bool vanishes = is_zero(i) || is_zero(j) || set_of[i] != set_of[j];
       if (i != j) K(i, j) = K(j, i) = vanishes ? 0.0 : scales[i] * K(i, j) * scales[j];
     }
   }

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "common/eigen_every.hpp"
 #include "common/error.hpp"
 #include "linear/dense/deflated_factor.hpp"
+#include "linear/dense/part_modes.hpp"
 
 namespace chladni::linear {
 namespace {
@@ -50,6 +53,7 @@ MatrixXd orthonormalized(const MatrixXd& X, const MatrixXd& M, const MatrixXd& R
 /// The modes X, x^T M x = 1, without those of more than a thousand times the first frequency whose
 /// mass is round-off of its parts |x|^T |M| |x|: the rotation of a shell about its normal, of which
 /// the mass is what the other modes leave of it.
+/// @param mu  relative to that of the first frequency
 std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorXd& mu,
                              double largest_rounding)
 {
@@ -59,35 +63,142 @@ std::vector<Index> with_mass(const MatrixXd& X, const MatrixXd& M, const VectorX
   std::vector<Index> massive;
   for (Index j = 0; j < X.cols(); ++j) {
     const bool is_round_off = std::numeric_limits<double>::epsilon() * parts[j] > largest_rounding;
-    if (!is_round_off || mu[j] > far * mu[0]) massive.push_back(j);
+    if (!is_round_off || mu[j] > far) massive.push_back(j);
   }
   return massive;
 }
 
+/// Coordinates, and the zero-energy vectors that move them.
+struct Coordinates {
+  std::vector<Index> rows, motions;
+};
+
+Coordinates all_coordinates(const MatrixXd& R)
+{
+  Coordinates all{.rows = std::vector<Index>(static_cast<std::size_t>(R.rows())),
+                  .motions = std::vector<Index>(static_cast<std::size_t>(R.cols()))};
+  std::iota(all.rows.begin(), all.rows.end(), Index{0});
+  std::iota(all.motions.begin(), all.motions.end(), Index{0});
+  return all;
+}
+
+/// Those that are coupled to no others; all together where a zero-energy vector moves several.
+std::vector<Coordinates> decoupled(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  std::vector<Coordinates> parts;
+  std::size_t n_motions = 0;
+  for (std::vector<Index>& rows : decoupled_coordinates(K, M)) {
+    Coordinates part{.rows = std::move(rows), .motions = {}};
+    for (Index j = 0; j < R.cols(); ++j)
+      if (!R(part.rows, j).isZero(0.0)) part.motions.push_back(j);
+    n_motions += part.motions.size();
+    parts.push_back(std::move(part));
+  }
+  if (std::cmp_greater(n_motions, R.cols())) return {all_coordinates(R)};
+  return parts;
+}
+
+/// The problem of coordinates that are coupled to no others, M x = mu K x, solved: L^T x = y with
+/// L L^T = K, deflated.
+struct SolvedPart {
+  std::vector<Index> coordinates;
+  MatrixXd M, R, L;
+  VectorXd mu;  ///< descending
+  MatrixXd Y;   ///< of all mu
+  double size;  ///< which round-off in mu is relative to
+};
+
+SolvedPart solved(Coordinates of, const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  const auto& [rows, motions] = of;
+  SolvedPart part{.coordinates = {},
+                  .M = M(rows, rows),
+                  .R = R(rows, motions),
+                  .L = {},
+                  .mu = {},
+                  .Y = {},
+                  .size = 0.0};
+  const Eigen::LLT<MatrixXd> B = deflated_factor(K(rows, rows), part.M, part.R);
+  part.L = B.matrixL();
+  const auto [A, size] = deflated(part.L, part.M, part.R);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
+  part.mu = solver.eigenvalues().reverse();
+  part.Y = solver.eigenvectors().rowwise().reverse();
+  part.size = std::max(part.mu[0], size);
+  part.coordinates = std::move(of.rows);
+  return part;
+}
+
+/// What the modes of a part are measured by: values of the whole.
+struct Scale {
+  double round_off, largest_mu, orthonormal_to;
+};
+
+/// The modes of a part, in its coordinates.
+Eigenmodes modes_of(const SolvedPart& part, const Scale& of)
+{
+  const Index n = part.M.rows(), r = part.R.cols();
+  if (part.mu[n - 1] < -of.round_off)
+    throw Error("eigenmodes: the mass matrix is not positive semidefinite");
+  const Index k = std::min<Index>(n - r, (part.mu.array() > of.round_off).count());
+  if (k == 0) return {VectorXd(0), MatrixXd(n, 0), static_cast<int>(n - r)};
+  const auto mu = part.mu.head(k);
+  MatrixXd X = part.L.transpose().triangularView<Eigen::Upper>().solve(part.Y.leftCols(k));
+  X.array().rowwise() /= mu.array().sqrt().transpose();
+  const std::vector<Index> massive = with_mass(X, part.M, mu / of.largest_mu, of.orthonormal_to);
+  const VectorXd lambda = mu(massive).cwiseInverse();
+  return {lambda, orthonormalized(X(every, massive), part.M, part.R),
+          static_cast<int>(n - r - lambda.size())};
+}
+
 }  // namespace
+
+Eigenmodes merged(const std::vector<PartModes>& parts, Index n)
+{
+  std::vector<std::pair<double, Index>> order;  // lambda, column of all parts side by side
+  int n_massless = 0;
+  for (const PartModes& part : parts) {
+    for (const double lambda : part.modes.lambda)
+      order.emplace_back(lambda, static_cast<Index>(order.size()));
+    n_massless += part.modes.n_massless;
+  }
+  MatrixXd X = MatrixXd::Zero(n, std::ssize(order));
+  Index first = 0;
+  for (const PartModes& part : parts) {
+    const Index k = part.modes.lambda.size();
+    X(part.coordinates, Eigen::seqN(first, k)) = part.modes.X;
+    first += k;
+  }
+  if (parts.size() > 1) std::ranges::stable_sort(order, {}, &std::pair<double, Index>::first);
+  Eigenmodes all{VectorXd(X.cols()), MatrixXd(n, X.cols()), n_massless};
+  for (Index i = 0; i < X.cols(); ++i) {
+    const auto [lambda, column] = order[static_cast<std::size_t>(i)];
+    all.lambda[i] = lambda;
+    all.X.col(i) = X.col(column);
+  }
+  return all;
+}
 
 Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
                       double orthonormal_to)
 {
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
-  const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R);
-  const MatrixXd L = B.matrixL();
-  const auto [A, size] = deflated(L, M, R);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
-  const VectorXd mu = solver.eigenvalues().reverse();
-  const double round_off =
-      4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * std::max(mu[0], size);
-  if (mu[n - 1] < -round_off)
-    throw Error("eigenmodes: the mass matrix is not positive semidefinite");
-  const Index k = std::min<Index>(n - r, (mu.array() > round_off).count());
-  const MatrixXd Y = solver.eigenvectors().rowwise().reverse().leftCols(k);
-  MatrixXd X = L.transpose().triangularView<Eigen::Upper>().solve(Y);
-  X.array().rowwise() /= mu.head(k).array().sqrt().transpose();
-  const std::vector<Index> massive = with_mass(X, M, mu, orthonormal_to);
-  const VectorXd lambda = mu(massive).cwiseInverse();
-  return {lambda, orthonormalized(X(every, massive), M, R),
-          static_cast<int>(n - r - lambda.size())};
+  std::vector<SolvedPart> parts;
+  for (Coordinates& of : decoupled(K, M, R)) parts.push_back(solved(std::move(of), K, M, R));
+  double size = 0.0, largest_mu = 0.0;
+  for (const SolvedPart& part : parts) {
+    size = std::max(size, part.size);
+    largest_mu = std::max(largest_mu, part.mu[0]);
+  }
+  const Scale scale{
+      .round_off = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * size,
+      .largest_mu = largest_mu,
+      .orthonormal_to = orthonormal_to};
+  std::vector<PartModes> modes;
+  for (const SolvedPart& part : parts)
+    modes.push_back({.coordinates = part.coordinates, .modes = modes_of(part, scale)});
+  return merged(modes, n);
 }
 
 double first_eigenvalue(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)

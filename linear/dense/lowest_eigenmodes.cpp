@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "linear/dense/deflated_factor.hpp"
-#include "linear/dense/eigenmodes.hpp"
+#include "linear/dense/part_modes.hpp"
 
 namespace chladni::linear {
 namespace {
@@ -158,18 +159,39 @@ std::optional<Eigenmodes> by_lanczos(const MatrixXd& K, const MatrixXd& M, const
   return std::nullopt;
 }
 
+/// The first ones of some modes, as many as are wanted.
+Eigenmodes first_wanted(const Eigenmodes& all, const LowestModes& wanted)
+{
+  const Index k = std::min(n_wanted(all.lambda.cwiseInverse(), wanted), all.lambda.size());
+  return {all.lambda.head(k), all.X.leftCols(k), 0};
+}
+
+/// Of coordinates that are all coupled.
+Eigenmodes lowest_of_part(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                          const LowestModes& wanted)
+{
+  if (K.rows() > few)
+    if (std::optional<Eigenmodes> found = by_lanczos(K, M, R, wanted)) return *std::move(found);
+  return first_wanted(eigenmodes(K, M, R), wanted);
+}
+
 }  // namespace
 
 Eigenmodes lowest_eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
                              const LowestModes& wanted)
 {
   const bool wants_all = std::isinf(wanted.lambda_max) && wanted.most >= K.rows() - R.cols();
-  if (K.rows() > few && !wants_all) {
-    if (std::optional<Eigenmodes> found = by_lanczos(K, M, R, wanted)) return *std::move(found);
+  if (K.rows() <= few || wants_all) return first_wanted(eigenmodes(K, M, R), wanted);
+  if (R.cols() > 0) return lowest_of_part(K, M, R, wanted);
+  const std::vector<std::vector<Index>> sets = decoupled_coordinates(K, M);
+  if (sets.size() == 1) return lowest_of_part(K, M, R, wanted);
+  std::vector<PartModes> parts;
+  for (const std::vector<Index>& set : sets) {
+    parts.push_back(
+        {.coordinates = set,
+         .modes = lowest_of_part(K(set, set), M(set, set), MatrixXd(std::ssize(set), 0), wanted)});
   }
-  Eigenmodes all = eigenmodes(K, M, R);
-  const Index k = std::min(n_wanted(all.lambda.cwiseInverse(), wanted), all.lambda.size());
-  return {all.lambda.head(k), all.X.leftCols(k), 0};
+  return first_wanted(merged(parts, K.rows()), wanted);
 }
 
 }  // namespace chladni::linear

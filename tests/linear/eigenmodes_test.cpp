@@ -157,6 +157,62 @@ TEST(LowestEigenmodes, LeaveOutTheRigidMotions)
   EXPECT_LT((R.transpose() * modes.X).norm(), 1e-12);
 }
 
+/// H A H with a reflection H, which couples all coordinates.
+MatrixXd mirrored(const MatrixXd& A)
+{
+  const VectorXd v = VectorXd::LinSpaced(A.rows(), 1.0, 2.0).normalized();
+  const MatrixXd H = MatrixXd::Identity(A.rows(), A.rows()) - 2.0 * v * v.transpose();
+  return H * A * H;
+}
+
+/// A chain of n masses between fixed ends, one of 2 n masses, and n masses that each have a spring
+/// of their own; the coordinates in turn.
+MatrixXd decoupled(int n)
+{
+  MatrixXd K = MatrixXd::Zero(4 * n, 4 * n);
+  const auto connect = [&](int a, int b) { K(a, b) = K(b, a) = -1.0; };
+  for (int i = 0; i < 4 * n; ++i) K(i, i) = i % 4 == 3 ? 1.0 + i : 2.0;
+  for (int i = 0; i + 1 < n; ++i) connect(4 * i, 4 * (i + 1));
+  for (int i = 0; i < n; ++i) {
+    connect(4 * i + 1, 4 * i + 2);
+    if (i + 1 < n) connect(4 * i + 2, 4 * (i + 1) + 1);
+  }
+  return K;
+}
+
+TEST(Eigenmodes, OfDecoupledCoordinatesAreThoseOfAllTogether)
+{
+  constexpr int n = 30;
+  const MatrixXd K = decoupled(n), R(4 * n, 0);
+  MatrixXd M = MatrixXd::Identity(4 * n, 4 * n);
+  M(3, 3) = M(8, 8) = 0.0;  // a coordinate by itself, and one in a chain
+  const Eigenmodes modes = eigenmodes(K, M, R), together = eigenmodes(mirrored(K), mirrored(M), R);
+  EXPECT_EQ(modes.n_massless, 2);
+  ASSERT_EQ(modes.lambda.size(), together.lambda.size());
+  for (Eigen::Index i = 0; i < modes.lambda.size(); ++i)
+    EXPECT_NEAR(modes.lambda[i] / together.lambda[i], 1.0, 1e-11) << i;
+  const MatrixXd I = MatrixXd::Identity(4 * n - 2, 4 * n - 2);
+  EXPECT_LT((modes.X.transpose() * M * modes.X - I).norm(), 1e-12);
+  EXPECT_LT((K * modes.X - M * modes.X * modes.lambda.asDiagonal()).norm(), 1e-10);
+  for (const int i : {1, 2, 3})
+    EXPECT_EQ(modes.X.row(0).cwiseProduct(modes.X.row(i)).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(LowestEigenmodes, OfDecoupledCoordinatesAreTheFirstOfAll)
+{
+  constexpr int n = 60;
+  const MatrixXd K = decoupled(n), M = MatrixXd::Identity(4 * n, 4 * n), R(4 * n, 0);
+  const Eigenmodes all = eigenmodes(K, M, R);
+  constexpr double lambda_max = 0.1;
+  const auto n_below = (all.lambda.array() <= lambda_max).count();
+  const Eigenmodes some = lowest_eigenmodes(K, M, R, {.lambda_max = lambda_max});
+  ASSERT_EQ(some.lambda.size(), n_below + 1);
+  for (Eigen::Index i = 0; i <= n_below; ++i)
+    EXPECT_NEAR(some.lambda[i] / all.lambda[i], 1.0, 1e-11) << i;
+  EXPECT_LT((K * some.X - some.X * some.lambda.asDiagonal()).norm(), 1e-8);
+  EXPECT_EQ(lowest_eigenmodes(K, M, R, {.lambda_max = 1e9, .most = 5}).lambda.size(), 5);
+}
+
 TEST(LowestEigenmodes, MissNoneOfMoreEqualOnesThanABlockHas)
 {
   // Twelve equal chains: a block of eight sees eight of each.
@@ -165,6 +221,7 @@ TEST(LowestEigenmodes, MissNoneOfMoreEqualOnesThanABlockHas)
   chain(0, 0) = 2.0;
   MatrixXd K = MatrixXd::Zero(n_chains * n, n_chains * n);
   for (int i = 0; i < n_chains; ++i) K.block(i * n, i * n, n, n) = chain;
+  K = mirrored(K);  // or each would be solved by itself
   const Eigenmodes modes = lowest_eigenmodes(K, MatrixXd::Identity(n_chains * n, n_chains * n),
                                              MatrixXd(n_chains * n, 0), {.lambda_max = 0.02});
   ASSERT_GE(modes.lambda.size(), n_chains);
