@@ -38,6 +38,12 @@ double lambda_left_out(const ReduceOptions& options, const ReducedModel& model)
   return model.omega.empty() ? 0.0 : model.omega.back() * model.omega.back();
 }
 
+/// Those that are not held; how to eliminate the slaves is known from the factor of K_ss.
+linear::CountedRows counted_rows(const FactoredBody& body, const Support& support)
+{
+  return {.held = support.held(), .factor = body.K_ss.factor(), .factored = all_slaves(body.dofs)};
+}
+
 /// Of a part of a body, whose range is that of the body, whatever the part has in it.
 std::optional<double> end_of_counts(const ReduceOptions& options, const ReducedModel& model)
 {
@@ -96,8 +102,10 @@ Certified estimated(const Reduced& reduced, const ReductionOptions& options, con
 {
   const FactoredBody& body = reduced.body;
   const SpectrumRange range = certified_range(options.basis, reduced.model);
+  // A count needs all modes.
+  const SpectrumRange wanted = purpose == Purpose::bounds ? SpectrumRange{} : range;
   Certified certified{.certificate = {},
-                      .modes = modes_everywhere(support, reduced.model, range, body.comm())};
+                      .modes = modes_everywhere(support, reduced.model, wanted, body.comm())};
   Certificate& certificate = certified.certificate;
   ReducedPairs pairs = leading_pairs(certified.modes, range);
   if (reduced.is_projected && !pairs.lambda.empty()) {
@@ -131,8 +139,8 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
        .n_zero = certified.modes.n_zero,
        .comm = body.comm(),
        .ends_at = end_of_counts(options.basis, reduced.model)},
-      [&, held = support.held()](double sigma) {
-        return linear::eigenvalues_below(body.K, body.M, {sigma, gap_of_counts}, held, source);
+      [&, rows = counted_rows(body, support)](double sigma) {
+        return linear::eigenvalues_below(body.K, body.M, {sigma, gap_of_counts}, rows, source);
       });
   certificate.range = found.range;
   certificate.complete = found.complete;
@@ -145,7 +153,7 @@ Certificate counted(Certified certified, const Reduced& reduced, const Reduction
   if (options.basis.method == Method::craig_bampton) {
     certificate.fixed_interface = count_fixed_interface(reduced.model.omega, [&](double sigma) {
       return linear::eigenvalues_below(body.K_blocks.ss, body.M_blocks.ss, {sigma, gap_of_counts},
-                                       source);
+                                       {.factor = body.K_ss.factor()}, source);
     });
   }
   return certificate;

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "linear/kernels/gather.hpp"
+
 namespace chladni::reduce {
 
 namespace {
@@ -95,6 +97,12 @@ PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row)
   PetscInt dof = row >= first && row < first + std::ssize(own) ? own[row - first] : -1;
   MPI_Allreduce(MPI_IN_PLACE, &dof, 1, MPIU_INT, MPI_MAX, comm);
   return dof;
+}
+
+std::vector<PetscInt> all_slaves(const DofPartition& dofs)
+{
+  return linear::gather_on_all(sorted_indices(dofs.slaves), MPIU_INT,
+                               petsc::communicator(dofs.slaves));
 }
 
 Blocks split(Mat A, const DofPartition& dofs)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "common/petsc.hpp"
 
 namespace chladni::reduce {
@@ -25,6 +27,10 @@ DofPartition partition(Mat K, IS masters, PetscInt least = 1);
 /// The global DOF of a row of the block ss, on every rank.
 /// @note   Collective.
 PetscInt dof_of_slave(const DofPartition& dofs, PetscInt row);
+
+/// The global DOFs of the rows of the block ss, on every rank.
+/// @note   Collective.
+std::vector<PetscInt> all_slaves(const DofPartition& dofs);
 
 /// Copies the blocks of `A` by masters and slaves.
 /// @note   Collective on the communicator of `A`.

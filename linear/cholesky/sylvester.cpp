@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "linear/cholesky/extended_order.hpp"
 #include "linear/cholesky/inner_solver.hpp"
-#include "linear/cholesky/supernodal/supernodal_factor.hpp"
+#include "linear/cholesky/supernodal_of.hpp"
 #include "linear/kernels/as_aij.hpp"
 #include "linear/kernels/shifted.hpp"
 
@@ -129,12 +130,53 @@ bool is_chosen(const OptionSource& own)
   return false;
 }
 
+double n_entries(Mat A)
+{
+  MatInfo info{};
+  petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
+  return info.nz_used;
+}
+
+/// The place in the elimination of a factor of each row of A that is not held; -1 where the factor
+/// lacks it.
+std::vector<int> known_places(const AssemblyTree& tree, const CountedRows& rows, PetscInt n)
+{
+  std::vector<PetscInt> held = rows.held;
+  std::ranges::sort(held);
+  std::vector<int> places(static_cast<std::size_t>(n), -1);
+  for (std::size_t i = 0; i < tree.position.size(); ++i) {
+    const PetscInt row = rows.factored.empty() ? static_cast<PetscInt>(i) : rows.factored[i];
+    const auto behind = std::ranges::lower_bound(held, row);
+    if (behind == held.end() || *behind != row)
+      places[std::size_t(row - (behind - held.begin()))] = tree.position[i];
+  }
+  return places;
+}
+
+/// By the elimination of a factor of K, as far as it is known.
+PivotSigns pivot_signs(Mat A, Vec size, const CountedRows& rows)
+{
+  const SupernodalFactor* known = rows.factor == nullptr ? nullptr : supernodal_of(rows.factor);
+  SupernodalFactor factor(petsc::communicator(A));
+  if (known == nullptr) {
+    factor.analyze(A);
+    return factor.pivot_signs(A, size);
+  }
+  const bool has_all = rows.held.empty() && rows.factored.empty();
+  // A has all entries of K.
+  if (has_all && n_entries(A) == known->n_entries()) return known->pivot_signs(A, size);
+  PetscInt n = 0;
+  petsc::check(MatGetSize(A, &n, nullptr));
+  factor.analyze(A, extended_order(A, known_places(known->tree(), rows, n)));
+  return factor.pivot_signs(A, size);
+}
+
 /// The negative pivots of A = K - sigma M by our own elimination, which chooses none, where their
 /// signs are as good. They are those of A + E with |x^T E x| up to growth eps sum_j (K_jj + sigma
 /// M_jj) x_j^2, which moves eigenvalues near sigma by growth eps (1 + max K_jj / (sigma M_jj)),
 /// relatively.
 std::optional<PetscInt> n_negative_without_choice(Mat A, const Diagonals& diagonals,
-                                                  const CountShift& shift)
+                                                  const CountShift& shift, const CountedRows& rows)
 {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const double harmless = shift.gap / 30.0, sigma = shift.sigma;
@@ -143,9 +185,7 @@ std::optional<PetscInt> n_negative_without_choice(Mat A, const Diagonals& diagon
   petsc::Vector size;
   petsc::check(VecDuplicate(diagonals.k, size.put()));
   petsc::check(VecWAXPY(size, sigma, diagonals.m, diagonals.k));
-  SupernodalFactor factor(petsc::communicator(A));
-  factor.analyze(A);
-  const PivotSigns signs = factor.pivot_signs(A, size);
+  const PivotSigns signs = pivot_signs(A, size, rows);
   if (!(signs.growth * round_off < harmless)) return std::nullopt;
   return signs.n_negative;
 }
@@ -182,26 +222,21 @@ PetscInt n_negative_by_mumps(Mat A, double sigma, const OptionSource& own)
 
 }  // namespace
 
-PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const OptionSource& source)
-{
-  return eigenvalues_below(K, M, shift, {}, source);
-}
-
-PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const std::vector<PetscInt>& held,
+PetscInt eigenvalues_below(Mat K, Mat M, const CountShift& shift, const CountedRows& rows,
                            const OptionSource& source)
 {
   const double sigma = shift.sigma;
-  const petsc::IndexSet rows = held.empty() ? petsc::IndexSet() : free_rows(K, held);
-  const Diagonals diagonals{.k = diagonal(K, rows), .m = diagonal(M, rows)};
+  const petsc::IndexSet free = rows.held.empty() ? petsc::IndexSet() : free_rows(K, rows.held);
+  const Diagonals diagonals{.k = diagonal(K, free), .m = diagonal(M, free)};
   check_stiffness_is_seen(diagonals, sigma);
   petsc::Matrix A = shifted(K, M, sigma);
-  if (rows) {
-    A = submatrix(A, rows);
+  if (free) {
+    A = submatrix(A, free);
     petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   }
   const OptionSource own = source.part("sylvester_");
   if (!is_chosen(own))
-    if (const auto n = n_negative_without_choice(as_aij(A), diagonals, shift)) return *n;
+    if (const auto n = n_negative_without_choice(as_aij(A), diagonals, shift, rows)) return *n;
   return n_negative_by_mumps(A, sigma, own);
 }
 

@@ -178,7 +178,8 @@ double miscount_beside_fivefold_eigenvalues()
     for (const int side : {-1, 1}) {
       const PetscInt expected = 5 * (side < 0 ? k - 1 : k);
       const double sigma = lambda * (1.0 + side * 1e-9);
-      wrong += std::abs(linear::eigenvalues_below(A.K, A.M, {sigma}, five.masters) - expected);
+      wrong +=
+          std::abs(linear::eigenvalues_below(A.K, A.M, {sigma}, {.held = five.masters}) - expected);
     }
   }
   return wrong;

@@ -42,7 +42,32 @@ TEST(EigenvaluesBelow, CountsWithoutTheHeldDofs)
     return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n - 1)), 2);
   };
   const double sigma = 0.5 * (held_eigenvalue(9) + held_eigenvalue(10));
-  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, 3e-5}, {n - 1, 0}), 9);
+  EXPECT_EQ(linear::eigenvalues_below(chain.K, chain.M, {sigma, 3e-5}, {.held = {n - 1, 0}}), 9);
+}
+
+TEST(EigenvaluesBelow, TakeOverTheEliminationOfAFactorAndLeaveItAsItIs)
+{
+  const linear::testing::Chain chain = linear::testing::free_chain(n);
+  const auto fixed_eigenvalue = [](int n_masses, int k) {  // between fixed ends
+    return std::pow(2.0 * std::sin(0.5 * k * std::numbers::pi / (n_masses + 1)), 2);
+  };
+  constexpr int middle = 12;
+  const DofPartition dofs =
+      partition(chain.K, linear::testing::master_set(chain.K, {0, middle, n - 1}));
+  const Blocks K = split(chain.K, dofs), M = split(chain.M, dofs);
+  const linear::Factorization K_ss = linear::factorize(K.ss);
+  const double condition = linear::condition_estimate(K_ss);
+  const double sigma = 0.5 * (fixed_eigenvalue(n - 2, 9) + fixed_eigenvalue(n - 2, 10));
+  EXPECT_EQ(linear::eigenvalues_below(
+                chain.K, chain.M, {sigma, 3e-5},
+                {.held = {n - 1, 0}, .factor = K_ss.factor(), .factored = all_slaves(dofs)}),
+            9);
+  int n_below = 0;
+  for (const int n_masses : {middle - 1, n - middle - 2})
+    for (int k = 1; k <= n_masses; ++k) n_below += fixed_eigenvalue(n_masses, k) < sigma ? 1 : 0;
+  EXPECT_EQ(linear::eigenvalues_below(K.ss, M.ss, {sigma, 3e-5}, {.factor = K_ss.factor()}),
+            n_below);
+  EXPECT_EQ(linear::condition_estimate(K_ss), condition);
 }
 
 TEST(EigenvaluesBelow, AreCountedWherePivotsVanishOrNearlySo)

@@ -13,26 +13,23 @@
 
 namespace chladni::linear {
 
-void SupernodalFactor::eliminate(Mat A, const Visit& visit)
+SupernodalFactor::Eliminated SupernodalFactor::eliminate(Mat A, const Visit& visit) const
 {
   std::vector<char> is_needed(tree_.row.size());
   for (std::size_t p = 0; p < slot_.size(); ++p) is_needed[tree_.row[p]] = slot_[p] != -1;
   const GatheredRows rows(A, is_needed);
   Fronts fronts(tree_, rows.rows());
-  error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
-  n_negative_ = 0;
   int n_negative = 0;
   for (const bool is_shared : {false, true}) {
     const int n = is_shared ? eliminate_shared(fronts, visit)
                             : on_all_ranks(comm_, [&] { return eliminate_own(fronts, visit); });
     int n_failed = n < 0 ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, comm_);
-    if (n_failed > 0) return;
+    if (n_failed > 0) return {.error = MAT_FACTOR_NUMERIC_ZEROPIVOT};
     n_negative += n;
   }
   MPI_Allreduce(MPI_IN_PLACE, &n_negative, 1, MPI_INT, MPI_SUM, comm_);
-  n_negative_ = n_negative;
-  error_ = MAT_FACTOR_NOERROR;
+  return {.error = MAT_FACTOR_NOERROR, .n_negative = n_negative};
 }
 
 /// The number of negative pivots, -1 where one vanishes.
@@ -118,15 +115,15 @@ void SupernodalFactor::add_squares(const Fronts& fronts, int s, std::vector<doub
   }
 }
 
-PivotSigns SupernodalFactor::pivot_signs(Mat A, Vec size_of_diagonal)
+PivotSigns SupernodalFactor::pivot_signs(Mat A, Vec size_of_diagonal) const
 {
   const LogEvent event(Event::factorization);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<double> sums(tree_.row.size(), 0.0);
-  eliminate(A, [&](const Fronts& fronts, int s) {
+  const Eliminated all = eliminate(A, [&](const Fronts& fronts, int s) {
     if (is_counted_here(s)) add_squares(fronts, s, sums);
   });
-  if (error_ != MAT_FACTOR_NOERROR) return {.n_negative = 0, .growth = infinite};
+  if (all.error != MAT_FACTOR_NOERROR) return {.n_negative = 0, .growth = infinite};
   sum_over_ranks(sums, comm_);
   PetscInt first = 0, last = 0;
   const PetscScalar* sizes = nullptr;
@@ -137,7 +134,7 @@ PivotSigns SupernodalFactor::pivot_signs(Mat A, Vec size_of_diagonal)
     if (sums[i] > 0.0) growth = std::max(growth, sums[i] / std::max(sizes[i - first], 0.0));
   petsc::check(VecRestoreArrayRead(size_of_diagonal, &sizes));
   MPI_Allreduce(MPI_IN_PLACE, &growth, 1, MPI_DOUBLE, MPI_MAX, comm_);
-  return {.n_negative = n_negative_, .growth = std::isfinite(growth) ? growth : infinite};
+  return {.n_negative = all.n_negative, .growth = std::isfinite(growth) ? growth : infinite};
 }
 
 }  // namespace chladni::linear

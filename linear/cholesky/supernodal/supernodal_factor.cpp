@@ -66,7 +66,13 @@ void SupernodalFactor::analyze(Mat A)
     places.resize(n);
     MPI_Bcast(places.data(), n, MPI_INT, 0, comm_);
   }
+  analyze(A, places);
+}
+
+void SupernodalFactor::analyze(Mat A, const std::vector<int>& places)
+{
   const LogEvent event(Event::analysis);
+  const auto n = static_cast<int>(places.size());
   tiles_.reset();  // of another matrix
   panel_values_.reset();
   error_ = MAT_FACTOR_NOERROR;
@@ -84,7 +90,8 @@ void SupernodalFactor::analyze(Mat A)
   whole_.exchange = exchange_of(rows, here);
   MatInfo info{};
   petsc::check(MatGetInfo(A, MAT_GLOBAL_SUM, &info));
-  n_gathered_ = petsc::size(comm_) == 1 ? 0.0 : info.nz_used * n_slots_ / n;
+  n_entries_ = info.nz_used;
+  n_gathered_ = petsc::size(comm_) == 1 ? 0.0 : n_entries_ * n_slots_ / n;
 }
 
 /// Own supernodes first, then the shared ones, those of the smallest group first.
@@ -158,7 +165,11 @@ void SupernodalFactor::factorize(Mat A)
 {
   const LogEvent event(Event::factorization);
   if (!tiles_) tiles_ = aligned_numbers(tile_starts_.back());
-  eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
+  error_ = MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  n_negative_ = 0;
+  const Eliminated all = eliminate(A, [this](const Fronts& fronts, int s) { keep(fronts, s); });
+  error_ = all.error;
+  n_negative_ = all.n_negative;
 }
 
 /// Pivots of one sign, positive or negative, need no choice.

@@ -46,14 +46,21 @@ class SupernodalFactor : public CholeskyFactor {
   ~SupernodalFactor() override;
 
   void analyze(Mat A) override;
+  /// The same with a known order of elimination.
+  /// @param places  [n] wanted place of each row, on all ranks
+  void analyze(Mat A, const std::vector<int>& places);
   void factorize(Mat A) override;
   MatFactorError error() const override { return error_; }
   PetscInt n_negative_pivots() const override { return n_negative_; }
   bool is_reliable() const override;
-  /// Eliminates an analysed A of any inertia without keeping the factor.
+  /// Eliminates a matrix A of the analysed pattern and of any inertia. A factor that is kept stays
+  /// as it is.
   /// @param size_of_diagonal  sums of the absolute terms of each A_ii
   /// @note   Collective.
-  PivotSigns pivot_signs(Mat A, Vec size_of_diagonal);
+  PivotSigns pivot_signs(Mat A, Vec size_of_diagonal) const;
+  const AssemblyTree& tree() const { return tree_; }
+  /// Number of stored entries of the analysed matrix.
+  double n_entries() const { return n_entries_; }
   void release() override { tiles_.reset(); }
   /// All columns; `solve` groups them itself.
   PetscInt columns_at_a_time() const override { return std::numeric_limits<int>::max(); }
@@ -67,7 +74,9 @@ class SupernodalFactor : public CholeskyFactor {
   void solve(const SupernodalPart& part, LocalColumns X);
   void solve(const SparseColumns& B, LocalColumns X) override;
   /// X <- D^(-1/2) L^-1 X for a positive definite matrix, in the order of its rows.
-  void solve_half(LocalColumns X);
+  void solve_half(LocalColumns X) { solve_half(whole_, X); }
+  /// The same for X that is zero but in the rows of a part; X has all rows.
+  void solve_half(const SupernodalPart& part, LocalColumns X);
   Memory forecast() const override;
   FactorSize size() const override;
   std::string description() const override;
@@ -87,7 +96,11 @@ class SupernodalFactor : public CholeskyFactor {
   SlotExchange exchange_of(const std::vector<int>& rows, const RowRange& here) const;
   /// A function that uses the columns of a supernode after its elimination.
   using Visit = std::function<void(const Fronts& fronts, int s)>;
-  void eliminate(Mat A, const Visit& visit);
+  struct Eliminated {
+    MatFactorError error;
+    PetscInt n_negative = 0;
+  };
+  Eliminated eliminate(Mat A, const Visit& visit) const;
   int eliminate_own(Fronts& fronts, const Visit& visit) const;
   int eliminate_shared(Fronts& fronts, const Visit& visit) const;
   void take_left_overs(Fronts& fronts, int s) const;
@@ -122,6 +135,7 @@ class SupernodalFactor : public CholeskyFactor {
   std::vector<int> below_slots_;          ///< for all below_rows of the tree
   AlignedNumbers tiles_, panel_values_;
   SupernodalPart whole_;
+  double n_entries_ = 0.0;
   /// Approximate number of entries in the rows gathered from other ranks.
   double n_gathered_ = 0.0;
 };

@@ -197,16 +197,16 @@ void SupernodalFactor::solve(const SupernodalPart& part, LocalColumns X)
   in_panels(part.exchange, X, [&](Panels block) { sweep(block, part.supernodes, all); });
 }
 
-void SupernodalFactor::solve_half(LocalColumns X)
+void SupernodalFactor::solve_half(const SupernodalPart& part, LocalColumns X)
 {
   const std::vector<char> all(tree_.n_supernodes(), 1);
   in_panels(whole_.exchange, X, [&](Panels block) {
-    sweep_forward(block, whole_.supernodes, all);
+    sweep_forward(block, part.supernodes, all);
     const auto scale = [&](const std::vector<int>& supernodes) {
       for (const int s : supernodes) scale_by_root(tiles(s), block);
     };
-    scale(whole_.supernodes.own);
-    std::ranges::for_each(whole_.supernodes.shared, scale);
+    scale(part.supernodes.own);
+    std::ranges::for_each(part.supernodes.shared, scale);
   });
 }
 
