@@ -40,7 +40,7 @@ struct PrincipalComponents {
 PrincipalComponents principal_components(const MatrixXd& Y, const VectorXd& weights)
 {
   const MatrixXd weighted = weights.asDiagonal() * Y;
-  const Eigen::BDCSVD<MatrixXd> svd(weighted, Eigen::ComputeThinU);
+  const Eigen::JacobiSVD<MatrixXd> svd(weighted, Eigen::ComputeThinU);
   return {weights.cwiseInverse().asDiagonal() * svd.matrixU(),
           svd.singularValues() / std::sqrt(0.5 * double(Y.cols()))};
 }

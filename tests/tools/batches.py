@@ -3,7 +3,8 @@
 usage: batches.py SOURCE...    prints a line for each batch
 
 Headers of Eigen take most of the time of a reader, and a batch reads them once. Sources whose unnamed
-namespaces share a name, or that open different namespaces, cannot be in one batch.
+namespaces share a name, or that open different namespaces, cannot be in one batch. Of those that
+fill in templates for others a batch has one: they take long without any header.
 """
 import pathlib
 import re
@@ -16,6 +17,7 @@ ALIAS = re.compile(r"using (\w+) = (.*);")
 OPENED = re.compile(r"^using namespace ([\w:]+);", re.M)
 USING = re.compile(r"^using (\w+::[\w:, ]+);", re.M)
 CONSTANT = re.compile(r"(?<![.\w])(\w+)(?: = |\{|\[)")  # not a member that is set
+FILLED = re.compile(r"^template class ", re.M)
 MAIN = re.compile(r"^int main\(", re.M)
 FUNCTION = re.compile(r"[\w:<>,&* ]*?\b(\w+)\(")
 
@@ -28,6 +30,8 @@ def hidden_names(path):
         names["using namespace"] = " ".join(OPENED.findall(whole))
     if MAIN.search(whole):
         names["main"] = path
+    if FILLED.search(whole):
+        names["template class"] = path
     for text in HIDDEN.findall(whole):
         for line in text.splitlines():
             if not line or line[0] in " }/#{" or line.startswith(("TEST", "INSTANTIATE", "template")):

@@ -1,0 +1,7 @@
+#include "linear/dense/dense_solvers.hpp"
+
+namespace Eigen {
+
+template class JacobiSVD<MatrixXd>;
+
+}  // namespace Eigen
