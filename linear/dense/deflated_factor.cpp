@@ -7,18 +7,6 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-/// A stiffness-to-mass ratio of the lower modes: the smallest K_ii / M_ii that is no round-off, in
-/// K or in M.
-double deflation_shift(const MatrixXd& K, const MatrixXd& M)
-{
-  const double without_mass = M.size() > 0 ? 1e-14 * M.diagonal().maxCoeff() : 0.0;
-  const VectorXd ratio = (M.diagonal().array() > without_mass)
-                             .select(K.diagonal().array() / M.diagonal().array(), 0.0);
-  const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
-  if (largest <= 0.0) return 1.0;
-  return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
-}
-
 /// Pi^T K Pi with Pi = I - R R^T M: K without the round-off that it has along its zero-energy
 /// vectors. Where these are most of the coordinates, as of a body with a single attachment node,
 /// round-off is all that stands there, and may be of either sign.
@@ -32,11 +20,23 @@ MatrixXd without_zero_energy(const MatrixXd& K, const MatrixXd& MR, const Matrix
 
 }  // namespace
 
-Eigen::LLT<MatrixXd> deflated_factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+double deflation_shift(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+{
+  const MatrixXd K_d = without_zero_energy(K, M * R, R);
+  const double without_mass = M.size() > 0 ? 1e-14 * M.diagonal().maxCoeff() : 0.0;
+  const VectorXd ratio = (M.diagonal().array() > without_mass)
+                             .select(K_d.diagonal().array() / M.diagonal().array(), 0.0);
+  const double largest = ratio.size() > 0 ? ratio.maxCoeff() : 0.0;
+  if (largest <= 0.0) return 1.0;
+  return (ratio.array() > 1e-10 * largest).select(ratio, largest).minCoeff();
+}
+
+Eigen::LLT<MatrixXd> deflated_factor(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                                     double sigma)
 {
   const MatrixXd MR = M * R;
   const MatrixXd K_d = without_zero_energy(K, MR, R);
-  Eigen::LLT<MatrixXd> B(MatrixXd(K_d + deflation_shift(K_d, M) * MR * MR.transpose()));
+  Eigen::LLT<MatrixXd> B(MatrixXd(K_d + sigma * MR * MR.transpose()));
   if (B.info() != Eigen::Success) {
     throw Error(
         "eigenmodes: the stiffness matrix is singular beyond the rigid-body motions, or indefinite;"

@@ -7,9 +7,9 @@
 #include <Eigen/SVD>
 
 // Eigen's solvers for dense matrices of doubles and of complex numbers, compiled once in
-// symmetric_eigenvalues.cpp, general_eigenvalues.cpp, singular_values.cpp and dense_factors.cpp: they
-// take the compiler five to ten seconds in each source that uses them. Include this instead of the
-// headers above, and give the solvers a MatrixXd: what takes an expression is compiled where it
+// symmetric_eigenvalues.cpp, general_eigenvalues.cpp, singular_values.cpp and dense_factors.cpp:
+// they take the compiler five to ten seconds in each source that uses them. Include this instead of
+// the headers above, and give the solvers a MatrixXd: what takes an expression is compiled where it
 // stands. Singular values are those by Jacobi's rotations.
 
 namespace Eigen {

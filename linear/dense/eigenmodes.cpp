@@ -99,7 +99,8 @@ std::vector<Coordinates> decoupled(const MatrixXd& K, const MatrixXd& M, const M
 }
 
 /// The problem of coordinates that are coupled to no others, M x = mu K x, solved: L^T x = y with
-/// L L^T = K, deflated.
+/// L L^T = K, deflated as that of all coordinates: a part may have no other motion than a rigid
+/// one.
 struct SolvedPart {
   std::vector<Index> coordinates;
   MatrixXd M, R, L;
@@ -108,7 +109,8 @@ struct SolvedPart {
   double size;  ///< which round-off in mu is relative to
 };
 
-SolvedPart solved(Coordinates of, const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
+SolvedPart solved(Coordinates of, const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                  double sigma)
 {
   const auto& [rows, motions] = of;
   SolvedPart part{.coordinates = {},
@@ -118,7 +120,7 @@ SolvedPart solved(Coordinates of, const MatrixXd& K, const MatrixXd& M, const Ma
                   .mu = {},
                   .Y = {},
                   .size = 0.0};
-  const Eigen::LLT<MatrixXd> B = deflated_factor(K(rows, rows), part.M, part.R);
+  const Eigen::LLT<MatrixXd> B = deflated_factor(K(rows, rows), part.M, part.R, sigma);
   part.L = B.matrixL();
   const auto [A, size] = deflated(part.L, part.M, part.R);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
@@ -179,14 +181,15 @@ Eigenmodes merged(const std::vector<PartModes>& parts, Index n)
   return all;
 }
 
-Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
-                      double orthonormal_to)
+Eigenmodes eigenmodes_of_part(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                              double mu_of_whole, double orthonormal_to)
 {
   const Index n = K.rows(), r = R.cols();
   if (n <= r) return {VectorXd(0), MatrixXd(n, 0), 0};
+  const double sigma = deflation_shift(K, M, R);
   std::vector<SolvedPart> parts;
-  for (Coordinates& of : decoupled(K, M, R)) parts.push_back(solved(std::move(of), K, M, R));
-  double size = 0.0, largest_mu = 0.0;
+  for (Coordinates& of : decoupled(K, M, R)) parts.push_back(solved(std::move(of), K, M, R, sigma));
+  double size = mu_of_whole, largest_mu = mu_of_whole;
   for (const SolvedPart& part : parts) {
     size = std::max(size, part.size);
     largest_mu = std::max(largest_mu, part.mu[0]);
@@ -201,10 +204,16 @@ Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
   return merged(modes, n);
 }
 
+Eigenmodes eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
+                      double orthonormal_to)
+{
+  return eigenmodes_of_part(K, M, R, 0.0, orthonormal_to);
+}
+
 double first_eigenvalue(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R)
 {
   if (K.rows() <= R.cols()) return 0.0;
-  const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R);
+  const Eigen::LLT<MatrixXd> B = deflated_factor(K, M, R, deflation_shift(K, M, R));
   constexpr int n_iterations = 30;
   // All coordinates take part, none in a pattern that a mode may have too.
   VectorXd x = VectorXd::NullaryExpr(

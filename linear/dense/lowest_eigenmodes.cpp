@@ -21,7 +21,7 @@ constexpr Index share = 2;           // of the coordinates that a basis may have
 class DenseLanczos {
  public:
   DenseLanczos(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R, Index capacity)
-      : B_(deflated_factor(K, M, R)),
+      : B_(deflated_factor(K, M, R, deflation_shift(K, M, R))),
         M_(M),
         R_(R),
         MR_(M * R),
@@ -166,13 +166,22 @@ Eigenmodes first_wanted(const Eigenmodes& all, const LowestModes& wanted)
   return {all.lambda.head(k), all.X.leftCols(k), 0};
 }
 
-/// Of coordinates that are all coupled.
+/// Of coordinates that are all coupled, in a problem whose largest 1 / lambda is `mu_of_whole` or
+/// more.
 Eigenmodes lowest_of_part(const MatrixXd& K, const MatrixXd& M, const MatrixXd& R,
-                          const LowestModes& wanted)
+                          const LowestModes& wanted, double mu_of_whole)
 {
   if (K.rows() > few)
     if (std::optional<Eigenmodes> found = by_lanczos(K, M, R, wanted)) return *std::move(found);
-  return first_wanted(eigenmodes(K, M, R), wanted);
+  return first_wanted(eigenmodes_of_part(K, M, R, mu_of_whole), wanted);
+}
+
+/// A lower bound of the largest 1 / lambda.
+double largest_ratio(const MatrixXd& K, const MatrixXd& M)
+{
+  return (K.diagonal().array() > 0.0)
+      .select(M.diagonal().array() / K.diagonal().array(), 0.0)
+      .maxCoeff();
 }
 
 }  // namespace
@@ -182,14 +191,14 @@ Eigenmodes lowest_eigenmodes(const MatrixXd& K, const MatrixXd& M, const MatrixX
 {
   const bool wants_all = std::isinf(wanted.lambda_max) && wanted.most >= K.rows() - R.cols();
   if (K.rows() <= few || wants_all) return first_wanted(eigenmodes(K, M, R), wanted);
-  if (R.cols() > 0) return lowest_of_part(K, M, R, wanted);
+  if (R.cols() > 0) return lowest_of_part(K, M, R, wanted, 0.0);
   const std::vector<std::vector<Index>> sets = decoupled_coordinates(K, M);
-  if (sets.size() == 1) return lowest_of_part(K, M, R, wanted);
+  const double mu_of_whole = largest_ratio(K, M);
   std::vector<PartModes> parts;
   for (const std::vector<Index>& set : sets) {
-    parts.push_back(
-        {.coordinates = set,
-         .modes = lowest_of_part(K(set, set), M(set, set), MatrixXd(std::ssize(set), 0), wanted)});
+    parts.push_back({.coordinates = set,
+                     .modes = lowest_of_part(K(set, set), M(set, set), MatrixXd(std::ssize(set), 0),
+                                             wanted, mu_of_whole)});
   }
   return first_wanted(merged(parts, K.rows()), wanted);
 }

@@ -198,6 +198,30 @@ TEST(Eigenmodes, OfDecoupledCoordinatesAreThoseOfAllTogether)
     EXPECT_EQ(modes.X.row(0).cwiseProduct(modes.X.row(i)).cwiseAbs().maxCoeff(), 0.0);
 }
 
+TEST(Eigenmodes, BesideARigidMotionOfItsOwnCoordinateAreAllThere)
+{
+  // Diagonal, as a body is in its modes: frequencies up to 300 MHz beside the rigid motion.
+  constexpr int n = 100;
+  MatrixXd K = MatrixXd::Zero(n, n);
+  for (int i = 1; i < n; ++i) K(i, i) = 1e7 * std::pow(1e11, double(i - 1) / (n - 2));
+  const MatrixXd M = MatrixXd::Identity(n, n);
+  const Eigenmodes modes = eigenmodes(K, M, M.leftCols(1));
+  EXPECT_EQ(modes.n_massless, 0);
+  ASSERT_EQ(modes.lambda.size(), n - 1);
+  for (int i = 1; i < n; ++i) EXPECT_NEAR(modes.lambda[i - 1] / K(i, i), 1.0, 1e-14) << i;
+}
+
+TEST(LowestEigenmodes, OfACoordinateWithAMassOfRoundOffAreNone)
+{
+  constexpr int n = 60;
+  const MatrixXd K = decoupled(n), R(4 * n, 0);
+  for (const double mass : {1e-17, -1e-17}) {
+    MatrixXd M = MatrixXd::Identity(4 * n, 4 * n);
+    M(3, 3) = mass;
+    EXPECT_EQ(lowest_eigenmodes(K, M, R, {.lambda_max = 1e9}).lambda.size(), 4 * n - 1);
+  }
+}
+
 TEST(LowestEigenmodes, OfDecoupledCoordinatesAreTheFirstOfAll)
 {
   constexpr int n = 60;

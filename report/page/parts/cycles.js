@@ -53,7 +53,7 @@ function chosenCycle({limit_cycle, limit_cycle_direct}) {
 // A number of a cycle and what it may be off by.
 function known(cycle, name, digits, scale = 1) {
   const error = cycle.errors?.[name] ?? null;
-  return formatted(scale * cycle[name], digits) + (error === null ? "" : ` ± ${formatted(scale * error, 2)}`);
+  return withError(scale * cycle[name], error === null ? null : scale * error, digits);
 }
 
 function cycleTable(content) {

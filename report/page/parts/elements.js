@@ -30,6 +30,14 @@ function formatted(x, digits = 4) {
   return `${Number(mantissa)}e${Number(exponent)}`;
 }
 
+// "6.23 ± 0.57": two digits of the error, and none of the number behind them; the number alone where its error is not known.
+function withError(x, error, digits = 4) {
+  if (!Number.isFinite(error)) return formatted(x, digits);
+  const leading = size => Math.floor(Math.log10(Math.abs(size)));
+  const kept = x === 0 || error === 0 ? digits : leading(x) - leading(error) + 2;
+  return `${formatted(x, Math.min(digits, Math.max(1, kept)))} ± ${formatted(error, 2)}`;
+}
+
 const rpmOfRadS = 30 / Math.PI;
 const unbroken = "\u00a0";  // a space that keeps what it joins on one line
 const rpm = speed => `${formatted(speed * rpmOfRadS)}${unbroken}rpm`;

@@ -72,10 +72,6 @@ function rotationFigures({rotation: {speeds, growth, frozen, exponents}}) {
 // Per cent of its energy that a motion takes from something in a period.
 const inPeriod = x => x === null ? "" : `${formatted(100 * x, 3)} %`;
 
-// "9.78 ± 0.02"; without the error where the body does not know it.
-const withError = ({worst_growth, growth_error}) =>
-  formatted(worst_growth) + (growth_error === null || growth_error === undefined ? "" : ` ± ${formatted(growth_error, 2)}`);
-
 const share = x => x === null ? "" : `${formatted(100 * x, 2)} %`;
 
 // "13.4 to 20.1"; speeds are in rpm too.
@@ -93,7 +89,7 @@ function unstableModesTable({unstable_modes: {branches, parameter, unit}}) {
   return scrolled(table(header, rows.map(([number, branch]) => [
     String(number), formatted(branch.worst_Hz, 6), ...(known ? [longName(branch)] : []), ...(flat ? [share(branch.in_plane)] : []),
     branch.unstable.map(range => rangeText(range, parameter === "speed")).join("; "),
-    withError(branch), formatted(branch.damping_ratio, 3), ...(known ? [inPeriod(branch.friction_work)] : [])])));
+    withError(branch.worst_growth, branch.growth_error), formatted(branch.damping_ratio, 3), ...(known ? [inPeriod(branch.friction_work)] : [])])));
 }
 
 // All modes over a parameter, each labelled by what it is like.
