@@ -98,7 +98,8 @@ struct BranchPoint {
 };
 
 /// Whether the largest multiplier is below or above 1, or neither within its error; 1e-6 in files
-/// of earlier versions, to which they integrated. Undecided where only that along the cycle is known.
+/// of earlier versions, to which they integrated. Undecided where only that along the cycle is
+/// known.
 CycleStability stability_of(const DirectLimitCycle& cycle);
 CycleStability stability_of(const BranchPoint& point);
 
