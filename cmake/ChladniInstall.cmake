@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chladni)
-set(light_libraries common files dense fmu mbs_export squeal_options squeal)
+set(light_libraries common files dense fmu mbs_export squeal_options squeal_brake squeal)
 set(fe_libraries petsc linear confinement mesh elements plate reduce reduce_export sound)
 
 # chladni_export(SET LIBRARIES...): those that are built become chladni::NAME of the package.

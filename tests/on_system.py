@@ -1,4 +1,4 @@
-"""`./dev demo` and `./dev test` on another Debian: a bare system in a folder and the committed files; as root. Adds a
+"""`./dev test` and `./dev demo` on another Debian: a bare system in a folder and the committed files; as root. Adds a
 section of that system to a page, in place of an earlier one.
 
 Usage: on_system.py SUITE PAGE.md [FOLDER]. Called by `./dev test-on SUITE`. The system stays in FOLDER
@@ -20,8 +20,8 @@ PACKAGES = ("g++", "cmake", "libpetsc-real-dev", "libslepc-real-dev", "libmumps-
             "libeigen3-dev", "libopenmpi-dev")  # fmt: skip
 SHOWN = 12  # last lines of a command that failed
 HEAD = ["# Systems", "",
-        "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev demo` and `./dev test` of the "
-        "committed files, without compiler cache. Where a warning is no error, the newer compilers' are counted.", ""]  # fmt: skip
+        "Written by `./dev test-on SUITE`: a bare Debian in a folder (debootstrap), then `./dev test` and `./dev demo` of the "
+        "committed files, without compiler cache. Warnings, which are no errors here, are counted.", ""]  # fmt: skip
 
 
 def call(*command, **options):
@@ -63,6 +63,11 @@ def committed_files(folder):
     call("git", "clone", "--quiet", str(ROOT), str(clone))
 
 
+def commit_of(clone):
+    command = ["git", "rev-parse", "--short", "HEAD"]
+    return subprocess.run(command, cwd=clone, check=True, capture_output=True, text=True).stdout.strip()
+
+
 def inside(folder, command):
     """(exit code, what it prints, seconds) of a shell command in the clone."""
     start = time.monotonic()
@@ -81,7 +86,11 @@ def outcome(command, code, printed, seconds):
     """Lines of the page."""
     tests = re.findall(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)", printed)
     warnings = len(re.findall(r": warning: ", printed))
-    facts = [f"{seconds / 60:.0f} minutes", f"exit code {code}", f"{warnings} warnings"]
+    packages = re.search(r"^== build: .*\[(\d+) s\]", printed, re.M)
+    minutes = f"{seconds / 60:.1f} minutes"
+    if packages:
+        minutes = f"{(seconds - int(packages[1])) / 60:.1f} minutes after the packages"
+    facts = [minutes, f"exit code {code}", f"{warnings} warnings"]
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
     lines = [f"`{command}`: {', '.join(facts)}.", ""]
     failed = re.findall(r"^\s*\d+ - (\S+ \((?!Skipped).*\))", printed, re.M)
@@ -95,14 +104,14 @@ def outcome(command, code, printed, seconds):
 def section(suite, folder):
     """The exit code of the last command, and the lines of the page."""
     lines, code = [], 0
-    for command in ("./dev demo", "./dev test"):
+    for command in ("./dev test", "./dev demo"):
         code, printed, seconds = inside(folder, command)
         (folder / "root" / (command.split()[-1] + ".log")).write_text(printed)
         print(f"{seconds:8.0f} s  {code}  {command}", flush=True)
         lines += outcome(command, code, printed, seconds)
         if code:
             break
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=folder / "root/chladni", capture_output=True, text=True).stdout.strip()
+    commit = commit_of(folder / "root/chladni")
     debian = (folder / "etc/debian_version").read_text().strip()
     table = ["| package | version |", "| --- | --- |", *(f"| {name} | {version} |" for name, version in versions(folder).items())]
     return code, [f"## {suite}", "",

@@ -87,7 +87,7 @@ std::vector<NodePair> pairs_to_ground(const JointOptions& joint, const std::stri
 }
 
 /// Places of the parts' coordinates.
-struct Places {
+struct PartPlaces {
   std::span<const Part> parts;
   std::vector<Eigen::Index> first;
 };
@@ -128,7 +128,7 @@ struct JointMotion {
 };
 
 /// Relative motion of each pair of nodes of a joint.
-std::vector<JointMotion> relative_motions(const Places& places, const JointOptions& joint,
+std::vector<JointMotion> relative_motions(const PartPlaces& places, const JointOptions& joint,
                                           const std::string& key)
 {
   const std::size_t i = part_index(places.parts, joint.ends[0].part);
@@ -179,7 +179,7 @@ void append(Eigen::MatrixXd& B, const Eigen::MatrixXd& rows)
 /// Says so where a rigid joint holds more of bodies that bend than it leaves.
 /// @param B     [n_rigid x n] of the joint
 /// @param name  "joint[1]"
-std::optional<std::string> note_of_locking(const Places& places, const JointOptions& joint,
+std::optional<std::string> note_of_locking(const PartPlaces& places, const JointOptions& joint,
                                            const Eigen::MatrixXd& B, const std::string& name)
 {
   Eigen::Index n = 0;
@@ -218,7 +218,7 @@ std::size_t part_index(std::span<const Part> parts, const std::string& name)
 
 JoinedParts joined(std::span<const Part> parts, std::span<const JointOptions> joints)
 {
-  const Places places{parts, first_coordinates(parts)};
+  const PartPlaces places{parts, first_coordinates(parts)};
   const Eigen::Index n = places.first.back();
   JoinedParts all{.K = Eigen::MatrixXd::Zero(n, n),
                   .C = Eigen::MatrixXd::Zero(n, n),
