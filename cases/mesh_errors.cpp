@@ -5,8 +5,12 @@
 #include <cmath>
 #include <map>
 
+#include "cases/reduce_steps.hpp"
 #include "cases/refined_errors.hpp"
+#include "cases/size_of_mesh.hpp"
 #include "common/eigen_every.hpp"
+#include "linear/dense/orthogonal_factor.hpp"
+#include "plate/assembly/element_energies.hpp"
 #include "plate/assembly/recovery.hpp"
 #include "reduce/improved_modes.hpp"
 
@@ -97,6 +101,30 @@ struct KnownModes {
   double mu;  ///< rad^2/s^2, as improved_modes
 };
 
+/// Strain energies of what known modes lack in the space of others on a finer mesh, summed over the
+/// parts of each element.
+/// @param known, finer  [6 n_nodes x n], of the finer mesh; columns of no interest first
+/// @return [n_elements x k]
+MatrixXd lacking_energies(const scene::Scene& scene, const mesh::Mesh& fine, const MatrixXd& known,
+                          const MatrixXd& finer, const KnownModes& modes)
+{
+  const MatrixXd lacking = known - finer * linear::least_squares(finer, known);
+  const MatrixXd of_parts =
+      plate::element_energies(fine, structure_of(scene),
+                              lacking.rightCols(lacking.cols() - modes.n_rigid), PETSC_COMM_WORLD);
+  Index n_elements = 0;
+  for (const mesh::ElementBlock& block : modes.mesh.blocks) n_elements += block.n_elements();
+  MatrixXd energies = MatrixXd::Zero(n_elements, of_parts.cols());
+  Index element = 0, part = 0;
+  for (std::size_t b = 0; b < fine.blocks.size(); ++b) {
+    const int n = modes.mesh.blocks[b].n_elements();
+    const int n_parts = fine.blocks[b].n_elements() / std::max(n, 1);
+    for (int e = 0; e < n; ++e, ++element, part += n_parts)
+      energies.row(element) = of_parts.middleRows(part, n_parts).colwise().sum();
+  }
+  return energies;
+}
+
 RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
                       const KnownModes& known, const linear::SolverOptions& solver)
 {
@@ -116,10 +144,13 @@ RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
   RefinedModes found{.omega = VectorXd(modes.lambda(mode_of)).cwiseMax(0.0).cwiseSqrt(),
                      .shapes = MatrixXd::Zero(6, std::ssize(mode_of))};
   const CommonNodes common = interface_nodes(scene, known.mesh, other.mesh);
-  if (common.one.empty()) return found;
+  const bool asks_where = takes_local_sizes(scene.mesh);
+  if (common.one.empty() && !asks_where) return found;
   const petsc::Matrix X = reduce::of_all_dofs(modes.X, free, other.system.K, shapes.n_shapes);
-  const MatrixXd of_other =
-      sizes_at(other.mesh, common.other, mode_motions(other.system.dofs, X, motions.cols()));
+  const MatrixXd of_modes = mode_motions(other.system.dofs, X, motions.cols());
+  if (asks_where) found.lacking = lacking_energies(scene, other.mesh, motions, of_modes, known);
+  if (common.one.empty()) return found;
+  const MatrixXd of_other = sizes_at(other.mesh, common.other, of_modes);
   const MatrixXd of_known = sizes_at(known.mesh, common.one, known.motions);
   found.shapes = differences(of_known.rightCols(std::ssize(mode_of)), of_other(every, mode_of));
   return found;

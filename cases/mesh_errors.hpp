@@ -1,12 +1,22 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <vector>
 
 #include "cases/fe_solution.hpp"
 #include "linear/solver_options.hpp"
 #include "reduce/supported_solutions.hpp"
 
 namespace chladni::cases {
+
+/// The share of an element of the mesh in the errors.
+struct ErrorShare {
+  std::array<double, 3> x;  ///< m, its middle
+  double area;              ///< m^2
+  double size;              ///< m, of its sides
+  double share;  ///< of the largest error; those of other modes count in proportion to theirs
+};
 
 /// Natural frequencies of a supported model, and their estimated errors by the mesh: the distance
 /// from those of the plate theory on the geometry of the elements.
@@ -18,6 +28,8 @@ struct MeshErrors {
   /// squares in a mode of unit modal mass; 0 where the mode does not move them.
   Eigen::MatrixXd shape_errors;
   Eigen::VectorXd finer;  ///< [k] rad/s, the same modes in the finer model
+  /// Of the surface elements, where the mesh takes sizes at places; else empty.
+  std::vector<ErrorShare> shares = {};
 
   double largest() const { return errors.size() > 0 ? errors.maxCoeff() : 0.0; }
 };

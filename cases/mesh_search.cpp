@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cases/local_sizes.hpp"
 #include "cases/mesh_frequencies.hpp"
 #include "cases/mesh_scene.hpp"
 #include "common/error.hpp"
@@ -72,8 +73,9 @@ class Search {
   Trial refined(Trial trial)
   {
     constexpr int most_trials = 12;
-    MeshSize next = trial.size;
-    next.size = predicted_size(trial);
+    if (takes_places_ && !is_estimated(trial) && !keeps(trial))
+      trial = tried(trial.size);  // which tells where the error is
+    MeshSize next = next_size(trial, 1.0);
     std::optional<Trial> much_larger;
     for (int i = 0; i < most_trials; ++i) {
       const bool was_kept = i > 0 && keeps(trial);
@@ -81,8 +83,13 @@ class Search {
       if (was_kept)
         next = trial.size;
       else if (i > 0)
-        next.size = std::min(predicted_size(trial), 0.9 * trial.size.size);
-      trial = next_trial(next, was_kept || !can_compare());
+        next = next_size(trial, 0.9);
+      const Trial before = trial;
+      trial = next_trial(next, was_kept || !can_compare() || !next.places.empty());
+      if (!was_kept && !next.places.empty() && trial.n_dofs == before.n_dofs) {
+        takes_places_ = false;  // the geometry says itself which elements it gets
+        trial = before;
+      }
       if (keeps(trial)) continue;
       if (much_larger && is_stuck(*much_larger, trial)) break;
       if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
@@ -167,6 +174,10 @@ class Search {
     constexpr double smaller = 0.85;
     const auto attempt = [&] { return estimates ? tried(size) : compared(size); };
     if (std::optional<Trial> trial = possible(attempt)) return std::move(*trial);
+    if (!size.places.empty()) {
+      takes_places_ = false;
+      size.places.clear();
+    }
     size.size *= smaller;
     return attempt();
   }
@@ -174,11 +185,34 @@ class Search {
   /// The size at which a mesh like this one is expected to keep the target.
   double predicted_size(const Trial& trial) const
   {
-    constexpr double smallest_step = 0.3, largest_step = 1.4;
-    const double rate = trial.size.order + 1.0;  // 2 order of a smooth mode on small elements
-    const double step = std::pow(0.7 * target_ / trial.error, 1.0 / rate);
-    return std::min(trial.size.size * std::clamp(step, smallest_step, largest_step),
+    constexpr double smallest_step = 0.3;
+    const double step = std::pow(0.7 * target_ / trial.error, 1.0 / rate_of(trial));
+    return std::min(trial.size.size * std::clamp(step, smallest_step, most_step),
                     largest_size(scene_.mesh));
+  }
+  static constexpr double most_step = 1.4;  ///< from a mesh to one of larger elements
+  /// With the size of the elements the error falls by this power or faster: by 2 order for a smooth
+  /// mode on small elements.
+  static double rate_of(const Trial& trial) { return trial.size.order + 1.0; }
+
+  /// The mesh that is expected to keep the target: elements are smaller everywhere, or, where that
+  /// takes clearly fewer of them, at places.
+  /// @param largest  of its sizes, as a part of those of the trial
+  MeshSize next_size(const Trial& trial, double largest) const
+  {
+    constexpr double clearly = 0.7;
+    MeshSize next = trial.size;
+    next.size = std::min(predicted_size(trial), largest * trial.size.size);
+    const std::vector<ErrorShare>& shares = trial.errors.shares;
+    if (!takes_places_ || shares.empty()) return next;
+    LocalSizes local = local_sizes(shares, 0.7 * target_ / trial.error, rate_of(trial));
+    const double finer = trial.size.size / next.size;
+    const bool is_local = !trial.size.places.empty();
+    if (!is_local && local.n_elements > clearly * finer * finer * n_elements(shares)) return next;
+    next.size = is_local ? trial.size.size
+                         : std::min(most_step * trial.size.size, largest_size(scene_.mesh));
+    next.places = std::move(local.sizes);
+    return next;
   }
 
   /// The work on a mesh of that size, and with the finer one that tells its error: by its DOFs, and
@@ -220,6 +254,7 @@ class Search {
   scene::Scene scene_;
   linear::SolverOptions solver_;
   double target_;
+  bool takes_places_ = takes_local_sizes(scene_.mesh);
   std::vector<Trial> trials_;
   Eigen::VectorXd known_;  ///< [k] rad/s, of the finer model of the first mesh
   double error_of_first_ = 0.0;

@@ -1,9 +1,13 @@
 #include "cases/refined_errors.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "mesh/element_parts.hpp"
 #include "plate/sections/profile.hpp"
 
 namespace chladni::cases {
@@ -41,6 +45,28 @@ std::vector<double> thicknesses(const scene::Scene& scene, const mesh::Mesh& mes
   return least;
 }
 
+/// Where an element is, and how large.
+ErrorShare place_of(const mesh::Mesh& mesh, const mesh::ElementBlock& block, int element,
+                    const mesh::LatticeCell& corners)
+{
+  const std::span<const int> nodes = block.element_nodes(element);
+  std::array<Eigen::Vector3d, 4> at;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const int node = nodes[static_cast<std::size_t>(corners[i])];
+    at[i] =
+        Eigen::Map<const Eigen::Vector3d>(mesh.positions[static_cast<std::size_t>(node)].data());
+  }
+  const bool is_triangle = corners[2] == corners[3];
+  const Eigen::Vector3d sum = at[0] + at[1] + at[2] + at[3];
+  const Eigen::Vector3d middle = is_triangle ? Eigen::Vector3d((sum - at[3]) / 3.0) : sum / 4.0;
+  const double area = 0.5 * (at[2] - at[0]).cross(at[3] - at[1]).norm();
+  return {
+      .x = {middle[0], middle[1], middle[2]},
+      .area = area,
+      .size = std::sqrt(is_triangle ? 2.0 * area : area),  // two triangles are one quadrilateral
+      .share = 0.0};
+}
+
 /// Of each mode the frequency that is further from that of the model.
 VectorXd further(const VectorXd& omega, const VectorXd& one, const VectorXd& other)
 {
@@ -57,6 +83,7 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
   RefinedModes finer = modes(plate::refined(mesh, {.parts = 2, .order = order}));
   found.finer = std::move(finer.omega);
   found.shape_errors = finer.shapes / (1.0 - left);
+  const MatrixXd lacking = std::move(finer.lacking);
   const std::vector<double> rows = thicknesses(scene, mesh);
   if (plate::has_wide_edges(mesh, rows)) {
     plate::RefinedMesh cut = plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = rows});
@@ -64,6 +91,7 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
       found.finer = further(found.omega, found.finer, modes(std::move(cut)).omega);
   }
   found.errors = relative_distance(found.omega, found.finer) / (1.0 - left);
+  found.shares = error_shares(mesh, lacking, found.errors);
 }
 
 void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found)
@@ -73,11 +101,36 @@ void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& fo
   found.finer = std::move(finer.omega);
   found.shape_errors = std::move(finer.shapes);
   found.errors = relative_distance(found.omega, found.finer);
-  if (order == 1) return;
-  plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
-  if (!plate::keeps_points(mesh, coarser.mesh)) return;
-  found.errors =
-      extrapolated(found.errors, relative_distance(found.omega, modes(std::move(coarser)).omega));
+  if (order > 1) {
+    plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
+    if (plate::keeps_points(mesh, coarser.mesh)) {
+      found.errors = extrapolated(found.errors,
+                                  relative_distance(found.omega, modes(std::move(coarser)).omega));
+    }
+  }
+  found.shares = error_shares(mesh, finer.lacking, found.errors);
+}
+
+std::vector<ErrorShare> error_shares(const mesh::Mesh& mesh, const MatrixXd& lacking,
+                                     const VectorXd& errors)
+{
+  std::vector<ErrorShare> shares;
+  if (lacking.size() == 0) return shares;
+  // What the energies of a mode count.
+  const VectorXd sums = lacking.colwise().sum().transpose().cwiseMax(1e-300);
+  const VectorXd weights = errors.cwiseQuotient(sums) / errors.maxCoeff();
+  Index row = 0;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    const Index first = row;
+    row += block.n_elements();
+    if (block.shape == mesh::Shape::line) continue;
+    const mesh::LatticeCell corners = mesh::lattice_cells(block, block.order).front();
+    for (int e = 0; e < block.n_elements(); ++e) {
+      shares.push_back(place_of(mesh, block, e, corners));
+      shares.back().share = lacking.row(first + e).transpose().cwiseProduct(weights).maxCoeff();
+    }
+  }
+  return shares;
 }
 
 std::vector<Index> by_shapes(MatrixXd shares)

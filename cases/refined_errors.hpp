@@ -13,6 +13,9 @@ namespace chladni::cases {
 struct RefinedModes {
   Eigen::VectorXd omega;   ///< [k] rad/s
   Eigen::MatrixXd shapes;  ///< [6 x k] differences from the known ones
+  /// [n_elements x k] strain energies of what the known modes lack, by the elements of the mesh;
+  /// empty where nobody asks for them
+  Eigen::MatrixXd lacking = {};
 };
 
 /// Returns the modes on a refined mesh, in the order of those of the model.
@@ -33,6 +36,12 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
 /// Estimates errors with elements of one order more and, if possible, of one order less.
 /// @param found  with the frequencies of the mesh
 void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found);
+
+/// The shares of the surface elements in the errors of the frequencies.
+/// @param lacking  RefinedModes::lacking
+/// @param errors   [k] of the frequencies
+std::vector<ErrorShare> error_shares(const mesh::Mesh& mesh, const Eigen::MatrixXd& lacking,
+                                     const Eigen::VectorXd& errors);
 
 /// The mode of another model that corresponds to each given mode, by the pairs of most similar
 /// shapes.

@@ -116,6 +116,7 @@ void set_size(mesh::MeshOptions& mesh, const MeshSize& size)
   }
   if (!mesh.file) return;
   mesh.element_order = size.order;
+  mesh.sizes = size.places;
   if (is_step(mesh)) mesh.element_size = size.size;
   if (is_geo(mesh)) mesh.size_factor = size.size;
 }
@@ -147,6 +148,11 @@ std::vector<int> other_orders(const mesh::MeshOptions& mesh)
   return orders;
 }
 
+bool takes_local_sizes(const mesh::MeshOptions& mesh)
+{
+  return is_geo(mesh) || is_step(mesh);
+}
+
 bool takes_edge_row(const mesh::MeshOptions& mesh, double width)
 {
   constexpr double share = 0.25;  // of the body, for two rows
@@ -171,6 +177,10 @@ std::string described(const MeshSize& size)
   std::string text =
       fmt::format("element_order = {}, element_size = {:.2g}", size.order, size.size);
   if (size.edge_row) text += fmt::format(", edge_row = {:.3g}", *size.edge_row);
+  if (!size.places.empty()) {
+    const double least = std::ranges::min(size.places, {}, &mesh::SizeAt::size).size;
+    text += fmt::format(", elements down to {:.2g} m where the error is", least);
+  }
   return text;
 }
 

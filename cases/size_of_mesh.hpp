@@ -14,6 +14,8 @@ struct MeshSize {
   double size;
   int order;                       ///< of the elements
   std::optional<double> edge_row;  ///< m
+  /// Where elements are smaller; m. Empty: all are of one size.
+  std::vector<mesh::SizeAt> places = {};
 };
 
 /// True if the element size can be chosen: for generators, .geo and .step.
@@ -25,6 +27,8 @@ std::optional<double> edge_row_of(const mesh::MeshOptions& mesh);
 
 /// The other orders that can be chosen.
 std::vector<int> other_orders(const mesh::MeshOptions& mesh);
+/// True if elements can be smaller at some places: of a .geo or .step.
+bool takes_local_sizes(const mesh::MeshOptions& mesh);
 /// True if the generator can make rows of this width along the edges.
 bool takes_edge_row(const mesh::MeshOptions& mesh, double width);
 /// The largest element size, m; for a .geo the factor on its own sizes.

@@ -22,7 +22,11 @@ class Session {
  public:
   /// Without the user's ~/.gmshrc, for the same mesh everywhere.
   Session() { gmsh::initialize(0, nullptr, false); }
-  ~Session() { gmsh::finalize(); }
+  ~Session()
+  {
+    gmsh::model::mesh::removeSizeCallback();  // of set_local_sizes; it would outlive the session
+    gmsh::finalize();
+  }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 };

@@ -129,6 +129,12 @@ enum class Trust {
 };
 
 /// The table [mesh] of a scene: exactly one generator or a file.
+/// A place, and the largest size of elements there.
+struct SizeAt {
+  std::array<double, 3> x;  ///< m
+  double size;              ///< m
+};
+
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};
@@ -141,6 +147,7 @@ struct MeshOptions {
   std::optional<int> element_order = {};    ///< for a .geo or .step; a .msh has its own order
   std::optional<double> element_size = {};  ///< m, for a .step; absent: Gmsh's choice
   double size_factor = 1.0;                 ///< factor on the element sizes that a .geo sets
+  std::vector<SizeAt> sizes = {};           ///< for a .geo or .step: smaller elements there
   std::vector<std::pair<std::string, double>> parameters = {};  ///< for a .geo, in its own units
   double length_unit = 1.0;                   ///< m per unit of the file; a .step states its unit
   std::vector<EntityGroup> groups = {};       ///< in addition to those of the file

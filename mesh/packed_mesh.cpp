@@ -43,6 +43,7 @@ void transfer_options(auto& archive, auto& options)
   archive(options.element_order);
   archive(options.element_size);
   archive(options.size_factor);
+  archive(options.sizes);
   archive.each(options.parameters, [](auto& a, auto& parameter) {
     a(parameter.first);
     a(parameter.second);

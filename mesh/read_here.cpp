@@ -12,6 +12,7 @@
 #include "mesh/exchange/read_exchange.hpp"
 #include "mesh/gmsh_files.hpp"
 #include "mesh/gmsh_model.hpp"
+#include "mesh/graded_sizes.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/silent_output.hpp"
 
@@ -107,15 +108,17 @@ Mesh read_here(const MeshOptions& options, const std::function<void()>& before_r
     return mesh;
   }
   const int order = format == Format::msh ? 0 : options.element_order.value_or(3);
+  const double unit = format == Format::step ? 1e-3 : options.length_unit;
   std::vector<std::string> notes;
   const auto build = [&] {
     [[maybe_unused]] const SilentOutput opened;
     before_reading();
     notes = open(options, format);
+    set_local_sizes(options, unit);
   };
   Mesh mesh = mesh_with_gmsh(build, order, options.line_groups);
   mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
-  scale(mesh, format == Format::step ? 1e-3 : options.length_unit);
+  scale(mesh, unit);
   return mesh;
 }
 

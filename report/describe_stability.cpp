@@ -120,8 +120,7 @@ void add_unstable_modes(TextTable& table, const StabilityTable& stability)
       add(table, name, branch.worst.growth, "1/s");
       continue;
     }
-    table.rows.push_back(
-        {name, fmt::format("{:.6g} +- {:.2g}", branch.worst.growth, branch.budget.sum()), "1/s"});
+    table.rows.push_back({name, with_error(branch.worst.growth, branch.budget.sum()), "1/s"});
     lacks_part = lacks_part || !branch.budget.body;
   }
   if (lacks_part)

@@ -14,10 +14,21 @@
 #include "report/json.hpp"
 #include "report/page/headline.hpp"
 #include "report/page/squeal_motions.hpp"
+#include "report/quantities.hpp"
 #include "report/timing.hpp"
 
 namespace chladni::report {
 namespace {
+
+TEST(Quantities, EndWhereTheirErrorDoes)
+{
+  EXPECT_EQ(with_error(1.71882, 0.00213), "1.7188 +- 0.0021");
+  EXPECT_EQ(with_error(-9.78935, 0.01), "-9.789 +- 0.010");
+  EXPECT_EQ(with_error(8.87223, 2.6), "8.9 +- 2.6");
+  EXPECT_EQ(with_error(123.456789, 1.2e-5), "123.457 +- 1.2e-05");
+  EXPECT_EQ(with_error(0.0, 0.1), "0 +- 0.1");
+  EXPECT_EQ(with_error(12.3456789, 0.0), "12.3457 +- 0");
+}
 
 TEST(TextTable, AlignsNumbersRightAndCountsUtf8AsItShows)
 {
