@@ -115,7 +115,7 @@ std::vector<ErrorShare> error_shares(const mesh::Mesh& mesh, const MatrixXd& lac
                                      const VectorXd& errors)
 {
   std::vector<ErrorShare> shares;
-  if (lacking.size() == 0) return shares;
+  if (lacking.size() == 0 || errors.maxCoeff() <= 0.0) return shares;
   // What the energies of a mode count.
   const VectorXd sums = lacking.colwise().sum().transpose().cwiseMax(1e-300);
   const VectorXd weights = errors.cwiseQuotient(sums) / errors.maxCoeff();

@@ -69,6 +69,21 @@ TEST_F(MeshFile, HasSmallElementsWhereThatIsAsked)
   }
 }
 
+TEST_F(MeshFile, OfAStepHasSmallElementsWhereThatIsAsked)
+{
+  const std::string file = save("a.step", [] {
+    gmsh::model::occ::addRectangle(0, 0, 0, 200, 200);  // mm
+    gmsh::model::occ::synchronize();
+  });
+  MeshOptions options{.file = file, .element_order = 1, .element_size = 0.04};
+  EXPECT_LE(elements_at(generate(options), {0, 0, 0}, 0.01), 2);
+  options.sizes = {{.x = {0, 0, 0}, .size = 0.002}};
+  const Mesh mesh = generate(options);
+  EXPECT_NEAR(area(mesh), 0.04, 1e-12);
+  EXPECT_GE(elements_at(mesh, {0, 0, 0}, 0.01), 10);
+  EXPECT_LE(elements_at(mesh, {0.2, 0.2, 0}, 0.01), 2);
+}
+
 TEST_F(MeshFile, KeepsItsOwnSmallElementsBesideThoseThatAreAsked)
 {
   MeshOptions options{.file = write("a.geo", square("0.05")), .element_order = 1};
