@@ -10,7 +10,7 @@ function(chladni_library name)
 endfunction()
 
 # What takes little of the run time and a quarter of the compiling: not optimised where CHLADNI_QUICK asks so.
-set(rarely_at_work chladni_report chladni_report_fe chladni_scene chladni_cli chladni_squeal_case chladni_cases chladni squeal)
+set(rarely_at_work chladni_report chladni_report_fe chladni_scene chladni_cli chladni_squeal_case chladni squeal)
 
 function(chladni_warnings target)
   if(CHLADNI_QUICK AND target IN_LIST rarely_at_work)
