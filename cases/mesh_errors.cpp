@@ -99,6 +99,7 @@ struct KnownModes {
   const MatrixXd& motions;  ///< [6 n_nodes x k]
   Index n_rigid;
   double mu;  ///< rad^2/s^2, as improved_modes
+  const linear::SolverOptions& solver;
 };
 
 /// Strain energies of what known modes lack in the space of others on a finer mesh, summed over the
@@ -108,7 +109,8 @@ struct KnownModes {
 MatrixXd lacking_energies(const scene::Scene& scene, const mesh::Mesh& fine, const MatrixXd& known,
                           const MatrixXd& finer, const KnownModes& modes)
 {
-  const MatrixXd lacking = known - finer * linear::least_squares(finer, known);
+  const MatrixXd c = linear::least_squares(finer.transpose() * finer, finer.transpose() * known);
+  const MatrixXd lacking = known - finer * c;
   const MatrixXd of_parts =
       plate::element_energies(fine, structure_of(scene),
                               lacking.rightCols(lacking.cols() - modes.n_rigid), PETSC_COMM_WORLD);
@@ -126,7 +128,7 @@ MatrixXd lacking_energies(const scene::Scene& scene, const mesh::Mesh& fine, con
 }
 
 RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
-                      const KnownModes& known, const linear::SolverOptions& solver)
+                      const KnownModes& known, Asked asked)
 {
   const Index n_mesh = known.mesh.n_nodes();
   MatrixXd on_mesh = plate::interpolated(known.mesh, refined, known.motions);
@@ -138,13 +140,13 @@ RefinedModes modes_on(const scene::Scene& scene, plate::RefinedMesh refined,
       .rows = [&](const auto& dofs) { return dof_rows(other.system.dofs, motions, dofs); }};
   const reduce::FreeDofs free = reduce::free_dofs(other.system.K, other.held);
   const reduce::ImprovedModes modes =
-      reduce::improved_modes(other.system.K, other.system.M, free, shapes, known.mu, solver);
+      reduce::improved_modes(other.system.K, other.system.M, free, shapes, known.mu, known.solver);
   std::vector<Index> mode_of = by_shapes(modes.shares);
   mode_of.erase(mode_of.begin(), mode_of.begin() + known.n_rigid);
   RefinedModes found{.omega = VectorXd(modes.lambda(mode_of)).cwiseMax(0.0).cwiseSqrt(),
                      .shapes = MatrixXd::Zero(6, std::ssize(mode_of))};
   const CommonNodes common = interface_nodes(scene, known.mesh, other.mesh);
-  const bool asks_where = takes_local_sizes(scene.mesh);
+  const bool asks_where = asked == Asked::where && scene.accuracy && takes_local_sizes(scene.mesh);
   if (common.one.empty() && !asks_where) return found;
   const petsc::Matrix X = reduce::of_all_dofs(modes.X, free, other.system.K, shapes.n_shapes);
   const MatrixXd of_modes = mode_motions(other.system.dofs, X, motions.cols());
@@ -172,9 +174,10 @@ MeshErrors mesh_errors(const scene::Scene& scene, const SupportedModel& model,
   const KnownModes known{.mesh = model.mesh,
                          .motions = motions,
                          .n_rigid = n_rigid,
-                         .mu = n_rigid > 0 ? first * first : 0.0};
-  const auto on = [&](plate::RefinedMesh other) {
-    return modes_on(scene, std::move(other), known, solver);
+                         .mu = n_rigid > 0 ? first * first : 0.0,
+                         .solver = solver};
+  const auto on = [&](plate::RefinedMesh other, Asked asked) {
+    return modes_on(scene, std::move(other), known, asked);
   };
   const bool is_large = model.system.dofs.n_dofs() > most_halved;
   if (is_large && plate::can_rise(model.mesh))

@@ -74,8 +74,10 @@ class Search {
   {
     constexpr int most_trials = 12;
     if (takes_places_ && !is_estimated(trial) && !keeps(trial))
-      trial = tried(trial.size);  // which tells where the error is
-    MeshSize next = next_size(trial, 1.0);
+      if (auto estimated = possible([&] { return tried(trial.size); }))
+        trial = std::move(*estimated);
+    const Trial even = trial;
+    MeshSize next = next_size(trial, most_step);
     std::optional<Trial> much_larger;
     for (int i = 0; i < most_trials; ++i) {
       const bool was_kept = i > 0 && keeps(trial);
@@ -84,12 +86,17 @@ class Search {
         next = trial.size;
       else if (i > 0)
         next = next_size(trial, 0.9);
-      const Trial before = trial;
-      trial = next_trial(next, was_kept || !can_compare() || !next.places.empty());
-      if (!was_kept && !next.places.empty() && trial.n_dofs == before.n_dofs) {
-        takes_places_ = false;  // the geometry says itself which elements it gets
-        trial = before;
+      if (!next.places.empty()) {
+        std::optional<Trial> local = possible([&] { return tried(next); });
+        if (local && (keeps(*local) || local->error < 0.8 * trial.error)) {
+          trial = std::move(*local);
+        } else {  // the geometry says itself which elements it gets, or they cannot fill it
+          takes_places_ = false;
+          trial = even;
+        }
+        continue;
       }
+      trial = next_trial(next, was_kept || !can_compare());
       if (keeps(trial)) continue;
       if (much_larger && is_stuck(*much_larger, trial)) break;
       if (!much_larger || trial.n_dofs > twice * much_larger->n_dofs) much_larger = trial;
@@ -158,8 +165,9 @@ class Search {
   const Trial* same_mesh(const MeshSize& size, const MeshFrequencies& frequencies, bool estimated)
   {
     const auto found = std::ranges::find_if(trials_, [&](const Trial& trial) {
-      return trial.size.order == size.order && trial.size.edge_row == size.edge_row &&
-             trial.n_dofs == frequencies.n_dofs() && is_estimated(trial) == estimated;
+      return trial.size.places.empty() && size.places.empty() && trial.size.order == size.order &&
+             trial.size.edge_row == size.edge_row && trial.n_dofs == frequencies.n_dofs() &&
+             is_estimated(trial) == estimated;
     });
     if (found == trials_.end()) return nullptr;
     found->size = size;
@@ -174,10 +182,6 @@ class Search {
     constexpr double smaller = 0.85;
     const auto attempt = [&] { return estimates ? tried(size) : compared(size); };
     if (std::optional<Trial> trial = possible(attempt)) return std::move(*trial);
-    if (!size.places.empty()) {
-      takes_places_ = false;
-      size.places.clear();
-    }
     size.size *= smaller;
     return attempt();
   }
@@ -203,6 +207,7 @@ class Search {
     constexpr double clearly = 0.7;
     MeshSize next = trial.size;
     next.size = std::min(predicted_size(trial), largest * trial.size.size);
+    next.places.clear();
     const std::vector<ErrorShare>& shares = trial.errors.shares;
     if (!takes_places_ || shares.empty()) return next;
     LocalSizes local = local_sizes(shares, 0.7 * target_ / trial.error, rate_of(trial));

@@ -80,7 +80,7 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
 {
   constexpr double left = 0.25;
   const int order = mesh.blocks.front().order;
-  RefinedModes finer = modes(plate::refined(mesh, {.parts = 2, .order = order}));
+  RefinedModes finer = modes(plate::refined(mesh, {.parts = 2, .order = order}), Asked::where);
   found.finer = std::move(finer.omega);
   found.shape_errors = finer.shapes / (1.0 - left);
   const MatrixXd lacking = std::move(finer.lacking);
@@ -88,7 +88,7 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
   if (plate::has_wide_edges(mesh, rows)) {
     plate::RefinedMesh cut = plate::refined(mesh, {.parts = 2, .order = order, .edge_rows = rows});
     if (plate::keeps_points(mesh, cut.mesh))
-      found.finer = further(found.omega, found.finer, modes(std::move(cut)).omega);
+      found.finer = further(found.omega, found.finer, modes(std::move(cut), Asked::nothing).omega);
   }
   found.errors = relative_distance(found.omega, found.finer) / (1.0 - left);
   found.shares = error_shares(mesh, lacking, found.errors);
@@ -97,15 +97,16 @@ void find_by_halves(const scene::Scene& scene, const mesh::Mesh& mesh, const Mod
 void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& found)
 {
   const int order = mesh.blocks.front().order;
-  RefinedModes finer = modes(plate::refined(mesh, {.parts = 1, .order = order + 1}));
+  RefinedModes finer = modes(plate::refined(mesh, {.parts = 1, .order = order + 1}), Asked::where);
   found.finer = std::move(finer.omega);
   found.shape_errors = std::move(finer.shapes);
   found.errors = relative_distance(found.omega, found.finer);
   if (order > 1) {
     plate::RefinedMesh coarser = plate::refined(mesh, {.parts = 1, .order = order - 1});
     if (plate::keeps_points(mesh, coarser.mesh)) {
-      found.errors = extrapolated(found.errors,
-                                  relative_distance(found.omega, modes(std::move(coarser)).omega));
+      found.errors = extrapolated(
+          found.errors,
+          relative_distance(found.omega, modes(std::move(coarser), Asked::nothing).omega));
     }
   }
   found.shares = error_shares(mesh, finer.lacking, found.errors);
@@ -119,11 +120,17 @@ std::vector<ErrorShare> error_shares(const mesh::Mesh& mesh, const MatrixXd& lac
   // What the energies of a mode count.
   const VectorXd sums = lacking.colwise().sum().transpose().cwiseMax(1e-300);
   const VectorXd weights = errors.cwiseQuotient(sums) / errors.maxCoeff();
+  constexpr double much = 0.1;  // of the largest error
   Index row = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const Index first = row;
     row += block.n_elements();
-    if (block.shape == mesh::Shape::line) continue;
+    if (block.shape == mesh::Shape::line) {
+      const VectorXd of_lines =
+          lacking.middleRows(first, block.n_elements()).colwise().sum().transpose();
+      if (of_lines.cwiseProduct(weights).maxCoeff() > much) return {};
+      continue;
+    }
     const mesh::LatticeCell corners = mesh::lattice_cells(block, block.order).front();
     for (int e = 0; e < block.n_elements(); ++e) {
       shares.push_back(place_of(mesh, block, e, corners));

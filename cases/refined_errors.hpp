@@ -18,8 +18,11 @@ struct RefinedModes {
   Eigen::MatrixXd lacking = {};
 };
 
+/// What is asked of a refined mesh besides its frequencies.
+enum class Asked { nothing, where };
+
 /// Returns the modes on a refined mesh, in the order of those of the model.
-using ModesOn = std::function<RefinedModes(plate::RefinedMesh)>;
+using ModesOn = std::function<RefinedModes(plate::RefinedMesh, Asked)>;
 
 /// The largest number of DOFs of a model whose elements are halved. This estimate is better than
 /// that by orders, but its model is four times as large.
@@ -40,6 +43,7 @@ void find_by_orders(const mesh::Mesh& mesh, const ModesOn& modes, MeshErrors& fo
 /// The shares of the surface elements in the errors of the frequencies.
 /// @param lacking  RefinedModes::lacking
 /// @param errors   [k] of the frequencies
+/// @return empty where beams have much of an error, which smaller shells do not cure
 std::vector<ErrorShare> error_shares(const mesh::Mesh& mesh, const Eigen::MatrixXd& lacking,
                                      const Eigen::VectorXd& errors);
 

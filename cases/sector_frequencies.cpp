@@ -213,7 +213,7 @@ std::optional<MeshErrors> SectorFrequencies::errors_up_to(double omega,
   const InterfaceOf interface {
     *whole_, interface_
   };
-  const auto modes_on = [&](const plate::RefinedMesh& refined) {
+  const auto modes_on = [&](const plate::RefinedMesh& refined, Asked) {
     const SupportedSector other = sector_on(scene_, refined.mesh, count_);
     const auto solve = [&](int order, Index n) {
       return elastic_modes(other, order, int(n) + 2, n_rigid_ > 0, solver);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace chladni::mesh {
 
@@ -20,19 +22,26 @@ double distance(const std::array<double, 3>& x, const std::array<double, 3>& y)
 
 }  // namespace
 
-GradedSizes::GradedSizes(std::vector<SizeAt> places)
+GradedSizes::GradedSizes(std::vector<SizeAt> places) : places_(std::move(places))
 {
-  std::ranges::sort(places, {}, &SizeAt::size);
-  for (const SizeAt& place : places)
-    if (place.size < at(place.x)) places_.push_back(place);
+  std::ranges::sort(places_, {}, [](const SizeAt& place) { return place.x[0]; });
+  smallest_ = std::ranges::min(places_, {}, &SizeAt::size).size;
 }
 
 double GradedSizes::at(const std::array<double, 3>& x) const
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const SizeAt& place : places_) {
-    if (place.size >= least) break;
+  // From the nearest by the first coordinate to those that are too far even for the smallest size.
+  const auto take = [&](const SizeAt& place) {
+    if (smallest_ + growth * std::abs(place.x[0] - x[0]) >= least) return false;
     least = std::min(least, place.size + growth * distance(x, place.x));
+    return true;
+  };
+  const auto first =
+      std::ranges::lower_bound(places_, x[0], {}, [](const SizeAt& place) { return place.x[0]; });
+  for (auto place = first; place != places_.end() && take(*place); ++place) {
+  }
+  for (auto place = first; place != places_.begin() && take(*std::prev(place)); --place) {
   }
   return least;
 }

@@ -10,7 +10,7 @@ namespace chladni::mesh {
 /// Sizes of elements that grow with the distance from places of small ones.
 class GradedSizes {
  public:
-  /// @param places  with the largest size of elements there
+  /// @param places  with the largest size of elements there; at least one
   explicit GradedSizes(std::vector<SizeAt> places);
 
   /// The largest size at a point: the least of the size at a place and what it may grow by on the
@@ -18,7 +18,8 @@ class GradedSizes {
   double at(const std::array<double, 3>& x) const;
 
  private:
-  std::vector<SizeAt> places_;  ///< ascending by size; those that others imply are left out
+  std::vector<SizeAt> places_;  ///< ascending by the first coordinate
+  double smallest_;             ///< m, of the sizes
 };
 
 /// Makes the elements of the open model of Gmsh no larger than the options allow at their places.

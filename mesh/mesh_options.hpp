@@ -128,13 +128,13 @@ enum class Trust {
   owner      ///< anything: a .geo may run programs and write files
 };
 
-/// The table [mesh] of a scene: exactly one generator or a file.
 /// A place, and the largest size of elements there.
 struct SizeAt {
   std::array<double, 3> x;  ///< m
   double size;              ///< m
 };
 
+/// The table [mesh] of a scene: exactly one generator or a file.
 struct MeshOptions {
   std::optional<AnnulusOptions> annulus = {};
   std::optional<HatDiscOptions> hat_disc = {};

@@ -90,7 +90,9 @@ def outcome(command, code, printed, seconds):
     minutes = f"{seconds / 60:.1f} minutes"
     if packages:
         minutes = f"{(seconds - int(packages[1])) / 60:.1f} minutes after the packages"
-    facts = [minutes, f"exit code {code}", f"{warnings} warnings"]
+    facts = [minutes, f"exit code {code}"]
+    if not command.endswith("test"):  # whose compiler is told to be silent
+        facts.append(f"{warnings} warnings")
     facts += [f"{failed} of {total} tests failed" for _, failed, total in tests]
     lines = [f"`{command}`: {', '.join(facts)}.", ""]
     failed = re.findall(r"^\s*\d+ - (\S+ \((?!Skipped).*\))", printed, re.M)
