@@ -37,6 +37,8 @@ def bare_system(suite, folder):
     script = [] if (scripts / suite).exists() else [str(scripts / "sid")]  # a suite that is newer than debootstrap
     call("debootstrap", "--variant=minbase", suite, str(folder), MIRROR, *script, stdout=subprocess.DEVNULL)
     (folder / "etc/apt/sources.list").write_text(f"deb {MIRROR} {suite} main\n")
+    # The list of a testing Debian is valid for a week; a mirror that is behind is still a system to try.
+    (folder / "etc/apt/apt.conf.d/99-mirror").write_text('Acquire::Check-Valid-Until "false";\n')
 
 
 @contextmanager
