@@ -52,6 +52,14 @@ ModesOfHarmonic modes_beyond(const SupportedSector& sector, int order, double om
   }
 }
 
+/// Most harmonics of a range of frequencies have no mode in it.
+bool lie_above(const SupportedSector& sector, int order, double omega)
+{
+  return cyclic::all_modes_lie_above(sector.matrices,
+                                     cyclic::harmonic_coordinates(sector.model.dofs, order),
+                                     sector.is_held, omega);
+}
+
 /// Of each harmonic of this rank.
 template <class Work>
 auto of_own_harmonics(int count, const Work& work)
@@ -142,9 +150,12 @@ ModesOfHarmonic elastic_modes(const SupportedSector& sector, int order, int n, b
 std::vector<ModesOfHarmonic> modes_up_to(const SupportedSector& sector, double omega, bool is_free,
                                          const linear::SolverOptions& solver)
 {
+  const auto some = [&](int order) { return modes_beyond(sector, order, omega, is_free, solver); };
   std::vector<ModesOfHarmonic> own = of_own_harmonics(sector.model.dofs.count, [&](int order) {
-    return modes_beyond(sector, order, omega, is_free, solver);
+    return lie_above(sector, order, omega) ? ModesOfHarmonic{.order = order} : some(order);
   });
+  // The lowest of all harmonics is asked for even where it lies above.
+  if (std::isinf(lowest_of(own))) own = of_own_harmonics(sector.model.dofs.count, some);
   leave_out_above(own, std::max(omega, lowest_of(own)));
   return own;
 }

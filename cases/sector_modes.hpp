@@ -23,11 +23,12 @@ SupportedSector supported_sector(const scene::Scene& scene, SectorModel model);
 /// Elastic modes of one harmonic, with unit modal mass.
 struct ModesOfHarmonic {
   int order;
-  Eigen::VectorXd omega;  ///< [k] rad/s, ascending
-  int multiplicity;       ///< number of modes in the whole body for each one
+  Eigen::VectorXd omega = {};  ///< [k] rad/s, ascending
+  int multiplicity = 1;        ///< number of modes in the whole body for each one
   /// factor from the squares of one sector to those of all
-  double weight;
-  Eigen::MatrixXd x, y;  ///< [6 n_nodes x k] of the nodes of the sector's mesh
+  double weight = 1.0;
+  /// [6 n_nodes x k] of the nodes of the sector's mesh; [0 x 0] without modes
+  Eigen::MatrixXd x = {}, y = {};
 };
 
 /// The lowest modes of a harmonic; fewer than n if the harmonic has fewer.

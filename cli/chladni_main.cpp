@@ -246,7 +246,7 @@ void end_where_addresses_lack()
 
 int main(int argc, char** argv)
 {
-  chladni::linear::restart_with_fitting_blas_kernels(argv);
+  chladni::linear::take_fitting_blas_kernels(argv);
   end_where_addresses_lack();
   char** const end = argv + argc;
   char** const dashes = std::find(argv + 1, end, std::string_view("--"));

@@ -1,5 +1,6 @@
 #include "cyclic/harmonic_modes.hpp"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,12 @@ namespace chladni::cyclic {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd;
+
+/// Those in which the modes are solved.
+HarmonicCoordinates solved_coordinates(const HarmonicCoordinates& c)
+{
+  return c.symmetric.size() > 0 ? symmetric_half(c) : c;
+}
 
 /// Coordinates that move a held DOF.
 std::vector<int> held_coordinates(const HarmonicCoordinates& c, const std::vector<bool>& is_held)
@@ -28,6 +35,27 @@ std::vector<int> held_coordinates(const HarmonicCoordinates& c, const std::vecto
   for (int i = 0; i < c.n(); ++i)
     if (moves[std::size_t(i)]) held.push_back(i);
   return held;
+}
+
+/// The lower triangle without some rows and columns.
+Eigen::SparseMatrix<double> lower_without(const SparseRows& A, const std::vector<int>& left_out)
+{
+  std::vector<int> place(std::size_t(A.rows()), 0);
+  for (const int i : left_out) place[std::size_t(i)] = -1;
+  int n = 0;
+  for (int& i : place)
+    if (i == 0) i = n++;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(std::size_t(A.nonZeros()) / 2 + std::size_t(n));
+  for (int i = 0; i < A.outerSize(); ++i) {
+    if (place[std::size_t(i)] < 0) continue;
+    for (SparseRows::InnerIterator a(A, i); a && a.index() <= i; ++a)
+      if (const int j = place[std::size_t(a.index())]; j >= 0)
+        entries.emplace_back(place[std::size_t(i)], j, a.value());
+  }
+  Eigen::SparseMatrix<double> lower(n, n);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
 }
 
 MatrixXd first_columns(Mat X, Index n)
@@ -49,7 +77,7 @@ HarmonicModes harmonic_modes(const SectorMatrices& sector, const HarmonicCoordin
                              const std::vector<bool>& is_held, const HarmonicModesOptions& options)
 {
   const bool is_half = coordinates.symmetric.size() > 0;
-  const HarmonicCoordinates c = is_half ? symmetric_half(coordinates) : coordinates;
+  const HarmonicCoordinates c = solved_coordinates(coordinates);
   const std::vector<int> held = held_coordinates(c, is_held);
   HarmonicModes modes{.omega = {},
                       .multiplicity = is_half ? 2 : 1,
@@ -69,6 +97,18 @@ HarmonicModes harmonic_modes(const SectorMatrices& sector, const HarmonicCoordin
   }
   modes.motion = {.x = c.X * X, .y = c.Y * X};
   return modes;
+}
+
+bool all_modes_lie_above(const SectorMatrices& sector, const HarmonicCoordinates& coordinates,
+                         const std::vector<bool>& is_held, double omega)
+{
+  constexpr double margin = 1e-6;
+  const HarmonicCoordinates c = solved_coordinates(coordinates);
+  const double end = omega * (1.0 + margin);
+  const SparseRows shifted = harmonic_form(sector.K, c) - end * end * harmonic_form(sector.M, c);
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(
+      lower_without(shifted, held_coordinates(c, is_held)));
+  return factor.info() == Eigen::Success;
 }
 
 }  // namespace chladni::cyclic

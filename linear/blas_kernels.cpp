@@ -1,5 +1,6 @@
 #include "linear/blas_kernels.hpp"
 
+#include <dlfcn.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -36,14 +37,27 @@ bool is_fallback(std::string_view kernels)
          kernels == "unknown";
 }
 
+/// Has OpenBLAS read OPENBLAS_CORETYPE once more, which is ten times as fast as to load all
+/// libraries again; whether it could.
+bool chooses_anew()
+{
+  using Step = void (*)();
+  const auto end = reinterpret_cast<Step>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_quit"));
+  const auto begin = reinterpret_cast<Step>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_init"));
+  if (end == nullptr || begin == nullptr) return false;
+  end();
+  begin();
+  return !is_fallback(openblas_get_corename());
+}
+
 }  // namespace
 
-void restart_with_fitting_blas_kernels(char** argv)
+void take_fitting_blas_kernels(char** argv)
 {
   constexpr const char* variable = "OPENBLAS_CORETYPE";
   if (std::getenv(variable) != nullptr || !is_fallback(openblas_get_corename())) return;
   const char* kernels = fitting_kernels();
-  if (kernels == nullptr || setenv(variable, kernels, 0) != 0) return;
+  if (kernels == nullptr || setenv(variable, kernels, 0) != 0 || chooses_anew()) return;
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   execv(program.c_str(), argv);  // where that fails, the slow kernels do

@@ -6,6 +6,7 @@
 
 #include "common/eigen_every.hpp"
 #include "linear/dense/dense_solvers.hpp"
+#include "linear/dense/rank_update.hpp"
 #include "mbs_export/interface_modes.hpp"
 
 namespace chladni::mbs_export {
@@ -123,30 +124,49 @@ Addition addition(const ReferenceResponse& reference, const TrialBasis& basis, M
           .v_v = v.transpose() * v};
 }
 
-VectorXd errors_at(const ReferenceResponse& reference, const MatrixXcd& remainder, Index g)
+/// The numbers of a complex matrix, real and imaginary parts in turn.
+/// @return [2 rows x columns]
+MatrixXd as_pairs(const MatrixXcd& A)
 {
-  return remainder.colwise().norm().transpose().cwiseQuotient(reference.size.col(g));
+  return Eigen::Map<const MatrixXd>(reinterpret_cast<const double*>(A.data()), 2 * A.rows(),
+                                    A.cols());
+}
+
+/// A <- A - U S for few columns of U: with the pairs of A, (u, i u) (Re s, Im s)^T.
+/// @return norms of the columns of A
+VectorXd subtract(const MatrixXcd& U, const MatrixXcd& S, MatrixXcd& A)
+{
+  MatrixXd left(2 * U.rows(), 2 * U.cols()), right(2 * U.cols(), S.cols());
+  left << as_pairs(U), as_pairs(Complex(0.0, 1.0) * U);
+  right << S.real(), S.imag();
+  return linear::subtract_of_low_rank(left, right, reinterpret_cast<double*>(A.data())).cwiseSqrt();
 }
 
 /// Galerkin with one more vector v: w = v - V (V^T D V)^-1 V^T D v is D-orthogonal to the basis, so
 /// that H of the basis grows by B^T w (v^T D w)^-1 w^T B.
 void extend(const ReferenceResponse& reference, TrialBasis& basis, const Addition& added)
 {
-  const MatrixXd outputs_V = reference.B.transpose() * basis.V;
-  for (Index g = 0; g < reference.Omega.size(); ++g) {
+  const Index n_g = reference.Omega.size(), n = added.v.cols();
+  MatrixXd scaled(basis.V.cols(), 2 * n * n_g);  // (V^T D V)^-1 V^T D v, real | imaginary
+  std::vector<MatrixXcd> v_D_w(std::size_t(n_g), MatrixXcd(n, n));
+  for (Index g = 0; g < n_g; ++g) {
     const double Omega_squared = reference.Omega[g] * reference.Omega[g];
     const VectorXcd d = dynamic_stiffness(basis.omega_p, reference.Omega[g]);
     const MatrixXcd V_D_v = stiffness_factor * added.V_K_v - Omega_squared * added.V_v;
-    const MatrixXcd scaled = d.cwiseInverse().asDiagonal() * V_D_v;
-    MatrixXcd outputs_w = added.outputs.cast<Complex>();
-    outputs_w.real() -= outputs_V * scaled.real();
-    outputs_w.imag() -= outputs_V * scaled.imag();
-    const MatrixXcd v_D_w =
-        stiffness_factor * added.v_K_v - Omega_squared * added.v_v - V_D_v.transpose() * scaled;
-    const MatrixXcd rows = v_D_w.inverse() * outputs_w.transpose();
-    MatrixXcd& remainder = basis.remainder[std::size_t(g)];
-    remainder -= outputs_w.lazyProduct(rows);
-    basis.error.col(g) = errors_at(reference, remainder, g);
+    const MatrixXcd scaled_g = d.cwiseInverse().asDiagonal() * V_D_v;
+    scaled.middleCols(2 * n * g, n) = scaled_g.real();
+    scaled.middleCols(2 * n * g + n, n) = scaled_g.imag();
+    v_D_w[std::size_t(g)] =
+        stiffness_factor * added.v_K_v - Omega_squared * added.v_v - V_D_v.transpose() * scaled_g;
+  }
+  const MatrixXd of_V = basis.outputs * scaled;
+  for (Index g = 0; g < n_g; ++g) {
+    MatrixXcd outputs_w(reference.B.cols(), n);
+    outputs_w.real() = added.outputs - of_V.middleCols(2 * n * g, n);
+    outputs_w.imag() = -of_V.middleCols(2 * n * g + n, n);
+    const MatrixXcd rows = v_D_w[std::size_t(g)].inverse() * outputs_w.transpose();
+    const VectorXd norms = subtract(outputs_w, rows, basis.remainder[std::size_t(g)]);
+    basis.error.col(g) = norms.cwiseQuotient(reference.size.col(g));
   }
 }
 
@@ -166,6 +186,7 @@ void update_interface(const ReferenceResponse& reference, TrialBasis& basis)
   basis.omega_p = interface.omega;
   basis.V = MatrixXd::Zero(reference.omega.size(), interface.omega.size());
   basis.V(neglected, every) = interface.V;
+  basis.outputs.resize(reference.B.cols(), 0);
 }
 
 /// Columns of X made orthonormal to V and to each other, without those that depend on them.
@@ -227,33 +248,42 @@ TrialBasis rigid_basis(const ReferenceResponse& reference)
                    .interface = {},
                    .V = MatrixXd(n, 0),
                    .omega_p = {},
+                   .outputs = MatrixXd(reference.B.cols(), 0),
                    .remainder = reference.H,
                    .error = reference.size};
-  for (Index g = 0; g < reference.Omega.size(); ++g)
-    basis.error.col(g) = errors_at(reference, reference.H[std::size_t(g)], g);
+  for (Index g = 0; g < reference.Omega.size(); ++g) {
+    basis.error.col(g) = reference.H[std::size_t(g)].colwise().norm().transpose().cwiseQuotient(
+        reference.size.col(g));
+  }
   if (n > 0 && reference.omega[0] == 0.0)
     return with_cluster(reference, basis, reference.clusters.front());
   return basis;
 }
 
-TrialBasis with_cluster(const ReferenceResponse& reference, const TrialBasis& basis,
+TrialBasis with_outputs(const ReferenceResponse& reference, TrialBasis basis)
+{
+  if (basis.outputs.cols() != basis.V.cols()) basis.outputs = reference.B.transpose() * basis.V;
+  return basis;
+}
+
+TrialBasis with_cluster(const ReferenceResponse& reference, TrialBasis basis,
                         const ModeCluster& cluster)
 {
-  TrialBasis larger = basis;
+  basis = with_outputs(reference, std::move(basis));
   MatrixXd v = MatrixXd::Zero(reference.omega.size(), cluster.end - cluster.first);
   for (int k = cluster.first; k < cluster.end; ++k) {
     v(k, k - cluster.first) = 1.0;
-    larger.is_kept[std::size_t(k)] = 1;
+    basis.is_kept[std::size_t(k)] = 1;
   }
-  extend(reference, larger, addition(reference, larger, std::move(v)));
-  if (!larger.interface.empty()) update_interface(reference, larger);
-  return larger;
+  extend(reference, basis, addition(reference, basis, std::move(v)));
+  if (!basis.interface.empty()) update_interface(reference, basis);
+  return basis;
 }
 
 TrialBasis with_interface(const ReferenceResponse& reference, const TrialBasis& basis,
                           const InterfaceChoice& choice)
 {
-  TrialBasis larger = basis;
+  TrialBasis larger = with_outputs(reference, basis);
   MatrixXd v = independent(basis.V, undamped_response(reference, basis, choice));
   if (v.cols() == 0) return larger;
   extend(reference, larger, addition(reference, larger, std::move(v)));

@@ -44,6 +44,7 @@ struct TrialBasis {
   std::vector<InterfaceChoice> interface;
   Eigen::MatrixXd V;                        ///< [n x p] interface modes; zero in the kept modes
   Eigen::VectorXd omega_p;                  ///< [p], rad/s
+  Eigen::MatrixXd outputs;                  ///< B^T V [m x p]; [m x 0]: `with_outputs` gives them
   std::vector<Eigen::MatrixXcd> remainder;  ///< [G] H minus the response of the basis
   Eigen::MatrixXd error;                    ///< [m x G] relative error of the response to each load
 
@@ -54,8 +55,11 @@ struct TrialBasis {
 /// The basis of the rigid modes; empty if there are none.
 TrialBasis rigid_basis(const ReferenceResponse& reference);
 
+/// The same basis with what all that is tried from it needs.
+TrialBasis with_outputs(const ReferenceResponse& reference, TrialBasis basis);
+
 /// The basis with the modes of one more cluster.
-TrialBasis with_cluster(const ReferenceResponse& reference, const TrialBasis& basis,
+TrialBasis with_cluster(const ReferenceResponse& reference, TrialBasis basis,
                         const ModeCluster& cluster);
 
 /// The basis with further interface modes. Those that depend on the basis are not added.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace chladni::mbs_export {
 namespace {
@@ -141,11 +142,24 @@ std::vector<Candidate> candidates(const ReferenceResponse& reference, const Tria
   return all;
 }
 
+/// Adds modes until the tolerance is met or none is left.
+Path grow(const ReferenceResponse& reference, Path path, double tolerance)
+{
+  while (path.basis.error.maxCoeff() > tolerance) {
+    const auto cluster = largest_missing_cluster(reference, path.basis, worst_place(path.basis));
+    if (!cluster) break;
+    path.basis = with_cluster(reference, std::move(path.basis), *cluster);
+    path.steps.push_back(step_of(path.basis, name_of(*cluster)));
+  }
+  return path;
+}
+
 /// Adds candidates until the tolerance is met or nothing is left to add.
 Path grow(const ReferenceResponse& reference, Path path, std::span<const LoadGroup> groups,
           double tolerance)
 {
   while (path.basis.error.maxCoeff() > tolerance) {
+    path.basis = with_outputs(reference, std::move(path.basis));
     std::vector<Candidate> all = candidates(reference, path.basis, groups);
     if (all.empty()) break;
     const auto gain = [&](const Candidate& candidate) {
@@ -167,7 +181,7 @@ Path resonant_path(const ReferenceResponse& reference)
     path.steps.push_back(step_of(path.basis, name_of(reference.clusters.front())));
   for (const int c : reference.resonances) {
     const ModeCluster& cluster = reference.clusters[std::size_t(c)];
-    path.basis = with_cluster(reference, path.basis, cluster);
+    path.basis = with_cluster(reference, std::move(path.basis), cluster);
     path.steps.push_back(step_of(path.basis, name_of(cluster)));
   }
   return path;
@@ -190,7 +204,7 @@ ToleranceSelection select_by_tolerance(const Eigen::VectorXd& omega, const Matri
 {
   const ReferenceResponse reference = reference_response(omega, B, loads, tolerance);
   const Path start = resonant_path(reference);
-  const Path modes = grow(reference, start, {}, tolerance.error);
+  const Path modes = grow(reference, start, tolerance.error);
   const Path mixed = grow(reference, start, loads.groups, tolerance.error);
   const Path& chosen = better(modes, mixed, tolerance.error);
   ToleranceSelection selection{.kept = {},

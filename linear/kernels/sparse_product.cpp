@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/fitting_instructions.hpp"
 #include "linear/kernels/as_aij.hpp"
 #include "linear/kernels/dense_matrices.hpp"
 #include "linear/kernels/gather.hpp"
@@ -20,14 +21,6 @@ struct Csr {
   const PetscInt* columns;
   const PetscScalar* values;
 };
-
-// The widest instructions of the processor at hand; Debian's baseline has two numbers in one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define CHLADNI_FITTING_INSTRUCTIONS \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define CHLADNI_FITTING_INSTRUCTIONS
-#endif
 
 /// Y <- Y + A panel, Y row by row like the panel.
 template <PetscInt width>

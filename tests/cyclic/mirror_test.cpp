@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "cyclic/harmonic_modes.hpp"
 #include "cyclic/symmetric_half.hpp"
 #include "linear/dense/dense_solvers.hpp"
 
@@ -121,6 +125,43 @@ TEST(SymmetricMotions, HaveEachEigenvalueOnceOfThoseThatAreDouble)
     for (Index k = 0; k < once.size(); ++k) {
       EXPECT_NEAR(once[k], all[2 * k], 1e-12 * all[2 * k]) << n;
       EXPECT_NEAR(once[k], all[2 * k + 1], 1e-12 * all[2 * k]) << n;
+    }
+  }
+}
+
+/// The lowest frequency of a harmonic without some coordinates.
+double lowest_omega(const SectorMatrices& sector, const HarmonicCoordinates& c,
+                    const std::vector<int>& held)
+{
+  std::vector<int> free;
+  for (int i = 0; i < c.n(); ++i)
+    if (!std::ranges::count(held, i)) free.push_back(i);
+  const MatrixXd K = MatrixXd(harmonic_form(sector.K, c))(free, free);
+  const MatrixXd M = MatrixXd(harmonic_form(sector.M, c))(free, free);
+  return std::sqrt(Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+                       .eigenvalues()[0]);
+}
+
+TEST(HarmonicModes, LieAboveAFrequencyWhereTheLowestDoes)
+{
+  const MirroredSector stiff(7), heavy(8);
+  const SectorMatrices matrices{.K = stiff.form(), .M = heavy.form()};
+  std::vector<bool> none(48, false), axis(48, false);
+  std::fill(axis.begin() + 42, axis.end(), true);
+  SectorDofs mirrored = stiff.dofs;
+  mirrored.mirror = find_mirror(stiff.dofs, stiff.positions, {&matrices.K, &matrices.M});
+  ASSERT_TRUE(mirrored.mirror);
+  for (const SectorDofs* dofs : {&stiff.dofs, &std::as_const(mirrored)}) {
+    for (const int order : {0, 1, 2, 3}) {
+      const HarmonicCoordinates c = harmonic_coordinates(*dofs, order);
+      std::vector<int> of_axis;
+      for (const Master& master : c.masters)
+        if (master.ring == -1) of_axis.push_back(master.coordinate);
+      const double free = lowest_omega(matrices, c, {}), held = lowest_omega(matrices, c, of_axis);
+      EXPECT_TRUE(all_modes_lie_above(matrices, c, none, free * (1.0 - 1e-5))) << order;
+      EXPECT_FALSE(all_modes_lie_above(matrices, c, none, free)) << order;
+      EXPECT_TRUE(all_modes_lie_above(matrices, c, axis, held * (1.0 - 1e-5))) << order;
+      EXPECT_FALSE(all_modes_lie_above(matrices, c, axis, held)) << order;
     }
   }
 }

@@ -1,0 +1,45 @@
+#include "linear/dense/rank_update.hpp"
+
+#include "common/fitting_instructions.hpp"
+
+namespace chladni::linear {
+
+namespace {
+
+using Eigen::Index;
+
+/// Some columns one after the other.
+struct Columns {
+  const double* values;
+  Index n_rows, n_columns;
+};
+
+/// a <- a - U s
+CHLADNI_FITTING_INSTRUCTIONS
+void subtract_from_column(const Columns& U, const double* s, double* __restrict a)
+{
+  const Index n = U.n_rows;
+  Index c = 0;
+  for (; c + 1 < U.n_columns; c += 2) {
+    const double *u = U.values + c * n, *next = u + n;
+    const double s_u = s[c], s_next = s[c + 1];
+    for (Index i = 0; i < n; ++i) a[i] -= u[i] * s_u + next[i] * s_next;
+  }
+  if (c < U.n_columns)
+    for (Index i = 0; i < n; ++i) a[i] -= U.values[c * n + i] * s[c];
+}
+
+}  // namespace
+
+Eigen::VectorXd subtract_of_low_rank(const Eigen::MatrixXd& U, const Eigen::MatrixXd& S, double* A)
+{
+  Eigen::VectorXd squares(S.cols());
+  for (Index j = 0; j < S.cols(); ++j) {
+    double* a = A + j * U.rows();
+    subtract_from_column({U.data(), U.rows(), U.cols()}, S.data() + j * S.rows(), a);
+    squares[j] = Eigen::Map<const Eigen::VectorXd>(a, U.rows()).squaredNorm();
+  }
+  return squares;
+}
+
+}  // namespace chladni::linear
