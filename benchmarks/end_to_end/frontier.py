@@ -15,7 +15,8 @@ By hand, twice. For the frequencies alone: the cheapest of the smallest number o
 tolerance, found by bisection (the matrices of fewer modes are corners of those of more), and of mixed-interface modes, as many as the
 range has; with all modes of the range in the body. For the responses too: all modes up to a multiple of the range, in the reduction and in
 the body, the smallest multiple of a list that keeps both promises, of either method. Cost is the CPU time of all phases from the mesh to the
-body, the median of several runs in turn. Writes OUTPUT/end_to_end.json, .md and OUTPUT/figures/end_to_end.png.
+body, the median of several runs in turn. Writes OUTPUT/end_to_end.json, .md, OUTPUT/figures/end_to_end.png and
+method_frontier.png (by_method.py).
 """
 import argparse
 import pathlib
@@ -27,6 +28,8 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "reduction"))
+import by_method  # noqa: E402
+import method_pages  # noqa: E402
 import pages  # noqa: E402
 import responses  # noqa: E402
 import run  # noqa: E402
@@ -268,6 +271,10 @@ def main():
                else [study(name, case, TOLERANCES) for name, case in CASES.items()])
     result = {"machine": run.machine(), "studies": studies}
     (arguments.output / "figures").mkdir(parents=True, exist_ok=True)
+    if not arguments.quick:
+        name = "thesis disc"
+        result["methods"] = {"case": name, **by_method.study(sys.modules[__name__], CASES[name])}
+        method_pages.draw(result["methods"], arguments.output / "figures" / "method_frontier.png")
     run.publish(arguments.output, "end_to_end", result, pages.table(result))
     pages.draw(result, arguments.output / "figures" / "end_to_end.png")
     print(pages.table(result))

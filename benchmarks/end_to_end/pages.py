@@ -1,4 +1,5 @@
 """The page and the figure of frontier.py."""
+import method_pages
 
 MAX_COST = 1.3  # of the automatic choice, over the best choice by hand
 
@@ -93,12 +94,18 @@ def sweeps(studies):
         yield row("error of the frequencies", *("too few" if s["error"] is None else f"{s['error']:.1e}" for s in told))
 
 
+def of_methods(result):
+    """None of a quick run."""
+    found = result.get("methods")
+    return ["", *method_pages.section(found, found["case"], row, header)] if found else []
+
+
 def table(result):
     studies = result["studies"]
     of_each = lambda form: ", ".join(form.format(**s) for s in studies)
     about = ABOUT.format(**result["machine"], rounds=of_each("{rounds} ({case})"), dofs=of_each("{case}: {dofs}"))
     lines = [about, "## What is promised and what is kept", "", *promises(studies), "", FE, "", *against_fe(studies), "",
-             "## What it costs", "", OVER, "", *costs(studies), "",
+             "## What it costs", "", OVER, "", *costs(studies), *of_methods(result), "",
              "## Error of the frequencies over the number of fixed-interface modes", "",
              "Of one reduction with the most modes, whose matrices have those of fewer modes as corners.", *sweeps(studies)]
     return "\n".join(lines) + "\n"
