@@ -18,11 +18,6 @@ ACCURACIES = [1e-2, 1e-3, 1e-4]
 HELD = 'keep = { modes = 1 }'
 
 
-def held_frequencies(reduced, support, count):
-    """The lowest frequencies of a reduced system held at its support."""
-    return responses.frequencies_Hz(responses.read_held(reduced, support, support, 0), count)
-
-
 def largest_error(f_Hz, reference):
     """By rank, of as many as the reference has; None where there are fewer."""
     error = np.abs(f_Hz[:len(reference)] / reference - 1)
@@ -34,9 +29,10 @@ def reduced(frontier, case, text, count):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         summary = frontier.chladni("reduce", folder, case, text)
-        path = next(folder.glob("*.reduced.h5"))
-        return held_frequencies(path, case["support"], count), {"dofs": summary["n_dofs"], "modes": summary["n_modes"], "method": summary["method"],
-                                                           "size": summary["n_masters"] + summary["n_modes"], "cost_s": frontier.cost(summary)}
+        held = responses.read_held(next(folder.glob("*.reduced.h5")), case["support"])
+        return responses.frequencies_Hz(held, count), {
+            "dofs": summary["n_dofs"], "modes": summary["n_modes"], "method": summary["method"],
+            "size": summary["n_masters"] + summary["n_modes"], "cost_s": frontier.cost(summary)}
 
 
 def on_mesh(frontier, case, size, methods, exact):

@@ -97,7 +97,7 @@ def sweeps(studies):
 def of_methods(result):
     """None of a quick run."""
     found = result.get("methods")
-    return ["", *method_pages.section(found, found["case"], row, header)] if found else []
+    return ["", *method_pages.section(found, row, header)] if found else []
 
 
 def table(result):

@@ -37,13 +37,13 @@ class Modes:
     at_loads: np.ndarray
 
 
-def read_held(path, support, load, component):
-    """The reduced system of a file, held at all DOFs of `support`; loads: `component` of the set `load`."""
+def read_held(path, support, load=None, component=0):
+    """The reduced system of a file, held at all DOFs of `support`; loads: `component` of the set `load`, or none."""
     with h5py.File(path) as file:
         K, M = file["matrices/stiffness"][:], file["matrices/mass"][:]
         masters = list(zip(file["masters/node"][:], file["masters/component"][:]))
         held = set(file[f"attachment/sets/{support}"][:])
-        loaded = [(node, component) for node in file[f"attachment/sets/{load}"][:]]
+        loaded = [(node, component) for node in file[f"attachment/sets/{load}"][:]] if load else []
     kept = [i for i in range(len(K)) if i >= len(masters) or masters[i][0] not in held]
     place = {masters[i]: row for row, i in enumerate(kept) if i < len(masters)}
     return Held(K[np.ix_(kept, kept)], M[np.ix_(kept, kept)], len(place), [place[dof] for dof in loaded])
