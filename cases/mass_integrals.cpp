@@ -1,5 +1,8 @@
 #include "cases/mass_integrals.hpp"
 
+#include <array>
+#include <vector>
+
 #include "common/eigen_every.hpp"
 #include "plate/assembly/inertia_integrals.hpp"
 #include "reduce/project_form.hpp"
@@ -13,7 +16,11 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
 {
   const plate::MassModel model =
       plate::mass_model(fe.mesh, structure, fe.system.dofs, PETSC_COMM_WORLD);
-  const plate::MassMoments moments = plate::mass_moments(model);
+  // Of zz: M = S_xx + S_yy + S_zz.
+  constexpr std::array<std::size_t, 5> computed{0, 1, 3, 4, 5};
+  std::vector<plate::Axes> axes;
+  for (const std::size_t i : computed) axes.push_back(mbs_export::product_axes[i]);
+  auto [moments, products] = plate::inertia_integrals(model, axes);
   const MatrixXd V = reduce::project_vectors(reduced.reduction.Q_CB, reduced.body.dofs,
                                              moments.displacement)(reduced.places, every)
                          .transpose();
@@ -24,13 +31,15 @@ mbs_export::MassIntegrals mass_integrals(const plate::Structure& structure, cons
                                       .position_displacement = V.bottomRows<9>(),
                                       .products = {}};
   auto& S = integrals.products;
-  for (const std::size_t i : {0, 1, 3, 4, 5}) {
-    const auto [k, l] = mbs_export::product_axes[i];
-    S[i] = projected(reduced, plate::displacement_product(model, k, l),
-                     k == l ? FormSymmetry::symmetric : FormSymmetry::none);
-    if (k == l) S[i] = 0.5 * (S[i] + S[i].transpose()).eval();
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const bool is_symmetric = axes[i].first == axes[i].second;
+    MatrixXd& S_kl = S[computed[i]];
+    S_kl = projected(reduced, products[i],
+                     is_symmetric ? FormSymmetry::symmetric : FormSymmetry::none);
+    if (is_symmetric) S_kl = 0.5 * (S_kl + S_kl.transpose()).eval();
+    products[i] = {};
   }
-  S[2] = reduced.system.M - S[0] - S[1];  // M = S_xx + S_yy + S_zz
+  S[2] = reduced.system.M - S[0] - S[1];
   return integrals;
 }
 

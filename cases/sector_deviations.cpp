@@ -122,11 +122,11 @@ AssembledParts assembled(const scene::Scene& scene, const SectorModel& model,
   if (!scene.mass_integrals) return found;
   const plate::MassModel mass =
       plate::mass_model(model.mesh, structure, model.system.dofs, PETSC_COMM_SELF);
-  for (const std::size_t i : products) {
-    const auto [k, l] = mbs_export::product_axes[i];
-    found.S[i] = cyclic::sparse_rows(plate::displacement_product(mass, k, l));
-  }
-  const plate::MassMoments moments = plate::mass_moments(mass);
+  std::vector<plate::Axes> axes;
+  for (const std::size_t i : products) axes.push_back(mbs_export::product_axes[i]);
+  const auto [moments, S] = plate::inertia_integrals(mass, axes);
+  for (std::size_t i = 0; i < products.size(); ++i)
+    found.S[products[i]] = cyclic::sparse_rows(S[i]);
   found.mass = moments.mass;
   found.first = moments.first;
   found.second = moments.second;

@@ -80,9 +80,11 @@ SectorMass::SectorMass(const scene::Scene& scene, const SectorModel& model)
 SectorMass::MovingRows SectorMass::moving_rows(int p) const
 {
   std::array<cyclic::SparseRows, 3> S;
+  std::vector<plate::Axes> axes;
   for (int q = 0; q < 3; ++q)
-    if (p != 2 || q != 2)
-      S[std::size_t(q)] = cyclic::sparse_rows(plate::displacement_product(mass_, p, q));
+    if (p != 2 || q != 2) axes.emplace_back(p, q);
+  const std::vector<petsc::Matrix> products = plate::displacement_products(mass_, axes);
+  for (std::size_t q = 0; q < products.size(); ++q) S[q] = cyclic::sparse_rows(products[q]);
   MovingRows moving;
   std::array<std::vector<Eigen::Triplet<double>>, 3> entries;
   for (int row = 0; row < S[0].outerSize(); ++row) {

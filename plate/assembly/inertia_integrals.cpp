@@ -88,13 +88,14 @@ struct MovingColumns {
 
 /// sum dm N_k^T N_l without round-off, where the contributions of the two halves of the thickness
 /// are opposite: what does not move together is not coupled.
-MatrixXd element_product(const MassPoints& points, std::size_t k, std::size_t l)
+/// @param left, right  those of N_k and N_l
+MatrixXd element_product(const MassPoints& points, const MovingColumns& left,
+                         const MovingColumns& right)
 {
   constexpr double round_off = 1e-14;
-  const MovingColumns left(points, k), right(points, l);
   const MatrixXd sums = left.N.transpose() * points.dm.asDiagonal() * right.N;
   const MatrixXd least = round_off * left.lengths * right.lengths.transpose();
-  MatrixXd product = MatrixXd::Zero(points.N[k].cols(), points.N[l].cols());
+  MatrixXd product = MatrixXd::Zero(points.N[0].cols(), points.N[0].cols());
   product(left.numbers, right.numbers) = (sums.array().abs() > least.array()).select(sums, 0.0);
   return product;
 }
@@ -109,6 +110,88 @@ Totals totals(const MassPoints& points)
   sums << points.dm.sum(), points.x.transpose() * points.dm, second.reshaped();
   return sums;
 }
+
+/// Sums of S_kl of some pairs of directions.
+class ProductSums {
+ public:
+  ProductSums(const MassModel& model, std::span<const Axes> axes)
+      : model_(model), axes_(axes.begin(), axes.end())
+  {
+    for (std::size_t i = 0; i < axes_.size(); ++i) sums_.emplace_back(model.pattern);
+  }
+
+  void add(const MassPoints& points, const ElementMotion& motion)
+  {
+    if (axes_.empty()) return;
+    const std::vector<std::ptrdiff_t> places = block_places(model_.pattern, motion.numbers);
+    const std::array moving{MovingColumns(points, 0), MovingColumns(points, 1),
+                            MovingColumns(points, 2)};
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const auto [k, l] = axes_[i];
+      // `add` reads columns as rows, so it wants S_kl^T = S_lk.
+      plate::add(sums_[i], element_product(points, moving[std::size_t(l)], moving[std::size_t(k)]),
+                 motion, model_.dofs, places);
+    }
+  }
+
+  /// @note   Collective on the communicator of the model.
+  std::vector<petsc::Matrix> matrices()
+  {
+    std::vector<petsc::Matrix> products;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      petsc::Matrix S = sums_[i].to_matrix(model_.comm);
+      if (axes_[i].first != axes_[i].second) {
+        petsc::check(MatSetOption(S, MAT_SYMMETRY_ETERNAL, PETSC_FALSE));
+        petsc::check(MatSetOption(S, MAT_SYMMETRIC, PETSC_FALSE));
+      }
+      products.push_back(std::move(S));
+    }
+    return products;
+  }
+
+ private:
+  const MassModel& model_;
+  std::vector<Axes> axes_;
+  std::vector<BlockRows> sums_;
+};
+
+/// Sums of the integrals of positions.
+class MomentSums {
+ public:
+  explicit MomentSums(const MassModel& model) : model_(model), displacement_(dense_rows(model))
+  {
+    petsc::check(MatDenseGetLDA(displacement_, &lda_));
+    petsc::check(MatDenseGetArray(displacement_, &values_));
+  }
+
+  void add(const MassPoints& points, const ElementMotion& motion, bool is_counted)
+  {
+    add_rows(model_, element_moments(points), motion,
+             Eigen::Map<MatrixXd>(values_, lda_, n_moments));
+    if (is_counted) totals_ += totals(points);
+  }
+
+  /// @note   Collective on the communicator of the model.
+  MassMoments moments() &&
+  {
+    petsc::check(MatDenseRestoreArray(displacement_, &values_));
+    petsc::check(MatAssemblyBegin(displacement_, MAT_FINAL_ASSEMBLY));
+    petsc::check(MatAssemblyEnd(displacement_, MAT_FINAL_ASSEMBLY));
+    MPI_Allreduce(MPI_IN_PLACE, totals_.data(), static_cast<int>(totals_.size()), MPI_DOUBLE,
+                  MPI_SUM, model_.comm);
+    return {.mass = totals_[0],
+            .first = totals_.segment<3>(1),
+            .second = totals_.tail<9>().reshaped(3, 3),
+            .displacement = std::move(displacement_)};
+  }
+
+ private:
+  const MassModel& model_;
+  petsc::Matrix displacement_;
+  PetscScalar* values_ = nullptr;
+  PetscInt lda_ = 0;
+  Totals totals_ = Totals::Zero();
+};
 
 }  // namespace
 
@@ -138,43 +221,33 @@ MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const D
 
 petsc::Matrix displacement_product(const MassModel& model, int k, int l)
 {
-  BlockRows S(model.pattern);
+  return std::move(displacement_products(model, std::array{Axes(k, l)}).front());
+}
+
+std::vector<petsc::Matrix> displacement_products(const MassModel& model, std::span<const Axes> axes)
+{
+  ProductSums products(model, axes);
   for_owned_points(model, [&](const MassPoints& points, const ElementMotion& motion, bool) {
-    // `add` reads columns as rows, so it wants S_kl^T = S_lk.
-    add(S, element_product(points, std::size_t(l), std::size_t(k)), motion, model.dofs,
-        block_places(model.pattern, motion.numbers));
+    products.add(points, motion);
   });
-  petsc::Matrix A = S.to_matrix(model.comm);
-  if (k != l) {
-    petsc::check(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_FALSE));
-    petsc::check(MatSetOption(A, MAT_SYMMETRIC, PETSC_FALSE));
-  }
-  return A;
+  return products.matrices();
 }
 
 MassMoments mass_moments(const MassModel& model)
 {
-  petsc::Matrix displacement = dense_rows(model);
-  PetscScalar* values = nullptr;
-  PetscInt lda = 0;
-  petsc::check(MatDenseGetLDA(displacement, &lda));
-  petsc::check(MatDenseGetArray(displacement, &values));
-  Eigen::Map<MatrixXd> rows(values, lda, n_moments);
-  Totals sums = Totals::Zero();
+  return inertia_integrals(model, {}).moments;
+}
+
+InertiaIntegrals inertia_integrals(const MassModel& model, std::span<const Axes> axes)
+{
+  MomentSums moments(model);
+  ProductSums products(model, axes);
   for_owned_points(model,
                    [&](const MassPoints& points, const ElementMotion& motion, bool is_counted) {
-                     add_rows(model, element_moments(points), motion, rows);
-                     if (is_counted) sums += totals(points);
+                     moments.add(points, motion, is_counted);
+                     products.add(points, motion);
                    });
-  petsc::check(MatDenseRestoreArray(displacement, &values));
-  petsc::check(MatAssemblyBegin(displacement, MAT_FINAL_ASSEMBLY));
-  petsc::check(MatAssemblyEnd(displacement, MAT_FINAL_ASSEMBLY));
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                model.comm);
-  return {.mass = sums[0],
-          .first = sums.segment<3>(1),
-          .second = sums.tail<9>().reshaped(3, 3),
-          .displacement = std::move(displacement)};
+  return {.moments = std::move(moments).moments(), .products = products.matrices()};
 }
 
 }  // namespace chladni::plate

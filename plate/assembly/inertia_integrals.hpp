@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "common/petsc.hpp"
@@ -38,6 +40,13 @@ MassModel mass_model(const mesh::Mesh& mesh, const Structure& structure, const D
 /// @note   Collective on the communicator of the model.
 petsc::Matrix displacement_product(const MassModel& model, int k, int l);
 
+/// Two directions k, l, 0 to 2.
+using Axes = std::pair<int, int>;
+
+/// The same of several pairs of directions, in one pass over the elements.
+std::vector<petsc::Matrix> displacement_products(const MassModel& model,
+                                                 std::span<const Axes> axes);
+
 /// Integrals of the positions x over the mass, about the origin of the mesh.
 struct MassMoments {
   double mass;             ///< kg
@@ -51,5 +60,15 @@ struct MassMoments {
 /// Computes the integrals of positions and displacements.
 /// @note   Collective on the communicator of the model.
 MassMoments mass_moments(const MassModel& model);
+
+/// Moments and displacement products, in one pass over the elements.
+struct InertiaIntegrals {
+  MassMoments moments;
+  std::vector<petsc::Matrix> products;  ///< S_kl of each pair of axes
+};
+
+/// Computes both.
+/// @note   Collective on the communicator of the model.
+InertiaIntegrals inertia_integrals(const MassModel& model, std::span<const Axes> axes);
 
 }  // namespace chladni::plate
